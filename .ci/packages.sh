@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+# What PhysVib needs from Debian, and how it gets there. Sourced by run.sh and test.sh.
+
+physvib_run_packages="g++ cmake ninja-build ccache juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev fonts-dejavu-core"
+physvib_test_packages="$physvib_run_packages libgtest-dev libbenchmark-dev"
+
+say() { printf 'physvib: %s\n' "$*" >&2; }
+
+is_installed() { [ "$(dpkg-query -W -f='${db:Status-Abbrev}' "$1" 2>/dev/null)" = "ii " ]; }
+
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then
+        "$@"
+    elif command -v sudo >/dev/null 2>&1; then
+        sudo "$@"
+    else
+        say "packages are missing and this user cannot install them. As root: apt-get install --no-install-recommends $missing"
+        return 1
+    fi
+}
+
+apt_install() { as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@"; }
+
+# ensure_packages NAME...: installs those that are missing; silent if none is.
+ensure_packages() {
+    missing=""
+    for name in "$@"; do is_installed "$name" || missing="$missing $name"; done
+    [ -z "$missing" ] && return 0
+    if ! command -v apt-get >/dev/null 2>&1; then
+        say "this is not a Debian system; please install what these packages hold:$missing"
+        return 1
+    fi
+    say "installing$missing"
+    log=$(mktemp)
+    # A list of packages that is old or absent is the usual reason for a first failure.
+    # shellcheck disable=SC2086 # a list of words
+    if ! { apt_install $missing || { as_root apt-get update -qq && apt_install $missing; }; } >"$log" 2>&1; then
+        tail -n 5 "$log" >&2
+        for name in $missing; do is_installed "$name" || say "could not install the package $name"; done
+        rm -f "$log"
+        return 1
+    fi
+    rm -f "$log"
+}
+
+# build PRESET TARGET...: configures and builds quietly; all of the output if something goes wrong.
+build() {
+    preset=$1
+    shift
+    mkdir -p build
+    log="build/$preset.log"
+    say "building $preset (log: $log)"
+    if ! { cmake --preset "$preset" && cmake --build --preset "$preset" --target "$@"; } >"$log" 2>&1; then
+        cat "$log" >&2
+        say "the build failed"
+        return 1
+    fi
+}

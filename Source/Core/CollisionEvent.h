@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// One collision as the renderer needs it: the thesis' L_col node (Eq. 5.1, 6.2), the only type on this edge.
+#pragma once
+#include "Core/Limits.h"
+#include <cmath>
+#include <cstdint>
+
+namespace physvib {
+
+/// Who hit whom, and how hard. Not needed for rendering; carried along for event lists, views and studies.
+struct CollisionSource {
+    std::int32_t fixture = -1; ///< camera-focused fixture that vibrates; -1: unknown
+    std::int32_t other = -1;   ///< the fixture it collided with; -1: unknown
+    double impulseNewtonSeconds = 0.0;
+    double massKg = 0.0; ///< of the body that carries `fixture`
+    bool operator==(const CollisionSource&) const = default;
+};
+
+/// x(t) = amplitude sin(2 pi frequencyHz t) exp(-decayPerSecond t), t = time since `timeNs` (Eq. 5.1).
+struct CollisionEvent {
+    std::int64_t timeNs = 0; ///< onset, nanoseconds since the session began; between frames as a rule
+    double frequencyHz = 0.0;
+    double decayPerSecond = 0.0;
+    double amplitude = 0.0; ///< 1 = full scale of an enchanter
+    double x = 0.0;         ///< place of the hit in metres of the field, origin lower left
+    double y = 0.0;
+    std::int64_t durationNs = 0; ///< 0: until it has decayed; else the vibration is cut after this time
+    CollisionSource source;
+    bool operator==(const CollisionEvent&) const = default;
+};
+
+/// True if the event can be played: finite, inside `limits`, and sure to end (a decay or a duration). Any thread.
+inline bool isPlayable(const CollisionEvent& e) noexcept {
+    const bool inTime = e.timeNs >= 0 && e.timeNs <= limits::maxTimeNs && e.durationNs >= 0 &&
+                        e.durationNs <= limits::maxTimeNs;
+    const bool audible = e.frequencyHz > 0.0 && e.frequencyHz <= limits::maxFrequencyHz &&
+                         e.decayPerSecond >= 0.0 && e.decayPerSecond <= limits::maxDecayPerSecond &&
+                         std::abs(e.amplitude) <= limits::maxAmplitude;
+    const bool ends = e.decayPerSecond > 0.0 || e.durationNs > 0;
+    return inTime && audible && ends && std::isfinite(e.x) && std::isfinite(e.y);
+}
+
+} // namespace physvib

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Where the enchanters sit: the thesis' enchanter configuration (3.2, 6.1), for 1 to 64 of them.
+#pragma once
+#include "Core/Limits.h"
+#include <array>
+#include <string_view>
+
+namespace physvib {
+
+/// One enchanter's place on the layout, metres from its lower left corner.
+struct EnchanterPlace {
+    double xMetres = 0.0;
+    double yMetres = 0.0;
+};
+
+/// Places of the enchanters, in channel order; the field of the world is mapped onto `extent`.
+struct EnchanterLayout {
+    double extentWidthMetres = 0.0;
+    double extentHeightMetres = 0.0;
+    int count = 0; ///< 1 to limits::maxEnchanters; channel j is places[j]
+    std::array<EnchanterPlace, limits::maxEnchanters> places{};
+};
+
+/// True if the layout can be panned over: count in range, extent positive, everything finite. Any thread.
+bool isValid(const EnchanterLayout& layout) noexcept;
+
+/// Names of the presets: phone1..phone4, ring1..ring4.
+inline constexpr std::array<std::string_view, 8> layoutPresetNames{"phone1", "phone2", "phone3", "phone4",
+                                                                   "ring1",  "ring2",  "ring3",  "ring4"};
+
+/// Fills `layout` with the preset of that name; false (and untouched) if there is none. Any thread.
+/// PHONE4 and RING4 follow the thesis: A upper left, B upper right, C lower left, D lower right, on the corners.
+/// Extents and the presets with 1 to 3 enchanters are assumptions (Docs/panning.md).
+bool layoutPreset(std::string_view name, EnchanterLayout& layout) noexcept;
+
+} // namespace physvib

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Events from one thread to another: a wait-free ring for one producer and one consumer; a full ring says so.
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <type_traits>
+
+namespace physvib {
+
+/// Single producer, single consumer, first in first out, `Capacity` items (a power of two). Never allocates.
+template <class T, std::size_t Capacity>
+class EventQueue {
+    static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0, "capacity must be a power of two");
+    static_assert(std::is_trivially_copyable_v<T>, "items are copied across threads");
+
+public:
+    /// False if the queue is full: the item is not taken and the loss is counted. Producer only, wait-free.
+    bool push(const T& item) noexcept {
+        const std::size_t write = write_.load(std::memory_order_relaxed);
+        if (write - readSeen_ == Capacity) {
+            readSeen_ = read_.load(std::memory_order_acquire);
+            if (write - readSeen_ == Capacity) {
+                overflows_.store(overflows_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+                return false;
+            }
+        }
+        items_[write & (Capacity - 1)] = item;
+        write_.store(write + 1, std::memory_order_release);
+        return true;
+    }
+
+    /// False if the queue is empty. Consumer only, wait-free.
+    bool pop(T& item) noexcept {
+        const std::size_t read = read_.load(std::memory_order_relaxed);
+        if (read == writeSeen_) {
+            writeSeen_ = write_.load(std::memory_order_acquire);
+            if (read == writeSeen_) return false;
+        }
+        item = items_[read & (Capacity - 1)];
+        read_.store(read + 1, std::memory_order_release);
+        return true;
+    }
+
+    /// How many items a full queue has refused so far. Any thread, wait-free.
+    std::size_t overflows() const noexcept { return overflows_.load(std::memory_order_relaxed); }
+
+private:
+    // Each side keeps its index and its last look at the other's on a cache line of its own.
+    alignas(64) std::atomic<std::size_t> write_{0};
+    std::size_t readSeen_ = 0;
+    std::atomic<std::size_t> overflows_{0};
+    alignas(64) std::atomic<std::size_t> read_{0};
+    std::size_t writeSeen_ = 0;
+    alignas(64) std::array<T, Capacity> items_{};
+};
+
+} // namespace physvib

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Every limit of PhysVib, with the reason for its value, and the two profiles of the renderer.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace physvib {
+
+namespace limits {
+constexpr int maxEnchanters = 64;          // two hands full of actuators; larger than any interface we know
+constexpr int minSampleRateHz = 5000;      // the thesis' vibration rate r_v
+constexpr int maxSampleRateHz = 192000;    // the fastest common audio interface
+constexpr int maxBlockFrames = 8192;       // the largest block a host is known to send
+constexpr double maxFrequencyHz = 20000.0; // far above touch (about 1 kHz); SV sounds are rendered otherwise
+constexpr double maxDecayPerSecond = 2000.0; // 0.5 ms: shorter is a click; keeps p^tile inside a float at 5 kHz
+constexpr double maxAmplitude = 1.0e6;     // keeps sums of thousands of strikes finite in a float
+constexpr std::int64_t maxTimeNs = 1'000'000'000'000'000; // 11.6 days; frames and their phases stay in 64 bits
+constexpr double retireDecibels = 140.0;   // a strike is over when it has fallen by this much (24-bit floor)
+constexpr double stealFadePerSecond = 1000.0; // a stolen mode falls by 60 dB in 7 ms: no click, soon gone
+constexpr double limiterLookAheadSeconds = 0.001; // attack of the limiter = its constant latency
+constexpr double limiterReleaseSeconds = 0.2;     // silence to full gain: slower than any tactile period (20 Hz)
+} // namespace limits
+
+/// Memory and precision of a renderer that runs on a computer: error at most 1e-6 of full scale.
+struct DesktopProfile {
+    using Real = double;                     // scalar kernel: rounded once per sample, to float, at the very end
+    static constexpr int maxChannels = limits::maxEnchanters;
+    static constexpr int tileFrames = 64;    // strikes and retirement happen on this absolute grid
+    static constexpr int maxModes = 4096;    // distinct (frequency, decay) pairs sounding at once
+    static constexpr int maxFadingModes = 64; // stolen modes on their way out
+    static constexpr int maxGates = 4096;    // strikes with a duration that are open at once
+    static constexpr int maxPending = 8192;  // events ahead of their time: 80 ms at 10^5 strikes per second
+    static constexpr int maxLookAheadFrames = 192; // 1 ms at 192 kHz
+};
+
+/// Memory and precision of the four-channel board (12 KB of RAM, single-precision unit): at most 1 LSB of 8 bit.
+struct BoardProfile {
+    using Real = float;
+    static constexpr int maxChannels = 4;
+    static constexpr int tileFrames = 8;
+    static constexpr int maxModes = 40;
+    static constexpr int maxFadingModes = 4;
+    static constexpr int maxGates = 16;
+    static constexpr int maxPending = 32;
+    static constexpr int maxLookAheadFrames = 16;
+};
+
+} // namespace physvib

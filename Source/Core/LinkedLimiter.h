@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// One gain for all channels, so that a phantom stays where it is while no channel exceeds its ceiling.
+//
+// Look-ahead limiter of W frames (limits::limiterLookAheadSeconds): the least gain any of the last W frames needs
+// (sliding minimum), released linearly, averaged over W frames, applied to the input of W - 1 frames ago. Each value
+// averaged is at most what the delayed frame needs, so the ceiling holds; the average bounds the attack's slope by
+// 1/W a frame, the release by 1/(limits::limiterReleaseSeconds * rate). Gains are integers (2^30 = 1): their running
+// sum neither drifts nor differs between machines, and the gain returns to exactly 1.
+#pragma once
+#include "Core/Limits.h"
+#include <array>
+#include <cstdint>
+
+namespace physvib {
+
+/// All memory is inside the object. R only, but for prepare: M.
+template <class Profile>
+class LinkedLimiter {
+public:
+    using Real = typename Profile::Real;
+
+    /// Forgets everything; ceilings 1, nothing muted. Disabled, it only delays and cleans. M, not while rendering.
+    void prepare(int sampleRateHz, int channels, bool enabled) noexcept;
+
+    /// Largest absolute sample of that channel, > 0.
+    void setCeiling(int channel, float ceiling) noexcept { ceilings_[static_cast<std::size_t>(channel)] = ceiling; }
+
+    /// A muted channel is silent and has no say in the gain.
+    void setMuted(int channel, bool muted) noexcept { muted_[static_cast<std::size_t>(channel)] = muted; }
+
+    /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
+    /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite).
+    void process(float* const* io, int frames) noexcept;
+
+    int latencyFrames() const noexcept { return window_ - 1; }
+    double maxAttackPerFrame() const noexcept { return 1.0 / window_; }
+    double maxReleasePerFrame() const noexcept { return static_cast<double>(releaseStep_) / unit; }
+    float gain() const noexcept { return gain_; } ///< the last one applied
+    std::uint64_t nonFiniteSamples() const noexcept { return nonFinite_; }
+
+private:
+    static constexpr std::int64_t unit = std::int64_t{1} << 30;
+    static constexpr auto windowMax = static_cast<std::size_t>(Profile::maxLookAheadFrames);
+    static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
+
+    float clean(float sample) noexcept;
+    std::int64_t neededGain(float* const* io, int frame) noexcept;
+    std::int64_t slidingMinimum(std::int64_t needed) noexcept;
+    float advanceGain(std::int64_t needed) noexcept;
+
+    int channels_ = 1;
+    int window_ = 1;
+    bool enabled_ = true;
+    std::int64_t releaseStep_ = unit;
+    std::array<float, width> ceilings_{};
+    std::array<bool, width> muted_{};
+    std::array<std::array<float, windowMax>, width> delayed_{};
+    int position_ = 0; // in the rings of `window_` frames
+    std::int64_t frame_ = 0;
+    struct Candidate {
+        std::int64_t needed = unit;
+        std::int64_t frame = 0;
+    };
+    std::array<Candidate, windowMax + 1> candidates_{}; // rising needs: the front is the window's minimum
+    std::size_t front_ = 0;
+    std::size_t candidateCount_ = 0;
+    std::int64_t released_ = unit;
+    std::array<std::int64_t, windowMax> averaged_{};
+    std::int64_t sum_ = 0;
+    float gain_ = 1.0f;
+    std::uint64_t nonFinite_ = 0;
+};
+
+extern template class LinkedLimiter<DesktopProfile>;
+extern template class LinkedLimiter<BoardProfile>;
+
+} // namespace physvib

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// Striking, merging, gating, stealing and retiring of modes.
+#include "Core/ModeBank.h"
+#include <algorithm>
+#include <numbers>
+
+namespace physvib {
+
+template <class P>
+void ModeBank<P>::prepare(int sampleRateHz, int channels) noexcept {
+    channels_ = channels;
+    rate_ = sampleRateHz;
+    tileStart_ = 0;
+    activeCount_ = fadingCount_ = 0;
+    stolen_ = 0;
+    freeCount_ = slotCount;
+    for (int i = 0; i < slotCount; ++i) free_[static_cast<std::size_t>(i)] = slotCount - 1 - i;
+    gates_.clear();
+    freeGateCount_ = P::maxGates;
+    for (int i = 0; i < P::maxGates; ++i) freeGates_[static_cast<std::size_t>(i)] = P::maxGates - 1 - i;
+}
+
+template <class P>
+bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
+    const bool isGated = strike.closeFrame != Strike::never;
+    if (isGated && strike.closeFrame <= strike.onset.frame) return true; // ends between two frames: no sample of it
+    if (isGated && freeGateCount_ == 0) return false;
+    enterTile(strike.onset.frame);
+    const Mode wanted = modeFor(strike);
+    int slot = find(wanted);
+    if (slot < 0) {
+        if (activeCount_ - fadingCount_ == P::maxModes) fade(quietest(false), strike.onset.frame);
+        if (freeCount_ == 0) release(quietest(true));
+        slot = create(wanted);
+    }
+    Mode& struck = mode(slot);
+    rebase(slot);
+    const auto phasor = onsetPhasor(struck, strike.onset);
+    for (int j = 0; j < channels_; ++j)
+        amplitudes_[row(slot) + static_cast<std::size_t>(j)] += phasor * static_cast<Real>(strike.amplitude * gains[j]);
+    refreshTile(slot);
+    const std::int64_t life = lifeFrames(struck.decayIncrement);
+    struck.endFrame = std::max(struck.endFrame, life == Strike::never ? life : strike.onset.frame + life);
+    return !isGated || openGate(slot, strike, gains);
+}
+
+template <class P>
+typename ModeBank<P>::Mode ModeBank<P>::modeFor(const Strike& strike) const noexcept {
+    Mode m;
+    m.phaseIncrement = static_cast<std::uint64_t>(strike.frequencyHz / rate_ * 18446744073709551616.0);
+    m.decayIncrement = static_cast<std::int64_t>(strike.decayPerSecond / rate_ * (std::numbers::log2e * octaveUnit) + 0.5);
+    m.isGated = strike.closeFrame != Strike::never;
+    m.referenceFrame = tileStart_;
+    return m;
+}
+
+template <class P>
+int ModeBank<P>::find(const Mode& wanted) const noexcept {
+    for (int i = 0; i < activeCount_; ++i)
+        if (mode(active_[static_cast<std::size_t>(i)]).matches(wanted)) return active_[static_cast<std::size_t>(i)];
+    return -1;
+}
+
+template <class P>
+int ModeBank<P>::create(const Mode& m) noexcept {
+    const int slot = free_[static_cast<std::size_t>(--freeCount_)];
+    active_[static_cast<std::size_t>(activeCount_++)] = slot;
+    mode(slot) = m;
+    mode(slot).life = ++lives_;
+    std::fill_n(amplitudes_.begin() + static_cast<std::ptrdiff_t>(row(slot)), channels_, Complex<Real>{});
+    fillPowers(slot);
+    return slot;
+}
+
+template <class P>
+void ModeBank<P>::release(int slot) noexcept {
+    const auto end = active_.begin() + activeCount_;
+    const auto at = std::find(active_.begin(), end, slot);
+    std::copy(at + 1, end, at);
+    --activeCount_;
+    recycle(slot);
+}
+
+template <class P>
+void ModeBank<P>::recycle(int slot) noexcept {
+    if (mode(slot).isFading) --fadingCount_;
+    mode(slot).life = 0; // gates that are still open find nothing to close
+    free_[static_cast<std::size_t>(freeCount_++)] = slot;
+}
+
+// From `frame` on the mode decays faster: same phase, no step, gone within milliseconds.
+template <class P>
+void ModeBank<P>::fade(int slot, std::int64_t frame) noexcept {
+    rebase(slot);
+    Mode& m = mode(slot);
+    const auto faster = static_cast<std::int64_t>(limits::stealFadePerSecond / rate_ * (std::numbers::log2e * octaveUnit));
+    m.decayIncrement += faster;
+    m.isFading = true;
+    m.endFrame = std::min(m.endFrame, frame + lifeFrames(m.decayIncrement));
+    const Real backwards = decayFactor<Real>(-faster * (frame - tileStart_)); // so that nothing changes at `frame`
+    for (int j = 0; j < channels_; ++j) {
+        auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
+        z = z * backwards;
+    }
+    fillPowers(slot);
+    refreshTile(slot);
+    ++fadingCount_;
+    ++stolen_;
+}
+
+template <class P>
+int ModeBank<P>::quietest(bool fading) const noexcept {
+    int found = -1;
+    Real least = 0;
+    for (int i = 0; i < activeCount_; ++i) {
+        const int slot = active_[static_cast<std::size_t>(i)];
+        if (mode(slot).isFading != fading) continue;
+        Real level = 0;
+        for (int j = 0; j < channels_; ++j) {
+            const auto z = tileAmplitudes_[row(slot) + static_cast<std::size_t>(j)];
+            level = std::max(level, z.re * z.re + z.im * z.im);
+        }
+        if (found >= 0 && level >= least) continue;
+        found = slot;
+        least = level;
+    }
+    return found;
+}
+
+template <class P>
+void ModeBank<P>::fillPowers(int slot) noexcept {
+    const Mode& m = mode(slot);
+    for (int k = 0; k < tile; ++k) {
+        const auto power = unitPhasor<Real>(m.phaseIncrement * static_cast<std::uint64_t>(k)) *
+                           decayFactor<Real>(m.decayIncrement * k);
+        const std::size_t at = static_cast<std::size_t>(slot) * tileSize + static_cast<std::size_t>(k);
+        cosPowers_[at] = power.re;
+        sinPowers_[at] = power.im;
+    }
+}
+
+// Brings the amplitudes' decay to the tile's first frame.
+template <class P>
+void ModeBank<P>::rebase(int slot) noexcept {
+    Mode& m = mode(slot);
+    if (m.referenceFrame == tileStart_) return;
+    const Real decay = decayFactor<Real>(m.decayIncrement * (tileStart_ - m.referenceFrame));
+    for (int j = 0; j < channels_; ++j) {
+        auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
+        z = z * decay;
+    }
+    m.referenceFrame = tileStart_;
+}
+
+template <class P>
+void ModeBank<P>::refreshTile(int slot) noexcept {
+    const Mode& m = mode(slot);
+    const auto carrier = unitPhasor<Real>(m.phaseIncrement * static_cast<std::uint64_t>(tileStart_)) *
+                         decayFactor<Real>(m.decayIncrement * (tileStart_ - m.referenceFrame));
+    for (int j = 0; j < channels_; ++j) {
+        const std::size_t at = row(slot) + static_cast<std::size_t>(j);
+        tileAmplitudes_[at] = amplitudes_[at] * carrier;
+    }
+}
+
+template <class P>
+void ModeBank<P>::enterTile(std::int64_t frame) noexcept {
+    const std::int64_t start = frame - frame % tile;
+    if (start == tileStart_) return;
+    tileStart_ = start;
+    int kept = 0;
+    for (int i = 0; i < activeCount_; ++i) {
+        const int slot = active_[static_cast<std::size_t>(i)];
+        if (mode(slot).endFrame > start) {
+            active_[static_cast<std::size_t>(kept++)] = slot;
+            refreshTile(slot);
+        } else {
+            recycle(slot);
+        }
+    }
+    activeCount_ = kept;
+}
+
+template <class P>
+bool ModeBank<P>::openGate(int slot, const Strike& strike, const double* gains) noexcept {
+    const int entry = freeGates_[static_cast<std::size_t>(--freeGateCount_)];
+    for (int j = 0; j < channels_; ++j)
+        gateGains_[static_cast<std::size_t>(entry * channels_ + j)] = static_cast<Real>(strike.amplitude * gains[j]);
+    ++mode(slot).openGates;
+    return gates_.push(strike.closeFrame, {slot, mode(slot).life, entry, strike.onset});
+}
+
+template <class P>
+void ModeBank<P>::closeNextGate() noexcept {
+    const Gate gate = gates_.next();
+    enterTile(gates_.nextTime());
+    gates_.pop();
+    freeGates_[static_cast<std::size_t>(freeGateCount_++)] = gate.entry;
+    Mode& m = mode(gate.slot);
+    if (m.life != gate.life || m.isFading) return;
+    rebase(gate.slot);
+    const auto phasor = onsetPhasor(m, gate.onset);
+    --m.openGates;
+    for (int j = 0; j < channels_; ++j) {
+        auto& z = amplitudes_[row(gate.slot) + static_cast<std::size_t>(j)];
+        if (m.openGates == 0) z = {}; // exact silence, whatever rounding has left
+        else z -= phasor * gateGains_[static_cast<std::size_t>(gate.entry * channels_ + j)];
+    }
+    if (m.openGates == 0) m.endFrame = tileStart_;
+    refreshTile(gate.slot);
+}
+
+template <class P>
+Complex<typename ModeBank<P>::Real> ModeBank<P>::onsetPhasor(const Mode& m, FramePosition onset) const noexcept {
+    const auto leadPhase = static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
+    const auto leadDecay = static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
+    // A gate may close long after its own strike has died away inside a mode that others keep alive.
+    constexpr std::int64_t inaudible = 120 * static_cast<std::int64_t>(octaveUnit);
+    const std::int64_t age = m.referenceFrame - onset.frame;
+    const bool hasDied = m.decayIncrement > 0 && age > inaudible / m.decayIncrement;
+    const std::int64_t decay = hasDied ? inaudible : m.decayIncrement * age + leadDecay;
+    return unitPhasor<Real>(leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame)) *
+           decayFactor<Real>(decay);
+}
+
+template <class P>
+std::int64_t ModeBank<P>::lifeFrames(std::int64_t decayIncrement) const noexcept {
+    constexpr auto octaves =
+        static_cast<std::int64_t>(limits::retireDecibels / (20.0 * (std::numbers::ln2 / std::numbers::ln10)) * octaveUnit);
+    return decayIncrement == 0 ? Strike::never : octaves / decayIncrement + 1;
+}
+
+template <class P>
+void ModeBank<P>::render(float* const* out, std::int64_t first, int frames) noexcept {
+    enterTile(first);
+    const ModeTable<P> table{active_.data(), activeCount_, channels_, tileAmplitudes_.data(), cosPowers_.data(), sinPowers_.data()};
+    renderScalar(table, out, static_cast<int>(first - tileStart_), frames);
+}
+
+template class ModeBank<DesktopProfile>;
+template class ModeBank<BoardProfile>;
+
+} // namespace physvib

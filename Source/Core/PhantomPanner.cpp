@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// The panning laws and the four arrangements they are applied to.
+#include "Core/PhantomPanner.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept {
+    if (name == "linear") law = PanningLaw::linear;
+    else if (name == "log") law = PanningLaw::log;
+    else if (name == "log-outer") law = PanningLaw::logOuter;
+    else if (name == "energy") law = PanningLaw::energy;
+    else return false;
+    return true;
+}
+
+PhantomPanner::PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent,
+                             double fieldWidthMetres, double fieldHeightMetres) noexcept
+    : layout_{layout}
+    , law_{law}
+    , exponent_{exponent}
+    , scaleX_{layout.extentWidthMetres / fieldWidthMetres}
+    , scaleY_{layout.extentHeightMetres / fieldHeightMetres}
+    , arrangement_{classify()} {}
+
+PhantomPanner::Vector PhantomPanner::place(int enchanter) const noexcept {
+    const auto& p = layout_.places[static_cast<std::size_t>(enchanter)];
+    return {p.xMetres, p.yMetres};
+}
+
+PhantomPanner::Arrangement PhantomPanner::classify() noexcept {
+    if (layout_.count == 1) return Arrangement::single;
+    if (findLine()) return Arrangement::line;
+    if (layout_.count == 3) return Arrangement::triangle;
+    return isRectangle() ? Arrangement::rectangle : Arrangement::scattered;
+}
+
+double PhantomPanner::placeTolerance() const noexcept {
+    return 1e-9 * (layout_.extentWidthMetres + layout_.extentHeightMetres);
+}
+
+bool PhantomPanner::findLine() noexcept {
+    const Vector origin = place(0);
+    Vector reach;
+    for (int j = 1; j < layout_.count; ++j) {
+        const Vector d{place(j).x - origin.x, place(j).y - origin.y};
+        if (std::hypot(d.x, d.y) > std::hypot(reach.x, reach.y)) reach = d;
+    }
+    const double length = std::hypot(reach.x, reach.y);
+    if (length > 0.0) lineDirection_ = {reach.x / length, reach.y / length};
+    // The layout's extent as seen along the line: the width of a level line, the height of an upright one.
+    lineExtent_ = std::abs(lineDirection_.x) * layout_.extentWidthMetres +
+                  std::abs(lineDirection_.y) * layout_.extentHeightMetres;
+    const double tolerance = placeTolerance();
+    for (int j = 1; j < layout_.count; ++j) {
+        const double aside = (place(j).x - origin.x) * lineDirection_.y - (place(j).y - origin.y) * lineDirection_.x;
+        if (std::abs(aside) > tolerance) return false;
+    }
+    return true;
+}
+
+bool PhantomPanner::isRectangle() const noexcept {
+    if (layout_.count != 4) return false;
+    const auto [left, right] = std::minmax({place(0).x, place(1).x, place(2).x, place(3).x});
+    const auto [low, high] = std::minmax({place(0).y, place(1).y, place(2).y, place(3).y});
+    const double tolerance = placeTolerance();
+    const auto near = [tolerance](double a, double b) { return std::abs(a - b) <= tolerance; };
+    int corners = 0; // a bit per corner; four places fill four corners only if no two share one
+    for (int j = 0; j < 4; ++j) {
+        const Vector p = place(j);
+        const bool isRight = near(p.x, right), isHigh = near(p.y, high);
+        if ((!isRight && !near(p.x, left)) || (!isHigh && !near(p.y, low))) return false;
+        corners |= 1 << ((isRight ? 1 : 0) + (isHigh ? 2 : 0));
+    }
+    return corners == 15;
+}
+
+double PhantomPanner::factor(double distanceRatio) const noexcept {
+    const double u = std::clamp(distanceRatio, 0.0, 1.0);
+    double value = 1.0 - u;
+    if (law_ == PanningLaw::log) value = 1.0 - std::log2(1.0 + u);
+    if (law_ == PanningLaw::logOuter) value = std::log2(2.0 - u);
+    if (law_ == PanningLaw::energy) value = std::sqrt(1.0 - u);
+    return exponent_ == 1.0 ? value : std::pow(value, exponent_);
+}
+
+void PhantomPanner::gainsAt(double x, double y, Gains& gains) const noexcept {
+    const Vector p{x * scaleX_, y * scaleY_};
+    switch (arrangement_) {
+    case Arrangement::single: gains[0] = 1.0; break;
+    case Arrangement::line: lineGains(p, gains); break;
+    case Arrangement::rectangle: rectangleGains(p, gains); break;
+    case Arrangement::triangle: triangleGains(p, gains); break;
+    case Arrangement::scattered: scatteredGains(p, gains); break;
+    }
+}
+
+void PhantomPanner::lineGains(Vector p, Gains& gains) const noexcept {
+    for (int j = 0; j < layout_.count; ++j) {
+        const Vector d{p.x - place(j).x, p.y - place(j).y};
+        const double along = std::abs(d.x * lineDirection_.x + d.y * lineDirection_.y);
+        gains[static_cast<std::size_t>(j)] = lineExtent_ > 0.0 ? factor(along / lineExtent_) : 1.0;
+    }
+}
+
+void PhantomPanner::rectangleGains(Vector p, Gains& gains) const noexcept {
+    for (int j = 0; j < 4; ++j) {
+        const double u = std::abs(p.x - place(j).x) / layout_.extentWidthMetres;
+        const double v = std::abs(p.y - place(j).y) / layout_.extentHeightMetres;
+        gains[static_cast<std::size_t>(j)] = factor(u) * factor(v);
+    }
+}
+
+void PhantomPanner::triangleGains(Vector p, Gains& gains) const noexcept {
+    const Vector a = place(0), b = place(1), c = place(2);
+    const auto cross = [](Vector o, Vector s, Vector t) {
+        return (s.x - o.x) * (t.y - o.y) - (s.y - o.y) * (t.x - o.x);
+    };
+    const double area = cross(a, b, c);
+    std::array<double, 3> weight{cross(b, c, p) / area, cross(c, a, p) / area, cross(a, b, p) / area};
+    if (*std::min_element(weight.begin(), weight.end()) < 0.0) {
+        // Outside: the nearest point lies on an edge; try all three, keep the closest.
+        double nearest = -1.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            const Vector s = place(static_cast<int>(k)), t = place(static_cast<int>(next));
+            const Vector e{t.x - s.x, t.y - s.y};
+            const double along = ((p.x - s.x) * e.x + (p.y - s.y) * e.y) / (e.x * e.x + e.y * e.y);
+            const double share = std::clamp(along, 0.0, 1.0);
+            const double distance = std::hypot(s.x + share * e.x - p.x, s.y + share * e.y - p.y);
+            if (nearest >= 0.0 && distance >= nearest) continue;
+            nearest = distance;
+            weight = {};
+            weight[k] = 1.0 - share;
+            weight[next] = share;
+        }
+    }
+    for (std::size_t k = 0; k < 3; ++k) gains[k] = factor(1.0 - weight[k]);
+}
+
+void PhantomPanner::scatteredGains(Vector p, Gains& gains) const noexcept {
+    // Shepard's weights 1/d^2; a hit on an enchanter is that enchanter's alone.
+    std::array<double, limits::maxEnchanters> weight{};
+    double sum = 0.0;
+    for (int j = 0; j < layout_.count; ++j) {
+        const double dx = p.x - place(j).x, dy = p.y - place(j).y;
+        const double squared = std::max(dx * dx + dy * dy, 1e-18); // a nanometre: no division by zero
+        sum += weight[static_cast<std::size_t>(j)] = 1.0 / squared;
+    }
+    for (int j = 0; j < layout_.count; ++j) {
+        const auto k = static_cast<std::size_t>(j);
+        gains[k] = factor(1.0 - weight[k] / sum);
+    }
+}
+
+} // namespace physvib

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Phantom sensations: from the place of a hit to one gain per enchanter (thesis Eq. 4.2, 4.3, 6.2).
+#pragma once
+#include "Core/EnchanterLayout.h"
+#include <array>
+#include <string_view>
+
+namespace physvib {
+
+/// How a gain falls with the distance ratio u = d/D from an enchanter, u in [0, 1].
+enum class PanningLaw {
+    linear,   ///< 1 - u (Eq. 4.2)
+    log,      ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear (SPEC erratum 1)
+    logOuter, ///< log2(2 - u): the other reconstruction, stays above linear
+    energy    ///< sqrt(1 - u): squares sum to one wherever linear gains do
+};
+
+/// The law of that name (linear, log, log-outer, energy); false if there is none. Any thread.
+bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept;
+
+/// Gains of one layout. Formulas for every arrangement stand in Docs/panning.md.
+class PhantomPanner {
+public:
+    using Gains = std::array<double, limits::maxEnchanters>;
+
+    PhantomPanner() = default;
+
+    /// `layout` valid; field sizes in metres > 0, mapped onto the layout's extent; exponent > 0 (gamma of Eq. 4.2).
+    PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent, double fieldWidthMetres,
+                  double fieldHeightMetres) noexcept;
+
+    /// One gain per channel for a hit at (x, y) metres of the field; the rest of `gains` stays. Any thread.
+    void gainsAt(double x, double y, Gains& gains) const noexcept;
+
+    int channels() const noexcept { return layout_.count; }
+
+private:
+    enum class Arrangement { single, line, rectangle, triangle, scattered };
+    struct Vector {
+        double x = 0.0, y = 0.0;
+    };
+    Arrangement classify() noexcept;
+    bool findLine() noexcept;
+    bool isRectangle() const noexcept;
+    Vector place(int enchanter) const noexcept;
+    double placeTolerance() const noexcept; // rounding in a layout file must not bend a line
+    double factor(double distanceRatio) const noexcept;
+    void lineGains(Vector p, Gains& gains) const noexcept;
+    void rectangleGains(Vector p, Gains& gains) const noexcept;
+    void triangleGains(Vector p, Gains& gains) const noexcept;
+    void scatteredGains(Vector p, Gains& gains) const noexcept;
+
+    EnchanterLayout layout_;
+    PanningLaw law_ = PanningLaw::linear;
+    double exponent_ = 1.0;
+    double scaleX_ = 1.0, scaleY_ = 1.0; // field metres to layout metres
+    Vector lineDirection_;
+    double lineExtent_ = 0.0;
+    Arrangement arrangement_ = Arrangement::single;
+};
+
+} // namespace physvib

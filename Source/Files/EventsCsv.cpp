@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// Header, rows and order of an event list; the cells are in EventColumns.h.
+#include "Files/EventsCsv.h"
+#include "Files/EventColumns.h"
+#include "Files/ReadFile.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r";
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string columnNames() {
+    std::string names;
+    for (const EventColumn& column : eventColumns) {
+        if (!names.empty()) names += ',';
+        names += column.name;
+    }
+    return names;
+}
+
+/// Takes the text before the next `end`, and `end` itself, off the front of `rest`.
+std::string_view takeUntil(char end, std::string_view& rest) {
+    const std::size_t length = std::min(rest.find(end), rest.size());
+    const std::string_view taken = rest.substr(0, length);
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+    return taken;
+}
+
+std::size_t cellsIn(std::string_view line) {
+    return line.empty() ? 0 : static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
+}
+
+class Reader {
+public:
+    Reader(std::string_view text, std::string_view name, std::size_t maxRows)
+        : rest_(text)
+        , name_(name)
+        , maxRows_(maxRows) {
+        if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3); // byte order mark
+    }
+
+    Result<std::vector<CollisionEvent>> read() {
+        const bool isRead = readHeader() && readRows();
+        if (!isRead) return Failure{std::move(error_)};
+        return std::move(events_);
+    }
+
+private:
+    bool readHeader() {
+        std::string_view header;
+        while (header.empty() || header.starts_with('#')) {
+            if (rest_.empty())
+                return fail("expected a header line " + columnNames() + ", found the end of the file");
+            header = nextLine();
+        }
+        for (std::size_t left = cellsIn(header); left > 0; --left)
+            if (!readName(trimmed(takeUntil(',', header)))) return false;
+        for (std::size_t i = 0; i < requiredEventColumns; ++i)
+            if (!has(eventColumns[i]))
+                return fail("column " + std::string(eventColumns[i].name) + " is missing");
+        return true;
+    }
+
+    bool readName(std::string_view name) {
+        for (const EventColumn& column : eventColumns) {
+            if (column.name != name) continue;
+            if (has(column)) return fail("column " + std::string(name) + " appears twice");
+            order_.push_back(&column);
+            return true;
+        }
+        return fail("unknown column " + inQuotes(name) + ", expected a header line " + columnNames());
+    }
+
+    bool has(const EventColumn& column) const { return std::ranges::find(order_, &column) != order_.end(); }
+
+    bool readRows() {
+        const auto lines = static_cast<std::size_t>(std::ranges::count(rest_, '\n')) + 1;
+        events_.reserve(std::min(lines, maxRows_));
+        while (rest_.find_first_not_of(" \t\r\n") != std::string_view::npos)
+            if (!readRow(nextLine())) return false;
+        return !events_.empty() || fail("expected events after the header, found none");
+    }
+
+    bool readRow(std::string_view line) {
+        if (events_.size() == maxRows_)
+            return fail("expected at most " + std::to_string(maxRows_) + " events");
+        const std::size_t cells = cellsIn(line);
+        if (cells != order_.size())
+            return fail("expected " + std::to_string(order_.size()) + " cells, found " +
+                        std::to_string(cells));
+        CollisionEvent event;
+        std::string_view rest = line;
+        for (const EventColumn* column : order_)
+            if (!readCellOf(*column, trimmed(takeUntil(',', rest)), event)) return false;
+        return accept(event);
+    }
+
+    bool readCellOf(const EventColumn& column, std::string_view cell, CollisionEvent& event) {
+        const std::string expected =
+            std::visit([&](const auto& kind) { return readCell(kind, cell, event); }, column.cell);
+        return expected.empty() || fail("column " + std::string(column.name) + ": expected " + expected +
+                                        ", found " + inQuotes(cell));
+    }
+
+    bool accept(const CollisionEvent& event) {
+        if (event.decayPerSecond == 0.0 && event.durationNs == 0)
+            return fail("column decay_per_s: expected a number > 0, or a duration_s > 0, found 0");
+        if (!events_.empty() && event.timeNs < events_.back().timeNs) return failOrder(event.timeNs);
+        events_.push_back(event);
+        return true;
+    }
+
+    bool failOrder(std::int64_t timeNs) {
+        std::string message = "column time_s: expected a time >= ";
+        appendSeconds(message, events_.back().timeNs);
+        message += " of the row above, found ";
+        appendSeconds(message, timeNs);
+        return fail(message);
+    }
+
+    std::string_view nextLine() {
+        ++line_;
+        return trimmed(takeUntil('\n', rest_));
+    }
+
+    /// Always false.
+    bool fail(std::string_view message) {
+        const std::size_t line = std::max<std::size_t>(line_, 1); // of an empty file, too
+        error_.assign(name_).append(":").append(std::to_string(line)).append(": ").append(message);
+        return false;
+    }
+
+    std::string_view rest_;
+    std::string_view name_;
+    std::size_t maxRows_;
+    std::size_t line_ = 0; // of the line last taken, from 1
+    std::vector<const EventColumn*> order_;
+    std::vector<CollisionEvent> events_;
+    std::string error_;
+};
+
+/// Control characters would end the comment, or hide in it.
+std::string onOneLine(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+    return text;
+}
+
+std::string comment(const Provenance& provenance) {
+    std::string line = "# physvib " + provenance.version;
+    for (const auto& [key, value] : provenance.entries) line += " " + key + "=" + value;
+    return onOneLine(std::move(line)) + "\n";
+}
+
+} // namespace
+
+Result<std::vector<CollisionEvent>> readEventsCsv(std::string_view text, std::string_view name,
+                                                  std::size_t maxRows) {
+    return Reader(text, name, maxRows).read();
+}
+
+Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& path) {
+    const Result<std::string> text = readFile(path, limits::maxEventsFileBytes);
+    if (!text) return Failure{text.error};
+    return readEventsCsv(text.value, path.string());
+}
+
+std::string eventsCsv(std::span<const CollisionEvent> events, const Provenance& provenance) {
+    std::string text = comment(provenance) + columnNames() + "\n";
+    constexpr std::size_t usualRowBytes = 160;
+    text.reserve(text.size() + events.size() * usualRowBytes);
+    for (CollisionEvent event : events) {
+        for (const EventColumn& column : eventColumns) {
+            std::visit([&](const auto& kind) { writeCell(kind, event, text); }, column.cell);
+            text += &column == &eventColumns.back() ? '\n' : ',';
+        }
+    }
+    return text;
+}
+
+} // namespace physvib

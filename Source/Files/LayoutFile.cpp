@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// Every field of a layout file, checked when read and in a fixed order when written.
+#include "Files/LayoutFile.h"
+#include "Files/JsonField.h"
+#include "Files/ReadFile.h"
+#include "Files/StrictJson.h"
+
+namespace physvib {
+namespace {
+
+/// A ... Z, AA, AB, ... like the columns of a spreadsheet.
+std::string letters(std::size_t index) {
+    constexpr std::size_t alphabet = 26;
+    const std::string last(1, static_cast<char>('A' + index % alphabet));
+    return index < alphabet ? last : letters(index / alphabet - 1) + last;
+}
+
+bool isTaken(const std::vector<EnchanterDescription>& enchanters, std::string_view label) {
+    return std::ranges::find(enchanters, label, &EnchanterDescription::label) != enchanters.end();
+}
+
+void fillLabels(std::vector<EnchanterDescription>& enchanters) {
+    std::size_t next = 0;
+    for (EnchanterDescription& enchanter : enchanters) {
+        if (!enchanter.label.empty()) continue;
+        while (isTaken(enchanters, letters(next))) ++next;
+        enchanter.label = letters(next);
+    }
+}
+
+void readExtent(const JsonField& extent, EnchanterLayout& geometry) {
+    if (const std::size_t size = extent.arraySize(); size != 2)
+        extent.fail("expected [width, height], found " + std::to_string(size) + " items");
+    geometry.extentWidthMetres = extent.item(0).positiveNumber();
+    geometry.extentHeightMetres = extent.item(1).positiveNumber();
+}
+
+std::string readLabel(const JsonField& label, const std::vector<EnchanterDescription>& before) {
+    std::string text = label.text();
+    if (text.empty()) label.fail("expected a label, found an empty string");
+    if (isTaken(before, text)) label.fail("expected a label of its own, found " + inQuotes(text) + " again");
+    return text;
+}
+
+EnchanterDescription readEnchanter(const JsonField& field, const std::vector<EnchanterDescription>& before) {
+    field.expectObject({"label", "x_m", "y_m", "actuator", "full_scale_g"});
+    EnchanterDescription enchanter;
+    if (field.has("label")) enchanter.label = readLabel(field["label"], before);
+    if (field.has("actuator")) enchanter.actuator = field["actuator"].text();
+    if (field.has("full_scale_g")) enchanter.fullScaleG = field["full_scale_g"].positiveNumber();
+    return enchanter;
+}
+
+void readEnchanters(const JsonField& list, LayoutDescription& layout) {
+    EnchanterLayout& geometry = layout.geometry;
+    const std::size_t count = list.arraySize();
+    if (count == 0) list.fail("expected at least 1 enchanter, found none");
+    if (count > geometry.places.size())
+        list.fail("expected at most " + std::to_string(geometry.places.size()) + " enchanters, found " +
+                  std::to_string(count));
+    for (std::size_t j = 0; j < count; ++j) {
+        const JsonField enchanter = list.item(j);
+        layout.enchanters.push_back(readEnchanter(enchanter, layout.enchanters));
+        geometry.places[j] = {enchanter["x_m"].numberUpTo(geometry.extentWidthMetres),
+                              enchanter["y_m"].numberUpTo(geometry.extentHeightMetres)};
+    }
+    geometry.count = static_cast<int>(count);
+    fillLabels(layout.enchanters);
+}
+
+LayoutDescription readRoot(const JsonField& root) {
+    root.expectObject({"name", "extent_m", "enchanters"});
+    LayoutDescription layout;
+    if (root.has("name")) layout.name = root["name"].text();
+    readExtent(root["extent_m"], layout.geometry);
+    readEnchanters(root["enchanters"], layout);
+    return layout;
+}
+
+/// Bytes that are no UTF-8 cannot stand in JSON and become U+FFFD.
+std::string jsonText(const std::string& text) {
+    return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string enchanterJson(const EnchanterDescription& enchanter, const EnchanterPlace& place) {
+    return "    { \"label\": " + jsonText(enchanter.label) + ", \"x_m\": " + numberText(place.xMetres) +
+           ", \"y_m\": " + numberText(place.yMetres) + ", \"actuator\": " + jsonText(enchanter.actuator) +
+           ", \"full_scale_g\": " + numberText(enchanter.fullScaleG) + " }";
+}
+
+} // namespace
+
+LayoutDescription describeLayout(std::string name, const EnchanterLayout& geometry) {
+    LayoutDescription layout{std::move(name), geometry, {}};
+    layout.enchanters.resize(static_cast<std::size_t>(geometry.count));
+    fillLabels(layout.enchanters);
+    return layout;
+}
+
+Result<LayoutDescription> readLayout(std::string_view text, std::string_view name) {
+    try {
+        const Json root = parseStrictly(text);
+        return readRoot(JsonField(root, {}));
+    } catch (const JsonError& error) {
+        return Failure{std::string(name) + ": " + error.what()};
+    }
+}
+
+Result<LayoutDescription> loadLayout(const std::filesystem::path& path) {
+    const Result<std::string> text = readFile(path, limits::maxLayoutFileBytes);
+    if (!text) return Failure{text.error};
+    return readLayout(text.value, path.string());
+}
+
+std::string layoutJson(const LayoutDescription& layout) {
+    std::string text = "{\n  \"name\": " + jsonText(layout.name) + ",\n  \"extent_m\": [" +
+                       numberText(layout.geometry.extentWidthMetres) + ", " +
+                       numberText(layout.geometry.extentHeightMetres) + "],\n  \"enchanters\": [\n";
+    for (std::size_t j = 0; j < layout.enchanters.size(); ++j) {
+        text += enchanterJson(layout.enchanters[j], layout.geometry.places[j]);
+        text += j + 1 < layout.enchanters.size() ? ",\n" : "\n";
+    }
+    return text + "  ]\n}\n";
+}
+
+} // namespace physvib

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Numbers as text and back, the same in every locale, and untrusted text made fit for an error message.
+#pragma once
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+/// Appends the shortest text that reads back as the same bits. Any thread.
+template <class Number>
+requires std::integral<Number> || std::floating_point<Number>
+void appendNumber(std::string& out, Number number) {
+    char digits[32]; // the longest shortest double has 24 characters
+    out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+/// The same as a string of its own. Any thread.
+inline std::string numberText(double number) {
+    std::string text;
+    appendNumber(text, number);
+    return text;
+}
+
+/// The number that the whole of `text` spells; none if it is anything else, not finite, or out of range. Any
+/// thread.
+template <class Number>
+requires std::integral<Number> || std::floating_point<Number> std::optional<Number>
+parseNumber(std::string_view text)
+noexcept {
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const auto [stop, code] = std::from_chars(text.data(), end, number);
+    if (code != std::errc{} || stop != end || text.empty()) return std::nullopt;
+    if constexpr (std::floating_point<Number>)
+        if (!std::isfinite(number)) return std::nullopt;
+    return number;
+}
+
+/// A limit as a person writes it (1000000, not 1e+06), for messages. Any thread.
+inline std::string plainNumber(double number) {
+    char digits[340];
+    return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed).ptr};
+}
+
+/// `text` in quotes, at most 40 characters of it, whatever a terminal might misread as \xNN. Any thread.
+inline std::string inQuotes(std::string_view text) {
+    constexpr std::size_t longest = 40;
+    constexpr std::string_view hex = "0123456789abcdef";
+    std::string out = "\"";
+    for (const char c : text.substr(0, longest)) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte >= 0x20 && byte < 0x7f)
+            out += c;
+        else
+            out.append("\\x").append(1, hex[byte >> 4]).append(1, hex[byte & 15]);
+    }
+    return out + (text.size() > longest ? "...\"" : "\"");
+}
+
+} // namespace physvib

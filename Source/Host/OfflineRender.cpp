@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loop of an offline render: the list is the source, the limiter's look-ahead is rendered first and
+// dropped.
+#include "Host/OfflineRender.h"
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace physvib {
+
+namespace {
+
+struct ListSource {
+    std::span<const CollisionEvent> rest;
+    bool pop(CollisionEvent& event) noexcept {
+        if (rest.empty()) return false;
+        event = rest.front();
+        rest = rest.subspan(1);
+        return true;
+    }
+};
+
+} // namespace
+
+RenderStatus renderOffline(std::span<const CollisionEvent> events, const OfflineSettings& settings,
+                           const BlockConsumer& consume) {
+    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    renderer->prepare(settings.renderer);
+    const auto channels = static_cast<std::size_t>(settings.renderer.panner.channels());
+    const auto block = static_cast<std::size_t>(settings.blockFrames);
+    std::vector<float> samples(channels * block);
+    std::vector<float*> out(channels), kept(channels);
+    for (std::size_t j = 0; j < channels; ++j) out[j] = samples.data() + j * block;
+
+    ListSource source{events};
+    const std::int64_t latency = renderer->latencyFrames(), end = settings.frames + latency;
+    for (std::int64_t done = 0; done < end;) {
+        const int frames = static_cast<int>(std::min<std::int64_t>(settings.blockFrames, end - done));
+        renderer->render(source, out.data(), frames);
+        const int dropped = static_cast<int>(std::clamp<std::int64_t>(latency - done, 0, frames));
+        std::transform(out.begin(), out.end(), kept.begin(),
+                       [=](float* channel) { return channel + dropped; });
+        done += frames;
+        if (frames > dropped && !consume(kept.data(), frames - dropped)) break;
+    }
+    return renderer->status();
+}
+
+} // namespace physvib

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Host/RenderPicture.h"
+#include "Host/PictureParts.h"
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace physvib {
+namespace {
+
+using namespace picture;
+using J = juce::Justification;
+
+constexpr int width = 1600;
+constexpr int height = 1000;
+constexpr int margin = 24;
+constexpr int gap = 14;
+constexpr int headerHeight = 60;
+constexpr int footerHeight = 34;
+constexpr int besideLanes = 200; // headings, the lane of hits, the axis
+
+void drawHeader(const Canvas& canvas, const PictureInput& input, Area row) {
+    canvas.text(juce::String::fromUTF8(input.title.c_str()), row.removeFromTop(36), J::centredLeft,
+                palette::text, largeText, true);
+    canvas.text(juce::String::fromUTF8(input.subtitle.c_str()), row, J::centredLeft, palette::muted);
+}
+
+juce::String dot() {
+    return "  " + juce::String::charToString(0x00b7) + "  ";
+}
+
+juce::String eventNumbers(const PictureInput& input) {
+    const auto count = static_cast<double>(input.events.size());
+    const auto words = number(count, 0) + (input.events.size() == 1 ? " hit" : " hits");
+    return input.durationSeconds > 0.0
+               ? words + ", " + shortNumber(count / input.durationSeconds) + " per second"
+               : words;
+}
+
+juce::String soundNumbers(const PictureInput& input) {
+    if (input.waveform == nullptr) return "no sound";
+    const int channels = input.waveform->channels();
+    return "peak " + decibelText(input.waveform->peak()) + dot() + juce::String(channels) +
+           (channels == 1 ? " channel" : " channels") + dot() + number(input.sampleRateHz, 0) + " Hz";
+}
+
+void drawFooter(const Canvas& canvas, const PictureInput& input, Area row) {
+    auto words =
+        eventNumbers(input) + dot() + soundNumbers(input) + dot() + shortNumber(input.durationSeconds) + " s";
+    if (!input.law.empty()) words += dot() + juce::String::fromUTF8(input.law.c_str());
+    canvas.text(words, row.removeFromLeft(textWidth(words, smallText) + 40), J::centredLeft, palette::text);
+    canvas.text(juce::String::fromUTF8(input.provenance.c_str()), row, J::centredRight, palette::muted);
+}
+
+} // namespace
+
+std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept {
+    const auto found =
+        std::ranges::max_element(events, {}, [](const auto& e) { return std::abs(e.amplitude); });
+    return found == events.end() ? -1 : found - events.begin();
+}
+
+FrameWindow zoomWindow(std::span<const CollisionEvent> events, int sampleRateHz) noexcept {
+    const auto index = strongestEvent(events);
+    if (index < 0) return {};
+    const double onset = static_cast<double>(events[static_cast<std::size_t>(index)].timeNs) * 1e-9;
+    return {std::llround((onset - 0.010) * sampleRateHz), std::llround(0.100 * sampleRateHz)};
+}
+
+juce::Image drawPicture(const PictureInput& input) {
+    juce::Image image(juce::Image::RGB, width, height, true, juce::SoftwareImageType());
+    juce::Graphics graphics(image);
+    graphics.fillAll(palette::ground);
+    const Canvas canvas{graphics};
+    const HitColours colours(input);
+    Area page = Area(width, height).reduced(margin, 0);
+    page.removeFromTop(16);
+    drawHeader(canvas, input, page.removeFromTop(headerHeight));
+    page.removeFromTop(8);
+    drawFooter(canvas, input, page.removeFromBottom(footerHeight + 6).withTrimmedBottom(6));
+    const int channels = input.waveform != nullptr ? input.waveform->channels() : 0;
+    drawSignals(canvas, input, colours, page.removeFromBottom(lanesHeight(channels) + besideLanes));
+    page.removeFromBottom(gap);
+    drawWorld(canvas, input, colours, page.removeFromLeft((page.getWidth() - gap) / 2));
+    page.removeFromLeft(gap);
+    drawZoom(canvas, input, page);
+    return image;
+}
+
+juce::MemoryBlock picturePng(const PictureInput& input) {
+    juce::MemoryOutputStream bytes;
+    juce::PNGImageFormat().writeImageToStream(drawPicture(input), bytes);
+    return bytes.getMemoryBlock();
+}
+
+std::string writePicture(const PictureInput& input, const std::string& path) {
+    const auto png = picturePng(input);
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    file.write(static_cast<const char*>(png.getData()), static_cast<std::streamsize>(png.getSize()));
+    file.close();
+    return file ? std::string() : "cannot write " + path + ": " + std::generic_category().message(errno);
+}
+
+} // namespace physvib

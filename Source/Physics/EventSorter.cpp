@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Insertion into a sorted array: stable, and nothing is allocated, as std::stable_sort would.
+#include "Physics/EventSorter.h"
+#include <algorithm>
+#include <tuple>
+
+namespace physvib {
+
+EventSorter::EventSorter(std::size_t capacity) : capacity_(capacity) { held_.reserve(capacity); }
+
+void EventSorter::push(const CollisionEvent& event) noexcept {
+    if (held_.size() == capacity_) {
+        ++drops_;
+        return;
+    }
+    const auto isBefore = [](const CollisionEvent& a, const CollisionEvent& b) {
+        return std::tie(a.timeNs, a.source.fixture) < std::tie(b.timeNs, b.source.fixture);
+    };
+    held_.insert(std::upper_bound(held_.begin(), held_.end(), event, isBefore), event);
+}
+
+void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished) {
+    const auto isEarly = [beforeNs](const CollisionEvent& event) { return event.timeNs < beforeNs; };
+    const auto end = std::partition_point(held_.begin(), held_.end(), isEarly);
+    finished.insert(finished.end(), held_.begin(), end);
+    held_.erase(held_.begin(), end);
+}
+
+} // namespace physvib

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Holds events back until nothing earlier can come, and lets them go in the order of their times.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// Sorted by time, ties by fixture index, then in the order of arrival. Allocates in its constructor only. M only.
+class EventSorter {
+public:
+    explicit EventSorter(std::size_t capacity);
+
+    /// Takes the event in; if there is no room, it is dropped and counted.
+    void push(const CollisionEvent& event) noexcept;
+
+    /// Appends all events before `beforeNs` to `finished`, and forgets them.
+    void release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished);
+
+    std::uint64_t drops() const noexcept { return drops_; }
+
+private:
+    std::size_t capacity_;
+    std::uint64_t drops_ = 0;
+    std::vector<CollisionEvent> held_;
+};
+
+} // namespace physvib

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// From the impulse of a hit to the amplitude of its vibration: Eq. 5.4 and 5.7 of the thesis.
+#pragma once
+
+namespace physvib {
+
+/// Eq. 5.4 with a drive gain, which lifts a scene to the level of its actuators (SPEC erratum 15).
+struct ImpactModel {
+    double normalisation = 0.0; ///< A*, seconds per metre
+    double handMassKg = 0.0;    ///< m_h, the mass of what holds the vibrating object
+    double driveGain = 1.0;
+
+    /// A = driveGain A* |J| / (m_i + m_h), 1 = full scale; |J| in N s, m_i in kg. Any thread.
+    /// |J| is the solver's whole impulse at the onset, so Eq. 5.2 is not applied on top (SPEC erratum 3).
+    double amplitude(double impulseNewtonSeconds, double massKg) const noexcept {
+        return driveGain * normalisation * impulseNewtonSeconds / (massKg + handMassKg);
+    }
+};
+
+/// Eq. 5.7: A* = 1 / (2 v_max) in s/m, v_max being one field width per second. Any thread.
+double defaultNormalisation(double fieldWidthMetres) noexcept;
+
+} // namespace physvib

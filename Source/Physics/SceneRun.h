@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// A scene from its start to a given time in one go, for renders that are not live.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Physics/Scene.h"
+#include "Physics/Simulation.h"
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// What decides the course of a scene, apart from the scene.
+struct SceneRun {
+    std::uint32_t seed = 1;
+    int stepsPerSecond = 100;
+};
+
+/// All collisions before `endNs`, in time order, and how many were lost (0 unless thousands begin in one step).
+struct SceneEvents {
+    std::vector<CollisionEvent> events;
+    std::uint64_t drops = 0;
+};
+
+/// M only. Throws what Simulation throws.
+SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs);
+
+/// Poses of all bodies at the last step not after `timeNs`. M only; simulates from the start.
+std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);
+
+} // namespace physvib

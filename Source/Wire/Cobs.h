@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Consistent overhead byte stuffing (Cheshire and Baker, 1999): frames without zeros, so that a zero ends a frame.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace physvib {
+
+/// Most bytes that `payload` bytes can become, without the final zero.
+constexpr std::size_t cobsMaxEncoded(std::size_t payload) noexcept { return payload + payload / 254 + 1; }
+
+/// Writes the stuffed payload to `out` (at least cobsMaxEncoded bytes); its length. Any thread.
+constexpr std::size_t cobsEncode(std::span<const std::uint8_t> payload, std::span<std::uint8_t> out) noexcept {
+    std::size_t code = 0, end = 1; // `code`: where the length of the running group goes
+    out[0] = 1;
+    for (const std::uint8_t byte : payload) {
+        if (out[code] == 0xFF) {
+            code = end;
+            out[end++] = 1;
+        }
+        if (byte == 0) {
+            code = end;
+            out[end++] = 1;
+        } else {
+            out[end++] = byte;
+            ++out[code];
+        }
+    }
+    return end;
+}
+
+/// Undoes cobsEncode; the payload's length, or -1 if the frame is broken or `out` too small. Any thread.
+constexpr int cobsDecode(std::span<const std::uint8_t> frame, std::span<std::uint8_t> out) noexcept {
+    std::size_t in = 0, end = 0;
+    while (in < frame.size()) {
+        const std::uint8_t group = frame[in++];
+        if (group == 0 || in + group - 1 > frame.size()) return -1;
+        for (int k = 1; k < group; ++k) {
+            if (frame[in] == 0 || end == out.size()) return -1;
+            out[end++] = frame[in++];
+        }
+        if (group == 0xFF || in == frame.size()) continue;
+        if (end == out.size()) return -1;
+        out[end++] = 0;
+    }
+    return static_cast<int>(end);
+}
+
+} // namespace physvib

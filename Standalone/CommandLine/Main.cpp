@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The `physvib` program: its commands, and how a wrong call is told.
+#include "CommandLine/ExitCode.h"
+#include "CommandLine/RenderCommand.h"
+#include "Physics/SceneCatalogue.h"
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+namespace physvib {
+namespace {
+
+int listScenes() {
+    for (const Scene& scene : builtInScenes()) std::cout << scene.name << "  " << scene.description << '\n';
+    return exitDone;
+}
+
+// Commands that are promised and not built: they say so instead of being unknown words.
+constexpr const char* notYetCommands[] = {"play", "material", "calibrate", "study", "stimulus", "analyse", "devices", "board"};
+
+int run(int argc, char** argv) {
+    CLI::App app{"PhysVib: collisions one can feel, on every enchanter you attach."};
+    app.set_version_flag("--version", "physvib " PHYSVIB_VERSION);
+    app.require_subcommand(1);
+    RenderOptions options;
+    CLI::App* scenes = app.add_subcommand("scenes", "list the built-in scenes");
+    CLI::App* render = app.add_subcommand("render", "render a scene or an event list to files");
+    declareRenderOptions(*render, options);
+    for (const char* name : notYetCommands) app.add_subcommand(name, "not yet")->prefix_command()->group("Not yet");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
+        return leave(exitUsage, std::string{error.what()} + " (see physvib --help)");
+    }
+    if (scenes->parsed()) return listScenes();
+    if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");
+    const std::string refusal = checkRenderOptions(options);
+    return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);
+}
+
+} // namespace
+} // namespace physvib
+
+int main(int argc, char** argv) {
+    try {
+        return physvib::run(argc, argv);
+    } catch (const std::exception& error) { // out of memory, a full disk inside a library: still one line
+        return physvib::leave(physvib::exitFailed, error.what());
+    }
+}

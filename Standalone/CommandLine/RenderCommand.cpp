@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The way of a render: inputs are read and checked, outputs opened, events made or taken, samples rendered, and only
+// when everything is written do the files take their places.
+#include "CommandLine/RenderCommand.h"
+#include "CommandLine/ExitCode.h"
+#include "CommandLine/RenderJob.h"
+#include "CommandLine/RenderOutputs.h"
+#include "Host/OfflineRender.h"
+#include "Physics/SceneCatalogue.h"
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+namespace physvib {
+
+namespace {
+
+constexpr std::int64_t maxWavBytes = 4'000'000'000; // a little less than a RIFF header can say
+
+Result<LayoutDescription> layoutFor(const std::string& name) {
+    EnchanterLayout preset;
+    if (layoutPreset(name, preset)) return describeLayout(name, preset);
+    return loadLayout(name);
+}
+
+// Sines above half the sample rate would come out as other sines.
+std::string tooHighFor(int rateHz, const std::vector<CollisionEvent>& events, const std::string& source) {
+    const double limitHz = 0.5 * rateHz;
+    const auto high = std::find_if(events.begin(), events.end(), [=](const auto& e) { return e.frequencyHz >= limitHz; });
+    if (high == events.end()) return {};
+    std::ostringstream text;
+    text << source << ": event " << high - events.begin() + 1 << ": column frequency_hz: expected less than half of --rate, "
+         << limitHz << " Hz, found " << high->frequencyHz;
+    return text.str();
+}
+
+// What was lost or altered must not go unseen.
+void warn(const RenderStatus& status, const RenderJob& job) {
+    const auto say = [](std::uint64_t count, const char* what) {
+        if (count > 0) std::cerr << "physvib: warning: " << what << ": " << count << '\n';
+    };
+    const auto& events = job.made.events;
+    const auto beyond = std::count_if(events.begin(), events.end(), [&](const auto& e) { return e.timeNs >= job.endNs(); });
+    say(job.made.drops, "collisions lost because too many began in one physics step");
+    say(status.rejected, "events that could not be played");
+    say(status.late, "events played late");
+    say(status.stolen, "modes faded out early because too many different ones sounded at once");
+    say(status.nonFinite, "samples that were not finite and became silence");
+    say(static_cast<std::uint64_t>(beyond), "events that begin after the end of the render (see --seconds)");
+}
+
+std::string readInputs(RenderJob& job) {
+    auto layout = layoutFor(job.options.layout);
+    if (!layout) return layout.error;
+    job.layout = std::move(layout.value);
+    if (job.scene) return {};
+    auto events = loadEventsCsv(job.options.fromEvents);
+    if (!events) return events.error;
+    job.made.events = std::move(events.value);
+    return {};
+}
+
+OfflineSettings settingsOf(const RenderJob& job) {
+    const RenderOptions& o = job.options;
+    const PhantomPanner panner{job.layout.geometry, o.panningLaw, o.exponent, job.fieldWidthMetres(), job.fieldHeightMetres()};
+    return {{o.sampleRateHz, panner, o.limiter == "on"}, job.frames(), o.blockFrames};
+}
+
+std::string render(RenderJob& job) {
+    RenderOutputs outputs{job};
+    if (auto error = outputs.open(); !error.empty()) return error;
+    if (job.scene) job.made = runScene(*job.scene, job.run(), job.endNs());
+    const auto& source = job.scene ? job.scene->name : job.options.fromEvents;
+    if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, source); !error.empty()) return error;
+    outputs.begin();
+    const auto take = [&](const float* const* channels, int frames) { return outputs.take(channels, frames); };
+    const RenderStatus status = renderOffline(job.made.events, settingsOf(job), take);
+    if (auto error = outputs.finish(); !error.empty()) return error;
+    warn(status, job);
+    outputs.summarise(std::cout);
+    return {};
+}
+
+} // namespace
+
+int runRender(const RenderOptions& options) {
+    RenderJob job{options, nullptr, {}, {}};
+    if (!options.scene.empty()) {
+        job.scene = findBuiltInScene(options.scene);
+        if (!job.scene) return leave(exitUsage, "render: no scene \"" + options.scene + "\" (see physvib scenes)");
+    }
+    if (const std::string error = readInputs(job); !error.empty()) return leave(exitFailed, error);
+    if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
+        return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
+    const std::string error = render(job);
+    return error.empty() ? exitDone : leave(exitFailed, error);
+}
+
+} // namespace physvib

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Names, ranges and help texts of the options of `physvib render`.
+#include "CommandLine/RenderOptions.h"
+#include "Physics/Simulation.h"
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+// A range check whose message names the value and the range.
+template <class T>
+CLI::Validator between(T low, T high, const std::string& unit) {
+    const std::string range = CLI::detail::to_string(low) + " to " + CLI::detail::to_string(high) + unit;
+    return {[=](std::string& text) {
+                T value{};
+                const bool isNumber = CLI::detail::lexical_cast(text, value);
+                return isNumber && value >= low && value <= high ? std::string{} : "expected " + range + ", found \"" + text + "\"";
+            },
+            range};
+}
+
+bool parseMetres(std::string_view text, double& metres) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
+    return error == std::errc{} && end == text.data() + text.size() && metres >= 1e-3 && metres <= 1e6;
+}
+
+bool parseField(RenderOptions& o) {
+    const auto comma = o.field.find(',');
+    if (comma == std::string::npos) return false;
+    const std::string_view text{o.field};
+    return parseMetres(text.substr(0, comma), o.fieldWidthMetres) && parseMetres(text.substr(comma + 1), o.fieldHeightMetres);
+}
+
+// Options that are promised and not built: only their default is accepted.
+std::string notYet(const char* option, const std::string& value, const char* only) {
+    if (value == only) return {};
+    return std::string{option} + " " + value + ": not yet (only " + only + ")";
+}
+
+} // namespace
+
+void declareRenderOptions(CLI::App& command, RenderOptions& o) {
+    command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`)");
+    command.add_option("--from-events", o.fromEvents, "render this event list instead of a scene")->type_name("EVENTS.csv");
+    command.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav");
+    command.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");
+    command.add_option("--picture", o.picturePath, "world, waveforms and event marks")->type_name("FILE.png");
+    command.add_option("--seconds", o.seconds, "length of the render")->check(between(0.001, 86400.0, " s"))->capture_default_str();
+    command.add_option("--rate", o.sampleRateHz, "sample rate")
+        ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
+    command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
+        ->check(between(1, limits::maxBlockFrames, " frames"))->capture_default_str();
+    command.add_option("--seed", o.seed, "seed of the scene")->check(between(0u, 4294967295u, ""))->capture_default_str();
+    command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")->capture_default_str();
+    command.add_option("--field", o.field, "metres that x and y span (scene: its field; events: the layout's extent)")->type_name("W,H");
+    command.add_option("--law", o.law, "panning law: linear, log, log-outer, energy")->capture_default_str();
+    command.add_option("--exponent", o.exponent, "exponent of the law")->check(between(0.01, 100.0, ""))->capture_default_str();
+    command.add_option("--limiter", o.limiter, "on or off")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+    command.add_option("--steps-per-second", o.stepsPerSecond, "physics steps per second")
+        ->check(between(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s"))->capture_default_str();
+    command.add_option("--location", o.location, "place of a hit: contact (fixture: not yet)")->capture_default_str();
+    command.add_option("--timing", o.timing, "onset (release: not yet)")->capture_default_str();
+    command.add_option("--method", o.method, "rendering method: AV-FV-DRV (others: not yet)")->capture_default_str();
+    command.add_option("--actuator", o.actuator, "actuator model: none (others: not yet)")->capture_default_str();
+}
+
+std::string checkRenderOptions(RenderOptions& o) {
+    if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
+    if (o.wavPath.empty() && o.eventsPath.empty() && o.picturePath.empty())
+        return "render: nothing to write; give --out, --events or --picture";
+    const auto same = [](const std::string& a, const std::string& b) { return !a.empty() && a == b; };
+    if (same(o.wavPath, o.eventsPath) || same(o.wavPath, o.picturePath) || same(o.eventsPath, o.picturePath))
+        return "render: two outputs in the same file";
+    if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
+    if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
+    for (const auto& refusal : {notYet("--location", o.location, "contact"), notYet("--timing", o.timing, "onset"),
+                                notYet("--method", o.method, "AV-FV-DRV"), notYet("--actuator", o.actuator, "none")})
+        if (!refusal.empty()) return refusal;
+    return {};
+}
+
+} // namespace physvib

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The options of `physvib render`, from words to checked values.
+#pragma once
+#include "Core/PhantomPanner.h"
+#include <cstdint>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace physvib {
+
+/// As given on the command line; the defaults are those that --help shows.
+struct RenderOptions {
+    std::string scene;      ///< a built-in scene's name; empty with fromEvents
+    std::string fromEvents; ///< path of an event list
+    std::string wavPath, eventsPath, picturePath; ///< empty: not wanted
+    double seconds = 10.0;
+    int sampleRateHz = 48000;
+    int blockFrames = 256;
+    std::uint32_t seed = 1;
+    int stepsPerSecond = 100;
+    std::string layout = "phone4"; ///< preset or path of a layout file
+    std::string field;             ///< "W,H" in metres; empty: the scene's, or the layout's extent
+    std::string law = "linear";
+    double exponent = 1.0;
+    std::string limiter = "on";
+    std::string location = "contact", timing = "onset", method = "AV-FV-DRV", actuator = "none";
+
+    double fieldWidthMetres = 0.0, fieldHeightMetres = 0.0; ///< from `field` by checkRenderOptions; 0: not given
+    PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
+};
+
+/// Declares the options on `command`, which then fills `options` while it parses.
+void declareRenderOptions(CLI::App& command, RenderOptions& options);
+
+/// What parsing cannot see: empty, or the usage error in one line.
+std::string checkRenderOptions(RenderOptions& options);
+
+} // namespace physvib

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writing beside, then renaming; progress on a terminal only.
+#include "CommandLine/RenderOutputs.h"
+#include "Host/RenderPicture.h"
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+#include <unistd.h>
+
+namespace physvib {
+
+namespace {
+
+std::string open(std::optional<AtomicFile>& file, const std::string& path) {
+    if (path.empty()) return {};
+    file.emplace(path);
+    return file->error();
+}
+
+std::string commit(std::optional<AtomicFile>& file) { return file ? file->commit() : std::string{}; }
+
+std::string writeBytes(const AtomicFile& file, const std::string& path, std::string_view bytes) {
+    std::ofstream stream{file.temporaryPath(), std::ios::binary};
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
+    return stream ? std::string{} : path + ": could not be written";
+}
+
+double decibels(double amplitude) { return 20.0 * std::log10(amplitude); }
+
+} // namespace
+
+RenderOutputs::RenderOutputs(const RenderJob& job)
+    : job_{job}
+    , whole_{job.channels(), 0, job.frames()} {}
+
+std::string RenderOutputs::open() {
+    const RenderOptions& o = job_.options;
+    for (const auto& [file, path] : {std::pair{&wavFile_, &o.wavPath}, {&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}})
+        if (std::string error = physvib::open(*file, *path); !error.empty()) return error;
+    if (wavFile_) wav_ = std::make_unique<WavSink>(wavFile_->temporaryPath().string(), job_.channels(), o.sampleRateHz, provenanceText());
+    return {};
+}
+
+void RenderOutputs::begin() {
+    const FrameWindow window = zoomWindow(job_.made.events, job_.options.sampleRateHz);
+    zoom_.emplace(job_.channels(), window.firstFrame, window.frameCount);
+}
+
+bool RenderOutputs::take(const float* const* channels, int frames) {
+    framesTaken_ += frames;
+    whole_.add(channels, frames);
+    zoom_->add(channels, frames);
+    showProgress();
+    return !wav_ || wav_->write(channels, frames);
+}
+
+std::string RenderOutputs::finish() {
+    const RenderOptions& o = job_.options;
+    std::string error;
+    if (wav_) error = wav_->finish();
+    if (error.empty() && eventsFile_) error = writeBytes(*eventsFile_, o.eventsPath, eventsCsv(job_.made.events, provenance()));
+    if (error.empty() && pictureFile_) error = writePictureFile();
+    for (auto* file : {&wavFile_, &eventsFile_, &pictureFile_})
+        if (error.empty()) error = commit(*file);
+    return error;
+}
+
+Provenance RenderOutputs::provenance() const {
+    const RenderOptions& o = job_.options;
+    if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
+    return {PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(o.seed)}, {"steps_per_second", std::to_string(o.stepsPerSecond)}}};
+}
+
+std::string RenderOutputs::provenanceText() const {
+    const Provenance p = provenance();
+    std::string text = "physvib " + p.version;
+    for (const auto& [key, value] : p.entries) text += ' ' + key + '=' + value;
+    return text;
+}
+
+std::string RenderOutputs::writePictureFile() const {
+    const auto& events = job_.made.events;
+    PictureInput picture;
+    picture.title = job_.scene ? job_.scene->name : std::filesystem::path{job_.options.fromEvents}.filename().string();
+    picture.subtitle = job_.scene ? job_.scene->description : "an event list";
+    picture.fieldWidthMetres = job_.fieldWidthMetres();
+    picture.fieldHeightMetres = job_.fieldHeightMetres();
+    picture.scene = job_.scene;
+    if (const auto strongest = strongestEvent(events); job_.scene && strongest >= 0)
+        for (const BodyPose& pose : posesAt(*job_.scene, job_.run(), events[static_cast<std::size_t>(strongest)].timeNs))
+            picture.bodies.push_back({pose.xMetres, pose.yMetres, pose.angleRadians});
+    picture.events = events;
+    picture.layout = job_.layout.geometry;
+    for (const auto& enchanter : job_.layout.enchanters) picture.labels.push_back(enchanter.label);
+    picture.waveform = &whole_;
+    picture.zoom = &*zoom_;
+    picture.sampleRateHz = job_.options.sampleRateHz;
+    picture.durationSeconds = job_.options.seconds;
+    picture.law = job_.options.law + " law";
+    picture.provenance = provenanceText();
+    const juce::ScopedJuceInitialiser_GUI juce; // fonts
+    return writePicture(picture, pictureFile_->temporaryPath().string());
+}
+
+void RenderOutputs::showProgress() {
+    static const bool isTerminal = isatty(STDERR_FILENO) != 0;
+    const int percent = static_cast<int>(100 * framesTaken_ / job_.frames());
+    if (!isTerminal || percent == percentShown_) return;
+    percentShown_ = percent;
+    std::fprintf(stderr, percent < 100 ? "\rrendering %d %%" : "\r                \r", percent);
+}
+
+void RenderOutputs::summarise(std::ostream& out) const {
+    const RenderOptions& o = job_.options;
+    out << std::fixed << std::setprecision(1);
+    if (wavFile_) {
+        out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ") << o.seconds << " s at "
+            << o.sampleRateHz << " Hz, ";
+        if (whole_.peak() > 0) out << "peak " << decibels(whole_.peak()) << " dBFS\n";
+        else out << "silent\n";
+    }
+    if (eventsFile_) out << o.eventsPath << "  " << job_.made.events.size() << " collisions\n";
+    if (pictureFile_) out << o.picturePath << "  the world, every channel and every hit\n";
+}
+
+} // namespace physvib

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Calls of the `physvib` program inside a folder of the test's own, and what they left.
+#pragma once
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+namespace physvib::test {
+
+struct Outcome {
+    int exitCode = -1;
+    std::string out, err;
+};
+
+/// A fresh folder per test; paths in calls are relative to it.
+class CommandLine : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string pattern = (std::filesystem::temp_directory_path() / "physvib-test-XXXXXX").string();
+        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+        folder_ = pattern;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    Outcome call(const std::string& arguments) const {
+        const std::string command = "cd '" + folder_.string() + "' && env -u DISPLAY '" PHYSVIB_PROGRAM "' " + arguments + " >.out 2>.err";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
+    }
+    std::string read(const std::string& name) const {
+        std::ifstream file{folder_ / name, std::ios::binary};
+        return {std::istreambuf_iterator<char>{file}, {}};
+    }
+    void write(const std::string& name, const std::string& text) const { std::ofstream{folder_ / name, std::ios::binary} << text; }
+
+    /// Names of all files but the captured output.
+    std::vector<std::string> files() const {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator{folder_})
+            if (const auto name = entry.path().filename().string(); name != ".out" && name != ".err") names.push_back(name);
+        return names;
+    }
+    /// The call fails with that code, says one line that holds `words`, and leaves no file but `kept`.
+    void refuses(const std::string& arguments, int exitCode, const std::string& words, std::size_t kept = 0) const {
+        const Outcome outcome = call(arguments);
+        EXPECT_EQ(outcome.exitCode, exitCode) << arguments;
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << arguments << "\nsaid: " << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_EQ(files().size(), kept) << arguments;
+    }
+
+    std::filesystem::path folder_;
+};
+
+} // namespace physvib::test

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib render` as users and scripts hold on to it: files, bytes, exit codes, refusals.
+#include "Calls.h"
+#include "Files/EventsCsv.h"
+#include "Support/ClosedForm.h"
+#include <algorithm>
+#include <cstring>
+
+namespace physvib {
+namespace {
+
+using Render = test::CommandLine;
+
+const std::string header = "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n";
+const std::string oneHit = header + "0.1,205,30,0.5,0.06,0.03\n";
+
+std::string layoutOf(int count) {
+    std::string text = R"({"name":"many","extent_m":[1,1],"enchanters":[)";
+    for (int j = 0; j < count; ++j) text += (j ? "," : "") + std::string{R"({"x_m":)"} + std::to_string((j % 8) / 8.0) + R"(,"y_m":)" + std::to_string((j / 8) / 9.0) + "}";
+    return text + "]}";
+}
+
+// Where the samples of a WAV file begin, and what its format chunk says.
+struct Wav {
+    int formatTag = 0, channels = 0, rate = 0, bits = 0;
+    std::uint32_t speakerMask = 0;
+    std::string samples;
+    explicit Wav(const std::string& bytes) {
+        const auto number = [&](std::size_t at, std::size_t size) {
+            std::uint32_t value = 0;
+            std::memcpy(&value, bytes.data() + at, size);
+            return value;
+        };
+        for (std::size_t at = 12; at + 8 <= bytes.size(); at += 8 + number(at + 4, 4) + number(at + 4, 4) % 2) {
+            const std::string id = bytes.substr(at, 4);
+            if (id == "data") samples = bytes.substr(at + 8, number(at + 4, 4));
+            if (id != "fmt ") continue;
+            formatTag = static_cast<int>(number(at + 8, 2));
+            channels = static_cast<int>(number(at + 10, 2));
+            rate = static_cast<int>(number(at + 12, 4));
+            bits = static_cast<int>(number(at + 22, 2));
+            if (formatTag == 0xFFFE) speakerMask = number(at + 28, 4);
+        }
+    }
+};
+
+TEST_F(Render, SceneLeavesFourChannelsEventsAndAPicture) {
+    const auto outcome = call("render shake-the-box --seconds 4 --out a.wav --events a.csv --picture a.png");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    const Wav wav{read("a.wav")};
+    EXPECT_EQ(wav.channels, 4);
+    EXPECT_EQ(wav.rate, 48000);
+    EXPECT_EQ(wav.bits, 32);
+    EXPECT_EQ(wav.formatTag, 0xFFFE);
+    EXPECT_EQ(wav.speakerMask, 0u);
+    EXPECT_EQ(wav.samples.size(), 4u * 48000 * 4 * 4);
+    const auto events = readEventsCsv(read("a.csv"), "a.csv");
+    ASSERT_TRUE(events) << events.error;
+    EXPECT_GT(events.value.size(), 10u);
+    EXPECT_EQ(read("a.png").substr(1, 3), "PNG");
+    EXPECT_EQ(files().size(), 3u);
+}
+
+TEST_F(Render, BlockSizeAndRepetitionDoNotChangeAByte) {
+    ASSERT_EQ(call("render shake-the-box --seconds 3 --out r.wav --events r.csv").exitCode, 0);
+    for (const char* block : {"1", "17", "64", "441", "4096", "256"}) {
+        ASSERT_EQ(call(std::string{"render shake-the-box --seconds 3 --out b.wav --events b.csv --block "} + block).exitCode, 0);
+        EXPECT_EQ(read("b.wav"), read("r.wav")) << block;
+        EXPECT_EQ(read("b.csv"), read("r.csv")) << block;
+        ASSERT_EQ(call(std::string{"render --from-events r.csv --field 6.4,3.6 --seconds 3 --out l.wav --block "} + block).exitCode, 0);
+        EXPECT_EQ(Wav{read("l.wav")}.samples, Wav{read("r.wav")}.samples) << "the list renders as its scene did";
+    }
+}
+
+TEST_F(Render, AFileFromAListIsTheClosedFormOfThatList) {
+    auto events = test::randomEvents(2000, 2.5, 21);
+    write("hits.csv", eventsCsv(events, {"0", {}}));
+    const auto corner = [](double u) { return std::clamp(1 - std::abs(u), 0.0, 1.0); };
+    const auto gains = [&](double x, double y, double* g) { // Eq. 6.2 by hand: A upper left ... D lower right
+        for (int j = 0; j < 4; ++j) g[j] = corner(x - j % 2) * corner(y - (j < 2 ? 1 : 0));
+    };
+    for (const int rate : {5000, 44100}) {
+        ASSERT_EQ(call("render --from-events hits.csv --field 1,1 --seconds 3 --limiter off --out a.wav --rate " + std::to_string(rate)).exitCode, 0);
+        const std::string bytes = Wav{read("a.wav")}.samples;
+        std::vector<float> samples(bytes.size() / sizeof(float));
+        std::memcpy(samples.data(), bytes.data(), bytes.size());
+        std::vector<std::vector<float>> channels(4);
+        for (std::size_t i = 0; i < samples.size(); ++i) channels[i % 4].push_back(samples[i]);
+        ASSERT_EQ(channels[3].size(), static_cast<std::size_t>(3 * rate));
+        EXPECT_LE(test::relativeError(test::closedForm(events, rate, 4, 3 * rate, gains), channels), 1e-6);
+    }
+}
+
+TEST_F(Render, AnotherSeedIsAnotherCourse) {
+    ASSERT_EQ(call("render shake-the-box --seconds 3 --events a.csv").exitCode, 0);
+    ASSERT_EQ(call("render shake-the-box --seconds 3 --events b.csv --seed 2").exitCode, 0);
+    EXPECT_NE(read("a.csv"), read("b.csv"));
+}
+
+TEST_F(Render, LayoutDecidesTheNumberOfChannels) {
+    write("hits.csv", oneHit);
+    for (const auto& [layout, channels] : {std::pair{"phone1", 1}, {"ring2", 2}, {"phone3", 3}}) {
+        ASSERT_EQ(call(std::string{"render --from-events hits.csv --seconds 0.2 --out a.wav --layout "} + layout).exitCode, 0);
+        EXPECT_EQ(Wav{read("a.wav")}.channels, channels);
+    }
+    write("many.json", layoutOf(64));
+    ASSERT_EQ(call("render --from-events hits.csv --seconds 0.2 --out a.wav --layout many.json").exitCode, 0);
+    EXPECT_EQ(Wav{read("a.wav")}.channels, 64);
+}
+
+TEST_F(Render, BadEventListsAreNamedByLineAndColumn) {
+    const std::string call = "render --from-events hits.csv --out a.wav --events a.csv --picture a.png";
+    const auto refusesRow = [&](const std::string& rows, const std::string& words) {
+        write("hits.csv", header + rows);
+        refuses(call, 1, words, 1);
+    };
+    refusesRow("0.1,nan,30,0.5,0,0\n", "hits.csv:2: column frequency_hz");
+    refusesRow("0.1,205,-3,0.5,0,0\n", "hits.csv:2: column decay_per_s");
+    refusesRow("0.1,205,30,inf,0,0\n", "hits.csv:2: column amplitude");
+    refusesRow("0.1,205,30,0.5,0,0\n0.2,205,30\n", "hits.csv:3");
+    refusesRow("0.2,205,30,0.5,0,0\n0.1,205,30,0.5,0,0\n", "hits.csv:3: column time_s");
+    refusesRow("0.1,205,0,0.5,0,0\n", "hits.csv:2");
+    refusesRow("", "hits.csv");
+    refusesRow("0.1,30000,30,0.5,0,0\n", "frequency_hz");
+    write("hits.csv", "");
+    refuses(call, 1, "hits.csv", 1);
+    refuses("render --from-events none.csv --out a.wav", 1, "none.csv", 1);
+}
+
+TEST_F(Render, FrequenciesAboveHalfTheRateAreRefused) {
+    write("hits.csv", header + "0.1,3000,30,0.5,0,0\n");
+    refuses("render --from-events hits.csv --rate 5000 --out a.wav", 1, "2500", 1);
+}
+
+TEST_F(Render, BadLayoutsAreNamed) {
+    write("hits.csv", oneHit);
+    write("many.json", layoutOf(65));
+    refuses("render --from-events hits.csv --out a.wav --layout many.json", 1, "64", 2);
+    refuses("render --from-events hits.csv --out a.wav --layout phone9", 1, "phone9", 2);
+}
+
+TEST_F(Render, BadOptionsAreUsageErrors) {
+    const std::string good = "render shake-the-box --seconds 1 --out a.wav ";
+    refuses(good + "--rate 1", 2, "5000 to 192000");
+    refuses(good + "--rate 48000.5", 2, "--rate");
+    refuses(good + "--block 0", 2, "1 to 8192");
+    refuses(good + "--block 8193", 2, "1 to 8192");
+    refuses(good + "--law quadratic", 2, "log-outer");
+    refuses(good + "--exponent 0", 2, "--exponent");
+    refuses(good + "--field 3", 2, "--field");
+    refuses(good + "--field 3,-1", 2, "--field");
+    refuses(good + "--seed -1", 2, "--seed");
+    refuses(good + "--limiter maybe", 2, "--limiter");
+    refuses(good + "--colour red", 2, "--colour");
+    refuses("render shake-the-box --seconds nan --out a.wav", 2, "--seconds");
+    refuses("render shake-the-box --seconds 0 --out a.wav", 2, "--seconds");
+    refuses("render shake-the-box --seconds 80000 --rate 192000 --out a.wav", 2, "4 GB");
+    refuses("render shake-the-box --steps-per-second 1 --out a.wav", 2, "--steps-per-second");
+    refuses("render no-such-scene --out a.wav", 2, "no-such-scene");
+    refuses("render shake-the-box", 2, "--out");
+    refuses("render --out a.wav", 2, "scene");
+    refuses("dance", 2, "dance");
+    refuses("", 2, "");
+}
+
+TEST_F(Render, WhatIsPromisedAndNotBuiltSaysNotYet) {
+    for (const char* option : {"--location fixture", "--timing release", "--method AF-FF-DRF", "--actuator lra-205"})
+        refuses(std::string{"render shake-the-box --out a.wav "} + option, 2, "not yet");
+    for (const char* command : {"play shake-the-box --seconds 3", "devices", "board /dev/ttyACM0 info", "material a.wav", "analyse confusion x.csv --tolerance 1"})
+        refuses(command, 2, "not yet");
+}
+
+TEST_F(Render, UnwritableOutputsLeaveNothing) {
+    refuses("render shake-the-box --seconds 1 --out a.wav --events none/a.csv", 1, "none/a.csv");
+    refuses("render shake-the-box --seconds 1 --out none/a.wav", 1, "none/a.wav");
+    refuses("render shake-the-box --seconds 1 --picture . --out a.wav", 1, ".");
+}
+
+TEST_F(Render, TwoOutputsInOneFileAreRefused) {
+    refuses("render shake-the-box --seconds 1 --out a --events a", 2, "same file");
+}
+
+TEST_F(Render, EventsAfterTheEndAreTold) {
+    write("hits.csv", oneHit + "5,205,30,0.5,0.06,0.03\n");
+    const auto outcome = call("render --from-events hits.csv --seconds 1 --out a.wav");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_NE(outcome.err.find("after the end"), std::string::npos);
+}
+
+TEST_F(Render, HelpAndVersionAreNoErrors) {
+    EXPECT_EQ(call("--help").exitCode, 0);
+    EXPECT_NE(call("render --help").out.find("--from-events"), std::string::npos);
+    EXPECT_EQ(call("--version").out.rfind("physvib ", 0), 0u);
+}
+
+TEST_F(Render, ScenesAreListedOnePerLine) {
+    const auto outcome = call("scenes");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(outcome.out.rfind("shake-the-box", 0), 0u);
+}
+
+} // namespace
+} // namespace physvib

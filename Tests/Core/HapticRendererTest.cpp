@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// HapticRenderer against the closed form, for every law, width and rate, and at every block size.
+#include "Core/HapticRenderer.h"
+#include "Core/EventQueue.h"
+#include "Core/LatestValue.h"
+#include "Support/ClosedForm.h"
+#include "Support/Rendering.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+using test::gridLayout;
+using test::randomEvents;
+using test::renderEvents;
+
+RendererSettings settingsFor(const EnchanterLayout& layout, PanningLaw law, int rate, bool limiter = false) {
+    return {rate, PhantomPanner{layout, law, 1.0, 1.0, 1.0}, limiter};
+}
+
+EnchanterLayout layoutOf(int channels) {
+    EnchanterLayout corners{1, 1, 4, {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}}};
+    return channels == 4 ? corners : channels == 2 ? gridLayout(2, 1) : channels == 1 ? gridLayout(1, 1) : gridLayout(channels / 2, 2);
+}
+
+double errorOf(int channels, PanningLaw law, int rate, double seconds, const std::vector<CollisionEvent>& events) {
+    const int frames = static_cast<int>(seconds * rate);
+    const auto layout = layoutOf(channels);
+    const PhantomPanner panner{layout, law, 1.0, 1.0, 1.0};
+    const auto gains = [&](double x, double y, double* g) {
+        PhantomPanner::Gains all{};
+        panner.gainsAt(x, y, all);
+        std::copy_n(all.begin(), channels, g);
+    };
+    const auto rendered = renderEvents(events, settingsFor(layout, law, rate), frames);
+    EXPECT_EQ(rendered.status.played, events.size());
+    EXPECT_EQ(rendered.status.late + rendered.status.rejected + rendered.status.stolen, 0u);
+    const double error = test::relativeError(test::closedForm(events, rate, channels, frames, gains), rendered.channels);
+    ::testing::Test::RecordProperty("error_" + std::to_string(channels) + "_" + std::to_string(rate), std::to_string(error));
+    return error;
+}
+
+constexpr PanningLaw laws[] = {PanningLaw::linear, PanningLaw::log, PanningLaw::logOuter, PanningLaw::energy};
+
+TEST(HapticRenderer, EqualsTheClosedFormForEveryLawAndWidth) {
+    const auto events = randomEvents(2000, 2.9, 1);
+    for (const int channels : {1, 2, 4, 8, 16})
+        for (const auto law : laws) ASSERT_LE(errorOf(channels, law, 5000, 3, events), 1e-6) << channels << " channels";
+}
+
+TEST(HapticRenderer, EqualsTheClosedFormAtEveryRate) {
+    const auto events = randomEvents(2000, 1.9, 2);
+    for (const int rate : {5000, 44100, 48000, 96000})
+        ASSERT_LE(errorOf(4, PanningLaw::log, rate, 2, events), 1e-6) << rate << " Hz";
+}
+
+TEST(HapticRenderer, EqualsTheClosedFormWhenNothingMergesAndAllIsLong) {
+    auto events = randomEvents(1500, 1.0, 3, 0);
+    for (auto& e : events) e.decayPerSecond = 0.5;
+    ASSERT_LE(errorOf(1, PanningLaw::linear, 5000, 4, events), 1e-6);
+}
+
+TEST(HapticRenderer, AnyBlockSizeGivesTheSameBits) {
+    const auto events = randomEvents(1000, 1.9, 4);
+    for (const bool limiter : {false, true}) {
+        const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, limiter);
+        const auto reference = renderEvents(events, settings, 96000, {8192});
+        for (const auto& blocks : std::vector<std::vector<int>>{{1}, {17}, {64}, {441}, {4096}, {3, 8192, 1, 500, 63}})
+            EXPECT_EQ(renderEvents(events, settings, 96000, blocks).channels, reference.channels);
+    }
+}
+
+TEST(HapticRenderer, MoreEventsAtOneMomentThanThePendingStoreHoldsAreAllPlayed) {
+    CollisionEvent e;
+    e.timeNs = 1'000'003;
+    e.frequencyHz = 205;
+    e.decayPerSecond = 30;
+    e.amplitude = 1e-4;
+    const std::vector<CollisionEvent> events(3 * DesktopProfile::maxPending, e);
+    const auto rendered = renderEvents(events, settingsFor(layoutOf(1), PanningLaw::linear, 48000), 4800);
+    EXPECT_EQ(rendered.status.played, events.size());
+    EXPECT_EQ(rendered.status.late, 0u);
+    EXPECT_EQ(rendered.status.liveModes, 1);
+}
+
+TEST(HapticRenderer, LimiterKeepsEverythingBelowFullScale) {
+    auto events = randomEvents(2000, 0.9, 5);
+    for (auto& e : events) e.amplitude *= 10;
+    for (const auto& channel : renderEvents(events, settingsFor(layoutOf(4), PanningLaw::linear, 48000, true), 48000).channels)
+        for (const float y : channel) ASSERT_LE(std::abs(y), 1.0f);
+}
+
+TEST(HapticRenderer, ALateEventIsPlayedWholeAtOnceAndCounted) {
+    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    renderer->prepare(settingsFor(layoutOf(1), PanningLaw::linear, 48000));
+    EventQueue<CollisionEvent, 16> queue;
+    std::vector<float> block(4800);
+    float* at = block.data();
+    renderer->render(queue, &at, 4800);
+    CollisionEvent e;
+    e.timeNs = 10'000'000;
+    e.frequencyHz = 205;
+    e.decayPerSecond = 0;
+    e.amplitude = 1;
+    e.durationNs = 50'000'000;
+    queue.push(e);
+    renderer->render(queue, &at, 4800);
+    EXPECT_EQ(renderer->status().late, 1u);
+    const auto latency = static_cast<std::size_t>(renderer->latencyFrames());
+    EXPECT_NEAR(block[latency + 1], std::sin(2 * std::numbers::pi * 205 / 48000), 1e-6);
+    EXPECT_NE(block[latency + 2399], 0.0f);
+    EXPECT_EQ(block[latency + 2400], 0.0f);
+}
+
+TEST(HapticRenderer, WhatCannotBePlayedIsCountedAndSilent) {
+    CollisionEvent e;
+    e.frequencyHz = 205;
+    e.amplitude = 1; // no decay, no duration
+    CollisionEvent high = e;
+    high.frequencyHz = 2500;
+    high.decayPerSecond = 10;
+    CollisionEvent nan = high;
+    nan.amplitude = std::numeric_limits<double>::quiet_NaN();
+    const auto rendered = renderEvents({e, high, nan}, settingsFor(layoutOf(1), PanningLaw::linear, 5000), 500);
+    EXPECT_EQ(rendered.status.rejected, 3u);
+    for (const float y : rendered.channels[0]) ASSERT_EQ(y, 0.0f);
+}
+
+TEST(HapticRenderer, BoardProfileAgreesWithTheDesktop) {
+    auto events = randomEvents(60, 2, 6, 4);
+    for (auto& e : events) {
+        e.durationNs = 0;
+        e.amplitude *= 0.05;
+        e.decayPerSecond = std::max(e.decayPerSecond, 20.0);
+    }
+    const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 8000);
+    const auto desktop = renderEvents(events, settings, 16000);
+    const auto board = renderEvents<BoardProfile>(events, settings, 16000, {8});
+    EXPECT_EQ(board.status.stolen + board.status.rejected, 0u);
+    for (std::size_t n = 0; n < 16000; ++n) ASSERT_NEAR(board.channels[0][n], desktop.channels[0][n], 1e-6);
+}
+
+TEST(HapticRenderer, LeavesTheCallersDenormalModeAsItWas) {
+    const auto events = randomEvents(10, 0.1, 7);
+    volatile float tiny = 1e-39f;
+    renderEvents(events, settingsFor(layoutOf(1), PanningLaw::linear, 48000), 4800);
+    EXPECT_NE(tiny * 1.0f, 0.0f);
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// LinkedLimiter at 20 dB of random overload: ceilings, ratios, slopes, release to exactly 1, and what never passes.
+#include "Core/LinkedLimiter.h"
+#include "Support/ClosedForm.h"
+#include <gtest/gtest.h>
+#include <limits>
+#include <memory>
+
+namespace physvib {
+namespace {
+
+constexpr int rate = 48000, channels = 8;
+using Block = std::vector<std::vector<float>>;
+
+Block noise(int frames, double level, std::uint32_t seed) {
+    test::Random random{seed};
+    Block block(channels, std::vector<float>(static_cast<std::size_t>(frames)));
+    for (auto& channel : block)
+        for (auto& x : channel) x = static_cast<float>(random.uniform(-level, level));
+    return block;
+}
+
+struct Limited {
+    std::unique_ptr<LinkedLimiter<DesktopProfile>> limiter = std::make_unique<LinkedLimiter<DesktopProfile>>();
+    explicit Limited(bool enabled = true) { limiter->prepare(rate, channels, enabled); }
+    Block operator()(Block block, int size = 100) {
+        for (std::size_t done = 0; done < block[0].size(); done += static_cast<std::size_t>(size)) {
+            std::vector<float*> at;
+            for (auto& channel : block) at.push_back(channel.data() + done);
+            limiter->process(at.data(), static_cast<int>(std::min(block[0].size() - done, static_cast<std::size_t>(size))));
+        }
+        return block;
+    }
+    std::size_t latency() const { return static_cast<std::size_t>(limiter->latencyFrames()); }
+};
+
+/// The one gain of each frame, from the channel where it can be told most exactly.
+std::vector<double> gainsOf(const Block& in, const Block& out, std::size_t latency) {
+    std::vector<double> gains;
+    for (std::size_t n = latency; n < out[0].size(); ++n) {
+        std::size_t loudest = 0;
+        for (std::size_t j = 1; j < channels; ++j)
+            if (std::abs(in[j][n - latency]) > std::abs(in[loudest][n - latency])) loudest = j;
+        gains.push_back(double(out[loudest][n]) / double(in[loudest][n - latency]));
+    }
+    return gains;
+}
+
+TEST(LinkedLimiter, NoChannelExceedsItsCeiling) {
+    Limited limited;
+    for (int j = 0; j < channels; ++j) limited.limiter->setCeiling(j, 0.2f + 0.1f * static_cast<float>(j));
+    const Block out = limited(noise(5 * rate, 10, 1));
+    for (std::size_t j = 0; j < channels; ++j)
+        for (const float y : out[j]) ASSERT_LE(std::abs(y), 0.2f + 0.1f * static_cast<float>(j));
+}
+
+TEST(LinkedLimiter, ChannelRatiosAreThoseOfTheInput) {
+    Limited limited;
+    const Block in = noise(2 * rate, 10, 2), out = limited(in);
+    const auto gains = gainsOf(in, out, limited.latency());
+    for (std::size_t i = 0; i < gains.size(); ++i)
+        for (std::size_t j = 0; j < channels; ++j)
+            ASSERT_NEAR(out[j][i + limited.latency()], in[j][i] * gains[i], 1e-6);
+}
+
+TEST(LinkedLimiter, GainNeverMovesFasterThanItsStatedSlopes) {
+    Limited limited;
+    Block in = noise(3 * rate, 10, 3);
+    for (auto& channel : in)
+        for (std::size_t n = rate; n < 2 * rate; ++n) channel[n] *= 0.05f; // let it release and attack anew
+    const auto gains = gainsOf(in, limited(in), limited.latency());
+    double attack = 0, release = 0;
+    for (std::size_t i = 1; i < gains.size(); ++i) {
+        attack = std::max(attack, gains[i - 1] - gains[i]);
+        release = std::max(release, gains[i] - gains[i - 1]);
+    }
+    EXPECT_LE(attack, limited.limiter->maxAttackPerFrame() + 2e-7);
+    EXPECT_LE(release, limited.limiter->maxReleasePerFrame() + 2e-7);
+    EXPECT_GT(attack, 0.0);
+}
+
+TEST(LinkedLimiter, OneSecondAfterTheOverloadTheInputPassesBitForBit) {
+    Limited limited;
+    limited(noise(rate, 10, 4));
+    limited(noise(rate, 0.9, 5));
+    const Block in = noise(rate, 0.9, 6), out = limited(in);
+    for (std::size_t j = 0; j < channels; ++j)
+        for (std::size_t n = limited.latency(); n < rate; ++n) ASSERT_EQ(out[j][n], in[j][n - limited.latency()]);
+    EXPECT_EQ(limited.limiter->gain(), 1.0f);
+}
+
+TEST(LinkedLimiter, NothingNonFiniteOrDenormalPasses) {
+    Limited limited;
+    Block in = noise(rate, 10, 7);
+    test::Random random{8};
+    const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                         -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::denorm_min(), -1e-39f, 1.3e-38f};
+    for (auto& channel : in)
+        for (auto& x : channel)
+            if (random.below(10) == 0) x = bad[random.below(6)];
+    for (const auto& channel : limited(in))
+        for (const float y : channel) ASSERT_TRUE(y == 0.0f || std::isnormal(y)) << y;
+    EXPECT_GT(limited.limiter->nonFiniteSamples(), 0u);
+}
+
+TEST(LinkedLimiter, MutedChannelsAreSilentAndNeverDriveTheGain) {
+    Limited limited, alone;
+    limited.limiter->setMuted(3, true);
+    Block in = noise(rate, 0.9, 9), quiet = in;
+    for (auto& x : in[3]) x *= 1e4f;
+    std::fill(quiet[3].begin(), quiet[3].end(), 0.0f);
+    EXPECT_EQ(limited(in), alone(quiet));
+}
+
+TEST(LinkedLimiter, DisabledItOnlyDelaysByTheSameTime) {
+    Limited limited{false}, enabled;
+    const Block in = noise(rate, 10, 10), out = limited(in);
+    EXPECT_EQ(limited.latency(), enabled.latency());
+    for (std::size_t n = limited.latency(); n < rate; ++n) ASSERT_EQ(out[0][n], in[0][n - limited.latency()]);
+}
+
+TEST(LinkedLimiter, BlockSizeDoesNotMatter) {
+    Limited a, b;
+    const Block in = noise(rate, 10, 11);
+    EXPECT_EQ(a(in, 1), b(in, 4096));
+}
+
+} // namespace
+} // namespace physvib

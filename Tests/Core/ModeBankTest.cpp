@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// ModeBank: merging, gates, retirement and stealing, held against sums of single sinusoids.
+#include "Core/ModeBank.h"
+#include "Support/ClosedForm.h"
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace physvib {
+namespace {
+
+constexpr int rate = 48000;
+
+template <class Profile>
+struct Bank {
+    std::unique_ptr<ModeBank<Profile>> bank = std::make_unique<ModeBank<Profile>>();
+    std::int64_t frame = 0;
+    explicit Bank(int channels = 1) { bank->prepare(rate, channels); }
+
+    bool strike(double f, double tau, double amplitude, double lead = 0, std::int64_t frames = 0) {
+        const double gain = 1;
+        return bank->strike({f, tau, amplitude, {frame, lead}, frames > 0 ? frame + frames : Strike::never}, &gain);
+    }
+    /// Renders one channel up to absolute frame `end`, as a renderer would: cut at tiles and gates.
+    std::vector<float> renderTo(std::int64_t end) {
+        std::vector<float> out(static_cast<std::size_t>(end - frame));
+        for (std::size_t done = 0; frame < end;) {
+            while (bank->nextGateFrame() <= frame) bank->closeNextGate();
+            const std::int64_t tileEnd = frame - frame % Profile::tileFrames + Profile::tileFrames;
+            const auto part = std::min({end, tileEnd, bank->nextGateFrame()}) - frame;
+            float* at = out.data() + done;
+            bank->render(&at, frame, static_cast<int>(part));
+            done += static_cast<std::size_t>(part);
+            frame += part;
+        }
+        return out;
+    }
+};
+using Desktop = Bank<DesktopProfile>;
+
+double sinusoid(double f, double tau, double t) { return t < 0 ? 0 : std::sin(2 * std::numbers::pi * f * t) * std::exp(-tau * t); }
+
+TEST(ModeBank, OneStrikeIsTheClosedFormOverItsWholeLife) {
+    Desktop bank;
+    bank.renderTo(777);
+    bank.strike(205.3, 2, 1, 0.37);
+    const auto out = bank.renderTo(777 + 8 * rate);
+    double worst = 0;
+    for (std::size_t n = 0; n < out.size(); ++n)
+        worst = std::max(worst, std::abs(out[n] - sinusoid(205.3, 2, (static_cast<double>(n) + 0.37) / rate)));
+    EXPECT_LT(worst, 7e-8) << "one rounding to float, no more";
+}
+
+TEST(ModeBank, BoardProfileStaysFarBelowHalfAnEightBitStep) {
+    Bank<BoardProfile> bank;
+    bank.strike(205.3, 2, 1, 0.37);
+    const auto out = bank.renderTo(8 * rate);
+    double worst = 0;
+    for (std::size_t n = 0; n < out.size(); ++n)
+        worst = std::max(worst, std::abs(out[n] - sinusoid(205.3, 2, (static_cast<double>(n) + 0.37) / rate)));
+    EXPECT_LT(worst, 2.8e-7) << "-131 dB in float arithmetic";
+}
+
+TEST(ModeBank, TenThousandStrikesOfOneMaterialCostOneModeAndEqualTheirSum) {
+    Desktop bank;
+    test::Random random{5};
+    std::vector<CollisionEvent> events;
+    std::vector<float> out;
+    for (int i = 0; i < 10'000; ++i) {
+        const double lead = random.below(1000) / 1000.0, amplitude = random.uniform(-0.1, 0.1);
+        bank.strike(205, 12, amplitude, lead);
+        CollisionEvent e;
+        e.timeNs = static_cast<std::int64_t>((static_cast<double>(bank.frame) - lead) * 1e9); // at "1 Hz": frames as seconds
+        e.amplitude = amplitude;
+        events.push_back(e);
+        ASSERT_EQ(bank.bank->liveModes(), 1);
+        const auto part = bank.renderTo(bank.frame + random.below(9));
+        out.insert(out.end(), part.begin(), part.end());
+    }
+    EXPECT_EQ(bank.bank->stolenModes(), 0u);
+    std::vector<double> expected(out.size());
+    for (const auto& e : events) {
+        const double onset = static_cast<double>(e.timeNs) * 1e-9;
+        for (auto n = static_cast<std::size_t>(std::max(0.0, std::ceil(onset))); n < out.size(); ++n)
+            expected[n] += e.amplitude * sinusoid(205, 12, (static_cast<double>(n) - onset) / rate);
+    }
+    double worst = 0, peak = 1;
+    for (std::size_t n = 0; n < out.size(); ++n) {
+        worst = std::max(worst, std::abs(out[n] - expected[n]));
+        peak = std::max(peak, std::abs(expected[n]));
+    }
+    EXPECT_LT(worst / peak, 1e-6);
+}
+
+TEST(ModeBank, GateOf100MillisecondsAt205HzEndsInExactSilence) {
+    Desktop bank;
+    bank.strike(205, 0, 1, 0, rate / 10);
+    const auto on = bank.renderTo(rate / 10);
+    EXPECT_NEAR(on[rate / 10 - 1], sinusoid(205, 0, 0.1 - 1.0 / rate), 1e-7);
+    for (const float y : bank.renderTo(rate)) ASSERT_EQ(y, 0.0f);
+    EXPECT_EQ(bank.bank->liveModes(), 0);
+}
+
+TEST(ModeBank, GatesOfOneMaterialOverlapAndEndInExactSilence) {
+    Desktop bank;
+    bank.strike(180, 3, 1, 0.5, 5000);
+    const auto first = bank.renderTo(2000);
+    bank.strike(180, 3, 0.5, 0.25, 1000);
+    EXPECT_EQ(bank.bank->liveModes(), 1);
+    const auto both = bank.renderTo(3000), one = bank.renderTo(5000);
+    EXPECT_NEAR(both[500], sinusoid(180, 3, 2500.5 / rate) + 0.5 * sinusoid(180, 3, 500.25 / rate), 1e-6);
+    EXPECT_NEAR(one[1000], sinusoid(180, 3, 4000.5 / rate), 1e-6);
+    for (const float y : bank.renderTo(6000)) ASSERT_EQ(y, 0.0f);
+}
+
+TEST(ModeBank, GatedAndFreeStrikesOfOneMaterialDoNotDisturbEachOther) {
+    Desktop with, without;
+    for (Desktop* bank : {&with, &without}) bank->strike(205, 20, 1);
+    with.strike(205, 20, 1, 0, 480);
+    with.renderTo(480);
+    without.renderTo(480);
+    EXPECT_EQ(with.renderTo(rate), without.renderTo(rate));
+}
+
+TEST(ModeBank, AGateMayCloseLongAfterItsStrikeHasDied) {
+    Desktop bank;
+    bank.strike(100, 1500, 1, 0, 3 * rate);
+    for (int i = 0; i < 30; ++i) {
+        bank.strike(100, 1500, 1, 0, rate / 10 + 1);
+        for (const float y : bank.renderTo(bank.frame + rate / 10)) ASSERT_LE(std::abs(y), 2.1f);
+    }
+    for (const float y : bank.renderTo(bank.frame + rate)) ASSERT_LE(std::abs(y), 1e-6f);
+}
+
+TEST(ModeBank, RetiresAModeWhenItHasFallenBy140dBAndNotBefore) {
+    Desktop bank;
+    bank.strike(205, 50, 1);
+    const double lifeSeconds = 140 / 20.0 * std::log(10.0) / 50;
+    bank.renderTo(static_cast<std::int64_t>(lifeSeconds * rate) - 64);
+    EXPECT_EQ(bank.bank->liveModes(), 1);
+    bank.renderTo(static_cast<std::int64_t>(lifeSeconds * rate) + 130);
+    EXPECT_EQ(bank.bank->liveModes(), 0);
+}
+
+TEST(ModeBank, AFullBankFadesTheQuietestModeWithoutAClick) {
+    Desktop bank;
+    const int modes = DesktopProfile::maxModes;
+    for (int i = 0; i < modes; ++i) bank.strike(100 + 0.01 * i, 0.5, i == 7 ? 1e-3 : 1e-2);
+    bank.renderTo(4800);
+    EXPECT_EQ(bank.bank->stolenModes(), 0u);
+    bank.strike(333, 0.5, 1e-2);
+    EXPECT_EQ(bank.bank->stolenModes(), 1u);
+    EXPECT_EQ(bank.bank->liveModes(), modes + 1);
+    std::vector<double> expected(2000);
+    for (std::size_t n = 0; n < expected.size(); ++n)
+        for (int i = 0; i < modes; ++i) {
+            const double t = (4800.0 + static_cast<double>(n)) / rate;
+            const double kept = i == 7 ? 1e-3 * std::exp(-limits::stealFadePerSecond * static_cast<double>(n) / rate) : 1e-2;
+            expected[n] += kept * sinusoid(100 + 0.01 * i, 0.5, t);
+        }
+    for (std::size_t n = 0; n < expected.size(); ++n) expected[n] += 1e-2 * sinusoid(333, 0.5, static_cast<double>(n) / rate);
+    const auto out = bank.renderTo(6800);
+    for (std::size_t n = 0; n < expected.size(); ++n) ASSERT_NEAR(out[n], expected[n], 4e-6) << n;
+    EXPECT_EQ(bank.bank->liveModes(), modes);
+}
+
+TEST(ModeBank, ManyMoreModesThanRoomStayBounded) {
+    Desktop bank;
+    for (int i = 0; i < 3 * DesktopProfile::maxModes; ++i) {
+        ASSERT_TRUE(bank.strike(20 + 0.05 * i, 0.5, 1e-3));
+        ASSERT_LE(bank.bank->liveModes(), ModeBank<DesktopProfile>::slotCount);
+    }
+    for (const float y : bank.renderTo(100)) ASSERT_TRUE(std::isfinite(y));
+}
+
+TEST(ModeBank, TooManyOpenGatesAreRefusedAndChangeNothing) {
+    Desktop bank, twin;
+    for (int i = 0; i < DesktopProfile::maxGates; ++i) {
+        ASSERT_TRUE(bank.strike(205, 0, 1e-3, 0, 1000));
+        ASSERT_TRUE(twin.strike(205, 0, 1e-3, 0, 1000));
+    }
+    EXPECT_FALSE(bank.strike(300, 0, 1, 0, 1000));
+    EXPECT_EQ(bank.renderTo(2000), twin.renderTo(2000));
+}
+
+TEST(ModeBank, AGateBetweenTwoFramesLeavesNoSample) {
+    Desktop bank;
+    const double gain = 1;
+    EXPECT_TRUE(bank.bank->strike({205, 0, 1, {0, 0.5}, 0}, &gain));
+    EXPECT_EQ(bank.bank->liveModes(), 0);
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// PhantomPanner: the printed equations at printed places, and what every law must keep.
+#include "Core/PhantomPanner.h"
+#include "Support/ClosedForm.h"
+#include "Support/Rendering.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+constexpr double W = 6.4, H = 3.6; // field metres
+
+PhantomPanner::Gains gainsOf(const EnchanterLayout& layout, PanningLaw law, double x, double y, double exponent = 1) {
+    PhantomPanner::Gains gains{};
+    PhantomPanner{layout, law, exponent, W, H}.gainsAt(x, y, gains);
+    return gains;
+}
+
+EnchanterLayout preset(const char* name) {
+    EnchanterLayout layout;
+    EXPECT_TRUE(layoutPreset(name, layout));
+    return layout;
+}
+
+double sumOfSquares(const PhantomPanner::Gains& gains) {
+    double sum = 0;
+    for (const double g : gains) sum += g * g;
+    return sum;
+}
+
+TEST(PhantomPanner, OneEnchanterPlaysEverythingFully) {
+    for (const auto law : {PanningLaw::linear, PanningLaw::log, PanningLaw::logOuter, PanningLaw::energy})
+        EXPECT_EQ(gainsOf(preset("phone1"), law, 0.3, 3.0)[0], 1.0);
+}
+
+TEST(PhantomPanner, FourFollowEquation42InOrderUpperLeftUpperRightLowerLeftLowerRight) {
+    const auto g = gainsOf(preset("phone4"), PanningLaw::linear, 1.6, 2.7);
+    EXPECT_NEAR(g[0], 0.75 * 0.75, 1e-12);
+    EXPECT_NEAR(g[1], 0.25 * 0.75, 1e-12);
+    EXPECT_NEAR(g[2], 0.75 * 0.25, 1e-12);
+    EXPECT_NEAR(g[3], 0.25 * 0.25, 1e-12);
+}
+
+TEST(PhantomPanner, ExponentIsGammaOfEquation42) {
+    EXPECT_NEAR(gainsOf(preset("ring4"), PanningLaw::linear, 1.6, 2.7, 2.0)[1], 0.0625 * 0.5625, 1e-12);
+}
+
+TEST(PhantomPanner, LogarithmicLawsFollowTheTwoReconstructionsOfEquation43) {
+    const auto inner = gainsOf(preset("phone4"), PanningLaw::log, 1.6, 2.7);
+    EXPECT_NEAR(inner[0], std::pow(1 - std::log2(1.25), 2), 1e-12);
+    EXPECT_NEAR(inner[3], std::pow(1 - std::log2(1.75), 2), 1e-12);
+    const auto outer = gainsOf(preset("phone4"), PanningLaw::logOuter, 1.6, 2.7);
+    EXPECT_NEAR(outer[0], std::pow(std::log2(1.75), 2), 1e-12);
+    EXPECT_NEAR(outer[3], std::pow(std::log2(1.25), 2), 1e-12);
+}
+
+TEST(PhantomPanner, CentreOfFourIs6dBDownLinearAnd9Point3Logarithmic) {
+    EXPECT_NEAR(10 * std::log10(sumOfSquares(gainsOf(preset("phone4"), PanningLaw::linear, W / 2, H / 2))), -6.02, 0.01);
+    EXPECT_NEAR(10 * std::log10(sumOfSquares(gainsOf(preset("phone4"), PanningLaw::log, W / 2, H / 2))), -9.26, 0.01);
+}
+
+TEST(PhantomPanner, TwoFollowTheLineOnly) {
+    for (const double y : {0.0, 1.0, H}) {
+        const auto g = gainsOf(preset("phone2"), PanningLaw::linear, 1.6, y);
+        EXPECT_NEAR(g[0], 0.75, 1e-12);
+        EXPECT_NEAR(g[1], 0.25, 1e-12);
+    }
+}
+
+TEST(PhantomPanner, AnyLineUsesTheExtentAlongIt) {
+    const auto level = gainsOf(test::gridLayout(8, 1), PanningLaw::linear, W / 7.0 * 3, 0);
+    for (int j = 0; j < 8; ++j) EXPECT_NEAR(level[static_cast<std::size_t>(j)], 1 - std::abs(j - 3) / 7.0, 1e-12);
+    EnchanterLayout diagonal{1, 1, 2, {}};
+    diagonal.places[1] = {1, 1};
+    EXPECT_NEAR(gainsOf(diagonal, PanningLaw::linear, W / 4, H / 4)[0], 0.75, 1e-12);
+}
+
+TEST(PhantomPanner, TriangleIsBarycentricAndProjectsWhatLiesOutside) {
+    const auto layout = preset("phone3"); // A upper left, B upper right, C lower centre
+    const auto centre = gainsOf(layout, PanningLaw::linear, W / 2, H * 2 / 3);
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(centre[static_cast<std::size_t>(j)], 1.0 / 3, 1e-12);
+    const auto corner = gainsOf(layout, PanningLaw::linear, W / 2, 0);
+    EXPECT_NEAR(corner[2], 1, 1e-12);
+    const auto outside = gainsOf(layout, PanningLaw::energy, 0, 0);
+    EXPECT_NEAR(sumOfSquares(outside), 1, 1e-12);
+    EXPECT_EQ(outside[1], 0.0);
+}
+
+TEST(PhantomPanner, OtherArrangementsWeighByInverseSquareDistance) {
+    const auto layout = test::gridLayout(3, 3);
+    const auto g = gainsOf(layout, PanningLaw::linear, 0.2 * W, 0.1 * H);
+    double sum = 0;
+    for (int j = 0; j < 9; ++j) sum += 1 / (std::pow(0.2 - (j % 3) / 2.0, 2) + std::pow(0.1 - (j / 3) / 2.0, 2));
+    for (int j = 0; j < 9; ++j)
+        EXPECT_NEAR(g[static_cast<std::size_t>(j)], 1 / (std::pow(0.2 - (j % 3) / 2.0, 2) + std::pow(0.1 - (j / 3) / 2.0, 2)) / sum, 1e-12);
+    EXPECT_NEAR(gainsOf(layout, PanningLaw::log, 0.5 * W, 0.5 * H)[4], 1, 1e-9);
+}
+
+TEST(PhantomPanner, EnergySquaresSumToOneAndNoGainLeavesZeroToOne) {
+    test::Random random{11};
+    for (const auto& layout : {preset("phone2"), preset("phone3"), preset("phone4"), test::gridLayout(4, 4)})
+        for (int i = 0; i < 500; ++i) {
+            const double x = random.uniform(-1, W + 1), y = random.uniform(-1, H + 1);
+            for (const auto law : {PanningLaw::linear, PanningLaw::log, PanningLaw::logOuter, PanningLaw::energy})
+                for (const double g : gainsOf(layout, law, x, y)) ASSERT_TRUE(g >= 0 && g <= 1);
+            if (x >= 0 && x <= W && y >= 0 && y <= H)
+                ASSERT_NEAR(sumOfSquares(gainsOf(layout, PanningLaw::energy, x, y)), 1, 1e-9);
+        }
+}
+
+TEST(PhantomPanner, KnowsItsLawsByName) {
+    PanningLaw law{};
+    EXPECT_TRUE(panningLawNamed("log-outer", law));
+    EXPECT_EQ(law, PanningLaw::logOuter);
+    EXPECT_FALSE(panningLawNamed("quadratic", law));
+}
+
+} // namespace
+} // namespace physvib
