@@ -8,9 +8,9 @@
 
 namespace physvib {
 
-/// Within a step a body moves along a straight line: position = origin + fraction * step * velocity. Contacts of
-/// the regular pass are found at fraction 0, those of the time-of-impact pass wherever the body has been moved to.
-/// M only.
+/// Within a step a body moves along a straight line: position = origin + fraction * step * velocity. Contacts
+/// of the regular pass are found at fraction 0, those of the time-of-impact pass wherever the body has been
+/// moved to. M only.
 class BodySweeps {
 public:
     /// Follows `body` from the next beginStep() on; a body known already is left as it is. Allocates.
@@ -22,7 +22,8 @@ public:
     /// In PostSolve: the solver has put `body` at the end of its step and perhaps given it another velocity.
     void solved(const b2Body& body) noexcept;
 
-    /// In BeginContact: 0 (start) to 1 (end of the step), after the faster body of the two. 0 for unknown bodies.
+    /// In BeginContact: 0 (start) to 1 (end of the step), after the faster body of the two. 0 for unknown
+    /// bodies.
     double fraction(const b2Body& a, const b2Body& b) const noexcept;
 
 private:

@@ -15,7 +15,8 @@ double movableMassKg(const b2Body& body) {
 
 } // namespace
 
-CollisionCatcher::CollisionCatcher(double thresholdMetresPerSecond) : threshold_(thresholdMetresPerSecond) {
+CollisionCatcher::CollisionCatcher(double thresholdMetresPerSecond)
+    : threshold_(thresholdMetresPerSecond) {
     records_.reserve(maxRecords);
 }
 
@@ -117,7 +118,8 @@ CollisionCatcher::Record CollisionCatcher::describe(const b2Contact& contact) co
     const int count = contact.GetManifold()->pointCount;
     const int deepest = count > 1 && manifold.separations[1] < manifold.separations[0] ? 1 : 0;
     const b2Vec2 touch = manifold.points[deepest];
-    const b2Vec2 velocity = b.GetLinearVelocityFromWorldPoint(touch) - a.GetLinearVelocityFromWorldPoint(touch);
+    const b2Vec2 velocity =
+        b.GetLinearVelocityFromWorldPoint(touch) - a.GetLinearVelocityFromWorldPoint(touch);
 
     Record record{};
     record.contact = &contact;

@@ -6,7 +6,10 @@
 
 namespace physvib {
 
-EventSorter::EventSorter(std::size_t capacity) : capacity_(capacity) { held_.reserve(capacity); }
+EventSorter::EventSorter(std::size_t capacity)
+    : capacity_(capacity) {
+    held_.reserve(capacity);
+}
 
 void EventSorter::push(const CollisionEvent& event) noexcept {
     if (held_.size() == capacity_) {

@@ -8,7 +8,8 @@
 
 namespace physvib {
 
-/// Sorted by time, ties by fixture index, then in the order of arrival. Allocates in its constructor only. M only.
+/// Sorted by time, ties by fixture index, then in the order of arrival. Allocates in its constructor only. M
+/// only.
 class EventSorter {
 public:
     explicit EventSorter(std::size_t capacity);

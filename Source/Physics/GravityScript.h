@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene's gravity inputs by step index: the same inputs act in the same steps, however fast the world is run.
+// A scene's gravity inputs by step index: the same inputs act in the same steps, however fast the world is
+// run.
 #pragma once
 #include "Physics/Scene.h"
 #include "Physics/StepClock.h"
@@ -8,8 +9,8 @@
 
 namespace physvib {
 
-/// The script of a valid scene at a fixed step rate. An input acts from the first step that begins at or after its
-/// time; before the first input there is no gravity. Allocates in its constructor only. M only.
+/// The script of a valid scene at a fixed step rate. An input acts from the first step that begins at or
+/// after its time; before the first input there is no gravity. Allocates in its constructor only. M only.
 class GravityScript {
 public:
     GravityScript(const Scene& scene, const StepClock& clock);

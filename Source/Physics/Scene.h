@@ -59,7 +59,7 @@ struct Scene {
     double driveGain = 1.0; ///< on top of Eq. 5.7, which leaves most hits near -40 dBFS (SPEC erratum 15)
     std::vector<Material> materials;
     std::vector<BodyDescription> bodies; ///< the index is the fixture id in events and CSV
-    std::vector<GravityInput> script;    ///< in time order
+    std::vector<GravityInput> script;    ///< in time order; before the first input there is no gravity
     double scriptPeriodSeconds = 0.0;    ///< the script repeats after this time; 0: it does not
 };
 

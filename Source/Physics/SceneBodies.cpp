@@ -9,21 +9,33 @@ namespace physvib {
 
 namespace {
 
-b2Vec2 vector(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+b2Vec2 vector(double x, double y) {
+    return {static_cast<float>(x), static_cast<float>(y)};
+}
 
-double area(const CircleShape& c) { return std::numbers::pi * c.radiusMetres * c.radiusMetres; }
-double area(const BoxShape& b) { return b.widthMetres * b.heightMetres; }
+double area(const CircleShape& c) {
+    return std::numbers::pi * c.radiusMetres * c.radiusMetres;
+}
+double area(const BoxShape& b) {
+    return b.widthMetres * b.heightMetres;
+}
 
-double inertiaPerKg(const CircleShape& c) { return c.radiusMetres * c.radiusMetres / 2.0; }
+double inertiaPerKg(const CircleShape& c) {
+    return c.radiusMetres * c.radiusMetres / 2.0;
+}
 double inertiaPerKg(const BoxShape& b) {
     return (b.widthMetres * b.widthMetres + b.heightMetres * b.heightMetres) / 12.0;
 }
 
-double thickness(const CircleShape& c) { return 2.0 * c.radiusMetres; }
-double thickness(const BoxShape& b) { return std::min(b.widthMetres, b.heightMetres); }
+double thickness(const CircleShape& c) {
+    return 2.0 * c.radiusMetres;
+}
+double thickness(const BoxShape& b) {
+    return std::min(b.widthMetres, b.heightMetres);
+}
 
-// Box2D keeps a skin of b2_polygonRadius around polygons, and contacts begin at the skin. Taking it off the sides
-// puts the contact where the outline is described; very thin boxes keep half of their thickness.
+// Box2D keeps a skin of b2_polygonRadius around polygons, and contacts begin at the skin. Taking it off the
+// sides puts the contact where the outline is described; very thin boxes keep half of their thickness.
 float halfSide(double sideMetres) {
     const double skin = std::min(static_cast<double>(b2_polygonRadius), sideMetres / 4.0);
     return static_cast<float>(sideMetres / 2.0 - skin);
@@ -72,8 +84,8 @@ StartJitter drawJitter(std::mt19937& random) noexcept {
     return jitter;
 }
 
-b2Fixture& createBody(b2World& world, const Scene& scene, const BodyDescription& body, const StartJitter& jitter,
-                      double stepSeconds) {
+b2Fixture& createBody(b2World& world, const Scene& scene, const BodyDescription& body,
+                      const StartJitter& jitter, double stepSeconds) {
     const Material& material = scene.materials[static_cast<std::size_t>(body.material)];
     b2BodyDef def = bodyDef(body, jitter);
     const double maxSpeed = 2.0 * scene.fieldWidthMetres; // per second, as in Eq. 5.7

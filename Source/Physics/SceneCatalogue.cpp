@@ -13,7 +13,8 @@ const std::vector<Scene>& builtInScenes() {
 
 const Scene* findBuiltInScene(std::string_view name) {
     const auto& scenes = builtInScenes();
-    const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const Scene& s) { return s.name == name; });
+    const auto found =
+        std::find_if(scenes.begin(), scenes.end(), [&](const Scene& s) { return s.name == name; });
     return found == scenes.end() ? nullptr : &*found;
 }
 

@@ -29,11 +29,11 @@ std::string firstOf(std::initializer_list<std::string> faults) {
 }
 
 std::string check(const Material& m) {
-    return firstOf({range("density", m.densityKgPerSquareMetre, minDensityKgPerSquareMetre,
-                          maxDensityKgPerSquareMetre),
-                    range("friction", m.friction, 0.0, maxFriction), range("restitution", m.restitution, 0.0, 1.0),
-                    range("frequency", m.frequencyHz, 0.0, limits::maxFrequencyHz),
-                    range("decay", m.decayPerSecond, 0.0, limits::maxDecayPerSecond)});
+    return firstOf(
+        {range("density", m.densityKgPerSquareMetre, minDensityKgPerSquareMetre, maxDensityKgPerSquareMetre),
+         range("friction", m.friction, 0.0, maxFriction), range("restitution", m.restitution, 0.0, 1.0),
+         range("frequency", m.frequencyHz, 0.0, limits::maxFrequencyHz),
+         range("decay", m.decayPerSecond, 0.0, limits::maxDecayPerSecond)});
 }
 
 std::string check(const CircleShape& c) {
@@ -100,10 +100,12 @@ std::string validate(const Scene& scene) {
                  range("drive gain", scene.driveGain, 0.0, maxDriveGain)});
     if (!whole.empty()) return whole;
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        if (auto fault = place("material", i, scene.materials[i].name, check(scene.materials[i])); !fault.empty())
+        if (auto fault = place("material", i, scene.materials[i].name, check(scene.materials[i]));
+            !fault.empty())
             return fault;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        if (auto fault = place("body", i, scene.bodies[i].name, check(scene.bodies[i], scene)); !fault.empty())
+        if (auto fault = place("body", i, scene.bodies[i].name, check(scene.bodies[i], scene));
+            !fault.empty())
             return fault;
     return checkScript(scene);
 }

@@ -39,8 +39,10 @@ HapticFixture hapticOf(const BodyDescription& body, const Scene& scene) {
 } // namespace
 
 Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond)
-    : clock_(checkedClock(scene, stepsPerSecond)), script_(scene, clock_), held_(heldEvents),
-      world_(vectorOf(script_.at(0))) {
+    : clock_(checkedClock(scene, stepsPerSecond))
+    , script_(scene, clock_)
+    , held_(heldEvents)
+    , world_(vectorOf(script_.at(0))) {
     world_.SetContactListener(&catcher_);
     build(scene, seed);
     model_ = {defaultNormalisation(scene.fieldWidthMetres), catcher_.largestMassKg(), scene.driveGain};
@@ -48,8 +50,8 @@ Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecon
 
 void Simulation::build(const Scene& scene, std::uint32_t seed) {
     std::mt19937 random(seed);
-    // Box2D adds a whole step of gravity before it moves a body, which is half a step too early. Velocities that
-    // start half a step behind make this the leapfrog scheme: bodies fall along the exact parabola.
+    // Box2D adds a whole step of gravity before it moves a body, which is half a step too early. Velocities
+    // that start half a step behind make this the leapfrog scheme: bodies fall along the exact parabola.
     const b2Vec2 halfStep = static_cast<float>(-0.5 * clock_.stepSeconds()) * world_.GetGravity();
     for (const BodyDescription& description : scene.bodies) {
         const bool moves = seed != 0 && !description.isStatic;

@@ -22,16 +22,17 @@ struct BodyPose {
     double angleRadians = 0.0;
 };
 
-/// One world, stepped by its owner. Time is a step count; same scene, seed and step rate give the same events.
-/// One thread at a time (M unless a driver owns it). After the first contacts have warmed Box2D's pools up,
-/// step() allocates only where `finished` must grow.
+/// One world, stepped by its owner. Time is a step count; same scene, seed and step rate give the same
+/// events. One thread at a time (M unless a driver owns it). After the first contacts have warmed Box2D's
+/// pools up, step() allocates only where `finished` must grow.
 class Simulation {
 public:
-    static constexpr int minStepsPerSecond = 10; // slower, bodies pass through each other
+    static constexpr int minStepsPerSecond = 10;     // slower, bodies pass through each other
     static constexpr int maxStepsPerSecond = 10'000; // finer than any tactile onset
 
     /// Seed 0 starts exactly as described; any other seed moves the start a little (see drawJitter).
-    /// Throws std::invalid_argument, with validate()'s sentence, if the scene or the step rate is out of range.
+    /// Throws std::invalid_argument, with validate()'s sentence, if the scene or the step rate is out of
+    /// range.
     Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond);
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
@@ -42,8 +43,8 @@ public:
     /// World time after the steps done.
     std::int64_t timeNs() const noexcept { return clock_.timeNs(stepsDone_); }
 
-    /// Every event before this time has been handed out: one step behind timeNs(), since a contact is noticed up
-    /// to one step after it was made.
+    /// Every event before this time has been handed out: one step behind timeNs(), since a contact is noticed
+    /// up to one step after it was made.
     std::int64_t settledNs() const noexcept { return clock_.timeNs(stepsDone_ > 0 ? stepsDone_ - 1 : 0); }
 
     /// Pose of body `index` (< bodyCount()) of the scene, at timeNs().

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// A ball dropped on a plate against the formulas of free fall, and the promises of the event stream.
+#include "Physics/Simulation.h"
+#include "DropScene.h"
+#include "Physics/SceneCatalogue.h"
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <stdexcept>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+struct Drop {
+    double heightMetres;
+    int stepsPerSecond;
+};
+class DroppedBall : public testing::TestWithParam<Drop> {
+protected:
+    CollisionEvent firstHit() const {
+        const auto events = eventsOf(dropScene(GetParam().heightMetres), 1.2, GetParam().stepsPerSecond);
+        return events.empty() ? CollisionEvent{} : events.front();
+    }
+    double speed() const { return std::sqrt(2.0 * dropGravity * GetParam().heightMetres); }
+};
+
+TEST_P(DroppedBall, HitsWhenFreeFallEnds) {
+    const double expectedSeconds = speed() / dropGravity;
+    EXPECT_NEAR(static_cast<double>(firstHit().timeNs) * 1.0e-9, expectedSeconds, 1.0e-4);
+}
+
+TEST_P(DroppedBall, GivesTheImpulseOfItsBounce) {
+    const double expected = dropMass * speed() * (1.0 + 0.688); // Box2D takes the larger restitution
+    EXPECT_NEAR(firstHit().source.impulseNewtonSeconds, expected, 0.02 * expected);
+}
+
+TEST_P(DroppedBall, HasTheAmplitudeOfTheEquations) {
+    const CollisionEvent hit = firstHit();
+    const double normalisation = 1.0 / (2.0 * 4.0); // Eq. 5.7: one field width per second
+    const double expected =
+        3.0 * normalisation * hit.source.impulseNewtonSeconds / (plateMass + plateMass); // Eq. 5.4
+    EXPECT_DOUBLE_EQ(hit.amplitude, expected);
+    EXPECT_EQ(hit.source.massKg, plateMass);
+}
+
+TEST_P(DroppedBall, IsFeltWhereItHitsWithThePlatesSound) {
+    const CollisionEvent hit = firstHit();
+    EXPECT_NEAR(hit.x, 1.7, 1.0e-3);
+    EXPECT_NEAR(hit.y, 0.3, 0.04); // half of a step's travel at 7.7 m/s, 100 steps/s
+    EXPECT_EQ(hit.frequencyHz, 80.0);
+    EXPECT_EQ(hit.decayPerSecond, 34.13);
+    EXPECT_EQ(hit.source.fixture, plateIndex);
+    EXPECT_EQ(hit.source.other, ballIndex);
+}
+
+INSTANTIATE_TEST_SUITE_P(HeightsAndRates, DroppedBall,
+                         testing::Values(Drop{1.0, 100}, Drop{2.0, 100}, Drop{3.0, 100}, Drop{1.0, 1000},
+                                         Drop{2.0, 1000}, Drop{3.0, 1000}));
+
+TEST(Simulation, BouncingBallHitsOncePerBounceThenRestsInSilence) {
+    const auto events = eventsOf(dropScene(1.0), 60.0);
+    ASSERT_GE(events.size(), 3U);
+    EXPECT_LE(events.size(), 12U);
+    EXPECT_LT(events.back().timeNs, 5'000'000'000);
+    for (std::size_t i = 1; i < events.size(); ++i)
+        EXPECT_LT(events[i].source.impulseNewtonSeconds, events[i - 1].source.impulseNewtonSeconds);
+}
+
+TEST(Simulation, BouncesFollowEachOtherAsFlightTimeAndRestitutionSay) {
+    const auto events = eventsOf(dropScene(2.0), 3.0);
+    ASSERT_GE(events.size(), 2U);
+    const double flight = 2.0 * 0.688 * std::sqrt(2.0 * 2.0 / dropGravity);
+    EXPECT_NEAR(static_cast<double>(events[1].timeNs - events[0].timeNs) * 1.0e-9, flight, 0.02);
+}
+
+TEST(Simulation, TwoCamerasEachGetTheirOwnEvent) {
+    Scene scene = dropScene(1.0);
+    scene.bodies[ballIndex].isCamera = true;
+    const auto events = eventsOf(scene, 0.6);
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events[0].source.fixture, plateIndex);
+    EXPECT_EQ(events[1].source.fixture, ballIndex);
+    EXPECT_EQ(events[1].source.other, plateIndex);
+    EXPECT_EQ(events[1].frequencyHz, 205.0);
+    EXPECT_EQ(events[1].decayPerSecond, 40.0);
+    EXPECT_EQ(events[0].timeNs, events[1].timeNs);
+    EXPECT_NEAR(events[1].source.massKg, dropMass, 1.0e-5);
+    const double model = 3.0 / (2.0 * 4.0) * events[1].source.impulseNewtonSeconds;
+    EXPECT_DOUBLE_EQ(events[1].amplitude, model / (events[1].source.massKg + plateMass));
+}
+
+TEST(Simulation, NothingIsFeltWithoutACamera) {
+    Scene scene = dropScene(1.0);
+    scene.bodies[plateIndex].isCamera = false;
+    EXPECT_TRUE(eventsOf(scene, 2.0).empty());
+}
+
+TEST(Simulation, StreamIsSortedAndSettledAtEveryStep) {
+    const Scene& scene = builtInScenes().front();
+    Simulation simulation(scene, 1, 100);
+    std::vector<CollisionEvent> events;
+    std::int64_t settledBefore = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const std::size_t known = events.size();
+        simulation.step(events);
+        for (std::size_t j = known; j < events.size(); ++j) {
+            EXPECT_GE(events[j].timeNs, settledBefore);
+            EXPECT_LT(events[j].timeNs, simulation.settledNs());
+            EXPECT_TRUE(isPlayable(events[j]));
+        }
+        settledBefore = simulation.settledNs();
+        EXPECT_EQ(simulation.timeNs(), (i + 1) * 10'000'000LL);
+    }
+    const auto isBefore = [](const CollisionEvent& a, const CollisionEvent& b) {
+        return std::tie(a.timeNs, a.source.fixture) < std::tie(b.timeNs, b.source.fixture);
+    };
+    EXPECT_TRUE(std::is_sorted(events.begin(), events.end(), isBefore));
+    EXPECT_GT(events.size(), 100U);
+    EXPECT_EQ(simulation.drops(), 0U);
+}
+
+TEST(Simulation, SameSeedRepeatsEveryBitAndAnotherSeedDiffers) {
+    const Scene& scene = builtInScenes().front();
+    const auto first = eventsOf(scene, 20.0, 100, 7);
+    EXPECT_EQ(first, eventsOf(scene, 20.0, 100, 7));
+    EXPECT_NE(first, eventsOf(scene, 20.0, 100, 8));
+}
+
+TEST(Simulation, SeedZeroStartsExactlyAsDescribedAndOthersWithinAMillimetre) {
+    const Scene scene = dropScene(1.0);
+    EXPECT_EQ(Simulation(scene, 0, 100).pose(ballIndex).xMetres, 1.7F);
+    const double moved = Simulation(scene, 5, 100).pose(ballIndex).xMetres - 1.7F;
+    EXPECT_NE(moved, 0.0);
+    EXPECT_LE(std::abs(moved), 1.001e-3);
+    EXPECT_EQ(Simulation(scene, 5, 100).pose(plateIndex).xMetres, 2.0);
+}
+
+TEST(Simulation, BallRestsWhereThePlateIsDescribed) {
+    Simulation simulation(dropScene(0.1), 0, 100);
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < 500; ++i) simulation.step(events);
+    EXPECT_NEAR(simulation.pose(ballIndex).yMetres, 0.3 + dropRadius, 0.006); // Box2D's slop is 5 mm
+}
+
+TEST(Simulation, ChangedGravityWakesSleepingBodies) {
+    Scene scene = dropScene(0.1);
+    scene.bodies[ballIndex].position.xMetres = 2.0;
+    scene.script = {{0.0, 0.0, -dropGravity}, {20.0, 5.0, -dropGravity}};
+    Simulation simulation(scene, 0, 100);
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < 2000; ++i) simulation.step(events);
+    EXPECT_NEAR(simulation.pose(ballIndex).xMetres, 2.0, 1.0e-3);
+    for (int i = 0; i < 50; ++i) simulation.step(events);
+    EXPECT_GT(simulation.pose(ballIndex).xMetres, 2.2);
+}
+
+TEST(Simulation, SmallFastBodiesDoNotPassThroughMovingOnes) {
+    Scene scene = dropScene(1.0);
+    scene.bodies.resize(4, scene.bodies[plateIndex]);
+    scene.bodies[ballIndex].shape = CircleShape{0.03};
+    scene.bodies[2].shape = scene.bodies[3].shape = BoxShape{0.2, 1.0}; // two supports
+    scene.bodies[2].position = {1.0, 0.5};
+    scene.bodies[3].position = {3.0, 0.5};
+    scene.bodies[plateIndex] = {"shelf", BoxShape{2.4, 0.1}, 0, {2.0, 1.05}};
+    scene.bodies[plateIndex].isCamera = true;
+    scene.script = {{0.0, 0.0, -100.0}};
+    for (double height = 8.0; height < 8.4; height += 0.1) { // 40 m/s, 0.4 m per step
+        scene.bodies[ballIndex].position = {2.0, height};
+        Simulation simulation(scene, 0, 100);
+        std::vector<CollisionEvent> events;
+        for (int i = 0; i < 60; ++i) {
+            simulation.step(events);
+            ASSERT_GT(simulation.pose(ballIndex).yMetres, 1.0) << height;
+        }
+    }
+}
+
+TEST(Simulation, RefusesAnInvalidSceneAndStepRate) {
+    Scene scene = dropScene(1.0);
+    EXPECT_THROW(Simulation(scene, 0, 0), std::invalid_argument);
+    EXPECT_THROW(Simulation(scene, 0, 10'001), std::invalid_argument);
+    scene.bodies[ballIndex].shape = CircleShape{-1.0};
+    EXPECT_THROW(Simulation(scene, 0, 100), std::invalid_argument);
+}
+
+} // namespace
+} // namespace physvib
