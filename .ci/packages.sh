@@ -2,7 +2,7 @@
 # What PhysVib needs from Debian, and how it gets there. Sourced by run.sh and test.sh.
 
 physvib_run_packages="g++ cmake ninja-build ccache juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev fonts-dejavu-core"
-physvib_test_packages="$physvib_run_packages libgtest-dev libbenchmark-dev"
+physvib_test_packages="$physvib_run_packages libgtest-dev libbenchmark-dev locales"
 
 say() { printf 'physvib: %s\n' "$*" >&2; }
 

@@ -31,7 +31,7 @@ std::string obstacle(const fs::path& target) {
     if (!isThere) return "the folder " + folder.string() + " does not exist";
     const fs::file_status present = fs::status(target, code);
     if (!fs::exists(present)) return {};
-    if (!fs::is_regular_file(present)) return "expected a regular file, found a folder or a device";
+    if (!fs::is_regular_file(present)) return "expected a regular file, found a folder, a device or a pipe";
     const int denied = tryOpen(target, "r+b"); // a rename would not ask
     return denied == 0 ? std::string() : reasonOf(denied);
 }

@@ -39,8 +39,8 @@ private:
     std::string error_;
 };
 
-/// Writes all of `bytes` to `path`, or leaves what was there. M only. Empty, or one line naming
-/// path and reason.
+/// Writes all of `bytes` to `path`, or leaves what was there. Gives "", or one line naming path and reason.
+/// M only.
 [[nodiscard]] std::string writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 } // namespace physvib

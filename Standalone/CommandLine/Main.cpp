@@ -31,7 +31,9 @@ int run(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
-        return leave(exitUsage, std::string{error.what()} + " (see physvib --help)");
+        const auto unknown = app.remaining();
+        const std::string reason = unknown.empty() ? error.what() : "unknown: " + unknown.front();
+        return leave(exitUsage, reason + " (see physvib --help)");
     }
     if (scenes->parsed()) return listScenes();
     if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");

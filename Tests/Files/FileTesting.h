@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// What the tests of Files share: seeded numbers, mutated texts, a folder of their own, a locale with a comma.
+#pragma once
+#include <bit>
+#include <clocale>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <locale>
+#include <random>
+#include <string>
+#include <string_view>
+#include <unistd.h>
+
+namespace physvib {
+
+/// Any finite double: every bit pattern, so denormals and huge numbers too.
+inline double anyDouble(std::mt19937& random) {
+    for (;;) {
+        const std::uint64_t high = random();
+        const double number = std::bit_cast<double>((high << 32) | random());
+        if (std::isfinite(number)) return number;
+    }
+}
+
+/// 0 <= number < below.
+inline std::size_t anyIndex(std::mt19937& random, std::size_t below) {
+    return random() % below;
+}
+
+/// `text` after 1 to 4 small accidents: a byte changed, removed, doubled, a piece cut out, moved, or the end
+/// lost.
+inline std::string mutated(std::string text, std::string_view alphabet, std::mt19937& random) {
+    for (std::size_t accidents = 1 + anyIndex(random, 4); accidents > 0 && !text.empty(); --accidents) {
+        const std::size_t at = anyIndex(random, text.size());
+        const std::size_t length = 1 + anyIndex(random, 12);
+        const std::string piece = text.substr(at, length);
+        switch (anyIndex(random, 7)) {
+        case 0:
+            text[at] = static_cast<char>(random() & 0xff);
+            break;
+        case 1:
+            text[at] = alphabet[anyIndex(random, alphabet.size())];
+            break;
+        case 2:
+            text.insert(at, 1, alphabet[anyIndex(random, alphabet.size())]);
+            break;
+        case 3:
+            text.erase(at, length);
+            break;
+        case 4:
+            text.insert(at, piece);
+            break;
+        case 5:
+            text.insert(anyIndex(random, text.size()), piece);
+            break;
+        default:
+            text.resize(at);
+            break;
+        }
+    }
+    return text;
+}
+
+/// A fresh empty folder for one test, gone afterwards.
+class FolderTest : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+        folder =
+            std::filesystem::temp_directory_path() / (std::string("physvib-") + test->test_suite_name() +
+                                                      "-" + test->name() + "-" + std::to_string(getpid()));
+        std::filesystem::remove_all(folder);
+        std::filesystem::create_directories(folder);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    std::size_t filesInFolder() const {
+        return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder),
+                                                      std::filesystem::directory_iterator()));
+    }
+
+    std::filesystem::path folder;
+};
+
+/// While it lives, numbers have a decimal comma: for C++ streams always, for C functions if the machine has
+/// such a locale (hasCLocale).
+class CommaLocale {
+public:
+    CommaLocale()
+        : before_(std::locale::global(std::locale(std::locale::classic(), new Punctuation))) {
+        for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "es_ES.UTF-8", "it_IT.UTF-8"})
+            hasCLocale = hasCLocale || std::setlocale(LC_ALL, name) != nullptr;
+    }
+    ~CommaLocale() {
+        std::locale::global(before_);
+        std::setlocale(LC_ALL, "C");
+    }
+    CommaLocale(const CommaLocale&) = delete;
+    CommaLocale& operator=(const CommaLocale&) = delete;
+
+    bool hasCLocale = false;
+
+private:
+    struct Punctuation : std::numpunct<char> {
+        char do_decimal_point() const override { return ','; }
+        char do_thousands_sep() const override { return '.'; }
+        std::string do_grouping() const override { return "\3"; }
+    };
+    std::locale before_;
+};
+
+} // namespace physvib
