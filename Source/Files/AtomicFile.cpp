@@ -60,6 +60,21 @@ AtomicFile::~AtomicFile() {
     removeTemporary();
 }
 
+const std::string& AtomicFile::write(std::string_view bytes) {
+    if (!error_.empty()) return error_;
+    std::FILE* const stream = std::fopen(temporary_.string().c_str(), "wb");
+    bool written = stream != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
+    int code = errno;
+    if (stream != nullptr && std::fclose(stream) != 0 && written) {
+        written = false;
+        code = errno;
+    }
+    if (written) return error_;
+    fail(reasonOf(code));
+    removeTemporary();
+    return error_;
+}
+
 const std::string& AtomicFile::commit() {
     if (!error_.empty()) return error_;
     std::error_code code;
@@ -96,19 +111,12 @@ void AtomicFile::fail(std::string_view reason) {
 void AtomicFile::removeTemporary() noexcept {
     std::error_code ignored;
     if (!temporary_.empty()) fs::remove(temporary_, ignored);
+    temporary_.clear();
 }
 
 std::string writeFile(const fs::path& path, std::string_view bytes) {
     AtomicFile file(path);
-    if (!file.error().empty()) return file.error();
-    std::FILE* const stream = std::fopen(file.temporaryPath().string().c_str(), "wb");
-    bool written = stream != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
-    int code = errno;
-    if (stream != nullptr && std::fclose(stream) != 0 && written) {
-        written = false;
-        code = errno;
-    }
-    if (!written) return path.string() + ": cannot be written: " + reasonOf(code);
+    file.write(bytes);
     return file.commit();
 }
 

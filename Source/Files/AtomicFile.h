@@ -24,6 +24,9 @@ public:
     /// Empty, or one line naming the path and why it cannot be written.
     const std::string& error() const noexcept { return error_; }
 
+    /// Makes `bytes` all of the temporary file. Returns error(); after an error nothing is left behind.
+    const std::string& write(std::string_view bytes);
+
     /// Renames the temporary file onto the path, once. The writer has closed it, and asked its stream whether
     /// all of it was written: a full disk shows there. After an error nothing is left behind.
     [[nodiscard]] const std::string& commit();

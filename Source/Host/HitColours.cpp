@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Which colour a hit has, and what that colour is called in the legend.
 #include "Host/PictureParts.h"
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Panels, words, numbers and axes in the look of the palette.
 #include "Host/PictureCanvas.h"
+#include "Core/Limits.h"
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -72,7 +74,8 @@ double decibels(double amplitude) {
 }
 
 juce::String decibelText(double amplitude) {
-    return number(decibels(amplitude), 1) + " dBFS";
+    const bool isSilent = decibels(amplitude) < -limits::retireDecibels;
+    return isSilent ? juce::String("silent") : number(decibels(amplitude), 1) + " dBFS";
 }
 
 std::vector<double> ticks(double from, double to, int most) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The lane of hits: stems, their scale, and the legend of their colours.
 #include "Host/PictureParts.h"
 #include <algorithm>
 #include <cmath>

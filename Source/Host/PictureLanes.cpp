@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// One lane per channel: waveforms, or strips of brightness when there are too many.
 #include "Host/PictureParts.h"
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,8 @@ void drawWave(const Canvas& canvas, const WaveformEnvelope& wave, int channel, A
         const auto now = wave.column(channel, i);
         const float high = std::max(now.highest, before.lowest), low = std::min(now.lowest, before.highest);
         const float x = static_cast<float>(lane.getX()) + (static_cast<float>(i) + 0.5f) * step;
-        const juce::Point<float> top(x, middle - gain * high - 0.6f);
-        below.emplace_back(x, middle - gain * low + 0.6f);
+        const juce::Point<float> top(x, middle - gain * high - 0.4f);
+        below.emplace_back(x, middle - gain * low + 0.4f);
         i == 0 ? outline.startNewSubPath(top) : outline.lineTo(top);
         before = now;
     }
@@ -33,6 +34,8 @@ void drawWave(const Canvas& canvas, const WaveformEnvelope& wave, int channel, A
     outline.closeSubPath();
     canvas.graphics.setColour(palette::enchanter(channel));
     canvas.graphics.fillPath(outline);
+    canvas.graphics.strokePath(outline,
+                               juce::PathStrokeType(0.8f)); // steep slopes stay as visible as flat ones
 }
 
 // Rows `from` to `to` of `count` that share the height without gaps.

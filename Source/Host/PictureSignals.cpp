@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The panels that show sound: all channels over time, and the strongest hit up close.
 #include "Host/PictureParts.h"
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The panel that shows the world: field, bodies, hits as light, enchanters.
 #include "Host/PictureLight.h"
 #include "Host/PictureParts.h"
 #include <algorithm>
@@ -36,6 +37,9 @@ Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
 
 // ---- bodies
 
+// What stands outside the field (walls, as a rule) shows as a frame of at most this width.
+constexpr float wallPixels = 12.0f;
+
 juce::Path outlineOf(const Shape& shape, const FieldMap& map) {
     juce::Path path;
     if (const auto* circle = std::get_if<CircleShape>(&shape)) {
@@ -71,6 +75,8 @@ void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyMark&
 
 void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
     if (input.scene == nullptr) return;
+    const juce::Graphics::ScopedSaveState whole(canvas.graphics);
+    canvas.graphics.reduceClipRegion(map.field.expanded(wallPixels).toNearestInt());
     for (std::size_t i = 0; i < input.scene->bodies.size(); ++i) {
         const auto& body = input.scene->bodies[i];
         const BodyMark start{body.position.xMetres, body.position.yMetres, body.angleRadians};
@@ -123,7 +129,7 @@ void drawStrongest(const Canvas& canvas, const PictureInput& input, const FieldM
         canvas.graphics.drawLine({centre, placeOf(input, map, c)}, 0.8f + 2.2f * share);
     }
     for (int ring = 1; ring <= 3; ++ring) {
-        const auto r = 11.0f * static_cast<float>(ring);
+        const auto r = 9.0f * static_cast<float>(ring);
         canvas.graphics.setColour(palette::now.withAlpha(1.0f - 0.27f * static_cast<float>(ring)));
         canvas.graphics.drawEllipse(juce::Rectangle<float>(2.0f * r, 2.0f * r).withCentre(centre), 1.6f);
     }
@@ -207,7 +213,7 @@ void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours
     panel.reduce(20, 12);
     const auto heading = panel.removeFromTop(24), second = panel.removeFromBottom(20),
                first = panel.removeFromBottom(26);
-    const auto map = fitField(input, panel.reduced(20, 20));
+    const auto map = fitField(input, panel.reduced(22, 22));
     const auto strongest = strongestEvent(input.events);
     {
         const juce::Graphics::ScopedSaveState whole(canvas.graphics);

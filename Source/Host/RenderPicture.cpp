@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Lays the panels out on the page, draws it, and writes it as a PNG.
 #include "Host/RenderPicture.h"
 #include "Host/PictureParts.h"
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace physvib {
 namespace {
@@ -91,14 +91,6 @@ juce::MemoryBlock picturePng(const PictureInput& input) {
     juce::MemoryOutputStream bytes;
     juce::PNGImageFormat().writeImageToStream(drawPicture(input), bytes);
     return bytes.getMemoryBlock();
-}
-
-std::string writePicture(const PictureInput& input, const std::string& path) {
-    const auto png = picturePng(input);
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(static_cast<const char*>(png.getData()), static_cast<std::streamsize>(png.getSize()));
-    file.close();
-    return file ? std::string() : "cannot write " + path + ": " + std::generic_category().message(errno);
 }
 
 } // namespace physvib

@@ -60,8 +60,4 @@ juce::Image drawPicture(const PictureInput& input);
 /// drawPicture as the bytes of a PNG, the same bytes for the same input and fonts. M only.
 juce::MemoryBlock picturePng(const PictureInput& input);
 
-/// Writes picturePng to `path`; empty if every byte arrived, else one line with the file and the reason. M
-/// only.
-std::string writePicture(const PictureInput& input, const std::string& path);
-
 } // namespace physvib

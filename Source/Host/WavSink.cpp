@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// JUCE's WAV writer with the extensible header it leaves out and the write errors it swallows.
 #include "Host/WavSink.h"
 #include <filesystem>
 #include <juce_audio_formats/juce_audio_formats.h>
@@ -35,8 +36,10 @@ juce::StringPairArray infoChunk(const std::string& comment) {
 
 } // namespace
 
-WavSink::WavSink(const std::string& path, int channels, int sampleRateHz, const std::string& comment)
+WavSink::WavSink(const std::string& path, int channels, int sampleRateHz, const std::string& comment,
+                 const std::string& name)
     : path_(path)
+    , name_(name.empty() ? path : name)
     , channels_(channels)
     , sampleRateHz_(sampleRateHz) {
     emptyRegularFile(path);
@@ -102,12 +105,12 @@ void WavSink::writeExtensibleHeader() {
 
 void WavSink::noteError() {
     if (!error_.empty()) return;
-    const auto reason =
-        file_ != nullptr && file_->getStatus().failed() ? file_->getStatus().getErrorMessage().toStdString()
-        : writer_ == nullptr && headerBytes_ == 0       ? std::to_string(channels_) + " channels at " +
-                                                        std::to_string(sampleRateHz_) + " Hz are no WAV file"
-                                                  : "not every byte was taken (disk full?)";
-    error_ = "cannot write " + path_ + ": " + reason;
+    std::string reason = "not every byte was taken (disk full?)";
+    if (headerBytes_ == 0)
+        reason = std::to_string(channels_) + " channels at " + std::to_string(sampleRateHz_) +
+                 " Hz are no WAV file";
+    if (file_->getStatus().failed()) reason = file_->getStatus().getErrorMessage().toStdString();
+    error_ = name_ + ": cannot be written: " + reason;
 }
 
 } // namespace physvib

@@ -18,8 +18,10 @@ namespace physvib {
 /// who must not leave half a file writes to a temporary one and renames it.
 class WavSink {
 public:
-    /// Empties or creates the file. `comment` (who made this, from what) becomes its INFO comment.
-    WavSink(const std::string& path, int channels, int sampleRateHz, const std::string& comment = {});
+    /// Empties or creates the file. `comment` (who made this, from what) becomes its INFO comment. Errors
+    /// call the file `name`, if given: what the user knows, where `path` is temporary.
+    WavSink(const std::string& path, int channels, int sampleRateHz, const std::string& comment = {},
+            const std::string& name = {});
     ~WavSink();
 
     /// Appends `frames` samples of each channel. False after the first error, which finish() will tell.
@@ -34,6 +36,7 @@ private:
     void noteError();
 
     std::string path_;
+    std::string name_;
     int channels_;
     int sampleRateHz_;
     std::int64_t headerBytes_ = 0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Lowest and highest sample per column, gathered block by block.
 #include "Host/WaveformEnvelope.h"
 #include <algorithm>
 #include <cmath>

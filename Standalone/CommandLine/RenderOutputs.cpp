@@ -3,10 +3,8 @@
 #include "CommandLine/RenderOutputs.h"
 #include "Host/RenderPicture.h"
 #include <cstdio>
-#include <fstream>
 #include <iomanip>
 #include <ostream>
-#include <sstream>
 #include <unistd.h>
 
 namespace physvib {
@@ -21,12 +19,6 @@ std::string open(std::optional<AtomicFile>& file, const std::string& path) {
 
 std::string commit(std::optional<AtomicFile>& file) { return file ? file->commit() : std::string{}; }
 
-std::string writeBytes(const AtomicFile& file, const std::string& path, std::string_view bytes) {
-    std::ofstream stream{file.temporaryPath(), std::ios::binary};
-    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-    return stream ? std::string{} : path + ": could not be written";
-}
-
 double decibels(double amplitude) { return 20.0 * std::log10(amplitude); }
 
 } // namespace
@@ -39,7 +31,7 @@ std::string RenderOutputs::open() {
     const RenderOptions& o = job_.options;
     for (const auto& [file, path] : {std::pair{&wavFile_, &o.wavPath}, {&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}})
         if (std::string error = physvib::open(*file, *path); !error.empty()) return error;
-    if (wavFile_) wav_ = std::make_unique<WavSink>(wavFile_->temporaryPath().string(), job_.channels(), o.sampleRateHz, provenanceText());
+    if (wavFile_) wav_ = std::make_unique<WavSink>(wavFile_->temporaryPath().string(), job_.channels(), o.sampleRateHz, provenanceText(), o.wavPath);
     return {};
 }
 
@@ -57,10 +49,9 @@ bool RenderOutputs::take(const float* const* channels, int frames) {
 }
 
 std::string RenderOutputs::finish() {
-    const RenderOptions& o = job_.options;
     std::string error;
     if (wav_) error = wav_->finish();
-    if (error.empty() && eventsFile_) error = writeBytes(*eventsFile_, o.eventsPath, eventsCsv(job_.made.events, provenance()));
+    if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
     if (error.empty() && pictureFile_) error = writePictureFile();
     for (auto* file : {&wavFile_, &eventsFile_, &pictureFile_})
         if (error.empty()) error = commit(*file);
@@ -80,7 +71,7 @@ std::string RenderOutputs::provenanceText() const {
     return text;
 }
 
-std::string RenderOutputs::writePictureFile() const {
+std::string RenderOutputs::writePictureFile() {
     const auto& events = job_.made.events;
     PictureInput picture;
     picture.title = job_.scene ? job_.scene->name : std::filesystem::path{job_.options.fromEvents}.filename().string();
@@ -101,7 +92,8 @@ std::string RenderOutputs::writePictureFile() const {
     picture.law = job_.options.law + " law";
     picture.provenance = provenanceText();
     const juce::ScopedJuceInitialiser_GUI juce; // fonts
-    return writePicture(picture, pictureFile_->temporaryPath().string());
+    const juce::MemoryBlock png = picturePng(picture);
+    return pictureFile_->write({static_cast<const char*>(png.getData()), png.getSize()});
 }
 
 void RenderOutputs::showProgress() {

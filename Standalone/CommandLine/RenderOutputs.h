@@ -36,7 +36,7 @@ public:
 private:
     Provenance provenance() const;
     std::string provenanceText() const;
-    std::string writePictureFile() const;
+    std::string writePictureFile();
     void showProgress();
 
     const RenderJob& job_;

@@ -53,9 +53,14 @@ TEST_P(DroppedBall, IsFeltWhereItHitsWithThePlatesSound) {
     EXPECT_EQ(hit.source.other, ballIndex);
 }
 
+std::string nameOf(const testing::TestParamInfo<Drop>& drop) {
+    return "From" + std::to_string(static_cast<int>(drop.param.heightMetres)) + "MetresAt" + std::to_string(drop.param.stepsPerSecond) +
+           "StepsPerSecond";
+}
+
 INSTANTIATE_TEST_SUITE_P(HeightsAndRates, DroppedBall,
                          testing::Values(Drop{1.0, 100}, Drop{2.0, 100}, Drop{3.0, 100}, Drop{1.0, 1000},
-                                         Drop{2.0, 1000}, Drop{3.0, 1000}));
+                                         Drop{2.0, 1000}, Drop{3.0, 1000}), nameOf);
 
 TEST(Simulation, BouncingBallHitsOncePerBounceThenRestsInSilence) {
     const auto events = eventsOf(dropScene(1.0), 60.0);

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Host/RenderPicture.h"
+#include "Host/Palette.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace physvib {
+namespace {
+
+constexpr int rateHz = 8000;
+constexpr double seconds = 1.0;
+
+/// A render to be drawn, with everything it refers to.
+struct Render {
+    Scene scene;
+    std::vector<CollisionEvent> events;
+    WaveformEnvelope waveform;
+    WaveformEnvelope zoom;
+    PictureInput input;
+
+    Render(int channels, int hits)
+        : events(someHits(hits))
+        , waveform(channels, 0, rateHz)
+        , zoom(zoomOf(channels, events)) {
+        scene.materials = {{"steel", 7800.0, 0.2, 0.5, 430.0, 11.97},
+                           {"rubber", 1100.0, 0.6, 0.5, 80.0, 34.13}};
+        scene.bodies = {{"floor", BoxShape{4.0, 0.1}, 0, {2.0, 0.05}, 0.0, true, true, 100.0},
+                        {"ball", CircleShape{0.3}, 1, {1.0, 1.0}}};
+        fillLayout(channels);
+        addSound(channels);
+        input.title = "A render";
+        input.fieldWidthMetres = 4.0;
+        input.fieldHeightMetres = 2.0;
+        input.scene = &scene;
+        input.events = events;
+        input.waveform = &waveform;
+        input.zoom = &zoom;
+        input.sampleRateHz = rateHz;
+        input.durationSeconds = seconds;
+    }
+    Render(const Render&) = delete;
+
+private:
+    static std::vector<CollisionEvent> someHits(int count) {
+        std::mt19937 random(1);
+        const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };
+        std::vector<CollisionEvent> hits;
+        for (int i = 0; i < count; ++i) {
+            CollisionEvent hit;
+            hit.timeNs = static_cast<std::int64_t>(share() * 0.9e9);
+            hit.frequencyHz = 430.0;
+            hit.decayPerSecond = 11.97;
+            hit.amplitude = 0.9 * share();
+            hit.x = 4.0 * share();
+            hit.y = 2.0 * share();
+            hit.source.fixture = 0;
+            hit.source.other = 1;
+            hits.push_back(hit);
+        }
+        return hits;
+    }
+    static WaveformEnvelope zoomOf(int channels, const std::vector<CollisionEvent>& hits) {
+        const auto window = zoomWindow(hits, rateHz);
+        return {channels, window.firstFrame, window.frameCount};
+    }
+    void fillLayout(int channels) {
+        input.layout.extentWidthMetres = 0.14;
+        input.layout.extentHeightMetres = 0.07;
+        input.layout.count = channels;
+        for (int c = 0; c < channels; ++c)
+            input.layout.places[static_cast<std::size_t>(c)] = {0.14 * (c % 8) / 8.0, 0.07 * (c / 8) / 8.0};
+    }
+    void addSound(int channels) {
+        std::vector<float> sound;
+        for (int n = 0; n < rateHz; ++n)
+            sound.push_back(events.empty() ? 0.0f : 0.5f * std::sin(0.3f * static_cast<float>(n)));
+        const std::vector<const float*> block(static_cast<std::size_t>(channels), sound.data());
+        waveform.add(block.data(), rateHz);
+        zoom.add(block.data(), rateHz);
+    }
+};
+
+struct RenderPicture : testing::Test {
+    juce::ScopedJuceInitialiser_GUI juce;
+};
+
+/// Pixels of exactly this colour, and their centre.
+struct Found {
+    int count = 0;
+    double x = 0.0;
+    double y = 0.0;
+};
+
+Found find(const juce::Image& image, juce::Colour colour, juce::Rectangle<int> area) {
+    Found found;
+    for (int y = area.getY(); y < area.getBottom(); ++y)
+        for (int x = area.getX(); x < area.getRight(); ++x) {
+            if (image.getPixelAt(x, y) != colour) continue;
+            ++found.count;
+            found.x += x;
+            found.y += y;
+        }
+    if (found.count > 0) found.x /= found.count, found.y /= found.count;
+    return found;
+}
+
+TEST_F(RenderPicture, StrongestEventIsTheFirstOfEquals) {
+    std::vector<CollisionEvent> events(4);
+    events[1].amplitude = 0.2;
+    events[2].amplitude = -0.5; // polarity is no strength
+    events[3].amplitude = 0.5;
+    EXPECT_EQ(strongestEvent(events), 2);
+    EXPECT_EQ(strongestEvent({}), -1);
+}
+
+TEST_F(RenderPicture, ZoomIsAroundTheStrongestOnset) {
+    std::vector<CollisionEvent> events(2);
+    events[1].timeNs = 500'000'000;
+    events[1].amplitude = 0.5;
+    EXPECT_EQ(zoomWindow(events, 48000).firstFrame, 24000 - 480);
+    EXPECT_EQ(zoomWindow(events, 48000).frameCount, 4800);
+    EXPECT_EQ(zoomWindow({}, 48000).frameCount, 0);
+}
+
+TEST_F(RenderPicture, SameInputSameBytes) {
+    const Render one(4, 300), same(4, 300), different(4, 299);
+    EXPECT_EQ(picturePng(one.input), picturePng(same.input));
+    EXPECT_NE(picturePng(one.input), picturePng(different.input));
+}
+
+TEST_F(RenderPicture, IsAPngOfTheAgreedSize) {
+    const auto bytes = picturePng(Render(4, 10).input);
+    const auto image = juce::PNGImageFormat::loadFrom(bytes.getData(), bytes.getSize());
+    EXPECT_EQ(image.getWidth(), 1600);
+    EXPECT_EQ(image.getHeight(), 1000);
+    const std::string text(static_cast<const char*>(bytes.getData()), bytes.getSize());
+    EXPECT_EQ(text.find("tIME"), std::string::npos); // no clock in it
+}
+
+// Whatever the input, the frame around the panels stays empty: nothing runs out of the picture.
+TEST_F(RenderPicture, NothingLeavesThePage) {
+    for (const int channels : {1, 4, 16, 64})
+        for (const int hits : {0, 1, 20000}) {
+            Render render(channels, hits);
+            render.input.title = render.input.subtitle = render.input.provenance = std::string(500, 'W');
+            render.input.labels.assign(static_cast<std::size_t>(channels), std::string(40, 'W'));
+            render.scene.materials[0].name = render.scene.materials[1].name = render.scene.bodies[0].name =
+                std::string(300, 'W');
+            render.input.law = std::string(300, 'W');
+            const auto image = drawPicture(render.input);
+            const auto inside = image.getBounds().reduced(22, 0);
+            const int emptyLeft =
+                find(image, palette::ground, image.getBounds().withRight(inside.getX())).count;
+            const int emptyRight =
+                find(image, palette::ground, image.getBounds().withLeft(inside.getRight())).count;
+            EXPECT_EQ(emptyLeft, 22 * 1000) << channels << " channels, " << hits << " hits";
+            EXPECT_EQ(emptyRight, 22 * 1000) << channels << " channels, " << hits << " hits";
+        }
+}
+
+TEST_F(RenderPicture, EveryChannelHasALaneInItsColour) {
+    for (const int channels : {1, 4, 8, 16}) {
+        const auto image = drawPicture(Render(channels, 10).input);
+        double above = 0.0;
+        for (int c = 0; c < channels; ++c) {
+            const auto lane = find(image, palette::enchanter(c), {100, 520, 1300, 460});
+            EXPECT_GT(lane.count, 600) << c;
+            EXPECT_GT(lane.y, above) << c; // in channel order, top to bottom
+            above = lane.y;
+        }
+    }
+}
+
+// The middle of the strongest hit is white; the field's y points up.
+TEST_F(RenderPicture, StrongestHitIsMarkedWhereItStruck) {
+    const auto markOf = [](double x, double y) {
+        Render render(1, 1);
+        render.input.scene = nullptr;
+        render.events[0].x = x;
+        render.events[0].y = y;
+        render.input.events = render.events;
+        return find(drawPicture(render.input), juce::Colours::white, {24, 120, 760, 500});
+    };
+    const auto low = markOf(1.0, 0.5), right = markOf(3.0, 0.5), high = markOf(1.0, 1.5);
+    ASSERT_GT(low.count, 9);
+    EXPECT_NEAR(right.y, low.y, 0.6);
+    EXPECT_NEAR(high.x, low.x, 0.6);
+    EXPECT_GT(right.x, low.x + 100.0);
+    EXPECT_NEAR(low.y - high.y, 0.5 * (right.x - low.x), 1.5); // to scale: 1 m up, 2 m to the right
+}
+
+TEST_F(RenderPicture, WeakerHitsGlowAtTheirPlaces) {
+    const auto glowOf = [](double x) {
+        Render one(1, 2), without(1, 2);
+        one.events[0].amplitude = without.events[0].amplitude = 1.0;
+        one.events[1].amplitude = 0.3;
+        one.events[1].x = x;
+        one.events[1].y = 1.0;
+        without.events.resize(1);
+        without.input.events = without.events;
+        const auto lit = drawPicture(one.input), dark = drawPicture(without.input);
+        Found glow;
+        for (int y = 130; y < 500; ++y)
+            for (int x2 = 24; x2 < 784; ++x2)
+                if (lit.getPixelAt(x2, y) != dark.getPixelAt(x2, y)) ++glow.count, glow.x += x2;
+        glow.x /= std::max(glow.count, 1);
+        return glow;
+    };
+    const auto left = glowOf(1.5), right = glowOf(3.0);
+    EXPECT_GT(left.count, 100);
+    EXPECT_GT(right.count, 100);
+    EXPECT_GT(right.x, left.x + 100.0);
+}
+
+TEST_F(RenderPicture, StemsStandAtTheirTimes) {
+    const auto stemAt = [](std::int64_t timeNs) {
+        Render render(1, 1);
+        render.events[0].timeNs = timeNs;
+        return find(drawPicture(render.input), palette::now, {90, 842, 1380, 80}).x;
+    };
+    const double laneWidth = stemAt(1'000'000'000) - stemAt(0);
+    EXPECT_GT(laneWidth, 1200.0);
+    EXPECT_NEAR(stemAt(250'000'000) - stemAt(0), 0.25 * laneWidth, 1.0);
+}
+
+TEST_F(RenderPicture, BodiesStandWhereTheMarksSay) {
+    const auto ballAt = [](std::vector<BodyMark> bodies) {
+        Render render(1, 0);
+        render.input.bodies = std::move(bodies);
+        return find(drawPicture(render.input), palette::material(1).withMultipliedBrightness(0.9f),
+                    {24, 120, 760, 500});
+    };
+    const auto start = ballAt({}), moved = ballAt({{2.0, 0.05, 0.0}, {3.0, 1.0, 0.0}});
+    ASSERT_GT(start.count, 100);
+    EXPECT_GT(moved.x, start.x + 100.0);
+    EXPECT_NEAR(moved.y, start.y, 0.6);
+}
+
+TEST_F(RenderPicture, EmptyInputIsAPictureToo) {
+    EXPECT_EQ(drawPicture({}).getWidth(), 1600);
+    Render render(2, 5);
+    render.input.scene = nullptr;
+    EXPECT_EQ(drawPicture(render.input).getWidth(), 1600);
+    render.input.waveform = render.input.zoom = nullptr;
+    EXPECT_EQ(drawPicture(render.input).getWidth(), 1600);
+    render.input.durationSeconds = render.input.fieldWidthMetres = 0.0;
+    EXPECT_EQ(drawPicture(render.input).getWidth(), 1600);
+}
+
+// Another process, because JUCE remembers the fonts it found.
+TEST(RenderPictureDeathTest, NeedsNeitherFontsNorDisplay) {
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    const auto draw = [] {
+        setenv("JUCE_FONT_PATH", "/nonexistent", 1);
+        unsetenv("DISPLAY");
+        const juce::ScopedJuceInitialiser_GUI juce;
+        const auto image = drawPicture(Render(4, 30).input);
+        const bool lanes = find(image, palette::enchanter(3), {100, 520, 1300, 460}).count > 600;
+        const bool words = juce::Font::findAllTypefaceNames().size() > 0;
+        std::_Exit(lanes && !words ? 0 : 1);
+    };
+    EXPECT_EXIT(draw(), testing::ExitedWithCode(0), "");
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Host/WavSink.h"
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <juce_audio_formats/juce_audio_formats.h>
+#include <sys/resource.h>
+#include <vector>
+
+namespace physvib {
+namespace {
+
+constexpr int rateHz = 48000;
+
+std::string pathOf(const std::string& name) {
+    return (std::filesystem::path(::testing::TempDir()) / name).string();
+}
+
+std::string bytesOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+template <typename Number>
+Number numberAt(const std::string& bytes, std::size_t at) {
+    Number value{};
+    if (at + sizeof(value) <= bytes.size()) std::memcpy(&value, bytes.data() + at, sizeof(value));
+    return value;
+}
+
+// Where a chunk's content starts; 0 if there is no such chunk.
+std::size_t chunkAt(const std::string& bytes, const std::string& name) {
+    for (std::size_t at = 12; at + 8 <= bytes.size(); at += 8 + numberAt<std::uint32_t>(bytes, at + 4))
+        if (bytes.compare(at, 4, name) == 0) return at + 8;
+    return 0;
+}
+
+float sample(int channel, int frame) {
+    return std::sin(0.01f * static_cast<float>(frame * (channel + 1))) / static_cast<float>(channel + 1);
+}
+
+std::string writeBlocks(const std::string& path, int channels, int frames, int blockFrames,
+                        const std::string& comment = {}) {
+    WavSink sink(path, channels, rateHz, comment);
+    std::vector<std::vector<float>> block(static_cast<std::size_t>(channels));
+    std::vector<const float*> pointers(block.size());
+    for (int start = 0; start < frames; start += blockFrames) {
+        const int count = std::min(blockFrames, frames - start);
+        for (std::size_t c = 0; c < block.size(); ++c) {
+            block[c].clear();
+            for (int i = 0; i < count; ++i) block[c].push_back(sample(static_cast<int>(c), start + i));
+            pointers[c] = block[c].data();
+        }
+        sink.write(pointers.data(), count);
+    }
+    return sink.finish();
+}
+
+TEST(WavSink, OneAndTwoChannelsArePlainFloat) {
+    for (const int channels : {1, 2}) {
+        const auto path = pathOf("plain.wav");
+        ASSERT_EQ(writeBlocks(path, channels, 100, 32), "");
+        const auto bytes = bytesOf(path);
+        const auto format = chunkAt(bytes, "fmt ");
+        ASSERT_NE(format, 0u);
+        EXPECT_EQ(numberAt<std::uint16_t>(bytes, format), 3); // WAVE_FORMAT_IEEE_FLOAT
+        EXPECT_EQ(numberAt<std::uint16_t>(bytes, format + 2), channels);
+        EXPECT_EQ(numberAt<std::uint32_t>(bytes, format + 4), static_cast<std::uint32_t>(rateHz));
+        EXPECT_EQ(numberAt<std::uint16_t>(bytes, format + 14), 32);
+    }
+}
+
+TEST(WavSink, MoreChannelsAreExtensibleWithoutSpeakers) {
+    for (const int channels : {3, 4, 8, 64}) {
+        const auto path = pathOf("extensible.wav");
+        ASSERT_EQ(writeBlocks(path, channels, 100, 32, "a comment"), "");
+        const auto bytes = bytesOf(path);
+        const auto format = chunkAt(bytes, "fmt "), data = chunkAt(bytes, "data");
+        ASSERT_NE(format, 0u);
+        ASSERT_NE(data, 0u);
+        EXPECT_EQ(numberAt<std::uint32_t>(bytes, format - 4), 40u);
+        EXPECT_EQ(numberAt<std::uint16_t>(bytes, format), 0xfffe); // WAVE_FORMAT_EXTENSIBLE
+        EXPECT_EQ(numberAt<std::uint16_t>(bytes, format + 2), channels);
+        EXPECT_EQ(numberAt<std::uint32_t>(bytes, format + 8),
+                  static_cast<std::uint32_t>(rateHz * channels * 4));
+        EXPECT_EQ(numberAt<std::uint16_t>(bytes, format + 12), channels * 4);
+        EXPECT_EQ(numberAt<std::uint32_t>(bytes, format + 20), 0u); // dwChannelMask
+        EXPECT_EQ(numberAt<std::uint32_t>(bytes, format + 24), 3u); // the float subformat
+        EXPECT_EQ(numberAt<std::uint32_t>(bytes, data - 4), static_cast<std::uint32_t>(100 * channels * 4));
+        EXPECT_EQ(data + static_cast<std::size_t>(100 * channels * 4), bytes.size());
+        EXPECT_EQ(numberAt<std::uint32_t>(bytes, 4), bytes.size() - 8); // the RIFF size
+    }
+}
+
+TEST(WavSink, ReadsBackToTheBit) {
+    const auto path = pathOf("back.wav");
+    constexpr int channels = 5, frames = 30000; // more than the buffer holds
+    ASSERT_EQ(writeBlocks(path, channels, frames, 777), "");
+    const std::unique_ptr<juce::AudioFormatReader> reader(
+        juce::WavAudioFormat().createReaderFor(juce::File(path).createInputStream().release(), true));
+    ASSERT_NE(reader, nullptr);
+    ASSERT_EQ(reader->numChannels, static_cast<unsigned>(channels));
+    ASSERT_EQ(reader->lengthInSamples, frames);
+    ASSERT_EQ(reader->sampleRate, rateHz);
+    juce::AudioBuffer<float> back(channels, frames);
+    ASSERT_TRUE(reader->read(&back, 0, frames, 0, true, true));
+    for (int c = 0; c < channels; ++c)
+        for (int n = 0; n < frames; ++n) ASSERT_EQ(back.getSample(c, n), sample(c, n)) << c << " " << n;
+}
+
+TEST(WavSink, BytesDoNotDependOnTheBlocks) {
+    const auto one = pathOf("one.wav"), other = pathOf("other.wav");
+    ASSERT_EQ(writeBlocks(one, 4, 70000, 1), "");
+    for (const int blockFrames : {64, 999, 70000}) {
+        ASSERT_EQ(writeBlocks(other, 4, 70000, blockFrames), "");
+        EXPECT_EQ(bytesOf(one), bytesOf(other)) << blockFrames;
+    }
+}
+
+TEST(WavSink, ReplacesALongerFile) {
+    const auto path = pathOf("replaced.wav"), fresh = pathOf("fresh.wav");
+    std::filesystem::remove(fresh);
+    ASSERT_EQ(writeBlocks(path, 4, 5000, 512), "");
+    ASSERT_EQ(writeBlocks(path, 2, 10, 512), "");
+    ASSERT_EQ(writeBlocks(fresh, 2, 10, 512), "");
+    EXPECT_EQ(bytesOf(path), bytesOf(fresh));
+}
+
+TEST(WavSink, KeepsTheComment) {
+    const auto path = pathOf("comment.wav");
+    ASSERT_EQ(writeBlocks(path, 4, 10, 10, "shake-the-box, seed 1"), "");
+    EXPECT_NE(bytesOf(path).find("ICMT"), std::string::npos);
+    EXPECT_NE(bytesOf(path).find("shake-the-box, seed 1"), std::string::npos);
+}
+
+TEST(WavSink, NoFramesAreAFileToo) {
+    const auto path = pathOf("empty.wav");
+    ASSERT_EQ(writeBlocks(path, 4, 0, 64), "");
+    const auto bytes = bytesOf(path);
+    const auto data = chunkAt(bytes, "data");
+    ASSERT_NE(data, 0u);
+    EXPECT_EQ(numberAt<std::uint32_t>(bytes, data - 4), 0u);
+}
+
+void expectOneLineWith(const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+TEST(WavSink, TellsOfAFullDisk) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+    expectOneLineWith(writeBlocks("/dev/full", 4, 10, 10), "/dev/full"); // found out while finishing
+    expectOneLineWith(writeBlocks("/dev/full", 4, 100000, 512), "No space left on device");
+}
+
+TEST(WavSink, CallsTheFileWhatTheUserCallsIt) {
+    WavSink sink(pathOf("no-such-folder/temporary"), 1, rateHz, {}, "shake.wav");
+    expectOneLineWith(sink.finish(), "shake.wav: cannot be written: No such file");
+}
+
+TEST(WavSink, RefusesBlocksAfterAnError) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+    WavSink sink("/dev/full", 1, rateHz);
+    const std::vector<float> block(200000, 0.5f);
+    const float* channel = block.data();
+    EXPECT_FALSE(sink.write(&channel, 200000));
+    EXPECT_FALSE(sink.write(&channel, 1));
+    EXPECT_NE(sink.finish(), "");
+}
+
+// A disk that takes a part of a write and no more: the limit on a file's size behaves like this.
+TEST(WavSink, TellsOfAWriteThatWasCutShort) {
+    const auto path = pathOf("short.wav");
+    const auto before = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{};
+    getrlimit(RLIMIT_FSIZE, &limit);
+    const rlimit low{100000, limit.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &low);
+    const auto message = writeBlocks(path, 1, 30000, 512); // the last write is the one that is cut
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, before);
+    expectOneLineWith(message, path);
+}
+
+TEST(WavSink, TellsOfAPlaceItCannotOpen) {
+    const auto path = pathOf("no-such-folder/file.wav");
+    expectOneLineWith(writeBlocks(path, 4, 10, 10), path);
+    expectOneLineWith(writeBlocks(path, 4, 10, 10), "No such file or directory");
+    expectOneLineWith(writeBlocks(::testing::TempDir(), 4, 10, 10), "Is a directory");
+}
+
+} // namespace
+} // namespace physvib
