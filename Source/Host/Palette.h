@@ -33,7 +33,7 @@ constexpr int materialCount = 8;
 /// Colour of a material by its index in the scene; calm, so that amber and the enchanters stand out.
 inline juce::Colour material(int index) {
     constexpr std::array<Argb, materialCount> chosen{0xffd14b5a, 0xffc98d3c, 0xff9fb3cb, 0xffa79fb5,
-                                                     0xffd0b070, 0xff5a93c9, 0xffa9744f, 0xff9aa04a};
+                                                     0xffb7906b, 0xff5a93c9, 0xffa9744f, 0xff9aa04a};
     return juce::Colour(chosen[static_cast<std::size_t>(index) % chosen.size()]);
 }
 
