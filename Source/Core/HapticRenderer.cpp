@@ -8,12 +8,16 @@ namespace physvib {
 template <class P>
 void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     clock_ = FrameClock{settings.sampleRateHz};
+    channels_ = settings.channels;
     panner_ = settings.panner;
-    bank_.prepare(settings.sampleRateHz, panner_.channels());
-    limiter_.prepare(settings.sampleRateHz, panner_.channels(), settings.limiterEnabled);
+    gains_.fill(0.0);
+    bank_.prepare(settings.sampleRateHz, channels_);
+    actuators_.prepare(settings.sampleRateHz, channels_);
+    limiter_.prepare(settings.sampleRateHz, channels_, settings.limiterEnabled);
     pending_.clear();
+    controls_.clear();
     position_ = 0;
-    played_ = late_ = rejected_ = 0;
+    played_ = late_ = rejected_ = forgotten_ = 0;
 }
 
 template <class P>
@@ -22,11 +26,12 @@ void HapticRenderer<P>::schedule(const CollisionEvent& event) noexcept {
     else ++rejected_;
 }
 
-// Closes the gates and strikes the events whose frame is the next one; true if an event was struck, so that the
-// pending store has room again. A gate that ends where a strike begins closes first.
+// Does what is due at the next frame; true if an event was struck, so that the pending store has room again.
+// A gate that ends where a strike begins closes first; a control acts before the strikes of its frame.
 template <class P>
-bool HapticRenderer<P>::strikeDue() noexcept {
+bool HapticRenderer<P>::actOnDue() noexcept {
     while (bank_.nextGateFrame() <= position_) bank_.closeNextGate();
+    applyDueControls();
     bool struck = false;
     while (!pending_.empty() && clock_.at(pending_.nextTime()).frame <= position_) {
         strike(pending_.next());
@@ -37,15 +42,42 @@ bool HapticRenderer<P>::strikeDue() noexcept {
 }
 
 template <class P>
+void HapticRenderer<P>::applyDueControls() noexcept {
+    while (!controls_.empty() && clock_.at(controls_.nextTime()).frame <= position_) {
+        apply(controls_.next());
+        controls_.pop();
+    }
+}
+
+template <class P>
+void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
+    using Kind = RenderControl::Kind;
+    const bool isChannel = control.channel >= 0 && control.channel < channels_;
+    if (control.kind == Kind::panner && control.panner.channels() <= channels_) panner_ = control.panner;
+    if (control.kind == Kind::gain && isChannel) actuators_.setGain(control.channel, control.value);
+    if (control.kind == Kind::mute && isChannel) actuators_.setMuted(control.channel, control.value != 0.0f);
+    if (control.kind == Kind::stopAll) stopAll();
+}
+
+template <class P>
+void HapticRenderer<P>::stopAll() noexcept {
+    forgotten_ += static_cast<std::uint64_t>(pending_.size());
+    pending_.clear();
+    bank_.fadeAll(position_);
+}
+
+template <class P>
 void HapticRenderer<P>::strike(const CollisionEvent& event) noexcept {
     FramePosition onset = clock_.at(event.timeNs);
     const std::int64_t delay = position_ - onset.frame;
     if (delay > 0) onset = {position_, 0.0}; // late: the whole vibration, at once
     const std::int64_t end = clock_.at(event.timeNs + event.durationNs).frame + delay;
     panner_.gainsAt(event.x, event.y, gains_);
+    std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
     const Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset,
                    event.durationNs > 0 ? end : Strike::never};
     const bool taken = bank_.strike(s, gains_.data());
+    if (taken) playedQueue_.push({event, onset.frame, delay > 0});
     played_ += taken ? 1 : 0;
     late_ += taken && delay > 0 ? 1 : 0;
     rejected_ += taken ? 0 : 1;
@@ -57,13 +89,23 @@ int HapticRenderer<P>::framesUntilChange(int most) const noexcept {
     std::int64_t end = std::min(position_ + most, position_ - position_ % tile + tile);
     end = std::min(end, bank_.nextGateFrame());
     if (!pending_.empty()) end = std::min(end, clock_.at(pending_.nextTime()).frame);
+    if (!controls_.empty()) end = std::min(end, clock_.at(controls_.nextTime()).frame);
     return static_cast<int>(end - position_);
 }
 
 template <class P>
 RenderStatus HapticRenderer<P>::status() const noexcept {
-    return {position_,        played_, late_, rejected_, bank_.stolenModes(), limiter_.nonFiniteSamples(), bank_.liveModes(),
-            pending_.size(), limiter_.gain()};
+    return {.framesRendered = position_,
+            .played = played_,
+            .late = late_,
+            .rejected = rejected_,
+            .stolen = bank_.stolenModes(),
+            .nonFinite = limiter_.nonFiniteSamples(),
+            .forgotten = forgotten_,
+            .untold = playedQueue_.overflows(),
+            .liveModes = bank_.liveModes(),
+            .pending = pending_.size(),
+            .limiterGain = limiter_.gain()};
 }
 
 template class HapticRenderer<DesktopProfile>;

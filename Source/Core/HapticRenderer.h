@@ -2,15 +2,20 @@
 // The only way to samples: collision events in, one channel per enchanter out (the thesis' vibration manager).
 //
 // Order of one call: events enter the pending store; those that are due are panned and struck on their exact place
-// between two frames; the mode bank is summed; the linked limiter has the last word. Work is cut at the tiles of the
-// absolute frame grid and at onsets and gate ends, never at block borders: output does not depend on block size.
+// between two frames; the mode bank is summed; each channel goes through its actuator stage; the linked limiter has
+// the last word. Controls (layout, gains, stop) wait for their frame in the same way. Work is cut at the tiles of the
+// absolute frame grid and at onsets, gate ends and controls, never at block borders: output does not depend on block size.
 #pragma once
+#include "Core/ActuatorStage.h"
 #include "Core/DenormalGuard.h"
+#include "Core/EventQueue.h"
 #include "Core/FrameClock.h"
 #include "Core/LinkedLimiter.h"
 #include "Core/ModeBank.h"
 #include "Core/PendingEvents.h"
 #include "Core/PhantomPanner.h"
+#include "Core/RenderControl.h"
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -19,7 +24,8 @@ namespace physvib {
 /// What a renderer is set up with.
 struct RendererSettings {
     int sampleRateHz = 48000; ///< limits::minSampleRateHz to limits::maxSampleRateHz
-    PhantomPanner panner;     ///< its number of channels is the renderer's
+    int channels = 1;         ///< outputs; those that the panner has no enchanter for stay silent
+    PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
     bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
 };
 
@@ -31,6 +37,8 @@ struct RenderStatus {
     std::uint64_t rejected = 0; ///< not playable, above half the sample rate, or no gate was free
     std::uint64_t stolen = 0;   ///< modes faded out early to make room
     std::uint64_t nonFinite = 0;
+    std::uint64_t forgotten = 0;  ///< pending when all was stopped
+    std::uint64_t untold = 0;     ///< played, but the played queue was full
     int liveModes = 0;
     int pending = 0;
     float limiterGain = 1.0f;
@@ -40,14 +48,19 @@ struct RenderStatus {
 template <class Profile>
 class HapticRenderer {
 public:
+    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(Profile::playedQueueSize)>;
+
     /// Silence at frame 0. M, not while rendering.
     void prepare(const RendererSettings& settings) noexcept;
 
     /// Writes out[channel][0..frames), 1 to limits::maxBlockFrames. `source.pop(CollisionEvent&)` gives events until
     /// it says false; more than the pending store holds stay there, which is right if they come in time order.
-    /// R, wait-free.
+    /// If it also has `pop(RenderControl&)`, controls come the same way. R, wait-free.
     template <class Source>
     void render(Source& source, float* const* out, int frames) noexcept;
+
+    /// What has been played, for one reader on another thread.
+    PlayedQueue& played() noexcept { return playedQueue_; }
 
     /// Frames by which the output lags the event times (the limiter's look-ahead). Any thread after prepare.
     int latencyFrames() const noexcept { return limiter_.latencyFrames(); }
@@ -60,7 +73,10 @@ private:
     template <class Source>
     void refill(Source& source) noexcept;
     void schedule(const CollisionEvent& event) noexcept;
-    bool strikeDue() noexcept;
+    bool actOnDue() noexcept;
+    void applyDueControls() noexcept;
+    void apply(const RenderControl& control) noexcept;
+    void stopAll() noexcept;
     void strike(const CollisionEvent& event) noexcept;
     int framesUntilChange(int most) const noexcept;
 
@@ -68,10 +84,14 @@ private:
     PhantomPanner panner_;
     PhantomPanner::Gains gains_{};
     ModeBank<Profile> bank_;
+    ActuatorStage<Profile> actuators_;
     LinkedLimiter<Profile> limiter_;
     PendingEvents<Profile::maxPending> pending_;
+    TimeOrdered<RenderControl, Profile::maxControls> controls_;
+    PlayedQueue playedQueue_;
+    int channels_ = 1;
     std::int64_t position_ = 0;
-    std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
+    std::uint64_t played_ = 0, late_ = 0, rejected_ = 0, forgotten_ = 0;
 };
 
 template <class Profile>
@@ -79,6 +99,10 @@ template <class Source>
 void HapticRenderer<Profile>::refill(Source& source) noexcept {
     CollisionEvent event;
     while (!pending_.full() && source.pop(event)) schedule(event);
+    if constexpr (requires(RenderControl c) { source.pop(c); }) {
+        RenderControl control;
+        while (!controls_.full() && source.pop(control)) controls_.push(control.timeNs, control);
+    }
 }
 
 template <class Profile>
@@ -86,15 +110,16 @@ template <class Source>
 void HapticRenderer<Profile>::render(Source& source, float* const* out, int frames) noexcept {
     const DenormalGuard guard;
     Channels at{};
-    for (int j = 0; j < panner_.channels(); ++j) at[static_cast<std::size_t>(j)] = out[j];
+    std::copy_n(out, channels_, at.begin());
     for (int done = 0; done < frames;) {
         do refill(source);
-        while (strikeDue());
+        while (actOnDue());
         const int part = framesUntilChange(frames - done);
         bank_.render(at.data(), position_, part);
+        actuators_.process(at.data(), part);
         position_ += part;
         done += part;
-        for (int j = 0; j < panner_.channels(); ++j) at[static_cast<std::size_t>(j)] += part;
+        for (int j = 0; j < channels_; ++j) at[static_cast<std::size_t>(j)] += part;
     }
     limiter_.process(out, frames);
 }

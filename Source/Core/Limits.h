@@ -17,6 +17,7 @@ constexpr double maxAmplitude = 1.0e6;     // keeps sums of thousands of strikes
 constexpr std::int64_t maxTimeNs = 1'000'000'000'000'000; // 11.6 days; frames and their phases stay in 64 bits
 constexpr double retireDecibels = 140.0;   // a strike is over when it has fallen by this much (24-bit floor)
 constexpr double stealFadePerSecond = 1000.0; // a stolen mode falls by 60 dB in 7 ms: no click, soon gone
+constexpr double channelRampSeconds = 0.01; // gains, mutes, detached channels: no click, still at once to a hand
 constexpr double limiterLookAheadSeconds = 0.001; // attack of the limiter = its constant latency
 constexpr double limiterReleaseSeconds = 0.2;     // silence to full gain: slower than any tactile period (20 Hz)
 } // namespace limits
@@ -31,6 +32,8 @@ struct DesktopProfile {
     static constexpr int maxGates = 4096;    // strikes with a duration that are open at once
     static constexpr int maxPending = 8192;  // events ahead of their time: 80 ms at 10^5 strikes per second
     static constexpr int maxLookAheadFrames = 192; // 1 ms at 192 kHz
+    static constexpr int maxControls = 256;  // edits ahead of their time: a hand makes tens a second
+    static constexpr int playedQueueSize = 4096; // 40 ms at 10^5 strikes per second until somebody reads
 };
 
 /// Memory and precision of the four-channel board (12 KB of RAM, single-precision unit): at most 1 LSB of 8 bit.
@@ -43,6 +46,8 @@ struct BoardProfile {
     static constexpr int maxGates = 16;
     static constexpr int maxPending = 32;
     static constexpr int maxLookAheadFrames = 16;
+    static constexpr int maxControls = 2;
+    static constexpr int playedQueueSize = 16;
 };
 
 } // namespace physvib

@@ -14,7 +14,6 @@ void LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled) noe
     window_ = std::clamp(static_cast<int>(sampleRateHz * limits::limiterLookAheadSeconds), 1, P::maxLookAheadFrames);
     releaseStep_ = static_cast<std::int64_t>(unit / (sampleRateHz * limits::limiterReleaseSeconds));
     ceilings_.fill(1.0f);
-    muted_.fill(false);
     delayed_ = {};
     position_ = 0;
     frame_ = 0;
@@ -39,7 +38,7 @@ void LinkedLimiter<P>::process(float* const* io, int frames) noexcept {
             float y = delayed_[channel][oldest] * gain_;
             // The product may round up past the ceiling by its last bit, or down into the denormals.
             if (enabled_) y = std::clamp(y, -ceilings_[channel], ceilings_[channel]);
-            io[j][n] = muted_[channel] || std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
+            io[j][n] = std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
         }
     }
 }
@@ -59,7 +58,7 @@ std::int64_t LinkedLimiter<P>::neededGain(float* const* io, int n) noexcept {
     for (int j = 0; j < channels_; ++j) {
         const auto channel = static_cast<std::size_t>(j);
         io[j][n] = clean(io[j][n]);
-        if (!muted_[channel]) excess = std::max(excess, static_cast<Real>(std::abs(io[j][n])) / static_cast<Real>(ceilings_[channel]));
+        excess = std::max(excess, static_cast<Real>(std::abs(io[j][n])) / static_cast<Real>(ceilings_[channel]));
     }
     return enabled_ && excess > 1 ? static_cast<std::int64_t>(static_cast<Real>(unit) / excess) : unit;
 }

@@ -19,14 +19,11 @@ class LinkedLimiter {
 public:
     using Real = typename Profile::Real;
 
-    /// Forgets everything; ceilings 1, nothing muted. Disabled, it only delays and cleans. M, not while rendering.
+    /// Forgets everything; ceilings 1. Disabled, it only delays and cleans. M, not while rendering.
     void prepare(int sampleRateHz, int channels, bool enabled) noexcept;
 
     /// Largest absolute sample of that channel, > 0.
     void setCeiling(int channel, float ceiling) noexcept { ceilings_[static_cast<std::size_t>(channel)] = ceiling; }
-
-    /// A muted channel is silent and has no say in the gain.
-    void setMuted(int channel, bool muted) noexcept { muted_[static_cast<std::size_t>(channel)] = muted; }
 
     /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
     /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite).
@@ -53,7 +50,6 @@ private:
     bool enabled_ = true;
     std::int64_t releaseStep_ = unit;
     std::array<float, width> ceilings_{};
-    std::array<bool, width> muted_{};
     std::array<std::array<float, windowMax>, width> delayed_{};
     int position_ = 0; // in the rings of `window_` frames
     std::int64_t frame_ = 0;

@@ -29,7 +29,10 @@ bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
     const Mode wanted = modeFor(strike);
     int slot = find(wanted);
     if (slot < 0) {
-        if (activeCount_ - fadingCount_ == P::maxModes) fade(quietest(false), strike.onset.frame);
+        if (activeCount_ - fadingCount_ == P::maxModes) {
+            fade(quietest(false), strike.onset.frame);
+            ++stolen_;
+        }
         if (freeCount_ == 0) release(quietest(true));
         slot = create(wanted);
     }
@@ -104,7 +107,13 @@ void ModeBank<P>::fade(int slot, std::int64_t frame) noexcept {
     fillPowers(slot);
     refreshTile(slot);
     ++fadingCount_;
-    ++stolen_;
+}
+
+template <class P>
+void ModeBank<P>::fadeAll(std::int64_t frame) noexcept {
+    enterTile(frame);
+    for (int i = 0; i < activeCount_; ++i)
+        if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading) fade(slot, frame);
 }
 
 template <class P>

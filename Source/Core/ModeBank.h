@@ -46,6 +46,9 @@ public:
     /// Closes that gate; to be called when its frame is the next one to be rendered.
     void closeNextGate() noexcept;
 
+    /// From `frame` on, the next one to be rendered, everything fades as a stolen mode does.
+    void fadeAll(std::int64_t frame) noexcept;
+
     /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile.
     void render(float* const* out, std::int64_t first, int frames) noexcept;
 

@@ -20,7 +20,7 @@ OfflineSettings settings() {
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
     const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene().fieldWidthMetres, scene().fieldHeightMetres};
-    return {{rateHz, panner, true}, static_cast<std::int64_t>(seconds) * rateHz};
+    return {{rateHz, 4, panner, true}, static_cast<std::int64_t>(seconds) * rateHz};
 }
 
 void count(benchmark::State& state) {

@@ -15,7 +15,7 @@ using test::randomEvents;
 using test::renderEvents;
 
 RendererSettings settingsFor(const EnchanterLayout& layout, PanningLaw law, int rate, bool limiter = false) {
-    return {rate, PhantomPanner{layout, law, 1.0, 1.0, 1.0}, limiter};
+    return {rate, layout.count, PhantomPanner{layout, law, 1.0, 1.0, 1.0}, limiter};
 }
 
 EnchanterLayout layoutOf(int channels) {
@@ -110,6 +110,128 @@ TEST(HapticRenderer, ALateEventIsPlayedWholeAtOnceAndCounted) {
     EXPECT_NEAR(block[latency + 1], std::sin(2 * std::numbers::pi * 205 / 48000), 1e-6);
     EXPECT_NE(block[latency + 2399], 0.0f);
     EXPECT_EQ(block[latency + 2400], 0.0f);
+}
+
+// Events and controls, each in time order, as a session gives them.
+struct Session {
+    std::vector<CollisionEvent> events;
+    std::vector<RenderControl> controls;
+    bool pop(CollisionEvent& e) noexcept { return take(events, e); }
+    bool pop(RenderControl& c) noexcept { return take(controls, c); }
+
+private:
+    template <class T>
+    static bool take(std::vector<T>& from, T& to) noexcept {
+        if (from.empty()) return false;
+        to = from.front();
+        from.erase(from.begin());
+        return true;
+    }
+};
+
+test::Channels renderSession(Session session, const RendererSettings& settings, int frames, int block, RenderStatus& status) {
+    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    renderer->prepare(settings);
+    test::Channels all(static_cast<std::size_t>(settings.channels), std::vector<float>(static_cast<std::size_t>(frames)));
+    for (int done = 0; done < frames; done += block) {
+        std::vector<float*> at;
+        for (auto& channel : all) at.push_back(channel.data() + done);
+        renderer->render(session, at.data(), std::min(block, frames - done));
+    }
+    status = renderer->status();
+    return all;
+}
+
+RenderControl controlAt(std::int64_t timeNs, RenderControl::Kind kind, int channel = 0, float value = 0) {
+    RenderControl c;
+    c.timeNs = timeNs;
+    c.kind = kind;
+    c.channel = channel;
+    c.value = value;
+    return c;
+}
+
+TEST(HapticRenderer, ControlsActAtTheirTimeWhateverTheBlockSize) {
+    using Kind = RenderControl::Kind;
+    Session session{randomEvents(500, 0.9, 8), {}};
+    session.controls = {controlAt(100'000'001, Kind::gain, 1, -0.5f), controlAt(200'000'003, Kind::mute, 2, 1),
+                        controlAt(300'000'007, Kind::panner), controlAt(500'000'000, Kind::stopAll), controlAt(600'000'000, Kind::mute, 2, 0)};
+    session.controls[2].panner = PhantomPanner{gridLayout(2, 1), PanningLaw::energy, 1, 1, 1};
+    const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, true);
+    RenderStatus status;
+    const auto reference = renderSession(session, settings, 48000, 8192, status);
+    for (const int block : {1, 64, 441}) EXPECT_EQ(renderSession(session, settings, 48000, block, status).size(), 4u);
+    for (const int block : {1, 64, 441}) EXPECT_TRUE(renderSession(session, settings, 48000, block, status) == reference) << block;
+}
+
+TEST(HapticRenderer, AMutedChannelIsSilentAndHasNoSayInTheLimiter) {
+    Session session{randomEvents(300, 0.9, 9), {}}, quiet = session;
+    for (auto& e : session.events) e.amplitude *= 20; // on channel 1 only, from 0.1 s on muted
+    for (auto& e : session.events) e.x = 1;
+    session.controls = {controlAt(0, RenderControl::Kind::mute, 1, 1)};
+    const auto settings = settingsFor(gridLayout(2, 1), PanningLaw::linear, 48000, true);
+    RenderStatus status;
+    const auto out = renderSession(session, settings, 48000, 256, status);
+    for (std::size_t n = 4800; n < 48000; ++n) ASSERT_EQ(out[1][n], 0.0f);
+    EXPECT_EQ(status.limiterGain, 1.0f);
+}
+
+TEST(HapticRenderer, ALayoutChangeMovesLaterStrikesOnly) {
+    CollisionEvent e;
+    e.frequencyHz = 200;
+    e.decayPerSecond = 2;
+    e.amplitude = 0.3;
+    Session session{{e}, {controlAt(100'000'000, RenderControl::Kind::panner)}};
+    session.controls[0].panner = PhantomPanner{gridLayout(1, 1), PanningLaw::linear, 1, 1, 1};
+    auto unchanged = session;
+    unchanged.controls.clear();
+    const auto settings = settingsFor(gridLayout(2, 1), PanningLaw::linear, 48000);
+    RenderStatus status;
+    EXPECT_TRUE(renderSession(session, settings, 48000, 256, status) == renderSession(unchanged, settings, 48000, 256, status));
+    CollisionEvent later = e;
+    later.timeNs = 200'000'000;
+    later.x = 1;
+    later.frequencyHz = 100;
+    session.events.push_back(later);
+    EXPECT_TRUE(renderSession(session, settings, 48000, 256, status)[1] == renderSession(unchanged, settings, 48000, 256, status)[1])
+        << "the one enchanter left is channel 0";
+}
+
+TEST(HapticRenderer, StopAllFadesWhatRingsAndForgetsWhatWaits) {
+    CollisionEvent e;
+    e.frequencyHz = 200;
+    e.decayPerSecond = 1;
+    e.amplitude = 0.5;
+    CollisionEvent later = e;
+    later.timeNs = 700'000'000;
+    const Session session{{e, later}, {controlAt(300'000'000, RenderControl::Kind::stopAll)}};
+    RenderStatus status;
+    const auto out = renderSession(session, settingsFor(layoutOf(1), PanningLaw::linear, 48000), 48000, 256, status)[0];
+    float jump = 0, after = 0;
+    for (std::size_t n = 14'000; n < 15'500; ++n) jump = std::max(jump, std::abs(out[n] - out[n - 1]));
+    for (std::size_t n = 15'360; n < 48'000; ++n) after = std::max(after, std::abs(out[n]));
+    EXPECT_LT(jump, 0.5 * 2 * std::numbers::pi * 200 / 48000 + 0.02);
+    EXPECT_LT(after, 1e-6f);
+    EXPECT_EQ(status.forgotten, 1u);
+    EXPECT_EQ(status.liveModes, 0);
+}
+
+TEST(HapticRenderer, TellsWhatItPlayedAndWhen) {
+    const auto events = randomEvents(100, 0.05, 10);
+    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    renderer->prepare(settingsFor(layoutOf(1), PanningLaw::linear, 48000));
+    test::ListSource source{events};
+    std::vector<float> block(4800);
+    float* at = block.data();
+    renderer->render(source, &at, 4800);
+    PlayedEvent played;
+    for (const auto& e : events) {
+        ASSERT_TRUE(renderer->played().pop(played));
+        EXPECT_EQ(played.event, e);
+        EXPECT_EQ(played.frame, FrameClock{48000}.at(e.timeNs).frame);
+        EXPECT_FALSE(played.isLate);
+    }
+    EXPECT_FALSE(renderer->played().pop(played));
 }
 
 TEST(HapticRenderer, WhatCannotBePlayedIsCountedAndSilent) {

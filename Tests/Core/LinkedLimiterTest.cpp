@@ -103,15 +103,6 @@ TEST(LinkedLimiter, NothingNonFiniteOrDenormalPasses) {
     EXPECT_GT(limited.limiter->nonFiniteSamples(), 0u);
 }
 
-TEST(LinkedLimiter, MutedChannelsAreSilentAndNeverDriveTheGain) {
-    Limited limited, alone;
-    limited.limiter->setMuted(3, true);
-    Block in = noise(rate, 0.9, 9), quiet = in;
-    for (auto& x : in[3]) x *= 1e4f;
-    std::fill(quiet[3].begin(), quiet[3].end(), 0.0f);
-    EXPECT_EQ(limited(in), alone(quiet));
-}
-
 TEST(LinkedLimiter, DisabledItOnlyDelaysByTheSameTime) {
     Limited limited{false}, enabled;
     const Block in = noise(rate, 10, 10), out = limited(in);

@@ -14,7 +14,7 @@ namespace {
 OfflineSettings settings(std::int64_t frames, int block, bool limiter, double fieldWidth = 1, double fieldHeight = 1) {
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
-    return {{48000, PhantomPanner{layout, PanningLaw::linear, 1, fieldWidth, fieldHeight}, limiter}, frames, block};
+    return {{48000, 4, PhantomPanner{layout, PanningLaw::linear, 1, fieldWidth, fieldHeight}, limiter}, frames, block};
 }
 
 std::vector<float> channelB(const std::vector<CollisionEvent>& events, const OfflineSettings& with) {

@@ -41,7 +41,7 @@ Rendered<Profile> renderEvents(const std::vector<CollisionEvent>& events, const 
     auto renderer = std::make_unique<HapticRenderer<Profile>>();
     renderer->prepare(settings);
     const int latency = renderer->latencyFrames(), total = frames + latency;
-    Channels all(static_cast<std::size_t>(settings.panner.channels()), std::vector<float>(static_cast<std::size_t>(total)));
+    Channels all(static_cast<std::size_t>(settings.channels), std::vector<float>(static_cast<std::size_t>(total)));
     ListSource source{events};
     for (int done = 0, turn = 0; done < total; ++turn) {
         const int block = std::min(blocks[static_cast<std::size_t>(turn) % blocks.size()], total - done);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What is done to each enchanter's channel on its own, before the linked limiter: gain, polarity, mute.
+#pragma once
+#include "Core/GainRamp.h"
+#include "Core/Limits.h"
+#include <array>
+
+namespace physvib {
+
+/// Per channel: out = gain * in, every change in a ramp of limits::channelRampSeconds. R only, but for prepare: M.
+template <class Profile>
+class ActuatorStage {
+public:
+    /// All gains 1, nothing muted. M, not while rendering.
+    void prepare(int sampleRateHz, int channels) noexcept {
+        channels_ = channels;
+        for (auto& ramp : ramps_) ramp.prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
+        gains_.fill(1.0f);
+        muted_.fill(false);
+    }
+
+    /// Negative gains turn the polarity.
+    void setGain(int channel, float gain) noexcept {
+        gains_[index(channel)] = gain;
+        aim(channel);
+    }
+
+    /// A muted channel is exactly silent after the ramp, and so has no say in the limiter.
+    void setMuted(int channel, bool muted) noexcept {
+        muted_[index(channel)] = muted;
+        aim(channel);
+    }
+
+    void process(float* const* io, int frames) noexcept {
+        for (int j = 0; j < channels_; ++j) ramps_[index(j)].apply(io + j, 1, frames);
+    }
+
+private:
+    static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
+    void aim(int channel) noexcept { ramps_[index(channel)].moveTo(muted_[index(channel)] ? 0.0f : gains_[index(channel)]); }
+
+    static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
+    int channels_ = 0;
+    std::array<GainRamp, width> ramps_{};
+    std::array<float, width> gains_{};
+    std::array<bool, width> muted_{};
+};
+
+} // namespace physvib

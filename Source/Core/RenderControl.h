@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Whatever else is audible travels with a time, as strikes do: layout and law, gains, mutes, stop.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Core/PhantomPanner.h"
+#include <cstdint>
+
+namespace physvib {
+
+/// One change of how events are rendered, at a session time.
+struct RenderControl {
+    enum class Kind : std::uint8_t {
+        panner,  ///< later strikes are panned by `panner`; what rings, rings out where it is
+        gain,    ///< of `channel`, to `value`
+        mute,    ///< of `channel`: value not 0
+        stopAll  ///< all modes fade out, all pending events are forgotten (and counted)
+    };
+    std::int64_t timeNs = 0;
+    Kind kind = Kind::stopAll;
+    int channel = 0;
+    float value = 0.0f;
+    PhantomPanner panner;
+};
+
+/// What was really played, and when: the way back from the renderer to log, view and board.
+struct PlayedEvent {
+    CollisionEvent event;
+    std::int64_t frame = 0; ///< the renderer's first frame of it
+    bool isLate = false;
+};
+
+} // namespace physvib
