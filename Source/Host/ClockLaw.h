@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one clock law, as numbers: what is born at world time w is played at w + L, and L is a constant.
+#pragma once
+#include "Core/FrameClock.h"
+#include "Core/Limits.h"
+#include <cstdint>
+
+namespace physvib {
+
+/// What the play-out delay L has to cover.
+struct ClockLaw {
+    int sampleRateHz = 48000;
+    int blockFrames = 512;             ///< the largest block
+    int stepsPerSecond = 100;
+    double longestGapSeconds = 0.0;    ///< between two calls of the driver that are still in time
+    int limiterFrames = 0;             ///< the renderer's own latency, part of L
+
+    /// L in frames: a block (which is rendered at its beginning) + the longest gap + two steps (the one that may not
+    /// have begun, and the one that events wait to be sorted) + the limiter.
+    std::int64_t playOutFrames() const noexcept {
+        const double seconds = longestGapSeconds + 2.0 / stepsPerSecond;
+        return blockFrames + static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999) + limiterFrames;
+    }
+    double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; }
+};
+
+/// How long a driver may be silent and still be in time, as measured: a JUCE timer of 10 ms under load waits up to
+/// 26 ms, an own thread with absolute deadlines at most a millisecond beyond its step on an ordinary kernel.
+constexpr double messageTimerGapSeconds = 0.026;
+constexpr double driverThreadGapSeconds = 0.001;
+
+} // namespace physvib
