@@ -19,6 +19,11 @@ public:
         muted_.fill(false);
     }
 
+    /// Goes on at another rate, gains and mutes as they are. M, not while rendering.
+    void changeRate(int sampleRateHz) noexcept {
+        for (int j = 0; j < channels_; ++j) ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, aimOf(j));
+    }
+
     /// Negative gains turn the polarity.
     void setGain(int channel, float gain) noexcept {
         gains_[index(channel)] = gain;
@@ -37,7 +42,8 @@ public:
 
 private:
     static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
-    void aim(int channel) noexcept { ramps_[index(channel)].moveTo(muted_[index(channel)] ? 0.0f : gains_[index(channel)]); }
+    float aimOf(int channel) const noexcept { return muted_[index(channel)] ? 0.0f : gains_[index(channel)]; }
+    void aim(int channel) noexcept { ramps_[index(channel)].moveTo(aimOf(channel)); }
 
     static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
     int channels_ = 0;

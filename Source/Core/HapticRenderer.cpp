@@ -7,17 +7,34 @@ namespace physvib {
 
 template <class P>
 void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
+    settings_ = settings;
     clock_ = FrameClock{settings.sampleRateHz};
     channels_ = settings.channels;
     panner_ = settings.panner;
     gains_.fill(0.0);
     bank_.prepare(settings.sampleRateHz, channels_);
     actuators_.prepare(settings.sampleRateHz, channels_);
-    limiter_.prepare(settings.sampleRateHz, channels_, settings.limiterEnabled);
+    prepareLimiter();
     pending_.clear();
     controls_.clear();
     position_ = 0;
     played_ = late_ = rejected_ = forgotten_ = 0;
+}
+
+template <class P>
+void HapticRenderer<P>::prepareLimiter() noexcept {
+    limiter_.prepare(settings_.sampleRateHz, channels_, settings_.limiterEnabled);
+    for (int j = 0; j < channels_; ++j) limiter_.setCeiling(j, settings_.ceilings[static_cast<std::size_t>(j)]);
+}
+
+template <class P>
+void HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
+    bank_.moveTo(position_, sampleRateHz, frame);
+    settings_.sampleRateHz = sampleRateHz;
+    clock_ = FrameClock{sampleRateHz};
+    actuators_.changeRate(sampleRateHz);
+    prepareLimiter();
+    position_ = frame;
 }
 
 template <class P>

@@ -27,6 +27,13 @@ struct RendererSettings {
     int channels = 1;         ///< outputs; those that the panner has no enchanter for stay silent
     PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
     bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
+    std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
+
+    static constexpr std::array<float, limits::maxEnchanters> fullScale() {
+        std::array<float, limits::maxEnchanters> all{};
+        all.fill(1.0f);
+        return all;
+    }
 };
 
 /// Counts since prepare, and the state after the last call.
@@ -53,6 +60,10 @@ public:
     /// Silence at frame 0. M, not while rendering.
     void prepare(const RendererSettings& settings) noexcept;
 
+    /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains stay; the
+    /// limiter starts afresh. M, not while rendering.
+    void moveTo(int sampleRateHz, std::int64_t frame) noexcept;
+
     /// Writes out[channel][0..frames), 1 to limits::maxBlockFrames. `source.pop(CollisionEvent&)` gives events until
     /// it says false; more than the pending store holds stay there, which is right if they come in time order.
     /// If it also has `pop(RenderControl&)`, controls come the same way. R, wait-free.
@@ -64,6 +75,7 @@ public:
 
     /// Frames by which the output lags the event times (the limiter's look-ahead). Any thread after prepare.
     int latencyFrames() const noexcept { return limiter_.latencyFrames(); }
+    static int latencyFramesAt(int sampleRateHz) noexcept { return LinkedLimiter<Profile>::latencyFramesAt(sampleRateHz); }
 
     /// R only.
     RenderStatus status() const noexcept;
@@ -76,6 +88,7 @@ private:
     bool actOnDue() noexcept;
     void applyDueControls() noexcept;
     void apply(const RenderControl& control) noexcept;
+    void prepareLimiter() noexcept;
     void stopAll() noexcept;
     void strike(const CollisionEvent& event) noexcept;
     int framesUntilChange(int most) const noexcept;
@@ -89,6 +102,7 @@ private:
     PendingEvents<Profile::maxPending> pending_;
     TimeOrdered<RenderControl, Profile::maxControls> controls_;
     PlayedQueue playedQueue_;
+    RendererSettings settings_;
     int channels_ = 1;
     std::int64_t position_ = 0;
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0, forgotten_ = 0;

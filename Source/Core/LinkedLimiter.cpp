@@ -11,7 +11,7 @@ template <class P>
 void LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled) noexcept {
     channels_ = channels;
     enabled_ = enabled;
-    window_ = std::clamp(static_cast<int>(sampleRateHz * limits::limiterLookAheadSeconds), 1, P::maxLookAheadFrames);
+    window_ = windowAt(sampleRateHz);
     releaseStep_ = static_cast<std::int64_t>(unit / (sampleRateHz * limits::limiterReleaseSeconds));
     ceilings_.fill(1.0f);
     delayed_ = {};
@@ -23,6 +23,11 @@ void LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled) noe
     sum_ = unit * window_;
     gain_ = 1.0f;
     nonFinite_ = 0;
+}
+
+template <class P>
+int LinkedLimiter<P>::windowAt(int sampleRateHz) noexcept {
+    return std::clamp(static_cast<int>(sampleRateHz * limits::limiterLookAheadSeconds), 1, P::maxLookAheadFrames);
 }
 
 template <class P>

@@ -30,6 +30,7 @@ public:
     void process(float* const* io, int frames) noexcept;
 
     int latencyFrames() const noexcept { return window_ - 1; }
+    static int latencyFramesAt(int sampleRateHz) noexcept { return windowAt(sampleRateHz) - 1; }
     double maxAttackPerFrame() const noexcept { return 1.0 / window_; }
     double maxReleasePerFrame() const noexcept { return static_cast<double>(releaseStep_) / unit; }
     float gain() const noexcept { return gain_; } ///< the last one applied
@@ -40,6 +41,7 @@ private:
     static constexpr auto windowMax = static_cast<std::size_t>(Profile::maxLookAheadFrames);
     static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
 
+    static int windowAt(int sampleRateHz) noexcept;
     float clean(float sample) noexcept;
     std::int64_t neededGain(float* const* io, int frame) noexcept;
     std::int64_t slidingMinimum(std::int64_t needed) noexcept;

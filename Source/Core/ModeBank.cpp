@@ -21,6 +21,38 @@ void ModeBank<P>::prepare(int sampleRateHz, int channels) noexcept {
 }
 
 template <class P>
+void ModeBank<P>::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept {
+    enterTile(fromFrame);
+    const double ratio = sampleRateHz / rate_;
+    const auto moved = [=](std::int64_t frame) { // a frame before or after `fromFrame`, as far away in time
+        return frame == Strike::never ? frame : toFrame + static_cast<std::int64_t>(static_cast<double>(frame - fromFrame) * ratio);
+    };
+    tileStart_ = toFrame - toFrame % tile;
+    rate_ = sampleRateHz;
+    for (int i = 0; i < activeCount_; ++i) {
+        const int slot = active_[static_cast<std::size_t>(i)];
+        Mode& m = mode(slot);
+        const auto sounding = unitPhasor<Real>(m.phaseIncrement * static_cast<std::uint64_t>(fromFrame)) *
+                              decayFactor<Real>(m.decayIncrement * (fromFrame - m.referenceFrame));
+        setIncrements(m);
+        const auto turn = sounding * unitPhasor<Real>(std::uint64_t{0} - m.phaseIncrement * static_cast<std::uint64_t>(toFrame)) *
+                          decayFactor<Real>(-m.decayIncrement * (toFrame - tileStart_));
+        for (int j = 0; j < channels_; ++j) {
+            auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
+            z = z * turn;
+        }
+        m.referenceFrame = tileStart_;
+        m.endFrame = moved(m.endFrame);
+        fillPowers(slot);
+        refreshTile(slot);
+    }
+    gates_.retime([=](std::int64_t closeFrame, Gate& gate) {
+        gate.onset.frame = moved(gate.onset.frame);
+        return moved(closeFrame);
+    });
+}
+
+template <class P>
 bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
     const bool isGated = strike.closeFrame != Strike::never;
     if (isGated && strike.closeFrame <= strike.onset.frame) return true; // ends between two frames: no sample of it
@@ -50,11 +82,18 @@ bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
 template <class P>
 typename ModeBank<P>::Mode ModeBank<P>::modeFor(const Strike& strike) const noexcept {
     Mode m;
-    m.phaseIncrement = static_cast<std::uint64_t>(strike.frequencyHz / rate_ * 18446744073709551616.0);
-    m.decayIncrement = static_cast<std::int64_t>(strike.decayPerSecond / rate_ * (std::numbers::log2e * octaveUnit) + 0.5);
+    m.frequencyHz = strike.frequencyHz;
+    m.decayPerSecond = strike.decayPerSecond;
+    setIncrements(m);
     m.isGated = strike.closeFrame != Strike::never;
     m.referenceFrame = tileStart_;
     return m;
+}
+
+template <class P>
+void ModeBank<P>::setIncrements(Mode& m) const noexcept {
+    m.phaseIncrement = static_cast<std::uint64_t>(m.frequencyHz / rate_ * 18446744073709551616.0);
+    m.decayIncrement = static_cast<std::int64_t>(m.decayPerSecond / rate_ * (std::numbers::log2e * octaveUnit) + 0.5);
 }
 
 template <class P>
@@ -95,11 +134,12 @@ template <class P>
 void ModeBank<P>::fade(int slot, std::int64_t frame) noexcept {
     rebase(slot);
     Mode& m = mode(slot);
-    const auto faster = static_cast<std::int64_t>(limits::stealFadePerSecond / rate_ * (std::numbers::log2e * octaveUnit));
-    m.decayIncrement += faster;
+    const std::int64_t before = m.decayIncrement;
+    m.decayPerSecond += limits::stealFadePerSecond;
+    setIncrements(m);
     m.isFading = true;
     m.endFrame = std::min(m.endFrame, frame + lifeFrames(m.decayIncrement));
-    const Real backwards = decayFactor<Real>(-faster * (frame - tileStart_)); // so that nothing changes at `frame`
+    const Real backwards = decayFactor<Real>((before - m.decayIncrement) * (frame - tileStart_)); // so that nothing changes at `frame`
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
         z = z * backwards;

@@ -36,6 +36,10 @@ public:
     /// Silence, for this rate and number of channels (1 to Profile::maxChannels). M, not while rendering.
     void prepare(int sampleRateHz, int channels) noexcept;
 
+    /// Goes on at another rate and frame: what sounded at the old `fromFrame` sounds on at the new `toFrame`, gates
+    /// close after the same time. M, not while rendering.
+    void moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept;
+
     /// Frames only go forward. `gains`: one per channel. The strike's frame is the next one to be rendered.
     /// False if too many strikes with a duration are open: then nothing has changed.
     bool strike(const Strike& strike, const double* gains) noexcept;
@@ -57,6 +61,8 @@ public:
 
 private:
     struct Mode {
+        double frequencyHz = 0.0;
+        double decayPerSecond = 0.0;
         std::uint64_t phaseIncrement = 0; // turns / 2^64 per frame
         std::int64_t decayIncrement = 0;  // octaves / 2^56 per frame
         std::int64_t referenceFrame = 0;  // amplitudes are as of this frame's decay; their phase is absolute
@@ -78,6 +84,7 @@ private:
     };
 
     Mode modeFor(const Strike& strike) const noexcept;
+    void setIncrements(Mode& mode) const noexcept;
     int find(const Mode& wanted) const noexcept;
     int create(const Mode& mode) noexcept;
     void release(int slot) noexcept;

@@ -31,6 +31,14 @@ public:
     /// Removes the first item. Only when not empty.
     void pop() noexcept { std::pop_heap(entries_.begin(), entries_.begin() + size_--, isLater); }
 
+    /// Gives every item a new time: `newTime(oldTime, item)`, which may change the item too. M, not while rendering.
+    template <class Function>
+    void retime(Function newTime) noexcept {
+        const auto end = entries_.begin() + size_;
+        for (auto e = entries_.begin(); e != end; ++e) e->time = newTime(e->time, e->item);
+        std::make_heap(entries_.begin(), end, isLater);
+    }
+
 private:
     struct Entry {
         std::int64_t time = 0;

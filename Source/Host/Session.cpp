@@ -36,7 +36,7 @@ Session::Session(const SessionSetup& setup)
 void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     const std::lock_guard lock{worldMutex_};
     renderer_->prepare({sampleRateHz, setup_.channels, setup_.panner, setup_.limiterEnabled});
-    law_ = {sampleRateHz, maxBlockFrames, setup_.stepsPerSecond, setup_.longestGapSeconds, renderer_->latencyFrames()};
+    setLaw(sampleRateHz, maxBlockFrames);
     world_ = std::make_unique<Simulation>(setup_.scene, setup_.seed, setup_.stepsPerSecond);
     made_.clear();
     handed_ = 0;
@@ -44,6 +44,20 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     sessionFrames_ = 0;
     slippedNs_ = 0;
     offline_ = false;
+}
+
+void Session::setLaw(int sampleRateHz, int maxBlockFrames) {
+    law_ = {sampleRateHz, maxBlockFrames, setup_.stepsPerSecond, setup_.longestGapSeconds,
+            HapticRenderer<DesktopProfile>::latencyFramesAt(sampleRateHz)};
+}
+
+void Session::resume(int sampleRateHz, int maxBlockFrames) {
+    const std::lock_guard lock{worldMutex_};
+    const std::int64_t now = sessionNs(sessionFrames_);
+    const std::int64_t frames = FrameClock{sampleRateHz}.at(now).frame;
+    setLaw(sampleRateHz, maxBlockFrames);
+    renderer_->moveTo(sampleRateHz, std::max<std::int64_t>(0, frames - playOutFrames() + law_.limiterFrames));
+    sessionFrames_ = frames;
 }
 
 int Session::advance() {

@@ -68,6 +68,10 @@ public:
     /// Sets L; silence at session time 0. M, while nobody renders or drives.
     void prepare(int sampleRateHz, int maxBlockFrames);
 
+    /// Goes on at another rate and block size: session time and world stay, L is set anew, what rings rings on.
+    /// M, while nobody renders.
+    void resume(int sampleRateHz, int maxBlockFrames);
+
     /// L. Any thread after prepare.
     std::int64_t playOutFrames() const noexcept { return law_.playOutFrames(); }
 
@@ -93,6 +97,7 @@ private:
     using Queue = EventQueue<CollisionEvent, 8192>;
     struct LiveSource;
     struct OfflineSource;
+    void setLaw(int sampleRateHz, int maxBlockFrames);
     void stepWorld();
     void hand(const CollisionEvent& event);
     bool handOver();

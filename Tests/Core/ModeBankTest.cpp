@@ -142,6 +142,24 @@ TEST(ModeBank, RetiresAModeWhenItHasFallenBy140dBAndNotBefore) {
     EXPECT_EQ(bank.bank->liveModes(), 0);
 }
 
+TEST(ModeBank, SoundsOnAtAnotherRate) {
+    Desktop bank;
+    bank.renderTo(100);
+    bank.strike(205, 3, 1, 0.25);
+    bank.strike(90, 0, 0.5, 0, rate / 2); // half a second
+    bank.renderTo(100 + rate / 4 + 13);
+    bank.bank->moveTo(bank.frame, 96000, 7777);
+    bank.frame = 7777;
+    const auto on = bank.renderTo(7777 + 96000);
+    double worst = 0;
+    for (std::size_t n = 0; n < on.size(); ++n) {
+        const double t = 0.25 + 13.0 / rate + static_cast<double>(n) / 96000; // since the strikes
+        const double gated = n + 26 < 24000 ? 0.5 * sinusoid(90, 0, t) : 0;
+        worst = std::max(worst, std::abs(on[n] - sinusoid(205, 3, t + 0.25 / rate) - gated));
+    }
+    EXPECT_LT(worst, 1e-6);
+}
+
 TEST(ModeBank, AFullBankFadesTheQuietestModeWithoutAClick) {
     Desktop bank;
     const int modes = DesktopProfile::maxModes;

@@ -162,6 +162,28 @@ TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
     EXPECT_TRUE(played == made.events);
 }
 
+TEST(Session, AnotherRateAndBlockLoseNoEventAndNoSound) {
+    const auto s = setup(0.02);
+    Session session{s};
+    Block block;
+    std::vector<CollisionEvent> played;
+    float loudest = 0;
+    session.prepare(44100, 32);
+    for (const auto& [newRate, size] : {std::pair{44100, 32}, {96000, 2048}, {48000, 64}, {192000, 512}}) {
+        session.resume(newRate, size);
+        for (int done = 0; done < 5 * newRate; done += size) {
+            session.advance();
+            session.render(block.at.data(), size, RenderMode::realtime);
+            for (const auto& e : drain(session)) played.push_back(e);
+            for (int n = 0; n < size; ++n) loudest = std::max(loudest, std::abs(block.at[0][n]));
+        }
+    }
+    EXPECT_LE(loudest, 1.0f);
+    EXPECT_EQ(session.status().render.rejected, 0u);
+    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, played.back().timeNs + 1);
+    EXPECT_TRUE(played == made.events);
+}
+
 TEST(Session, AfterAStallTheWorldGoesOnWithoutASpiral) {
     Session session{setup(0.02)};
     session.prepare(rate, 480);
