@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 # What PhysVib needs from Debian, and how it gets there. Sourced by run.sh and test.sh.
 
-physvib_run_packages="g++ cmake ninja-build ccache juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev fonts-dejavu-core"
-physvib_test_packages="$physvib_run_packages libgtest-dev libbenchmark-dev locales"
+# Configuring covers the tests as well, so run.sh needs their libraries too.
+physvib_run_packages="g++ cmake ninja-build ccache juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev fonts-dejavu-core \
+    libgtest-dev libbenchmark-dev pkg-config libasound2-dev libjack-jackd2-dev"
+physvib_test_packages="$physvib_run_packages locales jackd2"
 
 say() { printf 'physvib: %s\n' "$*" >&2; }
 

@@ -75,6 +75,8 @@ public:
     /// L. Any thread after prepare.
     std::int64_t playOutFrames() const noexcept { return law_.playOutFrames(); }
 
+    int channels() const noexcept { return setup_.channels; }
+
     /// Steps the world up to session time; the number of steps made. D.
     int advance();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The `physvib` program: its commands, and how a wrong call is told.
 #include "CommandLine/ExitCode.h"
+#include "CommandLine/PlayCommand.h"
 #include "CommandLine/RenderCommand.h"
 #include "Physics/SceneCatalogue.h"
 #include <CLI/CLI.hpp>
@@ -16,7 +17,7 @@ int listScenes() {
 }
 
 // Commands that are promised and not built: they say so instead of being unknown words.
-constexpr const char* notYetCommands[] = {"play", "material", "calibrate", "study", "stimulus", "analyse", "devices", "board"};
+constexpr const char* notYetCommands[] = {"material", "calibrate", "study", "stimulus", "analyse", "board"};
 
 int run(int argc, char** argv) {
     CLI::App app{"PhysVib: collisions one can feel, on every enchanter you attach."};
@@ -26,6 +27,10 @@ int run(int argc, char** argv) {
     CLI::App* scenes = app.add_subcommand("scenes", "list the built-in scenes");
     CLI::App* render = app.add_subcommand("render", "render a scene or an event list to files");
     declareRenderOptions(*render, options);
+    PlayOptions playOptions;
+    CLI::App* play = app.add_subcommand("play", "play a scene live on an audio device");
+    declarePlayOptions(*play, playOptions);
+    CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
     for (const char* name : notYetCommands) app.add_subcommand(name, "not yet")->prefix_command()->group("Not yet");
     try {
         app.parse(argc, argv);
@@ -36,6 +41,8 @@ int run(int argc, char** argv) {
         return leave(exitUsage, reason + " (see physvib --help)");
     }
     if (scenes->parsed()) return listScenes();
+    if (devices->parsed()) return runDevices();
+    if (play->parsed()) return runPlay(playOptions);
     if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");
     const std::string refusal = checkRenderOptions(options);
     return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);

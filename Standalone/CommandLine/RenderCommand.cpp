@@ -17,12 +17,6 @@ namespace {
 
 constexpr std::int64_t maxWavBytes = 4'000'000'000; // a little less than a RIFF header can say
 
-Result<LayoutDescription> layoutFor(const std::string& name) {
-    EnchanterLayout preset;
-    if (layoutPreset(name, preset)) return describeLayout(name, preset);
-    return loadLayout(name);
-}
-
 // Sines above half the sample rate would come out as other sines.
 std::string tooHighFor(int rateHz, const std::vector<CollisionEvent>& events, const std::string& source) {
     const double limitHz = 0.5 * rateHz;
@@ -50,7 +44,7 @@ void warn(const RenderStatus& status, const RenderJob& job) {
 }
 
 std::string readInputs(RenderJob& job) {
-    auto layout = layoutFor(job.options.layout);
+    auto layout = layoutNamed(job.options.layout);
     if (!layout) return layout.error;
     job.layout = std::move(layout.value);
     if (job.scene) return {};

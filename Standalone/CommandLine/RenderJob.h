@@ -9,6 +9,13 @@
 
 namespace physvib {
 
+/// A preset, or the layout file at that path.
+inline Result<LayoutDescription> layoutNamed(const std::string& name) {
+    EnchanterLayout preset;
+    if (layoutPreset(name, preset)) return describeLayout(name, preset);
+    return loadLayout(name);
+}
+
 struct RenderJob {
     const RenderOptions& options;
     const Scene* scene = nullptr; ///< null: events come from a list

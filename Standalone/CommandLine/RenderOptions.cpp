@@ -42,17 +42,9 @@ std::string notYet(const char* option, const std::string& value, const char* onl
 
 } // namespace
 
-void declareRenderOptions(CLI::App& command, RenderOptions& o) {
+void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`)");
-    command.add_option("--from-events", o.fromEvents, "render this event list instead of a scene")->type_name("EVENTS.csv");
-    command.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav");
-    command.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");
-    command.add_option("--picture", o.picturePath, "world, waveforms and event marks")->type_name("FILE.png");
     command.add_option("--seconds", o.seconds, "length of the render")->check(between(0.001, 86400.0, " s"))->capture_default_str();
-    command.add_option("--rate", o.sampleRateHz, "sample rate")
-        ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
-    command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
-        ->check(between(1, limits::maxBlockFrames, " frames"))->capture_default_str();
     command.add_option("--seed", o.seed, "seed of the scene")->check(between(0u, 4294967295u, ""))->capture_default_str();
     command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")->capture_default_str();
     command.add_option("--field", o.field, "metres that x and y span (scene: its field; events: the layout's extent)")->type_name("W,H");
@@ -67,6 +59,27 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--actuator", o.actuator, "actuator model: none (others: not yet)")->capture_default_str();
 }
 
+void declareRenderOptions(CLI::App& command, RenderOptions& o) {
+    declareSceneOptions(command, o);
+    command.add_option("--from-events", o.fromEvents, "render this event list instead of a scene")->type_name("EVENTS.csv");
+    command.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav");
+    command.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");
+    command.add_option("--picture", o.picturePath, "world, waveforms and event marks")->type_name("FILE.png");
+    command.add_option("--rate", o.sampleRateHz, "sample rate")
+        ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
+    command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
+        ->check(between(1, limits::maxBlockFrames, " frames"))->capture_default_str();
+}
+
+std::string checkSceneOptions(RenderOptions& o) {
+    if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
+    if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
+    for (const auto& refusal : {notYet("--location", o.location, "contact"), notYet("--timing", o.timing, "onset"),
+                                notYet("--method", o.method, "AV-FV-DRV"), notYet("--actuator", o.actuator, "none")})
+        if (!refusal.empty()) return refusal;
+    return {};
+}
+
 std::string checkRenderOptions(RenderOptions& o) {
     if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
     if (o.wavPath.empty() && o.eventsPath.empty() && o.picturePath.empty())
@@ -74,12 +87,7 @@ std::string checkRenderOptions(RenderOptions& o) {
     const auto same = [](const std::string& a, const std::string& b) { return !a.empty() && a == b; };
     if (same(o.wavPath, o.eventsPath) || same(o.wavPath, o.picturePath) || same(o.eventsPath, o.picturePath))
         return "render: two outputs in the same file";
-    if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
-    if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
-    for (const auto& refusal : {notYet("--location", o.location, "contact"), notYet("--timing", o.timing, "onset"),
-                                notYet("--method", o.method, "AV-FV-DRV"), notYet("--actuator", o.actuator, "none")})
-        if (!refusal.empty()) return refusal;
-    return {};
+    return checkSceneOptions(o);
 }
 
 } // namespace physvib

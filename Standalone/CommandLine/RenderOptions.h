@@ -32,10 +32,16 @@ struct RenderOptions {
     PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
 };
 
-/// Declares the options on `command`, which then fills `options` while it parses.
+/// Declares what says which scene is spread how (shared with `play`); `command` fills `options` while it parses.
+void declareSceneOptions(CLI::App& command, RenderOptions& options);
+
+/// Declares all options of `render`.
 void declareRenderOptions(CLI::App& command, RenderOptions& options);
 
-/// What parsing cannot see: empty, or the usage error in one line.
+/// What parsing cannot see of the scene options: empty, or the usage error in one line.
+std::string checkSceneOptions(RenderOptions& options);
+
+/// The same of all options of `render`.
 std::string checkRenderOptions(RenderOptions& options);
 
 } // namespace physvib

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib play`: a scene felt live on an audio device, without a window; `physvib devices`: where that can be.
+#pragma once
+#include "CommandLine/RenderOptions.h"
+#include <string>
+
+namespace physvib {
+
+/// The scene options, and where to play.
+struct PlayOptions {
+    RenderOptions scene;
+    std::string device;
+    std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
+    std::string driver = "message"; ///< or "thread"
+    std::string recordPath;         ///< WAV of what was played; empty: not wanted
+    double levelDb = -12.0;         ///< master level: hands are attached, so it starts low
+    int blockFrames = 0;            ///< 0: as the device stands
+};
+
+void declarePlayOptions(CLI::App& command, PlayOptions& options);
+
+/// Plays until the time is over or the user interrupts; an exit code.
+int runPlay(PlayOptions& options);
+
+/// A line per output device; an exit code.
+int runDevices();
+
+} // namespace physvib
