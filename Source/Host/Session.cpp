@@ -10,12 +10,14 @@ namespace physvib {
 struct Session::LiveSource {
     Session& session;
     bool pop(CollisionEvent& event) noexcept { return session.queue_.pop(event); }
+    bool pop(RenderControl& control) noexcept { return session.controls_.pop(control); }
 };
 
 // Non-realtime, the world is ours: step it whenever the queue runs dry, until `endNs`.
 struct Session::OfflineSource {
     Session& session;
     std::int64_t endNs;
+    bool pop(RenderControl& control) noexcept { return session.controls_.pop(control); }
     bool pop(CollisionEvent& event) {
         while (!session.queue_.pop(event)) {
             const bool hasMore = !session.handOver() || session.world_->timeNs() < endNs;
@@ -58,6 +60,11 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     setLaw(sampleRateHz, maxBlockFrames);
     renderer_->moveTo(sampleRateHz, std::max<std::int64_t>(0, frames - playOutFrames() + law_.limiterFrames));
     sessionFrames_ = frames;
+}
+
+std::int64_t Session::post(RenderControl control) noexcept {
+    control.timeNs = sessionNs(sessionFrames_.load(std::memory_order_acquire));
+    return controls_.push(control) ? control.timeNs : -1;
 }
 
 int Session::advance() {

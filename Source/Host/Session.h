@@ -83,6 +83,11 @@ public:
     /// Writes out[channel][0..frames). R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;
 
+    /// Changes how later events are rendered: acts in the world's time at session time, so it is felt L later, and an
+    /// offline render with the same controls is the same to the bit. The time it was given; -1 if the queue is full.
+    /// M (or whoever else is the only one to call it).
+    std::int64_t post(RenderControl control) noexcept;
+
     /// What has been played, in the renderer's frames (session frame - L). One reader.
     HapticRenderer<DesktopProfile>::PlayedQueue& played() noexcept { return renderer_->played(); }
 
@@ -97,6 +102,7 @@ public:
 
 private:
     using Queue = EventQueue<CollisionEvent, 8192>;
+    using Controls = EventQueue<RenderControl, 256>;
     struct LiveSource;
     struct OfflineSource;
     void setLaw(int sampleRateHz, int maxBlockFrames);
@@ -110,6 +116,7 @@ private:
     ClockLaw law_;
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
     Queue queue_;
+    Controls controls_;
     std::atomic<std::int64_t> sessionFrames_{0};
     std::atomic<bool> offline_{false};
     std::atomic<std::int64_t> slippedNs_{0};

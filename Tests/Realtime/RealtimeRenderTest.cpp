@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A million guarded blocks of a live session while another thread edits it ten thousand times.
+#include "Host/Session.h"
+#include "Physics/SceneCatalogue.h"
+#include "Realtime/RealtimeGuard.h"
+#include "Support/ClosedForm.h"
+#include <atomic>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace physvib {
+namespace {
+
+constexpr int outputs = 8;
+
+PhantomPanner randomPanner(test::Random& random) {
+    EnchanterLayout layout{1, 1, 1 + random.below(outputs), {}};
+    for (int j = 0; j < layout.count; ++j) layout.places[static_cast<std::size_t>(j)] = {random.uniform(0, 1), random.uniform(0, 1)};
+    return {layout, static_cast<PanningLaw>(random.below(4)), 1.0, 6.4, 3.6};
+}
+
+RenderControl randomEdit(test::Random& random) {
+    RenderControl edit;
+    edit.kind = static_cast<RenderControl::Kind>(random.below(4));
+    edit.channel = random.below(outputs);
+    edit.value = static_cast<float>(random.below(3)) - 1.0f;
+    if (edit.kind == RenderControl::Kind::panner) edit.panner = randomPanner(random);
+    return edit;
+}
+
+TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
+    test::Random random{1};
+    SessionSetup setup;
+    setup.scene = *findBuiltInScene("shake-the-box");
+    setup.channels = outputs;
+    setup.panner = randomPanner(random);
+    Session session{setup};
+    session.prepare(48000, 64);
+    std::atomic<bool> stop{false};
+    std::atomic<std::uint64_t> edits{0}, played{0}, ticks{0};
+    std::thread message{[&] { // M and D
+        test::Random mine{2};
+        while (!stop) {
+            session.advance();
+            ++ticks;
+            if (edits < 10'000 && session.post(randomEdit(mine)) >= 0) ++edits;
+            for (PlayedEvent e; session.played().pop(e);) ++played;
+            std::this_thread::sleep_for(std::chrono::microseconds{50});
+        }
+    }};
+    std::vector<std::vector<float>> samples(outputs, std::vector<float>(64));
+    std::vector<float*> at;
+    for (auto& channel : samples) at.push_back(channel.data());
+    float loudest = 0;
+    test::RealtimeGuard::forget();
+    for (int block = 0; block < 1'000'000; ++block) {
+        if (block % 256 == 0) // this host is faster than time; the world must keep up
+            for (const auto before = ticks.load(); ticks < before + 2;) std::this_thread::yield();
+        const int frames = 1 + random.below(64);
+        {
+            const test::RealtimeGuard guard;
+            session.render(at.data(), frames, RenderMode::realtime);
+        }
+        for (int n = 0; n < frames; ++n) loudest = std::max(loudest, std::abs(samples[0][static_cast<std::size_t>(n)]));
+    }
+    stop = true;
+    message.join();
+    for (int i = 0; i < test::RealtimeGuard::offenceCount; ++i)
+        EXPECT_EQ(test::RealtimeGuard::count(static_cast<test::RealtimeGuard::Offence>(i)), 0u) << test::RealtimeGuard::names[static_cast<std::size_t>(i)];
+    EXPECT_GE(edits, 10'000u);
+    EXPECT_GT(played, 1000u);
+    EXPECT_LE(loudest, 1.0f);
+}
+
+} // namespace
+} // namespace physvib
