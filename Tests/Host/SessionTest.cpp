@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Session: live is the rendered file, L later, to the bit; and nothing is lost when hosts and timers misbehave.
+#include "FakeHost.h"
 #include "Host/Session.h"
 #include "Host/OfflineRender.h"
-#include "Physics/SceneCatalogue.h"
 #include "Physics/SceneRun.h"
-#include "Support/ClosedForm.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -14,72 +13,23 @@
 namespace physvib {
 namespace {
 
-constexpr int rate = 48000, channels = 4;
-using Signal = std::vector<float>; // interleaved
-
-SessionSetup setup(double longestGapSeconds, int stepsPerSecond = 100) {
-    SessionSetup s;
-    s.scene = *findBuiltInScene("shake-the-box");
-    s.stepsPerSecond = stepsPerSecond;
-    s.longestGapSeconds = longestGapSeconds;
-    EnchanterLayout layout;
-    layoutPreset("phone4", layout);
-    s.panner = PhantomPanner{layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
-    return s;
-}
-
-void append(Signal& to, const float* const* block, int frames) {
-    for (int n = 0; n < frames; ++n)
-        for (int j = 0; j < channels; ++j) to.push_back(block[j][n]);
-}
+using namespace test;
+constexpr int rate = hostRate, channels = hostChannels;
 
 /// What a render of the scene gives, L later.
-Signal rendered(const SessionSetup& s, std::int64_t delayFrames, std::int64_t frames) {
+Interleaved rendered(const SessionSetup& s, std::int64_t delayFrames, std::int64_t frames) {
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / rate);
-    Signal signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
+    Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
     renderOffline(made.events, {{rate, channels, s.panner, s.limiterEnabled}, frames - delayFrames, 256},
                   [&](const float* const* block, int n) { append(signal, block, n); return true; });
     return signal;
 }
 
-struct Block {
-    std::vector<std::vector<float>> samples{channels, std::vector<float>(8192)};
-    std::vector<float*> at;
-    Block() { for (auto& channel : samples) at.push_back(channel.data()); }
-};
-
-std::vector<CollisionEvent> drain(Session& session) {
-    std::vector<CollisionEvent> events;
-    for (PlayedEvent played; session.played().pop(played);) events.push_back(played.event);
-    return events;
-}
-
-/// A host in virtual time: blocks of random size, a driver that comes after random gaps.
-Signal live(Session& session, std::int64_t frames, int largestBlock, double largestGapSeconds, std::uint32_t seed,
-            std::vector<CollisionEvent>& played) {
-    test::Random random{seed};
-    Block block;
-    Signal signal;
-    session.prepare(rate, largestBlock);
-    for (std::int64_t done = 0, nextTick = 0; done < frames;) {
-        if (done >= nextTick) {
-            session.advance();
-            nextTick = done + random.below(static_cast<int>(largestGapSeconds * rate - largestBlock) + 1);
-        }
-        const int size = static_cast<int>(std::min<std::int64_t>(frames - done, 1 + random.below(largestBlock)));
-        session.render(block.at.data(), size, RenderMode::realtime);
-        append(signal, block.at.data(), size);
-        done += size;
-        for (const auto& e : drain(session)) played.push_back(e);
-    }
-    return signal;
-}
-
 TEST(Session, LiveIsTheRenderedFileLLaterToTheBit) {
-    const auto s = setup(0.05);
+    const auto s = shakeTheBoxSetup(0.05);
     Session session{s};
     std::vector<CollisionEvent> played;
-    const auto signal = live(session, 20 * rate, 2048, 0.05, 1, played);
+    const auto signal = playLive(session, 20 * rate, 2048, 0.05, 1, played);
     EXPECT_EQ(session.status().render.late, 0u);
     EXPECT_EQ(session.status().render.untold, 0u);
     EXPECT_GT(played.size(), 300u);
@@ -87,29 +37,29 @@ TEST(Session, LiveIsTheRenderedFileLLaterToTheBit) {
 }
 
 TEST(Session, AThousandStepsPerSecondAndSmallBlocksStayBelowSixMilliseconds) {
-    const auto s = setup(driverThreadGapSeconds, 1000);
+    const auto s = shakeTheBoxSetup(driverThreadGapSeconds, 1000);
     Session session{s};
     session.prepare(rate, 64);
     EXPECT_LE(static_cast<double>(session.playOutFrames()) / rate, 0.006);
     std::vector<CollisionEvent> played;
-    const auto signal = live(session, 5 * rate, 40, driverThreadGapSeconds, 2, played);
+    const auto signal = playLive(session, 5 * rate, 40, driverThreadGapSeconds, 2, played);
     EXPECT_EQ(session.status().render.late, 0u);
     EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 5 * rate));
 }
 
 TEST(Session, WithoutTheGapInLEventsAreLateAndCounted) {
-    Session session{setup(0.0)};
+    Session session{shakeTheBoxSetup(0.0)};
     std::vector<CollisionEvent> played;
-    live(session, 20 * rate, 64, 0.05, 3, played);
+    playLive(session, 20 * rate, 64, 0.05, 3, played);
     EXPECT_GT(session.status().render.late, 0u);
 }
 
 TEST(Session, OfflineBlocksPlayTheSameEventsAsLiveOnes) {
-    const auto s = setup(0.05);
+    const auto s = shakeTheBoxSetup(0.05);
     Session session{s};
     session.prepare(rate, 8192);
     Block block;
-    Signal signal;
+    Interleaved signal;
     for (std::int64_t done = 0; done < 20 * rate;) {
         const int size = static_cast<int>(std::min<std::int64_t>(20 * rate - done, 8192));
         session.render(block.at.data(), size, RenderMode::offline);
@@ -120,7 +70,7 @@ TEST(Session, OfflineBlocksPlayTheSameEventsAsLiveOnes) {
 }
 
 TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
-    const auto s = setup(0.05);
+    const auto s = shakeTheBoxSetup(0.05);
     Session session{s};
     session.prepare(rate, 8192);
     std::atomic<bool> stop{false};
@@ -163,7 +113,7 @@ TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
 }
 
 TEST(Session, AnotherRateAndBlockLoseNoEventAndNoSound) {
-    const auto s = setup(0.02);
+    const auto s = shakeTheBoxSetup(0.02);
     Session session{s};
     Block block;
     std::vector<CollisionEvent> played;
@@ -185,7 +135,7 @@ TEST(Session, AnotherRateAndBlockLoseNoEventAndNoSound) {
 }
 
 TEST(Session, AfterAStallTheWorldGoesOnWithoutASpiral) {
-    Session session{setup(0.02)};
+    Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, 480);
     Block block;
     for (int i = 0; i < 500; ++i) session.render(block.at.data(), 480, RenderMode::realtime); // 5 s without a driver
