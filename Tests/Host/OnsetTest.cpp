@@ -63,6 +63,7 @@ TEST(Onsets, OfOverlappingHitsLieOneConstantAfterTheirCollisions) {
     EXPECT_GE(onsets, 1000u);
     EXPECT_LE(worst, 0.02) << "frames";
     RecordProperty("worst_lateness_frames", std::to_string(worst));
+    RecordProperty("onsets", std::to_string(onsets));
 }
 
 TEST(Onsets, WithoutAPlayOutDelayTheyWouldNot) {
