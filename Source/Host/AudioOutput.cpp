@@ -93,6 +93,7 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     if (rate < limits::minSampleRateHz || rate > limits::maxSampleRateHz || block < 1) return; // stays silent
     if (rate_ == 0) session_.prepare(rate, block);
     else if (rate != rate_ || block != block_) session_.resume(rate, block);
+    if (auto* recorder = recorder_.load(std::memory_order_relaxed); recorder && recorder->sampleRateHz() != rate) recorder_ = nullptr;
     rate_ = rate;
     block_ = block;
     scratch_.assign(static_cast<std::size_t>(session_.channels()), std::vector<float>(static_cast<std::size_t>(block)));

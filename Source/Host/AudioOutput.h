@@ -66,9 +66,10 @@ public:
     void setSilent(bool silent) noexcept { silent_.store(silent, std::memory_order_relaxed); }
     void setLevel(float level) noexcept { level_.store(level, std::memory_order_relaxed); }
 
-    /// From now on `recorder` takes all that is played, until it is replaced or null. M; after a change the old one is
-    /// not touched any more once the output is closed.
+    /// From now on `recorder` takes all that is played, until the output is closed, or comes back at another rate: a
+    /// file has one rate, so it ends there. M, once.
     void record(PlayedRecorder* recorder) noexcept { recorder_.store(recorder, std::memory_order_release); }
+    bool isRecording() const noexcept { return recorder_.load(std::memory_order_relaxed) != nullptr; }
 
     /// M.
     AudioOutputStatus status();

@@ -6,7 +6,8 @@
 namespace physvib {
 
 PlayedRecorder::PlayedRecorder(const std::string& path, int channels, int sampleRateHz, double seconds)
-    : wav_{path, channels, sampleRateHz}
+    : sampleRateHz_{sampleRateHz}
+    , wav_{path, channels, sampleRateHz}
     , ring_(static_cast<std::size_t>(channels), std::vector<float>(static_cast<std::size_t>(seconds * sampleRateHz)))
     , fifo_{static_cast<int>(ring_[0].size())} {}
 

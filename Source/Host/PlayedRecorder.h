@@ -16,6 +16,8 @@ public:
     /// Room for `seconds` until drain() is called. M.
     PlayedRecorder(const std::string& path, int channels, int sampleRateHz, double seconds = 4.0);
 
+    int sampleRateHz() const noexcept { return sampleRateHz_; }
+
     /// R, wait-free. Samples that find no room are lost and counted.
     void take(const float* const* channels, int frames) noexcept;
 
@@ -28,6 +30,7 @@ public:
     std::uint64_t framesLost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
 private:
+    int sampleRateHz_;
     WavSink wav_;
     std::vector<std::vector<float>> ring_;
     juce::AbstractFifo fifo_;

@@ -112,6 +112,7 @@ std::string play(const PlayOptions& o, const RenderJob& job, const AudioOutputSe
         played = watch.played;
     }
     summarise(session, output, played);
+    if (recorder && !output.isRecording()) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
     output.close();
     if (!recorder) return {};
     if (recorder->framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recorder->framesLost() << '\n';
