@@ -3,8 +3,10 @@
 #pragma once
 #include "Files/StrictJson.h"
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,20 +20,31 @@ public:
         : value_(value)
         , path_(std::move(path)) {}
 
+    const std::string& path() const { return path_; }
+
     [[noreturn]] void fail(const std::string& message) const { throw JsonError(path_, message); }
 
     void expectObject(std::initializer_list<std::string_view> known) const {
+        expectObject();
+        expectOnly({known.begin(), known.size()});
+    }
+
+    void expectObject() const {
         if (!value_.is_object()) failType("an object");
+    }
+
+    void expectOnly(std::span<const std::string_view> known) const {
         for (const auto& item : value_.items())
             if (std::ranges::find(known, item.key()) == known.end())
                 fail("unknown field " + inQuotes(item.key()));
     }
 
-    bool has(const char* key) const { return value_.contains(key); }
+    bool has(std::string_view key) const { return value_.contains(key); }
 
-    JsonField operator[](const char* key) const {
-        if (!has(key)) fail("field \"" + std::string(key) + "\" is missing");
-        return {value_[key], path_.empty() ? key : path_ + "." + key};
+    JsonField operator[](std::string_view key) const {
+        const auto found = value_.find(key);
+        if (found == value_.end()) fail("field " + inQuotes(key) + " is missing");
+        return {*found, (path_.empty() ? path_ : path_ + ".") + std::string(key)};
     }
 
     std::size_t arraySize() const {
@@ -47,6 +60,30 @@ public:
         if (!value_.is_number()) failType("a number");
         return value_.get<double>();
     }
+
+    int wholeNumber() const {
+        const double found = number();
+        if (!(std::abs(found) <= 1.0e9) || found != std::floor(found))
+            fail("expected a whole number, found " + value_.dump());
+        return static_cast<int>(found);
+    }
+
+    bool truth() const {
+        if (!value_.is_boolean()) failType("true or false");
+        return value_.get<bool>();
+    }
+
+    /// Index of the word it is among `names`.
+    std::size_t oneOf(std::span<const std::string_view> names) const {
+        const std::string word = text();
+        const auto found = std::ranges::find(names, std::string_view(word));
+        if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+        std::string list;
+        for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + std::string(name);
+        fail("expected one of " + list + ", found " + inQuotes(word));
+    }
+
+    bool is(std::string_view word) const { return value_ == word; }
 
     double positiveNumber() const {
         const double found = number();

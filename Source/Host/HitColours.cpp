@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which colour a hit has, and what that colour is called in the legend.
 #include "Host/PictureParts.h"
+#include "Physics/SceneCast.h"
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -36,7 +37,8 @@ void HitColours::takeMaterials(const PictureInput& input) {
     const auto& materials = input.scene->materials;
     bool unknown = false;
     std::set<std::size_t> used;
-    for (const auto& body : input.scene->bodies) used.insert(static_cast<std::size_t>(body.material));
+    for (const auto& body : sceneCast(*input.scene))
+        for (const auto& fixture : body.fixtures) used.insert(static_cast<std::size_t>(fixture.material));
     for (const auto& event : input.events) {
         const auto found = std::ranges::find_if(materials, [&](const auto& m) { return sounds(m, event); });
         found == materials.end() ? void(unknown = true)

@@ -2,6 +2,7 @@
 // The panel that shows the world: field, bodies, hits as light, enchanters.
 #include "Host/PictureLight.h"
 #include "Host/PictureParts.h"
+#include "Physics/SceneCast.h"
 #include <algorithm>
 #include <cmath>
 
@@ -40,8 +41,15 @@ Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
 // What stands outside the field (walls, as a rule) shows as a frame of at most this width.
 constexpr float wallPixels = 12.0f;
 
+// A chain is a line: it is stroked, the others are filled.
 juce::Path outlineOf(const Shape& shape, const FieldMap& map) {
     juce::Path path;
+    const auto follow = [&](const std::vector<Vector>& vertices, bool closed) {
+        for (const auto& v : vertices)
+            path.isEmpty() ? path.startNewSubPath(map.length(v.x), -map.length(v.y))
+                           : path.lineTo(map.length(v.x), -map.length(v.y));
+        if (closed) path.closeSubPath();
+    };
     if (const auto* circle = std::get_if<CircleShape>(&shape)) {
         const float r = std::max(map.length(circle->radiusMetres), 1.5f);
         path.addEllipse(-r, -r, 2.0f * r, 2.0f * r);
@@ -49,38 +57,55 @@ juce::Path outlineOf(const Shape& shape, const FieldMap& map) {
         const float w = std::max(map.length(box->widthMetres), 2.0f),
                     h = std::max(map.length(box->heightMetres), 2.0f);
         path.addRectangle(-0.5f * w, -0.5f * h, w, h);
+    } else if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
+        follow(polygon->verticesMetres, true);
+    } else {
+        const auto& chain = std::get<ChainShape>(shape);
+        follow(chain.verticesMetres, chain.isLoop);
     }
     return path;
 }
 
-void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyMark& mark, const FieldMap& map) {
-    const auto where = map.at(mark.xMetres, mark.yMetres);
-    const auto move =
-        juce::AffineTransform::rotation(static_cast<float>(-mark.angleRadians)).translated(where);
-    const auto outline = outlineOf(body.shape, map);
+void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, bool isDynamic,
+                 const juce::AffineTransform& body, const FieldMap& map) {
+    const auto move = juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
+                          .translated(map.length(fixture.offsetMetres.x), -map.length(fixture.offsetMetres.y))
+                          .followedBy(body);
+    const auto outline = outlineOf(fixture.shape, map);
+    const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
     canvas.graphics.setColour(
-        palette::material(body.material).withMultipliedBrightness(body.isStatic ? 0.6f : 0.9f));
-    canvas.graphics.fillPath(outline, move);
-    if (const auto* circle = std::get_if<CircleShape>(&body.shape)) {
+        palette::material(fixture.material).withMultipliedBrightness(isDynamic ? 0.9f : 0.6f));
+    isLine ? canvas.graphics.strokePath(outline, juce::PathStrokeType(3.0f), move)
+           : canvas.graphics.fillPath(outline, move);
+    if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) {
         juce::Path spoke; // shows the rotation
         spoke.startNewSubPath(0.0f, 0.0f);
         spoke.lineTo(map.length(circle->radiusMetres), 0.0f);
         canvas.graphics.setColour(palette::well.withAlpha(0.5f));
         canvas.graphics.strokePath(spoke, juce::PathStrokeType(1.5f), move);
     }
-    if (!body.isCamera) return;
+    if (!fixture.isCamera) return;
     canvas.graphics.setColour(palette::camera);
-    canvas.graphics.strokePath(outline, juce::PathStrokeType(2.0f), move);
+    canvas.graphics.strokePath(outline, juce::PathStrokeType(isLine ? 1.0f : 2.0f), move);
+}
+
+void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyMark& mark, const FieldMap& map) {
+    const auto move = juce::AffineTransform::rotation(static_cast<float>(-mark.angleRadians))
+                          .translated(map.at(mark.xMetres, mark.yMetres));
+    for (const auto& fixture : body.fixtures)
+        drawFixture(canvas, fixture, body.type == BodyType::dynamicBody, move, map);
 }
 
 void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
     if (input.scene == nullptr) return;
     const juce::Graphics::ScopedSaveState whole(canvas.graphics);
     canvas.graphics.reduceClipRegion(map.field.expanded(wallPixels).toNearestInt());
-    for (std::size_t i = 0; i < input.scene->bodies.size(); ++i) {
-        const auto& body = input.scene->bodies[i];
-        const BodyMark start{body.position.xMetres, body.position.yMetres, body.angleRadians};
-        drawBody(canvas, body, i < input.bodies.size() ? input.bodies[i] : start, map);
+    const auto cast = sceneCast(*input.scene);
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        const auto& at = cast[i].positionMetres;
+        const BodyMark start{at.x, at.y, cast[i].angleRadians, i < input.scene->bodies.size()};
+        const BodyMark& mark = i < input.bodies.size() ? input.bodies[i] : start;
+        if (mark.isPresent) drawBody(canvas, cast[i], mark, map);
     }
 }
 
@@ -146,12 +171,10 @@ juce::String sentenceOn(const CollisionEvent& hit) {
 
 // "wall right, struck by ball 3", as far as the event and the scene know.
 juce::String whoHitWhom(const PictureInput& input, const CollisionEvent& hit) {
+    const auto cast = input.scene != nullptr ? sceneCast(*input.scene) : std::vector<BodyDescription>{};
     const auto name = [&](std::int32_t fixture) {
-        const bool known = input.scene != nullptr && fixture >= 0 &&
-                           static_cast<std::size_t>(fixture) < input.scene->bodies.size();
-        return known ? juce::String::fromUTF8(
-                           input.scene->bodies[static_cast<std::size_t>(fixture)].name.c_str())
-                     : juce::String();
+        const auto body = bodyOfFixture(cast, fixture);
+        return body < cast.size() ? juce::String::fromUTF8(cast[body].name.c_str()) : juce::String();
     };
     const auto felt = name(hit.source.fixture), by = name(hit.source.other);
     return felt.isEmpty() || by.isEmpty() ? felt : felt + ", struck by " + by;

@@ -18,6 +18,7 @@ struct BodyMark {
     double xMetres = 0.0;
     double yMetres = 0.0;
     double angleRadians = 0.0;
+    bool isPresent = true; ///< false: not drawn
 };
 
 /// What the picture shows. Every part may be empty: no scene, no bodies, no events, no sound.
@@ -27,7 +28,7 @@ struct PictureInput {
     double fieldWidthMetres = 0.0; ///< mapped on the layout's extent
     double fieldHeightMetres = 0.0;
     const Scene* scene = nullptr; ///< null: events without a world
-    std::vector<BodyMark> bodies; ///< at the strongest event, per body of the scene; missing: as it began
+    std::vector<BodyMark> bodies; ///< at the strongest event, per body of sceneCast(); missing: as it began
     std::span<const CollisionEvent> events;     ///< in any order
     EnchanterLayout layout;                     ///< channel j of the waveforms is place j
     std::vector<std::string> labels;            ///< of the enchanters; missing ones are A, B, ... or numbers

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
 // A world as data: what a simulation is built from, and what a picture of it is drawn from. No Box2D here.
 #pragma once
-#include <cstdint>
+#include "Physics/Voice.h"
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace physvib {
+
+/// Two components, along x (right) and y (up), in the unit that its field's name says.
+struct Vector {
+    double x = 0.0;
+    double y = 0.0;
+    bool operator==(const Vector&) const = default;
+};
 
 /// What a fixture is made of; frequency and decay are those of its contact sound (thesis 5.2.1, Table 5.1).
 struct Material {
@@ -14,40 +22,202 @@ struct Material {
     double densityKgPerSquareMetre = 0.0; ///< 2-D: per area
     double friction = 0.0;
     double restitution = 0.0;
-    double frequencyHz = 0.0; ///< 0: never vibrates (allowed only without a camera)
+    double frequencyHz = 0.0; ///< 0: never vibrates (allowed only where no camera needs it)
     double decayPerSecond = 0.0;
+    bool operator==(const Material&) const = default;
 };
 
-struct Point {
-    double xMetres = 0.0;
-    double yMetres = 0.0;
-};
 struct CircleShape {
     double radiusMetres = 0.0;
+    bool operator==(const CircleShape&) const = default;
 };
 struct BoxShape {
     double widthMetres = 0.0;
     double heightMetres = 0.0;
+    bool operator==(const BoxShape&) const = default;
 };
-using Shape = std::variant<CircleShape, BoxShape>;
+/// 3 to 8 corners of a convex outline, counter-clockwise.
+struct PolygonShape {
+    std::vector<Vector> verticesMetres;
+    bool operator==(const PolygonShape&) const = default;
+};
+/// A line of edges without thickness or mass, for bodies that are not dynamic. It is hit from the right of
+/// its direction only: ground that carries runs from right to left, a loop that contains runs clockwise, and
+/// one that keeps things out runs counter-clockwise.
+struct ChainShape {
+    std::vector<Vector> verticesMetres;
+    bool isLoop = false; ///< the last vertex is joined to the first
+    bool operator==(const ChainShape&) const = default;
+};
+using Shape = std::variant<CircleShape, BoxShape, PolygonShape, ChainShape>;
 
-/// One body with one fixture, centred on `position` at the start.
-struct BodyDescription {
-    std::string name;
+/// A shape of a material at its place in the body.
+struct FixtureDescription {
     Shape shape;
-    int material = 0; ///< index into Scene::materials
-    Point position;
+    Vector offsetMetres; ///< of the shape's origin (circle, box: centre) from the body's
     double angleRadians = 0.0;
-    bool isStatic = false;
-    bool isCamera = false;     ///< camera-focused: collisions of this fixture are felt (thesis 5.1.1)
-    double staticMassKg = 0.0; ///< a static body has no mass in Box2D; Eq. 5.4 needs one if it is a camera
+    int material = 0;      ///< index into Scene::materials
+    bool isCamera = false; ///< camera-focused: collisions of this fixture are felt (thesis 5.1.1)
+    Voice voice = Voice::own;
+    bool operator==(const FixtureDescription&) const = default;
 };
 
-/// From `timeSeconds` on, gravity is this vector (m/s^2): a tilt or a shake of the device.
-struct GravityInput {
+/// static: never moves; kinematic: moves as it is told, whatever it hits; dynamic: moves by forces.
+enum class BodyType { staticBody, kinematicBody, dynamicBody };
+
+/// One rigid body as it starts.
+struct BodyDescription {
+    std::string name; ///< unique in the scene
+    BodyType type = BodyType::dynamicBody;
+    std::vector<FixtureDescription> fixtures;
+    Vector positionMetres;
+    double angleRadians = 0.0;
+    Vector velocityMetresPerSecond;
+    double spinRadiansPerSecond = 0.0;
+    double linearDampingPerSecond = 0.0;
+    double angularDampingPerSecond = 0.0;
+    /// Dynamic: replaces the mass by density and area, 0 keeps that. Others: Box2D gives them none; Eq. 5.4
+    /// needs one above 0 if a fixture is a camera.
+    double massKg = 0.0;
+    bool operator==(const BodyDescription&) const = default;
+};
+
+struct Interval {
+    double lower = 0.0;
+    double upper = 0.0;
+    bool operator==(const Interval&) const = default;
+};
+
+/// A hinge. Angles are those of body B against body A since the start; a torque of 0 is no motor.
+struct RevoluteJoint {
+    Vector anchorMetres; ///< of the world, at the start
+    std::optional<Interval> limitsRadians;
+    double motorRadiansPerSecond = 0.0;
+    double maxTorqueNewtonMetres = 0.0;
+    bool operator==(const RevoluteJoint&) const = default;
+};
+/// A wheel (body B) that slides along an axis of body A on a spring, and may be driven.
+struct WheelJoint {
+    Vector anchorMetres;
+    Vector axis{0.0, 1.0}; ///< any length above 0
+    double suspensionHz = 0.0; ///< 0: stiff only by limits
+    double dampingRatio = 0.0;
+    std::optional<Interval> travelMetres;
+    double motorRadiansPerSecond = 0.0;
+    double maxTorqueNewtonMetres = 0.0;
+    bool operator==(const WheelJoint&) const = default;
+};
+/// Keeps two points as far apart as they start; a frequency makes it a spring.
+struct DistanceJoint {
+    Vector anchorAMetres;
+    Vector anchorBMetres;
+    double springHz = 0.0;
+    double dampingRatio = 0.0;
+    bool operator==(const DistanceJoint&) const = default;
+};
+/// Glues two bodies together; a frequency makes the seam springy.
+struct WeldJoint {
+    Vector anchorMetres;
+    double springHz = 0.0;
+    double dampingRatio = 0.0;
+    bool operator==(const WeldJoint&) const = default;
+};
+using Joint = std::variant<RevoluteJoint, WheelJoint, DistanceJoint, WeldJoint>;
+
+struct JointDescription {
+    std::string name; ///< unique in the scene
+    std::string bodyA;
+    std::string bodyB;
+    Joint joint;
+    bool collide = false; ///< whether the two bodies touch each other
+    bool operator==(const JointDescription&) const = default;
+};
+
+/// Gravity is this vector from now on: a tilt or a shake of the device.
+struct GravityAction {
+    Vector metresPerSecond2;
+    bool operator==(const GravityAction&) const = default;
+};
+/// Gravity is the scene's, turned counter-clockwise: the device is held so from now on.
+struct TiltAction {
+    double angleRadians = 0.0;
+    bool operator==(const TiltAction&) const = default;
+};
+/// A push or drag. A body that is not there or not dynamic does not notice.
+struct ImpulseAction {
+    std::string body;
+    Vector newtonSeconds;
+    std::optional<Vector> pointMetres; ///< on the body, from its origin; none: the centre of mass
+    bool operator==(const ImpulseAction&) const = default;
+};
+/// Gives a body, dynamic or kinematic, this velocity.
+struct VelocityAction {
+    std::string body;
+    Vector metresPerSecond;
+    double spinRadiansPerSecond = 0.0;
+    bool operator==(const VelocityAction&) const = default;
+};
+/// Puts a body into the world. Repeated, each repetition is a body of its own, "name 1", "name 2"..., `shift`
+/// farther than the one before. A body that is there already (in the script's next period) starts anew.
+struct SpawnAction {
+    BodyDescription body;
+    Vector shiftMetres;
+    bool operator==(const SpawnAction&) const = default;
+};
+struct RemoveAction {
+    std::string body;
+    bool operator==(const RemoveAction&) const = default;
+};
+/// Changes the motor of a revolute or wheel joint; no torque given: as it was.
+struct MotorAction {
+    std::string joint;
+    double radiansPerSecond = 0.0;
+    std::optional<double> maxTorqueNewtonMetres;
+    bool operator==(const MotorAction&) const = default;
+};
+
+constexpr int everyFixture = -1;
+
+/// Focuses the camera on a fixture of a body (or every one), or takes it away.
+struct CameraAction {
+    std::string body;
+    int fixture = everyFixture; ///< index in the body
+    bool isOn = true;
+    bool operator==(const CameraAction&) const = default;
+};
+/// Makes a fixture of a body (or every one) of another material: sound, friction, restitution, and the mass
+/// if it comes from the density.
+struct MaterialAction {
+    std::string body;
+    int fixture = everyFixture; ///< index in the body
+    int material = 0;
+    bool operator==(const MaterialAction&) const = default;
+};
+using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAction, SpawnAction,
+                            RemoveAction, MotorAction, CameraAction, MaterialAction>;
+
+/// What happens at `timeSeconds`, and `times` - 1 times more, `everySeconds` apart.
+struct ScriptInput {
     double timeSeconds = 0.0;
-    double xMetresPerSecond2 = 0.0;
-    double yMetresPerSecond2 = 0.0;
+    int times = 1;
+    double everySeconds = 0.0;
+    Action action;
+    bool operator==(const ScriptInput&) const = default;
+};
+
+/// A* (s/m) and m_h (kg) of Eq. 5.4; none: by Eq. 5.7, from the field's width and the bodies present.
+struct Normalisation {
+    std::optional<double> secondsPerMetre;
+    std::optional<double> handMassKg;
+    bool operator==(const Normalisation&) const = default;
+};
+
+/// A choice that a scene's file leaves open, for listings and provenance.
+struct SceneVariable {
+    std::string name;
+    std::string value; ///< the one chosen
+    std::vector<std::string> choices;
+    bool operator==(const SceneVariable&) const = default;
 };
 
 /// A reproducible world: same scene, same seed, same step rate give the same events.
@@ -56,11 +226,16 @@ struct Scene {
     std::string description; ///< one line, for `physvib scenes`
     double fieldWidthMetres = 0.0;
     double fieldHeightMetres = 0.0;
+    Vector gravityMetresPerSecond2; ///< until the script says otherwise
     double driveGain = 1.0; ///< on top of Eq. 5.7, which leaves most hits near -40 dBFS (SPEC erratum 15)
+    Normalisation normalisation;
     std::vector<Material> materials;
-    std::vector<BodyDescription> bodies; ///< the index is the fixture id in events and CSV
-    std::vector<GravityInput> script;    ///< in time order; before the first input there is no gravity
-    double scriptPeriodSeconds = 0.0;    ///< the script repeats after this time; 0: it does not
+    std::vector<BodyDescription> bodies; ///< those it starts with; fixture numbers: see sceneCast()
+    std::vector<JointDescription> joints;
+    std::vector<ScriptInput> script;  ///< in any order; those of the same step act in this one
+    double scriptPeriodSeconds = 0.0; ///< the script repeats after this time; 0: it does not
+    std::vector<SceneVariable> variables;
+    bool operator==(const Scene&) const = default;
 };
 
 } // namespace physvib

@@ -1,108 +1,132 @@
 // SPDX-License-Identifier: MIT
-// From body descriptions to bodies, fixtures and masses.
+// Shapes, skins and masses.
 #include "Physics/SceneBodies.h"
+#include "Physics/BodyMass.h"
+#include "Physics/ShapeGeometry.h"
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <numbers>
+#include <limits>
 
 namespace physvib {
 
 namespace {
 
-b2Vec2 vector(double x, double y) {
-    return {static_cast<float>(x), static_cast<float>(y)};
-}
-
-double area(const CircleShape& c) {
-    return std::numbers::pi * c.radiusMetres * c.radiusMetres;
-}
-double area(const BoxShape& b) {
-    return b.widthMetres * b.heightMetres;
-}
-
-double inertiaPerKg(const CircleShape& c) {
-    return c.radiusMetres * c.radiusMetres / 2.0;
-}
-double inertiaPerKg(const BoxShape& b) {
-    return (b.widthMetres * b.widthMetres + b.heightMetres * b.heightMetres) / 12.0;
-}
-
-double thickness(const CircleShape& c) {
-    return 2.0 * c.radiusMetres;
-}
-double thickness(const BoxShape& b) {
-    return std::min(b.widthMetres, b.heightMetres);
-}
-
-// Box2D keeps a skin of b2_polygonRadius around polygons, and contacts begin at the skin. Taking it off the
-// sides puts the contact where the outline is described; very thin boxes keep half of their thickness.
-float halfSide(double sideMetres) {
-    const double skin = std::min(static_cast<double>(b2_polygonRadius), sideMetres / 4.0);
-    return static_cast<float>(sideMetres / 2.0 - skin);
-}
-
-b2Fixture& addFixture(b2Body& body, const Shape& shape, const b2FixtureDef& material) {
-    b2CircleShape circle;
-    b2PolygonShape polygon;
-    b2FixtureDef fixture = material;
-    if (const auto* box = std::get_if<BoxShape>(&shape)) {
-        polygon.SetAsBox(halfSide(box->widthMetres), halfSide(box->heightMetres));
-        fixture.shape = &polygon;
-    } else {
-        circle.m_radius = static_cast<float>(std::get<CircleShape>(shape).radiusMetres);
-        fixture.shape = &circle;
+/// Calls `use` with the b2Shape of a fixture, at its place in the body.
+class ShapeMaker {
+public:
+    explicit ShapeMaker(const FixtureDescription& fixture)
+        : place_(box2dVector(fixture.offsetMetres), b2Rot(static_cast<float>(fixture.angleRadians))) {
+        std::visit([this](const auto& shape) { make(shape); }, fixture.shape);
     }
-    return *body.CreateFixture(&fixture);
+    const b2Shape& shape() const { return *made_; }
+
+private:
+    void make(const CircleShape& c) {
+        circle_.m_p = place_.p;
+        circle_.m_radius = static_cast<float>(c.radiusMetres);
+        made_ = &circle_;
+    }
+
+    // Box2D keeps a skin of b2_polygonRadius around polygons, and contacts begin at the skin. Taking it off
+    // the sides puts the contact where the outline is described; very thin shapes keep most of their
+    // thickness.
+    void make(const BoxShape& b) {
+        const auto halfSide = [](double side) {
+            const double skin = std::min(static_cast<double>(b2_polygonRadius), side / 4.0);
+            return static_cast<float>(side / 2.0 - skin);
+        };
+        polygon_.SetAsBox(halfSide(b.widthMetres), halfSide(b.heightMetres), place_.p, place_.q.GetAngle());
+        made_ = &polygon_;
+    }
+    void make(const PolygonShape& p) {
+        const double skin = std::min(static_cast<double>(b2_polygonRadius), thicknessMetres(p) / 8.0);
+        const auto points = placed(inset(p.verticesMetres, skin));
+        polygon_.Set(points.data(), static_cast<int32>(points.size()));
+        made_ = &polygon_;
+    }
+
+    void make(const ChainShape& c) {
+        const auto points = placed(c.verticesMetres);
+        const auto count = static_cast<int32>(points.size());
+        if (c.isLoop)
+            chain_.CreateLoop(points.data(), count);
+        else // the neighbours beyond the ends continue them straight on
+            chain_.CreateChain(points.data(), count, 2.0F * points[0] - points[1],
+                               2.0F * points.back() - points[points.size() - 2]);
+        chain_.m_radius = 0.0F; // no skin
+        made_ = &chain_;
+    }
+
+    std::vector<b2Vec2> placed(const std::vector<Vector>& vertices) const {
+        std::vector<b2Vec2> points;
+        for (const Vector& vertex : vertices) points.push_back(b2Mul(place_, box2dVector(vertex)));
+        return points;
+    }
+
+    b2Transform place_;
+    b2CircleShape circle_;
+    b2PolygonShape polygon_;
+    b2ChainShape chain_;
+    const b2Shape* made_ = nullptr;
+};
+
+double thinnestMetres(const BodyDescription& body) {
+    double thinnest = std::numeric_limits<double>::infinity();
+    for (const FixtureDescription& fixture : body.fixtures)
+        thinnest = std::min(thinnest, thicknessMetres(fixture.shape));
+    return thinnest;
 }
 
-b2BodyDef bodyDef(const BodyDescription& body, const StartJitter& jitter) {
-    b2BodyDef def;
-    def.type = body.isStatic ? b2_staticBody : b2_dynamicBody;
-    def.position = vector(body.position.xMetres + jitter.xMetres, body.position.yMetres + jitter.yMetres);
-    def.angle = static_cast<float>(body.angleRadians + jitter.angleRadians);
-    def.linearVelocity = vector(jitter.xMetresPerSecond, jitter.yMetresPerSecond);
-    return def;
+b2BodyType typeOf(BodyType type) {
+    constexpr std::array types{b2_staticBody, b2_kinematicBody, b2_dynamicBody};
+    return types[static_cast<std::size_t>(type)];
 }
 
 } // namespace
 
-double massKg(const BodyDescription& body, const Scene& scene) noexcept {
-    if (body.isStatic) return body.staticMassKg;
-    const auto& material = scene.materials[static_cast<std::size_t>(body.material)];
-    return material.densityKgPerSquareMetre * std::visit([](const auto& s) { return area(s); }, body.shape);
-}
-
-StartJitter drawJitter(std::mt19937& random) noexcept {
-    constexpr double reach = 1.0e-3;
-    const auto draw = [&random] { return (static_cast<double>(random()) * 0x1p-31 - 1.0) * reach; };
-    StartJitter jitter;
-    jitter.xMetres = draw();
-    jitter.yMetres = draw();
-    jitter.angleRadians = draw();
-    jitter.xMetresPerSecond = draw();
-    jitter.yMetresPerSecond = draw();
-    return jitter;
-}
-
-b2Fixture& createBody(b2World& world, const Scene& scene, const BodyDescription& body,
-                      const StartJitter& jitter, double stepSeconds) {
-    const Material& material = scene.materials[static_cast<std::size_t>(body.material)];
-    b2BodyDef def = bodyDef(body, jitter);
+b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& body, const BodyStart& start,
+                   double stepSeconds, std::vector<b2Fixture*>& fixtures) {
+    b2BodyDef def;
+    def.type = typeOf(body.type);
+    def.position = box2dVector(start.positionMetres);
+    def.angle = static_cast<float>(start.angleRadians);
+    def.linearVelocity = box2dVector(start.velocityMetresPerSecond);
+    def.angularVelocity = static_cast<float>(body.spinRadiansPerSecond);
+    def.linearDamping = static_cast<float>(body.linearDampingPerSecond);
+    def.angularDamping = static_cast<float>(body.angularDampingPerSecond);
     const double maxSpeed = 2.0 * scene.fieldWidthMetres; // per second, as in Eq. 5.7
-    def.bullet = std::visit([](const auto& s) { return thickness(s); }, body.shape) < maxSpeed * stepSeconds;
+    def.bullet = thinnestMetres(body) < maxSpeed * stepSeconds;
     b2Body& created = *world.CreateBody(&def);
-
-    b2FixtureDef fixture;
-    fixture.friction = static_cast<float>(material.friction);
-    fixture.restitution = static_cast<float>(material.restitution);
-    b2Fixture& result = addFixture(created, body.shape, fixture);
-    if (!body.isStatic) {
-        const double mass = massKg(body, scene);
-        const double perKg = std::visit([](const auto& s) { return inertiaPerKg(s); }, body.shape);
-        const b2MassData data{static_cast<float>(mass), {0.0F, 0.0F}, static_cast<float>(mass * perKg)};
-        created.SetMassData(&data);
+    for (const FixtureDescription& fixture : body.fixtures) {
+        fixtures.push_back(created.CreateFixture(&ShapeMaker(fixture).shape(), 0.0F));
+        setSurface(*fixtures.back(), scene.materials[static_cast<std::size_t>(fixture.material)]);
     }
-    return result;
+    setMass(created, body, scene);
+    return created;
+}
+
+void restartBody(b2Body& created, const BodyDescription& body, const BodyStart& start) {
+    created.SetEnabled(false); // its contacts end
+    created.SetTransform(box2dVector(start.positionMetres), static_cast<float>(start.angleRadians));
+    created.SetLinearVelocity(box2dVector(start.velocityMetresPerSecond));
+    created.SetAngularVelocity(static_cast<float>(body.spinRadiansPerSecond));
+    created.SetEnabled(true);
+    created.SetAwake(true);
+}
+
+void setMass(b2Body& created, const BodyDescription& body, const Scene& scene) {
+    if (body.type != BodyType::dynamicBody) return;
+    const BodyMoments moments = bodyMoments(body, scene);
+    const Vector& c = moments.centreMetres;
+    const double aboutOrigin = moments.inertiaKgSquareMetres + moments.massKg * (c.x * c.x + c.y * c.y);
+    const b2MassData data{static_cast<float>(moments.massKg), box2dVector(c), static_cast<float>(aboutOrigin)};
+    created.SetMassData(&data);
+}
+
+void setSurface(b2Fixture& fixture, const Material& material) {
+    fixture.SetFriction(static_cast<float>(material.friction));
+    fixture.SetRestitution(static_cast<float>(material.restitution));
 }
 
 } // namespace physvib

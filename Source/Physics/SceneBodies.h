@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: MIT
-// Builds the Box2D bodies of a scene.
+// From the descriptions of a scene to Box2D's bodies, fixtures and joints.
 #pragma once
 #include "Physics/Scene.h"
+#include "Physics/BodyStart.h"
 #include <box2d/box2d.h>
-#include <random>
+#include <vector>
 
 namespace physvib {
 
-/// Mass of a body from the printed density and its area (SPEC erratum 10), kg. Any thread.
-double massKg(const BodyDescription& body, const Scene& scene) noexcept;
+inline b2Vec2 box2dVector(const Vector& v) noexcept {
+    return {static_cast<float>(v.x), static_cast<float>(v.y)};
+}
 
-/// A small seeded departure from the described start; the draws of a body depend on its place in the scene
-/// only.
-struct StartJitter {
-    double xMetres = 0.0, yMetres = 0.0;
-    double angleRadians = 0.0;
-    double xMetresPerSecond = 0.0, yMetresPerSecond = 0.0;
-};
+/// Creates a scene's body and appends its fixtures, in their order; outlines exactly as described. Bodies
+/// that cross their own thickness within a step at twice v_max (Eq. 5.7) are bullets. The scene must be
+/// valid. M only.
+b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& body, const BodyStart& start,
+                   double stepSeconds, std::vector<b2Fixture*>& fixtures);
 
-/// Five uniform draws, up to 1 mm, 1 mrad and 1 mm/s each way: a fall from 1 m shifts by at most 0.33 ms,
-/// while a box full of bodies is another one after some hits.
-StartJitter drawJitter(std::mt19937& random) noexcept;
+/// Puts a body, wherever it is, where it starts; enables it. M only.
+void restartBody(b2Body& created, const BodyDescription& body, const BodyStart& start);
 
-/// Creates a scene's body with its one fixture, outlines exactly as described. Bodies that cross their own
-/// thickness within a step at twice v_max (Eq. 5.7) are bullets. The scene must be valid. M only.
-b2Fixture& createBody(b2World& world, const Scene& scene, const BodyDescription& body,
-                      const StartJitter& jitter, double stepSeconds);
+/// Gives a dynamic body the mass that its description says; others have none. M only.
+void setMass(b2Body& created, const BodyDescription& body, const Scene& scene);
+
+/// Friction and restitution. M only.
+void setSurface(b2Fixture& fixture, const Material& material);
+
+/// Creates a joint between two bodies where they are now. M only.
+b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB);
 
 } // namespace physvib

@@ -4,33 +4,25 @@
 #include "Core/CollisionEvent.h"
 #include "Physics/CollisionCatcher.h"
 #include "Physics/EventSorter.h"
-#include "Physics/GravityScript.h"
 #include "Physics/ImpactModel.h"
 #include "Physics/Scene.h"
+#include "Physics/SceneWorld.h"
 #include "Physics/StepClock.h"
-#include <box2d/box2d.h>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace physvib {
 
-/// Where a body is, in metres of the field.
-struct BodyPose {
-    double xMetres = 0.0;
-    double yMetres = 0.0;
-    double angleRadians = 0.0;
-};
-
 /// One world, stepped by its owner. Time is a step count; same scene, seed and step rate give the same
 /// events. One thread at a time (M unless a driver owns it). After the first contacts have warmed Box2D's
-/// pools up, step() allocates only where `finished` must grow.
+/// pools up, step() allocates only where `finished` must grow and where the script changes sounds or cameras.
 class Simulation {
 public:
     static constexpr int minStepsPerSecond = 10;     // slower, bodies pass through each other
     static constexpr int maxStepsPerSecond = 10'000; // finer than any tactile onset
 
-    /// Seed 0 starts exactly as described; any other seed moves the start a little (see drawJitter).
+    /// Seed 0 starts exactly as described; any other seed moves the start a little (see jitteredStart).
     /// Throws std::invalid_argument, with validate()'s sentence, if the scene or the step rate is out of
     /// range.
     Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond);
@@ -47,9 +39,9 @@ public:
     /// up to one step after it was made.
     std::int64_t settledNs() const noexcept { return clock_.timeNs(stepsDone_ > 0 ? stepsDone_ - 1 : 0); }
 
-    /// Pose of body `index` (< bodyCount()) of the scene, at timeNs().
-    BodyPose pose(std::size_t index) const noexcept;
-    std::size_t bodyCount() const noexcept { return bodies_.size(); }
+    /// Pose of body `index` (< bodyCount()) of sceneCast(), at timeNs().
+    BodyPose pose(std::size_t index) const noexcept { return world_.pose(index); }
+    std::size_t bodyCount() const noexcept { return world_.bodyCount(); }
 
     /// Collisions lost so far because more began in one step than there is room for.
     std::uint64_t drops() const noexcept { return catcher_.drops() + held_.drops(); }
@@ -58,17 +50,15 @@ public:
     const ImpactModel& impactModel() const noexcept { return model_; }
 
 private:
-    void build(const Scene& scene, std::uint32_t seed);
-    void applyGravity();
+    void takeFixtures(); // their sounds and cameras as they are now
+    void takeMasses();   // of the bodies present, into Eq. 5.4
 
     StepClock clock_;
     std::int64_t stepsDone_ = 0;
-    GravityScript script_;
+    SceneWorld world_;
     ImpactModel model_;
     CollisionCatcher catcher_;
     EventSorter held_;
-    b2World world_;
-    std::vector<b2Body*> bodies_; // owned by the world
 };
 
 } // namespace physvib

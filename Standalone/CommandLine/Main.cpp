@@ -3,7 +3,7 @@
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/PlayCommand.h"
 #include "CommandLine/RenderCommand.h"
-#include "Physics/SceneCatalogue.h"
+#include "Files/SceneCatalogue.h"
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -12,7 +12,14 @@ namespace physvib {
 namespace {
 
 int listScenes() {
-    for (const Scene& scene : builtInScenes()) std::cout << scene.name << "  " << scene.description << '\n';
+    for (const Scene& scene : builtInScenes()) {
+        std::cout << scene.name << "  " << scene.description;
+        for (const SceneVariable& variable : scene.variables) {
+            std::cout << "  --set " << variable.name << '=';
+            for (const std::string& choice : variable.choices) std::cout << (&choice == &variable.choices.front() ? "" : "|") << choice;
+        }
+        std::cout << '\n';
+    }
     return exitDone;
 }
 

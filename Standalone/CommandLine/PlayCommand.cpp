@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Session, driver, device and recorder for the length of a call.
 #include "CommandLine/PlayCommand.h"
-#include "CommandLine/ExitCode.h"
 #include "CommandLine/RenderJob.h"
 #include "Files/AtomicFile.h"
 #include "Host/AudioOutput.h"
 #include "Host/PlayedRecorder.h"
 #include "Host/SimulationDriver.h"
-#include "Physics/SceneCatalogue.h"
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <csignal>
@@ -134,8 +132,8 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
 
 int runPlay(PlayOptions& o) {
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
-    RenderJob job{o.scene, findBuiltInScene(o.scene.scene), {}, {}};
-    if (!job.scene) return leave(exitUsage, "play: no scene \"" + o.scene.scene + "\" (see physvib scenes)");
+    RenderJob job{o.scene, {}, {}, {}};
+    if (const int code = takeScene(job); code != exitDone) return code;
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");
     auto layout = layoutNamed(o.scene.layout);
     if (!layout) return leave(exitFailed, layout.error);

@@ -2,11 +2,9 @@
 // The way of a render: inputs are read and checked, outputs opened, events made or taken, samples rendered, and only
 // when everything is written do the files take their places.
 #include "CommandLine/RenderCommand.h"
-#include "CommandLine/ExitCode.h"
 #include "CommandLine/RenderJob.h"
 #include "CommandLine/RenderOutputs.h"
 #include "Host/OfflineRender.h"
-#include "Physics/SceneCatalogue.h"
 #include <algorithm>
 #include <iostream>
 #include <sstream>
@@ -78,11 +76,9 @@ std::string render(RenderJob& job) {
 } // namespace
 
 int runRender(const RenderOptions& options) {
-    RenderJob job{options, nullptr, {}, {}};
-    if (!options.scene.empty()) {
-        job.scene = findBuiltInScene(options.scene);
-        if (!job.scene) return leave(exitUsage, "render: no scene \"" + options.scene + "\" (see physvib scenes)");
-    }
+    RenderJob job{options, {}, {}, {}};
+    if (!options.scene.empty())
+        if (const int code = takeScene(job); code != exitDone) return code;
     if (const std::string error = readInputs(job); !error.empty()) return leave(exitFailed, error);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One render from its inputs to its events: what the renderer and the outputs need to know.
 #pragma once
+#include "CommandLine/ExitCode.h"
 #include "CommandLine/RenderOptions.h"
 #include "Files/LayoutFile.h"
+#include "Files/SceneCatalogue.h"
 #include "Physics/SceneRun.h"
+#include "Physics/SceneValidation.h"
 #include <cmath>
 #include <cstdint>
+#include <iostream>
+#include <optional>
 
 namespace physvib {
 
@@ -18,7 +23,7 @@ inline Result<LayoutDescription> layoutNamed(const std::string& name) {
 
 struct RenderJob {
     const RenderOptions& options;
-    const Scene* scene = nullptr; ///< null: events come from a list
+    std::optional<Scene> scene; ///< none: events come from a list
     LayoutDescription layout;
     SceneEvents made;
 
@@ -35,5 +40,17 @@ struct RenderJob {
         return scene ? scene->fieldHeightMetres : layout.geometry.extentHeightMetres;
     }
 };
+
+/// Takes the scene that the options name into `job`, with warnings on what it simulates badly: exitDone, or
+/// the code to leave with after a line on stderr.
+inline int takeScene(RenderJob& job) {
+    const std::string& name = job.options.scene;
+    auto scene = findScene(name, job.options.settings);
+    if (!scene) return leave(isScenePath(name) ? exitFailed : exitUsage, scene.error);
+    job.scene = std::move(scene.value);
+    for (const std::string& warning : sceneWarnings(*job.scene))
+        std::cerr << "physvib: warning: " << name << ": " << warning << '\n';
+    return exitDone;
+}
 
 } // namespace physvib

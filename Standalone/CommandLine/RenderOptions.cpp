@@ -34,6 +34,15 @@ bool parseField(RenderOptions& o) {
     return parseMetres(text.substr(0, comma), o.fieldWidthMetres) && parseMetres(text.substr(comma + 1), o.fieldHeightMetres);
 }
 
+bool parseSettings(RenderOptions& o) {
+    for (const std::string& text : o.sets) {
+        const auto equals = text.find('=');
+        if (equals == 0 || equals == std::string::npos) return false;
+        o.settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    return true;
+}
+
 // Options that are promised and not built: only their default is accepted.
 std::string notYet(const char* option, const std::string& value, const char* only) {
     if (value == only) return {};
@@ -43,7 +52,8 @@ std::string notYet(const char* option, const std::string& value, const char* onl
 } // namespace
 
 void declareSceneOptions(CLI::App& command, RenderOptions& o) {
-    command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`)");
+    command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`) or SCENE.json");
+    command.add_option("--set", o.sets, "a variable of the scene; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
     command.add_option("--seconds", o.seconds, "length of the render")->check(between(0.001, 86400.0, " s"))->capture_default_str();
     command.add_option("--seed", o.seed, "seed of the scene")->check(between(0u, 4294967295u, ""))->capture_default_str();
     command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")->capture_default_str();
@@ -72,6 +82,7 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
 }
 
 std::string checkSceneOptions(RenderOptions& o) {
+    if (!parseSettings(o)) return "--set: expected NAME=VALUE";
     if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
     if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
     for (const auto& refusal : {notYet("--location", o.location, "contact"), notYet("--timing", o.timing, "onset"),
@@ -82,6 +93,7 @@ std::string checkSceneOptions(RenderOptions& o) {
 
 std::string checkRenderOptions(RenderOptions& o) {
     if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
+    if (!o.sets.empty() && o.scene.empty()) return "--set: only a scene has variables";
     if (o.wavPath.empty() && o.eventsPath.empty() && o.picturePath.empty())
         return "render: nothing to write; give --out, --events or --picture";
     const auto same = [](const std::string& a, const std::string& b) { return !a.empty() && a == b; };

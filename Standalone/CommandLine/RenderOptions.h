@@ -2,8 +2,10 @@
 // The options of `physvib render`, from words to checked values.
 #pragma once
 #include "Core/PhantomPanner.h"
+#include "Files/SceneFile.h"
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -13,7 +15,8 @@ namespace physvib {
 
 /// As given on the command line; the defaults are those that --help shows.
 struct RenderOptions {
-    std::string scene;      ///< a built-in scene's name; empty with fromEvents
+    std::string scene;      ///< a built-in scene's name or the path of a scene file; empty with fromEvents
+    std::vector<std::string> sets; ///< "NAME=VALUE" of the scene's variables
     std::string fromEvents; ///< path of an event list
     std::string wavPath, eventsPath, picturePath; ///< empty: not wanted
     double seconds = 10.0;
@@ -28,6 +31,7 @@ struct RenderOptions {
     std::string limiter = "on";
     std::string location = "contact", timing = "onset", method = "AV-FV-DRV", actuator = "none";
 
+    SceneSettings settings; ///< from `sets` by checkRenderOptions
     double fieldWidthMetres = 0.0, fieldHeightMetres = 0.0; ///< from `field` by checkRenderOptions; 0: not given
     PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
 };

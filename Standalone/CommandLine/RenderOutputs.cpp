@@ -61,7 +61,9 @@ std::string RenderOutputs::finish() {
 Provenance RenderOutputs::provenance() const {
     const RenderOptions& o = job_.options;
     if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
-    return {PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(o.seed)}, {"steps_per_second", std::to_string(o.stepsPerSecond)}}};
+    Provenance p{PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(o.seed)}, {"steps_per_second", std::to_string(o.stepsPerSecond)}}};
+    for (const SceneVariable& variable : job_.scene->variables) p.entries.emplace_back(variable.name, variable.value);
+    return p;
 }
 
 std::string RenderOutputs::provenanceText() const {
@@ -78,10 +80,10 @@ std::string RenderOutputs::writePictureFile() {
     picture.subtitle = job_.scene ? job_.scene->description : "an event list";
     picture.fieldWidthMetres = job_.fieldWidthMetres();
     picture.fieldHeightMetres = job_.fieldHeightMetres();
-    picture.scene = job_.scene;
+    picture.scene = job_.scene ? &*job_.scene : nullptr;
     if (const auto strongest = strongestEvent(events); job_.scene && strongest >= 0)
         for (const BodyPose& pose : posesAt(*job_.scene, job_.run(), events[static_cast<std::size_t>(strongest)].timeNs))
-            picture.bodies.push_back({pose.xMetres, pose.yMetres, pose.angleRadians});
+            picture.bodies.push_back({pose.xMetres, pose.yMetres, pose.angleRadians, pose.isPresent});
     picture.events = events;
     picture.layout = job_.layout.geometry;
     for (const auto& enchanter : job_.layout.enchanters) picture.labels.push_back(enchanter.label);

@@ -2,7 +2,7 @@
 // A minute of "shake the box" from scene to WAV file, and its parts; the counter `times_real_time` is the figure.
 #include "Host/OfflineRender.h"
 #include "Host/WavSink.h"
-#include "Physics/SceneCatalogue.h"
+#include "Files/SceneCatalogue.h"
 #include "Physics/SceneRun.h"
 #include <benchmark/benchmark.h>
 #include <filesystem>

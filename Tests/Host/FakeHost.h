@@ -2,7 +2,7 @@
 // A host in virtual time: blocks of random size, and a driver that comes after random gaps.
 #pragma once
 #include "Host/Session.h"
-#include "Physics/SceneCatalogue.h"
+#include "Files/SceneCatalogue.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
 #include <vector>

@@ -16,7 +16,7 @@ CollisionEvent sounding(double frequencyHz, double decayPerSecond = 20.0) {
 Scene twoMaterials() {
     Scene scene;
     scene.materials = {{"steel", 1.0, 0.0, 0.0, 430.0, 12.0}, {"rubber", 1.0, 0.0, 0.0, 80.0, 34.0}};
-    scene.bodies = {{"floor", BoxShape{1.0, 1.0}, 0, {}}};
+    scene.bodies = {{"floor", BodyType::staticBody, {{BoxShape{1.0, 1.0}}}}};
     return scene;
 }
 

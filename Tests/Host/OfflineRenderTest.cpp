@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // OfflineRender: frame n is time n/rate, pieces do not matter, and the shipped scene has its level.
 #include "Host/OfflineRender.h"
-#include "Physics/SceneCatalogue.h"
+#include "Files/SceneCatalogue.h"
 #include "Physics/SceneRun.h"
 #include <algorithm>
 #include <cmath>

@@ -29,8 +29,9 @@ struct Render {
         , zoom(zoomOf(channels, events)) {
         scene.materials = {{"steel", 7800.0, 0.2, 0.5, 430.0, 11.97},
                            {"rubber", 1100.0, 0.6, 0.5, 80.0, 34.13}};
-        scene.bodies = {{"floor", BoxShape{4.0, 0.1}, 0, {2.0, 0.05}, 0.0, true, true, 100.0},
-                        {"ball", CircleShape{0.3}, 1, {1.0, 1.0}}};
+        scene.bodies = {
+            {"floor", BodyType::staticBody, {{BoxShape{4.0, 0.1}, {}, 0.0, 0, true}}, {2.0, 0.05}},
+            {"ball", BodyType::dynamicBody, {{CircleShape{0.3}, {}, 0.0, 1}}, {1.0, 1.0}}};
         fillLayout(channels);
         addSound(channels);
         input.title = "A render";

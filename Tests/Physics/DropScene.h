@@ -5,6 +5,7 @@
 #include "Physics/Simulation.h"
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace physvib {
@@ -24,16 +25,30 @@ inline Scene dropScene(double heightMetres) {
     scene.fieldHeightMetres = 4.0;
     scene.driveGain = 3.0;
     scene.materials = {{"concrete", 1000.0, 0.5, 0.5, 80.0, 34.13}, {"rubber", 120.0, 0.5, 0.688, 205.0, 40.0}};
+    scene.gravityMetresPerSecond2 = {0.0, -dropGravity};
     scene.bodies.resize(2);
-    scene.bodies[plateIndex].shape = BoxShape{2.9, 0.3};
-    scene.bodies[plateIndex].position = {2.0, 0.15};
-    scene.bodies[plateIndex].isStatic = true;
-    scene.bodies[plateIndex].isCamera = true;
-    scene.bodies[plateIndex].staticMassKg = plateMass;
-    scene.bodies[ballIndex].shape = CircleShape{dropRadius};
-    scene.bodies[ballIndex].material = 1;
-    scene.bodies[ballIndex].position = {1.7, 0.3 + heightMetres + dropRadius};
-    scene.script = {{0.0, 0.0, -dropGravity}};
+    scene.bodies[plateIndex] = {"plate", BodyType::staticBody, {{BoxShape{2.9, 0.3}, {}, 0.0, 0, true}}, {2.0, 0.15}};
+    scene.bodies[plateIndex].massKg = plateMass;
+    scene.bodies[ballIndex] = {"ball", BodyType::dynamicBody, {{CircleShape{dropRadius}, {}, 0.0, 1}}, {1.7, 0.3 + heightMetres + dropRadius}};
+    return scene;
+}
+
+/// Ten balls in a closed box of 4 x 4 m whose gravity turns over every half second: no step is like another.
+inline Scene shakenScene() {
+    Scene scene = dropScene(1.0);
+    scene.bodies.clear();
+    const auto wall = [&](const char* name, Vector centre, BoxShape box) {
+        scene.bodies.push_back({name, BodyType::staticBody, {{box, {}, 0.0, 0, true}}, centre});
+        scene.bodies.back().massKg = plateMass;
+    };
+    wall("floor", {2.0, -0.25}, {5.0, 0.5});
+    wall("ceiling", {2.0, 4.25}, {5.0, 0.5});
+    wall("left", {-0.25, 2.0}, {0.5, 4.0});
+    wall("right", {4.25, 2.0}, {0.5, 4.0});
+    for (int i = 0; i < 10; ++i)
+        scene.bodies.push_back({"ball " + std::to_string(i), BodyType::dynamicBody, {{CircleShape{dropRadius}, {}, 0.0, 1}}, {0.5 + 0.3 * i, 1.0 + 0.2 * i}});
+    scene.script = {{0.0, 1, 0.0, GravityAction{{3.0, -15.0}}}, {0.5, 1, 0.0, GravityAction{{-5.0, 15.0}}}};
+    scene.scriptPeriodSeconds = 1.0;
     return scene;
 }
 

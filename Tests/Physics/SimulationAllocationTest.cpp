@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Counts every `new` of this test program: stepping must not need any. (Box2D's pools use malloc.)
 #include "DropScene.h"
-#include "Physics/SceneCatalogue.h"
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <new>
@@ -26,7 +25,7 @@ namespace physvib {
 namespace {
 
 TEST(SimulationAllocation, SteppingAllocatesNothingOfOurs) {
-    Simulation simulation(builtInScenes().front(), 1, 100);
+    Simulation simulation(shakenScene(), 1, 100);
     std::vector<CollisionEvent> events;
     events.reserve(10'000);
     const long before = allocations;

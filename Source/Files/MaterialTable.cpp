@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The outer shape of a table of materials; a material's fields are those of a scene's.
+#include "Files/MaterialTable.h"
+#include "Files/Embedded.h"
+#include "Files/FileLimits.h"
+#include "Files/JsonVersion.h"
+#include "Files/ReadFile.h"
+#include "Files/JsonReader.h"
+#include "Files/JsonWriter.h"
+#include "Physics/SceneValidation.h"
+#include <stdexcept>
+
+namespace physvib {
+
+template <>
+struct FieldsOf<MaterialTable> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("name", &MaterialTable::name, anyText, Need::required);
+        v.field("source", &MaterialTable::source, anyText, Need::optional);
+        v.field("materials", &MaterialTable::materials, items(0, sceneLimits::maxMaterials), Need::required);
+    }
+};
+
+namespace {
+
+constexpr const char* versionField = "physvib_materials";
+
+MaterialTable readRoot(Json& root) {
+    checkVersion(JsonField(root, {}), versionField, materialsFormatVersion);
+    root.erase(versionField);
+    auto table = readFields<MaterialTable>(JsonField(root, {}));
+    if (const std::string fault = validateMaterials(table.materials); !fault.empty())
+        throw JsonError({}, fault);
+    return table;
+}
+
+} // namespace
+
+Result<MaterialTable> readMaterials(std::string_view text, std::string_view name) {
+    try {
+        Json root = parseStrictly(text);
+        return readRoot(root);
+    } catch (const JsonError& error) {
+        return Failure{std::string(name) + ": " + error.what()};
+    }
+}
+
+Result<MaterialTable> loadMaterials(const std::filesystem::path& path) {
+    const Result<std::string> text = readFile(path, limits::maxMaterialsFileBytes);
+    if (!text) return Failure{text.error};
+    return readMaterials(text.value, path.string());
+}
+
+std::string materialsJson(const MaterialTable& table) {
+    OrderedJson root = {{versionField, materialsFormatVersion}};
+    root.update(detail::fieldsJson(table, table.materials));
+    return jsonLines(root);
+}
+
+const MaterialTable& builtInMaterials() {
+    static const MaterialTable table = [] {
+        const EmbeddedFile& file = embeddedMaterials().front();
+        Result<MaterialTable> read = readMaterials(file.text, file.name);
+        if (!read) throw std::logic_error(read.error); // a test reads it
+        return read.value;
+    }();
+    return table;
+}
+
+} // namespace physvib

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The embedded scenes, read like any other.
+#include "Files/SceneCatalogue.h"
+#include "Files/Embedded.h"
+#include "Files/NumberText.h"
+#include <algorithm>
+#include <stdexcept>
+
+namespace physvib {
+namespace {
+
+std::vector<Scene> readAll() {
+    std::vector<Scene> scenes;
+    for (const EmbeddedFile& file : embeddedScenes()) {
+        Result<Scene> scene = readScene(file.text, file.name);
+        if (!scene) throw std::logic_error(scene.error); // a test reads them all
+        scenes.push_back(std::move(scene.value));
+    }
+    return scenes;
+}
+
+} // namespace
+
+const std::vector<Scene>& builtInScenes() {
+    static const std::vector<Scene> scenes = readAll();
+    return scenes;
+}
+
+const Scene* findBuiltInScene(std::string_view name) {
+    const auto& scenes = builtInScenes();
+    const auto found = std::ranges::find_if(scenes, [&](const Scene& s) { return s.name == name; });
+    return found == scenes.end() ? nullptr : &*found;
+}
+
+bool isScenePath(std::string_view name) noexcept {
+    return name.ends_with(".json") || name.find('/') != std::string_view::npos;
+}
+
+Result<Scene> findScene(const std::string& nameOrPath, const SceneSettings& settings) {
+    if (isScenePath(nameOrPath)) return loadScene(nameOrPath, settings);
+    for (const EmbeddedFile& file : embeddedScenes())
+        if (file.name == nameOrPath + ".json") return readScene(file.text, nameOrPath, settings);
+    return Failure{"no scene " + inQuotes(nameOrPath) + " (see physvib scenes)"};
+}
+
+} // namespace physvib

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The outer shape of a scene file; its fields are read and written after the table in SceneFields.h.
+#include "Files/SceneFile.h"
+#include "Files/FileLimits.h"
+#include "Files/JsonVersion.h"
+#include "Files/ReadFile.h"
+#include "Files/JsonReader.h"
+#include "Files/JsonVariables.h"
+#include "Files/JsonWriter.h"
+#include "Physics/SceneValidation.h"
+
+namespace physvib {
+namespace {
+
+constexpr const char* versionField = "physvib_scene";
+
+Scene readRoot(Json& root, const SceneSettings& settings) {
+    checkVersion(JsonField(root, {}), versionField, sceneFormatVersion);
+    root.erase(versionField);
+    auto variables = applyVariables(root, settings);
+    Scene scene = readFields<Scene>(JsonField(root, {}));
+    if (const std::string fault = validate(scene); !fault.empty()) throw JsonError({}, fault);
+    scene.variables = std::move(variables);
+    return scene;
+}
+
+} // namespace
+
+Result<Scene> readScene(std::string_view text, std::string_view name, const SceneSettings& settings) {
+    try {
+        if (text.size() > limits::maxSceneFileBytes)
+            throw JsonError({}, "expected at most " + std::to_string(limits::maxSceneFileBytes) +
+                                    " bytes, found more");
+        Json root = parseStrictly(text);
+        return readRoot(root, settings);
+    } catch (const JsonError& error) {
+        return Failure{std::string(name) + ": " + error.what()};
+    }
+}
+
+Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& settings) {
+    const Result<std::string> text = readFile(path, limits::maxSceneFileBytes);
+    if (!text) return Failure{text.error};
+    return readScene(text.value, path.string(), settings);
+}
+
+std::string sceneJson(const Scene& scene) {
+    OrderedJson root = {{versionField, sceneFormatVersion}};
+    root.update(detail::fieldsJson(scene, scene.materials));
+    return jsonLines(root);
+}
+
+} // namespace physvib

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Ranges of a scene: wide of anything one would build, but inside what Box2D's float arithmetic can bear.
+#pragma once
+#include <cstddef>
+
+namespace physvib::sceneLimits {
+
+constexpr double minSizeMetres = 0.01; // Box2D's own tolerance is 5 mm
+constexpr double maxSizeMetres = 100.0;
+constexpr double maxPositionMetres = 1000.0;
+constexpr double maxAngleRadians = 1000.0;
+constexpr double minDensityKgPerSquareMetre = 0.001;
+constexpr double maxDensityKgPerSquareMetre = 100'000.0;
+constexpr double maxFriction = 100.0;
+constexpr double minMassKg = 1.0e-6;
+constexpr double maxMassKg = 1.0e9;
+constexpr double maxSpeedMetresPerSecond = 1000.0; // Box2D moves nothing by more than 2 m per step anyway
+constexpr double maxSpinRadiansPerSecond = 1000.0;
+constexpr double maxDampingPerSecond = 1000.0;
+constexpr double maxAccelerationMetresPerSecond2 = 1000.0;
+constexpr double maxImpulseNewtonSeconds = 1.0e9;
+constexpr double maxTorqueNewtonMetres = 1.0e9;
+constexpr double maxSpringHz = 1000.0;
+constexpr double maxDampingRatio = 100.0;
+constexpr double minScriptPeriodSeconds = 0.01;
+constexpr double maxScriptSeconds = 86'400.0;
+constexpr double maxDriveGain = 1.0e6;
+constexpr double minNormalisation = 1.0e-6; // s/m
+constexpr double maxNormalisation = 1.0e6;
+constexpr double minWarnMetres = 0.1; // Box2D's manual: moving shapes of 0.1 to 10 m behave best
+constexpr double maxWarnMetres = 10.0;
+
+constexpr std::size_t maxMaterials = 256;
+constexpr std::size_t maxBodies = 4096; // with those that the script spawns: four times what was measured
+constexpr std::size_t maxFixturesPerBody = 64;
+constexpr std::size_t maxFixtures = 8192; // of the whole scene
+constexpr std::size_t maxPolygonVertices = 8; // b2_maxPolygonVertices
+constexpr std::size_t maxChainVertices = 1024;
+constexpr std::size_t maxChainEdges = 16'384; // of the whole scene: each has a place in Box2D's tree
+constexpr std::size_t maxJoints = 4096;
+constexpr std::size_t maxInputs = 4096;
+constexpr std::size_t maxActions = 100'000; // inputs with their repetitions
+
+} // namespace physvib::sceneLimits

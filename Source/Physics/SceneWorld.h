@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The Box2D world of a scene, and what the script's actions do to it.
+#pragma once
+#include "Physics/BodyStart.h"
+#include "Physics/Scene.h"
+#include "Physics/SceneScript.h"
+#include "Physics/StepClock.h"
+#include <box2d/box2d.h>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// Where a body is, in metres of the field.
+struct BodyPose {
+    double xMetres = 0.0;
+    double yMetres = 0.0;
+    double angleRadians = 0.0;
+    bool isPresent = true; ///< false: not spawned yet, or removed
+};
+
+/// What an action has changed apart from motion.
+struct SceneChanges {
+    bool bodies = false;   ///< some came, went, or have another mass
+    bool fixtures = false; ///< some have another material or camera
+};
+
+/// All bodies of sceneCast() exist from the start, so fixtures keep their numbers; those that are not there
+/// (yet) are disabled, which for Box2D means no contacts. Seed 0 starts them exactly as described, any other
+/// a little beside (see jitteredStart). M only.
+class SceneWorld {
+public:
+    /// The scene must be valid. Does what its script wants done in step 0.
+    SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& clock);
+    SceneWorld(const SceneWorld&) = delete;
+    SceneWorld& operator=(const SceneWorld&) = delete;
+
+    /// Does what the script wants done in `step` or before. Allocates nothing.
+    SceneChanges act(std::int64_t step);
+
+    b2World& world() noexcept { return world_; }
+    const Scene& scene() const noexcept { return scene_; }
+
+    std::size_t bodyCount() const noexcept { return bodies_.size(); }
+    BodyPose pose(std::size_t body) const noexcept;
+
+    /// m_max of Eq. 5.7: the largest mass of the bodies present, kg; of one that is not dynamic the mass it
+    /// states.
+    double largestMassKg() const noexcept;
+
+    std::size_t fixtureCount() const noexcept { return fixtures_.size(); }
+    const b2Fixture& fixture(std::size_t index) const noexcept { return *fixtures_[index].fixture; }
+
+    /// The fixture and its body as they are now: the script may have changed material and camera.
+    const FixtureDescription& fixtureNow(std::size_t index) const noexcept;
+    const BodyDescription& bodyOf(std::size_t fixture) const noexcept;
+
+private:
+    struct Part {
+        b2Fixture* fixture; // owned by the world, as bodies and joints
+        std::size_t body;
+        std::size_t index; // in the body
+    };
+    void build();
+    BodyStart startOf(const BodyDescription& body);
+    void startHalfAStepBehind(b2Body& body) const;
+    void setGravity(const b2Vec2& gravity);
+    b2Body* find(std::string_view name) const noexcept; // nullptr if it is not there now
+    /// Calls `change` with the numbers of one fixture of a body, or of all.
+    template <class Change>
+    void forFixtures(const std::string& body, int fixture, Change change);
+    void setMaterial(std::size_t fixture, int material);
+
+    SceneChanges act(const DueAction& due);
+    SceneChanges act(const GravityAction& action);
+    SceneChanges act(const TiltAction& action);
+    SceneChanges act(const ImpulseAction& action) const;
+    SceneChanges act(const VelocityAction& action) const;
+    SceneChanges act(const SpawnAction& action, int repetition);
+    SceneChanges act(const RemoveAction& action) const;
+    SceneChanges act(const MotorAction& action) const;
+    SceneChanges act(const CameraAction& action);
+    SceneChanges act(const MaterialAction& action);
+
+    const Scene scene_;
+    StepClock clock_;
+    bool jitters_;
+    std::mt19937 random_;
+    SceneScript script_;
+    b2World world_;
+    const std::vector<BodyDescription> cast_; // as described
+    std::vector<BodyDescription> now_;        // with the materials and cameras of now
+    std::vector<b2Body*> bodies_;
+    std::vector<std::size_t> firstFixtures_; // per body
+    std::vector<Part> fixtures_;
+    std::map<std::string_view, std::size_t> bodyNames_;
+    std::map<std::string_view, b2Joint*> joints_;
+    std::map<const SpawnAction*, std::size_t> spawned_; // the body of the first repetition
+};
+
+} // namespace physvib
