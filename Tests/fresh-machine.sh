@@ -23,6 +23,7 @@ done
 [ "$(id -u)" -eq 0 ] || { say "a machine within a folder needs root" && exit 1; }
 ensure_packages debootstrap git
 
+# shellcheck disable=SC2016 # apt's own variable
 bookworm_mirror() { apt-get indextargets --no-release-info --format '$(REPO_URI)' 'Release: bookworm' | head -n 1; }
 [ -n "$mirror" ] || mirror=$(bookworm_mirror)
 [ -n "$mirror" ] || { say "no mirror of Debian 12 in the apt sources of this system: give one with --mirror" && exit 1; }
@@ -38,6 +39,7 @@ machine=$(mktemp -d)
 chmod 755 "$machine" # its /, which users who are not root must be able to enter
 leave() {
     status=$?
+    rm -f "$machine.log"
     if [ -n "$keep" ]; then say "left in $machine"; else rm -rf --one-file-system -- "${machine:?}"; fi
     minutes=$((($(date +%s) - begin + 30) / 60))
     [ $status -eq 0 ] && result="succeeded" || result="FAILED"
@@ -50,7 +52,6 @@ trap 'exit 130' INT TERM
 
 say "a bare Debian 12 in $machine"
 apart debootstrap --variant=minbase bookworm "$machine" "$mirror" >"$machine.log" 2>&1 || { tail "$machine.log" && exit 1; }
-rm -f "$machine.log"
 [ -z "$(git status --porcelain)" ] || say "changes that are not committed stay out"
 git clone --quiet . "$machine/root/PhysVib"
 for command in $commands; do

@@ -20,8 +20,7 @@ inline std::string onOneLine(const OrderedJson& value) {
         const bool isNegativeZero = number == 0.0 && std::signbit(number);
         return isNegativeZero ? "-0.0" : numberText(number); // "-0" would be read as an integer
     }
-    if (!value.is_structured())
-        return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    if (!value.is_structured()) return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     std::string text = value.is_array() ? "[" : "{ ";
     for (auto item = value.begin(); item != value.end(); ++item) {
         if (item != value.begin()) text += ", ";

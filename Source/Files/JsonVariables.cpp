@@ -63,8 +63,9 @@ void choose(std::vector<Variable>& variables, const SceneSettings& settings) {
         if (variable == variables.end()) {
             std::vector<std::string> names;
             for (const Variable& v : variables) names.push_back(v.described.name);
-            throw JsonError({}, "no variable " + inQuotes(name) +
-                                    (names.empty() ? ", the scene has none" : ", expected one of " + wordsOf(names)));
+            throw JsonError(
+                {}, "no variable " + inQuotes(name) +
+                        (names.empty() ? ", the scene has none" : ", expected one of " + wordsOf(names)));
         }
         variable->described.value = value;
     }
@@ -74,8 +75,8 @@ const Choice& chosen(const Variable& variable) {
     const auto& [name, value, choices] = variable.described;
     const auto found = std::ranges::find(choices, value);
     if (found == choices.end())
-        throw JsonError({}, "variable " + inQuotes(name) + ": expected one of " + wordsOf(choices) + ", found " +
-                                inQuotes(value));
+        throw JsonError({}, "variable " + inQuotes(name) + ": expected one of " + wordsOf(choices) +
+                                ", found " + inQuotes(value));
     return variable.choices[static_cast<std::size_t>(found - choices.begin())];
 }
 

@@ -55,7 +55,8 @@ private:
 
     template <class F>
     OrderedJson valueJson(const F& value) const {
-        if constexpr (requires { OrderedJson(value); } && !requires { &FieldsOf<F>::visit; })
+        if constexpr (
+            requires { OrderedJson(value); } && !requires { &FieldsOf<F>::visit; })
             return value;
         else
             return fieldsJson(value, materials_);

@@ -3,10 +3,10 @@
 #include "Files/MaterialTable.h"
 #include "Files/Embedded.h"
 #include "Files/FileLimits.h"
-#include "Files/JsonVersion.h"
-#include "Files/ReadFile.h"
 #include "Files/JsonReader.h"
+#include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
+#include "Files/ReadFile.h"
 #include "Physics/SceneValidation.h"
 #include <stdexcept>
 

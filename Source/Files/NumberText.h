@@ -47,11 +47,11 @@ inline std::string plainNumber(double number) {
     return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed).ptr};
 }
 
-/// `text` in quotes, at most 40 characters of it, whatever a terminal might misread as \xNN. Any thread.
-inline std::string inQuotes(std::string_view text) {
+/// At most 40 characters of `text`, whatever a terminal might misread as \xNN. Any thread.
+inline std::string printable(std::string_view text) {
     constexpr std::size_t longest = 40;
     constexpr std::string_view hex = "0123456789abcdef";
-    std::string out = "\"";
+    std::string out;
     for (const char c : text.substr(0, longest)) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte >= 0x20 && byte < 0x7f)
@@ -59,7 +59,13 @@ inline std::string inQuotes(std::string_view text) {
         else
             out.append("\\x").append(1, hex[byte >> 4]).append(1, hex[byte & 15]);
     }
-    return out + (text.size() > longest ? "...\"" : "\"");
+    return text.size() > longest ? out + "..." : out;
+}
+
+/// The same in quotes. Any thread.
+inline std::string inQuotes(std::string_view text) {
+    std::string out = "\"";
+    return out.append(printable(text)).append("\"");
 }
 
 } // namespace physvib

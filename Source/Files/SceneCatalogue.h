@@ -8,8 +8,8 @@
 
 namespace physvib {
 
-/// All built-in scenes, with their variables' defaults, in the order of their listing. Built on first use; any
-/// thread.
+/// All built-in scenes, with their variables' defaults, in the order of their listing. Built on first use;
+/// any thread.
 const std::vector<Scene>& builtInScenes();
 
 /// The built-in scene of that name, with its defaults; nullptr if there is none. Any thread.

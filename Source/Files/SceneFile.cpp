@@ -2,11 +2,11 @@
 // The outer shape of a scene file; its fields are read and written after the table in SceneFields.h.
 #include "Files/SceneFile.h"
 #include "Files/FileLimits.h"
-#include "Files/JsonVersion.h"
-#include "Files/ReadFile.h"
 #include "Files/JsonReader.h"
 #include "Files/JsonVariables.h"
+#include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
+#include "Files/ReadFile.h"
 #include "Physics/SceneValidation.h"
 
 namespace physvib {

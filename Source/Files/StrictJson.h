@@ -62,7 +62,8 @@ private:
         if (open_.empty()) return {};
         Container& parent = open_.back();
         if (parent.isArray) return parent.path + "[" + std::to_string(parent.items++) + "]";
-        return parent.path.empty() ? parent.key : parent.path + "." + parent.key;
+        const std::string name = printable(parent.key);
+        return parent.path.empty() ? name : parent.path + "." + name;
     }
 
     std::vector<Container> open_;

@@ -45,9 +45,8 @@ constexpr float wallPixels = 12.0f;
 juce::Path outlineOf(const Shape& shape, const FieldMap& map) {
     juce::Path path;
     const auto follow = [&](const std::vector<Vector>& vertices, bool closed) {
-        for (const auto& v : vertices)
-            path.isEmpty() ? path.startNewSubPath(map.length(v.x), -map.length(v.y))
-                           : path.lineTo(map.length(v.x), -map.length(v.y));
+        path.startNewSubPath(map.length(vertices.front().x), -map.length(vertices.front().y));
+        for (const auto& v : vertices) path.lineTo(map.length(v.x), -map.length(v.y));
         if (closed) path.closeSubPath();
     };
     if (const auto* circle = std::get_if<CircleShape>(&shape)) {

@@ -28,10 +28,18 @@ struct Session::OfflineSource {
     }
 };
 
+namespace {
+
+std::unique_ptr<Simulation> worldOf(const SessionSetup& s) {
+    return std::make_unique<Simulation>(s.scene, s.seed, s.stepsPerSecond, s.timing, s.location);
+}
+
+} // namespace
+
 Session::Session(const SessionSetup& setup)
     : setup_{setup}
     , renderer_{std::make_unique<HapticRenderer<DesktopProfile>>()}
-    , world_{std::make_unique<Simulation>(setup.scene, setup.seed, setup.stepsPerSecond)} {
+    , world_{worldOf(setup)} {
     made_.reserve(4096);
 }
 
@@ -39,7 +47,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     const std::lock_guard lock{worldMutex_};
     renderer_->prepare({sampleRateHz, setup_.channels, setup_.panner, setup_.limiterEnabled});
     setLaw(sampleRateHz, maxBlockFrames);
-    world_ = std::make_unique<Simulation>(setup_.scene, setup_.seed, setup_.stepsPerSecond);
+    world_ = worldOf(setup_);
     made_.clear();
     handed_ = 0;
     for (CollisionEvent unplayed; queue_.pop(unplayed);) {}

@@ -43,6 +43,8 @@ struct SessionSetup {
     Scene scene;
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
+    ImpactTiming timing = ImpactTiming::onset;
+    ImpactLocation location = ImpactLocation::contact;
     int channels = 4;
     PhantomPanner panner; ///< at most `channels` enchanters
     bool limiterEnabled = true;

@@ -7,7 +7,7 @@ namespace physvib {
 
 struct BodyMoments {
     double massKg = 0.0;
-    Vector centreMetres;           ///< from the body's origin
+    Vector centreMetres;                ///< from the body's origin
     double inertiaKgSquareMetres = 0.0; ///< about the centre
 };
 

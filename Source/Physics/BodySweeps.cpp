@@ -5,36 +5,24 @@
 
 namespace physvib {
 
-void BodySweeps::add(const b2Body& body) {
-    const auto [place, isNew] = indices_.try_emplace(&body, sweeps_.size());
-    if (isNew) sweeps_.push_back({&body, body.GetWorldCenter()});
-}
-
-void BodySweeps::beginStep(double stepSeconds) noexcept {
+void BodySweeps::beginStep(const b2World& world, double stepSeconds) {
     stepSeconds_ = stepSeconds;
-    for (Sweep& sweep : sweeps_) sweep.origin = sweep.body->GetWorldCenter();
+    sweeps_.clear();
+    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+        sweeps_.push_back({body->GetWorldCenter(), motionOf(*body)});
 }
 
-void BodySweeps::solved(const b2Body& body) noexcept {
-    const auto place = indices_.find(&body);
-    if (place == indices_.end()) return;
+void BodySweeps::solved(std::int32_t index, const b2Body& body) noexcept {
     // Where the body would have started, had it moved with its present velocity all along.
     const b2Vec2 moved = static_cast<float>(stepSeconds_) * body.GetLinearVelocity();
-    sweeps_[place->second].origin = body.GetWorldCenter() - moved;
+    sweeps_[static_cast<std::size_t>(index)].origin = body.GetWorldCenter() - moved;
 }
 
-double BodySweeps::fraction(const b2Body& a, const b2Body& b) const noexcept {
-    const bool aIsFaster = a.GetLinearVelocity().LengthSquared() > b.GetLinearVelocity().LengthSquared();
-    return fractionOf(aIsFaster ? a : b);
-}
-
-double BodySweeps::fractionOf(const b2Body& body) const noexcept {
-    const auto place = indices_.find(&body);
+double BodySweeps::fraction(std::int32_t index, const b2Body& body) const noexcept {
     const b2Vec2 velocity = body.GetLinearVelocity();
     const double wholeStep = stepSeconds_ * velocity.LengthSquared();
-    if (place == indices_.end() || wholeStep <= 0.0) return 0.0;
-    const b2Vec2 moved = body.GetWorldCenter() - sweeps_[place->second].origin;
-    return std::clamp(b2Dot(moved, velocity) / wholeStep, 0.0, 1.0);
+    if (wholeStep <= 0.0) return 0.0;
+    return std::clamp(b2Dot(body.GetWorldCenter() - at(index).origin, velocity) / wholeStep, 0.0, 1.0);
 }
 
 } // namespace physvib

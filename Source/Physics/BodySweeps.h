@@ -1,41 +1,49 @@
 // SPDX-License-Identifier: MIT
-// How far into its step Box2D has advanced a body when it reports a contact; it does not say so itself.
+// How bodies start a step, and how far into it Box2D has advanced them when it reports a contact: it does not say
+// so itself.
 #pragma once
 #include <box2d/box2d.h>
 #include <cstddef>
-#include <unordered_map>
+#include <cstdint>
 #include <vector>
 
 namespace physvib {
 
-/// Within a step a body moves along a straight line: position = origin + fraction * step * velocity. Contacts
-/// of the regular pass are found at fraction 0, those of the time-of-impact pass wherever the body has been
-/// moved to. M only.
+/// Velocity of a body.
+struct BodyMotion {
+    b2Vec2 metresPerSecond{0.0F, 0.0F};
+    float radiansPerSecond = 0.0F;
+};
+inline BodyMotion motionOf(const b2Body& body) noexcept {
+    return {body.GetLinearVelocity(), body.GetAngularVelocity()};
+}
+
+/// Within a step a body moves along a straight line: position = origin + fraction * step * velocity. Contacts of
+/// the regular pass are found at fraction 0, those of the time-of-impact pass wherever the body has been moved to.
+/// Bodies are named by their place in the world's list. M only.
 class BodySweeps {
 public:
-    /// Follows `body` from the next beginStep() on; a body known already is left as it is. Allocates.
-    void add(const b2Body& body);
-
-    /// Before b2World::Step: every body is where its step begins.
-    void beginStep(double stepSeconds) noexcept;
+    /// Before b2World::Step: every body is where its step begins. Allocates if the world has grown.
+    void beginStep(const b2World& world, double stepSeconds);
 
     /// In PostSolve: the solver has put `body` at the end of its step and perhaps given it another velocity.
-    void solved(const b2Body& body) noexcept;
+    void solved(std::int32_t index, const b2Body& body) noexcept;
 
-    /// In BeginContact: 0 (start) to 1 (end of the step), after the faster body of the two. 0 for unknown
-    /// bodies.
-    double fraction(const b2Body& a, const b2Body& b) const noexcept;
+    /// In BeginContact and EndContact: 0 (start) to 1 (end of the step), how far this body has come.
+    double fraction(std::int32_t index, const b2Body& body) const noexcept;
+
+    /// Velocity before the step.
+    const BodyMotion& start(std::int32_t index) const noexcept { return at(index).start; }
 
 private:
-    double fractionOf(const b2Body& body) const noexcept;
-
     struct Sweep {
-        const b2Body* body;
         b2Vec2 origin;
+        BodyMotion start;
     };
+    const Sweep& at(std::int32_t index) const noexcept { return sweeps_[static_cast<std::size_t>(index)]; }
+
     double stepSeconds_ = 0.0;
     std::vector<Sweep> sweeps_;
-    std::unordered_map<const b2Body*, std::size_t> indices_; // looked up, never walked through
 };
 
 } // namespace physvib

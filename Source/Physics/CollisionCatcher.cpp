@@ -1,156 +1,183 @@
 // SPDX-License-Identifier: MIT
-// From contact callbacks to collision events.
+// From contact callbacks to records.
 #include "Physics/CollisionCatcher.h"
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace physvib {
 
 namespace {
 
-double movableMassKg(const b2Body& body) {
-    return body.GetType() == b2_dynamicBody ? body.GetMass() : std::numeric_limits<double>::infinity();
+std::uint64_t keyOf(const b2Contact& contact) {
+    return reinterpret_cast<std::uintptr_t>(&contact);
+}
+
+bool isSolid(const b2Contact& contact) {
+    return !contact.GetFixtureA()->IsSensor() && !contact.GetFixtureB()->IsSensor();
 }
 
 } // namespace
 
-CollisionCatcher::CollisionCatcher(double thresholdMetresPerSecond)
-    : threshold_(thresholdMetresPerSecond) {
-    records_.reserve(maxRecords);
+CollisionCatcher::CollisionCatcher(const FixtureTable& table, ContactGraph& graph, b2ContactListener& chained)
+    : table_(table)
+    , graph_(graph)
+    , chained_(chained) {
+    records_.reserve(maxDirectRecords + maxDistantRecords);
+    ends_.reserve(maxDirectRecords + maxDistantRecords);
 }
 
-std::int32_t CollisionCatcher::add(const b2Fixture& fixture, const HapticFixture& values) {
-    const auto index = static_cast<std::int32_t>(known_.size());
-    indices_.emplace(&fixture, index);
-    known_.push_back({fixture.GetBody(), values});
-    sweeps_.add(*fixture.GetBody());
-    return index;
+void CollisionCatcher::meet(const b2Contact& contact) {
+    const Ends ends = slotsOf(contact);
+    if (isSolid(contact) && contact.IsTouching() && ends.areKnown()) graph_.insert(ends.a, ends.b);
 }
 
-double CollisionCatcher::largestMassKg() const noexcept {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < known_.size(); ++i)
-        largest = std::max(largest, massKg(static_cast<std::int32_t>(i)));
-    return largest;
-}
-
-void CollisionCatcher::beginStep(double stepSeconds) noexcept {
+void CollisionCatcher::beginStep(const b2World& world, double stepSeconds) {
     stepSeconds_ = stepSeconds;
+    loads_.resize(table_.size());
+    sweeps_.beginStep(world, stepSeconds);
+    isStepping_ = true;
+}
+
+void CollisionCatcher::settle() noexcept {
+    isStepping_ = false;
+    loads_.settle();
+}
+
+void CollisionCatcher::endStep() {
+    for (const ContactRecord& record : records_) {
+        recordOf_.erase(keyOf(*record.contact));
+        if (isFelt({record.a, record.b})) loads_.begin(record.a, record.b);
+    }
+    loads_.endStep(graph_);
     records_.clear();
-    sweeps_.beginStep(stepSeconds);
+    ends_.clear();
+    directRecords_ = 0;
+    order_ = 0;
+}
+
+void CollisionCatcher::forget(std::int32_t slot) noexcept {
+    const auto isOf = [slot](const auto& noted) { return noted.a == slot || noted.b == slot; };
+    for (const ContactRecord& record : records_)
+        if (isOf(record)) recordOf_.erase(keyOf(*record.contact));
+    std::erase_if(records_, isOf);
+    std::erase_if(ends_, isOf);
+    loads_.forget(slot);
 }
 
 void CollisionCatcher::BeginContact(b2Contact* contact) {
-    const b2Fixture& a = *contact->GetFixtureA();
-    const b2Fixture& b = *contact->GetFixtureB();
-    const bool isFelt = isCamera(indexOf(a)) || isCamera(indexOf(b));
-    const bool isSolid = !a.IsSensor() && !b.IsSensor(); // a sensor's contact has no points
-    if (!isFelt || !isSolid) return;
-    if (records_.size() == maxRecords)
-        ++drops_;
-    else
-        records_.push_back(describe(*contact));
+    const Ends ends = slotsOf(*contact);
+    if (isSolid(*contact) && ends.areKnown()) {
+        graph_.insert(ends.a, ends.b);
+        if (isStepping_) note(*contact, ends);
+    }
+    chained_.BeginContact(contact);
+}
+
+void CollisionCatcher::EndContact(b2Contact* contact) {
+    const Ends ends = slotsOf(*contact);
+    if (ends.areKnown()) {
+        graph_.erase(ends.a, ends.b);
+        const double fraction = isStepping_ ? fractionOf(ends) : 0.0;
+        if (ends_.size() < ends_.capacity()) // without room: felt as if it had not ended in time
+            ends_.push_back({ends.a, ends.b, order_++, fraction, motionOf(*contact->GetFixtureA()->GetBody()),
+                             motionOf(*contact->GetFixtureB()->GetBody())});
+    }
+    chained_.EndContact(contact);
+}
+
+void CollisionCatcher::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) {
+    chained_.PreSolve(contact, oldManifold);
 }
 
 void CollisionCatcher::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
-    sweeps_.solved(*contact->GetFixtureA()->GetBody());
-    sweeps_.solved(*contact->GetFixtureB()->GetBody());
-    Record* record = find(*contact);
-    if (record == nullptr) return;
-    for (int i = 0; i < impulse->count; ++i) {
-        record->normalImpulse += impulse->normalImpulses[i];
-        record->tangentialImpulse += impulse->tangentImpulses[i];
+    const Ends ends = slotsOf(*contact);
+    if (isStepping_ && ends.areKnown()) {
+        for (const std::int32_t end : {ends.a, ends.b})
+            if (table_[end].isDynamic()) sweeps_.solved(table_[end].bodyIndex, *table_[end].body);
+        load(*contact, *impulse, ends);
     }
+    chained_.PostSolve(contact, impulse);
 }
 
-void CollisionCatcher::collect(const StepClock& clock, std::int64_t step, const ImpactModel& model,
-                               EventSorter& events) const {
-    const std::int64_t startNs = clock.timeNs(step);
-    const std::int64_t earliestNs = clock.timeNs(step > 0 ? step - 1 : 0);
-    const auto stepNs = static_cast<double>(clock.timeNs(step + 1) - startNs);
-    const auto timeOf = [&](const Record& record) {
-        const auto sinceStart = static_cast<std::int64_t>(std::llround(record.stepFraction * stepNs));
-        return std::max(earliestNs, startNs + sinceStart);
-    };
-    for (const Record& record : records_) {
-        const double impulse = std::hypot(record.normalImpulse, record.tangentialImpulse);
-        if (impulse <= 0.0 || impulse < threshold_ * record.lighterMassKg) continue;
-        const auto feel = [&](std::int32_t fixture, std::int32_t other) {
-            if (!isCamera(fixture)) return;
-            CollisionEvent event = toEvent(record, fixture, other);
-            event.timeNs = timeOf(record);
-            event.amplitude = model.amplitude(impulse, event.source.massKg);
-            event.source.impulseNewtonSeconds = impulse;
-            events.push(event);
-        };
-        feel(record.fixtureA, record.fixtureB);
-        feel(record.fixtureB, record.fixtureA);
+CollisionCatcher::Ends CollisionCatcher::slotsOf(const b2Contact& contact) const noexcept {
+    return {table_.find(*contact.GetFixtureA()), table_.find(*contact.GetFixtureB())};
+}
+
+bool CollisionCatcher::isFelt(Ends ends) const noexcept {
+    return table_[ends.a].values.isCamera || table_[ends.b].values.isCamera;
+}
+
+void CollisionCatcher::note(const b2Contact& contact, Ends ends) {
+    const bool isDirect = isFelt(ends);
+    const std::size_t count = isDirect ? directRecords_ : records_.size() - directRecords_;
+    if (count == (isDirect ? maxDirectRecords : maxDistantRecords)) {
+        ++drops_;
+        return;
     }
+    directRecords_ += isDirect ? 1 : 0;
+    // The first record of a contact gets all its impulses: one that opens and closes again between the passes of a
+    // step is still one hit.
+    if (recordOf_.find(keyOf(contact)) == IntegerMap::none)
+        recordOf_.set(keyOf(contact), static_cast<std::int32_t>(records_.size()));
+    records_.push_back(describe(contact, ends));
+    records_.back().order = order_++;
 }
 
-std::int32_t CollisionCatcher::indexOf(const b2Fixture& fixture) const noexcept {
-    const auto place = indices_.find(&fixture);
-    return place == indices_.end() ? unknown : place->second;
-}
-
-bool CollisionCatcher::isCamera(std::int32_t index) const noexcept {
-    return index != unknown && known_[static_cast<std::size_t>(index)].values.isCamera;
-}
-
-double CollisionCatcher::massKg(std::int32_t index) const noexcept {
-    const Known& known = known_[static_cast<std::size_t>(index)];
-    const bool isDynamic = known.body->GetType() == b2_dynamicBody;
-    return isDynamic ? known.body->GetMass() : known.values.staticMassKg;
-}
-
-CollisionCatcher::Record* CollisionCatcher::find(const b2Contact& contact) noexcept {
-    const auto isSame = [&contact](const Record& record) { return record.contact == &contact; };
-    const auto found = std::find_if(records_.begin(), records_.end(), isSame);
-    return found == records_.end() ? nullptr : &*found;
-}
-
-CollisionCatcher::Record CollisionCatcher::describe(const b2Contact& contact) const noexcept {
-    const b2Body& a = *contact.GetFixtureA()->GetBody();
-    const b2Body& b = *contact.GetFixtureB()->GetBody();
+ContactRecord CollisionCatcher::describe(const b2Contact& contact, Ends ends) const noexcept {
+    const KnownFixture& a = table_[ends.a];
+    const KnownFixture& b = table_[ends.b];
     b2WorldManifold manifold;
     contact.GetWorldManifold(&manifold);
     const int count = contact.GetManifold()->pointCount;
     const int deepest = count > 1 && manifold.separations[1] < manifold.separations[0] ? 1 : 0;
     const b2Vec2 touch = manifold.points[deepest];
     const b2Vec2 velocity =
-        b.GetLinearVelocityFromWorldPoint(touch) - a.GetLinearVelocityFromWorldPoint(touch);
+        b.body->GetLinearVelocityFromWorldPoint(touch) - a.body->GetLinearVelocityFromWorldPoint(touch);
 
-    Record record{};
+    ContactRecord record{};
     record.contact = &contact;
-    record.fixtureA = indexOf(*contact.GetFixtureA());
-    record.fixtureB = indexOf(*contact.GetFixtureB());
+    record.a = ends.a;
+    record.b = ends.b;
     // A flat landing touches along a line: its middle, not whichever end is deeper by a rounding.
     record.point = count > 1 ? 0.5F * (manifold.points[0] + manifold.points[1]) : touch;
-    record.normal = manifold.normal;
-    record.separationMetres = manifold.separations[deepest];
-    record.approachMetresPerSecond = -b2Dot(velocity, manifold.normal);
-    record.lighterMassKg = std::min(movableMassKg(a), movableMassKg(b));
+    record.lighterMassKg = std::min(a.movableMassKg(), b.movableMassKg());
+    record.motionA = motionOf(*a.body);
+    record.motionB = motionOf(*b.body);
+    record.armA = record.point - a.body->GetWorldCenter();
+    record.armB = record.point - b.body->GetWorldCenter();
 
-    const double perStep = record.approachMetresPerSecond * stepSeconds_;
-    const double depth = std::max(0.0, -record.separationMetres);
+    const double approach = -b2Dot(velocity, manifold.normal); // the normal points from A to B
+    const double perStep = approach * stepSeconds_;
+    const double depth = std::max(0.0, -static_cast<double>(manifold.separations[deepest]));
     const double stepsAgo = perStep > 0.0 ? std::min(1.0, depth / perStep) : 0.0;
-    record.stepFraction = sweeps_.fraction(a, b) - stepsAgo;
+    record.fraction = fractionOf(ends) - stepsAgo;
     return record;
 }
 
-CollisionEvent CollisionCatcher::toEvent(const Record& record, std::int32_t fixture,
-                                         std::int32_t other) const noexcept {
-    const HapticFixture& values = known_[static_cast<std::size_t>(fixture)].values;
-    CollisionEvent event;
-    event.frequencyHz = values.frequencyHz;
-    event.decayPerSecond = values.decayPerSecond;
-    event.x = record.point.x;
-    event.y = record.point.y;
-    event.source.fixture = fixture;
-    event.source.other = other;
-    event.source.massKg = massKg(fixture);
-    return event;
+double CollisionCatcher::fractionOf(Ends ends) const noexcept {
+    const b2Body& a = *table_[ends.a].body;
+    const b2Body& b = *table_[ends.b].body;
+    const bool aIsFaster = a.GetLinearVelocity().LengthSquared() > b.GetLinearVelocity().LengthSquared();
+    const KnownFixture& faster = table_[aIsFaster ? ends.a : ends.b];
+    return sweeps_.fraction(faster.bodyIndex, *faster.body);
+}
+
+void CollisionCatcher::load(const b2Contact& contact, const b2ContactImpulse& impulse, Ends ends) noexcept {
+    if (const std::int32_t known = recordOf_.find(keyOf(contact)); known != IntegerMap::none) {
+        ContactRecord& record = records_[static_cast<std::size_t>(known)];
+        for (int i = 0; i < impulse.count; ++i) {
+            record.normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
+            record.tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
+        }
+        return;
+    }
+    if (!isFelt(ends)) return;
+    b2WorldManifold manifold;
+    contact.GetWorldManifold(&manifold);
+    const b2Vec2 along = b2Cross(manifold.normal, 1.0F);
+    b2Vec2 onB{0.0F, 0.0F};
+    for (int i = 0; i < impulse.count; ++i)
+        onB += impulse.normalImpulses[i] * manifold.normal + impulse.tangentImpulses[i] * along;
+    loads_.add(ends.a, ends.b, onB, manifold.points[0]);
 }
 
 } // namespace physvib

@@ -1,90 +1,86 @@
 // SPDX-License-Identifier: MIT
-// The thesis' collision catcher (5.1.3): copies what Box2D tells during a step, and makes events of it
-// afterwards.
+// The thesis' collision catcher (5.1.3): copies what Box2D tells during a step into fixed arrays.
 #pragma once
-#include "Core/CollisionEvent.h"
 #include "Physics/BodySweeps.h"
-#include "Physics/EventSorter.h"
-#include "Physics/HapticFixture.h"
-#include "Physics/ImpactModel.h"
-#include "Physics/StepClock.h"
+#include "Physics/ChainLoads.h"
+#include "Physics/ContactGraph.h"
+#include "Physics/FixtureTable.h"
+#include "Physics/Impact.h"
+#include "Physics/IntegerMap.h"
 #include <box2d/box2d.h>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace physvib {
 
-/// Listens to one b2World. A contact strikes when it begins, with the solver's impulse of that same step
-/// (`onset` timing); PostSolve also reports resting contacts, in every step, which therefore never strike.
-/// Fixtures are known by a side table, so the world's user data stay free. Allocates in its constructor and
-/// in add(). M only.
+/// Listens to one b2World, and hands every call on to the listener that was there before. Keeps the contact graph
+/// up to date, and notes for each step which solid contacts began, with the solver's impulses of that same step;
+/// PostSolve also reports resting contacts, in every step, which therefore are no strikes but loads. M only.
 class CollisionCatcher final : public b2ContactListener {
 public:
-    /// Contacts of cameras that may begin in one step; a world that has more of them is a noise, not a touch.
-    static constexpr std::size_t maxRecords = 1024;
+    /// Contacts that may begin in one step: those of cameras, and others, which may be handed on to cameras. A
+    /// world that has more of them is a noise, not a touch.
+    static constexpr std::size_t maxDirectRecords = 1024;
+    static constexpr std::size_t maxDistantRecords = 4096;
 
-    /// Hits that change the velocity of the lighter body by less than this are no strikes. A body at rest
-    /// gets g / stepsPerSecond = 0.098 m/s in every step (100 steps/s); a contact that trembles open and shut
-    /// gives this impulse again and again. 0.15 m/s is a landing from about a millimetre.
-    static constexpr double defaultThresholdMetresPerSecond = 0.15;
+    CollisionCatcher(const FixtureTable& table, ContactGraph& graph, b2ContactListener& chained);
 
-    explicit CollisionCatcher(double thresholdMetresPerSecond = defaultThresholdMetresPerSecond);
+    /// A contact of the time before the catcher: it is part of the graph, if it touches.
+    void meet(const b2Contact& contact);
 
-    /// Makes a fixture known; returns its index in events: 0, 1, 2... It must outlive the catcher's use.
-    std::int32_t add(const b2Fixture& fixture, const HapticFixture& values);
+    /// Right before b2World::Step, with the time it is given; the table is up to date.
+    void beginStep(const b2World& world, double stepSeconds);
 
-    /// m_max of Eq. 5.7: the largest mass of the known fixtures' bodies, kg, static ones with the mass given.
-    double largestMassKg() const noexcept;
+    /// Right after it: what was noted is complete.
+    void settle() noexcept;
 
-    /// To be called right before b2World::Step, with the time it is given.
-    void beginStep(double stepSeconds) noexcept;
+    /// When all that was noted has been used.
+    void endStep();
 
-    /// To be called right after the step that began at clock.timeNs(step): one event per camera fixture and
-    /// contact that began, from one step before that time to its end.
-    void collect(const StepClock& clock, std::int64_t step, const ImpactModel& model,
-                 EventSorter& events) const;
+    /// The slot has another owner from now on: drops what was noted of it.
+    void forget(std::int32_t slot) noexcept;
+
+    const std::vector<ContactRecord>& records() const noexcept { return records_; }
+    /// Contacts that ended in the step or since the one before it.
+    const std::vector<ContactEnd>& ends() const noexcept { return ends_; }
+    const ChainLoads& loads() const noexcept { return loads_; }
+    const BodySweeps& sweeps() const noexcept { return sweeps_; }
+    b2ContactListener& chained() const noexcept { return chained_; }
 
     /// Contacts that found no room so far.
     std::uint64_t drops() const noexcept { return drops_; }
 
     void BeginContact(b2Contact* contact) override;
+    void EndContact(b2Contact* contact) override;
+    void PreSolve(b2Contact* contact, const b2Manifold* oldManifold) override;
     void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
 private:
-    static constexpr std::int32_t unknown = -1;
-    struct Known {
-        const b2Body* body;
-        HapticFixture values;
+    struct Ends {
+        std::int32_t a, b;
+        bool areKnown() const noexcept { return a != FixtureTable::none && b != FixtureTable::none; }
     };
-    struct Record {
-        const b2Contact* contact; // valid within its step only, and only compared
-        std::int32_t fixtureA, fixtureB;
-        b2Vec2 point, normal;           // world; the normal points from A to B
-        double separationMetres;        // of the deepest point, negative: inside each other
-        double approachMetresPerSecond; // before the solver
-        double lighterMassKg;           // of the bodies that can move
-        double stepFraction;            // moment of touch in steps after the start of this step, -1 to 1
-        double normalImpulse, tangentialImpulse; // N s, summed over the points and passes of the step
-    };
+    Ends slotsOf(const b2Contact& contact) const noexcept;
+    bool isFelt(Ends ends) const noexcept;
+    void note(const b2Contact& contact, Ends ends);
+    ContactRecord describe(const b2Contact& contact, Ends ends) const noexcept;
+    double fractionOf(Ends ends) const noexcept;
+    void load(const b2Contact& contact, const b2ContactImpulse& impulse, Ends ends) noexcept;
 
-    std::int32_t indexOf(const b2Fixture& fixture) const noexcept;
-    bool isCamera(std::int32_t index) const noexcept;
-    double massKg(std::int32_t index) const noexcept;
-    /// The first record of a contact gets all its impulses: one that opens and closes again between the
-    /// passes of a step is still one hit.
-    Record* find(const b2Contact& contact) noexcept;
-    Record describe(const b2Contact& contact) const noexcept;
-    CollisionEvent toEvent(const Record& record, std::int32_t fixture, std::int32_t other) const noexcept;
-
-    double threshold_;
-    double stepSeconds_ = 0.0;
-    std::uint64_t drops_ = 0;
+    const FixtureTable& table_;
+    ContactGraph& graph_;
+    b2ContactListener& chained_;
     BodySweeps sweeps_;
-    std::vector<Known> known_;
-    std::unordered_map<const b2Fixture*, std::int32_t> indices_; // looked up, never walked through
-    std::vector<Record> records_;                                // of the present step
+    ChainLoads loads_;
+    std::vector<ContactRecord> records_; // of the present step
+    std::vector<ContactEnd> ends_;
+    IntegerMap recordOf_{256}; // by the address of the contact; small, to stay in the nearest cache
+    std::size_t directRecords_ = 0;
+    std::int32_t order_ = 0;
+    double stepSeconds_ = 0.0;
+    bool isStepping_ = false;
+    std::uint64_t drops_ = 0;
 };
 
 } // namespace physvib

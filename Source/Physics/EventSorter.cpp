@@ -29,4 +29,10 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
     held_.erase(held_.begin(), end);
 }
 
+void EventSorter::withdraw(std::int32_t fixture, bool asOther) noexcept {
+    std::erase_if(held_, [fixture, asOther](const CollisionEvent& event) {
+        return event.source.fixture == fixture || (asOther && event.source.other == fixture);
+    });
+}
+
 } // namespace physvib

@@ -20,6 +20,9 @@ public:
     /// Appends all events before `beforeNs` to `finished`, and forgets them.
     void release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished);
 
+    /// Forgets the events of a fixture (by its id), and if `asOther`, those it gave to others.
+    void withdraw(std::int32_t fixture, bool asOther) noexcept;
+
     std::uint64_t drops() const noexcept { return drops_; }
 
 private:

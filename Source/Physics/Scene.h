@@ -99,7 +99,7 @@ struct RevoluteJoint {
 /// A wheel (body B) that slides along an axis of body A on a spring, and may be driven.
 struct WheelJoint {
     Vector anchorMetres;
-    Vector axis{0.0, 1.0}; ///< any length above 0
+    Vector axis{0.0, 1.0};     ///< any length above 0
     double suspensionHz = 0.0; ///< 0: stiff only by limits
     double dampingRatio = 0.0;
     std::optional<Interval> travelMetres;

@@ -120,7 +120,8 @@ void setMass(b2Body& created, const BodyDescription& body, const Scene& scene) {
     const BodyMoments moments = bodyMoments(body, scene);
     const Vector& c = moments.centreMetres;
     const double aboutOrigin = moments.inertiaKgSquareMetres + moments.massKg * (c.x * c.x + c.y * c.y);
-    const b2MassData data{static_cast<float>(moments.massKg), box2dVector(c), static_cast<float>(aboutOrigin)};
+    const b2MassData data{static_cast<float>(moments.massKg), box2dVector(c),
+                          static_cast<float>(aboutOrigin)};
     created.SetMassData(&data);
 }
 

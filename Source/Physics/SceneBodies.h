@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From the descriptions of a scene to Box2D's bodies, fixtures and joints.
 #pragma once
-#include "Physics/Scene.h"
 #include "Physics/BodyStart.h"
+#include "Physics/Scene.h"
 #include <box2d/box2d.h>
 #include <vector>
 

@@ -34,11 +34,11 @@ constexpr Bounds within(double reach) {
 }
 
 /// FieldsOf<T>::visit(v) calls v once per field of T:
-///   field(name, member, Bounds, Need)    text, truth, number, Vector, optional or list of those, struct, list
-///   pair(name, member, member, Bounds)   two numbers as [a, b], required
-///   choice(name, member, names)          an enumeration, optional
-///   material(name, member)               an index into Scene::materials, in files a name; required
-///   variant(name, member, names)         which alternative it is; its fields follow in the same object
+///   field(name, member, Bounds, Need)    text, truth, number, Vector, optional or list of those, struct,
+///   list pair(name, member, member, Bounds)   two numbers as [a, b], required choice(name, member, names) an
+///   enumeration, optional material(name, member)               an index into Scene::materials, in files a
+///   name; required variant(name, member, names)         which alternative it is; its fields follow in the
+///   same object
 template <class T>
 struct FieldsOf;
 

@@ -65,8 +65,7 @@ public:
         if (fault.empty() && !isLeftOut) fault = check(pathOf(name), value, bounds);
     }
     void pair(std::string_view name, double T::*first, double T::*second, const Bounds& bounds) {
-        if (fault.empty())
-            fault = checkRange(pathOf(name), Vector{object_.*first, object_.*second}, bounds);
+        if (fault.empty()) fault = checkRange(pathOf(name), Vector{object_.*first, object_.*second}, bounds);
     }
     template <class E, class Names>
     void choice(std::string_view name, E T::*member, const Names& names) {
@@ -128,8 +127,8 @@ std::string checkFields(const std::string& path, const T& object, int materials)
 
 } // namespace detail
 
-/// The first field outside its range, `bodies[1].fixtures[0].radius_m: expected 0.01 to 100, found 0`; empty if
-/// all are inside. Any thread.
+/// The first field outside its range, `bodies[1].fixtures[0].radius_m: expected 0.01 to 100, found 0`; empty
+/// if all are inside. Any thread.
 inline std::string checkRanges(const Scene& scene) {
     return detail::checkFields("", scene, static_cast<int>(scene.materials.size()));
 }

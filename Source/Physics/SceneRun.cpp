@@ -6,7 +6,7 @@
 namespace physvib {
 
 SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs) {
-    Simulation simulation{scene, run.seed, run.stepsPerSecond};
+    Simulation simulation{scene, run.seed, run.stepsPerSecond, run.timing, run.location};
     SceneEvents all;
     while (simulation.settledNs() < endNs) simulation.step(all.events);
     const auto isBefore = [endNs](const CollisionEvent& e) { return e.timeNs < endNs; };
@@ -16,7 +16,7 @@ SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs
 }
 
 std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs) {
-    Simulation simulation{scene, run.seed, run.stepsPerSecond};
+    Simulation simulation{scene, run.seed, run.stepsPerSecond, run.timing, run.location};
     std::vector<CollisionEvent> unused;
     while (simulation.timeNs() + 1'000'000'000 / run.stepsPerSecond <= timeNs) simulation.step(unused);
     std::vector<BodyPose> poses(simulation.bodyCount());

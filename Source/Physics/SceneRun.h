@@ -9,13 +9,16 @@
 
 namespace physvib {
 
-/// What decides the course of a scene, apart from the scene.
+/// What decides the events of a scene, apart from the scene.
 struct SceneRun {
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
+    ImpactTiming timing = ImpactTiming::onset;
+    ImpactLocation location = ImpactLocation::contact;
 };
 
-/// All collisions before `endNs`, in time order, and how many were lost (0 unless thousands begin in one step).
+/// All collisions before `endNs`, in time order, and how many were lost (0 unless thousands begin in one
+/// step).
 struct SceneEvents {
     std::vector<CollisionEvent> events;
     std::uint64_t drops = 0;

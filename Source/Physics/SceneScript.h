@@ -32,7 +32,7 @@ private:
         std::int64_t step;
         DueAction due;
     };
-    std::int64_t periodSteps_; // 0: does not repeat
+    std::int64_t periodSteps_;   // 0: does not repeat
     std::vector<Entry> entries_; // by step
     std::int64_t periodStart_ = 0;
     std::size_t next_ = 0;

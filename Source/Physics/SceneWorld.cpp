@@ -35,9 +35,8 @@ void SceneWorld::build() {
         bodyNames_.emplace(cast_[i].name, i);
     }
     for (const JointDescription& joint : scene_.joints)
-        joints_.emplace(joint.name,
-                        &createJoint(world_, joint, *bodies_[bodyNames_.at(joint.bodyA)],
-                                     *bodies_[bodyNames_.at(joint.bodyB)]));
+        joints_.emplace(joint.name, &createJoint(world_, joint, *bodies_[bodyNames_.at(joint.bodyA)],
+                                                 *bodies_[bodyNames_.at(joint.bodyB)]));
     std::size_t next = scene_.bodies.size();
     for (const ScriptInput& input : scene_.script)
         if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) {

@@ -13,9 +13,6 @@ namespace {
 constexpr int velocityIterations = 8;
 constexpr int positionIterations = 3;
 
-// Two cameras per contact, of this step and of the one whose events still wait.
-constexpr std::size_t heldEvents = 4 * CollisionCatcher::maxRecords;
-
 StepClock checkedClock(const Scene& scene, int stepsPerSecond) {
     if (const std::string fault = validate(scene); !fault.empty()) throw std::invalid_argument(fault);
     if (stepsPerSecond < Simulation::minStepsPerSecond || stepsPerSecond > Simulation::maxStepsPerSecond)
@@ -25,45 +22,46 @@ StepClock checkedClock(const Scene& scene, int stepsPerSecond) {
     return {stepsPerSecond};
 }
 
+AttachmentSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocation location) {
+    AttachmentSettings settings;
+    settings.fieldWidthMetres = scene.fieldWidthMetres;
+    settings.normalisation = scene.normalisation.secondsPerMetre;
+    settings.handMassKg = scene.normalisation.handMassKg;
+    settings.driveGain = scene.driveGain;
+    settings.timing = timing;
+    settings.location = location;
+    return settings;
+}
+
 HapticFixture hapticOf(const SceneWorld& world, std::size_t fixture) {
     const FixtureDescription& now = world.fixtureNow(fixture);
     const Material& material = world.scene().materials[static_cast<std::size_t>(now.material)];
-    return {material.frequencyHz, material.decayPerSecond, now.isCamera, world.bodyOf(fixture).massKg};
+    return {material.frequencyHz, material.decayPerSecond, now.isCamera, world.bodyOf(fixture).massKg,
+            now.voice};
 }
 
 } // namespace
 
-Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond)
+Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond, ImpactTiming timing,
+                       ImpactLocation location)
     : clock_(checkedClock(scene, stepsPerSecond))
     , world_(scene, seed, clock_)
-    , held_(heldEvents) {
-    world_.world().SetContactListener(&catcher_);
+    , attachment_(world_.world(), settingsOf(scene, timing, location)) {
     takeFixtures();
-    takeMasses();
 }
 
 void Simulation::takeFixtures() {
-    catcher_ = CollisionCatcher();
-    for (std::size_t i = 0; i < world_.fixtureCount(); ++i) catcher_.add(world_.fixture(i), hapticOf(world_, i));
-}
-
-void Simulation::takeMasses() {
-    const Scene& scene = world_.scene();
-    const Normalisation& given = scene.normalisation;
-    model_ = {given.secondsPerMetre.value_or(defaultNormalisation(scene.fieldWidthMetres)),
-              given.handMassKg.value_or(world_.largestMassKg()), scene.driveGain};
+    for (std::size_t i = 0; i < world_.fixtureCount(); ++i)
+        attachment_.set(world_.fixture(i), hapticOf(world_, i), static_cast<std::int32_t>(i));
 }
 
 void Simulation::step(std::vector<CollisionEvent>& finished) {
-    const SceneChanges changes = world_.act(stepsDone_);
-    if (changes.fixtures) takeFixtures();
-    if (changes.bodies) takeMasses();
-    const double stepSeconds = clock_.stepSeconds();
-    catcher_.beginStep(stepSeconds);
-    world_.world().Step(static_cast<float>(stepSeconds), velocityIterations, positionIterations);
-    catcher_.collect(clock_, stepsDone_, model_, held_);
+    if (world_.act(stepsDone_).fixtures) takeFixtures();
     ++stepsDone_;
-    held_.release(settledNs(), finished);
+    attachment_.beginStepUntil(timeNs());
+    world_.world().Step(static_cast<float>(clock_.stepSeconds()), velocityIterations, positionIterations);
+    attachment_.endStep();
+    attachment_.take(finished);
 }
 
 } // namespace physvib

@@ -2,8 +2,7 @@
 // A scene's world in motion: steps it, and hands out its collisions as a time-sorted stream of events.
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Physics/CollisionCatcher.h"
-#include "Physics/EventSorter.h"
+#include "Physics/Attachment.h"
 #include "Physics/ImpactModel.h"
 #include "Physics/Scene.h"
 #include "Physics/SceneWorld.h"
@@ -16,7 +15,7 @@ namespace physvib {
 
 /// One world, stepped by its owner. Time is a step count; same scene, seed and step rate give the same
 /// events. One thread at a time (M unless a driver owns it). After the first contacts have warmed Box2D's
-/// pools up, step() allocates only where `finished` must grow and where the script changes sounds or cameras.
+/// pools up, step() allocates only where `finished` must grow.
 class Simulation {
 public:
     static constexpr int minStepsPerSecond = 10;     // slower, bodies pass through each other
@@ -25,7 +24,8 @@ public:
     /// Seed 0 starts exactly as described; any other seed moves the start a little (see jitteredStart).
     /// Throws std::invalid_argument, with validate()'s sentence, if the scene or the step rate is out of
     /// range.
-    Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond);
+    Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond,
+               ImpactTiming timing = ImpactTiming::onset, ImpactLocation location = ImpactLocation::contact);
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 
@@ -44,21 +44,18 @@ public:
     std::size_t bodyCount() const noexcept { return world_.bodyCount(); }
 
     /// Collisions lost so far because more began in one step than there is room for.
-    std::uint64_t drops() const noexcept { return catcher_.drops() + held_.drops(); }
+    std::uint64_t drops() const noexcept { return attachment_.drops(); }
 
-    /// The constants of Eq. 5.4 in use.
-    const ImpactModel& impactModel() const noexcept { return model_; }
+    /// The constants of Eq. 5.4 in the last step.
+    const ImpactModel& impactModel() const noexcept { return attachment_.impactModel(); }
 
 private:
     void takeFixtures(); // their sounds and cameras as they are now
-    void takeMasses();   // of the bodies present, into Eq. 5.4
 
     StepClock clock_;
     std::int64_t stepsDone_ = 0;
     SceneWorld world_;
-    ImpactModel model_;
-    CollisionCatcher catcher_;
-    EventSorter held_;
+    Attachment attachment_;
 };
 
 } // namespace physvib

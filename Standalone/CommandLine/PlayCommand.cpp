@@ -39,8 +39,11 @@ std::unique_ptr<SimulationDriver> makeDriver(const std::string& name, Session& s
 SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     SessionSetup setup;
     setup.scene = *job.scene;
-    setup.seed = o.scene.seed;
-    setup.stepsPerSecond = o.scene.stepsPerSecond;
+    const SceneRun run = job.run();
+    setup.seed = run.seed;
+    setup.stepsPerSecond = run.stepsPerSecond;
+    setup.timing = run.timing;
+    setup.location = run.location;
     setup.channels = job.channels();
     setup.panner = PhantomPanner{job.layout.geometry, o.scene.panningLaw, o.scene.exponent, job.fieldWidthMetres(), job.fieldHeightMetres()};
     setup.limiterEnabled = o.scene.limiter == "on";

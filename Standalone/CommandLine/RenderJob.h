@@ -27,7 +27,11 @@ struct RenderJob {
     LayoutDescription layout;
     SceneEvents made;
 
-    SceneRun run() const { return {options.seed, options.stepsPerSecond}; }
+    SceneRun run() const {
+        const auto timing = options.timing == "release" ? ImpactTiming::release : ImpactTiming::onset;
+        const auto location = options.location == "fixture" ? ImpactLocation::fixture : ImpactLocation::contact;
+        return {options.seed, options.stepsPerSecond, timing, location};
+    }
     int channels() const { return layout.geometry.count; }
     std::int64_t frames() const { return std::llround(options.seconds * options.sampleRateHz); }
     std::int64_t endNs() const { return std::llround(options.seconds * 1e9); }

@@ -63,8 +63,10 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--limiter", o.limiter, "on or off")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--steps-per-second", o.stepsPerSecond, "physics steps per second")
         ->check(between(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s"))->capture_default_str();
-    command.add_option("--location", o.location, "place of a hit: contact (fixture: not yet)")->capture_default_str();
-    command.add_option("--timing", o.timing, "onset (release: not yet)")->capture_default_str();
+    command.add_option("--location", o.location, "place of a hit: contact, or centre of the fixture")
+        ->check(CLI::IsMember({"contact", "fixture"}))->capture_default_str();
+    command.add_option("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)")
+        ->check(CLI::IsMember({"onset", "release"}))->capture_default_str();
     command.add_option("--method", o.method, "rendering method: AV-FV-DRV (others: not yet)")->capture_default_str();
     command.add_option("--actuator", o.actuator, "actuator model: none (others: not yet)")->capture_default_str();
 }
@@ -85,8 +87,7 @@ std::string checkSceneOptions(RenderOptions& o) {
     if (!parseSettings(o)) return "--set: expected NAME=VALUE";
     if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
     if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
-    for (const auto& refusal : {notYet("--location", o.location, "contact"), notYet("--timing", o.timing, "onset"),
-                                notYet("--method", o.method, "AV-FV-DRV"), notYet("--actuator", o.actuator, "none")})
+    for (const auto& refusal : {notYet("--method", o.method, "AV-FV-DRV"), notYet("--actuator", o.actuator, "none")})
         if (!refusal.empty()) return refusal;
     return {};
 }

@@ -62,6 +62,8 @@ Provenance RenderOutputs::provenance() const {
     const RenderOptions& o = job_.options;
     if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
     Provenance p{PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(o.seed)}, {"steps_per_second", std::to_string(o.stepsPerSecond)}}};
+    if (job_.run().timing != ImpactTiming::onset) p.entries.emplace_back("timing", o.timing);
+    if (job_.run().location != ImpactLocation::contact) p.entries.emplace_back("location", o.location);
     for (const SceneVariable& variable : job_.scene->variables) p.entries.emplace_back(variable.name, variable.value);
     return p;
 }

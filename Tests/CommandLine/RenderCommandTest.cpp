@@ -98,6 +98,35 @@ TEST_F(Render, AnotherSeedIsAnotherCourse) {
     EXPECT_NE(read("a.csv"), read("b.csv"));
 }
 
+TEST_F(Render, ReleaseTimingFeelsTheSameFallLaterAndPrintsSo) {
+    const std::string fall = "render drop --set height=1 --seed 0 --seconds 0.6 --events ";
+    ASSERT_EQ(call(fall + "onset.csv").exitCode, 0);
+    ASSERT_EQ(call(fall + "release.csv --timing release").exitCode, 0);
+    const auto onset = readEventsCsv(read("onset.csv"), "onset.csv"), release = readEventsCsv(read("release.csv"), "release.csv");
+    ASSERT_EQ(onset.value.size(), 1u) << onset.error;
+    ASSERT_EQ(release.value.size(), 1u) << release.error;
+    EXPECT_GT(release.value[0].timeNs, onset.value[0].timeNs);
+    EXPECT_LE(release.value[0].timeNs, onset.value[0].timeNs + 50'000'000);
+    EXPECT_NEAR(release.value[0].amplitude, onset.value[0].amplitude, 0.05 * onset.value[0].amplitude);
+    EXPECT_NE(read("release.csv").find("timing=release"), std::string::npos);
+}
+
+TEST_F(Render, FixtureLocationPutsEveryHitAtTheCentreOfItsFixture) {
+    ASSERT_EQ(call("render drop --seed 3 --seconds 3 --events contact.csv").exitCode, 0);
+    ASSERT_EQ(call("render drop --seed 3 --seconds 3 --events fixture.csv --location fixture").exitCode, 0);
+    const auto contact = readEventsCsv(read("contact.csv"), "contact.csv"), fixture = readEventsCsv(read("fixture.csv"), "fixture.csv");
+    ASSERT_GE(fixture.value.size(), 3u) << fixture.error;
+    ASSERT_EQ(contact.value.size(), fixture.value.size());
+    for (std::size_t i = 0; i < fixture.value.size(); ++i) {
+        EXPECT_NEAR(fixture.value[i].x, 4.0, 1e-6); // the plate's centre
+        EXPECT_NEAR(fixture.value[i].y, 0.15, 1e-6);
+        EXPECT_NEAR(contact.value[i].y, 0.3, 0.02); // its upper side
+        EXPECT_EQ(fixture.value[i].amplitude, contact.value[i].amplitude);
+        EXPECT_EQ(fixture.value[i].timeNs, contact.value[i].timeNs);
+    }
+    EXPECT_NE(read("fixture.csv").find("location=fixture"), std::string::npos);
+}
+
 TEST_F(Render, LayoutDecidesTheNumberOfChannels) {
     write("hits.csv", oneHit);
     for (const auto& [layout, channels] : {std::pair{"phone1", 1}, {"ring2", 2}, {"phone3", 3}}) {
@@ -152,6 +181,8 @@ TEST_F(Render, BadOptionsAreUsageErrors) {
     refuses(good + "--field 3,-1", 2, "--field");
     refuses(good + "--seed -1", 2, "--seed");
     refuses(good + "--limiter maybe", 2, "--limiter");
+    refuses(good + "--timing never", 2, "--timing");
+    refuses(good + "--location nowhere", 2, "--location");
     refuses(good + "--colour red", 2, "--colour");
     refuses("render shake-the-box --seconds nan --out a.wav", 2, "--seconds");
     refuses("render shake-the-box --seconds 0 --out a.wav", 2, "--seconds");
@@ -165,7 +196,7 @@ TEST_F(Render, BadOptionsAreUsageErrors) {
 }
 
 TEST_F(Render, WhatIsPromisedAndNotBuiltSaysNotYet) {
-    for (const char* option : {"--location fixture", "--timing release", "--method AF-FF-DRF", "--actuator lra-205"})
+    for (const char* option : {"--method AF-FF-DRF", "--actuator lra-205"})
         refuses(std::string{"render shake-the-box --out a.wav "} + option, 2, "not yet");
     for (const char* command : {"board /dev/ttyACM0 info", "material a.wav", "analyse confusion x.csv --tolerance 1"})
         refuses(command, 2, "not yet");

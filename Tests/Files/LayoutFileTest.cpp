@@ -233,6 +233,9 @@ TEST(LayoutFile, DeepNestingIsRefusedNotFollowed) {
 TEST(LayoutFile, RepeatedFieldsAreNamedByTheirPath) {
     EXPECT_EQ(errorOf(R"({"a": [0, [], {"b": {"c": 1, "d": {}, "c": 2}}]})"),
               "my.json: a[2].b: field \"c\" appears twice");
+    EXPECT_EQ(errorOf("{\"a\\n\": {\"b\": 1, \"b\": 2}}"), "my.json: a\\x0a: field \"b\" appears twice");
+    EXPECT_EQ(errorOf("{\"" + std::string(5000, 'k') + "\": {\"b\": 1, \"b\": 2}}"),
+              "my.json: " + std::string(40, 'k') + "...: field \"b\" appears twice");
 }
 
 TEST(LayoutFile, NoMutationCrashesOrHalfLoads) {

@@ -39,10 +39,13 @@ TEST(MaterialTable, FaultsNameTheirField) {
         return errorOf(R"({"physvib_materials": 1, "name": "n", "materials": [)" + materials + "]}");
     };
     const std::string good = R"({"name": "a", "density_kg_per_m2": 1, "friction": 0, "restitution": 0})";
-    EXPECT_EQ(with(R"({"name": "a", "density_kg_per_m2": 1, "friction": -1, "restitution": 0})"), "my.json: materials[0].friction: expected 0 to 100, found -1");
-    EXPECT_EQ(with(good + "," + good), "my.json: materials[1].name: expected a name of its own, found \"a\" again");
+    EXPECT_EQ(with(R"({"name": "a", "density_kg_per_m2": 1, "friction": -1, "restitution": 0})"),
+              "my.json: materials[0].friction: expected 0 to 100, found -1");
+    EXPECT_EQ(with(good + "," + good),
+              "my.json: materials[1].name: expected a name of its own, found \"a\" again");
     EXPECT_EQ(with("3"), "my.json: materials[0]: expected an object, found a number");
-    EXPECT_EQ(errorOf(R"({"physvib_materials": 2})"), "my.json: physvib_materials: made for a newer PhysVib: expected a version up to 1, found 2");
+    EXPECT_EQ(errorOf(R"({"physvib_materials": 2})"),
+              "my.json: physvib_materials: made for a newer PhysVib: expected a version up to 1, found 2");
     EXPECT_EQ(errorOf(R"({"physvib_materials": 1, "nam": ""})"), "my.json: unknown field \"nam\"");
 }
 

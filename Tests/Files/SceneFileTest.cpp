@@ -138,7 +138,8 @@ std::string errorOf(const std::string& text, const SceneSettings& settings = {})
     const Result<Scene> read = readScene(text, "my.json", settings);
     EXPECT_FALSE(read);
     EXPECT_TRUE(read.value == Scene{});
-    EXPECT_TRUE(std::ranges::none_of(read.error, [](char c) { return static_cast<unsigned char>(c) < 0x20; }));
+    EXPECT_TRUE(
+        std::ranges::none_of(read.error, [](char c) { return static_cast<unsigned char>(c) < 0x20; }));
     return read.error;
 }
 
@@ -150,7 +151,8 @@ TEST(SceneFile, ReadsEveryField) {
     EXPECT_EQ(scene.bodies[0].fixtures[0].voice, Voice::both);
     EXPECT_TRUE(std::get<ChainShape>(scene.bodies[0].fixtures[1].shape).isLoop);
     EXPECT_EQ(scene.bodies[1].fixtures[1].material, 1);
-    EXPECT_EQ(std::get<PolygonShape>(scene.bodies[1].fixtures[1].shape).verticesMetres[2], (Vector{0.2, 0.3}));
+    EXPECT_EQ(std::get<PolygonShape>(scene.bodies[1].fixtures[1].shape).verticesMetres[2],
+              (Vector{0.2, 0.3}));
     EXPECT_EQ(std::get<WheelJoint>(scene.joints[0].joint).travelMetres, (Interval{-0.1, 0.2}));
     EXPECT_EQ(scene.script[2].times, 3);
     EXPECT_EQ(std::get<SpawnAction>(scene.script[4].action).body.name, "stone");
@@ -178,12 +180,15 @@ TEST(SceneFile, NumbersSurviveToTheBit) {
     std::mt19937 random(30);
     Scene scene = readGood(full);
     for (int i = 0; i < 200; ++i) {
-        const auto any = [&](double reach) { return (static_cast<double>(random()) / 2147483648.0 - 1.0) * reach; };
+        const auto any = [&](double reach) {
+            return (static_cast<double>(random()) / 2147483648.0 - 1.0) * reach;
+        };
         scene.bodies[1].positionMetres = {any(1000.0), i % 2 == 0 ? -0.0 : any(1e-9)};
         scene.bodies[1].angleRadians = any(1000.0);
         scene.script[0].timeSeconds = std::abs(any(10.0));
         EXPECT_TRUE(readGood(sceneJson(scene)) == scene);
-        EXPECT_EQ(std::signbit(readGood(sceneJson(scene)).bodies[1].positionMetres.y), std::signbit(scene.bodies[1].positionMetres.y));
+        EXPECT_EQ(std::signbit(readGood(sceneJson(scene)).bodies[1].positionMetres.y),
+                  std::signbit(scene.bodies[1].positionMetres.y));
     }
 }
 
@@ -193,40 +198,62 @@ TEST(SceneFile, LeftOutFieldsHaveDefaults) {
     EXPECT_EQ(scene.normalisation, Normalisation{});
     EXPECT_EQ(scene.bodies[0].type, BodyType::dynamicBody);
     EXPECT_FALSE(scene.bodies[0].fixtures[0].isCamera);
-    EXPECT_EQ(readGood(replaced(small, "\"name\": \"small\"", "\"normalisation\": \"auto\", \"name\": \"small\"")).normalisation, Normalisation{});
+    EXPECT_EQ(
+        readGood(replaced(small, "\"name\": \"small\"", "\"normalisation\": \"auto\", \"name\": \"small\""))
+            .normalisation,
+        Normalisation{});
 }
 
 TEST(SceneFile, NamesTheFieldByItsPath) {
     const std::vector<std::array<std::string, 3>> cases{
-        {"\"radius_m\": 0.2", "\"radius_m\": \"0.2\"", "bodies[2].fixtures[0].radius_m: expected a number, found a string"},
-        {"\"radius_m\": 0.2", "\"radius_m\": 0", "bodies[2].fixtures[0].radius_m: expected 0.01 to 100, found 0"},
+        {"\"radius_m\": 0.2", "\"radius_m\": \"0.2\"",
+         "bodies[2].fixtures[0].radius_m: expected a number, found a string"},
+        {"\"radius_m\": 0.2", "\"radius_m\": 0",
+         "bodies[2].fixtures[0].radius_m: expected 0.01 to 100, found 0"},
         {"\"radius_m\": 0.2", "\"radius\": 0.2", "bodies[2].fixtures[0]: unknown field \"radius\""},
         {"\"radius_m\": 0.2, ", "", "bodies[2].fixtures[0]: field \"radius_m\" is missing"},
-        {"\"size_m\": [1.2, 0.3]", "\"size_m\": [1.2]", "bodies[1].fixtures[0].size_m: expected 2 numbers, found 1 items"},
-        {"\"shape\": \"circle\"", "\"shape\": \"ring\"", "bodies[2].fixtures[0].shape: expected one of circle, box, polygon, chain, found \"ring\""},
-        {"\"voice\": \"both\"", "\"voice\": \"all\"", "bodies[0].fixtures[0].voice: expected one of own, other, both, found \"all\""},
-        {"\"camera\": true", "\"camera\": 1", "bodies[0].fixtures[0].camera: expected true or false, found a number"},
-        {"\"material\": \"felt\"", "\"material\": \"fell\"", "bodies[0].fixtures[1].material: expected the name of a material, found \"fell\""},
-        {"\"type\": \"kinematic\"", "\"type\": \"moving\"", "bodies[3].type: expected one of static, kinematic, dynamic, found \"moving\""},
-        {"\"body_a\": \"ground\"", "\"body_a\": \"grind\"", "joints[1].body_a: expected the name of a body, found \"grind\""},
-        {"\"limits_rad\": [-1, 1]", "\"limits_rad\": [1, -1]", "joints[1].limits_rad: expected [lower, upper], found them the other way round"},
+        {"\"size_m\": [1.2, 0.3]", "\"size_m\": [1.2]",
+         "bodies[1].fixtures[0].size_m: expected 2 numbers, found 1 items"},
+        {"\"shape\": \"circle\"", "\"shape\": \"ring\"",
+         "bodies[2].fixtures[0].shape: expected one of circle, box, polygon, chain, found \"ring\""},
+        {"\"voice\": \"both\"", "\"voice\": \"all\"",
+         "bodies[0].fixtures[0].voice: expected one of own, other, both, found \"all\""},
+        {"\"camera\": true", "\"camera\": 1",
+         "bodies[0].fixtures[0].camera: expected true or false, found a number"},
+        {"\"material\": \"felt\"", "\"material\": \"fell\"",
+         "bodies[0].fixtures[1].material: expected the name of a material, found \"fell\""},
+        {"\"type\": \"kinematic\"", "\"type\": \"moving\"",
+         "bodies[3].type: expected one of static, kinematic, dynamic, found \"moving\""},
+        {"\"body_a\": \"ground\"", "\"body_a\": \"grind\"",
+         "joints[1].body_a: expected the name of a body, found \"grind\""},
+        {"\"limits_rad\": [-1, 1]", "\"limits_rad\": [1, -1]",
+         "joints[1].limits_rad: expected [lower, upper], found them the other way round"},
         {"\"times\": 3", "\"times\": 2.5", "script[2].times: expected a whole number, found 2.5"},
         {"\"times\": 3", "\"times\": 1000000", "script[2].times: expected 1 to 100000, found 1e+06"},
-        {"\"input\": \"tilt\"", "\"input\": \"roll\"", "script[1].input: expected one of gravity, tilt, impulse, velocity, spawn, remove, motor, camera, material, found \"roll\""},
+        {"\"input\": \"tilt\"", "\"input\": \"roll\"",
+         "script[1].input: expected one of gravity, tilt, impulse, velocity, spawn, remove, motor, camera, "
+         "material, found \"roll\""},
         {"\"name\": \"stone\"", "\"nam\": \"stone\"", "script[4].body: unknown field \"nam\""},
-        {"\"hand_mass_kg\": 60", "\"hand_mass_kg\": \"auto\"", "normalisation.hand_mass_kg: expected a number, found a string"},
-        {"\"drive_gain\": 2.5", "\"drive_gain\": 2.5, \"drive_gain\": 2", "field \"drive_gain\" appears twice"},
+        {"\"hand_mass_kg\": 60", "\"hand_mass_kg\": \"auto\"",
+         "normalisation.hand_mass_kg: expected a number, found a string"},
+        {"\"drive_gain\": 2.5", "\"drive_gain\": 2.5, \"drive_gain\": 2",
+         "field \"drive_gain\" appears twice"},
         {"\"field_m\": [8, 4.5]", "\"field_m\": 8", "field_m: expected an array, found a number"},
         {"\"script_period_s\": 10", "\"script_period_s\": 3", "script[6].time_s: expected 0 to 3, found 3.5"},
-        {"\"mass_kg\": 100", "\"mass_kg\": 0", "bodies[0].mass_kg: a camera body that is not dynamic has no mass in Box2D, expected one above 0"},
+        {"\"mass_kg\": 100", "\"mass_kg\": 0",
+         "bodies[0].mass_kg: a camera body that is not dynamic has no mass in Box2D, expected one above 0"},
     };
-    for (const auto& [what, by, message] : cases) EXPECT_EQ(errorOf(replaced(full, what, by)), "my.json: " + message);
+    for (const auto& [what, by, message] : cases)
+        EXPECT_EQ(errorOf(replaced(full, what, by)), "my.json: " + message);
 }
 
 TEST(SceneFile, OnlyItsOwnVersionsAreRead) {
-    EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1", "\"physvib_scene\": 2")), "my.json: physvib_scene: made for a newer PhysVib: expected a version up to 1, found 2");
-    EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1", "\"physvib_scene\": 0")), "my.json: physvib_scene: expected a version from 1 on, found 0");
-    EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1, ", "")), "my.json: field \"physvib_scene\" is missing");
+    EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1", "\"physvib_scene\": 2")),
+              "my.json: physvib_scene: made for a newer PhysVib: expected a version up to 1, found 2");
+    EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1", "\"physvib_scene\": 0")),
+              "my.json: physvib_scene: expected a version from 1 on, found 0");
+    EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1, ", "")),
+              "my.json: field \"physvib_scene\" is missing");
     EXPECT_EQ(errorOf("[]"), "my.json: expected an object, found an array");
 }
 
@@ -237,9 +264,11 @@ TEST(SceneFile, SyntaxErrorsNameLineAndColumn) {
 TEST(SceneFile, AbsurdRequestsAreRefusedWithTheLimit) {
     std::string bodies;
     for (int i = 0; i < 5000; ++i) bodies += "0,";
-    EXPECT_EQ(errorOf(replaced(small, "\"bodies\": [", "\"bodies\": [" + bodies)), "my.json: bodies: expected at most 4096 items, found 5001");
+    EXPECT_EQ(errorOf(replaced(small, "\"bodies\": [", "\"bodies\": [" + bodies)),
+              "my.json: bodies: expected at most 4096 items, found 5001");
     EXPECT_EQ(errorOf(std::string(4'000'001, ' ')), "my.json: expected at most 4000000 bytes, found more");
-    EXPECT_EQ(errorOf(replaced(full, "\"times\": 2,", "\"times\": 100000,")), "my.json: bodies: expected at most 4096 in all, found 100004");
+    EXPECT_EQ(errorOf(replaced(full, "\"times\": 2,", "\"times\": 100000,")),
+              "my.json: bodies: expected at most 4096 in all, found 100004");
 }
 
 // ---- variables
@@ -260,7 +289,8 @@ double radiusOf(const Scene& scene) {
 TEST(SceneVariables, HaveTheirDefaultsUnlessSet) {
     const Scene scene = readGood(varied);
     EXPECT_EQ(radiusOf(scene), 0.2);
-    EXPECT_EQ(scene.variables, (std::vector<SceneVariable>{{"size", "big", {"big", "tiny"}}, {"height", "1", {"1", "2"}}}));
+    EXPECT_EQ(scene.variables,
+              (std::vector<SceneVariable>{{"size", "big", {"big", "tiny"}}, {"height", "1", {"1", "2"}}}));
 }
 
 TEST(SceneVariables, ReplaceWhatTheChoiceSays) {
@@ -273,25 +303,35 @@ TEST(SceneVariables, ReplaceWhatTheChoiceSays) {
 }
 
 TEST(SceneVariables, UnknownOnesAndValuesAreNamed) {
-    EXPECT_EQ(errorOf(varied, {{"colour", "red"}}), "my.json: no variable \"colour\", expected one of size, height");
-    EXPECT_EQ(errorOf(varied, {{"size", "huge"}}), "my.json: variable \"size\": expected one of big, tiny, found \"huge\"");
+    EXPECT_EQ(errorOf(varied, {{"colour", "red"}}),
+              "my.json: no variable \"colour\", expected one of size, height");
+    EXPECT_EQ(errorOf(varied, {{"size", "huge"}}),
+              "my.json: variable \"size\": expected one of big, tiny, found \"huge\"");
     EXPECT_EQ(errorOf(small, {{"size", "huge"}}), "my.json: no variable \"size\", the scene has none");
 }
 
 TEST(SceneVariables, PointersLeadToValuesThatAreThere) {
-    for (const std::string bad : {"/bodies/1/name", "/bodies/0/nam", "bodies", "", "/bodies/-", "/bodies/01", "/variables/0"})
-        EXPECT_EQ(errorOf(replaced(varied, "/bodies/0/name", bad)), "my.json: variables[0].choices[1].set: expected a pointer to a value of the scene, found \"" + bad + "\"");
+    for (const std::string bad :
+         {"/bodies/1/name", "/bodies/0/nam", "bodies", "", "/bodies/-", "/bodies/01", "/variables/0"})
+        EXPECT_EQ(
+            errorOf(replaced(varied, "/bodies/0/name", bad)),
+            "my.json: variables[0].choices[1].set: expected a pointer to a value of the scene, found \"" +
+                bad + "\"");
 }
 
 TEST(SceneVariables, FaultsNameTheirField) {
     const std::vector<std::array<std::string, 3>> cases{
-        {"\"default\": \"big\"", "\"default\": \"huge\"", "variable \"size\": expected one of big, tiny, found \"huge\""},
+        {"\"default\": \"big\"", "\"default\": \"huge\"",
+         "variable \"size\": expected one of big, tiny, found \"huge\""},
         {"\"default\": \"big\"", "\"standard\": \"big\"", "variables[0]: unknown field \"standard\""},
         {"\"set\": {}", "\"set\": []", "variables[0].choices[0].set: expected an object, found an array"},
-        {"\"value\": \"tiny\"", "\"value\": 3", "variables[0].choices[1].value: expected a string, found a number"},
-        {"{ \"value\": \"big\", \"set\": {} }", "{ \"value\": \"big\" }", "variables[0].choices[0]: field \"set\" is missing"},
+        {"\"value\": \"tiny\"", "\"value\": 3",
+         "variables[0].choices[1].value: expected a string, found a number"},
+        {"{ \"value\": \"big\", \"set\": {} }", "{ \"value\": \"big\" }",
+         "variables[0].choices[0]: field \"set\" is missing"},
     };
-    for (const auto& [what, by, message] : cases) EXPECT_EQ(errorOf(replaced(varied, what, by)), "my.json: " + message);
+    for (const auto& [what, by, message] : cases)
+        EXPECT_EQ(errorOf(replaced(varied, what, by)), "my.json: " + message);
 }
 
 // ---- broken files
@@ -300,7 +340,8 @@ TEST(SceneFile, NoMutationCrashesOrHalfLoads) {
     std::mt19937 random(31);
     int accepted = 0;
     for (int i = 0; i < 10'000; ++i) {
-        const Result<Scene> read = readScene(mutated(full, "0123456789,.-eE{}[]\":\\un \n\xEF", random), "my.json");
+        const Result<Scene> read =
+            readScene(mutated(full, "0123456789,.-eE{}[]\":\\un \n\xEF", random), "my.json");
         if (!read) {
             ASSERT_TRUE(read.value == Scene{});
             ASSERT_TRUE(read.error.starts_with("my.json: ")) << read.error;
@@ -319,8 +360,10 @@ TEST(SceneFile, NoMutationCrashesOrHalfLoads) {
 TEST(SceneFile, ACommaLocaleChangesNothing) {
     const CommaLocale comma;
     EXPECT_EQ(sceneJson(readGood(full)), full);
-    EXPECT_EQ(errorOf(replaced(full, "\"drive_gain\": 2.5", "\"drive_gain\": -1234.5")), "my.json: drive_gain: expected 0 to 1e+06, found -1234.5");
-    if (!comma.hasCLocale) GTEST_SKIP() << "no C locale with a decimal comma here; tried with C++ streams only";
+    EXPECT_EQ(errorOf(replaced(full, "\"drive_gain\": 2.5", "\"drive_gain\": -1234.5")),
+              "my.json: drive_gain: expected 0 to 1e+06, found -1234.5");
+    if (!comma.hasCLocale)
+        GTEST_SKIP() << "no C locale with a decimal comma here; tried with C++ streams only";
 }
 
 using SceneFileOnDiskTest = FolderTest;
@@ -332,7 +375,8 @@ TEST_F(SceneFileOnDiskTest, LoadsWhatWasWrittenAndNamesTheFileInErrors) {
     EXPECT_TRUE(findScene(path).value == readGood(full));
     ASSERT_EQ(writeFile(path, "{}"), "");
     EXPECT_EQ(loadScene(path).error, path + ": field \"physvib_scene\" is missing");
-    EXPECT_EQ(loadScene(folder / "none.json").error, (folder / "none.json").string() + ": cannot be read: No such file or directory");
+    EXPECT_EQ(loadScene(folder / "none.json").error,
+              (folder / "none.json").string() + ": cannot be read: No such file or directory");
     ASSERT_EQ(writeFile(path, std::string(limits::maxSceneFileBytes + 1, ' ')), "");
     EXPECT_EQ(loadScene(path).error, path + ": expected at most 4000000 bytes, found more");
 }
@@ -343,7 +387,8 @@ TEST(SceneCatalogue, FindsScenesByName) {
     EXPECT_EQ(findBuiltInScene("shake"), nullptr);
     EXPECT_TRUE(findScene("shake-the-box").value == *findBuiltInScene("shake-the-box"));
     EXPECT_EQ(findScene("shake").error, "no scene \"shake\" (see physvib scenes)");
-    EXPECT_EQ(findScene("shake-the-box", {{"a", "b"}}).error, "shake-the-box: no variable \"a\", the scene has none");
+    EXPECT_EQ(findScene("shake-the-box", {{"a", "b"}}).error,
+              "shake-the-box: no variable \"a\", the scene has none");
 }
 
 TEST(SceneCatalogue, EveryBuiltInSceneIsReadableWithEveryChoice) {
@@ -355,7 +400,8 @@ TEST(SceneCatalogue, EveryBuiltInSceneIsReadableWithEveryChoice) {
 
 TEST(SceneCatalogue, EmbeddedFilesAreTheFiles) {
     for (const Scene& scene : builtInScenes()) {
-        const auto path = std::filesystem::path(PHYSVIB_SOURCE_DIR) / "Source/Files/Scenes" / (scene.name + ".json");
+        const auto path =
+            std::filesystem::path(PHYSVIB_SOURCE_DIR) / "Source/Files/Scenes" / (scene.name + ".json");
         EXPECT_TRUE(loadScene(path).value == scene) << path;
     }
 }

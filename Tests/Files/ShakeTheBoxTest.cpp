@@ -64,11 +64,13 @@ TEST_P(ShakenBox, IsFeltAtTheWallThatWasHit) {
 }
 
 std::string nameOf(const testing::TestParamInfo<Run>& run) {
-    return "Seed" + std::to_string(run.param.seed) + "At" + std::to_string(run.param.stepsPerSecond) + "StepsPerSecond";
+    return "Seed" + std::to_string(run.param.seed) + "At" + std::to_string(run.param.stepsPerSecond) +
+           "StepsPerSecond";
 }
 
 INSTANTIATE_TEST_SUITE_P(SeedsAndRates, ShakenBox,
-                         testing::Values(Run{0, 100}, Run{1, 100}, Run{2, 100}, Run{3, 100}, Run{1, 1000}), nameOf);
+                         testing::Values(Run{0, 100}, Run{1, 100}, Run{2, 100}, Run{3, 100}, Run{1, 1000}),
+                         nameOf);
 
 class TenMinutes : public testing::TestWithParam<std::uint32_t> {};
 

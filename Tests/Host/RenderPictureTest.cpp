@@ -242,6 +242,43 @@ TEST_F(RenderPicture, BodiesStandWhereTheMarksSay) {
     EXPECT_NEAR(moved.y, start.y, 0.6);
 }
 
+TEST_F(RenderPicture, BodiesThatAreNotThereAreNotDrawn) {
+    const auto ballIn = [](Render& render) {
+        return find(drawPicture(render.input), palette::material(1).withMultipliedBrightness(0.9f),
+                    {24, 120, 760, 500})
+            .count;
+    };
+    Render render(1, 0);
+    EXPECT_GT(ballIn(render), 100);
+    render.input.bodies = {{2.0, 0.05, 0.0}, {1.0, 1.0, 0.0, false}};
+    EXPECT_EQ(ballIn(render), 0);
+    render.input.bodies.clear();
+    render.scene.script = {{1.0, 1, 0.0, SpawnAction{render.scene.bodies[1], {}}}};
+    render.scene.bodies.pop_back();
+    EXPECT_EQ(ballIn(render), 0);
+}
+
+TEST_F(RenderPicture, EveryFixtureOfABodyIsDrawnWhateverItsShape) {
+    const auto pixelsOf = [](Shape shape, double offset) {
+        Render render(1, 0);
+        auto& body = render.scene.bodies[1];
+        body.type = BodyType::staticBody;
+        body.fixtures.push_back({std::move(shape), {offset, 0.0}, 0.0, 0});
+        render.scene.bodies.erase(render.scene.bodies.begin());
+        return find(drawPicture(render.input), palette::material(0).withMultipliedBrightness(0.6f),
+                    {24, 120, 760, 500});
+    };
+    const PolygonShape wedge{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.5}}};
+    const auto near = pixelsOf(wedge, 0.5), far = pixelsOf(wedge, 1.5);
+    EXPECT_GT(near.count, 1000);
+    EXPECT_NEAR(static_cast<double>(far.count), static_cast<double>(near.count), 0.05 * near.count);
+    EXPECT_GT(far.x, near.x + 100.0);
+    const auto chain = pixelsOf(ChainShape{{{2.0, 0.5}, {0.0, 0.5}}}, 0.5);
+    EXPECT_GT(chain.count, 300);
+    EXPECT_LT(chain.count, near.count);
+    EXPECT_LT(chain.y, near.y); // 0.5 m up
+}
+
 TEST_F(RenderPicture, EmptyInputIsAPictureToo) {
     EXPECT_EQ(drawPicture({}).getWidth(), 1600);
     Render render(2, 5);

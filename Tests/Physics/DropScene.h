@@ -24,12 +24,17 @@ inline Scene dropScene(double heightMetres) {
     scene.fieldWidthMetres = 4.0;
     scene.fieldHeightMetres = 4.0;
     scene.driveGain = 3.0;
-    scene.materials = {{"concrete", 1000.0, 0.5, 0.5, 80.0, 34.13}, {"rubber", 120.0, 0.5, 0.688, 205.0, 40.0}};
+    scene.materials = {{"concrete", 1000.0, 0.5, 0.5, 80.0, 34.13},
+                       {"rubber", 120.0, 0.5, 0.688, 205.0, 40.0}};
     scene.gravityMetresPerSecond2 = {0.0, -dropGravity};
     scene.bodies.resize(2);
-    scene.bodies[plateIndex] = {"plate", BodyType::staticBody, {{BoxShape{2.9, 0.3}, {}, 0.0, 0, true}}, {2.0, 0.15}};
+    scene.bodies[plateIndex] = {
+        "plate", BodyType::staticBody, {{BoxShape{2.9, 0.3}, {}, 0.0, 0, true}}, {2.0, 0.15}};
     scene.bodies[plateIndex].massKg = plateMass;
-    scene.bodies[ballIndex] = {"ball", BodyType::dynamicBody, {{CircleShape{dropRadius}, {}, 0.0, 1}}, {1.7, 0.3 + heightMetres + dropRadius}};
+    scene.bodies[ballIndex] = {"ball",
+                               BodyType::dynamicBody,
+                               {{CircleShape{dropRadius}, {}, 0.0, 1}},
+                               {1.7, 0.3 + heightMetres + dropRadius}};
     return scene;
 }
 
@@ -46,7 +51,10 @@ inline Scene shakenScene() {
     wall("left", {-0.25, 2.0}, {0.5, 4.0});
     wall("right", {4.25, 2.0}, {0.5, 4.0});
     for (int i = 0; i < 10; ++i)
-        scene.bodies.push_back({"ball " + std::to_string(i), BodyType::dynamicBody, {{CircleShape{dropRadius}, {}, 0.0, 1}}, {0.5 + 0.3 * i, 1.0 + 0.2 * i}});
+        scene.bodies.push_back({"ball " + std::to_string(i),
+                                BodyType::dynamicBody,
+                                {{CircleShape{dropRadius}, {}, 0.0, 1}},
+                                {0.5 + 0.3 * i, 1.0 + 0.2 * i}});
     scene.script = {{0.0, 1, 0.0, GravityAction{{3.0, -15.0}}}, {0.5, 1, 0.0, GravityAction{{-5.0, 15.0}}}};
     scene.scriptPeriodSeconds = 1.0;
     return scene;

@@ -43,5 +43,23 @@ TEST(EventSorter, FullSorterCountsWhatItDrops) {
     EXPECT_EQ(sorter.drops(), 3U);
 }
 
+TEST(EventSorter, WithdrawsEventsOfAFixtureAndOnDemandThoseItGave) {
+    EventSorter sorter(8);
+    CollisionEvent given = event(2, 1);
+    given.source.other = 5;
+    sorter.push(event(1, 5));
+    sorter.push(given);
+    sorter.push(event(3, 1));
+    sorter.withdraw(5, false);
+    std::vector<CollisionEvent> finished;
+    sorter.release(3, finished);
+    EXPECT_EQ(finished, std::vector{given});
+    sorter.push(given);
+    sorter.withdraw(5, true);
+    finished.clear();
+    sorter.release(10, finished);
+    EXPECT_EQ(finished, std::vector{event(3, 1)});
+}
+
 } // namespace
 } // namespace physvib

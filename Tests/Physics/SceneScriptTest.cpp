@@ -48,7 +48,8 @@ TEST(SceneScript, InputsOfOneStepActInTheirOrder) {
 TEST(SceneScript, RepeatsAfterItsPeriod) {
     const Scene scene = scripted({tilt(0.0, 1.0), tilt(0.5, 2.0)}, 1.0);
     SceneScript script(scene, {100});
-    EXPECT_EQ(tilts(script, 0, 260), (Due{{0, 1.0}, {50, 2.0}, {100, 1.0}, {150, 2.0}, {200, 1.0}, {250, 2.0}}));
+    EXPECT_EQ(tilts(script, 0, 260),
+              (Due{{0, 1.0}, {50, 2.0}, {100, 1.0}, {150, 2.0}, {200, 1.0}, {250, 2.0}}));
 }
 
 TEST(SceneScript, AnInputAtTheEndOfThePeriodIsNotLost) {

@@ -53,13 +53,14 @@ TEST_P(DroppedBall, IsFeltWhereItHitsWithThePlatesSound) {
 }
 
 std::string nameOf(const testing::TestParamInfo<Drop>& drop) {
-    return "From" + std::to_string(static_cast<int>(drop.param.heightMetres)) + "MetresAt" + std::to_string(drop.param.stepsPerSecond) +
-           "StepsPerSecond";
+    return "From" + std::to_string(static_cast<int>(drop.param.heightMetres)) + "MetresAt" +
+           std::to_string(drop.param.stepsPerSecond) + "StepsPerSecond";
 }
 
 INSTANTIATE_TEST_SUITE_P(HeightsAndRates, DroppedBall,
                          testing::Values(Drop{1.0, 100}, Drop{2.0, 100}, Drop{3.0, 100}, Drop{1.0, 1000},
-                                         Drop{2.0, 1000}, Drop{3.0, 1000}), nameOf);
+                                         Drop{2.0, 1000}, Drop{3.0, 1000}),
+                         nameOf);
 
 TEST(Simulation, BouncingBallHitsOncePerBounceThenRestsInSilence) {
     const auto events = eventsOf(dropScene(1.0), 60.0);
@@ -178,6 +179,68 @@ TEST(Simulation, SmallFastBodiesDoNotPassThroughMovingOnes) {
             ASSERT_GT(simulation.pose(ballIndex).yMetres, 1.0) << height;
         }
     }
+}
+
+TEST(Simulation, CameraSwitchedOnLaterFeelsFromThenOn) {
+    Scene scene = dropScene(1.0);
+    scene.bodies[plateIndex].fixtures[0].isCamera = false;
+    const auto all = eventsOf(dropScene(1.0), 3.0);
+    ASSERT_GE(all.size(), 3U);
+    const double between = 0.5e-9 * static_cast<double>(all[0].timeNs + all[1].timeNs);
+    const double beyond = 0.5e-9 * static_cast<double>(all[1].timeNs + all[2].timeNs);
+    scene.script = {{between, 1, 0.0, CameraAction{"plate", 0, true}},
+                    {beyond, 1, 0.0, CameraAction{"plate", everyFixture, false}}};
+    EXPECT_EQ(eventsOf(scene, 3.0), (std::vector{all[1]}));
+}
+
+TEST(Simulation, ChangedMaterialIsHeardInTheNextHit) {
+    Scene scene = dropScene(1.0);
+    scene.materials.push_back({"glass", 2500.0, 0.5, 0.5, 1200.0, 15.0});
+    const auto before = eventsOf(scene, 3.0);
+    const double between = 0.5e-9 * static_cast<double>(before[0].timeNs + before[1].timeNs);
+    scene.script = {{between, 1, 0.0, MaterialAction{"plate", 0, 2}}};
+    const auto events = eventsOf(scene, 3.0);
+    ASSERT_EQ(events.size(), before.size());
+    EXPECT_EQ(events[0].frequencyHz, 80.0);
+    EXPECT_EQ(events[1].frequencyHz, 1200.0);
+    EXPECT_EQ(events[1].decayPerSecond, 15.0);
+}
+
+TEST(Simulation, NormalisationMayBeGiven) {
+    Scene scene = dropScene(1.0);
+    scene.normalisation = {0.25, 30.0};
+    const auto hit = eventsOf(scene, 1.0).at(0);
+    EXPECT_DOUBLE_EQ(hit.amplitude, 3.0 * 0.25 * hit.source.impulseNewtonSeconds / (plateMass + 30.0));
+}
+
+TEST(Simulation, HandMassFollowsTheBodiesPresent) {
+    Scene scene = dropScene(1.0);
+    BodyDescription giant = scene.bodies[plateIndex];
+    giant.name = "giant";
+    giant.positionMetres = {50.0, 50.0};
+    giant.massKg = 5000.0;
+    scene.script = {{0.1, 1, 0.0, SpawnAction{giant, {}}}, {0.2, 1, 0.0, RemoveAction{"giant"}}};
+    Simulation simulation(scene, 0, 100);
+    std::vector<CollisionEvent> events;
+    const auto handMassAfter = [&](int steps) {
+        for (int i = 0; i < steps; ++i) simulation.step(events);
+        return simulation.impactModel().handMassKg;
+    };
+    EXPECT_EQ(handMassAfter(5), plateMass);
+    EXPECT_EQ(handMassAfter(10), 5000.0);
+    EXPECT_EQ(handMassAfter(10), plateMass);
+}
+
+TEST(Simulation, SpawnedBodiesStrikeUnderTheirOwnNumbers) {
+    Scene scene = dropScene(1.0);
+    BodyDescription stone = scene.bodies[ballIndex];
+    stone.name = "stone";
+    stone.positionMetres = {1.0, 1.45};
+    scene.script = {{1.0, 3, 0.2, SpawnAction{stone, {0.7, 0.0}}}};
+    scene.bodies.pop_back();
+    std::vector<int> strikers;
+    for (const CollisionEvent& event : eventsOf(scene, 1.95)) strikers.push_back(event.source.other);
+    EXPECT_EQ(strikers, (std::vector{1, 2, 3}));
 }
 
 TEST(Simulation, RefusesAnInvalidSceneAndStepRate) {

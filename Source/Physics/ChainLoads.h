@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The impulses that reach cameras through contacts that were there before: hits handed on by others.
+#pragma once
+#include "Physics/ContactGraph.h"
+#include "Physics/FixtureTable.h"
+#include "Physics/Impact.h"
+#include "Physics/IntegerMap.h"
+#include <array>
+#include <box2d/box2d.h>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// Watches the old contacts of cameras. Bodies that rest push too, the same in every step: that is a contact's
+/// load, the smallest of its impulses in the last three steps (so that a hit, which may take two, is no load).
+/// What a contact pushes beyond its load has been handed on by it; less than its load is a relief, not a strike.
+/// The contacts' sum is the whole impulse, whatever it does to the spin, so nothing is added for that (SPEC
+/// erratum 3). Allocates when the world grows. M only.
+class ChainLoads {
+public:
+    struct Passed {
+        b2Vec2 newtonSeconds{0.0F, 0.0F};
+        float strongest = 0.0F;                    ///< size of the part that came through `other`
+        std::int32_t other = FixtureTable::none;   ///< slot of the neighbour that handed on most
+        b2Vec2 point{0.0F, 0.0F};
+    };
+
+    ChainLoads();
+
+    /// Room for this many slots.
+    void resize(std::int32_t slots);
+
+    /// In PostSolve: the old contact (a, b) has pushed b by `impulse` (N s, world), and a by its opposite.
+    void add(std::int32_t a, std::int32_t b, b2Vec2 impulse, b2Vec2 point);
+
+    /// After a step: adds up what was handed on.
+    void settle() noexcept;
+
+    /// What a fixture, a camera at least, got through old contacts in this step. After settle().
+    const Passed& passed(std::int32_t slot) const noexcept { return passed_[static_cast<std::size_t>(slot)]; }
+
+    /// After that: a contact that began in this step is old from the next one on, and has no load yet.
+    void begin(std::int32_t a, std::int32_t b);
+
+    /// At last: this step becomes the past. Bodies that sleep keep their load.
+    void endStep(const ContactGraph& graph) noexcept;
+
+    /// The slot has another owner from now on.
+    void forget(std::int32_t slot) noexcept;
+
+private:
+    struct Contact {
+        std::int32_t a, b;
+        b2Vec2 now, point; // now: on b
+        std::array<b2Vec2, 3> past;
+        bool isSolved;
+        bool isUnknown; // met in mid-contact: what it pushes in this step is its load
+    };
+    static b2Vec2 loadOf(const Contact& contact) noexcept;
+    Contact& find(std::int32_t a, std::int32_t b, bool isUnknown);
+    void pass(std::int32_t slot, std::int32_t other, b2Vec2 newtonSeconds, b2Vec2 point) noexcept;
+    void drop(std::size_t index) noexcept;
+
+    std::vector<Contact> contacts_;
+    IntegerMap indices_;         // of the contacts, by their ends
+    std::vector<Passed> passed_; // by slot
+};
+
+} // namespace physvib

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The contact-state graph of the thesis (5.1.3): which fixtures are connected by touching ones.
+#pragma once
+#include "Physics/IntegerMap.h"
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// Undirected graph over small indices, changed edge by edge as contacts begin and end. The two breadth-first
+/// trees of a new contact (v1, v2) visit exactly the nodes of component(v1), as both cross the new edge (SPEC
+/// erratum 14); so there is no search, only a union-find, rebuilt at most once between two removals and the next
+/// question. A node that is not passing (an immovable body: it takes an impulse, but hands none on) may end a
+/// path and never continues one. Allocates only when it outgrows what it has had. M only.
+class ContactGraph {
+public:
+    static constexpr std::int32_t noComponent = -1;
+
+    /// Pairs in contact that fit without an allocation.
+    explicit ContactGraph(std::size_t edges = 1024);
+
+    /// Nodes are passing until told otherwise. Costs a rebuild if it changes.
+    void setPassing(std::int32_t node, bool isPassing);
+
+    /// One more contact between two different nodes (>= 0); two fixtures can have several (chains).
+    void insert(std::int32_t a, std::int32_t b);
+
+    /// One contact less; no effect if there is none.
+    void erase(std::int32_t a, std::int32_t b);
+
+    /// Ends all contacts of a node, and makes it passing.
+    void isolate(std::int32_t node);
+
+    /// Equal for nodes that are connected through passing ones; noComponent for a node that is not passing. Valid
+    /// until the next change.
+    std::int32_t component(std::int32_t node);
+
+    /// The components from which a path leads to `node`: its own, or, if it is not passing, those of the nodes that
+    /// touch it. Allocates if `components` must grow.
+    void reach(std::int32_t node, std::vector<std::int32_t>& components);
+
+    bool isPassing(std::int32_t node) const noexcept;
+    bool isTouching(std::int32_t a, std::int32_t b) const noexcept;
+
+    /// Calls see(neighbour) for each node that touches `node`. Walks through all edges.
+    template <class See>
+    void forNeighbours(std::int32_t node, See see) const {
+        for (const Edge& edge : edges_) {
+            if (edge.a == node) see(edge.b);
+            if (edge.b == node) see(edge.a);
+        }
+    }
+
+private:
+    struct Edge {
+        std::int32_t a, b;
+        std::int32_t contacts;
+    };
+    struct Node {
+        std::int32_t parent = 0;
+        std::int32_t degree = 0;
+        bool isPassing = true;
+    };
+
+    Node& at(std::int32_t node) { return nodes_[static_cast<std::size_t>(node)]; }
+    void make(std::int32_t node);
+    void drop(std::size_t edge) noexcept;
+    std::int32_t root(std::int32_t node) noexcept;
+    void unite(const Edge& edge) noexcept;
+    void rebuild() noexcept;
+
+    std::vector<Node> nodes_;
+    std::vector<Edge> edges_;
+    IntegerMap indices_; // of the edges, by their pair of nodes
+    bool isStale_ = false;
+};
+
+} // namespace physvib

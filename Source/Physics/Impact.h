@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What the catcher's stages hand to each other: the step, the contacts that began in it, and what a camera felt.
+#pragma once
+#include "Physics/BodySweeps.h"
+#include <algorithm>
+#include <box2d/box2d.h>
+#include <cmath>
+#include <cstdint>
+
+namespace physvib {
+
+/// A step of the world in session time, and what it takes to be a strike in it.
+struct StepSpan {
+    std::int64_t earliestNs = 0; ///< start of the step before: contacts are noticed up to a step late
+    std::int64_t startNs = 0;
+    std::int64_t endNs = 0;
+    double thresholdMetresPerSecond = 0.0;
+    b2Vec2 gravity{0.0F, 0.0F};
+
+    double seconds() const noexcept { return static_cast<double>(endNs - startNs) * 1.0e-9; }
+    /// Time of a moment given in steps after the start, -1 to 1.
+    std::int64_t timeNs(double fraction) const noexcept {
+        const double sinceStart = fraction * static_cast<double>(endNs - startNs);
+        return std::max(earliestNs, startNs + static_cast<std::int64_t>(std::llround(sinceStart)));
+    }
+    /// True if an impulse moves the lighter body by more than resting does.
+    bool isStrike(double newtonSeconds, double lighterMassKg) const noexcept {
+        return newtonSeconds > 0.0 && newtonSeconds >= thresholdMetresPerSecond * lighterMassKg;
+    }
+};
+
+/// A contact that began in this step. Fixtures are slots of the FixtureTable.
+struct ContactRecord {
+    const b2Contact* contact; // valid within its step only, and only compared
+    std::int32_t a, b;
+    std::int32_t order; // of beginnings and ends within the step
+    b2Vec2 point;       // world
+    double fraction;    // moment of touch in steps after the start of this step, -1 to 1
+    double lighterMassKg;
+    BodyMotion motionA, motionB; // before the solver
+    b2Vec2 armA, armB;           // from the centre of mass to the point
+    double normalImpulse, tangentialImpulse; // N s, summed over the points and passes of the step
+
+    double impulse() const noexcept { return std::hypot(normalImpulse, tangentialImpulse); }
+};
+
+/// A contact that ended.
+struct ContactEnd {
+    std::int32_t a, b;
+    std::int32_t order;
+    double fraction;
+    BodyMotion motionA, motionB;
+};
+
+/// What a camera felt of a contact: |J_i| of Eq. 5.4, when and where.
+struct Impact {
+    std::int32_t camera; // slot
+    std::int32_t other;  // slot of what touches the camera there, or FixtureTable::none
+    std::int64_t timeNs;
+    double newtonSeconds;
+    b2Vec2 point;
+};
+
+} // namespace physvib

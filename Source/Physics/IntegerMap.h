@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A hash table from 64-bit keys (addresses, pairs of indices) to indices, for lookups inside contact callbacks.
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// The key of an unordered pair of different indices (>= 0). Never 0: the larger one is above 0. Any thread.
+constexpr std::uint64_t pairKey(std::int32_t a, std::int32_t b) noexcept {
+    const auto low = static_cast<std::uint64_t>(std::min(a, b));
+    return low << 32U | static_cast<std::uint64_t>(std::max(a, b));
+}
+
+/// Open addressing with linear probing, at most half full. Unlike std::unordered_map it allocates only when it
+/// outgrows its table, and a lookup is one or two cache lines. It has no order and cannot be walked through.
+/// One thread at a time.
+class IntegerMap {
+public:
+    static constexpr std::int32_t none = -1;
+
+    /// `capacity` keys fit without an allocation.
+    explicit IntegerMap(std::size_t capacity = 32) { allocate(std::bit_ceil(2 * capacity + 2)); }
+
+    /// The value of `key` (not 0), or `none`.
+    std::int32_t find(std::uint64_t key) const noexcept {
+        const Entry& entry = entries_[locate(key)];
+        return entry.key == key ? entry.value : none;
+    }
+
+    /// Sets the value of `key` (not 0).
+    void set(std::uint64_t key, std::int32_t value) {
+        if (2 * (size_ + 1) > entries_.size()) grow();
+        Entry& entry = entries_[locate(key)];
+        if (entry.key == 0) ++size_;
+        entry = {key, value};
+    }
+
+    /// Forgets `key`, if it is there. Later keys of the same run move up, so no lookup ever meets a gap.
+    void erase(std::uint64_t key) noexcept {
+        std::size_t hole = locate(key);
+        if (entries_[hole].key != key) return;
+        for (std::size_t next = after(hole); entries_[next].key != 0; next = after(next)) {
+            const std::size_t fromHome = (next - home(entries_[next].key)) & mask();
+            if (fromHome < ((next - hole) & mask())) continue;
+            entries_[hole] = entries_[next];
+            hole = next;
+        }
+        entries_[hole] = {};
+        --size_;
+    }
+
+    std::size_t size() const noexcept { return size_; }
+
+private:
+    struct Entry {
+        std::uint64_t key = 0;
+        std::int32_t value = none;
+    };
+
+    std::size_t mask() const noexcept { return entries_.size() - 1; }
+    std::size_t after(std::size_t place) const noexcept { return (place + 1) & mask(); }
+    std::size_t home(std::uint64_t key) const noexcept {
+        return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_); // Fibonacci hashing, Knuth 6.4
+    }
+    std::size_t locate(std::uint64_t key) const noexcept {
+        std::size_t place = home(key);
+        while (entries_[place].key != 0 && entries_[place].key != key) place = after(place);
+        return place;
+    }
+    void allocate(std::size_t places) {
+        entries_.assign(places, {});
+        shift_ = 64 - std::countr_zero(places);
+        size_ = 0;
+    }
+    void grow() {
+        std::vector<Entry> before;
+        before.swap(entries_);
+        allocate(2 * before.size());
+        for (const Entry& entry : before)
+            if (entry.key != 0) set(entry.key, entry.value);
+    }
+
+    std::vector<Entry> entries_;
+    std::size_t size_ = 0;
+    int shift_ = 0;
+};
+
+} // namespace physvib

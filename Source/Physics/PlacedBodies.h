@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The bodies that a scene describes, with the places of their descriptions, for messages.
+#pragma once
+#include "Physics/Scene.h"
+#include "Physics/SceneRanges.h"
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// A body of the scene or of its script.
+struct PlacedBody {
+    const BodyDescription* body; ///< of the scene
+    std::string path;            ///< as scene files spell it
+    int times = 1;
+};
+
+inline std::vector<PlacedBody> placedBodies(const Scene& scene) {
+    std::vector<PlacedBody> bodies;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        bodies.push_back({&scene.bodies[i], detail::itemPath("bodies", i)});
+    for (std::size_t i = 0; i < scene.script.size(); ++i)
+        if (const auto* spawn = std::get_if<SpawnAction>(&scene.script[i].action))
+            bodies.push_back({&spawn->body, detail::itemPath("script", i) + ".body", scene.script[i].times});
+    return bodies;
+}
+
+} // namespace physvib

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Strikes that wait for the end of their contact.
+#include "Physics/ReleaseImpacts.h"
+#include <algorithm>
+#include <utility>
+
+namespace physvib {
+
+namespace {
+
+double inertiaAboutCentre(const b2Body& body) {
+    return body.GetInertia() - body.GetMass() * body.GetLocalCenter().LengthSquared();
+}
+
+} // namespace
+
+ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph)
+    : catcher_(catcher)
+    , table_(table)
+    , graph_(graph) {
+    strikes_.reserve(CollisionCatcher::maxDistantRecords);
+    reached_.reserve(CollisionCatcher::maxDirectRecords);
+}
+
+void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
+    release(false, span, impacts);
+    open(span);
+    follow();
+    release(true, span, impacts);
+    expire(span, impacts);
+    for (Strike& strike : strikes_) strike.order = -1;
+}
+
+void ReleaseImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
+    const auto isOf = [slot](const Strike& s) { return s.other == slot || s.a == slot || s.b == slot; };
+    std::erase_if(strikes_, [&](const Strike& s) { return s.camera == slot || (withdraws && isOf(s)); });
+    for (Strike& strike : strikes_) {
+        strike.isOver = strike.isOver || isOf(strike);
+        if (strike.other == slot) strike.other = FixtureTable::none;
+        if (isOf(strike)) strike.a = strike.b = FixtureTable::none;
+    }
+}
+
+void ReleaseImpacts::open(const StepSpan& span) {
+    for (const ContactRecord& record : catcher_.records())
+        if (record.impulse() > 0.0) openDirect(record, span); // a contact that its user has switched off has none
+    openHandedOn(span);
+}
+
+void ReleaseImpacts::openDirect(const ContactRecord& record, const StepSpan& span) {
+    for (const bool isA : {true, false}) {
+        const std::int32_t camera = isA ? record.a : record.b;
+        if (!table_[camera].values.isCamera) continue;
+        // What is handed on to this camera from now on cannot be told from what strikes it.
+        std::erase_if(strikes_, [camera](const Strike& s) { return s.camera == camera && !s.isDirect; });
+        push({camera, isA ? record.b : record.a, record.a, record.b, record.order, true, false,
+              span.timeNs(record.fraction), record.point, isA ? record.armA : record.armB,
+              isA ? record.motionA : record.motionB, record.lighterMassKg});
+    }
+}
+
+void ReleaseImpacts::openHandedOn(const StepSpan& span) {
+    for (const std::int32_t camera : table_.cameras()) {
+        const auto isOfCamera = [camera](const Strike& strike) { return strike.camera == camera; };
+        if (std::any_of(strikes_.begin(), strikes_.end(), isOfCamera)) continue;
+        graph_.reach(camera, reached_);
+        const ContactRecord* cause = nullptr;
+        for (const ContactRecord& record : catcher_.records()) {
+            const bool isStronger = cause == nullptr || record.impulse() > cause->impulse();
+            if (isStronger && span.isStrike(record.impulse(), record.lighterMassKg) &&
+                (isReached(record.a) || isReached(record.b)))
+                cause = &record;
+        }
+        if (cause == nullptr) continue;
+        const ChainLoads::Passed& passed = catcher_.loads().passed(camera);
+        const bool isKnown = passed.other != FixtureTable::none;
+        const b2Vec2 point = isKnown ? passed.point : cause->point;
+        push({camera, isKnown ? passed.other : cause->a, cause->a, cause->b, cause->order, false, false,
+              span.timeNs(cause->fraction), point, point - table_[camera].body->GetWorldCenter(),
+              catcher_.sweeps().start(table_[camera].bodyIndex),
+              std::min(table_[camera].movableMassKg(), cause->lighterMassKg)});
+    }
+}
+
+bool ReleaseImpacts::isReached(std::int32_t slot) {
+    const std::int32_t component = graph_.component(slot);
+    return component != ContactGraph::noComponent &&
+           std::find(reached_.begin(), reached_.end(), component) != reached_.end();
+}
+
+void ReleaseImpacts::push(const Strike& strike) {
+    if (strikes_.size() == strikes_.capacity())
+        ++drops_;
+    else
+        strikes_.push_back(strike);
+}
+
+void ReleaseImpacts::follow() {
+    std::int32_t camera = FixtureTable::none;
+    b2Vec2 gained{0.0F, 0.0F};
+    for (Strike& strike : strikes_) {
+        if (table_[strike.camera].isDynamic()) continue;
+        if (strike.camera != camera) gained = gain(strike.camera);
+        camera = strike.camera;
+        strike.gained += gained;
+    }
+}
+
+b2Vec2 ReleaseImpacts::gain(std::int32_t camera) {
+    ++sums_;
+    b2Vec2 sum{0.0F, 0.0F};
+    graph_.forNeighbours(camera, [&](std::int32_t neighbour) { sum += gainOf(neighbour); });
+    for (const ContactRecord& record : catcher_.records()) { // one may have ended already
+        if (record.a == camera) sum += gainOf(record.b);
+        if (record.b == camera) sum += gainOf(record.a);
+    }
+    return sum;
+}
+
+b2Vec2 ReleaseImpacts::gainOf(std::int32_t slot) {
+    const KnownFixture& known = table_[slot];
+    const auto body = static_cast<std::size_t>(known.bodyIndex);
+    if (counted_.size() <= body) counted_.resize(body + 1, 0);
+    if (!known.isDynamic() || std::exchange(counted_[body], sums_) == sums_) return {0.0F, 0.0F};
+    const b2Vec2 before = catcher_.sweeps().start(known.bodyIndex).metresPerSecond;
+    return known.body->GetMass() * (known.body->GetLinearVelocity() - before);
+}
+
+void ReleaseImpacts::release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts) {
+    for (const ContactEnd& end : catcher_.ends()) {
+        const auto isReleased = [&](const Strike& strike) {
+            return strike.a == end.a && strike.b == end.b && strike.order < end.order &&
+                   (strike.order >= 0) == ofThisStep;
+        };
+        for (const Strike& strike : strikes_) {
+            if (!isReleased(strike)) continue;
+            const bool isA = strike.camera == end.a;
+            const BodyMotion& motion = strike.isDirect
+                                           ? (isA ? end.motionA : end.motionB)
+                                           : catcher_.sweeps().start(table_[strike.camera].bodyIndex);
+            finish(strike, motion, span.timeNs(end.fraction), span, impacts);
+        }
+        std::erase_if(strikes_, isReleased);
+    }
+}
+
+void ReleaseImpacts::expire(const StepSpan& span, std::vector<Impact>& impacts) {
+    const auto isOld = [&](const Strike& strike) {
+        return strike.isOver || strike.beginNs + latestNs <= span.endNs;
+    };
+    for (const Strike& strike : strikes_) {
+        if (!isOld(strike)) continue;
+        const std::int64_t timeNs = strike.isOver ? span.startNs : strike.beginNs + latestNs;
+        finish(strike, motionOf(*table_[strike.camera].body), std::max(timeNs, span.earliestNs), span, impacts);
+    }
+    std::erase_if(strikes_, isOld);
+}
+
+void ReleaseImpacts::finish(const Strike& strike, const BodyMotion& end, std::int64_t timeNs,
+                            const StepSpan& span, std::vector<Impact>& impacts) const {
+    const KnownFixture& camera = table_[strike.camera];
+    if (!camera.values.isCamera) return;
+    const b2Vec2 felt = impulse(strike, end);
+    auto size = static_cast<double>(felt.Length());
+    if (!strike.isDirect && camera.isDynamic()) {
+        const auto seconds = static_cast<float>(timeNs - strike.beginNs) * 1.0e-9F;
+        const b2Vec2 withoutFall = felt - seconds * camera.body->GetMass() * span.gravity;
+        size = std::min(size, static_cast<double>(withoutFall.Length()));
+    }
+    if (span.isStrike(size, strike.lighterMassKg))
+        impacts.push_back({strike.camera, strike.other, timeNs, size, strike.point});
+}
+
+b2Vec2 ReleaseImpacts::impulse(const Strike& strike, const BodyMotion& end) const {
+    const KnownFixture& camera = table_[strike.camera];
+    if (!camera.isDynamic()) return strike.gained;
+    const b2Vec2 linear = camera.body->GetMass() * (end.metresPerSecond - strike.start.metresPerSecond);
+    const float length = strike.arm.Length();
+    if (length <= 0.0F) return linear;
+    const auto inertia = static_cast<float>(inertiaAboutCentre(*camera.body));
+    const float spin = end.radiansPerSecond - strike.start.radiansPerSecond;
+    return linear + (inertia * spin / (length * length)) * b2Cross(1.0F, strike.arm);
+}
+
+} // namespace physvib

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// `release` timing, as the thesis has it: impulses from the velocities before a contact and at its end.
+#pragma once
+#include "Physics/CollisionCatcher.h"
+#include "Physics/ContactGraph.h"
+#include "Physics/FixtureTable.h"
+#include "Physics/Impact.h"
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// Eq. 5.2 and 5.3: J = m dv + (I dw / |l|) t, from the beginning of a contact to its end, at the latest 50 ms later,
+/// which is the time of the impact, too. A camera that is not dynamic gets the summed momentum change of the dynamic
+/// bodies that touch it. Whatever else changes these velocities meanwhile is in it as well, gravity for one; where a
+/// camera is not struck itself, the smaller value with and without gravity counts, so that it feels neither rest nor
+/// fall. At most one such handed-on impact is under way per camera. M only.
+class ReleaseImpacts {
+public:
+    static constexpr std::int64_t latestNs = 50'000'000; // thesis 5.1.3: released 10 to 50 ms later
+
+    ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
+
+    /// Appends the impacts of contacts that ended, or got old, in a step that is settled.
+    void collect(const StepSpan& span, std::vector<Impact>& impacts);
+
+    /// The slot has another owner from now on. A camera that is gone feels nothing; one whose partner is gone feels
+    /// what it felt so far, unless `withdraws`.
+    void forget(std::int32_t slot, bool withdraws) noexcept;
+
+    /// Strikes that found no room so far.
+    std::uint64_t drops() const noexcept { return drops_; }
+
+private:
+    struct Strike {
+        std::int32_t camera, other; // slots; other: none once it is gone
+        std::int32_t a, b;          // the contact
+        std::int32_t order;         // of its beginning within the step; earlier: -1
+        bool isDirect, isOver;
+        std::int64_t beginNs;
+        b2Vec2 point, arm; // arm: from the centre of mass to the point, -l of Eq. 5.3
+        BodyMotion start;
+        double lighterMassKg;
+        b2Vec2 gained{0.0F, 0.0F}; // N s, by what touches an immovable camera
+    };
+    void open(const StepSpan& span);
+    void openDirect(const ContactRecord& record, const StepSpan& span);
+    void openHandedOn(const StepSpan& span);
+    bool isReached(std::int32_t slot);
+    void push(const Strike& strike);
+    void follow();
+    b2Vec2 gain(std::int32_t camera);
+    b2Vec2 gainOf(std::int32_t slot);
+    void release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts);
+    void expire(const StepSpan& span, std::vector<Impact>& impacts);
+    void finish(const Strike& strike, const BodyMotion& end, std::int64_t timeNs, const StepSpan& span,
+                std::vector<Impact>& impacts) const;
+    b2Vec2 impulse(const Strike& strike, const BodyMotion& end) const;
+
+    const CollisionCatcher& catcher_;
+    const FixtureTable& table_;
+    ContactGraph& graph_;
+    std::vector<Strike> strikes_;
+    std::vector<std::int32_t> reached_; // components at the camera in question
+    std::vector<std::int64_t> counted_; // by body: the sum it was last counted in
+    std::int64_t sums_ = 0;
+    std::uint64_t drops_ = 0;
+};
+
+} // namespace physvib

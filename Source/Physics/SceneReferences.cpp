@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Who is meant by a name.
+#include "Physics/SceneReferences.h"
+#include "Physics/SceneCast.h"
+#include "Physics/SceneLimits.h"
+#include "Physics/SceneRanges.h"
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <string_view>
+
+namespace physvib {
+
+namespace {
+
+using detail::itemPath;
+
+std::string missing(const std::string& path, const char* what, const std::string& name) {
+    return path + ": expected the name of a " + what + ", found \"" + name + "\"";
+}
+
+class References {
+public:
+    explicit References(const Scene& scene)
+        : scene_(scene)
+        , cast_(sceneCast(scene)) {
+        for (const JointDescription& joint : scene.joints) joints_.emplace(joint.name, &joint);
+    }
+
+    std::string check() {
+        for (const BodyDescription& body : cast_)
+            if (!bodies_.emplace(body.name, &body).second)
+                return "bodies: expected names of their own, found \"" + body.name + "\" twice";
+        std::string fault;
+        for (std::size_t i = 0; i < scene_.joints.size() && fault.empty(); ++i)
+            fault = checkJoint(scene_.joints[i], itemPath("joints", i));
+        for (std::size_t i = 0; i < scene_.script.size() && fault.empty(); ++i)
+            fault = checkInput(scene_.script[i], itemPath("script", i));
+        return fault;
+    }
+
+private:
+    std::string checkJoint(const JointDescription& joint, const std::string& path) const {
+        if (!bodies_.contains(joint.bodyA)) return missing(path + ".body_a", "body", joint.bodyA);
+        if (!bodies_.contains(joint.bodyB)) return missing(path + ".body_b", "body", joint.bodyB);
+        if (joint.bodyA == joint.bodyB) return path + ".body_b: expected another body than body_a";
+        const auto* wheel = std::get_if<WheelJoint>(&joint.joint);
+        if (wheel != nullptr && std::hypot(wheel->axis.x, wheel->axis.y) < 1.0e-3)
+            return path + ".axis: expected a direction, found none";
+        return {};
+    }
+
+    std::string checkInput(const ScriptInput& input, const std::string& path) const {
+        const double last = input.timeSeconds + (input.times - 1) * input.everySeconds;
+        const double period = scene_.scriptPeriodSeconds;
+        const double end = period > 0.0 ? period : sceneLimits::maxScriptSeconds;
+        if (!(last <= end)) return detail::outside(path + ".time_s", 0.0, end, last);
+        return std::visit([&](const auto& action) { return checkAction(action, path); }, input.action);
+    }
+
+    std::string checkAction(const GravityAction&, const std::string&) const { return {}; }
+    std::string checkAction(const TiltAction&, const std::string&) const { return {}; }
+    std::string checkAction(const SpawnAction&, const std::string&) const { return {}; }
+    std::string checkAction(const MotorAction& action, const std::string& path) const {
+        const auto joint = joints_.find(action.joint);
+        const bool hasMotor =
+            joint != joints_.end() && (std::holds_alternative<RevoluteJoint>(joint->second->joint) ||
+                                       std::holds_alternative<WheelJoint>(joint->second->joint));
+        return hasMotor ? std::string() : missing(path + ".joint", "revolute or wheel joint", action.joint);
+    }
+    template <class BodyAction>
+    std::string checkAction(const BodyAction& action, const std::string& path) const {
+        const auto body = bodies_.find(action.body);
+        if (body == bodies_.end()) return missing(path + ".body", "body", action.body);
+        if constexpr (requires { action.fixture; }) {
+            const auto count = static_cast<int>(body->second->fixtures.size());
+            if (action.fixture >= count)
+                return detail::outside(path + ".fixture", 0, count - 1, action.fixture);
+        }
+        return {};
+    }
+
+    const Scene& scene_;
+    std::vector<BodyDescription> cast_;
+    std::map<std::string_view, const BodyDescription*> bodies_;
+    std::map<std::string_view, const JointDescription*> joints_;
+};
+
+} // namespace
+
+std::string checkReferences(const Scene& scene) {
+    return References(scene).check();
+}
+
+} // namespace physvib

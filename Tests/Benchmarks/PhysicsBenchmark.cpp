@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What catching collisions costs on top of Box2D's own step: two equal shaken boxes, one attached to, step by turns.
+#include "Physics/Attachment.h"
+#include <algorithm>
+#include <benchmark/benchmark.h>
+#include <cmath>
+#include <ctime>
+#include <memory>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace physvib;
+
+constexpr float stepSeconds = 0.01F;
+constexpr int warmUpSteps = 200, stepsPerShake = 25;
+constexpr HapticFixture wall{349.0, 107.0, true, 340.0, Voice::own};
+
+/// `bodies` circles and boxes of 0.1 to 0.3 m in a box that they fill to about a third.
+class ShakenBox {
+public:
+    explicit ShakenBox(int bodies)
+        : side_(std::sqrt(0.12F * static_cast<float>(bodies))) {
+        const b2BodyDef def;
+        ground_ = world.CreateBody(&def);
+        const b2Vec2 corners[] = {{0.0F, 0.0F}, {side_, 0.0F}, {side_, side_}, {0.0F, side_}};
+        for (int i = 0; i < 4; ++i) {
+            b2EdgeShape edge;
+            edge.SetTwoSided(corners[i], corners[(i + 1) % 4]);
+            walls.push_back(ground_->CreateFixture(&edge, 0.0F));
+        }
+        const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(bodies))));
+        for (int i = 0; i < bodies; ++i) addBody(i % columns, i / columns, side_ / static_cast<float>(columns));
+    }
+
+    /// Gravity of a box that is jerked to and fro.
+    void shake(int step) {
+        const bool isForth = step / stepsPerShake % 2 == 0;
+        world.SetGravity({isForth ? 20.0F : -20.0F, -9.8F});
+    }
+
+    int touching() const {
+        int count = 0;
+        for (const b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
+            count += contact->IsTouching() ? 1 : 0;
+        return count;
+    }
+
+    b2World world{{0.0F, -9.8F}};
+    std::vector<b2Fixture*> walls, objects;
+
+private:
+    void addBody(int column, int row, float pitch) {
+        b2BodyDef def;
+        def.type = b2_dynamicBody;
+        def.allowSleep = false;
+        def.position = {pitch * (static_cast<float>(column) + 0.5F), pitch * (static_cast<float>(row) + 0.5F)};
+        const float size = 0.05F + 0.1F * static_cast<float>(random_() % 1000) / 1000.0F;
+        b2CircleShape circle;
+        circle.m_radius = size;
+        b2PolygonShape box;
+        box.SetAsBox(size, size);
+        b2FixtureDef fixture;
+        fixture.shape = random_() % 2 == 0 ? static_cast<const b2Shape*>(&circle) : &box;
+        fixture.density = 500.0F;
+        fixture.friction = 0.4F;
+        fixture.restitution = 0.5F;
+        objects.push_back(world.CreateBody(&def)->CreateFixture(&fixture));
+    }
+
+    float side_;
+    b2Body* ground_ = nullptr;
+    std::mt19937 random_{1};
+};
+
+/// Processor time of this thread: others that use the machine meanwhile disturb less.
+double now() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1.0e-9 * static_cast<double>(time.tv_nsec);
+}
+template <class Do> double secondsOf(Do work) {
+    const double start = now();
+    work();
+    return now() - start;
+}
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Arguments: bodies; how many of them are cameras, besides the walls.
+void stepOfAShakenBox(benchmark::State& state) {
+    const int bodies = static_cast<int>(state.range(0));
+    ShakenBox plain(bodies), felt(bodies);
+    Attachment attachment(felt.world, {.fieldWidthMetres = 6.4});
+    for (b2Fixture* fixture : felt.walls) attachment.set(*fixture, wall);
+    for (int i = 0; i < bodies; ++i)
+        attachment.set(*felt.objects[static_cast<std::size_t>(i)], {200.0, 30.0, i < state.range(1), 0.0, Voice::own});
+
+    std::vector<double> without, with;
+    std::vector<CollisionEvent> events;
+    std::size_t count = 0;
+    int step = 0;
+    const auto run = [&] {
+        plain.shake(step);
+        felt.shake(step);
+        const auto stepPlain = [&] { return secondsOf([&] { plain.world.Step(stepSeconds, 8, 3); }); };
+        const bool isPlainFirst = step++ % 2 == 0; // whoever comes second finds the code in the caches
+        const double first = isPlainFirst ? stepPlain() : 0.0;
+        const double all = secondsOf([&] {
+            attachment.step(stepSeconds);
+            events.clear();
+            attachment.take(events);
+        });
+        const double own = isPlainFirst ? first : stepPlain();
+        without.push_back(own);
+        with.push_back(all);
+        count += events.size();
+        return own + all;
+    };
+    for (int i = 0; i < warmUpSteps; ++i) run();
+    without.clear();
+    with.clear();
+    count = 0;
+    for (auto _ : state) state.SetIterationTime(run());
+    const auto steps = static_cast<double>(state.iterations());
+    const double box2d = median(without), attached = median(with);
+    state.counters["box2d_us"] = 1.0e6 * box2d;
+    state.counters["attached_us"] = 1.0e6 * attached;
+    state.counters["overhead_%"] = 100.0 * (attached / box2d - 1.0);
+    state.counters["touching"] = plain.touching();
+    state.counters["events_per_step"] = static_cast<double>(count) / steps;
+    state.counters["drops"] = static_cast<double>(attachment.drops());
+}
+BENCHMARK(stepOfAShakenBox)
+    ->ArgNames({"bodies", "cameras"})
+    ->Args({10, 0})
+    ->Args({100, 0})
+    ->Args({1000, 0})
+    ->Args({5000, 0})
+    ->Args({1000, 1000})
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+
+} // namespace

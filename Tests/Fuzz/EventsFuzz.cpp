@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Fuzz target of the event list reader.
+#include "Files/EventsCsv.h"
+#include "Fuzzing.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace physvib;
+    const auto read = [](std::string_view text) { return readEventsCsv(text, "f"); };
+    const auto write = [](const std::vector<CollisionEvent>& events) { return eventsCsv(events, {"0", {}}); };
+    const auto events = read(fuzz::asText(data, size));
+    if (!events) {
+        fuzz::demandClearRefusal(events, events.value.empty());
+        return 0;
+    }
+    for (const CollisionEvent& event : events.value) fuzz::demand(isPlayable(event), "not playable");
+    fuzz::demandRoundTrip(write(events.value), read, write);
+    return 0;
+}

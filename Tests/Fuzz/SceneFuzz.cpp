@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Fuzz target of the scene reader: whatever it accepts can be written, read again and simulated.
+#include "Files/SceneFile.h"
+#include "Fuzzing.h"
+#include "Physics/SceneWorld.h"
+
+namespace {
+
+// Box2D asserts what it needs; so many steps that script and contacts come into play.
+void simulate(const physvib::Scene& scene) {
+    constexpr int steps = 4;
+    physvib::SceneWorld world(scene, 1, {10});
+    for (int step = 0; step < steps; ++step) {
+        world.act(step);
+        world.world().Step(0.1F, 8, 3);
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace physvib;
+    const auto read = [](std::string_view text) { return readScene(text, "f"); };
+    const auto scene = read(fuzz::asText(data, size));
+    if (!scene) {
+        fuzz::demandClearRefusal(scene, scene.value == Scene{});
+        return 0;
+    }
+    fuzz::demandRoundTrip(sceneJson(scene.value), read, sceneJson);
+    simulate(scene.value);
+    return 0;
+}

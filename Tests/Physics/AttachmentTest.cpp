@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: MIT
+// PhysVib in the world of a stranger, who has listeners and user data of their own and destroys what they like.
+#include "Physics/Attachment.h"
+#include "AttachedWorld.h"
+#include <stdexcept>
+
+namespace physvib {
+namespace {
+
+/// Counts its calls and remembers who has been hit, as games do.
+class Game : public b2ContactListener, public b2DestructionListener {
+public:
+    void BeginContact(b2Contact* contact) override {
+        ++begins;
+        struck = contact->GetFixtureB()->GetBody();
+    }
+    void EndContact(b2Contact*) override { ++ends; }
+    void PreSolve(b2Contact*, const b2Manifold*) override { ++preSolves; }
+    void PostSolve(b2Contact*, const b2ContactImpulse*) override { ++postSolves; }
+    void SayGoodbye(b2Joint*) override { ++lostJoints; }
+    void SayGoodbye(b2Fixture*) override { ++lostFixtures; }
+    bool operator==(const Game& other) const {
+        return begins == other.begins && ends == other.ends && preSolves == other.preSolves &&
+               postSolves == other.postSolves;
+    }
+
+    int begins = 0, ends = 0, preSolves = 0, postSolves = 0, lostJoints = 0, lostFixtures = 0;
+    b2Body* struck = nullptr;
+};
+
+/// A world that knows nothing of PhysVib: a ball that bounces on a floor, both with user data.
+struct Foreign {
+    Foreign() {
+        world.SetContactListener(&game);
+        world.SetDestructionListener(&game);
+        b2BodyDef def;
+        b2EdgeShape edge;
+        edge.SetTwoSided({-5.0F, 0.0F}, {5.0F, 0.0F});
+        b2FixtureDef fixture;
+        fixture.shape = &edge;
+        fixture.userData.pointer = 17;
+        floor = world.CreateBody(&def)->CreateFixture(&fixture);
+        ball = &add(1.0F);
+    }
+    b2Fixture& add(float y) {
+        b2BodyDef def;
+        def.type = b2_dynamicBody;
+        def.position = {0.0F, y};
+        def.userData.pointer = 42;
+        b2CircleShape circle;
+        circle.m_radius = 0.2F;
+        b2FixtureDef fixture;
+        fixture.shape = &circle;
+        fixture.density = 5.0F;
+        fixture.restitution = 0.6F;
+        fixture.userData.pointer = 43;
+        return *world.CreateBody(&def)->CreateFixture(&fixture);
+    }
+
+    Game game;
+    b2World world{{0.0F, -9.8F}};
+    b2Fixture* floor;
+    b2Fixture* ball;
+};
+
+std::vector<CollisionEvent> step(Attachment& attachment, int steps, float stepSeconds = 1.0F / 60.0F) {
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < steps; ++i) {
+        attachment.step(stepSeconds);
+        attachment.take(events);
+    }
+    return events;
+}
+
+TEST(Attachment, ForeignWorldIsFeltAndKeepsItsCallsAndUserData) {
+    Foreign alone, felt;
+    Attachment attachment(felt.world, unity());
+    attachment.set(*felt.floor, camera);
+    attachment.set(*felt.ball, object);
+    const auto events = step(attachment, 120);
+    for (int i = 0; i < 120; ++i) alone.world.Step(1.0F / 60.0F, 8, 3);
+    EXPECT_GE(events.size(), 3U);
+    EXPECT_TRUE(felt.game == alone.game);
+    EXPECT_GE(felt.game.begins, 3);
+    EXPECT_GE(felt.game.ends, 3);
+    EXPECT_GE(felt.game.preSolves, 3);
+    EXPECT_GE(felt.game.postSolves, 3);
+    EXPECT_EQ(felt.ball->GetUserData().pointer, 43U);
+    EXPECT_EQ(felt.ball->GetBody()->GetUserData().pointer, 42U);
+    EXPECT_EQ(felt.floor->GetUserData().pointer, 17U);
+    EXPECT_EQ(felt.ball->GetBody()->GetPosition(), alone.ball->GetBody()->GetPosition()); // to the bit
+}
+
+TEST(Attachment, LeavesTheWorldWithTheListenersItHad) {
+    Foreign foreign;
+    {
+        Attachment attachment(foreign.world);
+        EXPECT_NE(foreign.world.GetContactManager().m_contactListener, &foreign.game);
+    }
+    EXPECT_EQ(foreign.world.GetContactManager().m_contactListener, &foreign.game);
+    foreign.world.DestroyBody(foreign.ball->GetBody());
+    EXPECT_EQ(foreign.game.lostFixtures, 1);
+}
+
+TEST(Attachment, LeavesAListenerThatWasSetLater) {
+    Foreign foreign;
+    Game later;
+    {
+        Attachment attachment(foreign.world);
+        foreign.world.SetContactListener(&later);
+        foreign.world.SetDestructionListener(&later);
+    }
+    EXPECT_EQ(foreign.world.GetContactManager().m_contactListener, &later);
+    foreign.world.DestroyBody(foreign.ball->GetBody());
+    EXPECT_EQ(later.lostFixtures, 1);
+}
+
+TEST(Attachment, HandsOnGoodbyes) {
+    Foreign foreign;
+    Attachment attachment(foreign.world);
+    b2Fixture& other = foreign.add(3.0F);
+    b2DistanceJointDef joint;
+    joint.Initialize(foreign.ball->GetBody(), other.GetBody(), {0.0F, 1.0F}, {0.0F, 3.0F});
+    foreign.world.CreateJoint(&joint);
+    foreign.world.DestroyBody(other.GetBody());
+    EXPECT_EQ(foreign.game.lostJoints, 1);
+    EXPECT_EQ(foreign.game.lostFixtures, 1);
+}
+
+TEST(Attachment, AttachesToAWorldInWhichBodiesTouchAlready) {
+    Foreign foreign;
+    b2Fixture& upper = foreign.add(3.0F);
+    upper.SetRestitution(0.0F);
+    foreign.ball->SetRestitution(0.0F);
+    for (int i = 0; i < 30; ++i) foreign.world.Step(1.0F / 60.0F, 8, 3); // the ball lies, the other falls
+    Attachment attachment(foreign.world, unity());
+    attachment.set(*foreign.floor, camera);
+    EXPECT_EQ(step(attachment, 60).size(), 1U); // handed on by the one that lies
+}
+
+/// Destroys what was struck right after the step, as one does who may not do so inside the callback.
+class DestroyedInContact : public testing::TestWithParam<bool> {
+protected:
+    Foreign foreign;
+    Attachment attachment{foreign.world, settings()};
+    static AttachmentSettings settings() {
+        AttachmentSettings result = unity();
+        result.keepsHitsOfDestroyed = GetParam();
+        return result;
+    }
+    std::vector<CollisionEvent> runAndDestroy() {
+        std::vector<CollisionEvent> events;
+        for (int i = 0; i < 120; ++i) {
+            attachment.step(1.0F / 60.0F);
+            if (foreign.game.struck != nullptr) foreign.world.DestroyBody(foreign.game.struck);
+            foreign.game.struck = nullptr;
+            attachment.take(events);
+        }
+        EXPECT_EQ(foreign.game.lostFixtures, 1);
+        return events;
+    }
+};
+
+TEST_P(DestroyedInContact, CameraFeelsNothingAnyMore) {
+    attachment.set(*foreign.floor, object);
+    attachment.set(*foreign.ball, camera);
+    EXPECT_TRUE(runAndDestroy().empty());
+}
+
+TEST_P(DestroyedInContact, PartnerTakesItsHitAlongUnlessItIsKept) {
+    attachment.set(*foreign.floor, camera);
+    attachment.set(*foreign.ball, object);
+    EXPECT_EQ(runAndDestroy().size(), GetParam() ? 1U : 0U);
+}
+
+TEST_P(DestroyedInContact, PartnerWithoutValuesDoesSoToo) {
+    attachment.set(*foreign.floor, camera);
+    EXPECT_EQ(runAndDestroy().size(), GetParam() ? 1U : 0U);
+}
+INSTANTIATE_TEST_SUITE_P(KeepsHits, DestroyedInContact, testing::Bool());
+
+TEST(Attachment, SurvivesFixturesThatVanishUnnoticed) {
+    Foreign foreign;
+    Attachment attachment(foreign.world, unity());
+    attachment.set(*foreign.floor, camera);
+    foreign.world.SetDestructionListener(nullptr); // nobody tells
+    for (int i = 0; i < 40; ++i) {
+        b2Fixture& ball = foreign.add(0.5F);
+        attachment.set(ball, camera);
+        step(attachment, 17); // most lie on the floor by then
+        if (i % 2 == 0)
+            foreign.world.DestroyBody(ball.GetBody());
+        else
+            ball.GetBody()->DestroyFixture(&ball);
+        step(attachment, 1);
+        EXPECT_EQ(attachment.find(foreign.add(9.0F)), nullptr); // often at the same address
+    }
+    EXPECT_GE(step(attachment, 60).size(), 1U);
+}
+
+TEST(Attachment, FixtureRemovedBeforeItIsDestroyedLeavesNothingToItsHeir) {
+    Foreign foreign;
+    Attachment attachment(foreign.world, unity());
+    attachment.set(*foreign.floor, object);
+    const std::int32_t id = attachment.set(*foreign.ball, camera);
+    b2Body& body = *foreign.ball->GetBody();
+    attachment.remove(*foreign.ball);
+    EXPECT_EQ(attachment.find(*foreign.ball), nullptr);
+    body.DestroyFixture(foreign.ball);
+    b2Fixture& heir = foreign.add(1.0F);
+    EXPECT_EQ(attachment.find(heir), nullptr);
+    EXPECT_TRUE(step(attachment, 120).empty());
+    EXPECT_GT(attachment.set(heir, camera), id); // ids are not used again
+}
+
+TEST(Attachment, RemovedFixtureTakesItsEventsAlong) {
+    Foreign foreign;
+    Attachment attachment(foreign.world, unity());
+    attachment.set(*foreign.floor, camera);
+    while (foreign.game.begins == 0) attachment.step(1.0F / 60.0F);
+    attachment.remove(*foreign.floor);
+    EXPECT_TRUE(step(attachment, 10).empty());
+}
+
+TEST(Attachment, BodiesOfDestructionsBetweenStepAndEndAreSafe) {
+    Foreign foreign;
+    Attachment attachment(foreign.world, unity());
+    attachment.set(*foreign.floor, camera);
+    attachment.set(*foreign.ball, camera);
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < 60; ++i) {
+        attachment.beginStep(1.0 / 60.0);
+        foreign.world.Step(1.0F / 60.0F, 8, 3);
+        if (foreign.game.struck != nullptr) foreign.world.DestroyBody(foreign.game.struck);
+        foreign.game.struck = nullptr;
+        attachment.endStep();
+        attachment.take(events);
+    }
+    EXPECT_EQ(foreign.game.lostFixtures, 1);
+    EXPECT_TRUE(events.empty());
+}
+
+TEST(Attachment, ContactsAtTheAddressOfDestroyedOnesAreFelt) {
+    Foreign foreign;
+    Attachment attachment(foreign.world, unity());
+    attachment.set(*foreign.floor, camera);
+    foreign.world.DestroyBody(foreign.ball->GetBody());
+    for (int round = 0; round < 4; ++round) {
+        std::vector<b2Body*> balls;
+        for (int i = 0; i < 3; ++i) balls.push_back(foreign.add(0.4F).GetBody());
+        for (int i = 0; i < 3; ++i) balls[static_cast<std::size_t>(i)]->SetTransform({static_cast<float>(i), 0.4F}, 0.0F);
+        for (const int begins = foreign.game.begins; foreign.game.begins == begins;) {
+            attachment.beginStep(0.01);
+            foreign.world.Step(0.01F, 8, 3);
+            if (foreign.game.begins != begins)
+                for (b2Body* body : balls) foreign.world.DestroyBody(body);
+            attachment.endStep();
+        }
+        b2Fixture& next = foreign.add(0.4F);
+        EXPECT_GE(step(attachment, 60, 0.01F).size(), 1U) << round;
+        foreign.world.DestroyBody(next.GetBody());
+    }
+}
+
+TEST(Attachment, AttachmentsOfTwoWorldsDoNotDisturbEachOther) {
+    Foreign one, two, reference;
+    Attachment first(one.world, unity()), second(two.world, unity()), alone(reference.world, unity());
+    two.ball->SetRestitution(0.2F);
+    for (const auto& [attachment, world] : {std::pair{&first, &one}, {&second, &two}, {&alone, &reference}}) {
+        attachment->set(*world->floor, camera);
+        attachment->set(*world->ball, object);
+    }
+    std::vector<CollisionEvent> firstEvents, secondEvents;
+    for (int i = 0; i < 120; ++i) {
+        first.step(1.0F / 60.0F);
+        second.step(1.0F / 60.0F);
+        first.take(firstEvents);
+        second.take(secondEvents);
+    }
+    EXPECT_EQ(firstEvents, step(alone, 120));
+    EXPECT_NE(firstEvents, secondEvents);
+    EXPECT_GE(secondEvents.size(), 1U);
+}
+
+TEST(Attachment, TwoOfTheSameWorldFeelTheSame) {
+    Foreign foreign;
+    Attachment inner(foreign.world, unity());
+    Attachment outer(foreign.world, unity());
+    for (Attachment* attachment : {&inner, &outer}) attachment->set(*foreign.floor, camera);
+    std::vector<CollisionEvent> innerEvents, outerEvents;
+    for (int i = 0; i < 60; ++i) {
+        for (Attachment* attachment : {&inner, &outer}) attachment->beginStep(1.0 / 60.0);
+        foreign.world.Step(1.0F / 60.0F, 8, 3);
+        for (Attachment* attachment : {&inner, &outer}) attachment->endStep();
+        inner.take(innerEvents);
+        outer.take(outerEvents);
+    }
+    EXPECT_EQ(innerEvents, outerEvents);
+    EXPECT_GE(innerEvents.size(), 1U);
+}
+
+TEST(Attachment, StepsOfDifferentLengthsAddUpToTheTime) {
+    Foreign foreign;
+    Attachment attachment(foreign.world, unity());
+    attachment.set(*foreign.floor, camera);
+    attachment.set(*foreign.ball, object);
+    std::vector<CollisionEvent> events;
+    std::int64_t expected = 0;
+    for (int i = 0; events.empty() && i < 200; ++i) {
+        const float length = i % 3 == 0 ? 0.004F : 0.011F;
+        attachment.step(length);
+        expected += std::llround(static_cast<double>(length) * 1.0e9);
+        attachment.take(events);
+        EXPECT_EQ(attachment.timeNs(), expected);
+    }
+    ASSERT_EQ(events.size(), 1U);
+    const double fall = 1.0 - 0.2 - static_cast<double>(b2_polygonRadius);
+    EXPECT_NEAR(seconds(events[0]), std::sqrt(2.0 * fall / 9.8), 0.006); // Box2D falls half a step ahead
+}
+
+TEST(Attachment, StepsThatTakeNoTimeDoNothing) {
+    Foreign foreign;
+    Attachment attachment(foreign.world);
+    for (const float length : {0.0F, -1.0F, std::nanf("")}) attachment.step(length);
+    EXPECT_EQ(attachment.timeNs(), 0);
+    EXPECT_EQ(foreign.ball->GetBody()->GetPosition().y, 1.0F);
+}
+
+TEST(Attachment, StepCountClockDoesNotDrift) {
+    Foreign foreign;
+    Attachment attachment(foreign.world);
+    for (std::int64_t i = 1; i <= 60; ++i) {
+        attachment.beginStepUntil(i * 1'000'000'000 / 60);
+        foreign.world.Step(1.0F / 60.0F, 8, 3);
+        attachment.endStep();
+    }
+    EXPECT_EQ(attachment.timeNs(), 1'000'000'000);
+}
+
+TEST(Attachment, EventsAreHandedOutSortedAndOnceSettled) {
+    Foreign foreign;
+    for (int i = 2; i < 30; ++i) foreign.add(static_cast<float>(i));
+    Attachment attachment(foreign.world, unity());
+    for (b2Body* body = foreign.world.GetBodyList(); body != nullptr; body = body->GetNext())
+        attachment.set(*body->GetFixtureList(), camera);
+    std::int64_t latest = 0;
+    std::size_t count = 0;
+    for (int i = 0; i < 600; ++i) {
+        for (const CollisionEvent& event : step(attachment, 1)) {
+            EXPECT_GE(event.timeNs, latest);
+            EXPECT_LT(event.timeNs, attachment.settledNs());
+            latest = event.timeNs;
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 50U);
+    EXPECT_EQ(attachment.drops(), 0U);
+}
+
+TEST(Attachment, NormalisationFollowsTheWorldUnlessItIsGiven) {
+    Foreign foreign;
+    AttachmentSettings settings;
+    settings.fieldWidthMetres = 5.0;
+    Attachment attachment(foreign.world, settings);
+    step(attachment, 1);
+    EXPECT_DOUBLE_EQ(attachment.impactModel().normalisation, 0.1); // Eq. 5.7
+    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, massKg(*foreign.ball));
+    attachment.set(*foreign.floor, camera); // 10 kg
+    step(attachment, 1);
+    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, 10.0);
+    b2Fixture& heavy = foreign.add(4.0F);
+    heavy.SetDensity(1000.0F);
+    heavy.GetBody()->ResetMassData();
+    step(attachment, 1);
+    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, massKg(heavy));
+    heavy.GetBody()->SetEnabled(false); // out of the game, not out of the world
+    step(attachment, 1);
+    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, 10.0);
+    heavy.GetBody()->SetEnabled(true);
+    step(attachment, 1);
+    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, massKg(heavy));
+    foreign.world.DestroyBody(heavy.GetBody());
+    step(attachment, 1);
+    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, 10.0);
+    settings.normalisation = 0.5;
+    settings.handMassKg = 3.0;
+    settings.driveGain = 2.0;
+    attachment.configure(settings);
+    step(attachment, 1);
+    EXPECT_DOUBLE_EQ(attachment.impactModel().amplitude(1.0, 1.0), 2.0 * 0.5 / 4.0);
+}
+
+TEST(Attachment, IdsAreInOrderOrTheCallers) {
+    Foreign foreign;
+    Attachment attachment(foreign.world);
+    EXPECT_EQ(attachment.set(*foreign.floor, camera), 0);
+    attachment.set(*foreign.ball, object, 7);
+    EXPECT_EQ(attachment.set(*foreign.floor, object), 0);
+    EXPECT_EQ(attachment.set(foreign.add(3.0F), object), 8);
+    ASSERT_NE(attachment.find(*foreign.ball), nullptr);
+    EXPECT_EQ(attachment.find(*foreign.ball)->frequencyHz, object.frequencyHz);
+}
+
+TEST(Attachment, RefusesNonsense) {
+    Foreign foreign, other;
+    Attachment attachment(foreign.world);
+    EXPECT_THROW(attachment.set(*other.ball, camera), std::invalid_argument);
+    for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        AttachmentSettings settings;
+        settings.fieldWidthMetres = bad;
+        EXPECT_THROW(Attachment(other.world, settings), std::invalid_argument);
+        settings = {};
+        settings.handMassKg = bad;
+        EXPECT_THROW(attachment.configure(settings), std::invalid_argument);
+        settings = {};
+        settings.normalisation = bad;
+        EXPECT_THROW(attachment.configure(settings), std::invalid_argument);
+        settings = {};
+        settings.driveGain = bad;
+        EXPECT_THROW(attachment.configure(settings), std::invalid_argument);
+        settings = {};
+        settings.thresholdMetresPerSecond = bad;
+        EXPECT_THROW(attachment.configure(settings), std::invalid_argument);
+    }
+    EXPECT_EQ(other.world.GetContactManager().m_contactListener, &other.game); // nothing half attached
+}
+
+} // namespace
+} // namespace physvib

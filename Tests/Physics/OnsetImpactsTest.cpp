@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// Hits handed on through rows and stacks of touching bodies, against the bodies' own change of momentum.
+#include "Physics/OnsetImpacts.h"
+#include "AttachedWorld.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+/// A ball at 3 m/s strikes a row of four that touch, the last of which has the camera.
+class OnsetImpactsRow : public AttachedWorld, public testing::WithParamInterface<float> {
+protected:
+    OnsetImpactsRow() {
+        for (int i = 0; i < 5; ++i) {
+            const bool isStriker = i == 0;
+            balls.push_back(&ball(isStriker ? -1.0F : 0.499F * static_cast<float>(i), 0.0F, isStriker ? 3.0F : 0.0F,
+                                  0.0F, GetParam()));
+            ids.push_back(attachment.set(*balls.back(), i == 4 ? camera : object));
+        }
+    }
+    double ownImpulse() const {
+        return massKg(*balls[4]) * static_cast<double>(balls[4]->GetBody()->GetLinearVelocity().Length());
+    }
+
+    std::vector<b2Fixture*> balls;
+    std::vector<std::int32_t> ids;
+};
+
+TEST_P(OnsetImpactsRow, LastBallFeelsItsOwnImpulseOnce) {
+    const auto events = run(100);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].source.fixture, ids[4]);
+    EXPECT_EQ(events[0].source.other, ids[3]);
+    EXPECT_GT(ownImpulse(), 0.5);
+    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, ownImpulse(), 0.02 * ownImpulse());
+    EXPECT_NEAR(events[0].amplitude, ownImpulse() / massKg(*balls[4]), 0.02 * events[0].amplitude); // Eq. 5.4
+    EXPECT_NEAR(seconds(events[0]), (1.0 + 0.499 - 0.5) / 3.0, 0.01);
+    EXPECT_NEAR(events[0].x, 0.499 * 3.5, 0.02);
+}
+
+TEST_P(OnsetImpactsRow, WithoutItsMiddleBallFeelsNothingUntilTheGapIsClosed) {
+    world.DestroyBody(balls[2]->GetBody());
+    const auto events = run(40); // struck at 0.33 s; the gap of 0.5 m takes longer
+    EXPECT_GT(balls[1]->GetBody()->GetLinearVelocity().x, 0.1F);
+    EXPECT_TRUE(events.empty());
+}
+
+TEST_P(OnsetImpactsRow, SecondClusterElsewhereFeelsNothing) {
+    std::vector<std::int32_t> others;
+    for (int i = 0; i < 3; ++i)
+        others.push_back(attachment.set(ball(0.499F * static_cast<float>(i), 3.0F, 0.0F, 0.0F), camera));
+    for (const CollisionEvent& event : run(100))
+        EXPECT_EQ(std::count(others.begin(), others.end(), event.source.fixture), 0);
+}
+
+TEST_P(OnsetImpactsRow, CameraSwitchedOnLaterFeelsFromThenOn) {
+    attachment.set(*balls[4], object);
+    EXPECT_TRUE(run(25).empty());
+    EXPECT_EQ(attachment.set(*balls[4], camera), ids[4]);
+    EXPECT_EQ(run(30).size(), 1U);
+    attachment.set(*balls[4], object);
+    b2Fixture& late = ball(-1.0F, 0.0F, 8.0F, 0.0F, GetParam());
+    attachment.set(late, object);
+    EXPECT_TRUE(run(100).empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Restitutions, OnsetImpactsRow, testing::Values(0.0F, 0.5F, 1.0F));
+
+using OnsetImpactsWorld = AttachedWorld;
+
+/// A ball on the floor, and one that falls onto it.
+TEST_F(OnsetImpactsWorld, FloorFeelsWhatIsDroppedOnAStack) {
+    world.SetGravity({0.0F, -10.0F});
+    const std::int32_t ground = attachment.set(floor(), camera);
+    const std::int32_t lower = attachment.set(ball(0.0F, 0.249F, 0.0F, 0.0F, 0.0F), object);
+    run(50);
+    b2Fixture& falling = ball(0.0F, 1.5F, 0.0F, -3.0F, 0.0F);
+    attachment.set(falling, object);
+    const auto events = run(50);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].source.fixture, ground);
+    EXPECT_EQ(events[0].source.other, lower);
+    const double momentum = massKg(falling) * std::sqrt(9.0 + 2.0 * 10.0 * (1.5 - 0.749));
+    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, momentum, 0.05 * momentum);
+}
+
+TEST_F(OnsetImpactsWorld, RestingNeighboursFeelNothing) {
+    world.SetGravity({0.0F, -10.0F});
+    world.SetAllowSleeping(false);
+    b2Fixture& ground = floor();
+    attachment.set(ground, object);
+    for (int i = 0; i < 4; ++i)
+        attachment.set(ball(0.0F, 0.249F + 0.498F * static_cast<float>(i), 0.0F, 0.0F, 0.0F), object);
+    run(50);
+    attachment.set(ground, camera);
+    for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+        if (body->GetType() == b2_dynamicBody) attachment.set(*body->GetFixtureList(), camera);
+    const std::int32_t roof = attachment.set(ball(5.0F, 0.249F, 0.0F, 0.0F, 0.0F), camera);
+    for (const CollisionEvent& event : run(200)) EXPECT_EQ(event.source.fixture, roof);
+    attachment.set(ball(5.0F, 2.0F, 0.0F, 0.0F, 0.0F), object); // strikes another stack on the same floor
+    bool isStruck = false;
+    for (const CollisionEvent& event : run(100)) {
+        isStruck = isStruck || event.source.fixture == roof;
+        EXPECT_TRUE(event.source.fixture == roof || event.source.fixture == 0) << event.source.fixture;
+    }
+    EXPECT_TRUE(isStruck);
+}
+
+TEST_F(OnsetImpactsWorld, WeightOnACameraThatIsNewIsNoStrike) {
+    world.SetGravity({0.0F, -10.0F});
+    b2Fixture& ground = floor();
+    attachment.set(ground, object);
+    b2Fixture& heavy = ball(0.0F, 0.249F, 0.0F, 0.0F, 0.0F);
+    heavy.SetDensity(1000.0F);
+    heavy.GetBody()->ResetMassData();
+    attachment.set(heavy, object);
+    run(50);
+    b2Fixture& small = ball(0.0F, 0.76F, 0.0F, -5.0F, 0.0F); // strikes in the next step
+    const double momentum = massKg(small) * 5.0;
+    attachment.set(small, object);
+    attachment.set(ground, camera);
+    for (const CollisionEvent& event : run(50))
+        EXPECT_LT(event.source.impulseNewtonSeconds, 1.2 * momentum); // the weight is 200 kg 0.1 m/s = 20 N s
+}
+
+TEST_F(OnsetImpactsWorld, FallingNeighboursFeelNothing) {
+    world.SetGravity({0.0F, -10.0F});
+    for (const float x : {0.0F, 0.499F}) attachment.set(ball(x, 0.0F, 0.0F, 0.0F), camera);
+    attachment.set(ball(1.5F, 0.0F, -0.2F, 0.0F), object); // grazes the second one on the way down
+    for (const CollisionEvent& event : run(400)) EXPECT_EQ(event.source.fixture, 1);
+}
+
+TEST_F(OnsetImpactsWorld, StrikesOfOneStepDoNotMultiplyWhatIsHandedOn) {
+    b2Fixture& last = ball(0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
+    attachment.set(last, camera);
+    attachment.set(ball(-0.499F, 0.0F, 0.0F, 0.0F, 0.0F), object);
+    for (const float y : {0.3F, -0.3F}) // two balls strike the first of the row at the same time
+        attachment.set(ball(-1.9F, y, 3.0F, 0.0F, 0.0F), object);
+    const auto events = run(60);
+    ASSERT_EQ(events.size(), 1U);
+    const double own = massKg(last) * static_cast<double>(last.GetBody()->GetLinearVelocity().Length());
+    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.02 * own);
+}
+
+TEST_F(OnsetImpactsWorld, StrikesOfSuccessiveStepsShareWhatIsHandedOn) {
+    b2Fixture& last = ball(0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
+    attachment.set(last, camera);
+    attachment.set(ball(-0.499F, 0.0F, 0.0F, 0.0F, 0.0F), object);
+    attachment.set(ball(-1.9F, 0.3F, 3.0F, 0.0F, 0.0F), object);
+    attachment.set(ball(-1.93F, -0.3F, 3.0F, 0.0F, 0.0F), object); // one step behind
+    double sum = 0.0;
+    for (const CollisionEvent& event : run(60)) sum += event.source.impulseNewtonSeconds;
+    const double own = massKg(last) * static_cast<double>(last.GetBody()->GetLinearVelocity().Length());
+    EXPECT_GT(own, 1.0);
+    EXPECT_NEAR(sum, own, 0.05 * own);
+}
+
+TEST_F(OnsetImpactsWorld, ReactionOfAWallToADirectStrikeIsNoSecondOne) {
+    const b2Fixture& wall = edge({0.25F, -5.0F}, {0.25F, 5.0F});
+    attachment.set(wall, object);
+    attachment.set(ball(0.0F, 0.0F, 1.0F, 0.0F, 0.0F), camera);
+    run(10);
+    attachment.set(ball(-1.0F, 0.0F, 3.0F, 0.0F, 0.0F), object);
+    EXPECT_EQ(run(60).size(), 1U);
+}
+
+TEST_F(OnsetImpactsWorld, PushThroughOldContactsIsNoStrikeThoughThereIsOneElsewhere) {
+    b2Fixture& pushed = ball(0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
+    b2Fixture& last = ball(0.499F, 0.0F, 0.0F, 0.0F, 0.0F);
+    attachment.set(pushed, object);
+    attachment.set(last, camera);
+    attachment.set(ball(0.0F, 5.0F, 0.0F, 0.0F, 0.0F), object);
+    attachment.set(ball(-1.0F, 5.0F, 3.0F, 0.0F, 0.0F), object); // strikes after 0.1667 s
+    run(15);
+    pushed.GetBody()->ApplyLinearImpulseToCenter({5.0F, 0.0F}, true);
+    const auto events = run(10);
+    EXPECT_GT(last.GetBody()->GetLinearVelocity().x, 1.0F);
+    EXPECT_TRUE(events.empty());
+}
+
+TEST_F(OnsetImpactsWorld, MiddleOfARowFeelsOnlyWhatItKeeps) {
+    b2Fixture& middle = ball(0.499F, 0.0F, 0.0F, 0.0F, 0.0F);
+    attachment.set(ball(0.0F, 0.0F, 0.0F, 0.0F, 0.0F), object);
+    attachment.set(middle, camera);
+    attachment.set(ball(0.998F, 0.0F, 0.0F, 0.0F, 0.0F), object);
+    attachment.set(ball(-1.0F, 0.0F, 6.0F, 0.0F, 0.0F), object);
+    const auto events = run(60);
+    ASSERT_EQ(events.size(), 1U);
+    const double own = massKg(middle) * static_cast<double>(middle.GetBody()->GetLinearVelocity().Length());
+    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.02 * own);
+}
+
+TEST_F(OnsetImpactsWorld, ContactOfTheStepBeforeHandsOnInFull) {
+    b2Fixture& last = ball(0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
+    attachment.set(last, camera);
+    attachment.set(ball(-0.5005F, 0.0F, 0.1F, 0.0F, 0.0F), object); // touches in the second step, gently
+    attachment.set(ball(-1.0455F, 0.0F, 3.0F, 0.0F, 0.0F), object); // strikes in the third
+    const auto events = run(20);
+    ASSERT_EQ(events.size(), 1U);
+    const double own = massKg(last) * static_cast<double>(last.GetBody()->GetLinearVelocity().Length());
+    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.08 * own); // 0.05 m/s of it were gentle
+}
+
+class OnsetImpactsDestroyed : public AttachedWorld, public testing::WithParamInterface<int> {};
+
+TEST_P(OnsetImpactsDestroyed, BodyOfTheRowTakesWhatIsHandedOnAlong) {
+    std::vector<b2Fixture*> row;
+    for (const float x : {-1.0F, 0.0F, 0.499F}) {
+        row.push_back(&ball(x, 0.0F, x < 0.0F ? 3.0F : 0.0F, 0.0F, 0.0F));
+        attachment.set(*row.back(), x > 0.2F ? camera : object);
+    }
+    while (row[1]->GetBody()->GetLinearVelocity().x < 0.1F) attachment.step(0.01F);
+    world.DestroyBody(row[static_cast<std::size_t>(GetParam())]->GetBody());
+    EXPECT_TRUE(run(20).empty());
+}
+INSTANTIATE_TEST_SUITE_P(StrikerNeighbourCamera, OnsetImpactsDestroyed, testing::Values(0, 1, 2));
+
+TEST_F(OnsetImpactsWorld, BulletsAreHandedOnToo) {
+    b2Fixture& last = ball(0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
+    attachment.set(last, camera);
+    attachment.set(ball(-0.499F, 0.0F, 0.0F, 0.0F, 0.0F), object);
+    b2Fixture& bullet = ball(-3.0F, 0.0F, 45.0F, 0.0F, 0.0F); // 0.45 m per step
+    bullet.GetBody()->SetBullet(true);
+    attachment.set(bullet, object);
+    const auto events = run(60);
+    ASSERT_EQ(events.size(), 1U);
+    const double own = massKg(last) * static_cast<double>(last.GetBody()->GetLinearVelocity().Length());
+    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.02 * own);
+    EXPECT_NEAR(seconds(events[0]), (3.0 - 0.999) / 45.0, 0.01);
+}
+
+} // namespace
+} // namespace physvib
