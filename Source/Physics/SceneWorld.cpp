@@ -87,59 +87,56 @@ void SceneWorld::setMaterial(std::size_t fixture, int material) {
     setMass(*bodies_[part.body], now_[part.body], scene_);
 }
 
-SceneChanges SceneWorld::act(std::int64_t step) {
-    SceneChanges all;
-    for (DueAction due = script_.next(step); due.action != nullptr; due = script_.next(step)) {
-        const SceneChanges changes = act(due);
-        all.bodies |= changes.bodies;
-        all.fixtures |= changes.fixtures;
-    }
-    return all;
+bool SceneWorld::act(std::int64_t step) {
+    bool fixturesChanged = false;
+    for (DueAction due = script_.next(step); due.action != nullptr; due = script_.next(step))
+        fixturesChanged |= act(due);
+    return fixturesChanged;
 }
 
-SceneChanges SceneWorld::act(const DueAction& due) {
+bool SceneWorld::act(const DueAction& due) {
     if (const auto* spawn = std::get_if<SpawnAction>(due.action)) return act(*spawn, due.repetition);
     return std::visit(
         [this](const auto& action) {
             if constexpr (requires { act(action); })
                 return act(action);
             else
-                return SceneChanges{};
+                return false;
         },
         *due.action);
 }
 
-SceneChanges SceneWorld::act(const GravityAction& action) {
+bool SceneWorld::act(const GravityAction& action) {
     setGravity(box2dVector(action.metresPerSecond2));
-    return {};
+    return false;
 }
 
-SceneChanges SceneWorld::act(const TiltAction& action) {
+bool SceneWorld::act(const TiltAction& action) {
     const double c = std::cos(action.angleRadians), s = std::sin(action.angleRadians);
     const Vector& g = scene_.gravityMetresPerSecond2;
     setGravity(box2dVector({c * g.x - s * g.y, s * g.x + c * g.y}));
-    return {};
+    return false;
 }
 
-SceneChanges SceneWorld::act(const ImpulseAction& action) const {
+bool SceneWorld::act(const ImpulseAction& action) const {
     b2Body* body = find(action.body);
-    if (body == nullptr) return {};
+    if (body == nullptr) return false;
     const b2Vec2 point =
         action.pointMetres ? body->GetWorldPoint(box2dVector(*action.pointMetres)) : body->GetWorldCenter();
     body->ApplyLinearImpulse(box2dVector(action.newtonSeconds), point, true);
-    return {};
+    return false;
 }
 
-SceneChanges SceneWorld::act(const VelocityAction& action) const {
+bool SceneWorld::act(const VelocityAction& action) const {
     b2Body* body = find(action.body);
-    if (body == nullptr) return {};
+    if (body == nullptr) return false;
     body->SetAwake(true); // also for a velocity of 0
     body->SetLinearVelocity(box2dVector(action.metresPerSecond));
     body->SetAngularVelocity(static_cast<float>(action.spinRadiansPerSecond));
-    return {};
+    return false;
 }
 
-SceneChanges SceneWorld::act(const SpawnAction& action, int repetition) {
+bool SceneWorld::act(const SpawnAction& action, int repetition) {
     const std::size_t body = spawned_.at(&action) + static_cast<std::size_t>(repetition);
     for (std::size_t i = 0; i < cast_[body].fixtures.size(); ++i) {
         setMaterial(firstFixtures_[body] + i, cast_[body].fixtures[i].material);
@@ -147,19 +144,19 @@ SceneChanges SceneWorld::act(const SpawnAction& action, int repetition) {
     }
     restartBody(*bodies_[body], cast_[body], startOf(cast_[body]));
     startHalfAStepBehind(*bodies_[body]);
-    return {true, true};
+    return true;
 }
 
-SceneChanges SceneWorld::act(const RemoveAction& action) const {
+bool SceneWorld::act(const RemoveAction& action) const {
     b2Body* body = find(action.body);
-    if (body == nullptr) return {};
+    if (body == nullptr) return false;
     body->SetEnabled(false);
-    return {true, false};
+    return false;
 }
 
-SceneChanges SceneWorld::act(const MotorAction& action) const {
+bool SceneWorld::act(const MotorAction& action) const {
     const auto place = joints_.find(action.joint);
-    if (place == joints_.end()) return {};
+    if (place == joints_.end()) return false;
     const auto set = [&action](auto& joint) {
         joint.SetMotorSpeed(static_cast<float>(action.radiansPerSecond));
         if (action.maxTorqueNewtonMetres)
@@ -167,18 +164,18 @@ SceneChanges SceneWorld::act(const MotorAction& action) const {
     };
     if (place->second->GetType() == e_revoluteJoint) set(static_cast<b2RevoluteJoint&>(*place->second));
     if (place->second->GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(*place->second));
-    return {};
+    return false;
 }
 
-SceneChanges SceneWorld::act(const CameraAction& action) {
+bool SceneWorld::act(const CameraAction& action) {
     forFixtures(action.body, action.fixture, [&](std::size_t fixture) {
         const Part& part = fixtures_[fixture];
         now_[part.body].fixtures[part.index].isCamera = action.isOn;
     });
-    return {false, true};
+    return true;
 }
 
-SceneChanges SceneWorld::act(const MaterialAction& action) {
+bool SceneWorld::act(const MaterialAction& action) {
     forFixtures(action.body, action.fixture,
                 [&](std::size_t fixture) { setMaterial(fixture, action.material); });
     if (b2Body* body = find(action.body))
@@ -186,22 +183,12 @@ SceneChanges SceneWorld::act(const MaterialAction& action) {
             edge->contact->ResetFriction(); // contacts keep the values they began with
             edge->contact->ResetRestitution();
         }
-    return {true, true};
+    return true;
 }
 
 BodyPose SceneWorld::pose(std::size_t index) const noexcept {
     const b2Body& body = *bodies_[index];
     return {body.GetPosition().x, body.GetPosition().y, body.GetAngle(), body.IsEnabled()};
-}
-
-double SceneWorld::largestMassKg() const noexcept {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (!bodies_[i]->IsEnabled()) continue;
-        const bool isDynamic = bodies_[i]->GetType() == b2_dynamicBody;
-        largest = std::max(largest, isDynamic ? static_cast<double>(bodies_[i]->GetMass()) : cast_[i].massKg);
-    }
-    return largest;
 }
 
 const FixtureDescription& SceneWorld::fixtureNow(std::size_t index) const noexcept {

@@ -24,12 +24,6 @@ struct BodyPose {
     bool isPresent = true; ///< false: not spawned yet, or removed
 };
 
-/// What an action has changed apart from motion.
-struct SceneChanges {
-    bool bodies = false;   ///< some came, went, or have another mass
-    bool fixtures = false; ///< some have another material or camera
-};
-
 /// All bodies of sceneCast() exist from the start, so fixtures keep their numbers; those that are not there
 /// (yet) are disabled, which for Box2D means no contacts. Seed 0 starts them exactly as described, any other
 /// a little beside (see jitteredStart). M only.
@@ -40,18 +34,15 @@ public:
     SceneWorld(const SceneWorld&) = delete;
     SceneWorld& operator=(const SceneWorld&) = delete;
 
-    /// Does what the script wants done in `step` or before. Allocates nothing.
-    SceneChanges act(std::int64_t step);
+    /// Does what the script wants done in `step` or before; true if a fixture may have another material or camera
+    /// since. Allocates nothing.
+    bool act(std::int64_t step);
 
     b2World& world() noexcept { return world_; }
     const Scene& scene() const noexcept { return scene_; }
 
     std::size_t bodyCount() const noexcept { return bodies_.size(); }
     BodyPose pose(std::size_t body) const noexcept;
-
-    /// m_max of Eq. 5.7: the largest mass of the bodies present, kg; of one that is not dynamic the mass it
-    /// states.
-    double largestMassKg() const noexcept;
 
     std::size_t fixtureCount() const noexcept { return fixtures_.size(); }
     const b2Fixture& fixture(std::size_t index) const noexcept { return *fixtures_[index].fixture; }
@@ -76,16 +67,16 @@ private:
     void forFixtures(const std::string& body, int fixture, Change change);
     void setMaterial(std::size_t fixture, int material);
 
-    SceneChanges act(const DueAction& due);
-    SceneChanges act(const GravityAction& action);
-    SceneChanges act(const TiltAction& action);
-    SceneChanges act(const ImpulseAction& action) const;
-    SceneChanges act(const VelocityAction& action) const;
-    SceneChanges act(const SpawnAction& action, int repetition);
-    SceneChanges act(const RemoveAction& action) const;
-    SceneChanges act(const MotorAction& action) const;
-    SceneChanges act(const CameraAction& action);
-    SceneChanges act(const MaterialAction& action);
+    bool act(const DueAction& due);
+    bool act(const GravityAction& action);
+    bool act(const TiltAction& action);
+    bool act(const ImpulseAction& action) const;
+    bool act(const VelocityAction& action) const;
+    bool act(const SpawnAction& action, int repetition);
+    bool act(const RemoveAction& action) const;
+    bool act(const MotorAction& action) const;
+    bool act(const CameraAction& action);
+    bool act(const MaterialAction& action);
 
     const Scene scene_;
     StepClock clock_;

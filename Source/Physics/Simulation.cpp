@@ -56,7 +56,7 @@ void Simulation::takeFixtures() {
 }
 
 void Simulation::step(std::vector<CollisionEvent>& finished) {
-    if (world_.act(stepsDone_).fixtures) takeFixtures();
+    if (world_.act(stepsDone_)) takeFixtures();
     ++stepsDone_;
     attachment_.beginStepUntil(timeNs());
     world_.world().Step(static_cast<float>(clock_.stepSeconds()), velocityIterations, positionIterations);

@@ -72,9 +72,9 @@ INSTANTIATE_TEST_SUITE_P(SeedsAndRates, ShakenBox,
                          testing::Values(Run{0, 100}, Run{1, 100}, Run{2, 100}, Run{3, 100}, Run{1, 1000}),
                          nameOf);
 
-class TenMinutes : public testing::TestWithParam<std::uint32_t> {};
+class TenMinutesInTheBox : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(TenMinutes, NothingLeavesTheBox) {
+TEST_P(TenMinutesInTheBox, NothingLeavesTheBox) {
     const Scene scene = *findBuiltInScene("shake-the-box");
     Simulation simulation(scene, GetParam(), 100);
     std::vector<CollisionEvent> events;
@@ -89,7 +89,7 @@ TEST_P(TenMinutes, NothingLeavesTheBox) {
     EXPECT_EQ(simulation.drops(), 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, TenMinutes, testing::Values(0U, 1U, 2U, 3U));
+INSTANTIATE_TEST_SUITE_P(Seeds, TenMinutesInTheBox, testing::Values(0U, 1U, 2U, 3U));
 
 TEST(ShakeTheBox, HasTheSizesAndMassesOfTheSecondStudy) {
     const Scene scene = *findBuiltInScene("shake-the-box");

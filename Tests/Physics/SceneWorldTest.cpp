@@ -331,17 +331,15 @@ TEST(SceneWorld, MaterialChangesSurfaceAndMass) {
     EXPECT_FLOAT_EQ(static_cast<float>(mass(world, 1)), 3.0F);
 }
 
-TEST(SceneWorld, LargestMassIsThatOfTheBodiesPresent) {
+TEST(SceneWorld, TellsWhenFixturesMayHaveChanged) {
     Scene scene = spawningScene();
-    scene.bodies.push_back(body("wall", BoxShape{1.0, 1.0}, {0.0, 9.0}, BodyType::staticBody));
-    scene.bodies.back().massKg = 40.0;
-    scene.script.push_back(at(1.0, RemoveAction{"last"}));
+    scene.script = {at(0.1, TiltAction{1.0}), at(0.2, CameraAction{"first", 0, true}), at(0.3, MaterialAction{"first", 0, 1}),
+                    scene.script[0], at(0.6, RemoveAction{"first"})};
     World world(scene);
-    EXPECT_EQ(world.inner.largestMassKg(), 40.0);
-    world.run(0.5);
-    EXPECT_NEAR(world.inner.largestMassKg(), 100.0 * std::numbers::pi, 1.0e-3); // "last"
-    world.run(0.6);
-    EXPECT_EQ(world.inner.largestMassKg(), 40.0);
+    std::vector<int> changes;
+    for (int step = 0; step < 100; ++step)
+        if (world.inner.act(step)) changes.push_back(step);
+    EXPECT_EQ(changes, (std::vector{20, 30, 50, 70, 90}));
 }
 
 TEST(SceneWorld, SeedsMoveSpawnedBodiesToo) {
