@@ -57,6 +57,10 @@ Attachment::~Attachment() {
 
 void Attachment::configure(const AttachmentSettings& settings) {
     settings_ = checked(settings);
+    if (settings_.timing == ImpactTiming::onset)
+        release_.reset();
+    else
+        onset_.reset();
 }
 
 std::int32_t Attachment::set(const b2Fixture& fixture, const HapticFixture& values) {

@@ -18,14 +18,14 @@
 
 namespace physvib {
 
-/// Turns the collisions of one world into events. The world stays its owner's: user data are not touched, and the
-/// contact and destruction listeners it has at that time are called as before, and put back at the end. (A listener
-/// that is set later takes the attachment's place; set it first.) Bodies and fixtures may come and go between steps;
-/// they are noticed. Only a fixture destroyed by b2Body::DestroyFixture should be named to remove() first: Box2D tells
-/// nobody, and a new fixture at the same address would inherit its values.
+/// Turns the collisions of one world into events. The world stays its owner's: user data are not touched, and
+/// the contact and destruction listeners it has at that time are called as before, and put back at the end.
+/// (A listener that is set later takes the attachment's place; set it first.) Bodies and fixtures may come
+/// and go between steps; they are noticed. Only a fixture destroyed by b2Body::DestroyFixture should be named
+/// to remove() first: Box2D tells nobody, and a new fixture at the same address would inherit its values.
 ///
-/// All methods: the world's thread (M), not inside a step. After warm-up none allocates, but where the world or the
-/// caller's vector grows.
+/// All methods: the world's thread (M), not inside a step. After warm-up none allocates, but where the world
+/// or the caller's vector grows.
 class Attachment final : private b2DestructionListener {
 public:
     /// The world must outlive the attachment. Attachments of the same world must end in reverse order. Throws
@@ -35,12 +35,14 @@ public:
     Attachment(const Attachment&) = delete;
     Attachment& operator=(const Attachment&) = delete;
 
-    /// Takes effect with the next step. Throws as the constructor does.
+    /// Takes effect with the next step; with another timing, what is under way is lost. Throws as the
+    /// constructor does.
     void configure(const AttachmentSettings& settings);
     const AttachmentSettings& settings() const noexcept { return settings_; }
 
-    /// Gives a fixture its values, at first or again (the camera may come and go); returns its id in events, 0, 1,
-    /// 2... in order of first calls, never used twice. Throws std::invalid_argument if it is of another world.
+    /// Gives a fixture its values, at first or again (the camera may come and go); returns its id in events,
+    /// 0, 1, 2... in order of first calls, never used twice. Throws std::invalid_argument if it is of another
+    /// world.
     std::int32_t set(const b2Fixture& fixture, const HapticFixture& values);
 
     /// The same with an id (>= 0) of the caller's choice.
@@ -62,8 +64,8 @@ public:
     void beginStepUntil(std::int64_t endNs);
     void endStep();
 
-    /// World time after the steps done, and the time before which all events are final: one step earlier, since a
-    /// contact is noticed up to one step after it was made.
+    /// World time after the steps done, and the time before which all events are final: one step earlier,
+    /// since a contact is noticed up to one step after it was made.
     std::int64_t timeNs() const noexcept { return span_.endNs; }
     std::int64_t settledNs() const noexcept { return span_.startNs; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How bodies start a step, and how far into it Box2D has advanced them when it reports a contact: it does not say
-// so itself.
+// How bodies start a step, and how far into it Box2D has advanced them when it reports a contact: it does not
+// say so itself.
 #pragma once
 #include <box2d/box2d.h>
 #include <cstddef>
@@ -18,9 +18,9 @@ inline BodyMotion motionOf(const b2Body& body) noexcept {
     return {body.GetLinearVelocity(), body.GetAngularVelocity()};
 }
 
-/// Within a step a body moves along a straight line: position = origin + fraction * step * velocity. Contacts of
-/// the regular pass are found at fraction 0, those of the time-of-impact pass wherever the body has been moved to.
-/// Bodies are named by their place in the world's list. M only.
+/// Within a step a body moves along a straight line: position = origin + fraction * step * velocity. Contacts
+/// of the regular pass are found at fraction 0, those of the time-of-impact pass wherever the body has been
+/// moved to. Bodies are named by their place in the world's list. M only.
 class BodySweeps {
 public:
     /// Before b2World::Step: every body is where its step begins. Allocates if the world has grown.

@@ -20,7 +20,8 @@ void ChainLoads::resize(std::int32_t slots) {
 
 void ChainLoads::add(std::int32_t a, std::int32_t b, b2Vec2 impulse, b2Vec2 point) {
     Contact& contact = find(a, b, true);
-    contact.now += contact.b == b ? impulse : -impulse; // the points and passes of the step, the parts of a chain
+    contact.now +=
+        contact.b == b ? impulse : -impulse; // the points and passes of the step, the parts of a chain
     contact.point = point;
     contact.isSolved = true;
 }
@@ -69,7 +70,9 @@ void ChainLoads::forget(std::int32_t slot) noexcept {
 }
 
 b2Vec2 ChainLoads::loadOf(const Contact& contact) noexcept {
-    const auto isLess = [](const b2Vec2& a, const b2Vec2& b) { return a.LengthSquared() < b.LengthSquared(); };
+    const auto isLess = [](const b2Vec2& a, const b2Vec2& b) {
+        return a.LengthSquared() < b.LengthSquared();
+    };
     return *std::min_element(contact.past.begin(), contact.past.end(), isLess);
 }
 
@@ -77,7 +80,8 @@ ChainLoads::Contact& ChainLoads::find(std::int32_t a, std::int32_t b, bool isUnk
     const std::int32_t known = indices_.find(pairKey(a, b));
     if (known != IntegerMap::none) return contacts_[static_cast<std::size_t>(known)];
     indices_.set(pairKey(a, b), static_cast<std::int32_t>(contacts_.size()));
-    contacts_.push_back({a, b, b2Vec2_zero, b2Vec2_zero, {b2Vec2_zero, b2Vec2_zero, b2Vec2_zero}, false, isUnknown});
+    contacts_.push_back(
+        {a, b, b2Vec2_zero, b2Vec2_zero, {b2Vec2_zero, b2Vec2_zero, b2Vec2_zero}, false, isUnknown});
     return contacts_.back();
 }
 

@@ -13,17 +13,17 @@
 
 namespace physvib {
 
-/// Watches the old contacts of cameras. Bodies that rest push too, the same in every step: that is a contact's
-/// load, the smallest of its impulses in the last three steps (so that a hit, which may take two, is no load).
-/// What a contact pushes beyond its load has been handed on by it; less than its load is a relief, not a strike.
-/// The contacts' sum is the whole impulse, whatever it does to the spin, so nothing is added for that (SPEC
-/// erratum 3). Allocates when the world grows. M only.
+/// Watches the old contacts of cameras. Bodies that rest push too, the same in every step: that is a
+/// contact's load, the smallest of its impulses in the last three steps (so that a hit, which may take two,
+/// is no load). What a contact pushes beyond its load has been handed on by it; less than its load is a
+/// relief, not a strike. The contacts' sum is the whole impulse, whatever it does to the spin, so nothing is
+/// added for that (SPEC erratum 3). Allocates when the world grows. M only.
 class ChainLoads {
 public:
     struct Passed {
         b2Vec2 newtonSeconds{0.0F, 0.0F};
-        float strongest = 0.0F;                    ///< size of the part that came through `other`
-        std::int32_t other = FixtureTable::none;   ///< slot of the neighbour that handed on most
+        float strongest = 0.0F;                  ///< size of the part that came through `other`
+        std::int32_t other = FixtureTable::none; ///< slot of the neighbour that handed on most
         b2Vec2 point{0.0F, 0.0F};
     };
 

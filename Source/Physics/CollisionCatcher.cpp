@@ -114,8 +114,8 @@ void CollisionCatcher::note(const b2Contact& contact, Ends ends) {
         return;
     }
     directRecords_ += isDirect ? 1 : 0;
-    // The first record of a contact gets all its impulses: one that opens and closes again between the passes of a
-    // step is still one hit.
+    // The first record of a contact gets all its impulses: one that opens and closes again between the passes
+    // of a step is still one hit.
     if (recordOf_.find(keyOf(contact)) == IntegerMap::none)
         recordOf_.set(keyOf(contact), static_cast<std::int32_t>(records_.size()));
     records_.push_back(describe(contact, ends));

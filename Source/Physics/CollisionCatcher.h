@@ -14,13 +14,14 @@
 
 namespace physvib {
 
-/// Listens to one b2World, and hands every call on to the listener that was there before. Keeps the contact graph
-/// up to date, and notes for each step which solid contacts began, with the solver's impulses of that same step;
-/// PostSolve also reports resting contacts, in every step, which therefore are no strikes but loads. M only.
+/// Listens to one b2World, and hands every call on to the listener that was there before. Keeps the contact
+/// graph up to date, and notes for each step which solid contacts began, with the solver's impulses of that
+/// same step; PostSolve also reports resting contacts, in every step, which therefore are no strikes but
+/// loads. M only.
 class CollisionCatcher final : public b2ContactListener {
 public:
-    /// Contacts that may begin in one step: those of cameras, and others, which may be handed on to cameras. A
-    /// world that has more of them is a noise, not a touch.
+    /// Contacts that may begin in one step: those of cameras, and others, which may be handed on to cameras.
+    /// A world that has more of them is a noise, not a touch.
     static constexpr std::size_t maxDirectRecords = 1024;
     static constexpr std::size_t maxDistantRecords = 4096;
 

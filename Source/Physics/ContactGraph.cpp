@@ -41,7 +41,8 @@ void ContactGraph::erase(std::int32_t a, std::int32_t b) {
 void ContactGraph::isolate(std::int32_t node) {
     make(node);
     for (std::size_t i = edges_.size(); i-- > 0 && at(node).degree > 0;)
-        if (edges_[i].a == node || edges_[i].b == node) drop(i); // the edge that takes its place was looked at
+        if (edges_[i].a == node || edges_[i].b == node)
+            drop(i); // the edge that takes its place was looked at
     setPassing(node, true);
 }
 

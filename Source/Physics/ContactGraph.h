@@ -10,9 +10,9 @@ namespace physvib {
 
 /// Undirected graph over small indices, changed edge by edge as contacts begin and end. The two breadth-first
 /// trees of a new contact (v1, v2) visit exactly the nodes of component(v1), as both cross the new edge (SPEC
-/// erratum 14); so there is no search, only a union-find, rebuilt at most once between two removals and the next
-/// question. A node that is not passing (an immovable body: it takes an impulse, but hands none on) may end a
-/// path and never continues one. Allocates only when it outgrows what it has had. M only.
+/// erratum 14); so there is no search, only a union-find, rebuilt at most once between two removals and the
+/// next question. A node that is not passing (an immovable body: it takes an impulse, but hands none on) may
+/// end a path and never continues one. Allocates only when it outgrows what it has had. M only.
 class ContactGraph {
 public:
     static constexpr std::int32_t noComponent = -1;
@@ -32,12 +32,12 @@ public:
     /// Ends all contacts of a node, and makes it passing.
     void isolate(std::int32_t node);
 
-    /// Equal for nodes that are connected through passing ones; noComponent for a node that is not passing. Valid
-    /// until the next change.
+    /// Equal for nodes that are connected through passing ones; noComponent for a node that is not passing.
+    /// Valid until the next change.
     std::int32_t component(std::int32_t node);
 
-    /// The components from which a path leads to `node`: its own, or, if it is not passing, those of the nodes that
-    /// touch it. Allocates if `components` must grow.
+    /// The components from which a path leads to `node`: its own, or, if it is not passing, those of the
+    /// nodes that touch it. Allocates if `components` must grow.
     void reach(std::int32_t node, std::vector<std::int32_t>& components);
 
     bool isPassing(std::int32_t node) const noexcept;

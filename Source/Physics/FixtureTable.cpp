@@ -35,7 +35,8 @@ void FixtureTable::refresh(const b2World& world, std::vector<std::int32_t>& vani
     cameras_.clear();
     std::int32_t bodyIndex = 0;
     for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext(), ++bodyIndex)
-        for (const b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
+        for (const b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr;
+             fixture = fixture->GetNext())
             look(*fixture, bodyIndex);
     for (std::int32_t slot = 0; slot < size(); ++slot)
         if (at(slot).fixture != nullptr && at(slot).seen != looks_) vanished.push_back(slot);

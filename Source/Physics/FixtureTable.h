@@ -30,9 +30,9 @@ struct KnownFixture {
     }
 };
 
-/// Slots are small and used again; ids are not. Pointers are followed only after refresh() has found them in the
-/// world, so a fixture that was destroyed unnoticed does no harm. A new fixture at the address of one that went
-/// unnoticed since the last refresh cannot be told from it. Allocates when the world grows. M only.
+/// Slots are small and used again; ids are not. Pointers are followed only after refresh() has found them in
+/// the world, so a fixture that was destroyed unnoticed does no harm. A new fixture at the address of one
+/// that went unnoticed since the last refresh cannot be told from it. Allocates when the world grows. M only.
 class FixtureTable {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
@@ -58,7 +58,9 @@ public:
     const KnownFixture& operator[](std::int32_t slot) const noexcept {
         return known_[static_cast<std::size_t>(slot)];
     }
-    std::int32_t size() const noexcept { return static_cast<std::int32_t>(known_.size()); } ///< slots, free ones too
+    std::int32_t size() const noexcept {
+        return static_cast<std::int32_t>(known_.size());
+    } ///< slots, free ones too
 
     /// Slots of the cameras, as of the last refresh.
     const std::vector<std::int32_t>& cameras() const noexcept { return cameras_; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the catcher's stages hand to each other: the step, the contacts that began in it, and what a camera felt.
+// What the catcher's stages hand to each other: the step, the contacts that began in it, and what a camera
+// felt.
 #pragma once
 #include "Physics/BodySweeps.h"
 #include <algorithm>
@@ -37,8 +38,8 @@ struct ContactRecord {
     b2Vec2 point;       // world
     double fraction;    // moment of touch in steps after the start of this step, -1 to 1
     double lighterMassKg;
-    BodyMotion motionA, motionB; // before the solver
-    b2Vec2 armA, armB;           // from the centre of mass to the point
+    BodyMotion motionA, motionB;             // before the solver
+    b2Vec2 armA, armB;                       // from the centre of mass to the point
     double normalImpulse, tangentialImpulse; // N s, summed over the points and passes of the step
 
     double impulse() const noexcept { return std::hypot(normalImpulse, tangentialImpulse); }

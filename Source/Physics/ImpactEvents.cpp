@@ -20,8 +20,8 @@ void push(CollisionEvent event, const HapticFixture& sound, EventSorter& events)
 
 } // namespace
 
-void addEvents(const Impact& impact, const FixtureTable& table, const ImpactModel& model, ImpactLocation location,
-               EventSorter& events) {
+void addEvents(const Impact& impact, const FixtureTable& table, const ImpactModel& model,
+               ImpactLocation location, EventSorter& events) {
     const KnownFixture& camera = table[impact.camera];
     const KnownFixture* other = impact.other == FixtureTable::none ? nullptr : &table[impact.other];
     const b2Vec2 place = location == ImpactLocation::contact ? impact.point : centreOf(*camera.fixture);

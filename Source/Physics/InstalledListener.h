@@ -8,12 +8,14 @@ namespace physvib {
 namespace installedListener {
 
 struct Access {
-    friend b2DestructionListener* b2World::* member(Access);
+    friend b2DestructionListener* b2World::*member(Access);
 };
-template <b2DestructionListener* b2World::* Member> struct Reveal {
-    friend b2DestructionListener* b2World::* member(Access) { return Member; }
+template <b2DestructionListener* b2World::*Member>
+struct Reveal {
+    friend b2DestructionListener* b2World::*member(Access) { return Member; }
 };
-// The names in an explicit instantiation are exempt from access control (C++20 [temp.spec]): no cast, no guess.
+// The names in an explicit instantiation are exempt from access control (C++20 [temp.spec]): no cast, no
+// guess.
 template struct Reveal<&b2World::m_destructionListener>;
 
 } // namespace installedListener

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A hash table from 64-bit keys (addresses, pairs of indices) to indices, for lookups inside contact callbacks.
+// A hash table from 64-bit keys (addresses, pairs of indices) to indices, for lookups inside contact
+// callbacks.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -15,9 +16,9 @@ constexpr std::uint64_t pairKey(std::int32_t a, std::int32_t b) noexcept {
     return low << 32U | static_cast<std::uint64_t>(std::max(a, b));
 }
 
-/// Open addressing with linear probing, at most half full. Unlike std::unordered_map it allocates only when it
-/// outgrows its table, and a lookup is one or two cache lines. It has no order and cannot be walked through.
-/// One thread at a time.
+/// Open addressing with linear probing, at most half full. Unlike std::unordered_map it allocates only when
+/// it outgrows its table, and a lookup is one or two cache lines. It has no order and cannot be walked
+/// through. One thread at a time.
 class IntegerMap {
 public:
     static constexpr std::int32_t none = -1;
@@ -64,7 +65,8 @@ private:
     std::size_t mask() const noexcept { return entries_.size() - 1; }
     std::size_t after(std::size_t place) const noexcept { return (place + 1) & mask(); }
     std::size_t home(std::uint64_t key) const noexcept {
-        return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_); // Fibonacci hashing, Knuth 6.4
+        return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >>
+                                        shift_); // Fibonacci hashing, Knuth 6.4
     }
     std::size_t locate(std::uint64_t key) const noexcept {
         std::size_t place = home(key);

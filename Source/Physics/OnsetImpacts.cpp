@@ -10,7 +10,8 @@ OnsetImpacts::OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& 
     , table_(table)
     , graph_(graph) {
     strikes_.reserve(CollisionCatcher::maxDirectRecords + CollisionCatcher::maxDistantRecords);
-    for (std::vector<HandedOn>* each : {&waiting_, &begun_}) each->reserve(CollisionCatcher::maxDirectRecords);
+    for (std::vector<HandedOn>* each : {&waiting_, &begun_})
+        each->reserve(CollisionCatcher::maxDirectRecords);
     reached_.reserve(CollisionCatcher::maxDirectRecords);
 }
 
@@ -51,10 +52,11 @@ void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) 
         isUsed_[static_cast<std::size_t>(handedOn.camera)] = true;
         const ChainLoads::Passed& now = catcher_.loads().passed(handedOn.camera);
         const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
-        const auto impulse = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).Length());
+        const auto impulse =
+            static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).Length());
         const KnownFixture& camera = table_[handedOn.camera];
-        const double others = main.other == FixtureTable::none ? camera.movableMassKg()
-                                                               : table_[main.other].movableMassKg();
+        const double others =
+            main.other == FixtureTable::none ? camera.movableMassKg() : table_[main.other].movableMassKg();
         if (camera.values.isCamera && span.isStrike(impulse, std::min(camera.movableMassKg(), others)))
             impacts.push_back({handedOn.camera, main.other, std::max(span.earliestNs, handedOn.strike.timeNs),
                                impulse, main.point});
@@ -74,7 +76,8 @@ void OnsetImpacts::begin() {
         const Strike* strike = table_[camera].values.isCamera ? cause(camera) : nullptr;
         if (strike == nullptr) continue;
         begun_.push_back({camera, *strike, {}});
-        if (!isUsed_[static_cast<std::size_t>(camera)]) begun_.back().passed = catcher_.loads().passed(camera);
+        if (!isUsed_[static_cast<std::size_t>(camera)])
+            begun_.back().passed = catcher_.loads().passed(camera);
     }
 }
 

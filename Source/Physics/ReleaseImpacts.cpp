@@ -14,7 +14,8 @@ double inertiaAboutCentre(const b2Body& body) {
 
 } // namespace
 
-ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph)
+ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table,
+                               ContactGraph& graph)
     : catcher_(catcher)
     , table_(table)
     , graph_(graph) {
@@ -43,7 +44,8 @@ void ReleaseImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
 
 void ReleaseImpacts::open(const StepSpan& span) {
     for (const ContactRecord& record : catcher_.records())
-        if (record.impulse() > 0.0) openDirect(record, span); // a contact that its user has switched off has none
+        if (record.impulse() > 0.0)
+            openDirect(record, span); // a contact that its user has switched off has none
     openHandedOn(span);
 }
 
@@ -151,7 +153,8 @@ void ReleaseImpacts::expire(const StepSpan& span, std::vector<Impact>& impacts) 
     for (const Strike& strike : strikes_) {
         if (!isOld(strike)) continue;
         const std::int64_t timeNs = strike.isOver ? span.startNs : strike.beginNs + latestNs;
-        finish(strike, motionOf(*table_[strike.camera].body), std::max(timeNs, span.earliestNs), span, impacts);
+        finish(strike, motionOf(*table_[strike.camera].body), std::max(timeNs, span.earliestNs), span,
+               impacts);
     }
     std::erase_if(strikes_, isOld);
 }

@@ -10,11 +10,12 @@
 
 namespace physvib {
 
-/// Eq. 5.2 and 5.3: J = m dv + (I dw / |l|) t, from the beginning of a contact to its end, at the latest 50 ms later,
-/// which is the time of the impact, too. A camera that is not dynamic gets the summed momentum change of the dynamic
-/// bodies that touch it. Whatever else changes these velocities meanwhile is in it as well, gravity for one; where a
-/// camera is not struck itself, the smaller value with and without gravity counts, so that it feels neither rest nor
-/// fall. At most one such handed-on impact is under way per camera. M only.
+/// Eq. 5.2 and 5.3: J = m dv + (I dw / |l|) t, from the beginning of a contact to its end, at the latest 50
+/// ms later, which is the time of the impact, too. A camera that is not dynamic gets the summed momentum
+/// change of the dynamic bodies that touch it. Whatever else changes these velocities meanwhile is in it as
+/// well, gravity for one; where a camera is not struck itself, the smaller value with and without gravity
+/// counts, so that it feels neither rest nor fall. At most one such handed-on impact is under way per camera.
+/// M only.
 class ReleaseImpacts {
 public:
     static constexpr std::int64_t latestNs = 50'000'000; // thesis 5.1.3: released 10 to 50 ms later
@@ -24,8 +25,11 @@ public:
     /// Appends the impacts of contacts that ended, or got old, in a step that is settled.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
 
-    /// The slot has another owner from now on. A camera that is gone feels nothing; one whose partner is gone feels
-    /// what it felt so far, unless `withdraws`.
+    /// Forgets what is under way.
+    void reset() noexcept { strikes_.clear(); }
+
+    /// The slot has another owner from now on. A camera that is gone feels nothing; one whose partner is gone
+    /// feels what it felt so far, unless `withdraws`.
     void forget(std::int32_t slot, bool withdraws) noexcept;
 
     /// Strikes that found no room so far.

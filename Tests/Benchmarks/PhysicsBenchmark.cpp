@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What catching collisions costs on top of Box2D's own step: two equal shaken boxes, one attached to, step by turns.
+// What catching collisions costs on top of Box2D's own step: two equal shaken boxes, one attached to, step by
+// turns.
 #include "Physics/Attachment.h"
 #include <algorithm>
 #include <benchmark/benchmark.h>
@@ -31,7 +32,8 @@ public:
             walls.push_back(ground_->CreateFixture(&edge, 0.0F));
         }
         const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(bodies))));
-        for (int i = 0; i < bodies; ++i) addBody(i % columns, i / columns, side_ / static_cast<float>(columns));
+        for (int i = 0; i < bodies; ++i)
+            addBody(i % columns, i / columns, side_ / static_cast<float>(columns));
     }
 
     /// Gravity of a box that is jerked to and fro.
@@ -42,7 +44,8 @@ public:
 
     int touching() const {
         int count = 0;
-        for (const b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
+        for (const b2Contact* contact = world.GetContactList(); contact != nullptr;
+             contact = contact->GetNext())
             count += contact->IsTouching() ? 1 : 0;
         return count;
     }
@@ -55,7 +58,8 @@ private:
         b2BodyDef def;
         def.type = b2_dynamicBody;
         def.allowSleep = false;
-        def.position = {pitch * (static_cast<float>(column) + 0.5F), pitch * (static_cast<float>(row) + 0.5F)};
+        def.position = {pitch * (static_cast<float>(column) + 0.5F),
+                        pitch * (static_cast<float>(row) + 0.5F)};
         const float size = 0.05F + 0.1F * static_cast<float>(random_() % 1000) / 1000.0F;
         b2CircleShape circle;
         circle.m_radius = size;
@@ -80,7 +84,8 @@ double now() {
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1.0e-9 * static_cast<double>(time.tv_nsec);
 }
-template <class Do> double secondsOf(Do work) {
+template <class Do>
+double secondsOf(Do work) {
     const double start = now();
     work();
     return now() - start;
@@ -98,7 +103,8 @@ void stepOfAShakenBox(benchmark::State& state) {
     Attachment attachment(felt.world, {.fieldWidthMetres = 6.4});
     for (b2Fixture* fixture : felt.walls) attachment.set(*fixture, wall);
     for (int i = 0; i < bodies; ++i)
-        attachment.set(*felt.objects[static_cast<std::size_t>(i)], {200.0, 30.0, i < state.range(1), 0.0, Voice::own});
+        attachment.set(*felt.objects[static_cast<std::size_t>(i)],
+                       {200.0, 30.0, i < state.range(1), 0.0, Voice::own});
 
     std::vector<double> without, with;
     std::vector<CollisionEvent> events;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-// PhysVib in the world of a stranger, who has listeners and user data of their own and destroys what they like.
+// PhysVib in the world of a stranger, who has listeners and user data of their own and destroys what they
+// like.
 #include "Physics/Attachment.h"
 #include "AttachedWorld.h"
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -248,7 +252,9 @@ TEST(Attachment, ContactsAtTheAddressOfDestroyedOnesAreFelt) {
     for (int round = 0; round < 4; ++round) {
         std::vector<b2Body*> balls;
         for (int i = 0; i < 3; ++i) balls.push_back(foreign.add(0.4F).GetBody());
-        for (int i = 0; i < 3; ++i) balls[static_cast<std::size_t>(i)]->SetTransform({static_cast<float>(i), 0.4F}, 0.0F);
+        for (int i = 0; i < 3; ++i)
+            balls[static_cast<std::size_t>(i)]->SetTransform({static_cast<float>(i), 0.4F}, 0.0F);
+        if (round % 2 == 0) std::reverse(balls.begin(), balls.end()); // another address is the next free one
         for (const int begins = foreign.game.begins; foreign.game.begins == begins;) {
             attachment.beginStep(0.01);
             foreign.world.Step(0.01F, 8, 3);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counts every `new` of this test program: after warm-up stepping must not need any. (Box2D's pools use malloc.)
+// Counts every `new` of this test program: after warm-up stepping must not need any. (Box2D's pools use
+// malloc.)
 #include "DropScene.h"
 #include "Physics/Attachment.h"
 #include <cstdlib>
@@ -54,15 +55,18 @@ protected:
         b2EdgeShape edge;
         for (int i = 0; i < 4; ++i) {
             edge.SetTwoSided(corners[i], corners[(i + 1) % 4]);
-            attachment.set(*world.CreateBody(&ground)->CreateFixture(&edge, 0.0F), {300.0, 50.0, true, 100.0, Voice::both});
+            attachment.set(*world.CreateBody(&ground)->CreateFixture(&edge, 0.0F),
+                           {300.0, 50.0, true, 100.0, Voice::both});
         }
         b2BodyDef def;
         def.type = b2_dynamicBody;
         b2CircleShape circle;
         circle.m_radius = 0.15F;
         for (int i = 0; i < 100; ++i) {
-            def.position = {0.2F + 0.36F * static_cast<float>(i % 10), 0.2F + 0.36F * static_cast<float>(i / 10)};
-            attachment.set(*world.CreateBody(&def)->CreateFixture(&circle, 10.0F), {200.0, 40.0, true, 0.0, Voice::own});
+            def.position = {0.2F + 0.36F * static_cast<float>(i % 10),
+                            0.2F + 0.36F * static_cast<float>(i / 10)};
+            attachment.set(*world.CreateBody(&def)->CreateFixture(&circle, 10.0F),
+                           {200.0, 40.0, true, 0.0, Voice::own});
         }
     }
     void shake(int step) {
@@ -85,7 +89,8 @@ TEST_P(AttachmentAllocation, NothingAfterWarmUp) {
     EXPECT_GT(events.size(), known + 1000);
     EXPECT_EQ(attachment.drops(), 0U);
 }
-INSTANTIATE_TEST_SUITE_P(Timings, AttachmentAllocation, testing::Values(ImpactTiming::onset, ImpactTiming::release));
+INSTANTIATE_TEST_SUITE_P(Timings, AttachmentAllocation,
+                         testing::Values(ImpactTiming::onset, ImpactTiming::release));
 
 } // namespace
 } // namespace physvib
