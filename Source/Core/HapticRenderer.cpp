@@ -9,7 +9,7 @@ template <class P>
 void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     settings_ = settings;
     clock_ = FrameClock{settings.sampleRateHz};
-    channels_ = settings.channels;
+    channels_ = settings.outputs();
     panner_ = settings.panner;
     gains_.fill(0.0);
     bank_.prepare(settings.sampleRateHz, channels_);

@@ -24,10 +24,12 @@ namespace physvib {
 /// What a renderer is set up with.
 struct RendererSettings {
     int sampleRateHz = 48000; ///< limits::minSampleRateHz to limits::maxSampleRateHz
-    int channels = 1;         ///< outputs; those that the panner has no enchanter for stay silent
+    int channels = 0;         ///< outputs; 0: as many as the panner has enchanters. Without one an output is silent
     PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
     bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
     std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
+
+    int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
 
     static constexpr std::array<float, limits::maxEnchanters> fullScale() {
         std::array<float, limits::maxEnchanters> all{};

@@ -126,6 +126,7 @@ void ModeBank<P>::release(int slot) noexcept {
 template <class P>
 void ModeBank<P>::recycle(int slot) noexcept {
     if (mode(slot).isFading) --fadingCount_;
+    mode(slot).life = 0; // gates that are still open find nothing to close
     free_[static_cast<std::size_t>(freeCount_++)] = slot;
 }
 
@@ -245,7 +246,7 @@ void ModeBank<P>::closeNextGate() noexcept {
     gates_.pop();
     freeGates_[static_cast<std::size_t>(freeGateCount_++)] = gate.entry;
     Mode& m = mode(gate.slot);
-    if (m.life != gate.life) return; // the mode has retired, its slot is another's
+    if (m.life != gate.life) return;
     rebase(gate.slot);
     const auto phasor = onsetPhasor(m, gate.onset);
     --m.openGates;

@@ -26,7 +26,7 @@ RenderStatus renderOffline(std::span<const CollisionEvent> events, const Offline
                            const BlockConsumer& consume) {
     const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
     renderer->prepare(settings.renderer);
-    const auto channels = static_cast<std::size_t>(settings.renderer.channels);
+    const auto channels = static_cast<std::size_t>(settings.renderer.outputs());
     const auto block = static_cast<std::size_t>(settings.blockFrames);
     std::vector<float> samples(channels * block);
     std::vector<float*> out(channels), kept(channels);

@@ -36,7 +36,7 @@ raw "$folder/render.wav" >"$folder/render.raw"
 raw "$folder/own.wav" >"$folder/own.raw"
 
 # First byte that is not zero, as a frame of four floats; the renders start with the same sound.
-first() { echo $(($(cmp "$1" /dev/zero | sed 's/.*byte \([0-9]*\).*/\1/' ) / 16)); }
+first() { echo $(($(cmp "$1" /dev/zero | sed 's/.*: [a-z]* \([0-9]*\),.*/\1/' ) / 16)); }
 agree() {
     offset=$(($(first "$1") - $(first "$folder/render.raw")))
     frames=$(($(stat -c %s "$1") / 16 - offset))
