@@ -1,13 +1,17 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Installs what is missing, builds, and runs every test: as released, then under the sanitizers.
+# Installs what is missing, builds, and runs every test: as released, fuzzed for a moment, then under the sanitizers.
 set -eu
 cd "$(dirname "$0")"
 . .ci/packages.sh
 
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_test_packages
-for preset in release asan tsan; do
+build release all
+ctest --preset release -j2 --progress
+build fuzz all
+Tests/Fuzz/run.sh 20000 >build/fuzz.log 2>&1 || { cat build/fuzz.log >&2; exit 1; }
+for preset in asan tsan; do
     build "$preset" all
     ctest --preset "$preset" -j2 --progress
 done

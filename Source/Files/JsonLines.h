@@ -11,15 +11,16 @@ namespace physvib {
 
 using OrderedJson = nlohmann::ordered_json; // fields stay in the order they were added
 
+/// The shortest text that JSON reads back as the same bits: "-0" would be read as an integer. Any thread.
+inline std::string jsonNumber(double number) {
+    return number == 0.0 && std::signbit(number) ? "-0.0" : numberText(number);
+}
+
 namespace detail {
 
 /// The value on one line. Bytes that are no UTF-8 cannot stand in JSON and become U+FFFD.
 inline std::string onOneLine(const OrderedJson& value) {
-    if (value.is_number_float()) {
-        const auto number = value.get<double>();
-        const bool isNegativeZero = number == 0.0 && std::signbit(number);
-        return isNegativeZero ? "-0.0" : numberText(number); // "-0" would be read as an integer
-    }
+    if (value.is_number_float()) return jsonNumber(value.get<double>());
     if (!value.is_structured()) return value.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
     std::string text = value.is_array() ? "[" : "{ ";
     for (auto item = value.begin(); item != value.end(); ++item) {

@@ -2,6 +2,7 @@
 // Every field of a layout file, checked when read and in a fixed order when written.
 #include "Files/LayoutFile.h"
 #include "Files/JsonField.h"
+#include "Files/JsonLines.h"
 #include "Files/ReadFile.h"
 #include "Files/StrictJson.h"
 
@@ -83,9 +84,9 @@ std::string jsonText(const std::string& text) {
 }
 
 std::string enchanterJson(const EnchanterDescription& enchanter, const EnchanterPlace& place) {
-    return "    { \"label\": " + jsonText(enchanter.label) + ", \"x_m\": " + numberText(place.xMetres) +
-           ", \"y_m\": " + numberText(place.yMetres) + ", \"actuator\": " + jsonText(enchanter.actuator) +
-           ", \"full_scale_g\": " + numberText(enchanter.fullScaleG) + " }";
+    return "    { \"label\": " + jsonText(enchanter.label) + ", \"x_m\": " + jsonNumber(place.xMetres) +
+           ", \"y_m\": " + jsonNumber(place.yMetres) + ", \"actuator\": " + jsonText(enchanter.actuator) +
+           ", \"full_scale_g\": " + jsonNumber(enchanter.fullScaleG) + " }";
 }
 
 } // namespace
@@ -114,8 +115,8 @@ Result<LayoutDescription> loadLayout(const std::filesystem::path& path) {
 
 std::string layoutJson(const LayoutDescription& layout) {
     std::string text = "{\n  \"name\": " + jsonText(layout.name) + ",\n  \"extent_m\": [" +
-                       numberText(layout.geometry.extentWidthMetres) + ", " +
-                       numberText(layout.geometry.extentHeightMetres) + "],\n  \"enchanters\": [\n";
+                       jsonNumber(layout.geometry.extentWidthMetres) + ", " +
+                       jsonNumber(layout.geometry.extentHeightMetres) + "],\n  \"enchanters\": [\n";
     for (std::size_t j = 0; j < layout.enchanters.size(); ++j) {
         text += enchanterJson(layout.enchanters[j], layout.geometry.places[j]);
         text += j + 1 < layout.enchanters.size() ? ",\n" : "\n";

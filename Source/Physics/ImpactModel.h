@@ -11,7 +11,7 @@ struct ImpactModel {
     double driveGain = 1.0;
 
     /// A = driveGain A* |J| / (m_i + m_h), 1 = full scale; |J| in N s, m_i in kg. Any thread.
-    /// |J| is the solver's whole impulse at the onset, so Eq. 5.2 is not applied on top (SPEC erratum 3).
+    /// With `onset` timing |J| is the solver's whole impulse, without Eq. 5.2 on top of it (SPEC erratum 3).
     double amplitude(double impulseNewtonSeconds, double massKg) const noexcept {
         return driveGain * normalisation * impulseNewtonSeconds / (massKg + handMassKg);
     }

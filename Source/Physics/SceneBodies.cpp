@@ -54,7 +54,6 @@ private:
         else // the neighbours beyond the ends continue them straight on
             chain_.CreateChain(points.data(), count, 2.0F * points[0] - points[1],
                                2.0F * points.back() - points[points.size() - 2]);
-        chain_.m_radius = 0.0F; // no skin
         made_ = &chain_;
     }
 
@@ -100,6 +99,8 @@ b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& bo
     b2Body& created = *world.CreateBody(&def);
     for (const FixtureDescription& fixture : body.fixtures) {
         fixtures.push_back(created.CreateFixture(&ShapeMaker(fixture).shape(), 0.0F));
+        // A line has no skin; Box2D's copy of a chain forgets this, so the copy is told.
+        if (std::holds_alternative<ChainShape>(fixture.shape)) fixtures.back()->GetShape()->m_radius = 0.0F;
         setSurface(*fixtures.back(), scene.materials[static_cast<std::size_t>(fixture.material)]);
     }
     setMass(created, body, scene);

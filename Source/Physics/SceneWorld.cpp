@@ -66,9 +66,7 @@ void SceneWorld::setGravity(const b2Vec2& gravity) {
 
 b2Body* SceneWorld::find(std::string_view name) const noexcept {
     const auto place = bodyNames_.find(name);
-    if (place == bodyNames_.end()) return nullptr;
-    b2Body* body = bodies_[place->second];
-    return body->IsEnabled() ? body : nullptr;
+    return place == bodyNames_.end() ? nullptr : bodies_[place->second];
 }
 
 template <class Change>

@@ -34,8 +34,8 @@ public:
     SceneWorld(const SceneWorld&) = delete;
     SceneWorld& operator=(const SceneWorld&) = delete;
 
-    /// Does what the script wants done in `step` or before; true if a fixture may have another material or camera
-    /// since. Allocates nothing.
+    /// Does what the script wants done in `step` or before; true if a fixture may have another material or
+    /// camera since. Allocates nothing.
     bool act(std::int64_t step);
 
     b2World& world() noexcept { return world_; }
@@ -61,7 +61,7 @@ private:
     BodyStart startOf(const BodyDescription& body);
     void startHalfAStepBehind(b2Body& body) const;
     void setGravity(const b2Vec2& gravity);
-    b2Body* find(std::string_view name) const noexcept; // nullptr if it is not there now
+    b2Body* find(std::string_view name) const noexcept; // nullptr if none has it
     /// Calls `change` with the numbers of one fixture of a body, or of all.
     template <class Change>
     void forFixtures(const std::string& body, int fixture, Change change);

@@ -116,6 +116,12 @@ TEST(LayoutFile, WriteThenReadGivesTheSameBits) {
     }
 }
 
+TEST(LayoutFile, NegativeZeroSurvives) {
+    const std::string text = layoutJson(readGood(layoutWith(R"({"x_m": -0.0, "y_m": -0.0})")));
+    EXPECT_NE(text.find(R"("x_m": -0.0)"), std::string::npos) << text;
+    EXPECT_EQ(layoutJson(readGood(text)), text);
+}
+
 TEST(LayoutFile, EveryPresetSurvives) {
     for (const std::string_view name : layoutPresetNames) {
         EnchanterLayout preset;
