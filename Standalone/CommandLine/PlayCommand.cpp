@@ -45,7 +45,7 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     setup.timing = run.timing;
     setup.location = run.location;
     setup.channels = job.channels();
-    setup.panner = PhantomPanner{job.layout.geometry, o.scene.panningLaw, o.scene.exponent, job.fieldWidthMetres(), job.fieldHeightMetres()};
+    setup.panner = job.panner();
     setup.limiterEnabled = o.scene.limiter == "on";
     setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
     return setup;
@@ -93,10 +93,10 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
 std::string play(const PlayOptions& o, const RenderJob& job, const AudioOutputSettings& settings) {
     const juce::ScopedJuceInitialiser_GUI juce; // the message loop
     Session session{setupOf(o, job)};
+    std::unique_ptr<PlayedRecorder> recorder; // outlives the output, whose callback fills it
     AudioOutput output{session};
     if (auto error = output.open(settings); !error.empty()) return error;
     std::optional<AtomicFile> file;
-    std::unique_ptr<PlayedRecorder> recorder;
     if (!o.recordPath.empty()) {
         file.emplace(o.recordPath);
         if (!file->error().empty()) return file->error();

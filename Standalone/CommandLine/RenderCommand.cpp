@@ -54,8 +54,7 @@ std::string readInputs(RenderJob& job) {
 
 OfflineSettings settingsOf(const RenderJob& job) {
     const RenderOptions& o = job.options;
-    const PhantomPanner panner{job.layout.geometry, o.panningLaw, o.exponent, job.fieldWidthMetres(), job.fieldHeightMetres()};
-    return {{o.sampleRateHz, job.channels(), panner, o.limiter == "on"}, job.frames(), o.blockFrames};
+    return {{o.sampleRateHz, job.channels(), job.panner(), o.limiter == "on"}, job.frames(), o.blockFrames};
 }
 
 std::string render(RenderJob& job) {

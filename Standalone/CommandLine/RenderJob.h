@@ -43,6 +43,9 @@ struct RenderJob {
         if (options.fieldHeightMetres > 0) return options.fieldHeightMetres;
         return scene ? scene->fieldHeightMetres : layout.geometry.extentHeightMetres;
     }
+    PhantomPanner panner() const {
+        return {layout.geometry, options.panningLaw, options.exponent, fieldWidthMetres(), fieldHeightMetres()};
+    }
 };
 
 /// Takes the scene that the options name into `job`, with warnings on what it simulates badly: exitDone, or
