@@ -2,8 +2,8 @@
 // The second study's box is lively, well levelled, felt at every enchanter, and keeps its objects.
 #include "Files/SceneCatalogue.h"
 #include "Physics/BodyMass.h"
+#include "PhoneFourPeaks.h"
 #include "Physics/DropScene.h"
-#include "Support/Rendering.h"
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
@@ -39,20 +39,6 @@ class StudiedBox : public testing::TestWithParam<Run> {
 protected:
     const Scene scene = boxOf(GetParam().pair);
     const std::vector<CollisionEvent> minute = eventsOf(scene, seconds, 100, GetParam().seed);
-
-    // Largest sample of each of phone4's enchanters, without the limiter.
-    std::array<double, 4> peaks() const {
-        EnchanterLayout layout;
-        layoutPreset("phone4", layout);
-        const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene.fieldWidthMetres,
-                                   scene.fieldHeightMetres};
-        const auto rendered = test::renderEvents(minute, {8000, 4, panner, false}, seconds * 8000, {4096});
-        std::array<double, 4> peaks{};
-        for (std::size_t j = 0; j < 4; ++j)
-            for (const float sample : rendered.channels[j])
-                peaks[j] = std::max(peaks[j], std::abs(double{sample}));
-        return peaks;
-    }
 };
 
 TEST_P(StudiedBox, IsHitThreeTimesASecondAndNeverSilentForLong) {
@@ -66,7 +52,7 @@ TEST_P(StudiedBox, IsHitThreeTimesASecondAndNeverSilentForLong) {
 }
 
 TEST_P(StudiedBox, PeaksNearMinusSixDecibelsAndUsesEveryEnchanter) {
-    const auto all = peaks();
+    const auto all = phoneFourPeaks(scene, minute, seconds);
     const double loudest = *std::max_element(all.begin(), all.end());
     const bool isDefault =
         GetParam().pair == pairs[0]; // in the others, more objects sometimes pile up on one wall

@@ -3,7 +3,7 @@
 #include "Files/SceneCatalogue.h"
 #include "Physics/DropScene.h"
 #include "SceneHits.h"
-#include "Support/Rendering.h"
+#include "PhoneFourPeaks.h"
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
@@ -32,20 +32,6 @@ std::vector<Run> runs(std::uint32_t seedsAt100, std::uint32_t seedsAt1000) {
     return all;
 }
 
-/// Largest sample of each of phone4's enchanters, without the limiter.
-std::array<double, 4> peaksOf(const Scene& scene, const std::vector<CollisionEvent>& minute) {
-    EnchanterLayout layout;
-    layoutPreset("phone4", layout);
-    const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene.fieldWidthMetres,
-                               scene.fieldHeightMetres};
-    const auto rendered = test::renderEvents(minute, {8000, 4, panner, false}, seconds * 8000, {4096});
-    std::array<double, 4> peaks{};
-    for (std::size_t j = 0; j < peaks.size(); ++j)
-        for (const float sample : rendered.channels[j])
-            peaks[j] = std::max(peaks[j], std::abs(double{sample}));
-    return peaks;
-}
-
 double decibels(double amplitude) {
     return 20.0 * std::log10(amplitude);
 }
@@ -68,7 +54,7 @@ TEST_P(LivelyScene, IsHitThreeTimesASecondAndNeverSilentForLong) {
 }
 
 TEST_P(LivelyScene, IsFeltAtEveryEnchanter) {
-    const auto peaks = peaksOf(scene, minute);
+    const auto peaks = phoneFourPeaks(scene, minute, seconds);
     const double loudest = *std::max_element(peaks.begin(), peaks.end());
     for (const double peak : peaks) EXPECT_GE(decibels(peak / loudest), -20.0);
 }
@@ -88,7 +74,7 @@ TEST_P(SceneLevel, PeaksNearMinusSixDecibelsFromSeedToSeed) {
     const Scene& scene = *findBuiltInScene(GetParam());
     std::vector<double> levels;
     for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-        const auto peaks = peaksOf(scene, eventsOf(scene, seconds, 100, seed));
+        const auto peaks = phoneFourPeaks(scene, eventsOf(scene, seconds, 100, seed), seconds);
         levels.push_back(decibels(*std::max_element(peaks.begin(), peaks.end())));
         EXPECT_NEAR(levels.back(), -6.0, 3.5) << "seed " << seed;
     }
