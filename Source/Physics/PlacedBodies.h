@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// A body of the scene or of its script.
+/// A body of the scene, of its script or of its live inputs.
 struct PlacedBody {
     const BodyDescription* body; ///< of the scene
     std::string path;            ///< as scene files spell it
@@ -22,6 +22,9 @@ inline std::vector<PlacedBody> placedBodies(const Scene& scene) {
     for (std::size_t i = 0; i < scene.script.size(); ++i)
         if (const auto* spawn = std::get_if<SpawnAction>(&scene.script[i].action))
             bodies.push_back({&spawn->body, detail::itemPath("script", i) + ".body", scene.script[i].times});
+    for (std::size_t i = 0; i < scene.inputs.size(); ++i)
+        if (const auto* spawn = std::get_if<SpawnAction>(&scene.inputs[i].action))
+            bodies.push_back({&spawn->body, detail::itemPath("inputs", i) + ".body"});
     return bodies;
 }
 

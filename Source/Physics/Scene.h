@@ -193,8 +193,15 @@ struct MaterialAction {
     int material = 0;
     bool operator==(const MaterialAction&) const = default;
 };
+/// Changes the contact sound of a material, of later collisions.
+struct SoundAction {
+    int material = 0;
+    double frequencyHz = 0.0;
+    double decayPerSecond = 0.0;
+    bool operator==(const SoundAction&) const = default;
+};
 using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAction, SpawnAction,
-                            RemoveAction, MotorAction, CameraAction, MaterialAction>;
+                            RemoveAction, MotorAction, CameraAction, MaterialAction, SoundAction>;
 
 /// What happens at `timeSeconds`, and `times` - 1 times more, `everySeconds` apart.
 struct ScriptInput {
@@ -203,6 +210,14 @@ struct ScriptInput {
     double everySeconds = 0.0;
     Action action;
     bool operator==(const ScriptInput&) const = default;
+};
+
+/// What a person or a host did while the world ran, once, at world time `timeSeconds`. What is spawned so is
+/// a new body, without the seed's jitter: it starts where it was put.
+struct LiveInput {
+    double timeSeconds = 0.0;
+    Action action;
+    bool operator==(const LiveInput&) const = default;
 };
 
 /// A* (s/m) and m_h (kg) of Eq. 5.4; none: by Eq. 5.7, from the field's width and the bodies present.
@@ -234,6 +249,7 @@ struct Scene {
     std::vector<JointDescription> joints;
     std::vector<ScriptInput> script;  ///< in any order; those of the same step act in this one
     double scriptPeriodSeconds = 0.0; ///< the script repeats after this time; 0: it does not
+    std::vector<LiveInput> inputs;    ///< in time order; those of a step act before the script's
     std::vector<SceneVariable> variables;
     bool operator==(const Scene&) const = default;
 };

@@ -20,12 +20,8 @@ class Cameras {
 public:
     explicit Cameras(const Scene& scene)
         : scene_(scene) {
-        for (const ScriptInput& input : scene.script) {
-            if (const auto* camera = std::get_if<CameraAction>(&input.action))
-                if (camera->isOn) switchedOn_.emplace(camera->body, camera->fixture);
-            if (const auto* change = std::get_if<MaterialAction>(&input.action))
-                changes_[change->body].push_back(change);
-        }
+        for (const ScriptInput& input : scene.script) note(input.action);
+        for (const LiveInput& input : scene.inputs) note(input.action);
     }
 
     /// Of every repetition: each has a name of its own for camera and material actions.
@@ -41,6 +37,13 @@ public:
     }
 
 private:
+    void note(const Action& action) {
+        if (const auto* camera = std::get_if<CameraAction>(&action))
+            if (camera->isOn) switchedOn_.emplace(camera->body, camera->fixture);
+        if (const auto* change = std::get_if<MaterialAction>(&action))
+            changes_[change->body].push_back(change);
+    }
+
     static const FixtureDescription& fixtureOf(const BodyDescription& body, int index) {
         return body.fixtures[static_cast<std::size_t>(index)];
     }

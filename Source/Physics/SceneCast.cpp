@@ -12,11 +12,18 @@ BodyDescription spawnedBody(const SpawnAction& spawn, int repetition, int times)
     return body;
 }
 
-std::vector<BodyDescription> sceneCast(const Scene& scene) {
+std::vector<BodyDescription> scriptedCast(const Scene& scene) {
     std::vector<BodyDescription> cast = scene.bodies;
     for (const ScriptInput& input : scene.script)
         if (const auto* spawn = std::get_if<SpawnAction>(&input.action))
             for (int i = 0; i < input.times; ++i) cast.push_back(spawnedBody(*spawn, i, input.times));
+    return cast;
+}
+
+std::vector<BodyDescription> sceneCast(const Scene& scene) {
+    std::vector<BodyDescription> cast = scriptedCast(scene);
+    for (const LiveInput& input : scene.inputs)
+        if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) cast.push_back(spawn->body);
     return cast;
 }
 

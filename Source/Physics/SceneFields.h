@@ -275,8 +275,20 @@ struct FieldsOf<MaterialAction> {
     }
 };
 
-inline constexpr std::array<std::string_view, 9> actionNames{
-    "gravity", "tilt", "impulse", "velocity", "spawn", "remove", "motor", "camera", "material"};
+template <>
+struct FieldsOf<SoundAction> {
+    template <class V>
+    static void visit(V& v) {
+        v.material("material", &SoundAction::material);
+        v.field("frequency_hz", &SoundAction::frequencyHz,
+                Bounds{sceneLimits::minSoundHz, limits::maxFrequencyHz}, Need::required);
+        v.field("decay_per_s", &SoundAction::decayPerSecond,
+                Bounds{sceneLimits::minSoundDecayPerSecond, limits::maxDecayPerSecond}, Need::required);
+    }
+};
+
+inline constexpr std::array<std::string_view, 10> actionNames{
+    "gravity", "tilt", "impulse", "velocity", "spawn", "remove", "motor", "camera", "material", "sound"};
 
 template <>
 struct FieldsOf<ScriptInput> {
@@ -287,6 +299,15 @@ struct FieldsOf<ScriptInput> {
                 Need::optional);
         v.field("every_s", &ScriptInput::everySeconds, upTo(sceneLimits::maxScriptSeconds), Need::optional);
         v.variant("input", &ScriptInput::action, actionNames);
+    }
+};
+
+template <>
+struct FieldsOf<LiveInput> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("time_s", &LiveInput::timeSeconds, upTo(sceneLimits::maxScriptSeconds), Need::required);
+        v.variant("input", &LiveInput::action, actionNames);
     }
 };
 
@@ -317,6 +338,7 @@ struct FieldsOf<Scene> {
         v.field("script", &Scene::script, items(0, sceneLimits::maxInputs), Need::optional);
         v.field("script_period_s", &Scene::scriptPeriodSeconds,
                 Bounds{sceneLimits::minScriptPeriodSeconds, sceneLimits::maxScriptSeconds}, Need::optional);
+        v.field("inputs", &Scene::inputs, items(0, sceneLimits::maxLiveInputs), Need::optional);
     }
 };
 

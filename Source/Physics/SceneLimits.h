@@ -40,5 +40,8 @@ constexpr std::size_t maxChainEdges = 16'384; // of the whole scene: each has a 
 constexpr std::size_t maxJoints = 4096;
 constexpr std::size_t maxInputs = 4096;
 constexpr std::size_t maxActions = 100'000; // inputs with their repetitions
+constexpr std::size_t maxLiveInputs = 100'000; // a quarter of an hour of dragging at 100 a second
+constexpr double minSoundHz = 1.0; // a live change of a sound leaves one that can be felt
+constexpr double minSoundDecayPerSecond = 0.01;
 
 } // namespace physvib::sceneLimits

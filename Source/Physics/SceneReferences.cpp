@@ -36,6 +36,8 @@ public:
             fault = checkJoint(scene_.joints[i], itemPath("joints", i));
         for (std::size_t i = 0; i < scene_.script.size() && fault.empty(); ++i)
             fault = checkInput(scene_.script[i], itemPath("script", i));
+        for (std::size_t i = 0; i < scene_.inputs.size() && fault.empty(); ++i)
+            fault = checkLive(i, itemPath("inputs", i));
         return fault;
     }
 
@@ -58,9 +60,17 @@ private:
         return std::visit([&](const auto& action) { return checkAction(action, path); }, input.action);
     }
 
+    std::string checkLive(std::size_t index, const std::string& path) const {
+        const LiveInput& input = scene_.inputs[index];
+        if (index > 0 && input.timeSeconds < scene_.inputs[index - 1].timeSeconds)
+            return path + ".time_s: expected a time that is not before that of the input above";
+        return std::visit([&](const auto& action) { return checkAction(action, path); }, input.action);
+    }
+
     std::string checkAction(const GravityAction&, const std::string&) const { return {}; }
     std::string checkAction(const TiltAction&, const std::string&) const { return {}; }
     std::string checkAction(const SpawnAction&, const std::string&) const { return {}; }
+    std::string checkAction(const SoundAction&, const std::string&) const { return {}; }
     std::string checkAction(const MotorAction& action, const std::string& path) const {
         const auto joint = joints_.find(action.joint);
         const bool hasMotor =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stepping a simulation until enough is settled.
 #include "Physics/SceneRun.h"
+#include "Physics/SceneCast.h"
 #include <algorithm>
 
 namespace physvib {
@@ -19,8 +20,8 @@ std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int6
     Simulation simulation{scene, run.seed, run.stepsPerSecond, run.timing, run.location};
     std::vector<CollisionEvent> unused;
     while (simulation.timeNs() + 1'000'000'000 / run.stepsPerSecond <= timeNs) simulation.step(unused);
-    std::vector<BodyPose> poses(simulation.bodyCount());
-    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = simulation.pose(i);
+    std::vector<BodyPose> poses(sceneCast(scene).size(), BodyPose{0.0, 0.0, 0.0, false});
+    for (std::size_t i = 0; i < simulation.bodyCount(); ++i) poses[i] = simulation.pose(i);
     return poses;
 }
 

@@ -5,6 +5,8 @@
 #include "Physics/SceneCast.h"
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 namespace physvib {
 
@@ -15,24 +17,18 @@ SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& 
     , random_(seed)
     , script_(scene_, clock)
     , world_(box2dVector(scene.gravityMetresPerSecond2))
-    , cast_(sceneCast(scene))
-    , now_(cast_) {
+    , materials_(scene.materials) {
     build();
-    act(0);
+    actOnScript(0);
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) startHalfAStepBehind(*bodies_[i]);
 }
 
 void SceneWorld::build() {
-    std::vector<b2Fixture*> fixtures;
-    for (std::size_t i = 0; i < cast_.size(); ++i) {
+    const auto cast = scriptedCast(scene_);
+    for (std::size_t i = 0; i < cast.size(); ++i) {
         const bool isThere = i < scene_.bodies.size();
-        const BodyStart start = isThere ? startOf(cast_[i]) : describedStart(cast_[i]);
-        firstFixtures_.push_back(fixtures.size());
-        bodies_.push_back(&createBody(world_, scene_, cast_[i], start, clock_.stepSeconds(), fixtures));
-        if (!isThere) bodies_.back()->SetEnabled(false);
-        for (std::size_t j = 0; j < cast_[i].fixtures.size(); ++j)
-            fixtures_.push_back({fixtures[firstFixtures_[i] + j], i, j});
-        bodyNames_.emplace(cast_[i].name, i);
+        b2Body& body = add(cast[i], isThere ? startOf(cast[i]) : describedStart(cast[i]));
+        if (!isThere) body.SetEnabled(false);
     }
     for (const JointDescription& joint : scene_.joints)
         joints_.emplace(joint.name, &createJoint(world_, joint, *bodies_[bodyNames_.at(joint.bodyA)],
@@ -43,6 +39,18 @@ void SceneWorld::build() {
             spawned_.emplace(spawn, next);
             next += static_cast<std::size_t>(input.times);
         }
+}
+
+b2Body& SceneWorld::add(const BodyDescription& body, const BodyStart& start) {
+    std::vector<b2Fixture*> created;
+    b2Body& made = createBody(world_, scene_, body, start, clock_.stepSeconds(), created);
+    firstFixtures_.push_back(fixtures_.size());
+    for (std::size_t j = 0; j < created.size(); ++j) fixtures_.push_back({created[j], bodies_.size(), j});
+    bodyNames_.emplace(body.name, bodies_.size());
+    bodies_.push_back(&made);
+    cast_.push_back(body);
+    now_.push_back(body);
+    return made;
 }
 
 BodyStart SceneWorld::startOf(const BodyDescription& body) {
@@ -81,11 +89,33 @@ void SceneWorld::forFixtures(const std::string& body, int fixture, Change change
 void SceneWorld::setMaterial(std::size_t fixture, int material) {
     const Part& part = fixtures_[fixture];
     now_[part.body].fixtures[part.index].material = material;
-    setSurface(*part.fixture, scene_.materials[static_cast<std::size_t>(material)]);
+    setSurface(*part.fixture, materials_[static_cast<std::size_t>(material)]);
     setMass(*bodies_[part.body], now_[part.body], scene_);
 }
 
+void SceneWorld::addInput(std::int64_t step, Action action) {
+    const double last = scene_.inputs.empty() ? 0.0 : scene_.inputs.back().timeSeconds;
+    const double seconds = std::max(last, static_cast<double>(step) / clock_.stepsPerSecond);
+    scene_.inputs.push_back({seconds, std::move(action)});
+}
+
 bool SceneWorld::act(std::int64_t step) {
+    const bool live = actOnInputs(step);
+    return actOnScript(step) || live;
+}
+
+bool SceneWorld::actOnInputs(std::int64_t step) {
+    bool fixturesChanged = false;
+    for (; nextInput_ < scene_.inputs.size(); ++nextInput_) {
+        const LiveInput& input = scene_.inputs[nextInput_];
+        if (clock_.firstStepAt(input.timeSeconds) > step) break;
+        const auto* wanted = std::get_if<SpawnAction>(&input.action);
+        fixturesChanged |= wanted != nullptr ? spawn(wanted->body) : apply(input.action);
+    }
+    return fixturesChanged;
+}
+
+bool SceneWorld::actOnScript(std::int64_t step) {
     bool fixturesChanged = false;
     for (DueAction due = script_.next(step); due.action != nullptr; due = script_.next(step))
         fixturesChanged |= act(due);
@@ -94,14 +124,23 @@ bool SceneWorld::act(std::int64_t step) {
 
 bool SceneWorld::act(const DueAction& due) {
     if (const auto* spawn = std::get_if<SpawnAction>(due.action)) return act(*spawn, due.repetition);
+    return apply(*due.action);
+}
+
+bool SceneWorld::apply(const Action& action) {
     return std::visit(
-        [this](const auto& action) {
-            if constexpr (requires { act(action); })
-                return act(action);
+        [this](const auto& one) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, SpawnAction>)
+                return act(one);
             else
-                return false;
+                return false; // it needs to know who spawns
         },
-        *due.action);
+        action);
+}
+
+bool SceneWorld::spawn(const BodyDescription& body) {
+    startHalfAStepBehind(add(body, describedStart(body)));
+    return true;
 }
 
 bool SceneWorld::act(const GravityAction& action) {
@@ -184,6 +223,13 @@ bool SceneWorld::act(const MaterialAction& action) {
     return true;
 }
 
+bool SceneWorld::act(const SoundAction& action) {
+    Material& material = materials_[static_cast<std::size_t>(action.material)];
+    material.frequencyHz = action.frequencyHz;
+    material.decayPerSecond = action.decayPerSecond;
+    return true;
+}
+
 BodyPose SceneWorld::pose(std::size_t index) const noexcept {
     const b2Body& body = *bodies_[index];
     return {body.GetPosition().x, body.GetPosition().y, body.GetAngle(), body.IsEnabled()};
@@ -192,6 +238,10 @@ BodyPose SceneWorld::pose(std::size_t index) const noexcept {
 const FixtureDescription& SceneWorld::fixtureNow(std::size_t index) const noexcept {
     const Part& part = fixtures_[index];
     return now_[part.body].fixtures[part.index];
+}
+
+const Material& SceneWorld::materialOf(std::size_t fixture) const noexcept {
+    return materials_[static_cast<std::size_t>(fixtureNow(fixture).material)];
 }
 
 const BodyDescription& SceneWorld::bodyOf(std::size_t fixture) const noexcept {

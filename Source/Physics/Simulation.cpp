@@ -2,8 +2,10 @@
 // Builds a scene's world and advances it step by step.
 #include "Physics/Simulation.h"
 #include "Physics/SceneValidation.h"
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace physvib {
 
@@ -35,7 +37,7 @@ AttachmentSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLoc
 
 HapticFixture hapticOf(const SceneWorld& world, std::size_t fixture) {
     const FixtureDescription& now = world.fixtureNow(fixture);
-    const Material& material = world.scene().materials[static_cast<std::size_t>(now.material)];
+    const Material& material = world.materialOf(fixture);
     return {material.frequencyHz, material.decayPerSecond, now.isCamera, world.bodyOf(fixture).massKg,
             now.voice};
 }
@@ -53,6 +55,10 @@ Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecon
 void Simulation::takeFixtures() {
     for (std::size_t i = 0; i < world_.fixtureCount(); ++i)
         attachment_.set(world_.fixture(i), hapticOf(world_, i), static_cast<std::int32_t>(i));
+}
+
+void Simulation::addInput(double timeSeconds, Action action) {
+    world_.addInput(std::max(clock_.firstStepAt(timeSeconds), stepsDone_), std::move(action));
 }
 
 void Simulation::step(std::vector<CollisionEvent>& finished) {

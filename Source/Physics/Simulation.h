@@ -29,6 +29,13 @@ public:
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 
+    /// Adds an input that is valid (see InputCheck): it acts in the first step that begins at or after
+    /// `timeSeconds`, or in the next one if that is past, or when those added before it have acted.
+    void addInput(double timeSeconds, Action action);
+
+    /// The scene with all inputs so far: a simulation of it, with the same seed and rate, does all of it again.
+    const Scene& scene() const noexcept { return world_.scene(); }
+
     /// Advances the world by one step and appends the events that are final now.
     void step(std::vector<CollisionEvent>& finished);
 
@@ -39,7 +46,7 @@ public:
     /// up to one step after it was made.
     std::int64_t settledNs() const noexcept { return clock_.timeNs(stepsDone_ > 0 ? stepsDone_ - 1 : 0); }
 
-    /// Pose of body `index` (< bodyCount()) of sceneCast(), at timeNs().
+    /// Pose of body `index` (< bodyCount()) of sceneCast(), at timeNs(). Live inputs make bodies more.
     BodyPose pose(std::size_t index) const noexcept { return world_.pose(index); }
     std::size_t bodyCount() const noexcept { return world_.bodyCount(); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // World time as a step count: no time is ever summed up, so none drifts.
 #pragma once
+#include <cmath>
 #include <cstdint>
 
 namespace physvib {
@@ -16,6 +17,12 @@ struct StepClock {
         constexpr std::int64_t nsPerSecond = 1'000'000'000;
         // Whole seconds apart: step * 10^9 alone would overflow within 107 days at 1,000 steps per second.
         return step / stepsPerSecond * nsPerSecond + step % stepsPerSecond * nsPerSecond / stepsPerSecond;
+    }
+
+    /// The first step that begins at or after `seconds` (>= 0). Any thread.
+    std::int64_t firstStepAt(double seconds) const noexcept {
+        constexpr double rounding = 1.0e-6; // 0.07 s * 100 is 7.000000000000001: it belongs to step 7
+        return static_cast<std::int64_t>(std::ceil(seconds * stepsPerSecond - rounding));
     }
 };
 

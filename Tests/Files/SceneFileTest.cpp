@@ -113,7 +113,16 @@ const std::string full = R"({
     { "time_s": 4, "input": "camera", "body": "car", "fixture": 1, "on": true },
     { "time_s": 4.5, "input": "material", "body": "car", "fixture": 0, "material": "felt" }
   ],
-  "script_period_s": 10
+  "script_period_s": 10,
+  "inputs": [
+    { "time_s": 12.25, "input": "sound", "material": "felt", "frequency_hz": 70, "decay_per_s": 150 },
+    {
+      "time_s": 12.25,
+      "input": "spawn",
+      "body": { "name": "coin", "position_m": [3, 4], "fixtures": [{ "shape": "circle", "radius_m": 0.1, "material": "wood" }] }
+    },
+    { "time_s": 13, "input": "impulse", "body": "coin", "impulse_ns": [1, 2] }
+  ]
 }
 )";
 
@@ -159,6 +168,8 @@ TEST(SceneFile, ReadsEveryField) {
     EXPECT_EQ(std::get<MotorAction>(scene.script[6].action).maxTorqueNewtonMetres, 40.0);
     EXPECT_EQ(std::get<MaterialAction>(scene.script[8].action).material, 1);
     EXPECT_EQ(scene.scriptPeriodSeconds, 10.0);
+    EXPECT_EQ(scene.inputs[0], (LiveInput{12.25, SoundAction{1, 70.0, 150.0}}));
+    EXPECT_EQ(std::get<SpawnAction>(scene.inputs[1].action).body.name, "coin");
 }
 
 TEST(SceneFile, WhatIsReadIsWrittenTheSame) {
@@ -232,7 +243,14 @@ TEST(SceneFile, NamesTheFieldByItsPath) {
         {"\"times\": 3", "\"times\": 1000000", "script[2].times: expected 1 to 100000, found 1e+06"},
         {"\"input\": \"tilt\"", "\"input\": \"roll\"",
          "script[1].input: expected one of gravity, tilt, impulse, velocity, spawn, remove, motor, camera, "
-         "material, found \"roll\""},
+         "material, sound, found \"roll\""},
+        {"\"time_s\": 13", "\"time_s\": 12",
+         "inputs[2].time_s: expected a time that is not before that of the input above"},
+        {"\"body\": \"coin\"", "\"body\": \"coil\"",
+         "inputs[2].body: expected the name of a body, found \"coil\""},
+        {"\"name\": \"coin\"", "\"name\": \"car\"",
+         "bodies: expected names of their own, found \"car\" twice"},
+        {"\"frequency_hz\": 70", "\"frequency_hz\": 0", "inputs[0].frequency_hz: expected 1 to 20000, found 0"},
         {"\"name\": \"stone\"", "\"nam\": \"stone\"", "script[4].body: unknown field \"nam\""},
         {"\"hand_mass_kg\": 60", "\"hand_mass_kg\": \"auto\"",
          "normalisation.hand_mass_kg: expected a number, found a string"},
@@ -268,7 +286,7 @@ TEST(SceneFile, AbsurdRequestsAreRefusedWithTheLimit) {
               "my.json: bodies: expected at most 4096 items, found 5001");
     EXPECT_EQ(errorOf(std::string(4'000'001, ' ')), "my.json: expected at most 4000000 bytes, found more");
     EXPECT_EQ(errorOf(replaced(full, "\"times\": 2,", "\"times\": 100000,")),
-              "my.json: bodies: expected at most 4096 in all, found 100004");
+              "my.json: bodies: expected at most 4096 in all, found 100005");
 }
 
 // ---- variables

@@ -32,6 +32,7 @@ const char* definitionOf() {
     if constexpr (std::is_same_v<T, BodyDescription>) return "body";
     if constexpr (std::is_same_v<T, JointDescription>) return "joint";
     if constexpr (std::is_same_v<T, ScriptInput>) return "input";
+    if constexpr (std::is_same_v<T, LiveInput>) return "live-input";
     return "normalisation";
 }
 
@@ -158,6 +159,7 @@ TEST(SceneSchema, HasTheFieldsOfTheReaderAndNoOther) {
     expectDefinition<BodyDescription>("body");
     expectDefinition<JointDescription>("joint");
     expectDefinition<ScriptInput>("input");
+    expectDefinition<LiveInput>("live-input");
     expectDefinition<Normalisation>("normalisation");
 }
 
