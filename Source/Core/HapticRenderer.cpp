@@ -18,7 +18,7 @@ void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     pending_.clear();
     controls_.clear();
     position_ = 0;
-    played_ = late_ = rejected_ = forgotten_ = 0;
+    played_ = late_ = rejected_ = 0;
 }
 
 template <class P>
@@ -73,14 +73,7 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
     if (control.kind == Kind::panner && control.panner.channels() <= channels_) panner_ = control.panner;
     if (control.kind == Kind::gain && isChannel) actuators_.setGain(control.channel, control.value);
     if (control.kind == Kind::mute && isChannel) actuators_.setMuted(control.channel, control.value != 0.0f);
-    if (control.kind == Kind::stopAll) stopAll();
-}
-
-template <class P>
-void HapticRenderer<P>::stopAll() noexcept {
-    forgotten_ += static_cast<std::uint64_t>(pending_.size());
-    pending_.clear();
-    bank_.fadeAll(position_);
+    if (control.kind == Kind::stopAll) bank_.fadeAll(position_);
 }
 
 template <class P>
@@ -118,7 +111,6 @@ RenderStatus HapticRenderer<P>::status() const noexcept {
             .rejected = rejected_,
             .stolen = bank_.stolenModes(),
             .nonFinite = limiter_.nonFiniteSamples(),
-            .forgotten = forgotten_,
             .untold = playedQueue_.overflows(),
             .liveModes = bank_.liveModes(),
             .pending = pending_.size(),

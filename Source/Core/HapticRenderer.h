@@ -46,7 +46,6 @@ struct RenderStatus {
     std::uint64_t rejected = 0; ///< not playable, above half the sample rate, or no gate was free
     std::uint64_t stolen = 0;   ///< modes faded out early to make room
     std::uint64_t nonFinite = 0;
-    std::uint64_t forgotten = 0;  ///< pending when all was stopped
     std::uint64_t untold = 0;     ///< played, but the played queue was full
     int liveModes = 0;
     int pending = 0;
@@ -91,7 +90,6 @@ private:
     void applyDueControls() noexcept;
     void apply(const RenderControl& control) noexcept;
     void prepareLimiter() noexcept;
-    void stopAll() noexcept;
     void strike(const CollisionEvent& event) noexcept;
     int framesUntilChange(int most) const noexcept;
 
@@ -107,7 +105,7 @@ private:
     RendererSettings settings_;
     int channels_ = 1;
     std::int64_t position_ = 0;
-    std::uint64_t played_ = 0, late_ = 0, rejected_ = 0, forgotten_ = 0;
+    std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
 };
 
 template <class Profile>

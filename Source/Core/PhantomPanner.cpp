@@ -20,6 +20,8 @@ PhantomPanner::PhantomPanner(const EnchanterLayout& layout, PanningLaw law, doub
     : layout_{layout}
     , law_{law}
     , exponent_{exponent}
+    , fieldWidthMetres_{fieldWidthMetres}
+    , fieldHeightMetres_{fieldHeightMetres}
     , scaleX_{layout.extentWidthMetres / fieldWidthMetres}
     , scaleY_{layout.extentHeightMetres / fieldHeightMetres}
     , arrangement_{classify()} {}

@@ -34,6 +34,13 @@ public:
 
     int channels() const noexcept { return layout_.count; }
 
+    /// What it was made of. Any thread.
+    const EnchanterLayout& layout() const noexcept { return layout_; }
+    PanningLaw law() const noexcept { return law_; }
+    double exponent() const noexcept { return exponent_; }
+    double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }
+    double fieldHeightMetres() const noexcept { return fieldHeightMetres_; }
+
 private:
     enum class Arrangement { single, line, rectangle, triangle, scattered };
     struct Vector {
@@ -53,6 +60,7 @@ private:
     EnchanterLayout layout_;
     PanningLaw law_ = PanningLaw::linear;
     double exponent_ = 1.0;
+    double fieldWidthMetres_ = 0.0, fieldHeightMetres_ = 0.0;
     double scaleX_ = 1.0, scaleY_ = 1.0; // field metres to layout metres
     Vector lineDirection_;
     double lineExtent_ = 0.0;

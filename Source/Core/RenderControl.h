@@ -13,7 +13,7 @@ struct RenderControl {
         panner,  ///< later strikes are panned by `panner`; what rings, rings out where it is
         gain,    ///< of `channel`, to `value`
         mute,    ///< of `channel`: value not 0
-        stopAll  ///< all modes fade out, all pending events are forgotten (and counted)
+        stopAll  ///< whatever rings fades out; later events are played
     };
     std::int64_t timeNs = 0;
     Kind kind = Kind::stopAll;

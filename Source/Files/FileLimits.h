@@ -9,10 +9,11 @@ constexpr std::size_t maxEventRows = 10'000'000;          // 100 s at 10^5 strik
 constexpr std::size_t maxEventsFileBytes = 2'000'000'000; // that many rows, usually of 160 bytes
 constexpr std::size_t maxLayoutFileBytes = 1'000'000;     // 64 enchanters fill about 10 kB
 constexpr std::size_t maxSceneFileBytes = 4'000'000;      // 4096 bodies of two fixtures fill about half of it
+constexpr std::size_t maxSessionFileBytes = 64'000'000;   // 100,000 inputs of a hundred bytes, and scenes
 constexpr std::size_t maxMaterialsFileBytes = 1'000'000;  // 256 materials fill about 40 kB
 constexpr std::size_t maxVariables = 16;                  // of a scene; a study has three
 constexpr std::size_t maxChoices = 64;                    // of a variable
 constexpr std::size_t maxNameBytes = 200;                 // names and labels: one line on a screen
-constexpr std::size_t maxJsonDepth = 16;                  // our formats need thirteen levels
+constexpr std::size_t maxJsonDepth = 16;                  // our formats need fourteen levels
 
 } // namespace physvib::limits

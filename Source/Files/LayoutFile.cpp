@@ -3,6 +3,7 @@
 #include "Files/LayoutFile.h"
 #include "Files/JsonField.h"
 #include "Files/JsonLines.h"
+#include "Files/LayoutJson.h"
 #include "Files/ReadFile.h"
 #include "Files/StrictJson.h"
 
@@ -69,7 +70,9 @@ void readEnchanters(const JsonField& list, LayoutDescription& layout) {
     fillLabels(layout.enchanters);
 }
 
-LayoutDescription readRoot(const JsonField& root) {
+} // namespace
+
+LayoutDescription readLayoutFields(const JsonField& root) {
     root.expectObject({"name", "extent_m", "enchanters"});
     LayoutDescription layout;
     if (root.has("name")) layout.name = root["name"].text();
@@ -77,6 +80,8 @@ LayoutDescription readRoot(const JsonField& root) {
     readEnchanters(root["enchanters"], layout);
     return layout;
 }
+
+namespace {
 
 /// Bytes that are no UTF-8 cannot stand in JSON and become U+FFFD.
 std::string jsonText(const std::string& text) {
@@ -101,7 +106,7 @@ LayoutDescription describeLayout(std::string name, const EnchanterLayout& geomet
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name) {
     try {
         const Json root = parseStrictly(text);
-        return readRoot(JsonField(root, {}));
+        return readLayoutFields(JsonField(root, {}));
     } catch (const JsonError& error) {
         return Failure{std::string(name) + ": " + error.what()};
     }

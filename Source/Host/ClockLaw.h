@@ -21,6 +21,11 @@ struct ClockLaw {
         const double seconds = longestGapSeconds + 2.0 / stepsPerSecond;
         return blockFrames + static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999) + limiterFrames;
     }
+    /// How far behind session time the world may be so that whatever it makes until it has caught up comes in time, even
+    /// if a block is rendered meanwhile: the longest gap and the step that may not have begun.
+    std::int64_t longestLagNs() const noexcept {
+        return static_cast<std::int64_t>((longestGapSeconds + 1.0 / stepsPerSecond) * 1e9);
+    }
     double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; }
 };
 

@@ -10,14 +10,19 @@ namespace physvib {
 
 namespace {
 
+template <class T>
+bool popFront(std::span<const T>& rest, T& item) noexcept {
+    if (rest.empty()) return false;
+    item = rest.front();
+    rest = rest.subspan(1);
+    return true;
+}
+
 struct ListSource {
-    std::span<const CollisionEvent> rest;
-    bool pop(CollisionEvent& event) noexcept {
-        if (rest.empty()) return false;
-        event = rest.front();
-        rest = rest.subspan(1);
-        return true;
-    }
+    std::span<const CollisionEvent> events;
+    std::span<const RenderControl> controls;
+    bool pop(CollisionEvent& event) noexcept { return popFront(events, event); }
+    bool pop(RenderControl& control) noexcept { return popFront(controls, control); }
 };
 
 } // namespace
@@ -32,7 +37,7 @@ RenderStatus renderOffline(std::span<const CollisionEvent> events, const Offline
     std::vector<float*> out(channels), kept(channels);
     for (std::size_t j = 0; j < channels; ++j) out[j] = samples.data() + j * block;
 
-    ListSource source{events};
+    ListSource source{events, settings.controls};
     const std::int64_t latency = renderer->latencyFrames(), end = settings.frames + latency;
     for (std::int64_t done = 0; done < end;) {
         const int frames = static_cast<int>(std::min<std::int64_t>(settings.blockFrames, end - done));

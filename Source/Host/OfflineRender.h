@@ -15,6 +15,7 @@ struct OfflineSettings {
     RendererSettings renderer;
     std::int64_t frames = 0;
     int blockFrames = 256; ///< 1 to limits::maxBlockFrames
+    std::span<const RenderControl> controls{}; ///< in time order
 };
 
 /// Takes channels[channel][0..frames), the next frames in order; false stops the render.

@@ -9,7 +9,13 @@ namespace physvib {
 // Realtime: what has been queued.
 struct Session::LiveSource {
     Session& session;
-    bool pop(CollisionEvent& event) noexcept { return session.queue_.pop(event); }
+    FrameClock clock;
+    std::int64_t nextFrame; // of the renderer
+    bool pop(CollisionEvent& event) noexcept {
+        if (!session.queue_.pop(event)) return false;
+        session.leastMarginFrames_ = std::min(session.leastMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
+        return true;
+    }
     bool pop(RenderControl& control) noexcept { return session.controls_.pop(control); }
 };
 
@@ -20,39 +26,39 @@ struct Session::OfflineSource {
     bool pop(RenderControl& control) noexcept { return session.controls_.pop(control); }
     bool pop(CollisionEvent& event) {
         while (!session.queue_.pop(event)) {
-            const bool hasMore = !session.handOver() || session.world_->timeNs() < endNs;
+            const bool hasMore = !session.handOver() || session.world_.timeNs() < endNs;
             if (!hasMore) return session.queue_.pop(event);
-            if (session.world_->timeNs() < endNs) session.stepWorld();
+            if (session.world_.timeNs() < endNs) session.world_.step(session.made_);
         }
         return true;
     }
 };
 
-namespace {
-
-std::unique_ptr<Simulation> worldOf(const SessionSetup& s) {
-    return std::make_unique<Simulation>(s.scene, s.seed, s.stepsPerSecond, s.timing, s.location);
-}
-
-} // namespace
-
 Session::Session(const SessionSetup& setup)
     : setup_{setup}
     , renderer_{std::make_unique<HapticRenderer<DesktopProfile>>()}
-    , world_{worldOf(setup)} {
+    , state_{std::make_shared<const Scene>(setup.scene), setup.seed}
+    , world_{setup.run()} {
     made_.reserve(4096);
+    world_.start(0, state_.scene, state_.seed);
 }
 
 void Session::prepare(int sampleRateHz, int maxBlockFrames) {
-    const std::lock_guard lock{worldMutex_};
+    const std::scoped_lock lock{inputMutex_, worldMutex_};
     renderer_->prepare({sampleRateHz, setup_.channels, setup_.panner, setup_.limiterEnabled});
     setLaw(sampleRateHz, maxBlockFrames);
-    world_ = worldOf(setup_);
+    sessionFrames_ = 0;
+    restartFrame_ = -1;
+    takeUp();
+    world_.forget();
     made_.clear();
     handed_ = 0;
     for (CollisionEvent unplayed; queue_.pop(unplayed);) {}
-    sessionFrames_ = 0;
+    for (RenderControl undone; controls_.pop(undone);) {}
+    check_.reset();
+    controlLog_ = {};
     slippedNs_ = 0;
+    leastMarginFrames_ = noMargin;
     offline_ = false;
 }
 
@@ -63,40 +69,38 @@ void Session::setLaw(int sampleRateHz, int maxBlockFrames) {
 
 void Session::resume(int sampleRateHz, int maxBlockFrames) {
     const std::lock_guard lock{worldMutex_};
-    const std::int64_t now = sessionNs(sessionFrames_);
+    const std::int64_t now = nowNs();
     const std::int64_t frames = FrameClock{sampleRateHz}.at(now).frame;
     setLaw(sampleRateHz, maxBlockFrames);
     renderer_->moveTo(sampleRateHz, std::max<std::int64_t>(0, frames - playOutFrames() + law_.limiterFrames));
     sessionFrames_ = frames;
 }
 
-std::int64_t Session::post(RenderControl control) noexcept {
-    control.timeNs = sessionNs(sessionFrames_.load(std::memory_order_acquire));
-    return controls_.push(control) ? control.timeNs : -1;
-}
-
 int Session::advance() {
     const std::lock_guard lock{worldMutex_};
     if (offline_.load(std::memory_order_acquire)) return 0;
-    const std::int64_t now = sessionNs(sessionFrames_.load(std::memory_order_acquire));
-    const auto most = static_cast<int>(maxCatchUpSeconds * setup_.stepsPerSecond);
-    int steps = 0;
-    while (world_->timeNs() + slippedNs() < now && steps < most) {
-        stepWorld();
-        ++steps;
+    const std::int64_t now = nowNs();
+    takeUp();
+    if (const std::int64_t tooLate = now - law_.longestLagNs() - world_.timeNs(); tooLate > 0) {
+        slippedNs_ += tooLate;
+        world_.standStill(tooLate);
     }
-    if (steps == most && world_->timeNs() + slippedNs() < now) slippedNs_ = now - world_->timeNs();
+    int steps = 0;
+    for (; world_.timeNs() < now; ++steps) world_.step(made_);
     handOver();
     return steps;
 }
 
-void Session::stepWorld() {
-    const std::size_t before = made_.size();
-    world_->step(made_);
-    for (std::size_t i = before; i < made_.size(); ++i) made_[i].timeNs += slippedNs();
+// Starts a new take if one is wanted. The world mutex is held.
+void Session::takeUp() {
+    const std::int64_t frame = restartFrame_.exchange(-1, std::memory_order_acquire);
+    const std::lock_guard lock{stateMutex_};
+    if (frame < 0 && !isStateNew_) return;
+    world_.start(frame < 0 ? nowNs() : sessionNs(frame), state_.scene, state_.seed);
+    isStateNew_ = false;
 }
 
-// Queues what has been made; true if nothing is left. The mutex is held.
+// Queues what has been made; true if nothing is left. The world mutex is held.
 bool Session::handOver() {
     while (handed_ < made_.size() && queue_.push(made_[handed_])) ++handed_;
     if (handed_ < made_.size()) return false;
@@ -109,12 +113,14 @@ std::int64_t Session::sessionNs(std::int64_t frames) const noexcept {
     return frames / law_.sampleRateHz * 1'000'000'000 + frames % law_.sampleRateHz * 1'000'000'000 / law_.sampleRateHz;
 }
 
+std::int64_t Session::nowNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_acquire)); }
+
 void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     if (mode == RenderMode::realtime) offline_.store(false, std::memory_order_release);
     const std::int64_t done = sessionFrames_.load(std::memory_order_relaxed);
     sessionFrames_.store(done + frames, std::memory_order_release);
     renderBehind(out, done, frames, mode);
-    status_.write({renderer_->status(), sessionNs(done + frames)});
+    status_.write({renderer_->status(), sessionNs(done + frames), leastMarginFrames_});
 }
 
 // The renderer's own output lags by the limiter's frames, which are part of L: it starts that much earlier.
@@ -127,21 +133,26 @@ void Session::renderBehind(float* const* out, std::int64_t done, int frames, Ren
         rest[static_cast<std::size_t>(j)] = out[j] + silent;
     }
     if (mode == RenderMode::offline) {
-        const std::lock_guard lock{worldMutex_};
-        offline_.store(true, std::memory_order_release);
-        OfflineSource source{*this, sessionNs(done + frames)};
-        if (silent < frames) renderer_->render(source, rest.data(), frames - silent);
-        while (world_->timeNs() < source.endNs) stepWorld();
-        handOver();
+        renderOwnWorld(rest.data(), frames - silent, sessionNs(done + frames));
     } else if (silent < frames) {
-        LiveSource source{*this};
+        LiveSource source{*this, FrameClock{law_.sampleRateHz}, done + silent - start};
         renderer_->render(source, rest.data(), frames - silent);
     }
 }
 
-std::uint64_t Session::drops() {
+void Session::renderOwnWorld(float* const* out, int frames, std::int64_t endNs) {
     const std::lock_guard lock{worldMutex_};
-    return world_->drops();
+    offline_.store(true, std::memory_order_release);
+    takeUp();
+    OfflineSource source{*this, endNs};
+    if (frames > 0) renderer_->render(source, out, frames);
+    while (world_.timeNs() < endNs) world_.step(made_);
+    handOver();
+}
+
+std::uint64_t Session::drops() const {
+    const std::lock_guard lock{worldMutex_};
+    return world_.drops();
 }
 
 } // namespace physvib

@@ -10,64 +10,48 @@
 //      that the host calls non-realtime, in which it may lock and step the world.
 //
 // Time. Session time is the number of frames rendered or being rendered, told by R at the start of each block. An
-// input received at session time t acts in the world at t; D steps the world up to session time and never beyond, so no input comes too late. An
-// event born at world time w is played at w + L (ClockLaw): R lets the renderer's clock run L behind session time.
-// The renderer therefore plays event lists as an offline render does, on the same frame grid: the live output is the
-// rendered file, L later, to the bit.
+// input received at session time t acts in the world at t; D steps the world up to session time and never beyond, so
+// no input comes too late. An event born at world time w is played at w + L (ClockLaw): R lets the renderer's clock
+// run L behind session time. The renderer therefore plays event lists as an offline render does, on the same frame
+// grid: the live output is the rendered file, L later, to the bit.
 //
-// The world (simulation, inputs, backlog) is owned through `worldMutex_`: D holds it per call, R per block and only in
-// non-realtime blocks; nobody holds it while calling JUCE or a host. Whoever holds it is the producer of the event
-// queue; R alone consumes. The first non-realtime block sets `offline_`, which D respects by doing nothing; the first
-// realtime block clears it, one atomic store. World time is a step count, so after either change nothing is made twice
-// and nothing is missing. A non-realtime block steps the world to its own end, just as D would, so that D has the full
-// gap again after the change back.
+// The world (takes, inputs, backlog) is owned through `worldMutex_`: D holds it per call, R per block and only in
+// non-realtime blocks, inputs for a moment; nobody holds it while calling JUCE or a host. Whoever holds it is the
+// producer of the event queue; R alone consumes. The first non-realtime block sets `offline_`, which D respects by
+// doing nothing; the first realtime block clears it, one atomic store. World time is a step count, so after either
+// change nothing is made twice and nothing is missing. A non-realtime block steps the world to its own end, just as D
+// would, so that D has the full gap again after the change back.
 //
-// Stalls. If D comes late, it catches up, at most `maxCatchUpSeconds` a call; what is still missing then is given up:
-// the world has stood still for that long (`slippedNs`), its later events are played that much later. Events that
-// arrive after their time are played at once and counted by the renderer.
+// Inputs and controls may come from any thread, one at a time (`inputMutex_`, taken before `worldMutex_`). A new state
+// waits in `wanted_` until whoever steps the world next takes it up; R asks for a restart by an atomic frame number.
+//
+// Stalls. If D comes later than L allows for, it catches up only as far as all events are still in time; the rest is
+// given up: the world has stood still for that long (`slippedNs`, logged), instead of a burst of late hits. An event
+// that arrives after its time all the same is played at once and counted by the renderer.
 #pragma once
 #include "Core/HapticRenderer.h"
 #include "Core/LatestValue.h"
 #include "Host/ClockLaw.h"
-#include "Physics/Simulation.h"
+#include "Files/SessionLog.h"
+#include "Host/SessionSetup.h"
+#include "Host/SessionWorld.h"
+#include "Physics/InputCheck.h"
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace physvib {
 
-/// What a session plays, and on what.
-struct SessionSetup {
-    Scene scene;
-    std::uint32_t seed = 1;
-    int stepsPerSecond = 100;
-    ImpactTiming timing = ImpactTiming::onset;
-    ImpactLocation location = ImpactLocation::contact;
-    int channels = 4;
-    PhantomPanner panner; ///< at most `channels` enchanters
-    bool limiterEnabled = true;
-    double longestGapSeconds = messageTimerGapSeconds;
-};
-
-/// How the host calls render.
-enum class RenderMode { realtime, offline };
-
-/// A moment of the session, for people.
-struct SessionStatus {
-    RenderStatus render;
-    std::int64_t sessionNs = 0;
-};
-
 class Session {
 public:
-    static constexpr double maxCatchUpSeconds = 0.5;
-
     /// M. Throws std::invalid_argument if the scene is not valid.
     explicit Session(const SessionSetup& setup);
 
-    /// Sets L; silence at session time 0. M, while nobody renders or drives.
+    /// Sets L; silence at session time 0, the scene at its start, the log empty. M, while nobody renders or drives.
     void prepare(int sampleRateHz, int maxBlockFrames);
 
     /// Goes on at another rate and block size: session time and world stay, L is set anew, what rings rings on.
@@ -85,10 +69,27 @@ public:
     /// Writes out[channel][0..frames). R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;
 
-    /// Changes how later events are rendered: acts in the world's time at session time, so it is felt L later, and an
-    /// offline render with the same controls is the same to the bit. The time it was given; -1 if the queue is full.
-    /// M (or whoever else is the only one to call it).
-    std::int64_t post(RenderControl control) noexcept;
+    /// Acts in the world at session time: it is felt L later, and logged. Empty, or what is wrong with it (see
+    /// InputCheck), and nothing is done. Any thread but R.
+    std::string act(Action action);
+
+    /// Changes how later events are rendered: acts in the world's time at session time, so it is felt L later, is
+    /// logged, and an offline render with the same controls is the same to the bit. The time it was given; -1 if the
+    /// queue is full. Any thread but R.
+    std::int64_t post(RenderControl control);
+
+    /// Plays another scene, as a new take, from the next step on; a state equal to state() changes nothing. Empty, or
+    /// what is wrong with the scene, and nothing is done. Any thread but R.
+    std::string setState(SessionState state);
+
+    /// What is played, or will be from the next step on. Any thread but R.
+    SessionState state() const;
+
+    /// The scene starts anew when frame `offset` of the next block is the present, as a new take. R, wait-free, or M.
+    void restart(int offset = 0) noexcept;
+
+    /// Brings `log`, empty or brought up to date by this session before, up to date. Any thread but R.
+    void readLog(SessionLog& log) const;
 
     /// What has been played, in the renderer's frames (session frame - L). One reader.
     HapticRenderer<DesktopProfile>::PlayedQueue& played() noexcept { return renderer_->played(); }
@@ -96,8 +97,8 @@ public:
     /// Time that was given up after stalls. Any thread.
     std::int64_t slippedNs() const noexcept { return slippedNs_.load(std::memory_order_relaxed); }
 
-    /// Collisions lost in the physics step. M or D.
-    std::uint64_t drops();
+    /// Collisions lost in the physics step. Any thread but R.
+    std::uint64_t drops() const;
 
     /// The newest state. One reader (M).
     SessionStatus status() noexcept { return status_.read(); }
@@ -108,11 +109,12 @@ private:
     struct LiveSource;
     struct OfflineSource;
     void setLaw(int sampleRateHz, int maxBlockFrames);
-    void stepWorld();
-    void hand(const CollisionEvent& event);
+    void takeUp();
     bool handOver();
+    std::int64_t nowNs() const noexcept;
     std::int64_t sessionNs(std::int64_t frames) const noexcept;
     void renderBehind(float* const* out, std::int64_t done, int frames, RenderMode mode) noexcept;
+    void renderOwnWorld(float* const* out, int frames, std::int64_t endNs);
 
     SessionSetup setup_;
     ClockLaw law_;
@@ -120,14 +122,25 @@ private:
     Queue queue_;
     Controls controls_;
     std::atomic<std::int64_t> sessionFrames_{0};
+    std::atomic<std::int64_t> restartFrame_{-1}; // -1: not wanted
     std::atomic<bool> offline_{false};
     std::atomic<std::int64_t> slippedNs_{0};
     LatestValue<SessionStatus> status_;
+    std::int64_t leastMarginFrames_ = noMargin; // R
 
-    std::mutex worldMutex_; // guards what follows
-    std::unique_ptr<Simulation> world_;
+    mutable std::mutex stateMutex_; // taken last; guards what follows
+    SessionState state_;
+    bool isStateNew_ = false;
+
+    mutable std::mutex worldMutex_; // guards what follows
+    SessionWorld world_;
     std::vector<CollisionEvent> made_; // events that the queue had no room for yet, from handed_ on
     std::size_t handed_ = 0;
+
+    mutable std::mutex inputMutex_; // taken first; guards what follows, and the producer's side of controls_
+    std::optional<InputCheck> check_;
+    std::size_t checkedTake_ = 0;
+    SessionLog controlLog_; // without takes
 };
 
 } // namespace physvib

@@ -2,17 +2,31 @@
 // Stepping a simulation until enough is settled.
 #include "Physics/SceneRun.h"
 #include "Physics/SceneCast.h"
-#include <algorithm>
 
 namespace physvib {
 
 SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs) {
-    Simulation simulation{scene, run.seed, run.stepsPerSecond, run.timing, run.location};
+    const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
+    const SceneTake take{0, 0, run.seed, shared, {}, {}};
+    return runTakes({&take, 1}, run, endNs);
+}
+
+SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs) {
     SceneEvents all;
-    while (simulation.settledNs() < endNs) simulation.step(all.events);
-    const auto isBefore = [endNs](const CollisionEvent& e) { return e.timeNs < endNs; };
-    all.events.erase(std::partition_point(all.events.begin(), all.events.end(), isBefore), all.events.end());
-    all.drops = simulation.drops();
+    for (const SceneTake& take : takes) {
+        Simulation world{take.whole(), take.seed, run.stepsPerSecond, run.timing, run.location};
+        const bool isLast = &take == &takes.back();
+        std::int64_t originNs = take.startNs;
+        auto stall = take.stalls.begin();
+        while (isLast ? originNs + world.settledNs() < endNs : world.timeNs() < take.worldEndNs) {
+            for (; stall != take.stalls.end() && stall->worldNs <= world.timeNs(); ++stall) originNs += stall->lengthNs;
+            const std::size_t before = all.events.size();
+            world.step(all.events);
+            for (std::size_t i = before; i < all.events.size(); ++i) all.events[i].timeNs += originNs;
+        }
+        all.drops += world.drops();
+    }
+    std::erase_if(all.events, [endNs](const CollisionEvent& e) { return e.timeNs >= endNs; });
     return all;
 }
 

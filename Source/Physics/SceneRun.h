@@ -3,8 +3,10 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Physics/Scene.h"
+#include "Physics/SceneTake.h"
 #include "Physics/Simulation.h"
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace physvib {
@@ -26,6 +28,10 @@ struct SceneEvents {
 
 /// M only. Throws what Simulation throws.
 SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs);
+
+/// The events of a session, again, in session time: of each take up to its end, of the last one all before
+/// `endNs`. `run` gives the step rate; seeds are the takes' own. M only. Throws what Simulation throws.
+SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs);
 
 /// Poses of all bodies at the last step not after `timeNs`. M only; simulates from the start.
 std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);

@@ -47,11 +47,13 @@ TEST(Session, AThousandStepsPerSecondAndSmallBlocksStayBelowSixMilliseconds) {
     EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 5 * rate));
 }
 
-TEST(Session, WithoutTheGapInLEventsAreLateAndCounted) {
-    Session session{shakeTheBoxSetup(0.0)};
+TEST(Session, ADriverThatIsSlowerThanPromisedMakesTheWorldWaitAndNoEventLate) {
+    Session session{shakeTheBoxSetup(0.01)};
     std::vector<CollisionEvent> played;
     playLive(session, 20 * rate, 64, 0.05, 3, played);
-    EXPECT_GT(session.status().render.late, 0u);
+    EXPECT_EQ(session.status().render.late, 0u);
+    EXPECT_GT(session.slippedNs(), 1'000'000'000);
+    EXPECT_GT(played.size(), 100u);
 }
 
 TEST(Session, OfflineBlocksPlayTheSameEventsAsLiveOnes) {
@@ -70,7 +72,7 @@ TEST(Session, OfflineBlocksPlayTheSameEventsAsLiveOnes) {
 }
 
 TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
-    const auto s = shakeTheBoxSetup(0.05);
+    const auto s = shakeTheBoxSetup(0.6); // this host is a thousand times faster than time; no stall is meant here
     Session session{s};
     session.prepare(rate, 8192);
     std::atomic<bool> stop{false};
@@ -93,7 +95,7 @@ TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
             mode = mode == RenderMode::realtime ? RenderMode::offline : RenderMode::realtime;
         }
         const int size = 1 + random.below(mode == RenderMode::offline ? 8192 : 512);
-        if (done - atLastTick > rate / 4) { // this host is a thousand times faster than time; no stall is meant here
+        if (done - atLastTick > rate / 4) {
             for (const int before = ticks; ticks < before + 2;) std::this_thread::yield();
             atLastTick = done;
         }
@@ -139,17 +141,15 @@ TEST(Session, AfterAStallTheWorldGoesOnWithoutASpiral) {
     session.prepare(rate, 480);
     Block block;
     for (int i = 0; i < 500; ++i) session.render(block.at.data(), 480, RenderMode::realtime); // 5 s without a driver
-    EXPECT_LE(session.advance(), 50);
-    EXPECT_NEAR(static_cast<double>(session.slippedNs()) * 1e-9, 4.5, 0.02);
-    drain(session);
+    EXPECT_LE(session.advance(), 4);
+    EXPECT_NEAR(static_cast<double>(session.slippedNs()) * 1e-9, 4.97, 0.001);
     session.render(block.at.data(), 480, RenderMode::realtime);
-    const auto late = session.status().render.late;
     EXPECT_LE(session.advance(), 2) << "caught up";
     for (int i = 0; i < 500; ++i) {
         session.render(block.at.data(), 480, RenderMode::realtime);
         session.advance();
     }
-    EXPECT_EQ(session.status().render.late, late);
+    EXPECT_EQ(session.status().render.late, 0u);
     EXPECT_EQ(session.status().render.rejected, 0u);
 }
 

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Reading and writing a session; scenes and inputs by the table in SceneFields.h.
+#include "Files/SessionFile.h"
+#include "Files/JsonReader.h"
+#include "Files/JsonVersion.h"
+#include "Files/JsonWriter.h"
+#include "Files/LayoutJson.h"
+#include "Files/ReadFile.h"
+#include "Physics/SceneValidation.h"
+#include "Physics/Simulation.h"
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr const char* versionField = "physvib_session";
+constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};
+constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"};
+constexpr std::array<std::string_view, 4> lawNames{"linear", "log", "log-outer", "energy"};
+constexpr std::array<std::string_view, 4> controlNames{"layout", "gain", "mute", "stop"};
+constexpr double maxSeconds = static_cast<double>(limits::maxTimeNs) * 1e-9;
+constexpr double mostExponent = 100.0, largestField = 1e6, largestGain = 1000.0;
+
+std::int64_t readTime(const JsonField& seconds) { return std::llround(seconds.numberUpTo(maxSeconds) * 1e9); }
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+int readWhole(const JsonField& field, int least, int most) {
+    const int found = field.wholeNumber();
+    if (found < least || found > most)
+        field.fail("expected " + std::to_string(least) + " to " + std::to_string(most) + ", found " + std::to_string(found));
+    return found;
+}
+
+double readPositive(const JsonField& field, double most) {
+    const double found = field.numberUpTo(most);
+    return found >= 1e-3 ? found : (field.fail("expected a number of at least 0.001, found " + numberText(found)), 0.0);
+}
+
+// Times of a list never go back.
+std::int64_t readNextTime(const JsonField& item, std::int64_t last) {
+    const std::int64_t time = readTime(item["time_s"]);
+    if (time < last) item["time_s"].fail("expected a time that is not before that of the item above");
+    return time;
+}
+
+PhantomPanner readPanner(const JsonField& json, int channels) {
+    json.expectObject({"layout", "law", "exponent", "field_m"});
+    const auto layout = readLayoutFields(json["layout"]).geometry;
+    if (layout.count > channels)
+        json["layout"].fail("expected at most " + std::to_string(channels) + " enchanters, as many as the session has channels");
+    if (json["field_m"].arraySize() != 2) json["field_m"].fail("expected [width, height]");
+    return {layout, static_cast<PanningLaw>(json["law"].oneOf(lawNames)), readPositive(json["exponent"], mostExponent),
+            readPositive(json["field_m"].item(0), largestField), readPositive(json["field_m"].item(1), largestField)};
+}
+
+SceneTake readTake(const JsonField& json, const SceneTake* before) {
+    json.expectObject({"start_s", "world_end_s", "seed", "scene", "inputs", "stalls"});
+    SceneTake take;
+    take.startNs = readTime(json["start_s"]);
+    if (before != nullptr && take.startNs < before->startNs) json["start_s"].fail("expected a time that is not before that of the take above");
+    take.worldEndNs = readTime(json["world_end_s"]);
+    take.seed = static_cast<std::uint32_t>(json["seed"].numberUpTo(4294967295.0));
+    if (before != nullptr && !json.has("scene")) take.scene = before->scene;
+    else take.scene = std::make_shared<const Scene>(readFields<Scene>(json["scene"]));
+    if (json.has("inputs"))
+        detail::readValue(json["inputs"], take.inputs, items(0, sceneLimits::maxLiveInputs), take.scene->materials);
+    for (std::size_t i = 0, count = json.has("stalls") ? json["stalls"].arraySize() : 0; i < count; ++i) {
+        const JsonField stall = json["stalls"].item(i);
+        stall.expectObject({"time_s", "seconds"});
+        const std::int64_t last = take.stalls.empty() ? 0 : take.stalls.back().worldNs;
+        take.stalls.push_back({readNextTime(stall, last), readTime(stall["seconds"])});
+    }
+    if (const std::string fault = validate(take.whole()); !fault.empty()) json.fail(fault);
+    return take;
+}
+
+void readControl(const JsonField& json, SavedSession& session) {
+    SessionLog& log = session.log;
+    const auto kind = static_cast<RenderControl::Kind>(json["control"].oneOf(controlNames));
+    if (kind == RenderControl::Kind::panner) {
+        json.expectObject({"time_s", "control", "panning"});
+        const std::int64_t last = log.panners.empty() ? 0 : log.panners.back().timeNs;
+        log.panners.push_back({readNextTime(json, last), readPanner(json["panning"], session.channels)});
+        return;
+    }
+    ChannelChange change{readNextTime(json, log.channels.empty() ? 0 : log.channels.back().timeNs), kind};
+    if (kind == RenderControl::Kind::stopAll) {
+        json.expectObject({"time_s", "control"});
+    } else {
+        const bool isGain = kind == RenderControl::Kind::gain;
+        json.expectObject({"time_s", "control", "channel", isGain ? "value" : "on"});
+        change.channel = readWhole(json["channel"], 1, session.channels) - 1;
+        const double value = isGain ? json["value"].number() : json["on"].truth() ? 1.0 : 0.0;
+        if (!(std::abs(value) <= largestGain)) json["value"].fail("expected -1000 to 1000, found " + numberText(value));
+        change.value = static_cast<float>(value);
+    }
+    log.channels.push_back(change);
+}
+
+SavedSession readRoot(const JsonField& root) {
+    checkVersion(root, versionField, sessionFormatVersion);
+    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "channels", "panning", "takes", "controls"});
+    SavedSession session;
+    session.lengthNs = readTime(root["seconds"]);
+    session.run.stepsPerSecond = readWhole(root["steps_per_second"], Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond);
+    session.run.timing = static_cast<ImpactTiming>(root["timing"].oneOf(timingNames));
+    session.run.location = static_cast<ImpactLocation>(root["location"].oneOf(locationNames));
+    session.limiterEnabled = root["limiter"].truth();
+    session.channels = readWhole(root["channels"], 1, limits::maxEnchanters);
+    session.panner = readPanner(root["panning"], session.channels);
+    const JsonField takes = root["takes"];
+    if (takes.arraySize() == 0) takes.fail("expected at least 1 take, found none");
+    for (std::size_t i = 0; i < takes.arraySize(); ++i)
+        session.log.takes.push_back(readTake(takes.item(i), session.log.takes.empty() ? nullptr : &session.log.takes.back()));
+    for (std::size_t i = 0, count = root.has("controls") ? root["controls"].arraySize() : 0; i < count; ++i)
+        readControl(root["controls"].item(i), session);
+    return session;
+}
+
+OrderedJson pannerJson(const PhantomPanner& panner) {
+    return {{"layout", OrderedJson::parse(layoutJson(describeLayout("", panner.layout())))},
+            {"law", lawNames[static_cast<std::size_t>(panner.law())]},
+            {"exponent", panner.exponent()},
+            {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
+}
+
+OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
+    OrderedJson json{{"start_s", seconds(take.startNs)}, {"world_end_s", seconds(take.worldEndNs)}, {"seed", take.seed}};
+    const bool isSame = before != nullptr && (before->scene == take.scene || *before->scene == *take.scene);
+    if (!isSame) json["scene"] = detail::fieldsJson(*take.scene, take.scene->materials);
+    for (const LiveInput& input : take.inputs) json["inputs"].push_back(detail::fieldsJson(input, take.scene->materials));
+    for (const WorldStall& stall : take.stalls) json["stalls"].push_back({{"time_s", seconds(stall.worldNs)}, {"seconds", seconds(stall.lengthNs)}});
+    return json;
+}
+
+OrderedJson controlJson(const RenderControl& control) {
+    OrderedJson json{{"time_s", seconds(control.timeNs)}, {"control", controlNames[static_cast<std::size_t>(control.kind)]}};
+    if (control.kind == RenderControl::Kind::panner) json["panning"] = pannerJson(control.panner);
+    if (control.kind == RenderControl::Kind::gain || control.kind == RenderControl::Kind::mute) json["channel"] = control.channel + 1;
+    if (control.kind == RenderControl::Kind::gain) json["value"] = static_cast<double>(control.value);
+    if (control.kind == RenderControl::Kind::mute) json["on"] = control.value != 0.0f;
+    return json;
+}
+
+} // namespace
+
+Result<SavedSession> readSession(std::string_view text, std::string_view name) {
+    try {
+        if (text.size() > limits::maxSessionFileBytes)
+            throw JsonError({}, "expected at most " + std::to_string(limits::maxSessionFileBytes) + " bytes, found more");
+        const Json root = parseStrictly(text);
+        return readRoot(JsonField(root, {}));
+    } catch (const JsonError& error) {
+        return Failure{std::string(name) + ": " + error.what()};
+    }
+}
+
+Result<SavedSession> loadSession(const std::filesystem::path& path) {
+    const Result<std::string> text = readFile(path, limits::maxSessionFileBytes);
+    if (!text) return Failure{text.error};
+    return readSession(text.value, path.string());
+}
+
+// It is the first thing that sessionJson writes.
+bool isSessionFile(const std::filesystem::path& path) {
+    const Result<std::string> text = readFile(path, limits::maxSessionFileBytes);
+    return text && text.value.substr(0, 64).find(versionField) != std::string::npos;
+}
+
+std::string sessionJson(const SavedSession& session) {
+    OrderedJson root{{versionField, sessionFormatVersion},
+                     {"seconds", seconds(session.lengthNs)},
+                     {"steps_per_second", session.run.stepsPerSecond},
+                     {"timing", timingNames[static_cast<std::size_t>(session.run.timing)]},
+                     {"location", locationNames[static_cast<std::size_t>(session.run.location)]},
+                     {"limiter", session.limiterEnabled},
+                     {"channels", session.channels},
+                     {"panning", pannerJson(session.panner)},
+                     {"takes", OrderedJson::array()}};
+    const SceneTake* before = nullptr;
+    for (const SceneTake& take : session.log.takes) {
+        root["takes"].push_back(takeJson(take, before));
+        before = &take;
+    }
+    for (const RenderControl& control : controlsOf(session.log, true, session.channels)) root["controls"].push_back(controlJson(control));
+    return jsonLines(root);
+}
+
+std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels) {
+    std::vector<RenderControl> all;
+    if (keepLayouts)
+        for (const PannerChange& change : log.panners) all.push_back({change.timeNs, RenderControl::Kind::panner, 0, 0.0f, change.panner});
+    for (const ChannelChange& change : log.channels)
+        if (change.channel < channels) all.push_back({change.timeNs, change.kind, change.channel, change.value, {}});
+    std::ranges::stable_sort(all, {}, &RenderControl::timeNs);
+    return all;
+}
+
+} // namespace physvib

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Live sessions as JSON: scenes, seeds, inputs and controls with their times; rendering them again gives what was felt.
+#pragma once
+#include "Files/Result.h"
+#include "Files/SessionLog.h"
+#include "Physics/SceneRun.h"
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+/// The version of the format that is written, and the newest that is read.
+constexpr int sessionFormatVersion = 1;
+
+/// A session as it was played.
+struct SavedSession {
+    SceneRun run;           ///< its seed is not used: each take has its own
+    PhantomPanner panner;   ///< at the start
+    int channels = 0;       ///< outputs, at least as many as any layout of the session has enchanters
+    bool limiterEnabled = true;
+    std::int64_t lengthNs = 0;
+    SessionLog log; ///< at least one take
+};
+
+/// The session that `text` describes; or, of the first thing that is wrong, one line `name: takes[0].scene.bodies[1]...`.
+/// Unknown and repeated fields are errors. Any thread.
+Result<SavedSession> readSession(std::string_view text, std::string_view name);
+
+/// The same of a file. M only.
+Result<SavedSession> loadSession(const std::filesystem::path& path);
+
+/// True if the JSON file at `path` says that it is a session. M only.
+bool isSessionFile(const std::filesystem::path& path);
+
+/// `session` as JSON; a take of the same scene as the one before does not repeat it. readSession gives all of it back
+/// bit for bit, but labels of enchanters. Any thread.
+std::string sessionJson(const SavedSession& session);
+
+} // namespace physvib

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Everything that was done in a session: what it takes to render it again.
+#pragma once
+#include "Core/RenderControl.h"
+#include "Physics/SceneTake.h"
+#include <vector>
+
+namespace physvib {
+
+/// A change of layout or law, at a session time.
+struct PannerChange {
+    std::int64_t timeNs = 0;
+    PhantomPanner panner;
+};
+
+/// Any other control; apart, since a panner is a hundred times larger.
+struct ChannelChange {
+    std::int64_t timeNs = 0;
+    RenderControl::Kind kind = RenderControl::Kind::stopAll;
+    int channel = 0;
+    float value = 0.0f;
+};
+
+struct SessionLog {
+    std::vector<SceneTake> takes; ///< one after the other; the last goes on
+    std::vector<PannerChange> panners;   ///< in time order
+    std::vector<ChannelChange> channels; ///< in time order
+};
+
+/// The controls in time order, as a renderer takes them; `keepLayouts` false leaves layouts out, and channels from
+/// `channels` on. Any thread.
+std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels);
+
+} // namespace physvib

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What comes from outside while a session plays: inputs, controls, other scenes, and the log of it all.
+#include "Host/Session.h"
+#include "Physics/SceneValidation.h"
+#include <utility>
+
+namespace physvib {
+
+std::string Session::act(Action action) {
+    const std::lock_guard inputs{inputMutex_};
+    for (;;) { // again if a new take began since the check
+        if (const std::lock_guard lock{worldMutex_}; !check_ || checkedTake_ != world_.takeCount()) {
+            check_.emplace(world_.sceneNow());
+            checkedTake_ = world_.takeCount();
+        }
+        if (std::string fault = check_->take(action); !fault.empty()) return fault;
+        const std::lock_guard lock{worldMutex_};
+        if (checkedTake_ != world_.takeCount()) continue;
+        world_.addInput(nowNs(), std::move(action));
+        return {};
+    }
+}
+
+std::int64_t Session::post(RenderControl control) {
+    const std::lock_guard lock{inputMutex_};
+    control.timeNs = nowNs();
+    if (!controls_.push(control)) return -1;
+    if (control.kind == RenderControl::Kind::panner)
+        controlLog_.panners.push_back({control.timeNs, control.panner});
+    else
+        controlLog_.channels.push_back({control.timeNs, control.kind, control.channel, control.value});
+    return control.timeNs;
+}
+
+std::string Session::setState(SessionState state) {
+    if (std::string fault = validate(*state.scene); !fault.empty()) return fault;
+    const std::lock_guard lock{stateMutex_};
+    if (state == state_) return {};
+    state_ = std::move(state);
+    isStateNew_ = true;
+    return {};
+}
+
+SessionState Session::state() const {
+    const std::lock_guard lock{stateMutex_};
+    return state_;
+}
+
+void Session::restart(int offset) noexcept {
+    restartFrame_.store(sessionFrames_.load(std::memory_order_relaxed) + offset, std::memory_order_release);
+}
+
+void Session::readLog(SessionLog& log) const {
+    const std::lock_guard inputs{inputMutex_};
+    const auto append = [](const auto& from, auto& to) {
+        to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(to.size()), from.end());
+    };
+    append(controlLog_.panners, log.panners);
+    append(controlLog_.channels, log.channels);
+    const std::lock_guard lock{worldMutex_};
+    world_.bringUpToDate(log.takes);
+}
+
+} // namespace physvib

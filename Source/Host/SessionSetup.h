@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a session is made of, what can be exchanged while it plays, and what it tells of itself.
+#pragma once
+#include "Core/HapticRenderer.h"
+#include "Host/ClockLaw.h"
+#include "Physics/SceneRun.h"
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+namespace physvib {
+
+/// What a session plays, and on what.
+struct SessionSetup {
+    Scene scene;
+    std::uint32_t seed = 1;
+    int stepsPerSecond = 100;
+    ImpactTiming timing = ImpactTiming::onset;
+    ImpactLocation location = ImpactLocation::contact;
+    int channels = 4;
+    PhantomPanner panner; ///< at most `channels` enchanters
+    bool limiterEnabled = true;
+    double longestGapSeconds = messageTimerGapSeconds;
+
+    SceneRun run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
+};
+
+/// The part of it that can be exchanged while it plays.
+struct SessionState {
+    std::shared_ptr<const Scene> scene;
+    std::uint32_t seed = 1;
+    bool operator==(const SessionState& other) const {
+        return seed == other.seed && (scene == other.scene || *scene == *other.scene);
+    }
+};
+
+/// How the host calls render.
+enum class RenderMode { realtime, offline };
+
+constexpr std::int64_t noMargin = std::numeric_limits<std::int64_t>::max();
+
+/// A moment of the session, for people.
+struct SessionStatus {
+    RenderStatus render;
+    std::int64_t sessionNs = 0;
+    std::int64_t leastMarginFrames = noMargin; ///< by how much the tightest event of realtime blocks came in time; < 0: late
+};
+
+} // namespace physvib
