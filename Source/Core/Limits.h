@@ -20,6 +20,19 @@ constexpr double stealFadePerSecond = 1000.0; // a stolen mode falls by 60 dB in
 constexpr double channelRampSeconds = 0.01; // gains, mutes, detached channels: no click, still at once to a hand
 constexpr double limiterLookAheadSeconds = 0.001; // attack of the limiter = its constant latency
 constexpr double limiterReleaseSeconds = 0.2;     // silence to full gain: slower than any tactile period (20 Hz)
+
+// The four-channel board: 72 MHz, 12 KB of RAM and 4 KB beside the core. Why these: Docs/board.md.
+namespace board {
+constexpr int sampleRateHz = 8000;  // 20 samples in a period of the fastest felt vibration (400 Hz); divides 72 and 64 MHz
+constexpr int channels = 4;         // two dual converters
+constexpr int blockFrames = 4;      // 4 frames x 4 channels are the 16 sums that stay in registers
+constexpr int maxModes = 128;       // 60 bytes each
+constexpr int maxPending = 64;      // the link delivers 720 events a second: 88 ms of them
+constexpr int gridPerHz = 16;       // frequencies and decays travel in sixteenths of 1 Hz and of 1 per second
+constexpr int amplitudeUnit = 4096; // of full scale: amplitudes up to 8, steps of 1/32 of a converter's step
+constexpr int amplitudeBits = 12;
+constexpr int retireOctaves = 17;   // 2^-17 is a thousandth of a step: even 128 tails together stay below one
+} // namespace board
 } // namespace limits
 
 /// Memory and precision of a renderer that runs on a computer: error at most 1e-6 of full scale.

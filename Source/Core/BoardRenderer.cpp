@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// When the board strikes its events, and how samples become codes.
+#include "Core/BoardRenderer.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+constexpr auto release = static_cast<float>(1.0 / (limits::limiterReleaseSeconds * limits::board::sampleRateHz));
+
+// 1 to 255: full scale either way of mid-scale; what is beyond saturates.
+std::uint8_t codeOf(float sample) noexcept {
+    return static_cast<std::uint8_t>(std::clamp(sample * 127.0f + 128.5f, 1.0f, 255.0f));
+}
+
+} // namespace
+
+void BoardRenderer::prepare() noexcept {
+    bank_.clear();
+    pending_.clear();
+    for (auto& gain : gains_) gain.prepare(limits::board::sampleRateHz, limits::channelRampSeconds, 1.0f);
+    linkedGain_ = 1.0f;
+    frame_ = 0;
+    played_ = late_ = dropped_ = 0;
+}
+
+bool BoardRenderer::schedule(const BoardEvent& event) noexcept {
+    const auto ahead = static_cast<std::int32_t>(event.frame - frame());
+    const bool isTaken = isPlayable(event) && pending_.push(frame_ + ahead, event);
+    dropped_ += isTaken ? 0 : 1;
+    return isTaken;
+}
+
+void BoardRenderer::setGains(const Gains& gains) noexcept {
+    for (int j = 0; j < channels; ++j) gains_[at(j)].moveTo(gains[at(j)]);
+}
+
+void BoardRenderer::stopAll() noexcept {
+    bank_.clear();
+    pending_.clear();
+    linkedGain_ = 1.0f;
+}
+
+void BoardRenderer::render(Codes& out) noexcept {
+    PhasorBank::Block block;
+    bank_.render(frame(), block);
+    strikeDue(block);
+    for (int j = 0; j < channels; ++j) {
+        float* const channel = block[at(j)].data();
+        gains_[at(j)].apply(&channel, 1, blockFrames);
+    }
+    encode(block, out);
+    frame_ += blockFrames;
+}
+
+void BoardRenderer::strikeDue(PhasorBank::Block& io) noexcept {
+    while (!pending_.empty() && pending_.nextTime() < frame_ + blockFrames) {
+        const bool isLate = pending_.nextTime() < frame_; // then the whole vibration, at once
+        bank_.strike(pending_.next(), isLate ? frame() : pending_.next().frame, io);
+        late_ += isLate ? 1 : 0;
+        ++played_;
+        pending_.pop();
+    }
+}
+
+void BoardRenderer::encode(const PhasorBank::Block& block, Codes& out) noexcept {
+    for (int k = 0; k < blockFrames; ++k) {
+        float peak = 0.0f;
+        for (const auto& channel : block) peak = std::max(peak, std::abs(channel[at(k)]));
+        linkedGain_ = std::min(1.0f, linkedGain_ + release);
+        if (peak * linkedGain_ > 1.0f) linkedGain_ = 1.0f / peak;
+        for (int j = 0; j < channels; ++j) out[at(k)][at(j)] = codeOf(block[at(j)][at(k)] * linkedGain_);
+    }
+}
+
+BoardStatus BoardRenderer::status() const noexcept {
+    return {played_, late_, dropped_, bank_.stolenModes(), bank_.liveModes(), pending_.size()};
+}
+
+} // namespace physvib

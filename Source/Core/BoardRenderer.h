@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// All that the four-channel board computes: events in, codes of its converters out. The board runs these very files;
+// on a computer they are what the board is held against.
+//
+// Order of one block: the modes are summed; events that are due are struck into it; each channel goes through its
+// gain; one gain for all channels takes at once what exceeds full scale and comes back within
+// limits::limiterReleaseSeconds, so that a phantom stays where it is; the codes saturate.
+#pragma once
+#include "Core/BoardEvent.h"
+#include "Core/GainRamp.h"
+#include "Core/PhasorBank.h"
+#include "Core/TimeOrdered.h"
+#include <array>
+#include <cstdint>
+
+namespace physvib {
+
+/// Counts since prepare, and the state after the last block.
+struct BoardStatus {
+    std::uint32_t played = 0;  ///< events struck
+    std::uint32_t late = 0;    ///< of these: after their time, at once
+    std::uint32_t dropped = 0; ///< not playable, or too many waiting
+    std::uint32_t stolen = 0;  ///< modes that made room
+    int modes = 0;
+    int pending = 0;
+};
+
+/// All memory is inside the object. R only.
+class BoardRenderer {
+public:
+    static constexpr int channels = PhasorBank::channels;
+    static constexpr int blockFrames = PhasorBank::blockFrames;
+    static constexpr std::uint8_t midScale = 128;
+    using Codes = std::array<std::array<std::uint8_t, static_cast<std::size_t>(channels)>, static_cast<std::size_t>(blockFrames)>;
+    using Gains = std::array<float, static_cast<std::size_t>(channels)>;
+
+    /// Silence at frame 0, all gains 1.
+    void prepare() noexcept;
+
+    /// False, and counted, if the event is not playable or too many wait. Events of one frame keep their order.
+    bool schedule(const BoardEvent& event) noexcept;
+
+    /// Within limits::channelRampSeconds. Negative gains turn the polarity, 0 mutes.
+    void setGains(const Gains& gains) noexcept;
+
+    /// Nothing sounds, nothing waits, from the next block on. (Whoever owns the converters fades what they hold.)
+    void stopAll() noexcept;
+
+    /// The next block.
+    void render(Codes& out) noexcept;
+
+    /// First frame of the next block.
+    std::uint32_t frame() const noexcept { return static_cast<std::uint32_t>(frame_); }
+    BoardStatus status() const noexcept;
+    const PhasorBank& bank() const noexcept { return bank_; }
+
+private:
+    void strikeDue(PhasorBank::Block& io) noexcept;
+    void encode(const PhasorBank::Block& block, Codes& out) noexcept;
+
+    PhasorBank bank_;
+    TimeOrdered<BoardEvent, limits::board::maxPending> pending_;
+    std::array<GainRamp, static_cast<std::size_t>(channels)> gains_{};
+    float linkedGain_ = 1.0f;
+    std::int64_t frame_ = 0; // does not wrap, so that waiting events keep their order
+    std::uint32_t played_ = 0, late_ = 0, dropped_ = 0;
+};
+
+} // namespace physvib

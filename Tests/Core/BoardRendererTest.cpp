@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// The board's renderer against the closed form in double precision, and what it does when too much is asked of it.
+#include "Core/BoardRenderer.h"
+#include "Support/BoardReference.h"
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace physvib {
+namespace {
+
+using test::BoardFrame;
+constexpr BoardFrame silence{128, 128, 128, 128};
+
+std::unique_ptr<BoardRenderer> prepared() {
+    auto renderer = std::make_unique<BoardRenderer>();
+    renderer->prepare();
+    return renderer;
+}
+
+BoardEvent hit(std::uint32_t frame, double f, double tau, std::array<std::int16_t, 4> amplitudes, int durationMs = 0) {
+    return {frame, static_cast<std::uint16_t>(16 * f), static_cast<std::uint16_t>(16 * tau), static_cast<std::uint16_t>(durationMs), amplitudes};
+}
+
+TEST(BoardRenderer, IsWithinOneStepOfTheClosedFormForRandomLists) {
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+        test::BoardListSettings list;
+        list.events = seed % 2 == 0 ? 3000 : 120;
+        list.materials = seed % 4 == 0 ? 128 : 20;
+        list.loudest = seed % 3 == 0 ? 0.6 : 0.1; // 0.6: the linked gain works
+        list.spanFrames = 24000;
+        const auto events = test::randomBoardEvents(list, seed);
+        const auto renderer = prepared();
+        const auto played = test::renderBoardEvents(*renderer, events, 32000);
+        EXPECT_LE(test::worstDifference(played, test::boardClosedForm(events, 32000)), 1) << "seed " << seed;
+        EXPECT_EQ(renderer->status().played, events.size());
+        EXPECT_EQ(renderer->status().late + renderer->status().dropped + renderer->status().stolen, 0u);
+    }
+}
+
+TEST(BoardRenderer, CutsWhatHasADuration) {
+    test::BoardListSettings list;
+    list.gatedShare = 1.0;
+    list.events = 300;
+    const auto events = test::randomBoardEvents(list, 3);
+    const auto renderer = prepared();
+    const auto played = test::renderBoardEvents(*renderer, events, 20000);
+    EXPECT_LE(test::worstDifference(played, test::boardClosedForm(events, 20000)), 1);
+    EXPECT_EQ(played.back(), silence);
+    EXPECT_EQ(renderer->status().modes, 0);
+}
+
+TEST(BoardRenderer, HoldsALowSlowNoteForSeconds) {
+    const std::vector<BoardEvent> events{hit(5, 20, 0.0625, {4096, 2048, -4096, 1000}), hit(9, 399.5, 0.0625, {0, 1000, 0, 0})};
+    const auto renderer = prepared();
+    EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, events, 80000), test::boardClosedForm(events, 80000)), 1);
+}
+
+TEST(BoardRenderer, StrikesOfOneMaterialCostOneModeAndEndTogether) {
+    const auto renderer = prepared();
+    std::vector<BoardEvent> events;
+    for (std::uint32_t i = 0; i < 1500; ++i) events.push_back(hit(8 + 9 * i, 205, 12, {static_cast<std::int16_t>(i % 90), 20, -30, 0}));
+    BoardRenderer::Codes block;
+    const auto played = test::renderBoardEvents(*renderer, events, 15000);
+    EXPECT_EQ(renderer->status().modes, 1);
+    EXPECT_LE(test::worstDifference(played, test::boardClosedForm(events, 15000)), 1);
+    for (int k = 0; k < 4000; ++k) renderer->render(block);
+    EXPECT_EQ(renderer->status().modes, 0);
+}
+
+TEST(BoardRenderer, OneGainTakesWhatIsTooLoudFromAllChannels) {
+    const auto renderer = prepared();
+    const auto played = test::renderBoardEvents(*renderer, {hit(0, 250, 2, {16384, 8192, 0, -16384})}, 2000);
+    const double ratio = (played[8][1] - 128.0) / (played[8][0] - 128.0); // a quarter of 250 Hz: the crest
+    EXPECT_EQ(played[8][0], 255);
+    EXPECT_EQ(played[8][3], 1);
+    EXPECT_NEAR(ratio, 0.5, 0.01);
+}
+
+TEST(BoardRenderer, AStolenModeLeavesNoStep) {
+    const auto renderer = prepared();
+    std::vector<BoardEvent> events;
+    for (int i = 0; i < 128; ++i) events.push_back(hit(4, 50 + i, 1, {static_cast<std::int16_t>(i == 77 ? 1500 : 2000), 0, 0, 0}));
+    for (const auto& e : events) renderer->schedule(e);
+    EXPECT_EQ(renderer->status().pending, 64) << "more than may wait";
+    EXPECT_EQ(renderer->status().dropped, 64u);
+
+    auto full = prepared();
+    BoardRenderer::Codes block;
+    for (int i = 0; i < 128; ++i) {
+        auto e = hit(full->frame() + 1, 50 + i, 1, {static_cast<std::int16_t>(i == 77 ? 20 : 40), 0, 0, 0});
+        full->schedule(e);
+        full->render(block);
+    }
+    int last = block[3][0];
+    full->schedule(hit(full->frame(), 300, 1, {1, 0, 0, 0}));
+    for (int k = 0; k < 20; ++k) {
+        full->render(block);
+        for (const auto& frame : block) {
+            EXPECT_LE(std::abs(frame[0] - last), 45);
+            last = frame[0];
+        }
+    }
+    EXPECT_EQ(full->status().modes, 128);
+    EXPECT_EQ(full->status().stolen, 1u);
+}
+
+TEST(BoardRenderer, ALateEventIsPlayedAtOnceAndCounted) {
+    const auto renderer = prepared();
+    BoardRenderer::Codes block;
+    for (int k = 0; k < 10; ++k) renderer->render(block);
+    renderer->schedule(hit(3, 250, 10, {4096, 0, 0, 0}));
+    const auto late = test::renderBoardEvents(*renderer, {}, 100);
+    const auto fresh = prepared();
+    EXPECT_EQ(test::worstDifference(late, test::renderBoardEvents(*fresh, {hit(0, 250, 10, {4096, 0, 0, 0})}, 100)), 0);
+    EXPECT_EQ(renderer->status().late, 1u);
+}
+
+TEST(BoardRenderer, GainsTurnPolarityAndStopAllIsSilence) {
+    const auto renderer = prepared(), turned = prepared();
+    turned->setGains({-1.0f, 0.0f, 1.0f, 1.0f});
+    const std::vector<BoardEvent> events{hit(400, 200, 5, {2000, 2000, 2000, 2000}), hit(900, 150, 5, {500, 0, 0, 0})};
+    const auto plain = test::renderBoardEvents(*renderer, events, 800, 2000), other = test::renderBoardEvents(*turned, events, 800, 2000);
+    for (std::size_t n = 0; n < 800; ++n) {
+        ASSERT_NEAR(other[n][0] - 128, 128 - plain[n][0], 1);
+        ASSERT_EQ(other[n][1], 128);
+        ASSERT_EQ(other[n][2], plain[n][2]);
+    }
+    renderer->stopAll();
+    for (const auto& frame : test::renderBoardEvents(*renderer, {}, 400)) ASSERT_EQ(frame, silence);
+}
+
+TEST(BoardRenderer, RefusesWhatItCannotPlay) {
+    const auto renderer = prepared();
+    EXPECT_FALSE(renderer->schedule(hit(0, 4000, 10, {1, 0, 0, 0})));
+    EXPECT_FALSE(renderer->schedule(hit(0, 200, 0, {1, 0, 0, 0}))) << "would never end";
+    EXPECT_FALSE(renderer->schedule(hit(0, 0, 10, {1, 0, 0, 0})));
+    EXPECT_EQ(renderer->status().dropped, 3u);
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What the board has to play, in double precision from the closed form, and random lists of events for it.
+#pragma once
+#include "Core/BoardRenderer.h"
+#include "Support/ClosedForm.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace physvib::test {
+
+using BoardFrame = std::array<std::uint8_t, 4>;
+
+/// The sum of Eq. 5.1 over the events, the linked gain and the converters' rounding, all in double.
+inline std::vector<BoardFrame> boardClosedForm(const std::vector<BoardEvent>& events, std::size_t frames) {
+    constexpr double rate = limits::board::sampleRateHz, grid = limits::board::gridPerHz;
+    std::vector<std::array<double, 4>> sums(frames);
+    for (const BoardEvent& e : events) {
+        const std::size_t end = e.durationMs > 0 ? std::min<std::size_t>(frames, e.frame + e.durationMs * 8u) : frames;
+        for (std::size_t n = e.frame; n < end; ++n) {
+            const double t = static_cast<double>(n - e.frame) / rate;
+            const double fall = std::exp(-e.decay16 / grid * t);
+            if (fall < 1e-7) break;
+            const double y = std::sin(2.0 * std::numbers::pi * e.frequency16 / grid * t) * fall / limits::board::amplitudeUnit;
+            for (std::size_t j = 0; j < 4; ++j) sums[n][j] += e.amplitudes[j] * y;
+        }
+    }
+    std::vector<BoardFrame> codes(frames);
+    double gain = 1.0;
+    for (std::size_t n = 0; n < frames; ++n) {
+        double peak = 0.0;
+        for (const double y : sums[n]) peak = std::max(peak, std::abs(y));
+        gain = std::min(1.0, gain + 1.0 / (limits::limiterReleaseSeconds * rate));
+        if (peak * gain > 1.0) gain = 1.0 / peak;
+        for (std::size_t j = 0; j < 4; ++j) codes[n][j] = static_cast<std::uint8_t>(std::clamp(std::floor(sums[n][j] * gain * 127.0 + 128.5), 1.0, 255.0));
+    }
+    return codes;
+}
+
+/// What a random list is made of.
+struct BoardListSettings {
+    int events = 100;
+    std::uint32_t firstFrame = 400, spanFrames = 16000;
+    int materials = 20;          ///< distinct (f, tau)
+    double loudest = 0.2;        ///< of full scale
+    double gatedShare = 0.0;     ///< events with a duration
+};
+
+/// Sorted by onset; equal seeds, equal lists.
+inline std::vector<BoardEvent> randomBoardEvents(const BoardListSettings& s, std::uint32_t seed) {
+    Random random{seed};
+    std::vector<BoardEvent> kinds(static_cast<std::size_t>(s.materials));
+    for (auto& kind : kinds) {
+        kind.frequency16 = static_cast<std::uint16_t>(16 * 30 + random.below(16 * 470));
+        kind.decay16 = static_cast<std::uint16_t>(16 * 2 + random.below(16 * 60));
+    }
+    std::vector<BoardEvent> events(static_cast<std::size_t>(s.events));
+    for (auto& e : events) {
+        e = kinds[random.below(kinds.size())];
+        e.frame = s.firstFrame + static_cast<std::uint32_t>(random.below(s.spanFrames));
+        if (random.uniform(0, 1) < s.gatedShare) e.durationMs = static_cast<std::uint16_t>(1 + random.below(200));
+        for (auto& a : e.amplitudes) a = static_cast<std::int16_t>(random.uniform(-s.loudest, s.loudest) * limits::board::amplitudeUnit);
+    }
+    std::stable_sort(events.begin(), events.end(), [](const BoardEvent& a, const BoardEvent& b) { return a.frame < b.frame; });
+    return events;
+}
+
+/// The board's renderer on this computer: each event is scheduled `lead` frames ahead.
+inline std::vector<BoardFrame> renderBoardEvents(BoardRenderer& renderer, const std::vector<BoardEvent>& events, std::size_t frames, std::uint32_t lead = 64) {
+    std::vector<BoardFrame> codes;
+    BoardRenderer::Codes block;
+    for (std::size_t next = 0; codes.size() < frames; codes.insert(codes.end(), block.begin(), block.end())) {
+        while (next < events.size() && events[next].frame < codes.size() + lead) renderer.schedule(events[next++]);
+        renderer.render(block);
+    }
+    codes.resize(frames);
+    return codes;
+}
+
+/// The largest difference of codes.
+inline int worstDifference(const std::vector<BoardFrame>& a, const std::vector<BoardFrame>& b) {
+    int worst = a.size() == b.size() ? 0 : 256;
+    for (std::size_t n = 0; n < std::min(a.size(), b.size()); ++n)
+        for (std::size_t j = 0; j < 4; ++j) worst = std::max(worst, std::abs(a[n][j] - b[n][j]));
+    return worst;
+}
+
+} // namespace physvib::test
