@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The board's clock as the computer sees it: offset and drift from pings, by the two envelopes of what is possible.
+//
+// A ping leaves at a, the board reads its clock b, the answer is here at c. So the board's time at a is at most b, and at
+// c at least b: as lines over the computer's time, all points (a, b) lie above the clock, all (c, b) below it. For a
+// drift d, the room between the envelopes is what the fastest way there and back took; a wrong drift tilts the points
+// and leaves less. The room is a concave function of d: its maximum is the drift, its middle the offset. A mean or a
+// least-squares line is led astray by the random part of the delays; the envelopes see only the fastest pings.
+#pragma once
+#include "Core/Limits.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace physvib {
+
+/// One thread.
+class LinkClock {
+public:
+    static constexpr int window = 256;        // 26 s at 10 pings a second: the drift of a warming crystal stays constant
+    static constexpr int needed = 100;      // pings until the estimate is used: two seconds of them; 64 were once 3 ms off
+    static constexpr double maxDrift = 0.02;  // the board's internal oscillator: 1 % and its temperature
+
+    void clear() noexcept { count_ = next_ = 0; }
+
+    /// A ping sent at `sentNs`, answered with the board's clock `boardFrames`, received at `receivedNs`.
+    void add(std::int64_t sentNs, double boardFrames, std::int64_t receivedNs) noexcept {
+        if (count_ == 0) origin_ = {sentNs, boardFrames};
+        points_[static_cast<std::size_t>(next_)] = {seconds(sentNs), (boardFrames - origin_.frames) / rate, seconds(receivedNs)};
+        next_ = (next_ + 1) % window;
+        count_ = std::min(count_ + 1, window);
+        estimate();
+    }
+
+    bool isReady() const noexcept { return count_ >= needed; }
+
+    /// The board's frame (between two, as a rule) at the computer's time `ns`.
+    double frameAt(std::int64_t ns) const noexcept { return origin_.frames + (offset_ + seconds(ns) * (1.0 + drift_)) * rate; }
+
+    /// Relative to the computer's clock: 1e-6 is one ppm.
+    double drift() const noexcept { return drift_; }
+
+    /// The longest way there of the pings remembered: what a play-out delay has to cover.
+    double worstDelaySeconds() const noexcept {
+        double worst = 0.0;
+        for (int i = 0; i < count_; ++i) worst = std::max(worst, point(i).board - (offset_ + point(i).sent * (1.0 + drift_)));
+        return worst;
+    }
+
+    /// The offset is not further off than this, if the delays keep to what was seen.
+    double uncertaintySeconds() const noexcept { return room(drift_).width() / 2.0; }
+
+private:
+    static constexpr double rate = limits::board::sampleRateHz;
+    struct Point {
+        double sent = 0.0, board = 0.0, received = 0.0; // seconds since the origin
+    };
+    struct Room {
+        double upper = 0.0, lower = 0.0; // bounds of the offset
+        double width() const noexcept { return upper - lower; }
+    };
+    double seconds(std::int64_t ns) const noexcept { return static_cast<double>(ns - origin_.ns) * 1e-9; }
+    const Point& point(int i) const noexcept { return points_[static_cast<std::size_t>(i)]; }
+
+    Room room(double drift) const noexcept {
+        Room r{1e300, -1e300};
+        for (int i = 0; i < count_; ++i) {
+            r.upper = std::min(r.upper, point(i).board - point(i).sent * (1.0 + drift));
+            r.lower = std::max(r.lower, point(i).board - point(i).received * (1.0 + drift));
+        }
+        return r;
+    }
+
+    void estimate() noexcept {
+        double low = -maxDrift, high = maxDrift;
+        for (int i = 0; i < 40 && isReady(); ++i) { // thirds: 0.02 becomes 2e-9
+            const double third = (high - low) / 3.0;
+            if (room(low + third).width() < room(high - third).width()) low += third;
+            else high -= third;
+        }
+        drift_ = isReady() ? (low + high) / 2.0 : 0.0;
+        const Room r = room(drift_);
+        offset_ = (r.upper + r.lower) / 2.0;
+    }
+
+    struct Origin {
+        std::int64_t ns = 0;
+        double frames = 0.0;
+    };
+    Origin origin_;
+    std::array<Point, static_cast<std::size_t>(window)> points_{};
+    int count_ = 0, next_ = 0;
+    double offset_ = 0.0, drift_ = 0.0;
+};
+
+} // namespace physvib

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Fuzz target of the link: any bytes through the decoder; what it takes for a message is written and read again.
+#include "Fuzzing.h"
+#include "Wire/FrameDecoder.h"
+
+namespace {
+
+template <class Message>
+void demandRoundTrip(std::span<const std::uint8_t> payload) {
+    using namespace physvib;
+    Message message;
+    if (!wire::decode(payload, message)) return;
+    std::array<std::uint8_t, wire::maxFrame> frame{}, again{};
+    const auto size = wire::encode(message, frame);
+    wire::FrameDecoder decoder;
+    Message read;
+    bool arrived = false;
+    for (std::size_t i = 0; i < size; ++i) {
+        fuzz::demand(i + 1 == size || frame[i] != 0, "a zero inside a frame");
+        arrived = wire::decode(decoder.feed(frame[i]), read);
+    }
+    fuzz::demand(arrived && decoder.good() == 1 && decoder.bad() == 0, "cannot read what was written");
+    fuzz::demand(wire::encode(read, again) == size && frame == again, "written differently");
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace physvib::wire;
+    FrameDecoder decoder;
+    for (std::size_t i = 0; i < size; ++i) {
+        const auto payload = decoder.feed(data[i]);
+        demandRoundTrip<Hello>(payload), demandRoundTrip<HelloReply>(payload), demandRoundTrip<Strike>(payload);
+        demandRoundTrip<CompactStrike>(payload), demandRoundTrip<Gains>(payload), demandRoundTrip<Ping>(payload);
+        demandRoundTrip<Pong>(payload), demandRoundTrip<TelemetryRequest>(payload), demandRoundTrip<Telemetry>(payload);
+        demandRoundTrip<StopAll>(payload), demandRoundTrip<SelfTest>(payload), demandRoundTrip<SelfTestReply>(payload);
+    }
+    return 0;
+}
