@@ -12,7 +12,7 @@ void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     channels_ = settings.outputs();
     panner_ = settings.panner;
     gains_.fill(0.0);
-    bank_.prepare(settings.sampleRateHz, channels_);
+    bank_.prepare(settings.sampleRateHz, channels_, settings.instructions);
     actuators_.prepare(settings.sampleRateHz, channels_);
     prepareLimiter();
     pending_.clear();
@@ -43,23 +43,10 @@ void HapticRenderer<P>::schedule(const CollisionEvent& event) noexcept {
     else ++rejected_;
 }
 
-// Does what is due at the next frame; true if an event was struck, so that the pending store has room again.
 // A gate that ends where a strike begins closes first; a control acts before the strikes of its frame.
 template <class P>
-bool HapticRenderer<P>::actOnDue() noexcept {
+void HapticRenderer<P>::actOnDue() noexcept {
     while (bank_.nextGateFrame() <= position_) bank_.closeNextGate();
-    applyDueControls();
-    bool struck = false;
-    while (!pending_.empty() && clock_.at(pending_.nextTime()).frame <= position_) {
-        strike(pending_.next());
-        pending_.pop();
-        struck = true;
-    }
-    return struck;
-}
-
-template <class P>
-void HapticRenderer<P>::applyDueControls() noexcept {
     while (!controls_.empty() && clock_.at(controls_.nextTime()).frame <= position_) {
         apply(controls_.next());
         controls_.pop();
@@ -77,15 +64,14 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
 }
 
 template <class P>
-void HapticRenderer<P>::strike(const CollisionEvent& event) noexcept {
-    FramePosition onset = clock_.at(event.timeNs);
+void HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset) noexcept {
     const std::int64_t delay = position_ - onset.frame;
     if (delay > 0) onset = {position_, 0.0}; // late: the whole vibration, at once
-    const std::int64_t end = clock_.at(event.timeNs + event.durationNs).frame + delay;
+    const bool isGated = event.durationNs > 0;
+    const std::int64_t end = isGated ? clock_.at(event.timeNs + event.durationNs).frame + std::max<std::int64_t>(delay, 0) : Strike::never;
     panner_.gainsAt(event.x, event.y, gains_);
     std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
-    const Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset,
-                   event.durationNs > 0 ? end : Strike::never};
+    const Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, end};
     const bool taken = bank_.strike(s, gains_.data());
     if (taken) playedQueue_.push({event, onset.frame, delay > 0});
     played_ += taken ? 1 : 0;
@@ -93,14 +79,14 @@ void HapticRenderer<P>::strike(const CollisionEvent& event) noexcept {
     rejected_ += taken ? 0 : 1;
 }
 
+// The end of the tile, the next gate or the next control; `most` frames away at the latest.
 template <class P>
-int HapticRenderer<P>::framesUntilChange(int most) const noexcept {
+std::int64_t HapticRenderer<P>::nextChange(int most) const noexcept {
     constexpr int tile = P::tileFrames;
     std::int64_t end = std::min(position_ + most, position_ - position_ % tile + tile);
     end = std::min(end, bank_.nextGateFrame());
-    if (!pending_.empty()) end = std::min(end, clock_.at(pending_.nextTime()).frame);
     if (!controls_.empty()) end = std::min(end, clock_.at(controls_.nextTime()).frame);
-    return static_cast<int>(end - position_);
+    return end;
 }
 
 template <class P>

@@ -28,6 +28,7 @@ struct RendererSettings {
     PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
     bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
     std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
+    InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
 
     int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
 
@@ -52,7 +53,7 @@ struct RenderStatus {
     float limiterGain = 1.0f;
 };
 
-/// All memory is inside the object (15 MB for the desktop: keep it on the heap).
+/// All memory is inside the object (26 MB for the desktop: keep it on the heap).
 template <class Profile>
 class HapticRenderer {
 public:
@@ -86,12 +87,13 @@ private:
     template <class Source>
     void refill(Source& source) noexcept;
     void schedule(const CollisionEvent& event) noexcept;
-    bool actOnDue() noexcept;
-    void applyDueControls() noexcept;
+    template <class Source>
+    int strikeAndReach(Source& source, int most) noexcept;
+    void actOnDue() noexcept;
     void apply(const RenderControl& control) noexcept;
     void prepareLimiter() noexcept;
-    void strike(const CollisionEvent& event) noexcept;
-    int framesUntilChange(int most) const noexcept;
+    void strike(const CollisionEvent& event, FramePosition onset) noexcept;
+    std::int64_t nextChange(int most) const noexcept;
 
     FrameClock clock_;
     PhantomPanner panner_;
@@ -119,6 +121,28 @@ void HapticRenderer<Profile>::refill(Source& source) noexcept {
     }
 }
 
+// Strikes what comes before the next change that needs a cut, and says how many frames lie before it: at the next
+// onset as well, unless the bank takes strikes ahead. Taking an event makes room in the pending store for another.
+template <class Profile>
+template <class Source>
+int HapticRenderer<Profile>::strikeAndReach(Source& source, int most) noexcept {
+    for (;;) {
+        refill(source);
+        actOnDue();
+        std::int64_t end = nextChange(most);
+        if (!pending_.empty()) {
+            const FramePosition onset = clock_.at(pending_.nextTime());
+            if (onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead())) {
+                strike(pending_.next(), onset);
+                pending_.pop();
+                continue;
+            }
+            end = std::min(end, onset.frame);
+        }
+        return static_cast<int>(end - position_);
+    }
+}
+
 template <class Profile>
 template <class Source>
 void HapticRenderer<Profile>::render(Source& source, float* const* out, int frames) noexcept {
@@ -126,9 +150,7 @@ void HapticRenderer<Profile>::render(Source& source, float* const* out, int fram
     Channels at{};
     std::copy_n(out, channels_, at.begin());
     for (int done = 0; done < frames;) {
-        do refill(source);
-        while (actOnDue());
-        const int part = framesUntilChange(frames - done);
+        const int part = strikeAndReach(source, frames - done);
         bank_.render(at.data(), position_, part);
         actuators_.process(at.data(), part);
         position_ += part;

@@ -37,7 +37,7 @@ constexpr int retireOctaves = 17;   // 2^-17 is a thousandth of a step: even 128
 
 /// Memory and precision of a renderer that runs on a computer: error at most 1e-6 of full scale.
 struct DesktopProfile {
-    using Real = double;                     // scalar kernel: rounded once per sample, to float, at the very end
+    using Real = double;                     // amplitudes, and the scalar kernel to the very end
     static constexpr int maxChannels = limits::maxEnchanters;
     static constexpr int tileFrames = 64;    // strikes and retirement happen on this absolute grid
     static constexpr int maxModes = 4096;    // distinct (frequency, decay) pairs sounding at once
@@ -47,6 +47,7 @@ struct DesktopProfile {
     static constexpr int maxLookAheadFrames = 192; // 1 ms at 192 kHz
     static constexpr int maxControls = 256;  // edits ahead of their time: a hand makes tens a second
     static constexpr int playedQueueSize = 4096; // 40 ms at 10^5 strikes per second until somebody reads
+    static constexpr bool hasTiles = true;   // vector kernels on whole tiles (Core/ModeTiles.h)
 };
 
 /// Memory and precision of the four-channel board (12 KB of RAM, single-precision unit): at most 1 LSB of 8 bit.
@@ -61,6 +62,7 @@ struct BoardProfile {
     static constexpr int maxLookAheadFrames = 16;
     static constexpr int maxControls = 2;
     static constexpr int playedQueueSize = 16;
+    static constexpr bool hasTiles = false;  // 8 frames on 12 KB: the scalar kernel alone
 };
 
 } // namespace physvib

@@ -5,13 +5,17 @@
 // A mode's phase is an integer (2^64 = one turn) that is linear in the absolute frame number, its decay a fixed-point
 // number of octaves: neither drifts, both are the same bits on every machine, and together they are the merge key.
 // At each tile of the absolute frame grid the amplitudes are brought to the tile's first frame from these integers.
+// Where there are vector instructions, ModeTiles renders whole tiles; else the scalar kernel sums sample by sample.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/FrameClock.h"
+#include "Core/ModeIndex.h"
 #include "Core/ModeTable.h"
+#include "Core/ModeTiles.h"
 #include "Core/TimeOrdered.h"
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 namespace physvib {
 
@@ -33,16 +37,23 @@ public:
     static constexpr int tile = Profile::tileFrames;
     static constexpr int slotCount = Profile::maxModes + Profile::maxFadingModes;
 
-    /// Silence, for this rate and number of channels (1 to Profile::maxChannels). M, not while rendering.
-    void prepare(int sampleRateHz, int channels) noexcept;
+    /// Silence, for this rate and number of channels (1 to Profile::maxChannels). A set of instructions that is not
+    /// available means the scalar kernel. M, not while rendering.
+    void prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best) noexcept;
+
+    /// What it runs on. Any thread after prepare.
+    InstructionSet instructionSet() const noexcept { return tiles_.set(); }
 
     /// Goes on at another rate and frame: what sounded at the old `fromFrame` sounds on at the new `toFrame`, gates
     /// close after the same time. M, not while rendering.
     void moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept;
 
-    /// Frames only go forward. `gains`: one per channel. The strike's frame is the next one to be rendered.
+    /// Frames only go forward. `gains`: one per channel. The strike's frame is the next one to be rendered, or, if
+    /// takesStrikesAhead(), a later one of the same tile, with no gate to be closed before it.
     /// False if too many strikes with a duration are open: then nothing has changed.
     bool strike(const Strike& strike, const double* gains) noexcept;
+
+    bool takesStrikesAhead() const noexcept { return tiles_.isOn(); }
 
     /// The frame at which the next open gate closes; Strike::never if none is open.
     std::int64_t nextGateFrame() const noexcept { return gates_.empty() ? Strike::never : gates_.nextTime(); }
@@ -53,13 +64,15 @@ public:
     /// From `frame` on, the next one to be rendered, everything fades as a stolen mode does.
     void fadeAll(std::int64_t frame) noexcept;
 
-    /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile.
-    void render(float* const* out, std::int64_t first, int frames) noexcept;
+    /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. False if all are 0.
+    bool render(float* const* out, std::int64_t first, int frames) noexcept;
 
     int liveModes() const noexcept { return activeCount_; }
     std::uint64_t stolenModes() const noexcept { return stolen_; }
 
 private:
+    using Index = std::conditional_t<Profile::hasTiles, ModeIndex<slotCount>, NoIndex>;
+    using Tiles = std::conditional_t<Profile::hasTiles, ModeTiles, NoTiles>;
     struct Mode {
         double frequencyHz = 0.0;
         double decayPerSecond = 0.0;
@@ -71,6 +84,7 @@ private:
         int openGates = 0;
         bool isGated = false; // gated strikes do not merge with free ones, so that closing can leave exact zeros
         bool isFading = false;
+        std::uint64_t hash() const noexcept { return modeHash(phaseIncrement, decayIncrement, isGated); }
         bool matches(const Mode& o) const noexcept {
             return phaseIncrement == o.phaseIncrement && decayIncrement == o.decayIncrement &&
                    isGated == o.isGated && !isFading;
@@ -94,8 +108,14 @@ private:
     void fillPowers(int slot) noexcept;
     void rebase(int slot) noexcept;
     void refreshTile(int slot) noexcept;
+    void refreshAll(bool isNextTile) noexcept;
+    void renewCarrier(int slot) noexcept;
+    void retireModes() noexcept;
+    void shape(int slot) noexcept;
+    void redoTile(int slot, std::int64_t frame) noexcept;
     void enterTile(std::int64_t frame) noexcept;
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
+    Complex<Real> carrier(const Mode& mode) const noexcept;
     Complex<Real> onsetPhasor(const Mode& mode, FramePosition onset) const noexcept;
     std::int64_t lifeFrames(std::int64_t decayIncrement) const noexcept;
     Mode& mode(int slot) noexcept { return modes_[static_cast<std::size_t>(slot)]; }
@@ -115,11 +135,14 @@ private:
     int activeCount_ = 0;
     int freeCount_ = 0;
     int fadingCount_ = 0;
+    std::int64_t nextEnd_ = Strike::never; // no mode ends earlier
     std::uint64_t stolen_ = 0;
     std::uint32_t lives_ = 0;
     std::array<Mode, slots> modes_{};
+    [[no_unique_address]] Index index_; // of modes that do not fade
+    [[no_unique_address]] Tiles tiles_;
     std::array<Complex<Real>, slots * width> amplitudes_{};     // as of the mode's reference frame
-    std::array<Complex<Real>, slots * width> tileAmplitudes_{}; // as of the tile's first frame
+    std::array<Complex<Real>, slots * width> tileAmplitudes_{}; // as of the tile's first frame; scalar kernel
     std::array<Real, slots * tileSize> cosPowers_{};
     std::array<Real, slots * tileSize> sinPowers_{};
     TimeOrdered<Gate, Profile::maxGates> gates_;

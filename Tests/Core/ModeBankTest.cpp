@@ -2,6 +2,7 @@
 // ModeBank: merging, gates, retirement and stealing, held against sums of single sinusoids.
 #include "Core/ModeBank.h"
 #include "Support/ClosedForm.h"
+#include "Support/Sets.h"
 #include <gtest/gtest.h>
 #include <memory>
 
@@ -14,7 +15,7 @@ template <class Profile>
 struct Bank {
     std::unique_ptr<ModeBank<Profile>> bank = std::make_unique<ModeBank<Profile>>();
     std::int64_t frame = 0;
-    explicit Bank(int channels = 1) { bank->prepare(rate, channels); }
+    explicit Bank(InstructionSet set) { bank->prepare(rate, 1, set); }
 
     bool strike(double f, double tau, double amplitude, double lead = 0, std::int64_t frames = 0) {
         const double gain = 1;
@@ -37,21 +38,24 @@ struct Bank {
 };
 using Desktop = Bank<DesktopProfile>;
 
+class OnEachModeBank : public test::OnEachSet {};
+INSTANTIATE_TEST_SUITE_P(ModeBank, OnEachModeBank, test::eachSet(), test::setName);
+
 double sinusoid(double f, double tau, double t) { return t < 0 ? 0 : std::sin(2 * std::numbers::pi * f * t) * std::exp(-tau * t); }
 
-TEST(ModeBank, OneStrikeIsTheClosedFormOverItsWholeLife) {
-    Desktop bank;
+TEST_P(OnEachModeBank, OneStrikeIsTheClosedFormOverItsWholeLife) {
+    Desktop bank{GetParam()};
     bank.renderTo(777);
     bank.strike(205.3, 2, 1, 0.37);
     const auto out = bank.renderTo(777 + 8 * rate);
     double worst = 0;
     for (std::size_t n = 0; n < out.size(); ++n)
         worst = std::max(worst, std::abs(out[n] - sinusoid(205.3, 2, (static_cast<double>(n) + 0.37) / rate)));
-    EXPECT_LT(worst, 7e-8) << "one rounding to float, no more";
+    EXPECT_LT(worst, GetParam() == InstructionSet::scalar ? 7e-8 : 3e-7) << "scalar: one rounding to float, no more";
 }
 
 TEST(ModeBank, BoardProfileStaysFarBelowHalfAnEightBitStep) {
-    Bank<BoardProfile> bank;
+    Bank<BoardProfile> bank{InstructionSet::best};
     bank.strike(205.3, 2, 1, 0.37);
     const auto out = bank.renderTo(8 * rate);
     double worst = 0;
@@ -61,38 +65,43 @@ TEST(ModeBank, BoardProfileStaysFarBelowHalfAnEightBitStep) {
 }
 
 TEST(ModeBank, TenThousandStrikesOfOneMaterialCostOneModeAndEqualTheirSum) {
-    Desktop bank;
+    struct Hit {
+        std::int64_t frame;
+        double lead, amplitude;
+    };
     test::Random random{5};
-    std::vector<CollisionEvent> events;
-    std::vector<float> out;
-    for (int i = 0; i < 10'000; ++i) {
-        const double lead = random.below(1000) / 1000.0, amplitude = random.uniform(-0.1, 0.1);
-        bank.strike(205, 12, amplitude, lead);
-        CollisionEvent e;
-        e.timeNs = static_cast<std::int64_t>((static_cast<double>(bank.frame) - lead) * 1e9); // at "1 Hz": frames as seconds
-        e.amplitude = amplitude;
-        events.push_back(e);
-        ASSERT_EQ(bank.bank->liveModes(), 1);
-        const auto part = bank.renderTo(bank.frame + random.below(9));
-        out.insert(out.end(), part.begin(), part.end());
+    std::vector<Hit> hits;
+    std::int64_t end = 0;
+    for (int i = 0; i < 10'000; ++i, end += random.below(9)) hits.push_back({end, random.below(1000) / 1000.0, random.uniform(-0.1, 0.1)});
+    std::vector<double> expected(static_cast<std::size_t>(end));
+    for (const auto& h : hits)
+        for (std::int64_t n = h.frame; n < end; ++n)
+            expected[static_cast<std::size_t>(n)] += h.amplitude * sinusoid(205, 12, (static_cast<double>(n - h.frame) + h.lead) / rate);
+    for (const auto set : test::runnableSets()) {
+        Desktop bank{set};
+        std::vector<float> out;
+        const auto renderTo = [&](std::int64_t frame) {
+            const auto part = bank.renderTo(frame);
+            out.insert(out.end(), part.begin(), part.end());
+        };
+        for (const auto& h : hits) {
+            renderTo(h.frame);
+            bank.strike(205, 12, h.amplitude, h.lead);
+            ASSERT_EQ(bank.bank->liveModes(), 1);
+        }
+        renderTo(end);
+        EXPECT_EQ(bank.bank->stolenModes(), 0u);
+        double worst = 0, peak = 1;
+        for (std::size_t n = 0; n < out.size(); ++n) {
+            worst = std::max(worst, std::abs(out[n] - expected[n]));
+            peak = std::max(peak, std::abs(expected[n]));
+        }
+        EXPECT_LT(worst / peak, 1e-6) << nameOf(set);
     }
-    EXPECT_EQ(bank.bank->stolenModes(), 0u);
-    std::vector<double> expected(out.size());
-    for (const auto& e : events) {
-        const double onset = static_cast<double>(e.timeNs) * 1e-9;
-        for (auto n = static_cast<std::size_t>(std::max(0.0, std::ceil(onset))); n < out.size(); ++n)
-            expected[n] += e.amplitude * sinusoid(205, 12, (static_cast<double>(n) - onset) / rate);
-    }
-    double worst = 0, peak = 1;
-    for (std::size_t n = 0; n < out.size(); ++n) {
-        worst = std::max(worst, std::abs(out[n] - expected[n]));
-        peak = std::max(peak, std::abs(expected[n]));
-    }
-    EXPECT_LT(worst / peak, 1e-6);
 }
 
-TEST(ModeBank, GateOf100MillisecondsAt205HzEndsInExactSilence) {
-    Desktop bank;
+TEST_P(OnEachModeBank, GateOf100MillisecondsAt205HzEndsInExactSilence) {
+    Desktop bank{GetParam()};
     bank.strike(205, 0, 1, 0, rate / 10);
     const auto on = bank.renderTo(rate / 10);
     EXPECT_NEAR(on[rate / 10 - 1], sinusoid(205, 0, 0.1 - 1.0 / rate), 1e-7);
@@ -100,8 +109,8 @@ TEST(ModeBank, GateOf100MillisecondsAt205HzEndsInExactSilence) {
     EXPECT_EQ(bank.bank->liveModes(), 0);
 }
 
-TEST(ModeBank, GatesOfOneMaterialOverlapAndEndInExactSilence) {
-    Desktop bank;
+TEST_P(OnEachModeBank, GatesOfOneMaterialOverlapAndEndInExactSilence) {
+    Desktop bank{GetParam()};
     bank.strike(180, 3, 1, 0.5, 5000);
     const auto first = bank.renderTo(2000);
     bank.strike(180, 3, 0.5, 0.25, 1000);
@@ -112,8 +121,8 @@ TEST(ModeBank, GatesOfOneMaterialOverlapAndEndInExactSilence) {
     for (const float y : bank.renderTo(6000)) ASSERT_EQ(y, 0.0f);
 }
 
-TEST(ModeBank, GatedAndFreeStrikesOfOneMaterialDoNotDisturbEachOther) {
-    Desktop with, without;
+TEST_P(OnEachModeBank, GatedAndFreeStrikesOfOneMaterialDoNotDisturbEachOther) {
+    Desktop with{GetParam()}, without{GetParam()};
     for (Desktop* bank : {&with, &without}) bank->strike(205, 20, 1);
     with.strike(205, 20, 1, 0, 480);
     with.renderTo(480);
@@ -121,8 +130,8 @@ TEST(ModeBank, GatedAndFreeStrikesOfOneMaterialDoNotDisturbEachOther) {
     EXPECT_EQ(with.renderTo(rate), without.renderTo(rate));
 }
 
-TEST(ModeBank, AGateMayCloseLongAfterItsStrikeHasDied) {
-    Desktop bank;
+TEST_P(OnEachModeBank, AGateMayCloseLongAfterItsStrikeHasDied) {
+    Desktop bank{GetParam()};
     bank.strike(100, 1500, 1, 0, rate); // dead after 10 ms, in a mode that the next ones keep alive
     for (int i = 0; i < 150; ++i) {
         bank.strike(100, 1500, 1, 0, 500);
@@ -132,8 +141,8 @@ TEST(ModeBank, AGateMayCloseLongAfterItsStrikeHasDied) {
     for (const float y : bank.renderTo(bank.frame + rate)) ASSERT_LE(std::abs(y), 1e-3f);
 }
 
-TEST(ModeBank, RetiresAModeWhenItHasFallenBy140dBAndNotBefore) {
-    Desktop bank;
+TEST_P(OnEachModeBank, RetiresAModeWhenItHasFallenBy140dBAndNotBefore) {
+    Desktop bank{GetParam()};
     bank.strike(205, 50, 1);
     const double lifeSeconds = 140 / 20.0 * std::log(10.0) / 50;
     bank.renderTo(static_cast<std::int64_t>(lifeSeconds * rate) - 64);
@@ -142,8 +151,8 @@ TEST(ModeBank, RetiresAModeWhenItHasFallenBy140dBAndNotBefore) {
     EXPECT_EQ(bank.bank->liveModes(), 0);
 }
 
-TEST(ModeBank, SoundsOnAtAnotherRate) {
-    Desktop bank;
+TEST_P(OnEachModeBank, SoundsOnAtAnotherRate) {
+    Desktop bank{GetParam()};
     bank.renderTo(100);
     bank.strike(205, 3, 1, 0.25);
     bank.strike(90, 0, 0.5, 0, rate / 2); // half a second
@@ -160,8 +169,8 @@ TEST(ModeBank, SoundsOnAtAnotherRate) {
     EXPECT_LT(worst, 1e-6);
 }
 
-TEST(ModeBank, AFullBankFadesTheQuietestModeWithoutAClick) {
-    Desktop bank;
+TEST_P(OnEachModeBank, AFullBankFadesTheQuietestModeWithoutAClick) {
+    Desktop bank{GetParam()};
     const int modes = DesktopProfile::maxModes;
     for (int i = 0; i < modes; ++i) bank.strike(100 + 0.01 * i, 0.5, i == 7 ? 1e-3 : 1e-2);
     bank.renderTo(4833); // inside a tile
@@ -182,16 +191,16 @@ TEST(ModeBank, AFullBankFadesTheQuietestModeWithoutAClick) {
     EXPECT_EQ(bank.bank->liveModes(), modes);
 }
 
-TEST(ModeBank, WhatFadesIsNobodysToMergeWith) {
-    Desktop bank;
+TEST_P(OnEachModeBank, WhatFadesIsNobodysToMergeWith) {
+    Desktop bank{GetParam()};
     for (int i = 0; i <= DesktopProfile::maxModes; ++i) bank.strike(100 + 0.01 * i, 0.5, i == 7 ? 1e-3 : 1e-2);
     EXPECT_EQ(bank.bank->stolenModes(), 1u);
     bank.strike(100.07, 0.5 + limits::stealFadePerSecond, 1e-2);
     EXPECT_EQ(bank.bank->stolenModes(), 2u);
 }
 
-TEST(ModeBank, ManyMoreModesThanRoomStayBounded) {
-    Desktop bank;
+TEST_P(OnEachModeBank, ManyMoreModesThanRoomStayBounded) {
+    Desktop bank{GetParam()};
     for (int i = 0; i < 3 * DesktopProfile::maxModes; ++i) {
         ASSERT_TRUE(bank.strike(20 + 0.05 * i, 0.5, 1e-3));
         ASSERT_LE(bank.bank->liveModes(), ModeBank<DesktopProfile>::slotCount);
@@ -199,8 +208,8 @@ TEST(ModeBank, ManyMoreModesThanRoomStayBounded) {
     for (const float y : bank.renderTo(100)) ASSERT_TRUE(std::isfinite(y));
 }
 
-TEST(ModeBank, TooManyOpenGatesAreRefusedAndChangeNothing) {
-    Desktop bank, twin;
+TEST_P(OnEachModeBank, TooManyOpenGatesAreRefusedAndChangeNothing) {
+    Desktop bank{GetParam()}, twin{GetParam()};
     for (int i = 0; i < DesktopProfile::maxGates; ++i) {
         ASSERT_TRUE(bank.strike(205, 0, 1e-3, 0, 1000));
         ASSERT_TRUE(twin.strike(205, 0, 1e-3, 0, 1000));
@@ -209,8 +218,8 @@ TEST(ModeBank, TooManyOpenGatesAreRefusedAndChangeNothing) {
     EXPECT_EQ(bank.renderTo(2000), twin.renderTo(2000));
 }
 
-TEST(ModeBank, AGateBetweenTwoFramesLeavesNoSample) {
-    Desktop bank;
+TEST_P(OnEachModeBank, AGateBetweenTwoFramesLeavesNoSample) {
+    Desktop bank{GetParam()};
     const double gain = 1;
     EXPECT_TRUE(bank.bank->strike({205, 0, 1, {0, 0.5}, 0}, &gain));
     EXPECT_EQ(bank.bank->liveModes(), 0);

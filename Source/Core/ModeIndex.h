@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// From a mode's increments to its slot: a hash table with linear probing, so that a strike does not search all modes.
+#pragma once
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace physvib {
+
+/// Of a mode's increments; its top bits are good (Fibonacci hashing, Knuth vol. 3, 6.4).
+inline std::uint64_t modeHash(std::uint64_t phaseIncrement, std::int64_t decayIncrement, bool isGated) noexcept {
+    const std::uint64_t mixed = (phaseIncrement ^ std::rotl(static_cast<std::uint64_t>(decayIncrement), 29)) + (isGated ? 1 : 0);
+    return (mixed ^ mixed >> 31) * 0x9e3779b97f4a7c15;
+}
+
+/// At most `Slots` slots. The caller keeps the keys: it gives a hash, and says whether a slot is the one meant.
+template <int Slots>
+class ModeIndex {
+public:
+    void clear() noexcept { entries_.fill({}); }
+
+    /// The slot for which `isMeant(slot)` holds, -1 if there is none.
+    template <class Predicate>
+    int find(std::uint64_t hash, Predicate isMeant) const noexcept {
+        for (std::size_t at = home(hash); entries_[at].slot >= 0; at = after(at))
+            if (entries_[at].hash == tag(hash) && isMeant(entries_[at].slot)) return entries_[at].slot;
+        return -1;
+    }
+
+    void insert(std::uint64_t hash, int slot) noexcept {
+        std::size_t at = home(hash);
+        while (entries_[at].slot >= 0) at = after(at);
+        entries_[at] = {tag(hash), slot};
+    }
+
+    /// The slot was inserted with this hash. Later entries move up, so that no gap hides them.
+    void erase(std::uint64_t hash, int slot) noexcept {
+        std::size_t gap = home(hash);
+        while (entries_[gap].slot != slot) gap = after(gap);
+        for (std::size_t at = after(gap); entries_[at].slot >= 0; at = after(at)) {
+            const std::size_t wanted = entries_[at].hash >> (32 - bits);
+            if (((at - wanted) & mask) < ((at - gap) & mask)) continue; // its home lies behind the gap
+            entries_[gap] = entries_[at];
+            gap = at;
+        }
+        entries_[gap] = {};
+    }
+
+private:
+    static constexpr int bits = std::bit_width(static_cast<unsigned>(2 * Slots));
+    static constexpr std::size_t size = std::size_t{1} << bits, mask = size - 1;
+    struct Entry {
+        std::uint32_t hash = 0;
+        std::int32_t slot = -1;
+    };
+    static std::uint32_t tag(std::uint64_t hash) noexcept { return static_cast<std::uint32_t>(hash >> 32); }
+    static std::size_t home(std::uint64_t hash) noexcept { return tag(hash) >> (32 - bits); }
+    static std::size_t after(std::size_t at) noexcept { return (at + 1) & mask; }
+    std::array<Entry, size> entries_{};
+};
+
+/// For profiles of a few modes: a search through them is as quick, and needs no memory.
+struct NoIndex {
+    static constexpr void clear() noexcept {}
+    static constexpr void insert(std::uint64_t, int) noexcept {}
+    static constexpr void erase(std::uint64_t, int) noexcept {}
+};
+
+} // namespace physvib
