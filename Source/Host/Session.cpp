@@ -45,7 +45,7 @@ Session::Session(const SessionSetup& setup)
 
 void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     const std::scoped_lock lock{inputMutex_, worldMutex_};
-    renderer_->prepare({sampleRateHz, setup_.channels, setup_.panner, setup_.limiterEnabled});
+    renderer_->prepare({sampleRateHz, setup_.channels, setup_.panner, setup_.limiterEnabled, setup_.ceilings});
     setLaw(sampleRateHz, maxBlockFrames);
     sessionFrames_ = 0;
     restartFrame_ = -1;

@@ -63,6 +63,9 @@ public:
 
     int channels() const noexcept { return setup_.channels; }
 
+    /// Largest sample of that channel while the limiter is on. Any thread.
+    float ceiling(int channel) const noexcept { return setup_.ceilings[static_cast<std::size_t>(channel)]; }
+
     /// Steps the world up to session time; the number of steps made. D.
     int advance();
 

@@ -4,6 +4,7 @@
 #include "Core/HapticRenderer.h"
 #include "Host/ClockLaw.h"
 #include "Physics/SceneRun.h"
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -20,6 +21,7 @@ struct SessionSetup {
     int channels = 4;
     PhantomPanner panner; ///< at most `channels` enchanters
     bool limiterEnabled = true;
+    std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel, > 0
     double longestGapSeconds = messageTimerGapSeconds;
 
     SceneRun run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
