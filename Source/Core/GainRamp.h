@@ -2,6 +2,7 @@
 // A gain that moves in a straight line to its next value: no step, no click; bit-transparent once it rests at 1.
 #pragma once
 #include <algorithm>
+#include <cmath>
 
 namespace physvib {
 
@@ -10,18 +11,27 @@ class GainRamp {
 public:
     /// Rests at `gain`; a change of 1 takes `secondsPerUnit`. M, not while rendering.
     void prepare(int sampleRateHz, double secondsPerUnit, float gain) noexcept {
-        step_ = static_cast<float>(1.0 / (secondsPerUnit * sampleRateHz));
+        pace_ = step_ = static_cast<float>(1.0 / (secondsPerUnit * sampleRateHz));
         now_ = target_ = gain;
     }
 
-    void moveTo(float gain) noexcept { target_ = gain; }
+    void moveTo(float gain) noexcept {
+        target_ = gain;
+        pace_ = step_;
+    }
+
+    /// As moveTo, but there after `frames` at the latest.
+    void moveTo(float gain, int frames) noexcept {
+        target_ = gain;
+        pace_ = std::max(step_, 1.001f * std::abs(gain - now_) / static_cast<float>(frames)); // rounding must not cost a frame more
+    }
     bool isResting() const noexcept { return now_ == target_; }
 
     /// Multiplies io[0..channels)[0..frames).
     void apply(float* const* io, int channels, int frames) noexcept {
         int n = 0;
         for (; n < frames && !isResting(); ++n) {
-            now_ = now_ < target_ ? std::min(now_ + step_, target_) : std::max(now_ - step_, target_);
+            now_ = now_ < target_ ? std::min(now_ + pace_, target_) : std::max(now_ - pace_, target_);
             for (int j = 0; j < channels; ++j) io[j][n] *= now_;
         }
         if (now_ == 1.0f) return;
@@ -29,7 +39,7 @@ public:
     }
 
 private:
-    float now_ = 1.0f, target_ = 1.0f, step_ = 1.0f;
+    float now_ = 1.0f, target_ = 1.0f, step_ = 1.0f, pace_ = 1.0f;
 };
 
 } // namespace physvib

@@ -30,6 +30,19 @@ TEST(GainRamp, MovesInAStraightLineAcrossBlocksAndThenRests) {
     EXPECT_EQ(x.back(), 1.0f);
 }
 
+TEST(GainRamp, InAHurryItIsThereInTheFramesGivenAndExactly) {
+    for (int frames = 1; frames <= 9; ++frames) {
+        GainRamp ramp;
+        ramp.prepare(1000, 0.01, 1.0f);
+        ramp.moveTo(0.0f, frames);
+        std::vector<float> x(9, 1.0f);
+        float* at = x.data();
+        ramp.apply(&at, 1, frames);
+        EXPECT_EQ(x[static_cast<std::size_t>(frames) - 1], 0.0f) << frames;
+        EXPECT_TRUE(ramp.isResting());
+    }
+}
+
 TEST(GainRamp, SilenceIsExact) {
     GainRamp ramp;
     ramp.prepare(1000, 0.01, 1.0f);
