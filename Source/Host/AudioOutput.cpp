@@ -9,148 +9,150 @@ namespace {
 
 constexpr double fadeInSeconds = 0.005;
 
-std::vector<std::unique_ptr<juce::AudioIODeviceType>> deviceTypes() {
-    std::vector<std::unique_ptr<juce::AudioIODeviceType>> types;
-    const auto add = [&](juce::AudioIODeviceType* type) {
-        if (type == nullptr) return; // not on this system
-        types.emplace_back(type);
-        type->scanForDevices();
-    };
-    add(juce::AudioIODeviceType::createAudioIODeviceType_JACK());
-    add(juce::AudioIODeviceType::createAudioIODeviceType_ALSA());
-    add(juce::AudioIODeviceType::createAudioIODeviceType_CoreAudio());
-    add(juce::AudioIODeviceType::createAudioIODeviceType_WASAPI(juce::WASAPIDeviceMode::exclusive));
-    add(juce::AudioIODeviceType::createAudioIODeviceType_ASIO());
-    return types;
-}
-
-bool isMeant(const std::string& wanted, const juce::AudioIODeviceType& type, const juce::String& name) {
-    const std::string plain = name.toStdString();
-    return wanted == plain || wanted == type.getTypeName().toStdString() + ":" + plain;
-}
-
-int channelsOf(juce::AudioIODeviceType& type, const juce::String& name) {
-    const std::unique_ptr<juce::AudioIODevice> device{type.createDevice(name, {})};
-    return device ? device->getOutputChannelNames().size() : 0;
-}
+bool isRate(int hz) { return hz >= limits::minSampleRateHz && hz <= limits::maxSampleRateHz; }
 
 } // namespace
 
-std::vector<AudioDeviceName> listAudioDevices() {
-    std::vector<AudioDeviceName> devices;
-    for (const auto& type : deviceTypes())
-        for (const auto& name : type->getDeviceNames(false))
-            devices.push_back({type->getTypeName().toStdString(), name.toStdString(), channelsOf(*type, name)});
-    return devices;
-}
-
-AudioOutput::AudioOutput(Session& session)
-    : session_{session} {}
+AudioOutput::AudioOutput(Session& session, AudioDeviceTypes types)
+    : session_{session}
+    , types_{std::move(types)} {}
 
 AudioOutput::~AudioOutput() { close(); }
 
 std::string AudioOutput::open(const AudioOutputSettings& settings) {
     close();
+    if (auto error = map_.want(session_.channels(), settings.channelMap); !error.empty()) return error;
     settings_ = settings;
     setLevel(settings.level);
     return openDevice();
 }
 
 std::string AudioOutput::openDevice() {
-    for (auto& type : deviceTypes())
-        for (const auto& name : type->getDeviceNames(false)) {
-            if (!isMeant(settings_.device, *type, name)) continue;
-            device_.reset(type->createDevice(name, {}));
-            if (!device_) return settings_.device + ": the device cannot be opened";
-            type_ = std::move(type);
-            juce::BigInteger outputs;
-            outputs.setRange(0, device_->getOutputChannelNames().size(), true);
-            const auto error = device_->open({}, outputs, settings_.sampleRateHz > 0 ? settings_.sampleRateHz : device_->getCurrentSampleRate(),
-                                             settings_.blockFrames > 0 ? settings_.blockFrames : device_->getDefaultBufferSize());
-            if (error.isNotEmpty()) return settings_.device + ": " + error.toStdString();
-            device_->start(this);
-            return running_ ? std::string{} : settings_.device + ": the device does not start";
-        }
-    return settings_.device + ": no such device (see physvib devices); nothing else is played on";
+    found_ = findAudioDevice(types_, settings_.device);
+    if (!found_.device) return settings_.device + ": no such device (see physvib devices); nothing else is played on";
+    auto error = startDevice();
+    if (error.empty()) settings_.device = found_.fullName(); // this one from now on, also where another driver knows its name
+    else stopDevice();
+    return error;
 }
 
-void AudioOutput::close() {
-    if (device_) device_->stop();
-    device_.reset();
-    type_.reset();
+std::string AudioOutput::startDevice() {
+    auto& device = *found_.device;
+    const auto outputs = map_.outputs(device.getOutputChannelNames().size());
+    if (outputs.isZero()) return settings_.device + ": has none of the outputs that are wanted";
+    const auto error = device.open({}, outputs, settings_.sampleRateHz > 0 ? settings_.sampleRateHz : device.getCurrentSampleRate(),
+                                   settings_.blockFrames > 0 ? settings_.blockFrames : device.getDefaultBufferSize());
+    if (error.isNotEmpty()) return settings_.device + ": " + error.toStdString();
+    largestBlock_ = 0;
+    device.start(this);
+    if (running_) return {};
+    const int rate = juce::roundToInt(device.getCurrentSampleRate());
+    return settings_.device + (isRate(rate) ? ": the device does not start" : ": runs at " + std::to_string(rate) + " Hz; expected 5000 to 192000");
+}
+
+void AudioOutput::stopDevice() {
+    if (found_.device) found_.device->stop();
+    found_.device.reset(); // before its driver
+    found_.type.reset();
     running_ = false;
 }
 
-std::string AudioOutput::maintain() {
-    if (settings_.device.empty() || (device_ && device_->isOpen() && running_)) return {};
-    close();
-    return openDevice();
+void AudioOutput::close() {
+    stopDevice();
+    settings_.device.clear();
+}
+
+std::string AudioOutput::maintain(Clock::time_point now) {
+    if (settings_.device.empty()) return {};
+    if (hasGone(now)) {
+        stopDevice();
+        if (auto error = openDevice(); !error.empty()) return error;
+        ++losses_;
+        seenAt_ = now;
+    }
+    if (std::min(largestBlock_.load(), limits::maxBlockFrames) > block_) { // L has to cover the new block
+        found_.device->stop();
+        found_.device->start(this);
+    }
+    return unfelt();
+}
+
+// Some drivers say so; JUCE's ALSA thread just ends.
+bool AudioOutput::hasGone(Clock::time_point now) {
+    if (!found_.device || !found_.device->isOpen() || !running_) return true;
+    const auto blocks = load_.read().blocks;
+    const bool isIdle = found_.device->getActiveOutputChannels().isZero(); // nothing is connected, so nothing is called for
+    if (blocks != seenBlocks_ || isIdle || seenAt_ == Clock::time_point{}) seenAt_ = now;
+    seenBlocks_ = blocks;
+    return now - seenAt_ > patience;
+}
+
+std::string AudioOutput::unfelt() const {
+    if (map_.unfelt() == 0) return {};
+    return settings_.device + ": " + std::to_string(map_.unfelt()) + " of " + std::to_string(map_.enchanters()) + " enchanters have no output there";
 }
 
 void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     const int rate = juce::roundToInt(device->getCurrentSampleRate());
-    const int block = std::min(device->getCurrentBufferSizeSamples(), limits::maxBlockFrames);
-    if (rate < limits::minSampleRateHz || rate > limits::maxSampleRateHz || block < 1) return; // stays silent
+    const int block = std::min(std::max(device->getCurrentBufferSizeSamples(), largestBlock_.load()), limits::maxBlockFrames);
+    if (!isRate(rate) || block < 1) return; // stays silent
     if (rate_ == 0) session_.prepare(rate, block);
     else if (rate != rate_ || block != block_) session_.resume(rate, block);
     if (auto* recorder = recorder_.load(std::memory_order_relaxed); recorder && recorder->sampleRateHz() != rate) recorder_ = nullptr;
     rate_ = rate;
-    block_ = block;
-    scratch_.assign(static_cast<std::size_t>(session_.channels()), std::vector<float>(static_cast<std::size_t>(block)));
-    scratchAt_.clear();
-    for (auto& channel : scratch_) scratchAt_.push_back(channel.data());
-    mapOutputs(device->getActiveOutputChannels());
+    prepareBuffers(block);
+    map_.place(device->getActiveOutputChannels());
     master_.prepare(rate, fadeInSeconds, 0.0f);
     running_ = true;
 }
 
-// The callback gets the active outputs only, packed together.
-void AudioOutput::mapOutputs(const juce::BigInteger& active) {
-    outputOf_.fill(-1);
-    for (int j = 0; j < session_.channels(); ++j) {
-        const bool isMapped = !settings_.channelMap.empty();
-        if (isMapped && j >= static_cast<int>(settings_.channelMap.size())) continue;
-        const int wanted = isMapped ? settings_.channelMap[static_cast<std::size_t>(j)] : j;
-        if (wanted < 0 || !active[wanted]) continue;
-        int packed = 0;
-        for (int k = 0; k < wanted; ++k) packed += active[k] ? 1 : 0;
-        outputOf_[static_cast<std::size_t>(j)] = packed;
-    }
+void AudioOutput::prepareBuffers(int block) {
+    block_ = block;
+    scratch_.assign(static_cast<std::size_t>(session_.channels()), std::vector<float>(static_cast<std::size_t>(block)));
+    scratchAt_.clear();
+    for (auto& channel : scratch_) scratchAt_.push_back(channel.data());
 }
-
-void AudioOutput::audioDeviceStopped() { running_ = false; }
-void AudioOutput::audioDeviceError(const juce::String&) { running_ = false; }
 
 void AudioOutput::audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outputs, int frames,
                                                    const juce::AudioIODeviceCallbackContext&) {
     for (int k = 0; k < outputs; ++k) juce::FloatVectorOperations::clear(out[k], frames);
-    if (!running_.load(std::memory_order_relaxed)) return;
+    if (frames < 1 || !running_.load(std::memory_order_relaxed)) return;
     const auto start = juce::Time::getHighResolutionTicks();
-    master_.moveTo(silent_.load(std::memory_order_relaxed) ? 0.0f : level_.load(std::memory_order_relaxed));
+    if (frames > largestBlock_.load(std::memory_order_relaxed)) largestBlock_.store(frames, std::memory_order_relaxed);
+    if (silent_.load(std::memory_order_relaxed)) master_.moveTo(0.0f, frames);
+    else master_.moveTo(level_.load(std::memory_order_relaxed));
     for (int done = 0; done < frames; done += block_) renderPart(out, outputs, done, std::min(block_, frames - done));
-    const double taken = juce::Time::highResolutionTicksToSeconds(juce::Time::getHighResolutionTicks() - start);
+    measure(start, frames);
+}
+
+void AudioOutput::renderPart(float* const* out, int outputs, int first, int frames) noexcept {
+    session_.render(scratchAt_.data(), frames, RenderMode::realtime);
+    if (auto* recorder = recorder_.load(std::memory_order_acquire)) recorder->take(scratchAt_.data(), frames);
+    for (int j = 0; j < session_.channels(); ++j) { // the limiter, if on, leaves nothing to cut
+        float* at = scratchAt_[static_cast<std::size_t>(j)];
+        juce::FloatVectorOperations::clip(at, at, -session_.ceiling(j), session_.ceiling(j), frames);
+    }
+    master_.apply(scratchAt_.data(), session_.channels(), frames);
+    for (int j = 0; j < session_.channels(); ++j) {
+        const int k = map_.at(j);
+        if (k >= 0 && k < outputs) juce::FloatVectorOperations::copy(out[k] + first, scratchAt_[static_cast<std::size_t>(j)], frames);
+    }
+}
+
+void AudioOutput::measure(juce::int64 startTicks, int frames) noexcept {
+    const double taken = juce::Time::highResolutionTicksToSeconds(juce::Time::getHighResolutionTicks() - startTicks);
     measured_.last = static_cast<float>(taken * rate_ / frames);
     measured_.worst = std::max(measured_.worst, measured_.last);
     ++measured_.blocks;
     load_.write(measured_);
 }
 
-void AudioOutput::renderPart(float* const* out, int outputs, int first, int frames) noexcept {
-    session_.render(scratchAt_.data(), frames, RenderMode::realtime);
-    if (auto* recorder = recorder_.load(std::memory_order_acquire)) recorder->take(scratchAt_.data(), frames);
-    master_.apply(scratchAt_.data(), session_.channels(), frames);
-    for (int j = 0; j < session_.channels(); ++j) {
-        const int k = outputOf_[static_cast<std::size_t>(j)];
-        if (k >= 0 && k < outputs) juce::FloatVectorOperations::add(out[k] + first, scratchAt_[static_cast<std::size_t>(j)], frames);
-    }
-}
-
 AudioOutputStatus AudioOutput::status() {
     const Load load = load_.read();
     const bool isRunning = running_;
-    return {load.blocks, load.last, load.worst, device_ && isRunning ? device_->getXRunCount() : -1, isRunning};
+    return {load.blocks, load.last, load.worst, found_.device && isRunning ? found_.device->getXRunCount() : -1, isRunning, losses_};
 }
 
-int AudioOutput::deviceLatencyFrames() const { return device_ ? device_->getOutputLatencyInSamples() : 0; }
+int AudioOutput::deviceLatencyFrames() const { return found_.device ? found_.device->getOutputLatencyInSamples() : 0; }
 
 } // namespace physvib

@@ -7,26 +7,21 @@
 #pragma once
 #include "Core/GainRamp.h"
 #include "Core/Limits.h"
+#include "Host/AudioDevices.h"
+#include "Host/OutputMap.h"
 #include "Host/PlayedRecorder.h"
 #include "Host/Session.h"
-#include <array>
 #include <atomic>
-#include <juce_audio_devices/juce_audio_devices.h>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace physvib {
 
-/// One output device of one driver.
-struct AudioDeviceName {
-    std::string type; ///< "ALSA", "JACK", "CoreAudio"...
-    std::string name;
-    int channels = 0; ///< outputs it offers; 0 if it could not be asked
-};
-
-/// All output devices. M; asks the system, which takes a while.
-std::vector<AudioDeviceName> listAudioDevices();
+/// Master level that a session starts at: a quarter of what the amplifier would give, since hands are attached.
+constexpr double safeStartDecibels = -12.0;
+constexpr float safeStartLevel = 0.25118864f; // the same as a gain
 
 /// What is wanted of a device.
 struct AudioOutputSettings {
@@ -34,7 +29,7 @@ struct AudioOutputSettings {
     std::vector<int> channelMap; ///< enchanter j plays on device output channelMap[j], from 0; empty: j on j
     int sampleRateHz = 0;        ///< 0: as the device stands
     int blockFrames = 0;         ///< 0: as the device stands
-    float level = 1.0f;          ///< master gain, reached in a ramp
+    float level = safeStartLevel; ///< master gain, 0 to 1, reached in a ramp
 };
 
 /// A moment of the output, for people.
@@ -44,12 +39,18 @@ struct AudioOutputStatus {
     float worstLoad = 0.0f;
     int deviceXruns = 0;     ///< as the device counts them; -1: it does not
     bool isRunning = false;
+    int losses = 0;          ///< times the device had to be opened again
 };
 
 class AudioOutput final : private juce::AudioIODeviceCallback {
 public:
-    /// `session` outlives the output. M.
-    explicit AudioOutput(Session& session);
+    using Clock = std::chrono::steady_clock;
+
+    /// A device that calls for no block for this long has gone; the longest block lasts 1.6 s (8192 frames at 5 kHz).
+    static constexpr std::chrono::seconds patience{2};
+
+    /// `session` outlives the output; `types` is where devices are looked for. M.
+    explicit AudioOutput(Session& session, AudioDeviceTypes types = systemAudioDeviceTypes);
     ~AudioOutput() override;
 
     /// Opens that device and no other; empty, or one line with the reason. The session is prepared by the first
@@ -59,12 +60,13 @@ public:
     /// Stops and closes; what is left of the session stays. M.
     void close();
 
-    /// Tries to get back a device that has gone; empty while all is well, else what is missing. M, now and then.
-    std::string maintain();
+    /// Tries to get back a device that has gone, follows one that has changed its block; empty while all is well, else
+    /// what is missing. M, about once a second.
+    std::string maintain(Clock::time_point now = Clock::now());
 
-    /// Silent within a block, back within limits::channelRampSeconds. Any thread, wait-free.
+    /// Silent within a block, back in a ramp. Any thread, wait-free.
     void setSilent(bool silent) noexcept { silent_.store(silent, std::memory_order_relaxed); }
-    void setLevel(float level) noexcept { level_.store(level, std::memory_order_relaxed); }
+    void setLevel(float level) noexcept { level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed); }
 
     /// From now on `recorder` takes all that is played, until the output is closed, or comes back at another rate: a
     /// file has one rate, so it ends there. M, once.
@@ -81,12 +83,17 @@ private:
     void audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outputs, int frames,
                                           const juce::AudioIODeviceCallbackContext&) override;
     void audioDeviceAboutToStart(juce::AudioIODevice* device) override;
-    void audioDeviceStopped() override;
-    void audioDeviceError(const juce::String& message) override;
+    void audioDeviceStopped() override { running_ = false; }
+    void audioDeviceError(const juce::String&) override { running_ = false; }
 
     std::string openDevice();
-    void mapOutputs(const juce::BigInteger& active);
+    std::string startDevice();
+    void stopDevice();
+    bool hasGone(Clock::time_point now);
+    std::string unfelt() const;
+    void prepareBuffers(int block);
     void renderPart(float* const* out, int outputs, int first, int frames) noexcept;
+    void measure(juce::int64 startTicks, int frames) noexcept;
 
     struct Load {
         std::uint64_t blocks = 0;
@@ -94,17 +101,23 @@ private:
     };
 
     Session& session_;
+    AudioDeviceTypes types_;
     AudioOutputSettings settings_;
-    std::unique_ptr<juce::AudioIODeviceType> type_;
-    std::unique_ptr<juce::AudioIODevice> device_;
+    FoundDevice found_;
     std::atomic<bool> running_{false}, silent_{false};
-    std::atomic<float> level_{1.0f};
+    std::atomic<float> level_{0.0f};
+    std::atomic<int> largestBlock_{0}; // that the device has asked for
     std::atomic<PlayedRecorder*> recorder_{nullptr};
     LatestValue<Load> load_;
 
+    // M
+    int losses_ = 0;
+    std::uint64_t seenBlocks_ = 0;
+    Clock::time_point seenAt_;
+
     // R, set while the device is stopped
     int rate_ = 0, block_ = 0;
-    std::array<int, limits::maxEnchanters> outputOf_{}; // callback channel of an enchanter; -1: none
+    OutputMap map_;
     std::vector<std::vector<float>> scratch_;
     std::vector<float*> scratchAt_;
     GainRamp master_;

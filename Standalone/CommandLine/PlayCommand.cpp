@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Session, driver, device and recorder for the length of a call.
 #include "CommandLine/PlayCommand.h"
+#include "CommandLine/NumberList.h"
 #include "CommandLine/RenderJob.h"
 #include "Files/AtomicFile.h"
 #include "Host/AudioOutput.h"
 #include "Host/PlayedRecorder.h"
 #include "Host/SimulationDriver.h"
 #include <CLI/CLI.hpp>
-#include <charconv>
+#include <algorithm>
 #include <csignal>
 #include <iomanip>
 #include <optional>
@@ -16,18 +17,29 @@ namespace physvib {
 
 namespace {
 
+constexpr double lowestCeilingDecibels = -60.0; // lower is a mute by another name
+
 volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int) { interrupted = 1; }
 
-/// "1,2,3" to {0, 1, 2}; false if it is anything else.
+/// "1,2,3" to {0, 1, 2}; empty means an empty map. False if it is anything else.
 bool parseMap(const std::string& text, std::vector<int>& map) {
-    for (const char *at = text.data(), *end = at + text.size(); at < end; ++at) {
-        int output = 0;
-        const auto [stop, error] = std::from_chars(at, end, output);
-        if (error != std::errc{} || output < 1 || (stop != end && (*stop != ',' || stop + 1 == end))) return false;
-        map.push_back(output - 1);
-        at = stop;
-    }
+    if (text.empty()) return true;
+    if (!parseNumbers(text, map) || *std::min_element(map.begin(), map.end()) < 1) return false;
+    for (int& output : map) --output;
+    return true;
+}
+
+float gainOf(double decibels) { return static_cast<float>(std::pow(10.0, decibels / 20.0)); }
+
+/// "-6" for all channels, or "-6,-12,-6,-6", one each; false if it is anything else.
+bool parseCeilings(const std::string& text, int channels, std::array<float, limits::maxEnchanters>& ceilings) {
+    std::vector<double> decibels;
+    if (!parseNumbers(text, decibels)) return false;
+    if (decibels.size() == 1) decibels.resize(static_cast<std::size_t>(channels), decibels[0]);
+    const auto isCeiling = [](double dB) { return dB >= lowestCeilingDecibels && dB <= 0.0; };
+    if (decibels.size() != static_cast<std::size_t>(channels) || !std::all_of(decibels.begin(), decibels.end(), isCeiling)) return false;
+    std::transform(decibels.begin(), decibels.end(), ceilings.begin(), gainOf);
     return true;
 }
 
@@ -88,11 +100,12 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
               << " ms after the contact; " << played << " collisions played, " << r.late << " late, " << session.drops() + r.untold
               << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.slippedNs()) * 1e-6 << " ms of stalls; worst load "
               << 100 * o.worstLoad << " %, " << o.deviceXruns << " xruns of the device\n";
+    if (o.losses > 0) std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
 }
 
-std::string play(const PlayOptions& o, const RenderJob& job, const AudioOutputSettings& settings) {
+std::string play(const PlayOptions& o, const RenderJob& job, const SessionSetup& setup, const AudioOutputSettings& settings) {
     const juce::ScopedJuceInitialiser_GUI juce; // the message loop
-    Session session{setupOf(o, job)};
+    Session session{setup};
     std::unique_ptr<PlayedRecorder> recorder; // outlives the output, whose callback fills it
     AudioOutput output{session};
     if (auto error = output.open(settings); !error.empty()) return error;
@@ -129,6 +142,8 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     command.add_option("--map", o.map, "device outputs of the enchanters, from 1")->type_name("1,2,3,4");
     command.add_option("--driver", o.driver, "who steps the world: message or thread")->check(CLI::IsMember({"message", "thread"}))->capture_default_str();
     command.add_option("--level", o.levelDb, "master level in dB")->check(CLI::Range(-90.0, 0.0))->capture_default_str();
+    command.add_option("--ceiling", o.ceilings, "drive ceiling in dB of full scale, before the master level: one for all, or one per enchanter")
+        ->type_name("DB[,DB...]")->capture_default_str();
     command.add_option("--block", o.blockFrames, "frames per block; 0: as the device stands")->check(CLI::Range(0, limits::maxBlockFrames));
     command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav");
 }
@@ -141,9 +156,13 @@ int runPlay(PlayOptions& o) {
     auto layout = layoutNamed(o.scene.layout);
     if (!layout) return leave(exitFailed, layout.error);
     job.layout = std::move(layout.value);
-    AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, static_cast<float>(std::pow(10.0, o.levelDb / 20.0))};
+    AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
     if (!parseMap(o.map, settings.channelMap)) return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
-    const std::string error = play(o, job, settings);
+    SessionSetup setup = setupOf(o, job);
+    if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
+        return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (" + std::to_string(setup.channels) + "), found \"" +
+                                    o.ceilings + "\"");
+    const std::string error = play(o, job, setup, settings);
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 

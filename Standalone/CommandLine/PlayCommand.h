@@ -2,6 +2,7 @@
 // `physvib play`: a scene felt live on an audio device, without a window; `physvib devices`: where that can be.
 #pragma once
 #include "CommandLine/RenderOptions.h"
+#include "Host/AudioOutput.h"
 #include <string>
 
 namespace physvib {
@@ -13,7 +14,8 @@ struct PlayOptions {
     std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
     std::string driver = "message"; ///< or "thread"
     std::string recordPath;         ///< WAV of what was played; empty: not wanted
-    double levelDb = -12.0;         ///< master level: hands are attached, so it starts low
+    double levelDb = safeStartDecibels; ///< master level
+    std::string ceilings = "0";     ///< dB of full scale: one for all enchanters, or one each
     int blockFrames = 0;            ///< 0: as the device stands
 };
 

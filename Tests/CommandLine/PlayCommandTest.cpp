@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib play` where there is no device: what it refuses before hands could feel it.
+#include "Calls.h"
+
+namespace physvib {
+namespace {
+
+using PlayCommand = test::CommandLine;
+
+TEST_F(PlayCommand, ADeviceThatIsNotThereIsAFailureAndNothingElseIsPlayedOn) {
+    refuses("play drop --device Nowhere --record a.wav", 1, "Nowhere: no such device (see physvib devices); nothing else is played on");
+}
+
+TEST_F(PlayCommand, CeilingsAreOneForAllOrOneForEach) {
+    const std::string found = "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (4), found ";
+    for (const char* ceilings : {"3", "-61", "-6,-6,-6", "-6,-6,-6,-6,-6", "-6,,-6,-6", "-6dB", "-6,-6,-6,", "nan", "-inf"})
+        refuses(std::string{"play drop --device Nowhere --ceiling="} + ceilings, 2, found + "\"" + ceilings + "\"");
+    for (const char* ceilings : {"-6", "-6,-12,0,-60", "-0.5"})
+        refuses(std::string{"play drop --device Nowhere --ceiling "} + ceilings, 1, "no such device");
+}
+
+TEST_F(PlayCommand, AMapNamesEachOutputOnce) {
+    for (const char* map : {"0,1", "1,2,", "1:2", "a"})
+        refuses(std::string{"play drop --device Nowhere --map "} + map, 2, "--map: expected outputs like 1,2,3,4");
+    refuses("play drop --device Nowhere --map 1,2,2", 1, "output 2 is given to two enchanters; expected one each");
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// AudioOutput on interfaces that vanish, change and misbehave: no other device, no loud moment, no event missing.
+#include "Host/AudioOutput.h"
+#include "FakeAudioDevice.h"
+#include "FakeHost.h"
+#include "Physics/SceneRun.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using namespace std::chrono_literals;
+
+constexpr int hands = 8; // enchanters of these sessions
+
+PhantomPanner pannerOn(const char* layout, const Scene& scene) {
+    EnchanterLayout places;
+    layoutPreset(layout, places);
+    return {places, PanningLaw::linear, 1, scene.fieldWidthMetres, scene.fieldHeightMetres};
+}
+
+SessionSetup eightHands() {
+    auto s = shakeTheBoxSetup(0.02);
+    s.channels = hands;
+    return s;
+}
+
+float loudest(const std::vector<float>& samples) {
+    float most = 0;
+    for (const float x : samples) most = std::max(most, std::abs(x));
+    return most;
+}
+
+/// A session on fake interfaces, its driver, and its log. The interface's thread is the test's.
+struct Rig {
+    explicit Rig(const SessionSetup& wanted = eightHands())
+        : setup{wanted} {
+        speakers.name = "speakers";
+    }
+    std::string open(std::vector<int> map = {}, float level = 1.0f) { return output.open({"hands", std::move(map), 0, 0, level}); }
+
+    /// Blocks of `frames`, `seconds` long; what came out, per connected output.
+    std::vector<std::vector<float>> play(double seconds, int frames) {
+        std::vector<std::vector<float>> all;
+        for (int left = static_cast<int>(seconds * interface.rate); left > 0; left -= frames) {
+            session.advance();
+            const auto block = interface.play(frames);
+            all.resize(block.size());
+            for (std::size_t k = 0; k < block.size(); ++k) all[k].insert(all[k].end(), block[k].begin(), block[k].end());
+            for (const auto& e : drain(session)) log.push_back(e);
+        }
+        return all;
+    }
+    void expectTheLogIsWhole() {
+        ASSERT_GT(log.size(), 10u);
+        EXPECT_TRUE(log == runScene(setup.scene, {setup.seed, setup.stepsPerSecond}, log.back().timeNs + 1).events);
+        EXPECT_EQ(session.status().render.untold + session.status().render.rejected + session.drops(), 0u);
+    }
+
+    FakeInterface interface, speakers;
+    SessionSetup setup;
+    Session session{setup};
+    AudioOutput output{session, fakeTypes({&speakers, &interface})};
+    std::vector<CollisionEvent> log;
+};
+
+TEST(AudioOutput, OpensTheDeviceThatIsNamedAndNoOther) {
+    Rig rig;
+    EXPECT_EQ(rig.output.open({"feet"}), "feet: no such device (see physvib devices); nothing else is played on");
+    EXPECT_EQ(rig.output.open({"Other:hands"}).substr(0, 11), "Other:hands");
+    EXPECT_EQ(rig.interface.timesOpened + rig.speakers.timesOpened, 0);
+    EXPECT_EQ(rig.output.open({"Fake:hands"}), "");
+    EXPECT_EQ(rig.interface.timesOpened, 1);
+    EXPECT_EQ(rig.speakers.timesOpened, 0);
+}
+
+TEST(AudioOutput, AnotherDriverWithADeviceOfThatNameIsAnotherDevice) {
+    FakeInterface ours, theirs;
+    Session session{eightHands()};
+    AudioOutput output{session, [&] {
+        auto types = fakeTypes({&ours}, "Ours")();
+        types.push_back(std::move(fakeTypes({&theirs}, "Theirs")().front()));
+        return types;
+    }};
+    ASSERT_EQ(output.open({"hands"}), "");
+    ours.unplug(true);
+    EXPECT_NE(output.maintain(), "");
+    EXPECT_EQ(theirs.timesOpened, 0);
+}
+
+TEST(AudioOutput, ALostDeviceMeansSilenceAMessageAndNoOtherDeviceAndNothingMissingAfterwards) {
+    for (const bool tells : {true, false}) {
+        Rig rig;
+        ASSERT_EQ(rig.open(), "");
+        rig.play(3.0, 64);
+        rig.interface.unplug(tells);
+        if (tells) {
+            for (const auto& channel : rig.interface.play(64)) EXPECT_EQ(loudest(channel), 0.0f) << "after an error";
+        }
+        auto now = AudioOutput::Clock::now();
+        rig.output.maintain(now); // whoever says nothing is found out by his silence
+        const std::string gone = "Fake:hands: no such device (see physvib devices); nothing else is played on";
+        EXPECT_EQ(rig.output.maintain(now += 3s), gone);
+        EXPECT_EQ(rig.output.maintain(now += 1s), gone);
+        EXPECT_FALSE(rig.output.status().isRunning);
+        EXPECT_EQ(rig.session.advance(), 0) << "without a device time stands still";
+        rig.interface.isPlugged = true;
+        rig.interface.opens = false;
+        EXPECT_EQ(rig.output.maintain(now += 1s), "Fake:hands: busy");
+        rig.interface.opens = true;
+        EXPECT_EQ(rig.output.maintain(now += 1s), "");
+        EXPECT_EQ(rig.output.status().losses, 1);
+        rig.play(3.0, 64);
+        EXPECT_EQ(rig.speakers.timesOpened, 0);
+        EXPECT_EQ(rig.session.status().render.late, 0u);
+        rig.expectTheLogIsWhole();
+    }
+}
+
+TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
+    auto setup = eightHands();
+    for (std::size_t j = 0; j < hands; ++j) setup.ceilings[j] = 0.02f + 0.01f * static_cast<float>(j);
+    for (const bool limits : {true, false}) {
+        setup.limiterEnabled = limits;
+        Rig rig{setup};
+        std::array<float, hands> most{};
+        for (const auto& [rate, block, layout] : {std::tuple{44100.0, 32, "phone1"}, {96000.0, 2048, "phone4"}, {48000.0, 512, "ring3"},
+                                                  {44100.0, 2048, "phone2"}, {192000.0, 32, "phone4"}}) {
+            rig.interface.unplug(true);
+            rig.interface.isPlugged = true;
+            rig.interface.rate = rate;
+            rig.interface.block = block;
+            ASSERT_EQ(rig.output.status().blocks == 0 ? rig.open() : rig.output.maintain(), "");
+            EXPECT_EQ(rig.output.sampleRateHz(), static_cast<int>(rate));
+            EXPECT_GE(rig.session.post({.kind = RenderControl::Kind::panner, .panner = pannerOn(layout, setup.scene)}), 0);
+            const auto out = rig.play(4.0, block);
+            for (std::size_t k = 0; k < hands; ++k) most[k] = std::max(most[k], loudest(out[k]));
+        }
+        for (std::size_t k = 0; k < hands; ++k) EXPECT_LE(most[k], setup.ceilings[k]) << k;
+        for (std::size_t k = 0; k < 4; ++k) EXPECT_GT(most[k], 0.9f * setup.ceilings[k]) << "loud enough for a test";
+        EXPECT_EQ(rig.session.status().render.late, 0u);
+        rig.expectTheLogIsWhole();
+    }
+}
+
+TEST(AudioOutput, BlocksNeverAnnouncedAreCutInPartsAndThenCoveredByL) {
+    Rig rig, announced;
+    announced.interface.block = 2048;
+    ASSERT_EQ(rig.open(), "");
+    ASSERT_EQ(announced.open(), "");
+    const auto L = rig.session.playOutFrames();
+    EXPECT_NE(rig.play(0.1, 20'000), std::vector<std::vector<float>>{});
+    EXPECT_EQ(rig.output.maintain(), "");
+    EXPECT_EQ(rig.session.playOutFrames(), L + limits::maxBlockFrames - 64);
+    const int timesOpened = rig.interface.timesOpened;
+    rig.play(10.0, 8192);
+    EXPECT_EQ(rig.output.maintain(), "");
+    EXPECT_EQ(rig.session.status().render.late, 0u);
+    EXPECT_EQ(rig.interface.timesOpened, timesOpened) << "followed without opening again";
+    rig.expectTheLogIsWhole();
+}
+
+TEST(AudioOutput, OutputsThatAreMissingAreToldAndTheOthersPlayAsEver) {
+    Rig rig, whole;
+    rig.interface.outputs = 2;
+    ASSERT_EQ(rig.open(), "");
+    ASSERT_EQ(whole.open(), "");
+    EXPECT_EQ(rig.output.maintain(), "Fake:hands: 6 of 8 enchanters have no output there");
+    EXPECT_EQ(whole.output.maintain(), "");
+    const auto few = rig.play(8.0, 64), all = whole.play(8.0, 64);
+    ASSERT_EQ(few.size(), 2u);
+    EXPECT_GT(loudest(few[0]), 0.01f);
+    EXPECT_TRUE(few[0] == all[0] && few[1] == all[1]);
+}
+
+TEST(AudioOutput, EnchantersGoWhereTheMapSaysThoughUnconnectedOutputsAreLeftOut) {
+    Rig rig, plain;
+    rig.interface.unconnected = {1, 6};
+    ASSERT_EQ(rig.open({7, 1, 3, 2}), ""); // enchanter 1 on output 8, ... ; outputs 2 and 7 are not connected
+    ASSERT_EQ(plain.open(), "");
+    EXPECT_EQ(rig.interface.opened.toInteger(), 0b10001110) << "no output is opened that nobody wants";
+    EXPECT_EQ(rig.output.maintain(), "Fake:hands: 5 of 8 enchanters have no output there");
+    const auto mapped = rig.play(8.0, 64), all = plain.play(8.0, 64);
+    ASSERT_EQ(mapped.size(), 3u); // outputs 3, 4, 8
+    EXPECT_TRUE(mapped[0] == all[3] && mapped[1] == all[2] && mapped[2] == all[0]);
+    EXPECT_GT(loudest(all[0]), 0.01f);
+}
+
+TEST(AudioOutput, TwoEnchantersOnOneOutputAreRefused) {
+    Rig rig;
+    EXPECT_EQ(rig.open({0, 2, 2}), "output 3 is given to two enchanters; expected one each");
+    EXPECT_EQ(rig.open({100}), "hands: has none of the outputs that are wanted");
+    EXPECT_FALSE(rig.output.status().isRunning);
+}
+
+TEST(AudioOutput, RatesOutsideTheLimitsStaySilentAndAreTold) {
+    Rig rig;
+    rig.interface.rate = 384000;
+    EXPECT_EQ(rig.open(), "hands: runs at 384000 Hz; expected 5000 to 192000");
+    EXPECT_TRUE(rig.interface.play(64).empty());
+}
+
+// Each of these plays the same session twice: as it is, and through the output under test.
+TEST(AudioOutput, ADeviceThatComesBackIsFadedInWithinFiveMilliseconds) {
+    Rig rig, steady;
+    ASSERT_EQ(rig.open({}, 0.5f), "");
+    ASSERT_EQ(steady.open(), "");
+    rig.play(3.0, 64);
+    steady.play(3.0, 64);
+    rig.interface.unplug(true);
+    rig.interface.isPlugged = true;
+    ASSERT_EQ(rig.output.maintain(), "");
+    const auto out = rig.play(0.05, 64), expected = steady.play(0.05, 64);
+    ASSERT_GT(loudest(expected[0]), 0.001f);
+    for (std::size_t n = 0; n < out[0].size(); ++n)
+        EXPECT_NEAR(out[0][n], expected[0][n] * std::min(0.5f, static_cast<float>(n + 1) / (0.005f * hostRate)), 1e-6f) << n;
+}
+
+TEST(AudioOutput, TheSilenceSwitchActsWithinABlockAndComesBackInARamp) {
+    for (const int block : {1, 32, 2048}) {
+        Rig rig, steady;
+        ASSERT_EQ(rig.open(), "");
+        ASSERT_EQ(steady.open(), "");
+        rig.play(3.0, 64);
+        steady.play(3.0, 64);
+        rig.output.setSilent(true);
+        const auto last = rig.play(1.0 / hostRate, block);
+        EXPECT_EQ(last[0].back(), 0.0f) << block;
+        for (const auto& channel : rig.play(1.0, block)) EXPECT_EQ(loudest(channel), 0.0f) << block;
+        steady.play(1.0 / hostRate, block);
+        steady.play(1.0, block);
+        rig.output.setSilent(false);
+        const auto out = rig.play(0.5, block), expected = steady.play(0.5, block);
+        for (std::size_t n = 0; n < out[0].size(); ++n)
+            EXPECT_NEAR(out[0][n], expected[0][n] * std::min(1.0f, static_cast<float>(n + 1) / (0.005f * hostRate)), 1e-6f) << n;
+    }
+}
+
+TEST(AudioOutput, LevelsStartLowAndNeverExceedOne) {
+    EXPECT_FLOAT_EQ(AudioOutputSettings{}.level, static_cast<float>(std::pow(10.0, safeStartDecibels / 20.0)));
+    Rig rig, loud;
+    ASSERT_EQ(rig.open(), "");
+    ASSERT_EQ(loud.open({}, 40.0f), "");
+    EXPECT_TRUE(rig.play(3.0, 64) == loud.play(3.0, 64));
+    loud.output.setLevel(std::nanf(""));
+    loud.play(1.0, 64);
+    for (const auto& channel : loud.play(1.0, 64)) EXPECT_EQ(loudest(channel), 0.0f);
+}
+
+// For the thread sanitizer: the interface has a thread of its own, the driver too, and M pulls the plug.
+TEST(AudioOutput, PlugsArePulledWhileTheDevicePlays) {
+    Rig rig;
+    ASSERT_EQ(rig.open(), "");
+    std::atomic<bool> stop{false};
+    std::atomic<int> blocks{0};
+    std::thread device{[&] {
+        while (!stop) {
+            blocks += rig.interface.play(64).empty() ? 0 : 1;
+            std::this_thread::sleep_for(100us);
+        }
+    }};
+    std::thread driver{[&] {
+        while (!stop) {
+            rig.session.advance();
+            std::this_thread::sleep_for(1ms);
+        }
+    }};
+    for (int i = 0; i < 30; ++i) {
+        for (const int before = blocks; blocks < before + 20;) std::this_thread::sleep_for(1ms);
+        rig.output.setSilent(i % 3 == 0);
+        if (i % 2 == 0) {
+            const std::lock_guard lock{rig.interface.mutex};
+            rig.interface.unplug(true);
+        }
+        rig.interface.isPlugged = true;
+        EXPECT_EQ(rig.output.maintain(), "");
+        for (const auto& e : drain(rig.session)) rig.log.push_back(e);
+    }
+    stop = true;
+    device.join();
+    driver.join();
+    EXPECT_EQ(rig.output.status().losses, 15);
+    EXPECT_EQ(rig.speakers.timesOpened, 0);
+}
+
+} // namespace
+} // namespace physvib
