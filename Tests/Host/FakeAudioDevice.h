@@ -17,7 +17,8 @@ struct FakeInterface {
     double rate = 48000;
     int block = 64, outputs = 8;
     std::vector<int> unconnected; ///< outputs that the callback does not get
-    int timesOpened = 0;
+    int withheld = 0; ///< outputs that the callback does not get although they are active
+    int timesOpened = 0, timesStarted = 0;
     juce::BigInteger opened;
     FakeDevice* device = nullptr;
     std::mutex mutex; // as JUCE's drivers: held during a callback and while the callback changes
@@ -58,6 +59,7 @@ public:
     }
     bool isOpen() override { return thing_.device == this; }
     void start(juce::AudioIODeviceCallback* callback) override {
+        ++thing_.timesStarted;
         callback->audioDeviceAboutToStart(this);
         const std::lock_guard lock{thing_.mutex};
         callback_ = callback;
@@ -93,7 +95,7 @@ private:
 inline std::vector<std::vector<float>> FakeInterface::play(int frames) {
     const std::lock_guard lock{mutex};
     if (device == nullptr || device->callback() == nullptr) return {};
-    const auto count = static_cast<std::size_t>(device->getActiveOutputChannels().countNumberOfSetBits());
+    const auto count = static_cast<std::size_t>(device->getActiveOutputChannels().countNumberOfSetBits() - withheld);
     std::vector<std::vector<float>> out(count, std::vector<float>(static_cast<std::size_t>(frames), untouched));
     std::vector<float*> at;
     for (auto& channel : out) at.push_back(channel.data());

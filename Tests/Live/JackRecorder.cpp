@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A JACK client that records the outputs of `physvib`, from the moment they appear, as raw interleaved floats.
+// A JACK client that records the outputs of `physvib`, from the moment they appear, as raw interleaved floats, and
+// counts the server's xruns meanwhile (a line on stdout).
 // Usage: physvib-jack-recorder FILE CHANNELS SECONDS
 #include <atomic>
 #include <chrono>
@@ -18,6 +19,7 @@ struct Recorder {
     std::vector<float> samples; // preallocated: the process callback only copies
     std::atomic<std::size_t> used{0};
     std::atomic<bool> connected{false};
+    std::atomic<int> xruns{0};
 
     int process(jack_nframes_t frames) {
         if (!connected) return 0;
@@ -30,6 +32,10 @@ struct Recorder {
             ++channel;
         }
         used = at + frames * ports.size();
+        return 0;
+    }
+    int countXrun() {
+        if (connected) ++xruns;
         return 0;
     }
     bool connect() {
@@ -56,6 +62,7 @@ int main(int argc, char** argv) {
         recorder.ports.push_back(jack_port_register(recorder.client, ("in_" + std::to_string(j + 1)).c_str(), JACK_DEFAULT_AUDIO_TYPE, JackPortIsInput, 0));
     recorder.samples.resize(static_cast<std::size_t>(seconds * rate) * static_cast<std::size_t>(channels));
     jack_set_process_callback(recorder.client, [](jack_nframes_t frames, void* self) { return static_cast<Recorder*>(self)->process(frames); }, &recorder);
+    jack_set_xrun_callback(recorder.client, [](void* self) { return static_cast<Recorder*>(self)->countXrun(); }, &recorder);
     jack_activate(recorder.client);
     std::puts("ready");
     std::fflush(stdout);
@@ -64,6 +71,7 @@ int main(int argc, char** argv) {
     recorder.connected = true;
     while (recorder.used + 8192 * recorder.ports.size() < recorder.samples.size()) pause();
     jack_deactivate(recorder.client);
+    std::printf("xruns %d\n", recorder.xruns.load());
     std::FILE* file = std::fopen(argv[1], "wb");
     if (file == nullptr) return 1;
     const bool written = std::fwrite(recorder.samples.data(), sizeof(float), recorder.used, file) == recorder.used;

@@ -1,11 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Plays shake-the-box live into a JACK server of its own and records it with a JACK client; passes if nothing was late
-# or lost and both recordings, the client's and the program's own, are the rendered file to the bit, after an integer
-# alignment. (The client's is left out if the server itself had xruns.)
-# Usage: live.sh PHYSVIB RECORDER SECONDS message|thread BLOCK_FRAMES [jackd options, e.g. -S (default) or -s]
+# or lost, the program's own recording is the rendered file to the bit after an integer alignment, and so is the
+# client's, but for breaks of which there are no more than the server reports xruns.
+# Usage: live.sh BIN_FOLDER SECONDS message|thread BLOCK_FRAMES [jackd mode: -S, synchronous (default), or -s]
 set -eu
-physvib=$1 recorder=$2 seconds=$3 driver=$4 block=$5 mode=${6:--S}
+bin=$1 seconds=$2 driver=$3 block=$4 mode=${5:--S}
+physvib=$bin/physvib
 folder=$(mktemp -d)
 export HOME="$folder" JACK_DEFAULT_SERVER="physvib-$$" JACK_NO_AUDIO_RESERVATION=1
 unset DISPLAY || true
@@ -22,7 +23,7 @@ stop() {
 trap stop EXIT
 jack_wait -w -t 20 >/dev/null 2>&1
 
-"$recorder" "$folder/live.raw" 4 "$seconds" >"$folder/ready" &
+"$bin/physvib-jack-recorder" "$folder/live.raw" 4 "$seconds" >"$folder/ready" &
 recording=$!
 for _ in $(seq 100); do grep -q ready "$folder/ready" && break; sleep 0.1; done
 "$physvib" play shake-the-box --device JACK:system --driver "$driver" --steps-per-second "$steps" --level 0 \
@@ -37,20 +38,12 @@ raw "$folder/own.wav" >"$folder/own.raw"
 
 # First byte that is not zero, as a frame of four floats; the renders start with the same sound.
 first() { echo $(($(cmp "$1" /dev/zero | sed 's/.*: [a-z]* \([0-9]*\),.*/\1/' ) / 16)); }
-agree() {
-    offset=$(($(first "$1") - $(first "$folder/render.raw")))
-    frames=$(($(stat -c %s "$1") / 16 - offset))
-    longest=$(($(stat -c %s "$folder/render.raw") / 16))
-    [ "$frames" -gt "$longest" ] && frames=$longest
-    [ "$frames" -gt $((48000 * (seconds - 1))) ] || { echo "only $frames frames recorded"; return 1; }
-    tail -c +$((offset * 16 + 1)) "$1" | cmp -n $((frames * 16)) - "$folder/render.raw"
-    echo "$2: $frames frames bit-equal to the render, $offset frames later"
-}
-agree "$folder/own.raw" "own recording"
-xruns=$(sed -n 's/.*, \(-*[0-9]*\) xruns of the device/\1/p' "$folder/report")
-if [ "$xruns" = 0 ]; then
-    agree "$folder/live.raw" "JACK client"
-else # blocks that the server itself skipped are in no recording of its clients
-    echo "JACK client: not compared, the server had $xruns xruns"
-fi
+offset=$(($(first "$folder/own.raw") - $(first "$folder/render.raw")))
+frames=$(($(stat -c %s "$folder/own.raw") / 16 - offset))
+longest=$(($(stat -c %s "$folder/render.raw") / 16))
+[ "$frames" -gt "$longest" ] && frames=$longest
+[ "$frames" -gt $((48000 * (seconds - 1))) ] || { echo "only $frames frames recorded"; exit 1; }
+tail -c +$((offset * 16 + 1)) "$folder/own.raw" | cmp -n $((frames * 16)) - "$folder/render.raw"
+echo "own recording: $frames frames bit-equal to the render, $offset frames later"
+"$bin/physvib-compare-recording" "$folder/live.raw" "$folder/render.raw" 4 "$block" "$(sed -n 's/xruns //p' "$folder/ready")"
 grep -q " 0 late, 0 dropped, 0 refused" "$folder/report"

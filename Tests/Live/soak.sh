@@ -9,4 +9,4 @@ for _ in $(seq "$(nproc)"); do
     load="${load:-} $!"
 done
 trap 'kill $load 2>/dev/null' EXIT
-Tests/Live/live.sh "$PWD/build/release/bin/physvib" "$PWD/build/release/bin/physvib-jack-recorder" "${1:-600}" "${2:-message}" "${3:-512}" "${4:--S}"
+Tests/Live/live.sh "$PWD/build/release/bin" "${1:-600}" "${2:-message}" "${3:-512}" "${4:--S}"
