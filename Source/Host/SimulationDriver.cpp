@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Timer and thread.
 #include "Host/SimulationDriver.h"
-#include <chrono>
+#include <thread>
 
 namespace physvib {
 
@@ -11,19 +11,18 @@ MessageTimerDriver::MessageTimerDriver(Session& session)
 }
 
 ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond)
-    : session_{session}
-    , thread_{[this, stepsPerSecond] { run(stepsPerSecond); }} {}
-
-ThreadDriver::~ThreadDriver() {
-    stop_ = true;
-    thread_.join();
+    : juce::Thread{"PhysVib driver"}
+    , session_{session}
+    , step_{1'000'000'000 / stepsPerSecond} {
+    if (!startRealtimeThread({})) startThread(Priority::highest); // few users are allowed the first
 }
 
-void ThreadDriver::run(int stepsPerSecond) {
+ThreadDriver::~ThreadDriver() { stopThread(-1); }
+
+void ThreadDriver::run() {
     using Clock = std::chrono::steady_clock;
-    const std::chrono::nanoseconds step{1'000'000'000 / stepsPerSecond};
-    for (auto deadline = Clock::now(); !stop_; deadline += step) {
-        if (const auto now = Clock::now(); now > deadline + 10 * step) deadline = now; // after a stall: no burst of ticks
+    for (auto deadline = Clock::now(); !threadShouldExit(); deadline += step_) {
+        if (const auto now = Clock::now(); now > deadline + 10 * step_) deadline = now; // after a stall: no burst of ticks
         std::this_thread::sleep_until(deadline);
         session_.advance();
     }

@@ -2,9 +2,8 @@
 // Who steps a live session's world: the message thread's timer, or a thread of its own.
 #pragma once
 #include "Host/Session.h"
-#include <atomic>
+#include <chrono>
 #include <juce_events/juce_events.h>
-#include <thread>
 
 namespace physvib {
 
@@ -25,18 +24,18 @@ private:
     Session& session_;
 };
 
-/// A thread with absolute deadlines, one per step, so that lateness does not add up (driverThreadGapSeconds).
-class ThreadDriver final : public SimulationDriver {
+/// A thread with absolute deadlines, one per step, so that lateness does not add up (driverThreadGapSeconds). It runs at
+/// realtime priority where the system lets it: on a loaded machine an ordinary thread comes late now and then.
+class ThreadDriver final : public SimulationDriver, private juce::Thread {
 public:
     /// `stepsPerSecond` up to 1000.
     ThreadDriver(Session& session, int stepsPerSecond);
     ~ThreadDriver() override;
 
 private:
-    void run(int stepsPerSecond);
+    void run() override;
     Session& session_;
-    std::atomic<bool> stop_{false};
-    std::thread thread_;
+    const std::chrono::nanoseconds step_;
 };
 
 } // namespace physvib
