@@ -33,18 +33,18 @@ int main(int argc, char** argv) {
     const Recording recording = read(argv[1], channels), render = read(argv[2], channels);
     const auto result = RecordingRuns{recording, render, block}.compare();
     if (!result.isAligned) {
-        std::puts("JACK client: no block of the recording is found in the render");
+        std::puts("recording: no block of the recording is found in the render");
         return 1;
     }
     const auto count = static_cast<int>(result.breaks.size());
-    std::printf("JACK client: %lld of %lld blocks of %d frames bit-equal to the render, %lld frames later, in %d run%s\n",
+    std::printf("recording: %lld of %lld blocks of %d frames bit-equal to the render, %lld frames later, in %d run%s\n",
                 static_cast<long long>(result.equal), static_cast<long long>(result.blocks), block, static_cast<long long>(result.offset),
                 count + 1, count == 0 ? "" : "s");
     if (count > 0 || xruns > 0)
-        std::printf("JACK server: %d xruns; recording: %d breaks, %d blocks skipped, %d too many, %d blank or torn\n", xruns, count,
+        std::printf("recording: %d breaks (%d blocks skipped, %d too many, %d blank or torn); server: %d xruns\n", count,
                     sum(result.breaks, [](const Break& b) { return std::max(b.skipped, 0); }),
-                    sum(result.breaks, [](const Break& b) { return std::max(-b.skipped, 0); }), sum(result.breaks, [](const Break& b) { return b.foreign; }));
+                    sum(result.breaks, [](const Break& b) { return std::max(-b.skipped, 0); }), sum(result.breaks, [](const Break& b) { return b.foreign; }), xruns);
     const bool isExplained = count <= xruns;
-    if (!isExplained) std::puts("JACK client: more breaks than xruns");
+    if (!isExplained) std::puts("recording: more breaks than xruns");
     return isExplained && result.equal > 0 ? 0 : 1;
 }
