@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Events from one thread to another: a wait-free ring for one producer and one consumer; a full ring says so.
 #pragma once
+#include "Core/Nonblocking.h"
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -16,7 +17,7 @@ class EventQueue {
 
 public:
     /// False if the queue is full: the item is not taken and the loss is counted. Producer only, wait-free.
-    bool push(const T& item) noexcept {
+    bool push(const T& item) noexcept PHYSVIB_NONBLOCKING {
         const std::size_t write = write_.load(std::memory_order_relaxed);
         if (write - readSeen_ == Capacity) {
             readSeen_ = read_.load(std::memory_order_acquire);
@@ -31,7 +32,7 @@ public:
     }
 
     /// False if the queue is empty. Consumer only, wait-free.
-    bool pop(T& item) noexcept {
+    bool pop(T& item) noexcept PHYSVIB_NONBLOCKING {
         const std::size_t read = read_.load(std::memory_order_relaxed);
         if (read == writeSeen_) {
             writeSeen_ = write_.load(std::memory_order_acquire);

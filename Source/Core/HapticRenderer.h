@@ -12,6 +12,7 @@
 #include "Core/FrameClock.h"
 #include "Core/LinkedLimiter.h"
 #include "Core/ModeBank.h"
+#include "Core/Nonblocking.h"
 #include "Core/PendingEvents.h"
 #include "Core/PhantomPanner.h"
 #include "Core/RenderControl.h"
@@ -70,7 +71,7 @@ public:
     /// it says false; more than the pending store holds stay there, which is right if they come in time order.
     /// If it also has `pop(RenderControl&)`, controls come the same way. R, wait-free.
     template <class Source>
-    void render(Source& source, float* const* out, int frames) noexcept;
+    void render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
     /// What has been played, for one reader on another thread.
     PlayedQueue& played() noexcept { return playedQueue_; }
@@ -145,7 +146,7 @@ int HapticRenderer<Profile>::strikeAndReach(Source& source, int most) noexcept {
 
 template <class Profile>
 template <class Source>
-void HapticRenderer<Profile>::render(Source& source, float* const* out, int frames) noexcept {
+void HapticRenderer<Profile>::render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
     const DenormalGuard guard;
     Channels at{};
     std::copy_n(out, channels_, at.begin());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The newest value from one thread to another, whole and never torn: a wait-free triple buffer for telemetry.
 #pragma once
+#include "Core/Nonblocking.h"
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -16,13 +17,13 @@ class LatestValue {
 
 public:
     /// Writer only, wait-free.
-    void write(const T& value) noexcept {
+    void write(const T& value) noexcept PHYSVIB_NONBLOCKING {
         slots_[writing_].value = value;
         writing_ = shared_.exchange(static_cast<std::uint8_t>(writing_ | fresh), std::memory_order_acq_rel) & index;
     }
 
     /// The newest value; T{} before the first write. Reader only, wait-free.
-    const T& read() noexcept {
+    const T& read() noexcept PHYSVIB_NONBLOCKING {
         if (shared_.load(std::memory_order_relaxed) & fresh)
             reading_ = shared_.exchange(reading_, std::memory_order_acq_rel) & index;
         return slots_[reading_].value;

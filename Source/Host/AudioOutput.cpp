@@ -115,6 +115,10 @@ void AudioOutput::prepareBuffers(int block) {
 
 void AudioOutput::audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outputs, int frames,
                                                    const juce::AudioIODeviceCallbackContext&) {
+    renderBlock(out, outputs, frames);
+}
+
+void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING {
     for (int k = 0; k < outputs; ++k) juce::FloatVectorOperations::clear(out[k], frames);
     if (frames < 1 || !running_.load(std::memory_order_relaxed)) return;
     const auto start = juce::Time::getHighResolutionTicks();

@@ -7,6 +7,7 @@
 #pragma once
 #include "Core/GainRamp.h"
 #include "Core/Limits.h"
+#include "Core/Nonblocking.h"
 #include "Host/AudioDevices.h"
 #include "Host/OutputMap.h"
 #include "Host/PlayedRecorder.h"
@@ -92,6 +93,7 @@ private:
     bool hasGone(Clock::time_point now);
     std::string unfelt() const;
     void prepareBuffers(int block);
+    void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
     void renderPart(float* const* out, int outputs, int first, int frames) noexcept;
     void measure(juce::int64 startTicks, int frames) noexcept;
 

@@ -11,7 +11,7 @@ PlayedRecorder::PlayedRecorder(const std::string& path, int channels, int sample
     , ring_(static_cast<std::size_t>(channels), std::vector<float>(static_cast<std::size_t>(seconds * sampleRateHz)))
     , fifo_{static_cast<int>(ring_[0].size())} {}
 
-void PlayedRecorder::take(const float* const* channels, int frames) noexcept {
+void PlayedRecorder::take(const float* const* channels, int frames) noexcept PHYSVIB_NONBLOCKING {
     const auto scope = fifo_.write(frames);
     for (std::size_t j = 0; j < ring_.size(); ++j) {
         std::copy_n(channels[j], scope.blockSize1, ring_[j].begin() + scope.startIndex1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a live session plays, to a WAV file: the render role fills a ring, the message thread empties it to disk.
 #pragma once
+#include "Core/Nonblocking.h"
 #include "Host/WavSink.h"
 #include <atomic>
 #include <cstdint>
@@ -19,7 +20,7 @@ public:
     int sampleRateHz() const noexcept { return sampleRateHz_; }
 
     /// R, wait-free. Samples that find no room are lost and counted.
-    void take(const float* const* channels, int frames) noexcept;
+    void take(const float* const* channels, int frames) noexcept PHYSVIB_NONBLOCKING;
 
     /// Writes what has come. M, often enough.
     void drain();
