@@ -171,16 +171,20 @@ Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& p
     return readEventsCsv(text.value, path.string());
 }
 
+std::string eventsCsvHead(const Provenance& provenance) { return comment(provenance) + columnNames() + "\n"; }
+
+void appendEventRow(std::string& text, CollisionEvent event) {
+    for (const EventColumn& column : eventColumns) {
+        std::visit([&](const auto& kind) { writeCell(kind, event, text); }, column.cell);
+        text += &column == &eventColumns.back() ? '\n' : ',';
+    }
+}
+
 std::string eventsCsv(std::span<const CollisionEvent> events, const Provenance& provenance) {
-    std::string text = comment(provenance) + columnNames() + "\n";
+    std::string text = eventsCsvHead(provenance);
     constexpr std::size_t usualRowBytes = 160;
     text.reserve(text.size() + events.size() * usualRowBytes);
-    for (CollisionEvent event : events) {
-        for (const EventColumn& column : eventColumns) {
-            std::visit([&](const auto& kind) { writeCell(kind, event, text); }, column.cell);
-            text += &column == &eventColumns.back() ? '\n' : ',';
-        }
-    }
+    for (const CollisionEvent& event : events) appendEventRow(text, event);
     return text;
 }
 

@@ -31,6 +31,10 @@ Result<std::vector<CollisionEvent>> readEventsCsv(std::string_view text, std::st
 /// The same of a file. M only.
 Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& path);
 
+/// Comment and header line, and the line of one event: what eventsCsv puts together. Any thread.
+std::string eventsCsvHead(const Provenance& provenance);
+void appendEventRow(std::string& text, CollisionEvent event);
+
 /// The events with every column; readEventsCsv gives them back bit for bit if they are playable and in time
 /// order, and refuses them otherwise. Any thread.
 std::string eventsCsv(std::span<const CollisionEvent> events, const Provenance& provenance);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Reading and writing a session; scenes and inputs by the table in SceneFields.h.
 #include "Files/SessionFile.h"
+#include "Files/ControlJson.h"
 #include "Files/JsonReader.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
-#include "Files/LayoutJson.h"
 #include "Files/ReadFile.h"
 #include "Physics/SceneValidation.h"
 #include "Physics/Simulation.h"
@@ -16,13 +16,10 @@ namespace {
 constexpr const char* versionField = "physvib_session";
 constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};
 constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"};
-constexpr std::array<std::string_view, 4> lawNames{"linear", "log", "log-outer", "energy"};
-constexpr std::array<std::string_view, 4> controlNames{"layout", "gain", "mute", "stop"};
 constexpr double maxSeconds = static_cast<double>(limits::maxTimeNs) * 1e-9;
-constexpr double mostExponent = 100.0, largestField = 1e6, largestGain = 1000.0;
 
 std::int64_t readTime(const JsonField& seconds) { return std::llround(seconds.numberUpTo(maxSeconds) * 1e9); }
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; } // the nearest to the decimal number
 
 int readWhole(const JsonField& field, int least, int most) {
     const int found = field.wholeNumber();
@@ -31,26 +28,11 @@ int readWhole(const JsonField& field, int least, int most) {
     return found;
 }
 
-double readPositive(const JsonField& field, double most) {
-    const double found = field.numberUpTo(most);
-    return found >= 1e-3 ? found : (field.fail("expected a number of at least 0.001, found " + numberText(found)), 0.0);
-}
-
 // Times of a list never go back.
 std::int64_t readNextTime(const JsonField& item, std::int64_t last) {
     const std::int64_t time = readTime(item["time_s"]);
     if (time < last) item["time_s"].fail("expected a time that is not before that of the item above");
     return time;
-}
-
-PhantomPanner readPanner(const JsonField& json, int channels) {
-    json.expectObject({"layout", "law", "exponent", "field_m"});
-    const auto layout = readLayoutFields(json["layout"]).geometry;
-    if (layout.count > channels)
-        json["layout"].fail("expected at most " + std::to_string(channels) + " enchanters, as many as the session has channels");
-    if (json["field_m"].arraySize() != 2) json["field_m"].fail("expected [width, height]");
-    return {layout, static_cast<PanningLaw>(json["law"].oneOf(lawNames)), readPositive(json["exponent"], mostExponent),
-            readPositive(json["field_m"].item(0), largestField), readPositive(json["field_m"].item(1), largestField)};
 }
 
 SceneTake readTake(const JsonField& json, const SceneTake* before) {
@@ -74,27 +56,12 @@ SceneTake readTake(const JsonField& json, const SceneTake* before) {
     return take;
 }
 
-void readControl(const JsonField& json, SavedSession& session) {
+void readTimedControl(const JsonField& json, SavedSession& session) {
     SessionLog& log = session.log;
-    const auto kind = static_cast<RenderControl::Kind>(json["control"].oneOf(controlNames));
-    if (kind == RenderControl::Kind::panner) {
-        json.expectObject({"time_s", "control", "panning"});
-        const std::int64_t last = log.panners.empty() ? 0 : log.panners.back().timeNs;
-        log.panners.push_back({readNextTime(json, last), readPanner(json["panning"], session.channels)});
-        return;
-    }
-    ChannelChange change{readNextTime(json, log.channels.empty() ? 0 : log.channels.back().timeNs), kind};
-    if (kind == RenderControl::Kind::stopAll) {
-        json.expectObject({"time_s", "control"});
-    } else {
-        const bool isGain = kind == RenderControl::Kind::gain;
-        json.expectObject({"time_s", "control", "channel", isGain ? "value" : "on"});
-        change.channel = readWhole(json["channel"], 1, session.channels) - 1;
-        const double value = isGain ? json["value"].number() : json["on"].truth() ? 1.0 : 0.0;
-        if (!(std::abs(value) <= largestGain)) json["value"].fail("expected -1000 to 1000, found " + numberText(value));
-        change.value = static_cast<float>(value);
-    }
-    log.channels.push_back(change);
+    const RenderControl control = readControl(json, session.channels, "time_s");
+    const std::int64_t time = readNextTime(json, session.log.lastControlNs());
+    if (control.kind == RenderControl::Kind::panner) log.panners.push_back({time, control.panner});
+    else log.channels.push_back({time, control.kind, control.channel, control.value});
 }
 
 SavedSession readRoot(const JsonField& root) {
@@ -113,15 +80,8 @@ SavedSession readRoot(const JsonField& root) {
     for (std::size_t i = 0; i < takes.arraySize(); ++i)
         session.log.takes.push_back(readTake(takes.item(i), session.log.takes.empty() ? nullptr : &session.log.takes.back()));
     for (std::size_t i = 0, count = root.has("controls") ? root["controls"].arraySize() : 0; i < count; ++i)
-        readControl(root["controls"].item(i), session);
+        readTimedControl(root["controls"].item(i), session);
     return session;
-}
-
-OrderedJson pannerJson(const PhantomPanner& panner) {
-    return {{"layout", OrderedJson::parse(layoutJson(describeLayout("", panner.layout())))},
-            {"law", lawNames[static_cast<std::size_t>(panner.law())]},
-            {"exponent", panner.exponent()},
-            {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
 }
 
 OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
@@ -130,15 +90,6 @@ OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
     if (!isSame) json["scene"] = detail::fieldsJson(*take.scene, take.scene->materials);
     for (const LiveInput& input : take.inputs) json["inputs"].push_back(detail::fieldsJson(input, take.scene->materials));
     for (const WorldStall& stall : take.stalls) json["stalls"].push_back({{"time_s", seconds(stall.worldNs)}, {"seconds", seconds(stall.lengthNs)}});
-    return json;
-}
-
-OrderedJson controlJson(const RenderControl& control) {
-    OrderedJson json{{"time_s", seconds(control.timeNs)}, {"control", controlNames[static_cast<std::size_t>(control.kind)]}};
-    if (control.kind == RenderControl::Kind::panner) json["panning"] = pannerJson(control.panner);
-    if (control.kind == RenderControl::Kind::gain || control.kind == RenderControl::Kind::mute) json["channel"] = control.channel + 1;
-    if (control.kind == RenderControl::Kind::gain) json["value"] = static_cast<double>(control.value);
-    if (control.kind == RenderControl::Kind::mute) json["on"] = control.value != 0.0f;
     return json;
 }
 
@@ -182,7 +133,11 @@ std::string sessionJson(const SavedSession& session) {
         root["takes"].push_back(takeJson(take, before));
         before = &take;
     }
-    for (const RenderControl& control : controlsOf(session.log, true, session.channels)) root["controls"].push_back(controlJson(control));
+    for (const RenderControl& control : controlsOf(session.log, true, session.channels)) {
+        OrderedJson timed{{"time_s", seconds(control.timeNs)}};
+        timed.update(controlJson(control));
+        root["controls"].push_back(std::move(timed));
+    }
     return jsonLines(root);
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Physics/SceneTake.h"
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace physvib {
@@ -25,6 +27,10 @@ struct SessionLog {
     std::vector<SceneTake> takes; ///< one after the other; the last goes on
     std::vector<PannerChange> panners;   ///< in time order
     std::vector<ChannelChange> channels; ///< in time order
+
+    std::int64_t lastControlNs() const noexcept {
+        return std::max(panners.empty() ? 0 : panners.back().timeNs, channels.empty() ? 0 : channels.back().timeNs);
+    }
 };
 
 /// The controls in time order, as a renderer takes them; `keepLayouts` false leaves layouts out, and channels from

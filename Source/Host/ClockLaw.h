@@ -22,9 +22,14 @@ struct ClockLaw {
         return blockFrames + static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999) + limiterFrames;
     }
     /// How far behind session time the world may be so that whatever it makes until it has caught up comes in time, even
-    /// if a block is rendered meanwhile: the longest gap and the step that may not have begun.
-    std::int64_t longestLagNs() const noexcept {
+    /// at the very end of a block: the longest gap and the step that may not have begun.
+    std::int64_t safeLagNs() const noexcept {
         return static_cast<std::int64_t>((longestGapSeconds + 1.0 / stepsPerSecond) * 1e9);
+    }
+    /// The same at the very beginning of a block, since session time jumps by blocks: a driver that is in time never sees
+    /// more.
+    std::int64_t longestLagNs() const noexcept {
+        return safeLagNs() + static_cast<std::int64_t>(1e9 * blockFrames / sampleRateHz);
     }
     double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; }
 };

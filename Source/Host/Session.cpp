@@ -60,6 +60,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     slippedNs_ = 0;
     leastMarginFrames_ = noMargin;
     offline_ = false;
+    isDriven_ = false;
 }
 
 void Session::setLaw(int sampleRateHz, int maxBlockFrames) {
@@ -69,8 +70,8 @@ void Session::setLaw(int sampleRateHz, int maxBlockFrames) {
 
 void Session::resume(int sampleRateHz, int maxBlockFrames) {
     const std::lock_guard lock{worldMutex_};
-    const std::int64_t now = nowNs();
-    const std::int64_t frames = FrameClock{sampleRateHz}.at(now).frame;
+    catchUp(); // what the old L allowed for, the new one may not
+    const std::int64_t frames = FrameClock{sampleRateHz}.at(nowNs()).frame;
     setLaw(sampleRateHz, maxBlockFrames);
     renderer_->moveTo(sampleRateHz, std::max<std::int64_t>(0, frames - playOutFrames() + law_.limiterFrames));
     sessionFrames_ = frames;
@@ -79,11 +80,16 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
 int Session::advance() {
     const std::lock_guard lock{worldMutex_};
     if (offline_.load(std::memory_order_acquire)) return 0;
-    const std::int64_t now = nowNs();
+    isDriven_.store(true, std::memory_order_release);
     takeUp();
-    if (const std::int64_t tooLate = now - law_.longestLagNs() - world_.timeNs(); tooLate > 0) {
-        slippedNs_ += tooLate;
-        world_.standStill(tooLate);
+    return catchUp();
+}
+
+int Session::catchUp() {
+    const std::int64_t now = nowNs();
+    if (const std::int64_t lag = now - world_.timeNs(); lag > law_.longestLagNs()) {
+        slippedNs_ += lag - law_.safeLagNs();
+        world_.standStill(lag - law_.safeLagNs());
     }
     int steps = 0;
     for (; world_.timeNs() < now; ++steps) world_.step(made_);
@@ -117,6 +123,11 @@ std::int64_t Session::nowNs() const noexcept { return sessionNs(sessionFrames_.l
 
 void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     if (mode == RenderMode::realtime) offline_.store(false, std::memory_order_release);
+    else isDriven_.store(true, std::memory_order_release);
+    if (!isDriven_.load(std::memory_order_acquire)) {
+        for (int j = 0; j < setup_.channels; ++j) std::fill_n(out[j], frames, 0.0f);
+        return;
+    }
     const std::int64_t done = sessionFrames_.load(std::memory_order_relaxed);
     sessionFrames_.store(done + frames, std::memory_order_release);
     renderBehind(out, done, frames, mode);

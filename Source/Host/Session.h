@@ -9,7 +9,8 @@
 //   R  the render role: calls render(). Never allocates, frees, locks, waits or calls the system - but for blocks
 //      that the host calls non-realtime, in which it may lock and step the world.
 //
-// Time. Session time is the number of frames rendered or being rendered, told by R at the start of each block. An
+// Time. Session time is the number of frames rendered or being rendered, told by R at the start of each block; it
+// begins with the first block after D's first call (or that is non-realtime). An
 // input received at session time t acts in the world at t; D steps the world up to session time and never beyond, so
 // no input comes too late. An event born at world time w is played at w + L (ClockLaw): R lets the renderer's clock
 // run L behind session time. The renderer therefore plays event lists as an offline render does, on the same frame
@@ -113,6 +114,7 @@ private:
     struct OfflineSource;
     void setLaw(int sampleRateHz, int maxBlockFrames);
     void takeUp();
+    int catchUp();
     bool handOver();
     std::int64_t nowNs() const noexcept;
     std::int64_t sessionNs(std::int64_t frames) const noexcept;
@@ -127,6 +129,7 @@ private:
     std::atomic<std::int64_t> sessionFrames_{0};
     std::atomic<std::int64_t> restartFrame_{-1}; // -1: not wanted
     std::atomic<bool> offline_{false};
+    std::atomic<bool> isDriven_{false}; // somebody has begun to step the world
     std::atomic<std::int64_t> slippedNs_{0};
     LatestValue<SessionStatus> status_;
     std::int64_t leastMarginFrames_ = noMargin; // R

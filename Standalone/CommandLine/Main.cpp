@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
     if (devices->parsed()) return runDevices();
     if (play->parsed()) return runPlay(playOptions);
     if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");
+    noteGiven(*render, options);
     const std::string refusal = checkRenderOptions(options);
     return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);
 }

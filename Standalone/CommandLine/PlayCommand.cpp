@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Session, driver, device and recorder for the length of a call.
+// The options of `physvib play`, from words to a session's setup.
 #include "CommandLine/PlayCommand.h"
+#include "CommandLine/LivePlay.h"
 #include "CommandLine/NumberList.h"
 #include "CommandLine/RenderJob.h"
-#include "Files/AtomicFile.h"
 #include "Host/AudioOutput.h"
-#include "Host/PlayedRecorder.h"
-#include "Host/SimulationDriver.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
-#include <iomanip>
-#include <optional>
 
 namespace physvib {
 
 namespace {
 
 constexpr double lowestCeilingDecibels = -60.0; // lower is a mute by another name
-
-volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) { interrupted = 1; }
 
 /// "1,2,3" to {0, 1, 2}; empty means an empty map. False if it is anything else.
 bool parseMap(const std::string& text, std::vector<int>& map) {
@@ -43,11 +35,6 @@ bool parseCeilings(const std::string& text, int channels, std::array<float, limi
     return true;
 }
 
-std::unique_ptr<SimulationDriver> makeDriver(const std::string& name, Session& session, int stepsPerSecond) {
-    if (name == "thread") return std::make_unique<ThreadDriver>(session, stepsPerSecond);
-    return std::make_unique<MessageTimerDriver>(session);
-}
-
 SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     SessionSetup setup;
     setup.scene = *job.scene;
@@ -63,77 +50,6 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     return setup;
 }
 
-// What the message thread does while the session plays: empties the queues, keeps the device, ends the call.
-class Watch final : private juce::Timer {
-public:
-    Watch(Session& session, AudioOutput& output, PlayedRecorder* recorder, double seconds)
-        : session_{session}, output_{output}, recorder_{recorder}, endNs_{std::llround(seconds * 1e9)} {
-        startTimer(20);
-    }
-    ~Watch() override { stopTimer(); }
-    std::uint64_t played = 0;
-
-private:
-    void timerCallback() override {
-        for (PlayedEvent e; session_.played().pop(e);) ++played;
-        if (recorder_) recorder_->drain();
-        if (++ticks_ % 50 == 0) report(output_.maintain());
-        if (interrupted || session_.status().sessionNs >= endNs_) juce::MessageManager::getInstance()->stopDispatchLoop();
-    }
-    void report(const std::string& trouble) {
-        if (!trouble.empty() && trouble != lastTrouble_) std::cerr << "physvib: " << trouble << '\n';
-        lastTrouble_ = trouble;
-    }
-
-    Session& session_;
-    AudioOutput& output_;
-    PlayedRecorder* recorder_;
-    std::int64_t endNs_;
-    int ticks_ = 0;
-    std::string lastTrouble_;
-};
-
-void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
-    const RenderStatus r = session.status().render;
-    const AudioOutputStatus o = output.status();
-    std::cout << std::fixed << std::setprecision(1) << "felt " << 1e3 * static_cast<double>(session.playOutFrames()) / output.sampleRateHz()
-              << " ms after the contact; " << played << " collisions played, " << r.late << " late, " << session.drops() + r.untold
-              << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.slippedNs()) * 1e-6 << " ms of stalls; worst load "
-              << 100 * o.worstLoad << " %, " << o.deviceXruns << " xruns of the device\n";
-    if (o.losses > 0) std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
-}
-
-std::string play(const PlayOptions& o, const RenderJob& job, const SessionSetup& setup, const AudioOutputSettings& settings) {
-    const juce::ScopedJuceInitialiser_GUI juce; // the message loop
-    Session session{setup};
-    std::unique_ptr<PlayedRecorder> recorder; // outlives the output, whose callback fills it
-    AudioOutput output{session};
-    if (auto error = output.open(settings); !error.empty()) return error;
-    std::optional<AtomicFile> file;
-    if (!o.recordPath.empty()) {
-        file.emplace(o.recordPath);
-        if (!file->error().empty()) return file->error();
-        recorder = std::make_unique<PlayedRecorder>(file->temporaryPath().string(), job.channels(), output.sampleRateHz());
-        output.record(recorder.get());
-    }
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
-    std::uint64_t played = 0;
-    {
-        const auto driver = makeDriver(o.driver, session, o.scene.stepsPerSecond);
-        Watch watch{session, output, recorder.get(), o.scene.seconds};
-        juce::MessageManager::getInstance()->runDispatchLoop();
-        played = watch.played;
-    }
-    summarise(session, output, played);
-    if (recorder && !output.isRecording()) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
-    output.close();
-    if (!recorder) return {};
-    if (recorder->framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recorder->framesLost() << '\n';
-    const std::string error = recorder->finish();
-    return error.empty() ? file->commit() : error;
-}
-
 } // namespace
 
 void declarePlayOptions(CLI::App& command, PlayOptions& o) {
@@ -146,23 +62,27 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
         ->type_name("DB[,DB...]")->capture_default_str();
     command.add_option("--block", o.blockFrames, "frames per block; 0: as the device stands")->check(CLI::Range(0, limits::maxBlockFrames));
     command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav");
+    command.add_option("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv")->type_name("FILE.json");
+    command.add_flag("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
 }
 
 int runPlay(PlayOptions& o) {
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
-    RenderJob job{o.scene, {}, {}, {}};
+    RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");
     auto layout = layoutNamed(o.scene.layout);
     if (!layout) return leave(exitFailed, layout.error);
     job.layout = std::move(layout.value);
+    if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
+        return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
     if (!parseMap(o.map, settings.channelMap)) return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
     SessionSetup setup = setupOf(o, job);
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
         return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (" + std::to_string(setup.channels) + "), found \"" +
                                     o.ceilings + "\"");
-    const std::string error = play(o, job, setup, settings);
+    const std::string error = playLive({setup, settings, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens});
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 

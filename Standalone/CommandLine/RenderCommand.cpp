@@ -42,9 +42,13 @@ void warn(const RenderStatus& status, const RenderJob& job) {
 }
 
 std::string readInputs(RenderJob& job) {
-    auto layout = layoutNamed(job.options.layout);
-    if (!layout) return layout.error;
-    job.layout = std::move(layout.value);
+    if (job.session && !job.options.given.contains("--layout")) {
+        job.layout = describeLayout("session", job.session->panner.layout());
+    } else {
+        auto layout = layoutNamed(job.options.layout);
+        if (!layout) return layout.error;
+        job.layout = std::move(layout.value);
+    }
     if (job.scene) return {};
     auto events = loadEventsCsv(job.options.fromEvents);
     if (!events) return events.error;
@@ -52,20 +56,25 @@ std::string readInputs(RenderJob& job) {
     return {};
 }
 
-OfflineSettings settingsOf(const RenderJob& job) {
+OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls) {
     const RenderOptions& o = job.options;
-    return {{o.sampleRateHz, job.channels(), job.panner(), o.limiter == "on"}, job.frames(), o.blockFrames};
+    return {{o.sampleRateHz, job.channels(), job.panner(), job.isLimited()}, job.frames(), o.blockFrames, controls};
+}
+
+SceneEvents eventsOf(const RenderJob& job) {
+    return job.session ? runTakes(job.session->log.takes, job.run(), job.endNs()) : runScene(*job.scene, job.run(), job.endNs());
 }
 
 std::string render(RenderJob& job) {
     RenderOutputs outputs{job};
     if (auto error = outputs.open(); !error.empty()) return error;
-    if (job.scene) job.made = runScene(*job.scene, job.run(), job.endNs());
+    if (job.scene) job.made = eventsOf(job);
     const auto& source = job.scene ? job.scene->name : job.options.fromEvents;
     if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, source); !error.empty()) return error;
     outputs.begin();
+    const auto controls = job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{};
     const auto take = [&](const float* const* channels, int frames) { return outputs.take(channels, frames); };
-    const RenderStatus status = renderOffline(job.made.events, settingsOf(job), take);
+    const RenderStatus status = renderOffline(job.made.events, settingsOf(job, controls), take);
     if (auto error = outputs.finish(); !error.empty()) return error;
     warn(status, job);
     outputs.summarise(std::cout);
@@ -75,9 +84,11 @@ std::string render(RenderJob& job) {
 } // namespace
 
 int runRender(const RenderOptions& options) {
-    RenderJob job{options, {}, {}, {}};
-    if (!options.scene.empty())
-        if (const int code = takeScene(job); code != exitDone) return code;
+    RenderJob job{options, {}, {}, {}, {}};
+    if (!options.scene.empty()) {
+        const bool isSession = isScenePath(options.scene) && isSessionFile(options.scene);
+        if (const int code = isSession ? takeSession(job) : takeScene(job); code != exitDone) return code;
+    }
     if (const std::string error = readInputs(job); !error.empty()) return leave(exitFailed, error);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");

@@ -5,8 +5,10 @@
 #include "CommandLine/RenderOptions.h"
 #include "Files/LayoutFile.h"
 #include "Files/SceneCatalogue.h"
+#include "Files/SessionFile.h"
 #include "Physics/SceneRun.h"
 #include "Physics/SceneValidation.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iostream>
@@ -25,28 +27,53 @@ struct RenderJob {
     const RenderOptions& options;
     std::optional<Scene> scene; ///< none: events come from a list
     LayoutDescription layout;
+    std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
     SceneEvents made;
 
     SceneRun run() const {
+        if (session) return session->run;
         const auto timing = options.timing == "release" ? ImpactTiming::release : ImpactTiming::onset;
         const auto location = options.location == "fixture" ? ImpactLocation::fixture : ImpactLocation::contact;
         return {options.seed, options.stepsPerSecond, timing, location};
     }
-    int channels() const { return layout.geometry.count; }
-    std::int64_t frames() const { return std::llround(options.seconds * options.sampleRateHz); }
-    std::int64_t endNs() const { return std::llround(options.seconds * 1e9); }
+    /// Whether the session's layouts are kept, or replaced by one of the options.
+    bool keepsLayouts() const {
+        constexpr const char* panning[] = {"--layout", "--law", "--exponent", "--field"};
+        return session && std::ranges::none_of(panning, [&](const char* name) { return options.given.contains(name); });
+    }
+    int channels() const { return keepsLayouts() ? session->channels : layout.geometry.count; }
+    double seconds() const {
+        return session && !options.given.contains("--seconds") ? static_cast<double>(session->lengthNs) * 1e-9 : options.seconds;
+    }
+    bool isLimited() const { return session ? session->limiterEnabled : options.limiter == "on"; }
+    std::int64_t frames() const { return std::llround(seconds() * options.sampleRateHz); }
+    std::int64_t endNs() const { return std::llround(seconds() * 1e9); }
     double fieldWidthMetres() const {
         if (options.fieldWidthMetres > 0) return options.fieldWidthMetres;
+        if (session) return session->panner.fieldWidthMetres();
         return scene ? scene->fieldWidthMetres : layout.geometry.extentWidthMetres;
     }
     double fieldHeightMetres() const {
         if (options.fieldHeightMetres > 0) return options.fieldHeightMetres;
+        if (session) return session->panner.fieldHeightMetres();
         return scene ? scene->fieldHeightMetres : layout.geometry.extentHeightMetres;
     }
     PhantomPanner panner() const {
+        if (keepsLayouts()) return session->panner;
         return {layout.geometry, options.panningLaw, options.exponent, fieldWidthMetres(), fieldHeightMetres()};
     }
 };
+
+/// Takes the saved session that the options name into `job`: exitDone, or the code to leave with after a line on stderr.
+inline int takeSession(RenderJob& job) {
+    for (const char* own : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--limiter"})
+        if (job.options.given.contains(own)) return leave(exitUsage, std::string{own} + ": a saved session brings its own");
+    auto session = loadSession(job.options.scene);
+    if (!session) return leave(exitFailed, session.error);
+    job.session = std::move(session.value);
+    job.scene = job.session->log.takes.front().whole();
+    return exitDone;
+}
 
 /// Takes the scene that the options name into `job`, with warnings on what it simulates badly: exitDone, or
 /// the code to leave with after a line on stderr.

@@ -52,7 +52,7 @@ std::string notYet(const char* option, const std::string& value, const char* onl
 } // namespace
 
 void declareSceneOptions(CLI::App& command, RenderOptions& o) {
-    command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`) or SCENE.json");
+    command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or a saved SESSION.json (render)");
     command.add_option("--set", o.sets, "a variable of the scene; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
     command.add_option("--seconds", o.seconds, "length of the render")->check(between(0.001, 86400.0, " s"))->capture_default_str();
     command.add_option("--seed", o.seed, "seed of the scene")->check(between(0u, 4294967295u, ""))->capture_default_str();
@@ -81,6 +81,11 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
         ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
     command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
         ->check(between(1, limits::maxBlockFrames, " frames"))->capture_default_str();
+}
+
+void noteGiven(const CLI::App& command, RenderOptions& o) {
+    for (const CLI::Option* option : command.get_options())
+        if (option->count() > 0) o.given.insert(option->get_name());
 }
 
 std::string checkSceneOptions(RenderOptions& o) {

@@ -4,6 +4,7 @@
 #include "Core/PhantomPanner.h"
 #include "Files/SceneFile.h"
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct RenderOptions {
     std::string limiter = "on";
     std::string location = "contact", timing = "onset", method = "AV-FV-DRV", actuator = "none";
 
+    std::set<std::string> given; ///< names of the options that the call had, with their dashes
     SceneSettings settings; ///< from `sets` by checkRenderOptions
     double fieldWidthMetres = 0.0, fieldHeightMetres = 0.0; ///< from `field` by checkRenderOptions; 0: not given
     PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
@@ -41,6 +43,9 @@ void declareSceneOptions(CLI::App& command, RenderOptions& options);
 
 /// Declares all options of `render`.
 void declareRenderOptions(CLI::App& command, RenderOptions& options);
+
+/// Notes which options the call had. After parsing.
+void noteGiven(const CLI::App& command, RenderOptions& options);
 
 /// What parsing cannot see of the scene options: empty, or the usage error in one line.
 std::string checkSceneOptions(RenderOptions& options);

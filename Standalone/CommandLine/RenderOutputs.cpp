@@ -61,9 +61,11 @@ std::string RenderOutputs::finish() {
 Provenance RenderOutputs::provenance() const {
     const RenderOptions& o = job_.options;
     if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
-    Provenance p{PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(o.seed)}, {"steps_per_second", std::to_string(o.stepsPerSecond)}}};
-    if (job_.run().timing != ImpactTiming::onset) p.entries.emplace_back("timing", o.timing);
-    if (job_.run().location != ImpactLocation::contact) p.entries.emplace_back("location", o.location);
+    Provenance p{PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(job_.session ? job_.session->log.takes.front().seed : o.seed)},
+                                   {"steps_per_second", std::to_string(job_.run().stepsPerSecond)}}};
+    if (job_.session) p.entries.emplace_back("session", std::filesystem::path{o.scene}.filename().string());
+    if (job_.run().timing != ImpactTiming::onset) p.entries.emplace_back("timing", "release");
+    if (job_.run().location != ImpactLocation::contact) p.entries.emplace_back("location", "fixture");
     for (const SceneVariable& variable : job_.scene->variables) p.entries.emplace_back(variable.name, variable.value);
     return p;
 }
@@ -92,7 +94,7 @@ std::string RenderOutputs::writePictureFile() {
     picture.waveform = &whole_;
     picture.zoom = &*zoom_;
     picture.sampleRateHz = job_.options.sampleRateHz;
-    picture.durationSeconds = job_.options.seconds;
+    picture.durationSeconds = job_.seconds();
     picture.law = job_.options.law + " law";
     picture.provenance = provenanceText();
     const juce::ScopedJuceInitialiser_GUI juce; // fonts
@@ -112,7 +114,7 @@ void RenderOutputs::summarise(std::ostream& out) const {
     const RenderOptions& o = job_.options;
     out << std::fixed << std::setprecision(1);
     if (wavFile_) {
-        out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ") << o.seconds << " s at "
+        out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ") << job_.seconds() << " s at "
             << o.sampleRateHz << " Hz, ";
         if (whole_.peak() > 0) out << "peak " << decibels(whole_.peak()) << " dBFS\n";
         else out << "silent\n";

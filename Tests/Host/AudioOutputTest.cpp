@@ -56,7 +56,9 @@ struct Rig {
     }
     void expectTheLogIsWhole() {
         ASSERT_GT(log.size(), 10u);
-        EXPECT_TRUE(log == runScene(setup.scene, {setup.seed, setup.stepsPerSecond}, log.back().timeNs + 1).events);
+        SessionLog made;
+        session.readLog(made);
+        EXPECT_TRUE(log == runTakes(made.takes, setup.run(), log.back().timeNs + 1).events);
         EXPECT_EQ(session.status().render.untold + session.status().render.rejected + session.drops(), 0u);
     }
 

@@ -53,6 +53,7 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
     Random random{11};
     Block block;
     session.prepare(rate, 512);
+    session.advance(); // time begins
     int stones = 0;
     for (std::int64_t done = 0, sinceTick = 0; done < frames; ++sinceTick) {
         const int size = 1 + random.below(512);

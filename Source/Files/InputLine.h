@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// One line of JSON that does something to a session now: an input, or a control.
+#pragma once
+#include "Core/RenderControl.h"
+#include "Files/Result.h"
+#include "Physics/Scene.h"
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace physvib {
+
+/// Everything heard goes, or may be heard again, at once.
+struct SilenceControl {
+    bool isOn = true;
+};
+
+using LineInput = std::variant<Action, RenderControl, SilenceControl>;
+
+/// `{"input": "impulse", "body": "ball", "impulse_ns": [0, 5]}`: as in a scene's script, without a time.
+/// `{"control": "gain", "channel": 1, "value": 0.5}`: as in a session file, without a time; `{"control": "silence",
+/// "on": true}` as well. Or, of the first thing that is wrong, one line `name: body: ...`. Any thread.
+Result<LineInput> readInputLine(std::string_view line, std::string_view name, const std::vector<Material>& materials, int channels);
+
+} // namespace physvib

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A session live on a device until its time is over or the user interrupts, with all that goes along.
+#pragma once
+#include "Host/AudioOutput.h"
+#include "Host/Session.h"
+#include <string>
+
+namespace physvib {
+
+struct LivePlay {
+    SessionSetup setup;
+    AudioOutputSettings output;
+    bool ownThread = false; ///< steps the world; else the message thread's timer
+    double seconds = 10.0;
+    std::string recordPath; ///< WAV; empty: none
+    std::string savePath;   ///< session as JSON; empty: none
+    bool listens = false;   ///< to standard input, line by line (see readInputLine)
+};
+
+/// Empty, or one line with the reason. M.
+std::string playLive(const LivePlay& wanted);
+
+} // namespace physvib
