@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Header, rows and order of an event list; the cells are in EventColumns.h.
 #include "Files/EventsCsv.h"
+#include "Files/CsvText.h"
 #include "Files/EventColumns.h"
 #include "Files/ReadFile.h"
 #include <algorithm>
 
 namespace physvib {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 std::string columnNames() {
     std::string names;
@@ -22,14 +16,6 @@ std::string columnNames() {
         names += column.name;
     }
     return names;
-}
-
-/// Takes the text before the next `end`, and `end` itself, off the front of `rest`.
-std::string_view takeUntil(char end, std::string_view& rest) {
-    const std::size_t length = std::min(rest.find(end), rest.size());
-    const std::string_view taken = rest.substr(0, length);
-    rest.remove_prefix(std::min(length + 1, rest.size()));
-    return taken;
 }
 
 std::size_t cellsIn(std::string_view line) {
@@ -42,7 +28,7 @@ public:
         : rest_(text)
         , name_(name)
         , maxRows_(maxRows) {
-        if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3); // byte order mark
+        dropByteOrderMark(rest_);
     }
 
     Result<std::vector<CollisionEvent>> read() {
@@ -145,19 +131,6 @@ private:
     std::string error_;
 };
 
-/// Control characters would end the comment, or hide in it.
-std::string onOneLine(std::string text) {
-    std::ranges::replace_if(
-        text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-    return text;
-}
-
-std::string comment(const Provenance& provenance) {
-    std::string line = "# physvib " + provenance.version;
-    for (const auto& [key, value] : provenance.entries) line += " " + key + "=" + value;
-    return onOneLine(std::move(line)) + "\n";
-}
-
 } // namespace
 
 Result<std::vector<CollisionEvent>> readEventsCsv(std::string_view text, std::string_view name,
@@ -171,7 +144,7 @@ Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& p
     return readEventsCsv(text.value, path.string());
 }
 
-std::string eventsCsvHead(const Provenance& provenance) { return comment(provenance) + columnNames() + "\n"; }
+std::string eventsCsvHead(const Provenance& provenance) { return provenanceComment(provenance) + columnNames() + "\n"; }
 
 void appendEventRow(std::string& text, CollisionEvent event) {
     for (const EventColumn& column : eventColumns) {

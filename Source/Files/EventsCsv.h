@@ -3,22 +3,16 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Files/FileLimits.h"
+#include "Files/Provenance.h"
 #include "Files/Result.h"
 #include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace physvib {
-
-/// Where a file came from: its first line, `# physvib VERSION key=value ...`.
-struct Provenance {
-    std::string version;
-    std::vector<std::pair<std::string, std::string>> entries; ///< e.g. {"seed", "1"}, {"scene", "driving"}
-};
 
 /// The events of `text`, every one playable and none before the one above it; or, of the first thing that is
 /// wrong, one line `name:17: column decay_per_s: expected a number >= 0, found "-3"`. Also wrong: no event,

@@ -47,6 +47,14 @@ inline std::string plainNumber(double number) {
     return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed).ptr};
 }
 
+/// With that many decimals, for people to read: 4.81. Any thread.
+inline std::string fixedNumber(double number, int decimals) {
+    char digits[400];
+    const auto end = std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed, decimals).ptr;
+    std::string text(digits, end);
+    return text.find_first_of("123456789") == std::string::npos && text.starts_with('-') ? text.substr(1) : text; // no -0.00
+}
+
 /// At most 40 characters of `text`, whatever a terminal might misread as \xNN. Any thread.
 inline std::string printable(std::string_view text) {
     constexpr std::size_t longest = 40;

@@ -2,6 +2,11 @@
 // Spatiotemporal patterns: one to three pulses, each on one enchanter (thesis 3.2).
 #pragma once
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
@@ -40,6 +45,29 @@ inline std::vector<PulsePattern> allPulsePatterns(int enchanterCount) {
 /// Length of a pattern from the first onset to the last end.
 constexpr double patternSeconds(const PulsePattern& p) noexcept {
     return p.count * p.pulseSeconds + (p.count - 1) * pulseGapSeconds;
+}
+
+/// "ABA-250": the enchanters' letters in the order of the pulses, then a pulse's milliseconds. Enchanters 0 to 25. M only.
+inline std::string patternLabel(const PulsePattern& p) {
+    std::string label;
+    for (int k = 0; k < p.count; ++k) label += static_cast<char>('A' + p.enchanters[static_cast<std::size_t>(k)]);
+    return label.append("-").append(std::to_string(std::lround(p.pulseSeconds * 1e3)));
+}
+
+/// The pattern of such a label: one to three letters, 1 to 10000 ms; none if it is anything else. Any thread.
+inline std::optional<PulsePattern> parsePatternLabel(std::string_view label) noexcept {
+    PulsePattern p;
+    while (!label.empty() && label.front() >= 'A' && label.front() <= 'Z') {
+        if (p.count == 3) return std::nullopt;
+        p.enchanters[static_cast<std::size_t>(p.count++)] = label.front() - 'A';
+        label.remove_prefix(1);
+    }
+    int milliseconds = 0;
+    if (p.count == 0 || !label.starts_with('-')) return std::nullopt;
+    const auto [end, error] = std::from_chars(label.data() + 1, label.data() + label.size(), milliseconds);
+    if (error != std::errc{} || end != label.data() + label.size() || milliseconds < 1 || milliseconds > 10000) return std::nullopt;
+    p.pulseSeconds = milliseconds * 1e-3;
+    return p;
 }
 
 } // namespace physvib

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The `physvib` program: its commands, and how a wrong call is told.
+#include "CommandLine/AnalyseCommand.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/PlayCommand.h"
 #include "CommandLine/RenderCommand.h"
@@ -24,7 +25,7 @@ int listScenes() {
 }
 
 // Commands that are promised and not built: they say so instead of being unknown words.
-constexpr const char* notYetCommands[] = {"material", "calibrate", "study", "stimulus", "analyse", "board"};
+constexpr const char* notYetCommands[] = {"material", "calibrate", "study", "stimulus", "board"};
 
 int run(int argc, char** argv) {
     CLI::App app{"PhysVib: collisions one can feel, on every enchanter you attach."};
@@ -37,6 +38,9 @@ int run(int argc, char** argv) {
     PlayOptions playOptions;
     CLI::App* play = app.add_subcommand("play", "play a scene live on an audio device");
     declarePlayOptions(*play, playOptions);
+    AnalyseOptions analyseOptions;
+    CLI::App* analyse = app.add_subcommand("analyse", "what the trials of a study say");
+    declareAnalyse(*analyse, analyseOptions);
     CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
     for (const char* name : notYetCommands) app.add_subcommand(name, "not yet")->prefix_command()->group("Not yet");
     try {
@@ -49,6 +53,7 @@ int run(int argc, char** argv) {
     }
     if (scenes->parsed()) return listScenes();
     if (devices->parsed()) return runDevices();
+    if (analyse->parsed()) return runAnalyse(*analyse, analyseOptions);
     if (play->parsed()) return runPlay(playOptions);
     if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");
     noteGiven(*render, options);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// A CSV file as a table of words: columns by name, cells in quotes where they hold commas.
+#pragma once
+#include "Files/Result.h"
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+struct CsvRow {
+    std::size_t line = 0; ///< of the file, from 1
+    std::vector<std::string> cells;
+};
+
+struct CsvTable {
+    std::string name;                  ///< of the file, for messages
+    std::vector<std::string> comments; ///< lines before the header, without their #
+    std::vector<std::string> columns;
+    std::vector<CsvRow> rows; ///< each with as many cells as there are columns
+
+    std::optional<std::size_t> column(std::string_view wanted) const noexcept;
+
+    /// `name:17: column x: expected what, found "cell"`.
+    std::string fault(const CsvRow& row, std::size_t column, std::string_view expected) const;
+};
+
+/// The table that `text` holds, or one line naming file, line and expectation. A header line names the columns, each
+/// once; comments (#) and blank lines may stand before it, blank lines at the end. A cell in double quotes may hold
+/// commas and doubled quotes, no line end. Any thread.
+Result<CsvTable> readCsvTable(std::string_view text, std::string_view name);
+
+/// The same of a file. M only.
+Result<CsvTable> loadCsvTable(const std::filesystem::path& path);
+
+/// Appends `text` as a cell, in quotes if it needs them; control characters become spaces. Any thread.
+void appendCell(std::string& line, std::string_view text);
+
+} // namespace physvib

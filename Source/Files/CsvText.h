@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What every CSV reader does to a line.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+namespace physvib {
+
+inline std::string_view trimmed(std::string_view text) noexcept {
+    constexpr std::string_view blanks = " \t\r";
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// Takes the text before the next `end`, and `end` itself, off the front of `rest`.
+inline std::string_view takeUntil(char end, std::string_view& rest) noexcept {
+    const std::size_t length = std::min(rest.find(end), rest.size());
+    const std::string_view taken = rest.substr(0, length);
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+    return taken;
+}
+
+inline void dropByteOrderMark(std::string_view& text) noexcept {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+}
+
+} // namespace physvib

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Where a file came from: its first line, `# physvib VERSION key=value ...`.
+#pragma once
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+struct Provenance {
+    std::string version;
+    std::vector<std::pair<std::string, std::string>> entries; ///< e.g. {"seed", "1"}, {"scene", "driving"}
+};
+
+/// `physvib VERSION key=value ...` on one line: control characters would end a comment, or hide in it. Any thread.
+inline std::string provenanceLine(const Provenance& provenance) {
+    std::string line = "physvib " + provenance.version;
+    for (const auto& [key, value] : provenance.entries) line += " " + key + "=" + value;
+    std::ranges::replace_if(
+        line, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+    return line;
+}
+
+/// The same as the first line of a CSV file. Any thread.
+inline std::string provenanceComment(const Provenance& provenance) { return "# " + provenanceLine(provenance) + "\n"; }
+
+} // namespace physvib

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// One function per kind of study file; the rows come from StudyRows.
+#include "Files/StudyCsv.h"
+#include "Files/FileLimits.h"
+#include "Files/StudyRows.h"
+
+namespace physvib {
+namespace {
+
+using detail::StudyFault;
+using detail::StudyRows;
+
+/// "c3" of "c" and 3.
+std::string numbered(std::string prefix, std::size_t number) {
+    appendNumber(prefix, number);
+    return prefix;
+}
+
+template <class Trial>
+std::vector<Trial>& conditionNamed(StudyData<Trial>& data, const std::string& name) {
+    const auto found = std::ranges::find(data.conditions, name, &StudyCondition<Trial>::name);
+    return found == data.conditions.end() ? data.conditions.emplace_back(name, std::vector<Trial>{}).trials : found->trials;
+}
+
+/// Runs `take(rows, data)` per file; what it throws becomes a Failure, and so do files without a trial that counts.
+template <class Data, class Take>
+Result<Data> readAll(std::span<const NamedText> files, Take take) {
+    Data data;
+    try {
+        for (const NamedText& file : files) {
+            const StudyRows rows{file.text, file.name};
+            const std::size_t taken = take(rows, data);
+            if (taken == 0) throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
+        }
+    } catch (const StudyFault& fault) {
+        return Failure{fault.message};
+    }
+    return data;
+}
+
+std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTrial>& data) {
+    const auto stimulus = rows.required("stimulus"), response = rows.required("response");
+    const auto condition = rows.optional("condition");
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0, missing = 0, firstMissing = 0;
+    rows.each("identify", [&](const CsvRow& row) {
+        ++taken;
+        if (row.cells[response].empty() && !rows.text(row, stimulus).empty()) {
+            if (missing++ == 0) firstMissing = row.line;
+            return;
+        }
+        conditionNamed(data, StudyRows::textIf(row, condition)).push_back({rows.text(row, stimulus), row.cells[response]});
+    });
+    if (missing > 0)
+        data.warnings.push_back(rows.table().name + ":" + std::to_string(firstMissing) + ": no response; trials left out for that: " + std::to_string(missing));
+    return data.conditions.empty() ? 0 : taken;
+}
+
+std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data) {
+    const auto column = rows.required("target_column"), row = rows.required("target_row"), x = rows.required("x"), y = rows.required("y");
+    const auto condition = rows.optional("condition");
+    constexpr int most = static_cast<int>(mostGridLines);
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each("locate", [&](const CsvRow& r) {
+        ++taken;
+        conditionNamed(data, StudyRows::textIf(r, condition))
+            .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most), rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0)});
+    });
+    return taken;
+}
+
+/// "condition stimulus" of what there is; the stimulus alone if all is one condition, as in a trial file.
+std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus, std::optional<std::size_t> condition) {
+    return stimulus ? row.cells[*stimulus] : StudyRows::textIf(row, condition);
+}
+
+std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
+    const auto named = rows.optional("choice");
+    const auto choice = named ? *named : rows.required("response");
+    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"), participant = rows.optional("participant");
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each("choose", [&](const CsvRow& row) {
+        ++taken;
+        conditionNamed(data, {}).push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), rows.text(row, choice)});
+    });
+    return taken;
+}
+
+std::vector<std::size_t> scaleColumns(const CsvTable& table) {
+    std::vector<std::size_t> scales;
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+        if (!trialColumns::has(table.columns[c])) scales.push_back(c);
+    return scales;
+}
+
+std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
+    const auto scales = scaleColumns(rows.table());
+    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"), participant = rows.optional("participant");
+    std::vector<std::string> names;
+    for (const auto c : scales) names.push_back(rows.table().columns[c]);
+    if (names.empty()) throw StudyFault{rows.table().name + ": expected a column per rating scale, found none"};
+    if (!ratings.scales.empty() && ratings.scales != names) throw StudyFault{rows.table().name + ": expected the scales of the files before"};
+    ratings.scales = names;
+    ratings.data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each("rate", [&](const CsvRow& row) {
+        ++taken;
+        RatingTrial trial{StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), {}};
+        for (const auto c : scales) trial.scores.push_back(rows.number(row, c, 0.0, 100.0));
+        conditionNamed(ratings.data, {}).push_back(std::move(trial));
+    });
+    return taken;
+}
+
+/// Columns c1, c2, ... of the table, at least one.
+std::vector<std::size_t> countColumns(const StudyRows& rows) {
+    std::vector<std::size_t> columns;
+    for (std::size_t i = 1; i <= mostGridLines; ++i) {
+        const auto found = rows.optional(numbered("c", i));
+        if (!found) break;
+        columns.push_back(*found);
+    }
+    if (columns.empty()) rows.required("c1");
+    if (rows.optional(numbered("c", mostGridLines + 1)))
+        throw StudyFault{rows.table().name + ": expected at most " + std::to_string(mostGridLines) + " columns c1, c2, ..."};
+    return columns;
+}
+
+std::size_t takePercentCounts(const StudyRows& rows, StudyData<PercentCounts>& data) {
+    const auto condition = rows.required("condition"), row = rows.required("row");
+    const auto columns = countColumns(rows);
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each({}, [&](const CsvRow& r) {
+        ++taken;
+        auto& grids = conditionNamed(data, rows.text(r, condition));
+        if (grids.empty()) grids.push_back({r.cells[condition], 0, columns.size(), {}});
+        PercentCounts& grid = grids.front();
+        const int next = static_cast<int>(++grid.rows);
+        if (grid.columns != columns.size()) throw StudyFault{rows.table().fault(r, condition, "as many columns as in the file before")};
+        if (grid.rows > mostGridLines) throw StudyFault{rows.table().fault(r, row, "at most " + std::to_string(mostGridLines) + " rows")};
+        if (rows.wholeNumber(r, row, 1, static_cast<int>(mostGridLines)) != next)
+            throw StudyFault{rows.table().fault(r, row, "row " + std::to_string(next) + " of the condition")};
+        for (const auto c : columns) grid.percent.push_back(rows.number(r, c, 0.0, 100.0));
+    });
+    return taken;
+}
+
+} // namespace
+
+Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files) {
+    return readAll<StudyData<IdentificationTrial>>(files, takeIdentification);
+}
+
+Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files) {
+    return readAll<StudyData<LocationTrial>>(files, takeLocations);
+}
+
+Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) { return readAll<StudyData<ChoiceTrial>>(files, takeChoices); }
+
+Result<RatingData> readRatings(std::span<const NamedText> files) { return readAll<RatingData>(files, takeRatings); }
+
+Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files) {
+    return readAll<StudyData<PercentCounts>>(files, takePercentCounts);
+}
+
+std::string percentCountsCsv(std::span<const PercentCounts> counts, const Provenance& provenance) {
+    std::size_t columns = 0;
+    for (const auto& grid : counts) columns = std::max(columns, grid.columns);
+    std::string text = provenanceComment(provenance) + "condition,row";
+    for (std::size_t c = 1; c <= columns; ++c) text += numbered(",c", c);
+    text += '\n';
+    for (const auto& grid : counts)
+        for (std::size_t row = 0; row < grid.rows; ++row) {
+            appendCell(text, grid.condition);
+            text += numbered(",", row + 1);
+            for (std::size_t c = 0; c < columns; ++c) text.append(",").append(c < grid.columns ? numberText(grid.at(row, c)) : "0");
+            text += '\n';
+        }
+    return text;
+}
+
+std::string locationsCsv(std::span<const StudyCondition<LocationTrial>> conditions, const Provenance& provenance) {
+    std::string text = provenanceComment(provenance) + "condition,target_column,target_row,x,y\n";
+    for (const auto& condition : conditions)
+        for (const auto& trial : condition.trials) {
+            appendCell(text, condition.name);
+            for (const double number : {double(trial.targetColumn), double(trial.targetRow), trial.x, trial.y}) text.append(",").append(numberText(number));
+            text += '\n';
+        }
+    return text;
+}
+
+} // namespace physvib

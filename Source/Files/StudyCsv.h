@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Trials of studies and percent counts from CSV, checked cell by cell, for the analyses in Study.
+#pragma once
+#include "Files/Provenance.h"
+#include "Files/Result.h"
+#include "Study/ConfusionMatrix.h"
+#include "Study/PercentCounts.h"
+#include "Study/ResponseMap.h"
+#include "Study/Votes.h"
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// The trials of one condition, in the order of the file.
+template <class Trial>
+struct StudyCondition {
+    std::string name; ///< empty: the file has no column `condition`
+    std::vector<Trial> trials;
+};
+
+/// What one or more files of the same kind hold.
+template <class Trial>
+struct StudyData {
+    std::vector<StudyCondition<Trial>> conditions; ///< in the order of their first trial
+    std::vector<std::string> warnings;             ///< a line each: what was left out
+    bool isSimulated = false;                      ///< at least one trial is a simulated observer's
+};
+
+struct RatingData {
+    std::vector<std::string> scales; ///< names of a trial's scores
+    StudyData<RatingTrial> data;
+};
+
+/// A file's bytes and the name to call it by.
+struct NamedText {
+    std::string_view text, name;
+};
+
+// Common to all: columns that are not asked for are ignored; of a file that `study run` wrote, training trials and
+// trials of other tasks are left out. The first thing that is wrong is told as `name:17: column x: expected what, found
+// "cell"`. Any thread.
+
+/// Columns stimulus, response; condition if there. Trials without a response are left out and told.
+Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files);
+
+/// Columns target_column, target_row (1 to mostGridLines), x, y (0 to 1); condition if there.
+Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files);
+
+/// Columns choice (or response); condition (or stimulus) and participant if there. One condition holds them all.
+Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);
+
+/// Columns stimulus (or condition), participant if there; every column that a trial file does not have is a scale, 0 to 100.
+Result<RatingData> readRatings(std::span<const NamedText> files);
+
+/// Columns condition, row, c1 to cN; rows 1, 2, 3... of each condition, numbers from 0 to 100.
+Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files);
+
+/// readPercentCounts' format, a row per line. Any thread.
+std::string percentCountsCsv(std::span<const PercentCounts> counts, const Provenance& provenance);
+
+/// A response list: condition,target_column,target_row,x,y. Any thread.
+std::string locationsCsv(std::span<const StudyCondition<LocationTrial>> conditions, const Provenance& provenance);
+
+} // namespace physvib

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The names in a trial file: its columns in their order, and the words in them.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace physvib::trialColumns {
+
+constexpr std::string_view observer = "observer", phase = "phase", task = "task";
+constexpr std::string_view training = "training", simulated = "simulated";
+
+/// A study's rating scales follow.
+inline constexpr std::array<std::string_view, 20> names{
+    "participant", "observer", "condition", "session", "phase",   "trial",      "task",     "stimulus", "response", "target_column",
+    "target_row",  "x",        "y",         "correct", "replays", "response_s", "level_db", "choice",   "value",    "render"};
+
+constexpr bool has(std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+
+} // namespace physvib::trialColumns

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// A share of trials with its interval, and how unlikely it is by chance.
+#pragma once
+#include <cstdint>
+
+namespace physvib {
+
+struct Proportion {
+    std::uint64_t hits = 0, trials = 0;
+    double share = 0.0;             ///< hits / trials; 0 without a trial
+    double least = 0.0, most = 1.0; ///< 95 % confidence interval (Wilson 1927), trials taken as independent
+};
+
+/// `hits` <= `trials`. Any thread.
+Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept;
+
+/// Probability of a count at least as far from `trials` / 2, by chance (exact two-sided sign test). Any thread.
+double signTestP(std::uint64_t hits, std::uint64_t trials) noexcept;
+
+} // namespace physvib

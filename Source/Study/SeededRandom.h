@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Random numbers that are the same on every machine: the standard library's distributions are not.
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// One stream of numbers; streams of different names are independent. Any thread, one at a time.
+class SeededRandom {
+public:
+    /// Different seeds and names give unrelated streams (FNV-1a over the name).
+    explicit SeededRandom(std::uint64_t seed, std::string_view name = {}) noexcept
+        : state_{seed * 0x9E3779B97F4A7C15u + 0xCBF29CE484222325u} {
+        for (const char c : name) state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+        next();
+    }
+
+    /// 64 random bits (SplitMix64: Steele, Lea, Flood 2014).
+    std::uint64_t next() noexcept {
+        std::uint64_t z = state_ += 0x9E3779B97F4A7C15u;
+        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+        return z ^ (z >> 31);
+    }
+
+    /// From 0 to below 1.
+    double uniform() noexcept { return static_cast<double>(next() >> 11) * 0x1p-53; }
+
+    /// A whole number from 0 to below `count` > 0, all equally likely.
+    std::size_t below(std::size_t count) noexcept {
+        const std::uint64_t range = count, rest = (0 - range) % range; // so many of the lowest numbers would come once too often
+        std::uint64_t number = next();
+        while (number < rest) number = next();
+        return static_cast<std::size_t>(number % range);
+    }
+
+    /// Standard normal (Box and Muller 1958).
+    double normal() noexcept {
+        const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+        return radius * std::cos(2.0 * std::numbers::pi * uniform());
+    }
+
+    bool chance(double probability) noexcept { return uniform() < probability; }
+
+    /// Fisher and Yates.
+    template <class T>
+    void shuffle(std::vector<T>& items) noexcept {
+        for (std::size_t left = items.size(); left > 1; --left) std::swap(items[left - 1], items[below(left)]);
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+} // namespace physvib

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Perceptual resolutions in words and tables.
+#include "CommandLine/AnalyseGrids.h"
+#include "CommandLine/AnalyseCommand.h"
+#include "CommandLine/StudyOutput.h"
+#include "Host/StudyPictures.h"
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr std::size_t mostTiesTold = 20;
+
+/// "1+2 | 3 | 4" of {2, 1, 1}.
+std::string groupWords(const std::vector<std::size_t>& groups) {
+    std::string words;
+    std::size_t line = 1;
+    for (const std::size_t size : groups) {
+        if (line > 1) words += " | ";
+        for (std::size_t i = 0; i < size; ++i) words.append(i ? "+" : "").append(std::to_string(line++));
+    }
+    return words;
+}
+
+std::string sizeWords(const GridMerge& merge) { return std::to_string(merge.columnGroups.size()) + " x " + std::to_string(merge.rowGroups.size()); }
+
+std::string mergeWords(const GridMerge& merge) { return "columns " + groupWords(merge.columnGroups) + "; rows " + groupWords(merge.rowGroups); }
+
+void tell(const PercentCounts& counts, const PerceptualResolution& resolution, double threshold) {
+    std::cout << printable(counts.condition) << ": ";
+    if (resolution.ties.empty()) {
+        std::cout << "0 x 0\n  even the whole field does not reach " << numberText(threshold) << " %\n";
+        return;
+    }
+    std::cout << sizeWords(resolution.ties.front()) << "\n  merge: " << mergeWords(resolution.ties.front()) << '\n';
+    for (std::size_t i = 1; i < std::min(resolution.ties.size(), mostTiesTold); ++i)
+        std::cout << "  tie: " << sizeWords(resolution.ties[i]) << ", " << mergeWords(resolution.ties[i]) << '\n';
+    if (resolution.ties.size() > mostTiesTold) std::cout << "  and " << resolution.ties.size() - mostTiesTold << " more ties\n";
+    std::cout << "  sum " << fixedNumber(counts.sum(), 2) << " %, standard deviation " << fixedNumber(counts.standardDeviation(), 2) << '\n';
+}
+
+void exportMerged(ExportTable& table, const PercentCounts& counts, const PerceptualResolution& resolution) {
+    if (resolution.ties.empty()) return;
+    const PercentCounts grid = merged(counts, resolution.ties.front());
+    for (std::size_t r = 0; r < grid.rows; ++r)
+        for (std::size_t c = 0; c < grid.columns; ++c) {
+            table.cell(grid.condition).cell(r + 1).cell(c + 1).cell(grid.at(r, c));
+            table.endRow();
+        }
+}
+
+void exportNormals(ExportTable& table, const ConditionResolution& made) {
+    for (std::size_t i = 0; i < made.normals.normals.size(); ++i) {
+        const PlaceNormal& n = made.normals.normals[i];
+        if (n.responses == 0) continue;
+        table.cell(made.condition).cell(i % made.normals.columns + 1).cell(i / made.normals.columns + 1).cell(n.responses);
+        for (const double number : {n.meanX, n.meanY, n.varianceX, n.varianceY, n.covariance, made.counts.percent[i]}) table.cell(number);
+        table.cell(std::size_t{n.isBorrowed});
+        table.endRow();
+    }
+}
+
+void warnOfSum(const PercentCounts& counts) {
+    const double printed = 0.005 * static_cast<double>(counts.percent.size()); // each rounded to two decimals
+    if (std::abs(counts.sum() - 100.0) > printed + 1e-9)
+        warn(printable(counts.condition) + ": percent counts sum to " + fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));
+}
+
+} // namespace
+
+int analyseResolution(const AnalyseOptions& o) {
+    const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readLocations(files); });
+    if (!data) return leave(exitFailed, data.error);
+    std::vector<ConditionResolution> made;
+    std::vector<PercentCounts> counts;
+    ExportTable table{"resolution", data.value.isSimulated,
+                      "condition,target_column,target_row,responses,mean_x,mean_y,variance_x,variance_y,covariance,percent,borrowed"};
+    for (const auto& condition : data.value.conditions) {
+        made.push_back(resolveCondition(condition.name.empty() ? "all trials" : condition.name, condition.trials, o.thresholdPercent));
+        const auto& one = made.back();
+        for (const auto& words : one.normals.warnings) warn(printable(one.condition) + ": " + words);
+        if (!one.normals.fault.empty()) return leave(exitFailed, o.files.front() + ": " + printable(one.condition) + ": " + one.normals.fault);
+        counts.push_back(one.counts);
+        exportNormals(table, one);
+    }
+    tellIfSimulated(data.value.isSimulated);
+    for (const auto& one : made) tell(one.counts, one.resolution, o.thresholdPercent);
+    Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
+    if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
+    return writeStudyFiles({{o.exportPath, table.text()},
+                            {o.countsPath, percentCountsCsv(counts, provenance)},
+                            {o.picturePath, [&] { return resolutionPicture(made, pictureWords(o.files, data.value.isSimulated)); }}});
+}
+
+int analysePercentCounts(const AnalyseOptions& o) {
+    const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readPercentCounts(files); });
+    if (!data) return leave(exitFailed, data.error);
+    ExportTable table{"percent-counts", data.value.isSimulated, "condition,row,column,percent"};
+    std::vector<ConditionResolution> made;
+    tellIfSimulated(data.value.isSimulated);
+    for (const auto& condition : data.value.conditions) {
+        const PercentCounts& counts = condition.trials.front();
+        warnOfSum(counts);
+        made.push_back({counts.condition, {}, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
+        tell(counts, made.back().resolution, o.thresholdPercent);
+        exportMerged(table, counts, made.back().resolution);
+    }
+    return writeStudyFiles({{o.exportPath, table.text()}, {o.picturePath, [&] { return resolutionPicture(made, pictureWords(o.files, data.value.isSimulated)); }}});
+}
+
+} // namespace physvib

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Analyses of places: from pointing responses or percent counts to a perceptual resolution.
+#pragma once
+
+namespace physvib {
+
+struct AnalyseOptions;
+
+int analyseResolution(const AnalyseOptions& options);
+int analysePercentCounts(const AnalyseOptions& options);
+
+} // namespace physvib

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib analyse` as researchers and scripts hold on to it: lines, warnings, refusals.
+#include "Calls.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+using Analyse = test::CommandLine;
+
+const std::string publishedCounts = "condition,row,c1,c2,c3,c4,c5,c6,c7\n" // thesis Fig. 4.9 (a)
+                                    "PHONE-LINEAR,1,2.87,3.18,3.39,3.46,3.22,2.62,3.45\n"
+                                    "PHONE-LINEAR,2,0.01,1.60,3.26,1.42,2.77,0.76,1.20\n"
+                                    "PHONE-LINEAR,3,6.51,1.22,3.14,4.20,3.64,1.74,3.11\n"
+                                    "PHONE-LINEAR,4,3.45,1.17,1.95,3.77,3.57,1.03,3.53\n"
+                                    "PHONE-LINEAR,5,2.84,2.56,3.99,5.41,4.15,2.42,3.35\n"
+                                    "RING-LOGARITHM,1,3.69,4.93,3.10,2.22,1.44,3.63,3.60\n"
+                                    "RING-LOGARITHM,2,2.09,2.20,1.34,0.87,2.53,1.06,1.56\n"
+                                    "RING-LOGARITHM,3,3.25,2.52,3.16,6.54,2.93,3.05,2.90\n"
+                                    "RING-LOGARITHM,4,1.65,1.78,3.04,3.44,3.12,2.29,2.97\n"
+                                    "RING-LOGARITHM,5,2.62,3.56,2.29,3.90,3.24,4.05,3.45\n";
+
+TEST_F(Analyse, PublishedPercentCountsGiveThePublishedResolutions) {
+    write("p.csv", publishedCounts);
+    const auto outcome = call("analyse percent-counts p.csv --picture p.png --export merged.csv");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(outcome.out, "PHONE-LINEAR: 5 x 5\n"
+                           "  merge: columns 1+2 | 3 | 4 | 5 | 6+7; rows 1 | 2 | 3 | 4 | 5\n"
+                           "  sum 99.96 %, standard deviation 1.32\n"
+                           "RING-LOGARITHM: 7 x 4\n"
+                           "  merge: columns 1 | 2 | 3 | 4 | 5 | 6 | 7; rows 1 | 2+3 | 4 | 5\n"
+                           "  tie: 7 x 4, columns 1 | 2 | 3 | 4 | 5 | 6 | 7; rows 1+2 | 3 | 4 | 5\n"
+                           "  sum 100.01 %, standard deviation 1.11\n");
+    EXPECT_EQ(read("p.png").substr(1, 3), "PNG");
+    EXPECT_NE(read("merged.csv").find("\nRING-LOGARITHM,4,7,"), std::string::npos);
+    EXPECT_NE(call("analyse percent-counts p.csv --threshold 1.4286").out.find("PHONE-LINEAR: 7 x 3\n"), std::string::npos);
+}
+
+std::string identity(int stimuli) {
+    std::string text = "stimulus,response\n";
+    for (int i = 0; i < stimuli; ++i) text += "s" + std::to_string(i) + ",s" + std::to_string(i) + "\n";
+    return text;
+}
+
+TEST_F(Analyse, PerfectAnswersTransferTheLogarithmOfTheirNumber) {
+    for (const auto& [stimuli, bits] : {std::pair{28, "4.81"}, {78, "6.29"}, {168, "7.39"}}) {
+        write("c.csv", identity(stimuli));
+        const auto outcome = call("analyse confusion c.csv");
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find("trials: " + std::to_string(stimuli)), std::string::npos) << outcome.out;
+        EXPECT_NE(outcome.out.find("percent correct: 100.0"), std::string::npos) << outcome.out;
+        EXPECT_NE(outcome.out.find(std::string("\nIT: ") + bits + " bit"), std::string::npos) << outcome.out;
+        EXPECT_NE(outcome.out.find("\n2^IT: " + std::to_string(stimuli) + ".0\n"), std::string::npos) << outcome.out;
+        EXPECT_NE(outcome.err.find("warning"), std::string::npos) << "one trial per stimulus is too few";
+    }
+}
+
+TEST_F(Analyse, ToleranceCountsNeighboursAsTheStimulus) {
+    std::string text = "stimulus,response\n";
+    for (int i = 0; i < 20; ++i) text += "\"1,1\",\"1,2\"\n\"3,3\",\"3,3\"\n";
+    write("g.csv", text);
+    EXPECT_NE(call("analyse confusion g.csv").out.find("percent correct: 50.0"), std::string::npos);
+    const auto outcome = call("analyse confusion g.csv --tolerance 1 --picture g.png --export g-matrix.csv");
+    EXPECT_NE(outcome.out.find("percent correct: 100.0"), std::string::npos);
+    EXPECT_NE(outcome.out.find("corrected IT: 1.00 bit\n"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_NE(read("g-matrix.csv").find("\n,\"1,1\",\"1,1\",20\n"), std::string::npos);
+    write("s.csv", identity(3));
+    refuses("analyse confusion s.csv --tolerance 1", 1, "s.csv: --tolerance: expected grid labels r,c, found \"s0\"", 4);
+}
+
+TEST_F(Analyse, BadTrialsAreNamedAndHandled) {
+    write("c.csv", "stimulus,response\na,a\nb,x\nb,\na,a\n");
+    const auto outcome = call("analyse confusion c.csv");
+    EXPECT_EQ(outcome.exitCode, 0);
+    for (const char* words : {"c.csv:4: no response", "not presented equally often: b 1 times", "responses that are no stimulus count as wrong: x"})
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out.find("nan"), std::string::npos);
+    write("c.csv", "stimulus\na\n");
+    refuses("analyse confusion c.csv", 1, "c.csv: expected a column response, found none", 1);
+    write("c.csv", "stimulus,response\n1,2,1,2\n");
+    refuses("analyse confusion c.csv", 1, "c.csv:2: expected 2 cells, found 4", 1);
+    refuses("analyse confusion none.csv", 1, "none.csv: cannot be read", 1);
+    refuses("analyse confusion", 2, "files", 1);
+    refuses("analyse", 2, "", 1);
+    write("p.csv", "condition,row,c1\nA,1,90\nA,2,5\n");
+    EXPECT_NE(call("analyse percent-counts p.csv").err.find("A: percent counts sum to 95.00, expected 100 within 0.01"), std::string::npos);
+}
+
+/// Five responses around each of 3 x 2 targets.
+std::string responses() {
+    std::string text = "condition,target_column,target_row,x,y\n";
+    for (int c = 1; c <= 3; ++c)
+        for (int r = 1; r <= 2; ++r)
+            for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {0.05, 0.01}, {-0.05, 0.02}, {0.01, 0.06}, {0.02, -0.05}})
+                text += "WIDE," + std::to_string(c) + "," + std::to_string(r) + "," + std::to_string((c - 0.5) / 3 + dx) + "," + std::to_string((r - 0.5) / 2 + dy) + "\n";
+    return text;
+}
+
+TEST_F(Analyse, ResponsesGiveAResolutionAndItsCountsGiveItAgain) {
+    write("r.csv", responses());
+    const auto outcome = call("analyse resolution r.csv --picture r.png --counts counts.csv --export normals.csv");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.rfind("WIDE: 3 x 2\n", 0), 0u) << outcome.out;
+    EXPECT_EQ(call("analyse percent-counts counts.csv").out, outcome.out);
+    EXPECT_EQ(files().size(), 4u);
+    const std::string picture = read("r.png");
+    ASSERT_EQ(call("analyse resolution r.csv --picture r.png").exitCode, 0);
+    EXPECT_EQ(read("r.png"), picture) << "the same bytes again";
+}
+
+TEST_F(Analyse, ResponsesThatAllowNoNormalAreNamedAndLeaveNothing) {
+    write("r.csv", "condition,target_column,target_row,x,y\nA,1,1,0.5,0.5\n");
+    refuses("analyse resolution r.csv --picture r.png --counts c.csv", 1, "r.csv: A: column 1, row 1: expected three or more responses", 1);
+    write("r.csv", responses() + "WIDE,4,1,0.99,0.2\n");
+    const auto outcome = call("analyse resolution r.csv");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_NE(outcome.err.find("column 4, row 1: 1 responses, the condition's pooled covariance is taken"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("column 4, row 2: no responses"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out.find("nan"), std::string::npos);
+}
+
+TEST_F(Analyse, ChoicesAndRatings) {
+    write("c.csv", "participant,condition,choice\nP1,pair=wood,RM\nP1,pair=steel,SV\nP2,pair=wood,RM\nP2,pair=steel,RM\n");
+    const auto choices = call("analyse choices c.csv --picture c.png --export c-out.csv");
+    ASSERT_EQ(choices.exitCode, 0) << choices.err;
+    EXPECT_EQ(choices.out.rfind("all: RM 75.0 % (30.1 to 95.4), SV 25.0 % (4.6 to 69.9) of 4 trials, p = 0.625\n", 0), 0u) << choices.out;
+    write("r.csv", "participant,condition,realism,harmony,liking\nP1,AV-FV-DRV,76,68,71\nP2,AF-FF-DRF,36,42,36\n");
+    const auto ratings = call("analyse ratings r.csv --picture r.png --export r-out.csv");
+    ASSERT_EQ(ratings.exitCode, 0) << ratings.err;
+    EXPECT_NE(ratings.out.find("AV-FV-DRV: 1 trial, realism 76.0, harmony 68.0, liking 71.0\n"), std::string::npos) << ratings.out;
+    EXPECT_NE(read("r-out.csv").find("\nAF-FF-DRF,liking,1,1,36,0,0\n"), std::string::npos);
+    write("c.csv", "condition,choice\na,RM\n");
+    EXPECT_NE(call("analyse choices c.csv").err.find("every choice is RM"), std::string::npos);
+}
+
+TEST_F(Analyse, IconsAreThePatternsThatAreConfusedLeast) {
+    std::string text = "stimulus,response\n";
+    for (int i = 0; i < 100; ++i) {
+        for (const std::string same : {"A-100", "B-100", "AB-100"}) text += same + "," + same + "\n";
+        text += i % 3 ? "AA-100,AA-100\n" : "AA-100,A-100\n";
+    }
+    write("c.csv", text);
+    const auto outcome = call("analyse icons c.csv --meanings 3 --picture i.png");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "3 meanings need 1.58 bit\nall trials: 4 patterns on 2 enchanters, 1.73 bit: enough\n  A-100  100.0 % correct\n"
+                           "  AB-100  100.0 % correct\n  B-100  100.0 % correct\n");
+    refuses("analyse icons c.csv --meanings 1", 2, "--meanings", 2);
+}
+
+TEST_F(Analyse, SimulatedDataIsMarkedWhereverItGoes) {
+    write("c.csv", "observer,stimulus,response\nsimulated-PHONE,a,a\nsimulated-PHONE,b,b\n");
+    const auto outcome = call("analyse confusion c.csv --export matrix.csv --picture s.png");
+    EXPECT_EQ(outcome.out.rfind("SIMULATED", 0), 0u);
+    EXPECT_EQ(read("matrix.csv").rfind("# physvib 0.1.0 analysis=confusion observer=simulated\n", 0), 0u);
+    write("c.csv", "observer,stimulus,response\nperson,a,a\nperson,b,b\n");
+    ASSERT_EQ(call("analyse confusion c.csv --picture p.png").exitCode, 0);
+    EXPECT_NE(read("s.png"), read("p.png"));
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Fuzz target of the readers of study files, and of the analyses on whatever they let through: no number may be missing.
+#include "Files/StudyCsv.h"
+#include "Fuzzing.h"
+#include "Study/InformationTransfer.h"
+#include <cmath>
+
+namespace {
+using namespace physvib;
+
+void analyse(const StudyData<IdentificationTrial>& data) {
+    for (const auto& condition : data.conditions) {
+        const auto it = informationTransfer(ConfusionMatrix{withTolerance(condition.trials, 1)});
+        fuzz::demand(std::isfinite(it.bits) && std::isfinite(it.biasBits) && std::isfinite(it.leastBits) && std::isfinite(it.trialsPerCell), "a number is missing");
+    }
+}
+
+void analyse(const StudyData<LocationTrial>& data) {
+    for (const auto& condition : data.conditions) {
+        const auto normals = responseNormals(condition.trials);
+        if (!normals.fault.empty()) continue;
+        for (const double p : percentCounts(normals, likelihoodMap(normals, 31, 16), "c").percent) fuzz::demand(std::isfinite(p), "a number is missing");
+    }
+}
+
+void analyse(const StudyData<PercentCounts>& data) {
+    for (const auto& condition : data.conditions)
+        if (const auto& counts = condition.trials.front(); counts.rows < 8 && counts.columns < 8) perceptualResolution(counts);
+}
+
+void analyse(const StudyData<ChoiceTrial>& data) {
+    for (const auto& summary : summariseChoices(data.conditions.front().trials)) fuzz::demand(std::isfinite(summary.pByChance), "a number is missing");
+}
+
+void analyse(const RatingData& ratings) {
+    for (const auto& summary : summariseRatings(ratings.data.conditions.front().trials))
+        for (const double half : summary.halfIntervals) fuzz::demand(std::isfinite(half), "a number is missing");
+}
+
+template <class T>
+bool isEmpty(const StudyData<T>& data) { return data.conditions.empty(); }
+bool isEmpty(const RatingData& ratings) { return isEmpty(ratings.data); }
+
+template <class Read>
+void tryOne(Read read, std::string_view text) {
+    const NamedText file{text, "f"};
+    const auto data = read(std::span{&file, 1});
+    if (data) analyse(data.value);
+    else fuzz::demandClearRefusal(data, isEmpty(data.value));
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto text = fuzz::asText(data, size);
+    tryOne(readIdentification, text);
+    tryOne(readLocations, text);
+    tryOne(readChoices, text);
+    tryOne(readRatings, text);
+    tryOne(readPercentCounts, text);
+    return 0;
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Intervals and tests against tabled values; grouping of choices and ratings; the choice of icons.
+#include "Study/TactileIcons.h"
+#include "Study/Votes.h"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+TEST(Proportion, WilsonsIntervalAsTabled) {
+    const auto p = proportion(81, 263); // Newcombe 1998: 0.2553 to 0.3662
+    EXPECT_NEAR(p.least, 0.2553, 5e-5);
+    EXPECT_NEAR(p.most, 0.3662, 5e-5);
+    EXPECT_EQ(proportion(0, 10).least, 0.0);
+    EXPECT_NEAR(proportion(10, 10).most, 1.0, 1e-12);
+    EXPECT_EQ(proportion(0, 0).most, 1.0);
+}
+
+TEST(Proportion, SignTestAsCountedByHand) {
+    EXPECT_NEAR(signTestP(0, 5), 2.0 / 32.0, 1e-12);
+    EXPECT_NEAR(signTestP(4, 5), 2.0 * 6.0 / 32.0, 1e-12);
+    EXPECT_EQ(signTestP(3, 6), 1.0);
+    EXPECT_EQ(signTestP(0, 0), 1.0);
+    EXPECT_LT(signTestP(1274, 2160), 1e-9); // 59 % of 20 participants' 108 trials
+    EXPECT_GT(signTestP(1274, 2160), 0.0);
+}
+
+TEST(Votes, StudentsPointsAsTabled) {
+    EXPECT_NEAR(studentPoint(1), 12.7062, 1e-4);
+    EXPECT_NEAR(studentPoint(11), 2.2010, 2e-4);
+    EXPECT_NEAR(studentPoint(19), 2.0930, 1e-4);
+    EXPECT_NEAR(studentPoint(100000), 1.95996, 1e-4);
+}
+
+TEST(Votes, ChoicesAreSharedOutByConditionAndFactor) {
+    const auto summaries = summariseChoices({{"P1", "pair=wood size=small", "RM"}, {"P1", "pair=wood size=large", "SV"}, {"P2", "pair=wood size=small", "RM"}, {"P2", "pair=steel size=small", "RM"}});
+    ASSERT_EQ(summaries.front().condition, "all");
+    EXPECT_EQ(summaries.front().participants, 2u);
+    EXPECT_NEAR(summaries.front().shares[0].votes.share, 0.75, 1e-12);
+    EXPECT_NEAR(summaries.front().shares[0].participantsMedian, 0.75, 1e-12);
+    const auto small = std::ranges::find(summaries, "size=small", &ChoiceSummary::condition);
+    ASSERT_NE(small, summaries.end());
+    EXPECT_EQ(small->shares[0].votes.hits, 3u);
+    EXPECT_EQ(summaries.size(), 1u + 4u + 3u);
+}
+
+TEST(Votes, RatingsOfTheThesisMethodsAlsoShowTheirParts) {
+    const auto summaries = summariseRatings({{"P1", "AV-FV-DRV", {80, 60}}, {"P2", "AV-FV-DRV", {70, 60}}, {"P1", "AF-FF-DRF", {30, 40}}, {"P2", "AF-FF-DRF", {40, 40}}});
+    ASSERT_EQ(summaries.size(), 2u + 6u);
+    EXPECT_EQ(summaries[1].condition, "AV-FV-DRV");
+    EXPECT_NEAR(summaries[1].means[0], 75.0, 1e-12);
+    EXPECT_NEAR(summaries[1].deviations[0], std::sqrt(50.0), 1e-9);
+    EXPECT_NEAR(summaries[1].halfIntervals[0], 12.7062 * 5.0, 1e-3);
+    EXPECT_EQ(summaries[1].halfIntervals[1], 0.0);
+    EXPECT_EQ(summaries[2].condition, "AV");
+}
+
+TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
+    const auto summaries = summariseRatings({{"", "AV-FV-DRV", {80}}});
+    ASSERT_EQ(summaries.size(), 1u);
+    EXPECT_EQ(summaries[0].deviations[0], 0.0);
+    EXPECT_EQ(summaries[0].halfIntervals[0], 0.0);
+}
+
+TEST(TactileIcons, TheMostConfusedAreDroppedFirst) {
+    std::vector<IdentificationTrial> trials;
+    const auto add = [&](const char* s, const char* r, int n) { trials.insert(trials.end(), static_cast<std::size_t>(n), {s, r}); };
+    add("a", "a", 10);
+    add("b", "b", 6), add("b", "c", 4);
+    add("c", "c", 7), add("c", "b", 3);
+    add("d", "d", 9), add("d", "a", 1);
+    const ConfusionMatrix matrix{trials};
+    EXPECT_EQ(leastConfused(matrix, 3), (std::vector<std::size_t>{0, 2, 3})) << "of b and c the one with fewer correct answers goes";
+    EXPECT_EQ(leastConfused(matrix, 9).size(), 4u);
+    EXPECT_NEAR(shareCorrect(matrix, 1), 0.6, 1e-12);
+    EXPECT_NEAR(bitsFor(8), 3.0, 1e-12);
+}
+
+} // namespace
+} // namespace physvib
