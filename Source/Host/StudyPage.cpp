@@ -14,7 +14,7 @@ constexpr int width = 1600, margin = 24, gap = 14, headerHeight = 84, footerHeig
 void drawWatermark(const Canvas& canvas, Area page) {
     constexpr float size = 150.0f;
     juce::Graphics& g = canvas.graphics;
-    for (int y = page.getY() + 260; y < page.getBottom() + 200; y += 420) {
+    for (int y = page.getY() + 260; y < page.getBottom() - 100; y += 420) {
         const juce::Graphics::ScopedSaveState state(g);
         g.addTransform(juce::AffineTransform::rotation(-0.25f, static_cast<float>(page.getCentreX()), static_cast<float>(y)));
         canvas.text("SIMULATED", Area(page.getX(), y - 100, page.getWidth(), 200), J::centred, palette::text.withAlpha(0.13f), size, true);
@@ -64,7 +64,7 @@ juce::Colour shareColour(double share) {
 void drawBar(const Canvas& canvas, Area row, int nameWidth, const juce::String& name, double share, double least, double most,
              const juce::String& value, juce::Colour colour) {
     canvas.text(name, row.removeFromLeft(nameWidth).withTrimmedRight(12), J::centredRight, palette::text);
-    canvas.text(value, row.removeFromRight(110), J::centredRight, palette::text);
+    canvas.text(value, row.removeFromRight(76), J::centredRight, palette::text);
     const Area lane = row.reduced(0, 2).withTrimmedRight(8);
     canvas.well(lane);
     const auto x = [&](double at) { return static_cast<float>(lane.getX() + at * lane.getWidth()); };
