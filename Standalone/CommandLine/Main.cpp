@@ -4,6 +4,7 @@
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/PlayCommand.h"
 #include "CommandLine/RenderCommand.h"
+#include "CommandLine/StimulusCommand.h"
 #include "Files/SceneCatalogue.h"
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -25,7 +26,7 @@ int listScenes() {
 }
 
 // Commands that are promised and not built: they say so instead of being unknown words.
-constexpr const char* notYetCommands[] = {"material", "calibrate", "study", "stimulus", "board"};
+constexpr const char* notYetCommands[] = {"material", "calibrate", "study", "board"};
 
 int run(int argc, char** argv) {
     CLI::App app{"PhysVib: collisions one can feel, on every enchanter you attach."};
@@ -41,6 +42,9 @@ int run(int argc, char** argv) {
     AnalyseOptions analyseOptions;
     CLI::App* analyse = app.add_subcommand("analyse", "what the trials of a study say");
     declareAnalyse(*analyse, analyseOptions);
+    StimulusOptions stimulusOptions;
+    CLI::App* stimulus = app.add_subcommand("stimulus", "a single stimulus of a study");
+    declareStimulus(*stimulus, stimulusOptions);
     CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
     for (const char* name : notYetCommands) app.add_subcommand(name, "not yet")->prefix_command()->group("Not yet");
     try {
@@ -54,6 +58,7 @@ int run(int argc, char** argv) {
     if (scenes->parsed()) return listScenes();
     if (devices->parsed()) return runDevices();
     if (analyse->parsed()) return runAnalyse(*analyse, analyseOptions);
+    if (stimulus->parsed()) return runStimulus(*stimulus, stimulusOptions);
     if (play->parsed()) return runPlay(playOptions);
     if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");
     noteGiven(*render, options);

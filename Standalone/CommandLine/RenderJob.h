@@ -2,6 +2,7 @@
 // One render from its inputs to its events: what the renderer and the outputs need to know.
 #pragma once
 #include "CommandLine/ExitCode.h"
+#include "CommandLine/LayoutNamed.h"
 #include "CommandLine/RenderOptions.h"
 #include "Files/LayoutFile.h"
 #include "Files/SceneCatalogue.h"
@@ -15,13 +16,6 @@
 #include <optional>
 
 namespace physvib {
-
-/// A preset, or the layout file at that path.
-inline Result<LayoutDescription> layoutNamed(const std::string& name) {
-    EnchanterLayout preset;
-    if (layoutPreset(name, preset)) return describeLayout(name, preset);
-    return loadLayout(name);
-}
 
 struct RenderJob {
     const RenderOptions& options;

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib stimulus` as researchers and scripts hold on to it.
+#include "Calls.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+using StimulusCommand = test::CommandLine;
+
+TEST_F(StimulusCommand, PatternsAndPhantomsBecomeFilesAndTheSameOnesAgain) {
+    for (const std::string what : {"pattern ABA-250", "phantom --grid 5x5 --cell 2,4 --law log", "phantom --at 0.25,0.5 --layout ring4 --seconds 0.3"}) {
+        const auto outcome = call("stimulus " + what + " --out a.wav --picture a.png");
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        EXPECT_NE(outcome.out.find("4 channels"), std::string::npos) << outcome.out;
+        const std::string first = read("a.wav");
+        ASSERT_EQ(call("stimulus " + what + " --out b.wav").exitCode, 0);
+        EXPECT_EQ(read("b.wav"), first);
+    }
+    EXPECT_NE(call("stimulus pattern ABA-250 --out a.wav").out.find("0.950 s"), std::string::npos);
+}
+
+TEST_F(StimulusCommand, EveryPatternIsListed) {
+    for (const auto& [enchanters, count] : {std::pair{2, 28}, {3, 78}, {4, 168}}) {
+        const auto outcome = call("stimulus list --enchanters " + std::to_string(enchanters));
+        EXPECT_EQ(std::ranges::count(outcome.out, '\n'), count);
+    }
+}
+
+TEST_F(StimulusCommand, ARecordingIsPlacedLikeAPhantom) {
+    ASSERT_EQ(call("stimulus phantom --at 0,0 --layout phone1 --seconds 0.1 --level-g 0.5 --out mono.wav --rate 44100").exitCode, 0);
+    ASSERT_EQ(call("stimulus wav mono.wav --at 0,0 --level-g 0.5 --out placed.wav").exitCode, 0);
+    ASSERT_EQ(call("stimulus phantom --at 0,0 --seconds 0.1 --level-g 0.5 --rate 44100 --out direct.wav").exitCode, 0);
+    EXPECT_EQ(read("placed.wav").size(), read("direct.wav").size());
+    refuses("stimulus wav direct.wav --at 0,0 --out x.wav", 1, "direct.wav: expected one channel, found 4", 3);
+    write("no.wav", "RIFF, but not really");
+    refuses("stimulus wav no.wav --at 0,0 --out x.wav", 1, "no.wav: expected a WAV file", 4);
+}
+
+TEST_F(StimulusCommand, LevelsAreInG) {
+    write("weak.json", R"({"extent_m":[1,1],"enchanters":[{"label":"L","x_m":0,"y_m":0.5,"full_scale_g":0.5},{"label":"R","x_m":1,"y_m":0.5}]})");
+    EXPECT_EQ(call("stimulus pattern A-100 --layout weak.json --level-g 0.5 --out a.wav").exitCode, 0);
+    refuses("stimulus pattern A-100 --layout weak.json --out b.wav", 1, "enchanter L: expected at most its full scale of 0.5 g, found 1.000 g", 2);
+    EXPECT_EQ(call("stimulus pattern B-100 --layout weak.json --out a.wav").exitCode, 0);
+}
+
+TEST_F(StimulusCommand, BadCallsAreUsageErrors) {
+    refuses("stimulus pattern ABE-250 --out a.wav", 2, "among the 4 of the layout");
+    refuses("stimulus pattern ABCD --out a.wav", 2, "expected a pattern like ABA-250");
+    refuses("stimulus pattern A-100", 2, "give --out or --picture");
+    refuses("stimulus phantom --out a.wav", 2, "give either --at X,Y or --grid");
+    refuses("stimulus phantom --at 2,0 --out a.wav", 2, "--at: expected X,Y from 0 to 1");
+    refuses("stimulus phantom --grid 5x5 --cell 6,1 --out a.wav", 2, "--cell");
+    refuses("stimulus phantom --grid 5 --cell 1,1 --out a.wav", 2, "--grid");
+    refuses("stimulus phantom --at 0,0 --law cubic --out a.wav", 2, "--law");
+    refuses("stimulus", 2, "");
+    refuses("stimulus phantom --at 0,0 --frequency 4000 --rate 8000 --out a.wav", 1, "below half the rate");
+}
+
+} // namespace
+} // namespace physvib
