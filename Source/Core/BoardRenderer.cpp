@@ -2,7 +2,7 @@
 // When the board strikes its events, and how samples become codes.
 #include "Core/BoardRenderer.h"
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 namespace physvib {
 namespace {
@@ -10,10 +10,11 @@ namespace {
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 constexpr auto release = static_cast<float>(1.0 / (limits::limiterReleaseSeconds * limits::board::sampleRateHz));
 
-// 1 to 255: full scale either way of mid-scale; what is beyond saturates.
-std::uint8_t codeOf(float sample) noexcept {
-    return static_cast<std::uint8_t>(std::clamp(sample * 127.0f + 128.5f, 1.0f, 255.0f));
-}
+// 1 to 255: full scale either way of mid-scale. `sample` is within full scale, but for rounding.
+std::uint8_t codeOf(float sample) noexcept { return static_cast<std::uint8_t>(std::clamp(static_cast<int>(sample * 127.0f + 128.5f), 0, 255)); }
+
+// Without a sign, floats compare as their bits do; that costs the board less than their own comparison.
+std::uint32_t magnitude(float sample) noexcept { return std::bit_cast<std::uint32_t>(sample) & 0x7FFFFFFF; }
 
 } // namespace
 
@@ -66,13 +67,25 @@ void BoardRenderer::strikeDue(PhasorBank::Block& io) noexcept {
 }
 
 void BoardRenderer::encode(const PhasorBank::Block& block, Codes& out) noexcept {
+    std::uint32_t most = 0;
+    for (const auto& row : block)
+        for (const float sample : row) most = std::max(most, magnitude(sample));
+    if (linkedGain_ < 1.0f || most > magnitude(1.0f)) return encodeWithGain(block, out);
+    for (int j = 0; j < channels; ++j)
+        for (int k = 0; k < blockFrames; ++k) out[at(k)][at(j)] = codeOf(block[at(j)][at(k)]);
+}
+
+void BoardRenderer::encodeWithGain(const PhasorBank::Block& block, Codes& out) noexcept {
+    float gain = linkedGain_;
     for (int k = 0; k < blockFrames; ++k) {
-        float peak = 0.0f;
-        for (const auto& channel : block) peak = std::max(peak, std::abs(channel[at(k)]));
-        linkedGain_ = std::min(1.0f, linkedGain_ + release);
-        if (peak * linkedGain_ > 1.0f) linkedGain_ = 1.0f / peak;
-        for (int j = 0; j < channels; ++j) out[at(k)][at(j)] = codeOf(block[at(j)][at(k)] * linkedGain_);
+        std::uint32_t most = 0;
+        for (const auto& row : block) most = std::max(most, magnitude(row[at(k)]));
+        const auto peak = std::bit_cast<float>(most);
+        gain = std::min(1.0f, gain + release);
+        if (peak * gain > 1.0f) gain = 1.0f / peak;
+        for (int j = 0; j < channels; ++j) out[at(k)][at(j)] = codeOf(block[at(j)][at(k)] * gain);
     }
+    linkedGain_ = gain;
 }
 
 BoardStatus BoardRenderer::status() const noexcept {

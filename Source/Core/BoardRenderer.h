@@ -57,6 +57,7 @@ public:
 private:
     void strikeDue(PhasorBank::Block& io) noexcept;
     void encode(const PhasorBank::Block& block, Codes& out) noexcept;
+    void encodeWithGain(const PhasorBank::Block& block, Codes& out) noexcept;
 
     PhasorBank bank_;
     TimeOrdered<BoardEvent, limits::board::maxPending> pending_;

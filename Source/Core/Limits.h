@@ -26,7 +26,7 @@ namespace board {
 constexpr int sampleRateHz = 8000;  // 20 samples in a period of the fastest felt vibration (400 Hz); divides 72 and 64 MHz
 constexpr int channels = 4;         // two dual converters
 constexpr int blockFrames = 4;      // 4 frames x 4 channels are the 16 sums that stay in registers
-constexpr int maxModes = 128;       // 60 bytes each
+constexpr int maxModes = 128;       // 49 bytes each
 constexpr int maxPending = 64;      // the link delivers 720 events a second: 88 ms of them
 constexpr int gridPerHz = 16;       // frequencies and decays travel in sixteenths of 1 Hz and of 1 per second
 constexpr int amplitudeUnit = 4096; // of full scale: amplitudes up to 8, steps of 1/32 of a converter's step

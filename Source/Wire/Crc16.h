@@ -6,15 +6,16 @@
 
 namespace physvib {
 
-/// Bit by bit: 22-byte frames at 115,200 bit/s do not pay for a table in flash. Any thread.
+/// A byte at a time without a table: the eight division steps by x^16 + x^12 + x^5 + 1 fold into a few shifts, as no
+/// term but the first reaches into the byte that is divided out. Any thread.
 constexpr std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept {
-    std::uint16_t crc = 0xFFFF;
+    unsigned crc = 0xFFFF;
     for (const std::uint8_t byte : bytes) {
-        crc = static_cast<std::uint16_t>(crc ^ (byte << 8));
-        for (int bit = 0; bit < 8; ++bit)
-            crc = static_cast<std::uint16_t>((crc & 0x8000) != 0 ? (crc << 1) ^ 0x1021 : crc << 1);
+        unsigned x = (crc >> 8 ^ byte) & 0xFF;
+        x ^= x >> 4;
+        crc = (crc << 8 ^ x << 12 ^ x << 5 ^ x) & 0xFFFF;
     }
-    return crc;
+    return static_cast<std::uint16_t>(crc);
 }
 
 } // namespace physvib

@@ -58,7 +58,7 @@ inline std::vector<BoardEvent> randomBoardEvents(const BoardListSettings& s, std
     }
     std::vector<BoardEvent> events(static_cast<std::size_t>(s.events));
     for (auto& e : events) {
-        e = kinds[random.below(kinds.size())];
+        e = kinds[static_cast<std::size_t>(random.below(s.materials))];
         e.frame = s.firstFrame + static_cast<std::uint32_t>(random.below(s.spanFrames));
         if (random.uniform(0, 1) < s.gatedShare) e.durationMs = static_cast<std::uint16_t>(1 + random.below(200));
         for (auto& a : e.amplitudes) a = static_cast<std::int16_t>(random.uniform(-s.loudest, s.loudest) * limits::board::amplitudeUnit);

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// The serial line: bytes in and out by interrupt. Built for the ST-Link's port (USART2) or a Bluetooth module (USART1).
+#pragma once
+#include "Clock.h"
+#include "Outputs.h"
+#include "Registers.h"
+#include "Wire/Messages.h"
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace physvib::board {
+
+/// A moment of the board's clock.
+struct Moment {
+    std::uint32_t frame = 0;
+    std::uint8_t fraction = 0; ///< 1/256 frame
+};
+
+class SerialPort {
+public:
+    void start(const Clock& clock, const Outputs& outputs) noexcept {
+        outputs_ = &outputs;
+        cyclesPerFrame_ = clock.cyclesPerFrame();
+#ifdef PHYSVIB_BLUETOOTH
+        reg(rcc::cfgr3) |= 1; // USART1 from the processor's clock
+        reg(rcc::apb2enr) |= 1u << 14;
+        reg(gpio::a + gpio::afrh) = (reg(gpio::a + gpio::afrh) & ~0xFF0u) | 0x770u; // PA9, PA10
+        reg(gpio::a + gpio::moder) = (reg(gpio::a + gpio::moder) & ~(0xFu << 18)) | 0xAu << 18;
+        const std::uint32_t hz = clock.hz;
+#else
+        reg(rcc::apb1enr) |= 1u << 17;
+        reg(gpio::a + gpio::afrl) = (reg(gpio::a + gpio::afrl) & ~0xFF00u) | 0x7700u; // PA2, PA3
+        reg(gpio::a + gpio::moder) = (reg(gpio::a + gpio::moder) & ~(0xFu << 4)) | 0xAu << 4;
+        const std::uint32_t hz = clock.hz / 2;
+#endif
+        reg(port + usart::brr) = (hz + wire::lineBitsPerSecond / 2) / wire::lineBitsPerSecond;
+        reg(port + usart::cr1) = enabled;
+        enableInterrupt(number, 1);
+    }
+
+    /// False if nothing has come. `ended`: when the byte came in, if it is a zero. Main loop.
+    bool take(std::uint8_t& byte, Moment& ended) noexcept {
+        if (readAt_ == receivedAt_) return false;
+        byte = received_[readAt_ % received_.size()];
+        readAt_ = readAt_ + 1;
+        if (byte == 0) ended = zeros_[zerosTaken_++ % zeros_.size()];
+        return true;
+    }
+
+    /// All or nothing. Main loop.
+    bool send(std::span<const std::uint8_t> bytes) noexcept {
+        if (toSend_.size() - static_cast<std::uint8_t>(putAt_ - sentAt_) < bytes.size() + 1) return false;
+        for (const std::uint8_t byte : bytes) {
+            toSend_[putAt_ % toSend_.size()] = byte;
+            putAt_ = static_cast<std::uint8_t>(putAt_ + 1);
+        }
+        reg(port + usart::cr1) = enabled | wantsToSend;
+        return true;
+    }
+
+    /// Bytes lost: they came faster than they were taken.
+    std::uint32_t overruns() const noexcept { return overruns_; }
+
+    /// USART interrupt.
+    void serve() noexcept {
+        constexpr std::uint32_t overrun = 1u << 3, arrived = 1u << 5, empty = 1u << 7;
+        const std::uint32_t state = reg(port + usart::isr);
+        if (state & arrived) receive(static_cast<std::uint8_t>(reg(port + usart::rdr)));
+        if (state & 0xF) {
+            if (state & overrun) overruns_ = overruns_ + 1;
+            reg(port + usart::icr) = 0xF; // parity, framing, noise, overrun: the CRC sees what is broken
+        }
+        if ((state & empty) && (reg(port + usart::cr1) & wantsToSend)) sendNext();
+    }
+
+    Moment now() const noexcept {
+        std::uint32_t frame, count;
+        do {
+            frame = outputs_->played();
+            count = reg(tim6::cnt);
+        } while (frame != outputs_->played()); // the sample timer came between
+        return {frame, static_cast<std::uint8_t>(count * 256u / cyclesPerFrame_)};
+    }
+
+#ifdef PHYSVIB_BLUETOOTH
+    static constexpr int number = irq::usart1;
+#else
+    static constexpr int number = irq::usart2;
+#endif
+
+private:
+#ifdef PHYSVIB_BLUETOOTH
+    static constexpr std::uint32_t port = usart::usart1;
+#else
+    static constexpr std::uint32_t port = usart::usart2;
+#endif
+    static constexpr std::uint32_t wantsToSend = 1u << 7, enabled = 1u | 1u << 2 | 1u << 3 | 1u << 5; // UE, RE, TE, RXNEIE
+
+    void receive(std::uint8_t byte) noexcept {
+        if (static_cast<std::uint8_t>(receivedAt_ + 1) == readAt_) {
+            overruns_ = overruns_ + 1;
+            return;
+        }
+        if (byte == 0) zeros_[zerosSeen_++ % zeros_.size()] = now();
+        received_[receivedAt_] = byte;
+        receivedAt_ = static_cast<std::uint8_t>(receivedAt_ + 1);
+    }
+
+    void sendNext() noexcept {
+        if (sentAt_ == putAt_) {
+            reg(port + usart::cr1) = enabled;
+            return;
+        }
+        reg(port + usart::tdr) = toSend_[sentAt_ % toSend_.size()];
+        sentAt_ = static_cast<std::uint8_t>(sentAt_ + 1);
+    }
+
+    const Outputs* outputs_ = nullptr;
+    std::uint32_t cyclesPerFrame_ = 1;
+    std::array<volatile std::uint8_t, 256> received_{}; // 22 ms of the line; indices wrap by themselves
+    std::array<std::uint8_t, 128> toSend_{};
+    std::array<Moment, 16> zeros_{}; // of a flood of empty frames some get too late a moment, which a clock does not mind
+    volatile std::uint8_t receivedAt_ = 0, readAt_ = 0, putAt_ = 0, sentAt_ = 0;
+    std::uint8_t zerosSeen_ = 0, zerosTaken_ = 0;
+    volatile std::uint32_t overruns_ = 0;
+};
+
+} // namespace physvib::board

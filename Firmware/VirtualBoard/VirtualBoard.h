@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The board without the board: the unmodified firmware image, instruction by instruction in Unicorn, with a model of
+// what is around the processor. Time is counted in the processor's cycles by CycleModel.
+//
+// Known limits: interrupts are taken between blocks of instructions (up to about a hundred cycles late); the clock
+// counts as at full speed from reset on; analogue behaviour is outside.
+#pragma once
+#include "CycleModel.h"
+#include "ElfImage.h"
+#include "Peripherals.h"
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+typedef struct uc_struct uc_engine;
+
+namespace physvib::virtualboard {
+
+class VirtualBoard {
+public:
+    explicit VirtualBoard(const ElfImage& image, CostModel model = CostModel::optimistic, bool hasCrystal = true);
+    ~VirtualBoard();
+    VirtualBoard(const VirtualBoard&) = delete;
+    VirtualBoard& operator=(const VirtualBoard&) = delete;
+
+    /// Runs until this many seconds since power came. Throws std::runtime_error if the emulator gives up.
+    void runUntil(double seconds);
+    double seconds() const { return static_cast<double>(cycle_) / io_.hz(); }
+
+    /// Bytes for the board's serial line: as fast as the line is, from `seconds` on (now: 0).
+    void send(std::span<const std::uint8_t> bytes, double seconds = 0.0);
+
+    /// What has come from the board since the last call.
+    std::vector<LineByte> received();
+
+    Peripherals& io() { return io_; }
+    std::vector<std::uint8_t> memory(std::uint32_t address, std::size_t size) const;
+    void poke(std::uint32_t address, std::span<const std::uint8_t> bytes);
+
+    std::uint64_t cycle() const { return cycle_; }
+    std::uint64_t idleCycles() const { return idle_; }
+    std::uint64_t instructions() const { return instructions_; }
+    /// True if the processor waits for an interrupt: its memory is then as the main loop left it.
+    bool isAsleep() const { return asleep_; }
+    int resets() const { return resets_; }
+    int faults() const { return faults_; }
+
+    /// Cycles by function, since power came.
+    std::vector<std::pair<std::uint64_t, std::string>> profile() const;
+
+private:
+    struct Exception {
+        int number = 0, priority = 0;
+        std::uint32_t stack = 0;
+    };
+    static void onBlock(uc_engine*, std::uint64_t address, std::uint32_t size, void* self);
+    static void onStore(uc_engine*, int, std::uint64_t, int, std::int64_t, void* self);
+    static void onException(uc_engine*, std::uint32_t number, void* self);
+    static std::uint64_t onRead(uc_engine*, std::uint64_t offset, unsigned size, void* region);
+    static void onWrite(uc_engine*, std::uint64_t offset, unsigned size, std::uint64_t value, void* region);
+    struct Region {
+        VirtualBoard* board;
+        std::uint32_t base;
+    };
+    struct Block {
+        BlockCost cost;
+        std::uint64_t* spent = nullptr; // of its function
+    };
+
+    void enterBlock(std::uint32_t address, std::uint32_t size);
+    const Block& blockAt(std::uint32_t address, std::uint32_t size);
+    std::uint64_t storeTime() const;
+    void commit();
+    int currentPriority() const { return active_.empty() ? 256 : active_.back().priority; }
+    void takeInterrupt();
+    void enterException(int vector, int number, int priority);
+    void leaveException();
+    void fault();
+    void reset(bool byWatchdog);
+    void runSlice(std::uint64_t end);
+    std::uint32_t reg(int id) const;
+    void setReg(int id, std::uint32_t value);
+
+    uc_engine* engine_ = nullptr;
+    ElfImage image_;
+    CycleModel model_;
+    Peripherals io_;
+    std::vector<std::unique_ptr<Region>> regions_;
+    std::unordered_map<std::uint64_t, Block> blocks_;
+    std::unordered_map<std::string, std::uint64_t> spent_;
+    std::vector<std::pair<std::uint32_t, std::string>> functions_; // sorted by address
+    std::vector<Exception> active_;
+    const Block* current_ = nullptr;
+    std::uint32_t storesInBlock_ = 0, expectedAddress_ = 0;
+    std::uint64_t cycle_ = 0, idle_ = 0, pendingCycles_ = 0, deadline_ = 0, instructions_ = 0;
+    bool stopped_ = false, asleep_ = false;
+    int exception_ = -1, resets_ = 0, faults_ = 0;
+};
+
+} // namespace physvib::virtualboard

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// physvib-virtual-board: the firmware's image as a board on a pseudo-terminal, in real time.
+#include "PseudoTerminal.h"
+#include "VirtualBoard.h"
+#include "WavFile.h"
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <string>
+#include <thread>
+
+namespace {
+
+using namespace physvib::virtualboard;
+
+std::atomic<bool> interrupted{false};
+
+struct Options {
+    std::string image, wav;
+    double seconds = 0; // 0: until interrupted
+    CostModel model = CostModel::optimistic;
+    bool hasCrystal = true, isValid = true;
+};
+
+Options parse(int argc, char** argv) {
+    Options o;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool hasValue = i + 1 < argc;
+        if (word == "--wav" && hasValue) o.wav = argv[++i];
+        else if (word == "--seconds" && hasValue) o.seconds = std::strtod(argv[++i], nullptr);
+        else if (word == "--pessimistic") o.model = CostModel::pessimistic;
+        else if (word == "--no-crystal") o.hasCrystal = false;
+        else if (!word.starts_with("--") && o.image.empty()) o.image = word;
+        else o.isValid = false;
+    }
+    o.isValid = o.isValid && !o.image.empty();
+    return o;
+}
+
+void runLive(VirtualBoard& board, PseudoTerminal& line, double seconds) {
+    const auto began = std::chrono::steady_clock::now();
+    while (!interrupted && (seconds <= 0 || board.seconds() < seconds)) {
+        board.send(line.read());
+        board.runUntil(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+        std::vector<std::uint8_t> answer;
+        for (const auto& byte : board.received()) answer.push_back(byte.value);
+        if (!answer.empty()) line.write(answer);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+void report(VirtualBoard& board) {
+    const auto& t = board.io().converters.timings();
+    const double load = 100.0 - 100.0 * static_cast<double>(board.idleCycles()) / static_cast<double>(board.cycle());
+    std::cerr << board.seconds() << " s, " << board.io().frames.size() << " frames, load " << load << " %, " << t.writes << " writes to the converters (shortest pulse "
+              << t.writePulse << " ns, set-up " << t.selectSetUp << " ns), " << t.violations << " against their times, " << board.io().timerOverruns << " samples missed, "
+              << board.resets() << " restarts, " << board.faults() << " faults\n";
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const Options o = parse(argc, argv);
+    if (!o.isValid) {
+        std::cerr << "usage: physvib-virtual-board IMAGE.elf [--seconds S] [--wav CONVERTERS.wav] [--pessimistic] [--no-crystal]\n";
+        return 2;
+    }
+    try {
+        VirtualBoard board(readElf(o.image), o.model, o.hasCrystal);
+        PseudoTerminal line;
+        std::signal(SIGINT, [](int) { interrupted = true; });
+        std::signal(SIGTERM, [](int) { interrupted = true; });
+        std::cout << line.path() << std::endl; // the port to connect to; scripts wait for this line
+        runLive(board, line, o.seconds);
+        report(board);
+        if (!o.wav.empty() && !writeWav(o.wav, board.io().frames, 8000)) throw std::runtime_error(o.wav + ": cannot be written");
+    } catch (const std::exception& e) {
+        std::cerr << "physvib-virtual-board: " << e.what() << '\n';
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// The link's clock through the image: random delays of 10 to 30 ms each way, a computer that drifts by 300 ppm.
+#include "Rig.h"
+#include "Wire/LinkClock.h"
+#include <gtest/gtest.h>
+#include <iostream>
+#include <map>
+#include <random>
+
+namespace physvib {
+namespace {
+
+TEST(BoardClock, OnsetsAreWithinTwoMillisecondsForThirtySeconds) {
+    constexpr double drift = 300e-6, start = 1000.0; // the computer's clock: start + t (1 + drift)
+    constexpr double step = 0.0005;
+    const auto hostNs = [](double t) { return static_cast<std::int64_t>((start + t * (1.0 + drift)) * 1e9); };
+    test::Rig rig;
+    rig.connect();
+    std::mt19937 random{12};
+    const auto delay = [&] { return 0.010 + 0.020 * (random() / 4294967296.0); };
+    LinkClock clock;
+    std::array<std::int64_t, 256> sent{};
+    std::multimap<double, wire::Pong> answers; // by when they are here
+    wire::FrameDecoder decoder;
+    std::vector<std::pair<double, std::uint32_t>> wanted; // true time, frame as estimated
+    double nextPing = rig.board.seconds(), nextEvent = 3.0;
+    std::uint8_t id = 0, sequence = 0xFF;
+    while (rig.board.seconds() < 33.0) {
+        const double now = rig.board.seconds();
+        if (now >= nextPing) {
+            sent[++id] = hostNs(now);
+            rig.board.send(test::framed(wire::Ping{id}), now + delay());
+            nextPing = now + 1.0 / (clock.isReady() ? wire::pingsPerSecond : wire::firstPingsPerSecond);
+        }
+        if (now >= nextEvent && clock.isReady()) {
+            const double target = now + 0.2;
+            BoardEvent e{static_cast<std::uint32_t>(clock.frameAt(hostNs(target)) + 0.5), 16 * 400, 16 * 200, 20, {4000, 4000, 4000, 4000}};
+            wanted.push_back({target, e.frame});
+            rig.board.send(test::framed(wire::Strike{++sequence, e}), now + delay());
+            nextEvent = now + 0.5;
+        }
+        rig.board.runUntil(now + step);
+        for (const auto& byte : rig.board.received())
+            if (wire::Pong pong; wire::decode(decoder.feed(byte.value), pong)) answers.insert({static_cast<double>(byte.cycle) / 72e6 + delay(), pong});
+        for (; !answers.empty() && answers.begin()->first <= rig.board.seconds(); answers.erase(answers.begin())) {
+            const auto& pong = answers.begin()->second;
+            clock.add(sent[pong.id], pong.frame + pong.fraction / 256.0, hostNs(answers.begin()->first));
+        }
+    }
+    double worst = 0;
+    const auto& codes = rig.codes();
+    for (const auto& [target, frame] : wanted) {
+        std::size_t n = frame - 100;
+        while (n < codes.size() && codes[n][0] == 128) ++n; // the first sample of a sine is zero
+        ASSERT_LT(n, codes.size());
+        ASSERT_EQ(n, frame + 1);
+        worst = std::max(worst, std::abs(static_cast<double>(rig.board.io().frameCycles[n - 1]) / 72e6 - target));
+    }
+    const auto t = rig.telemetry();
+    std::cout << wanted.size() << " onsets, worst " << worst * 1e3 << " ms, drift " << clock.drift() * 1e6 << " ppm\n";
+    EXPECT_GE(wanted.size(), 55u);
+    EXPECT_LT(worst, 0.002);
+    EXPECT_EQ(t.late, 0u);
+    EXPECT_NEAR(clock.drift(), -drift, 100e-6) << "the board is slow as the computer sees it";
+}
+
+} // namespace
+} // namespace physvib
