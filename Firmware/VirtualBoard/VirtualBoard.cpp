@@ -16,6 +16,7 @@ constexpr int unicornExceptionReturn = 8; // EXCP_EXCEPTION_EXIT
 constexpr std::array<int, 8> stackedCore{UC_ARM_REG_R0, UC_ARM_REG_R1, UC_ARM_REG_R2, UC_ARM_REG_R3, UC_ARM_REG_R12, UC_ARM_REG_LR, UC_ARM_REG_PC, UC_ARM_REG_XPSR};
 constexpr std::array<int, 16> stackedFloat{UC_ARM_REG_S0, UC_ARM_REG_S1, UC_ARM_REG_S2, UC_ARM_REG_S3, UC_ARM_REG_S4, UC_ARM_REG_S5, UC_ARM_REG_S6, UC_ARM_REG_S7,
                                            UC_ARM_REG_S8, UC_ARM_REG_S9, UC_ARM_REG_S10, UC_ARM_REG_S11, UC_ARM_REG_S12, UC_ARM_REG_S13, UC_ARM_REG_S14, UC_ARM_REG_S15};
+constexpr std::uint32_t ifThenBits = 0x0600FC00; // of XPSR
 constexpr int entryCycles = 12, exitCycles = 12; // Arm 100166, 3.9.1
 
 void demand(uc_err error, const char* what) {
@@ -161,6 +162,7 @@ void VirtualBoard::enterException(int vector, int number, int priority) {
     frame[6] &= ~1u;
     for (std::size_t i = 0; i < stackedFloat.size(); ++i) frame[8 + i] = reg(stackedFloat[i]);
     frame[24] = reg(UC_ARM_REG_FPSCR);
+    setReg(UC_ARM_REG_XPSR, frame[7] & ~ifThenBits); // Unicorn may stop between an IT instruction and what hangs on it
     const std::uint32_t before = reg(UC_ARM_REG_SP), stack = (before & ~7u) - frameBytes;
     demand(uc_mem_write(engine_, stack, frame.data(), frameBytes), "stack");
     setReg(UC_ARM_REG_SP, stack);
@@ -193,7 +195,6 @@ void VirtualBoard::takeInterrupt() {
 
 void VirtualBoard::fault() {
     ++faults_;
-    fprintf(stderr,"FAULT pc %x lr %x sp %x exc %d active %zu cyc %lu\n",reg(UC_ARM_REG_PC),reg(UC_ARM_REG_LR),reg(UC_ARM_REG_SP),exception_,active_.size(),cycle_);
     if (faults_ > 100) throw std::runtime_error("virtual board: fault upon fault");
     enterException(hardFault, -hardFault, faultPriority);
 }
