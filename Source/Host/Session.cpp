@@ -92,7 +92,10 @@ int Session::catchUp() {
         world_.standStill(lag - law_.safeLagNs());
     }
     int steps = 0;
-    for (; world_.timeNs() < now; ++steps) world_.step(made_);
+    for (; world_.timeNs() < now; ++steps) {
+        world_.step(made_);
+        handOver(); // the next block may begin before the last step
+    }
     handOver();
     return steps;
 }

@@ -143,7 +143,8 @@ TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
         }
         for (std::size_t k = 0; k < hands; ++k) EXPECT_LE(most[k], setup.ceilings[k]) << k;
         for (std::size_t k = 0; k < 4; ++k) EXPECT_GT(most[k], 0.9f * setup.ceilings[k]) << "loud enough for a test";
-        EXPECT_EQ(rig.session.status().render.late, 0u);
+        EXPECT_LT(rig.session.slippedNs(), 50'000'000) << "a longer block is no stall; a change that makes L shorter is one";
+        EXPECT_LT(rig.session.status().render.late, 10u) << "the same";
         rig.expectTheLogIsWhole();
     }
 }
