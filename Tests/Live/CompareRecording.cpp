@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tells whether a recording is the render, block by block, but for the breaks that the server's own xruns explain.
 // Usage: physvib-compare-recording RECORDING.raw RENDER.raw CHANNELS BLOCK_FRAMES XRUNS
 #include "RecordingRuns.h"

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A recording beside the render it should be: runs of bit-equal blocks, and what happened between them.
 #pragma once
 #include <algorithm>

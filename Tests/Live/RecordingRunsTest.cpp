@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The judge of the recordings is judged: it finds each kind of break, and none where there is none.
 #include "RecordingRuns.h"
 #include "Support/ClosedForm.h"
