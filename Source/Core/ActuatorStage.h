@@ -36,8 +36,11 @@ public:
         aim(channel);
     }
 
-    void process(float* const* io, int frames) noexcept {
-        for (int j = 0; j < channels_; ++j) ramps_[index(j)].apply(io + j, 1, frames);
+    /// In place. `isSilent`: all of it is 0, and stays so.
+    void process(float* const* io, int frames, bool isSilent) noexcept {
+        for (int j = 0; j < channels_; ++j)
+            if (isSilent) ramps_[index(j)].pass(frames);
+            else ramps_[index(j)].apply(io + j, 1, frames);
     }
 
 private:

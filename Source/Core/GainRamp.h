@@ -27,11 +27,16 @@ public:
     }
     bool isResting() const noexcept { return now_ == target_; }
 
+    /// As apply, on silence.
+    void pass(int frames) noexcept {
+        for (int n = 0; n < frames && !isResting(); ++n) step();
+    }
+
     /// Multiplies io[0..channels)[0..frames).
     void apply(float* const* io, int channels, int frames) noexcept {
         int n = 0;
         for (; n < frames && !isResting(); ++n) {
-            now_ = now_ < target_ ? std::min(now_ + pace_, target_) : std::max(now_ - pace_, target_);
+            step();
             for (int j = 0; j < channels; ++j) io[j][n] *= now_;
         }
         if (now_ == 1.0f) return;
@@ -39,6 +44,8 @@ public:
     }
 
 private:
+    void step() noexcept { now_ = now_ < target_ ? std::min(now_ + pace_, target_) : std::max(now_ - pace_, target_); }
+
     float now_ = 1.0f, target_ = 1.0f, step_ = 1.0f, pace_ = 1.0f;
 };
 

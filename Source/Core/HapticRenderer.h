@@ -150,15 +150,17 @@ void HapticRenderer<Profile>::render(Source& source, float* const* out, int fram
     const DenormalGuard guard;
     Channels at{};
     std::copy_n(out, channels_, at.begin());
+    bool allSilent = true;
     for (int done = 0; done < frames;) {
         const int part = strikeAndReach(source, frames - done);
-        bank_.render(at.data(), position_, part);
-        actuators_.process(at.data(), part);
+        const bool isSilent = !bank_.render(at.data(), position_, part);
+        actuators_.process(at.data(), part, isSilent);
+        allSilent = allSilent && isSilent;
         position_ += part;
         done += part;
         for (int j = 0; j < channels_; ++j) at[static_cast<std::size_t>(j)] += part;
     }
-    limiter_.process(out, frames);
+    limiter_.process(out, frames, allSilent);
 }
 
 extern template class HapticRenderer<DesktopProfile>;

@@ -26,8 +26,9 @@ public:
     void setCeiling(int channel, float ceiling) noexcept { ceilings_[static_cast<std::size_t>(channel)] = ceiling; }
 
     /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
-    /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite).
-    void process(float* const* io, int frames) noexcept;
+    /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite). `isSilent`: all of it is +0, so
+    /// that once the delayed frames are as well there is nothing to do.
+    void process(float* const* io, int frames, bool isSilent = false) noexcept;
 
     int latencyFrames() const noexcept { return window_ - 1; }
     static int latencyFramesAt(int sampleRateHz) noexcept { return windowAt(sampleRateHz) - 1; }
@@ -41,9 +42,16 @@ private:
     static constexpr auto windowMax = static_cast<std::size_t>(Profile::maxLookAheadFrames);
     static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
 
+    static constexpr auto partMost = static_cast<std::size_t>(Profile::tileFrames);
+    using Gains = std::array<float, partMost>;
+
     static int windowAt(int sampleRateHz) noexcept;
-    float clean(float sample) noexcept;
-    std::int64_t neededGain(float* const* io, int frame) noexcept;
+    void processPart(float* const* io, std::size_t first, std::size_t frames) noexcept;
+    bool cleanAndCompare(float* samples, std::size_t frames, float ceiling) noexcept;
+    void followGains(float* const* io, std::size_t first, std::size_t frames, Gains& gains) noexcept;
+    void delayAndLimit(std::size_t channel, float* samples, std::size_t frames, const Gains& gains) noexcept;
+    bool isResting() const noexcept { return released_ == unit && sum_ == unit * window_; }
+    void rest(std::size_t frames) noexcept;
     std::int64_t slidingMinimum(std::int64_t needed) noexcept;
     float advanceGain(std::int64_t needed) noexcept;
 
@@ -52,8 +60,9 @@ private:
     bool enabled_ = true;
     std::int64_t releaseStep_ = unit;
     std::array<float, width> ceilings_{};
-    std::array<std::array<float, windowMax>, width> delayed_{};
-    int position_ = 0; // in the rings of `window_` frames
+    std::array<std::array<float, windowMax>, width> delayed_{}; // the last latencyFrames() inputs, in order
+    std::int64_t silentFrames_ = 0;                             // up to now
+    int position_ = 0; // in the ring of `window_` gains
     std::int64_t frame_ = 0;
     struct Candidate {
         std::int64_t needed = unit;

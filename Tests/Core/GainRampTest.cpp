@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // GainRamp: straight lines between gains, exact at both ends.
 #include "Core/GainRamp.h"
+#include <array>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -52,6 +53,24 @@ TEST(GainRamp, SilenceIsExact) {
     ramp.apply(&at, 1, 30);
     EXPECT_EQ(x[9], 0.0f);
     EXPECT_EQ(x[29], 0.0f);
+}
+
+TEST(GainRamp, MovesOnThroughSilence) {
+    GainRamp passed, applied;
+    std::array<float, 100> zeros{}, a{}, b{};
+    a.fill(1.0f);
+    b.fill(1.0f);
+    float *silence = zeros.data(), *atA = a.data(), *atB = b.data();
+    for (auto* ramp : {&passed, &applied}) {
+        ramp->prepare(48000, 0.01, 1.0f);
+        ramp->moveTo(-0.5f);
+    }
+    passed.pass(100);
+    applied.apply(&silence, 1, 100);
+    passed.apply(&atA, 1, 100);
+    applied.apply(&atB, 1, 100);
+    EXPECT_EQ(a, b);
+    EXPECT_LT(a[99], a[0]);
 }
 
 } // namespace

@@ -116,5 +116,20 @@ TEST(LinkedLimiter, BlockSizeDoesNotMatter) {
     EXPECT_EQ(a(in, 1), b(in, 4096));
 }
 
+TEST(LinkedLimiter, SilenceThatIsToldIsSilenceThatIsSeen) {
+    Limited told, seen;
+    for (const double level : {10.0, 0.5, 3.0}) {
+        ASSERT_EQ(told(noise(1000, level, 12)), seen(noise(1000, level, 12)));
+        for (int i = 0; i < 150; ++i) { // until after the release
+            Block a = noise(100, 0, 13), b = a;
+            std::vector<float*> at;
+            for (auto& channel : a) at.push_back(channel.data());
+            told.limiter->process(at.data(), 100, true);
+            ASSERT_EQ(a, seen(b)) << i;
+        }
+        EXPECT_EQ(told.limiter->gain(), 1.0f);
+    }
+}
+
 } // namespace
 } // namespace physvib
