@@ -2,10 +2,10 @@
 // What catching collisions costs on top of Box2D's own step: two equal shaken boxes, one attached to, step by
 // turns.
 #include "Physics/Attachment.h"
+#include "Timing.h"
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <random>
 #include <vector>
@@ -13,6 +13,8 @@
 namespace {
 
 using namespace physvib;
+using bench::median;
+using bench::secondsOf;
 
 constexpr float stepSeconds = 0.01F;
 constexpr int warmUpSteps = 200, stepsPerShake = 25;
@@ -77,24 +79,6 @@ private:
     b2Body* ground_ = nullptr;
     std::mt19937 random_{1};
 };
-
-/// Processor time of this thread: others that use the machine meanwhile disturb less.
-double now() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1.0e-9 * static_cast<double>(time.tv_nsec);
-}
-template <class Do>
-double secondsOf(Do work) {
-    const double start = now();
-    work();
-    return now() - start;
-}
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Arguments: bodies; how many of them are cameras, besides the walls.
 void stepOfAShakenBox(benchmark::State& state) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A minute of "shake the box" from scene to WAV file, and its parts; the counter `times_real_time` is the figure.
+// Scenes from their start to a WAV file, a minute of "shake the box" also in its parts; the counter `times_real_time` is the figure.
 #include "Host/OfflineRender.h"
 #include "Host/WavSink.h"
 #include "Files/SceneCatalogue.h"
@@ -11,46 +11,55 @@ namespace {
 
 using namespace physvib;
 
-constexpr int seconds = 60, rateHz = 48000;
-constexpr std::int64_t lengthNs = seconds * 1'000'000'000LL;
+constexpr int rateHz = 48000;
 
-const Scene& scene() { return *findBuiltInScene("shake-the-box"); }
-
-OfflineSettings settings() {
+OfflineSettings settingsFor(const Scene& scene, int seconds) {
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
-    const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene().fieldWidthMetres, scene().fieldHeightMetres};
+    const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene.fieldWidthMetres, scene.fieldHeightMetres};
     return {{rateHz, 4, panner, true}, static_cast<std::int64_t>(seconds) * rateHz};
 }
 
-void count(benchmark::State& state) {
+std::int64_t nanoseconds(int seconds) { return seconds * 1'000'000'000LL; }
+
+void count(benchmark::State& state, int seconds) {
     state.counters["times_real_time"] = benchmark::Counter(seconds, benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void sceneToWav(benchmark::State& state) {
+/// Any scene, physics and samples and file.
+void sceneToWav(benchmark::State& state, const Scene& scene, int seconds) {
     const auto path = (std::filesystem::temp_directory_path() / "physvib-bench.wav").string();
     for (auto _ : state) {
-        const SceneEvents made = runScene(scene(), {}, lengthNs);
+        const SceneEvents made = runScene(scene, {}, nanoseconds(seconds));
         WavSink wav{path, 4, rateHz};
-        renderOffline(made.events, settings(), [&](const float* const* block, int frames) { return wav.write(block, frames); });
+        renderOffline(made.events, settingsFor(scene, seconds), [&](const float* const* block, int frames) { return wav.write(block, frames); });
         if (!wav.finish().empty()) state.SkipWithError("the file could not be written");
         state.counters["events"] = static_cast<double>(made.events.size());
     }
     std::filesystem::remove(path);
-    count(state);
+    count(state, seconds);
 }
-BENCHMARK(sceneToWav)->Unit(benchmark::kMillisecond);
+
+const int registered = [] {
+    for (const Scene& scene : builtInScenes()) {
+        const int seconds = scene.name == "shake-the-box" ? 60 : 10;
+        benchmark::RegisterBenchmark(("sceneToWav/" + scene.name).c_str(), sceneToWav, scene, seconds)->Unit(benchmark::kMillisecond);
+    }
+    return 0;
+}();
+
+const Scene& shakeTheBox() { return *findBuiltInScene("shake-the-box"); }
 
 void physicsOnly(benchmark::State& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(runScene(scene(), {}, lengthNs));
-    count(state);
+    for (auto _ : state) benchmark::DoNotOptimize(runScene(shakeTheBox(), {}, nanoseconds(60)));
+    count(state, 60);
 }
 BENCHMARK(physicsOnly)->Unit(benchmark::kMillisecond);
 
 void samplesOnly(benchmark::State& state) {
-    const SceneEvents made = runScene(scene(), {}, lengthNs);
-    for (auto _ : state) renderOffline(made.events, settings(), [](const float* const*, int) { return true; });
-    count(state);
+    const SceneEvents made = runScene(shakeTheBox(), {}, nanoseconds(60));
+    for (auto _ : state) renderOffline(made.events, settingsFor(shakeTheBox(), 60), [](const float* const*, int) { return true; });
+    count(state, 60);
 }
 BENCHMARK(samplesOnly)->Unit(benchmark::kMillisecond);
 
