@@ -71,13 +71,17 @@ void ModeTiles::setCarrier(int slot, Complex<double> carrier) noexcept {
 }
 
 void ModeTiles::setAmplitudes(int slot, const Complex<double>* amplitudes) noexcept {
-    float* row = amplitudes_.data() + index(slot) * index(floatsPerSlot_);
-    for (int j = 0; j < channels_; ++j) {
-        const auto z = amplitudes[j];
-        float* at = row + j / tiles::channelsPerLine * 16 + j % tiles::channelsPerLine * 2;
-        at[0] = at[9] = static_cast<float>(z.re);
-        at[1] = static_cast<float>(z.im);
-        at[8] = static_cast<float>(-z.im);
+    // Whole lines: what stands behind the last channel is never summed.
+    float* line = amplitudes_.data() + index(slot) * index(floatsPerSlot_);
+    for (int j = 0; j < channels_; j += tiles::channelsPerLine, line += 16) {
+        for (int k = 0; k < tiles::channelsPerLine; ++k) {
+            line[2 * k] = static_cast<float>(amplitudes[j + k].re);
+            line[2 * k + 1] = static_cast<float>(amplitudes[j + k].im);
+        }
+        for (int k = 0; k < tiles::channelsPerLine; ++k) {
+            line[2 * k + 8] = -line[2 * k + 1];
+            line[2 * k + 9] = line[2 * k];
+        }
     }
 }
 
@@ -142,7 +146,11 @@ void ModeTiles::strike(int slot, int from, Complex<double> phasor, const double*
 bool ModeTiles::render(float* const* out, int first, int count) noexcept {
     settle();
     const bool isPlain = !layers_[0].hasTails && !layers_[1].hasTails && !layers_[1].hasBase;
-    if (!isPlain) sum(out, first, count);
+    const bool isStruckOnly = layers_[0].hasBase && layers_[0].hasTails && !layers_[1].hasBase && !layers_[1].hasTails;
+    if (isStruckOnly)
+        for (std::size_t j = 0; j < index(channels_); ++j)
+            kernel_->sum(layers_[0].base.data() + j * frames + index(first), layers_[0].tails.data() + j * frames + index(first), count, out[j]);
+    else if (!isPlain) sum(out, first, count);
     else if (layers_[0].hasBase)
         for (std::size_t j = 0; j < index(channels_); ++j) std::copy_n(layers_[0].base.data() + j * frames + index(first), count, out[j]);
     else

@@ -37,7 +37,8 @@ public:
     void add(int slot, const TileMode& mode) noexcept;
     void remove(int slot) noexcept;
 
-    /// The mode's phase and decay at the tile's first frame; its amplitudes, one per channel.
+    /// The mode's phase and decay at the tile's first frame; its amplitudes, one per channel (readable in whole lines of
+    /// tiles::channelsPerLine).
     void setCarrier(int slot, Complex<double> carrier) noexcept;
     Complex<double> carrier(int slot) const noexcept { return {re_[index(slot)], im_[index(slot)]}; }
     void setAmplitudes(int slot, const Complex<double>* amplitudes) noexcept;

@@ -143,17 +143,18 @@ void PhantomPanner::triangleGains(Vector p, Gains& gains) const noexcept {
 
 void PhantomPanner::scatteredGains(Vector p, Gains& gains) const noexcept {
     // Shepard's weights 1/d^2; a hit on an enchanter is that enchanter's alone.
-    std::array<double, limits::maxEnchanters> weight{};
+    std::array<double, limits::maxEnchanters> weight; // only `count` of them are used: not worth clearing per strike
+    const auto count = static_cast<std::size_t>(layout_.count);
+    for (std::size_t j = 0; j < count; ++j) {
+        const double dx = p.x - layout_.places[j].xMetres, dy = p.y - layout_.places[j].yMetres;
+        weight[j] = 1.0 / std::max(dx * dx + dy * dy, 1e-18); // a nanometre: no division by zero
+    }
     double sum = 0.0;
-    for (int j = 0; j < layout_.count; ++j) {
-        const double dx = p.x - place(j).x, dy = p.y - place(j).y;
-        const double squared = std::max(dx * dx + dy * dy, 1e-18); // a nanometre: no division by zero
-        sum += weight[static_cast<std::size_t>(j)] = 1.0 / squared;
-    }
-    for (int j = 0; j < layout_.count; ++j) {
-        const auto k = static_cast<std::size_t>(j);
-        gains[k] = factor(1.0 - weight[k] / sum);
-    }
+    for (std::size_t j = 0; j < count; ++j) sum += weight[j];
+    if (isPlain())
+        for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - std::clamp(1.0 - weight[j] / sum, 0.0, 1.0);
+    else
+        for (std::size_t j = 0; j < count; ++j) gains[j] = factor(1.0 - weight[j] / sum);
 }
 
 } // namespace physvib

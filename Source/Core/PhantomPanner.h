@@ -51,6 +51,7 @@ private:
     bool isRectangle() const noexcept;
     Vector place(int enchanter) const noexcept;
     double placeTolerance() const noexcept; // rounding in a layout file must not bend a line
+    bool isPlain() const noexcept { return law_ == PanningLaw::linear && exponent_ == 1.0; } // nearly always
     double factor(double distanceRatio) const noexcept;
     void lineGains(Vector p, Gains& gains) const noexcept;
     void rectangleGains(Vector p, Gains& gains) const noexcept;

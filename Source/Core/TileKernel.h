@@ -65,7 +65,8 @@ struct TileKernel {
     InstructionSet set = InstructionSet::scalar;
     void (*advance)(const TileCarriers& carriers) = nullptr;
     void (*render)(const TileLayer& layer, float* out) = nullptr;         ///< out[channel * 64 + frame]
-    void (*strike)(const TileStrike& strike, double* tails) = nullptr;    ///< tails[channel * 64 + frame]
+    void (*strike)(const TileStrike& strike, double* tails) = nullptr;    ///< tails[channel * 64 + frame], on a line
+    void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr; ///< out = base + tails
 };
 
 /// Null for scalar and for sets that this program or processor lacks. Any thread.

@@ -167,24 +167,43 @@ void advance(const TileCarriers& carriers) {
     }
 }
 
+// Eight frames stay in registers while the channels pass by.
 void strike(const TileStrike& s, double* tails) {
     const Doubles d;
-    HWY_ALIGN double y[frames];
-    const auto from = static_cast<std::size_t>(s.from), begin = from / 8 * 8;
-    const auto re = hn::Set(d, s.z.re), im = hn::Set(d, s.z.im);
-    for (std::size_t k = begin; k < frames; k += hn::Lanes(d))
-        hn::Store(hn::MulAdd(re, hn::LoadU(d, s.sinPowers + k), hn::Mul(im, hn::LoadU(d, s.cosPowers + k))), d, y + k);
-    for (std::size_t k = begin; k < from; ++k) y[k] = 0.0;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(s.channels); ++j) {
-        if (s.gains[j] == 0.0) continue;
-        const auto gain = hn::Set(d, s.gains[j]);
-        double* at = tails + j * frames;
-        for (std::size_t k = begin; k < frames; k += hn::Lanes(d))
-            hn::StoreU(hn::MulAdd(gain, hn::Load(d, y + k), hn::LoadU(d, at + k)), d, at + k);
+    constexpr std::size_t lanes = hn::MaxLanes(Doubles()), vectors = 8 / lanes;
+    const auto channels = static_cast<std::size_t>(s.channels);
+    const auto re = hn::Set(d, s.z.re), im = hn::Set(d, s.z.im), from = hn::Set(d, static_cast<double>(s.from));
+    for (auto k = static_cast<std::size_t>(s.from) / 8 * 8; k < frames; k += 8) {
+        hn::Vec<Doubles> y[vectors];
+        for (std::size_t v = 0; v < vectors; ++v) {
+            const std::size_t at = k + v * lanes;
+            const auto sounds = hn::Ge(hn::Iota(d, static_cast<double>(at)), from);
+            y[v] = hn::IfThenElseZero(sounds, hn::MulAdd(re, hn::LoadU(d, s.sinPowers + at), hn::Mul(im, hn::LoadU(d, s.cosPowers + at))));
+        }
+        double* at = tails + k;
+        const double* gain = s.gains;
+#if defined(__GNUC__)
+#pragma GCC unroll 4
+#endif
+        for (const double* end = gain + channels; gain != end; ++gain, at += frames) {
+            const auto g = hn::Set(d, *gain);
+            for (std::size_t v = 0; v < vectors; ++v) hn::Store(hn::MulAdd(g, y[v], hn::Load(d, at + v * lanes)), d, at + v * lanes);
+        }
     }
 }
 
-TileKernel kernel(InstructionSet set) { return {set, advance, render, strike}; }
+void sum(const float* base, const double* tails, int count, float* out) {
+    const Doubles d;
+    const hn::Rebind<float, Doubles> narrow;
+    constexpr std::size_t lanes = hn::MaxLanes(Doubles());
+    const auto all = static_cast<std::size_t>(count);
+    std::size_t k = 0;
+    for (; k + lanes <= all; k += lanes)
+        hn::StoreU(hn::DemoteTo(narrow, hn::Add(hn::PromoteTo(d, hn::LoadU(narrow, base + k)), hn::LoadU(d, tails + k))), narrow, out + k);
+    for (; k < all; ++k) out[k] = static_cast<float>(static_cast<double>(base[k]) + tails[k]);
+}
+
+TileKernel kernel(InstructionSet set) { return {set, advance, render, strike, sum}; }
 
 } // namespace physvib::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -197,7 +216,8 @@ namespace physvib {
 namespace {
 
 const TileKernel* ifSupported(std::int64_t target, const TileKernel& kernel) noexcept {
-    return (hwy::SupportedTargets() & target) != 0 ? &kernel : nullptr;
+    static const std::int64_t here = hwy::SupportedTargets();
+    return (here & target) != 0 ? &kernel : nullptr;
 }
 
 } // namespace
