@@ -12,19 +12,21 @@ struct Session::LiveSource {
     FrameClock clock;
     std::int64_t nextFrame; // of the renderer
     bool pop(CollisionEvent& event) noexcept {
+        if (session.ownStrikes_.pop(event)) return true;
         if (!session.queue_.pop(event)) return false;
         session.leastMarginFrames_ = std::min(session.leastMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
         return true;
     }
-    bool pop(RenderControl& control) noexcept { return session.controls_.pop(control); }
+    bool pop(RenderControl& control) noexcept { return session.ownControls_.pop(control) || session.controls_.pop(control); }
 };
 
 // Non-realtime, the world is ours: step it whenever the queue runs dry, until `endNs`.
 struct Session::OfflineSource {
     Session& session;
     std::int64_t endNs;
-    bool pop(RenderControl& control) noexcept { return session.controls_.pop(control); }
+    bool pop(RenderControl& control) noexcept { return session.ownControls_.pop(control) || session.controls_.pop(control); }
     bool pop(CollisionEvent& event) {
+        if (session.ownStrikes_.pop(event)) return true;
         while (!session.queue_.pop(event)) {
             const bool hasMore = !session.handOver() || session.world_.timeNs() < endNs;
             if (!hasMore) return session.queue_.pop(event);
@@ -53,8 +55,8 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     world_.forget();
     made_.clear();
     handed_ = 0;
-    for (CollisionEvent unplayed; queue_.pop(unplayed);) {}
-    for (RenderControl undone; controls_.pop(undone);) {}
+    for (CollisionEvent unplayed; queue_.pop(unplayed) || ownStrikes_.pop(unplayed);) {}
+    for (RenderControl undone; controls_.pop(undone) || ownControls_.pop(undone);) {}
     check_.reset();
     controlLog_ = {};
     slippedNs_ = 0;
@@ -75,6 +77,16 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     setLaw(sampleRateHz, maxBlockFrames);
     renderer_->moveTo(sampleRateHz, std::max<std::int64_t>(0, frames - playOutFrames() + law_.limiterFrames));
     sessionFrames_ = frames;
+}
+
+bool Session::strike(CollisionEvent event, int frame) noexcept {
+    event.timeNs = sessionNs(sessionFrames_.load(std::memory_order_relaxed) + frame);
+    return ownStrikes_.push(event);
+}
+
+bool Session::control(RenderControl control, int frame) noexcept {
+    control.timeNs = sessionNs(sessionFrames_.load(std::memory_order_relaxed) + frame);
+    return ownControls_.push(control);
 }
 
 int Session::advance() {
@@ -134,7 +146,7 @@ void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     const std::int64_t done = sessionFrames_.load(std::memory_order_relaxed);
     sessionFrames_.store(done + frames, std::memory_order_release);
     renderBehind(out, done, frames, mode);
-    status_.write({renderer_->status(), sessionNs(done + frames), leastMarginFrames_});
+    status_.write({renderer_->status(), sessionNs(done + frames), leastMarginFrames_, ownStrikes_.overflows() + ownControls_.overflows()});
 }
 
 // The renderer's own output lags by the limiter's frames, which are part of L: it starts that much earlier.

@@ -95,6 +95,11 @@ public:
     /// Brings `log`, empty or brought up to date by this session before, up to date. Any thread but R.
     void readLog(SessionLog& log) const;
 
+    /// What is born in the render call itself (MIDI, automation), `frame` frames into the block that is rendered next: it
+    /// is felt L later like everything else, at an exact frame. False, and counted, if it found no room. R, wait-free.
+    bool strike(CollisionEvent event, int frame) noexcept;
+    bool control(RenderControl control, int frame) noexcept;
+
     /// What has been played, in the renderer's frames (session frame - L). One reader.
     HapticRenderer<DesktopProfile>::PlayedQueue& played() noexcept { return renderer_->played(); }
 
@@ -110,6 +115,8 @@ public:
 private:
     using Queue = EventQueue<CollisionEvent, 8192>;
     using Controls = EventQueue<RenderControl, 256>;
+    using OwnStrikes = EventQueue<CollisionEvent, 1024>; // both ends are R: a dense chord in a block of 8192 frames
+    using OwnControls = EventQueue<RenderControl, 128>;  // a gain for each enchanter, and more
     struct LiveSource;
     struct OfflineSource;
     void setLaw(int sampleRateHz, int maxBlockFrames);
@@ -126,6 +133,8 @@ private:
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
     Queue queue_;
     Controls controls_;
+    OwnStrikes ownStrikes_;
+    OwnControls ownControls_;
     std::atomic<std::int64_t> sessionFrames_{0};
     std::atomic<std::int64_t> restartFrame_{-1}; // -1: not wanted
     std::atomic<bool> offline_{false};

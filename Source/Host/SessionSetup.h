@@ -46,6 +46,7 @@ struct SessionStatus {
     RenderStatus render;
     std::int64_t sessionNs = 0;
     std::int64_t leastMarginFrames = noMargin; ///< by how much the tightest event of realtime blocks came in time; < 0: late
+    std::uint64_t refused = 0; ///< strikes and controls of the render call that found no room
 };
 
 } // namespace physvib

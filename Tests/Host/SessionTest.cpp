@@ -155,5 +155,46 @@ TEST(Session, AfterAStallTheWorldGoesOnWithoutASpiral) {
     EXPECT_EQ(session.status().render.rejected, 0u);
 }
 
+TEST(Session, StrikesOfTheRenderCallAreFeltLLaterAtTheirFrame) {
+    auto setup = shakeTheBoxSetup(0.02);
+    setup.scene.bodies.clear(); // nothing else is felt
+    setup.scene.joints.clear();
+    setup.scene.script.clear();
+    setup.limiterEnabled = false;
+    for (const auto mode : {RenderMode::realtime, RenderMode::offline}) {
+        Session session{setup};
+        session.prepare(44100, 512);
+        Block block;
+        Interleaved signal;
+        for (int done = 0; done < 44100; done += 512) {
+            if (done == 5120) session.strike({.frequencyHz = 11025, .decayPerSecond = 10, .amplitude = 0.5, .y = 3.6}, 77);
+            session.render(block.at.data(), 512, mode);
+            append(signal, block.at.data(), 512);
+        }
+        const auto onset = static_cast<std::size_t>(5120 + 77 + session.playOutFrames());
+        for (std::size_t n = 0; n <= onset; ++n) ASSERT_NEAR(signal[n * channels], 0.0f, 1e-3f) << n; // sin 0 at the onset
+        EXPECT_NEAR(signal[(onset + 1) * channels], 0.5f, 1e-3f); // a quarter period later
+        const auto played = drain(session);
+        ASSERT_EQ(played.size(), 1u);
+        EXPECT_EQ(FrameClock{44100}.at(played[0].timeNs).frame, 5120 + 77);
+    }
+}
+
+TEST(Session, AControlOfTheRenderCallMutesTheWorldAtItsFrame) {
+    const auto setup = shakeTheBoxSetup(0.05);
+    Session session{setup};
+    session.prepare(rate, 480);
+    Block block;
+    for (int done = 0; done < 10 * rate; done += 480) {
+        if (done == 5 * rate)
+            for (int j = 0; j < channels; ++j) session.control({.kind = RenderControl::Kind::mute, .channel = j, .value = 1.0f}, 0);
+        session.render(block.at.data(), 480, RenderMode::offline);
+        const std::int64_t silentFrom = 5 * rate + session.playOutFrames() + rate / 100;
+        const bool silent = std::all_of(block.at[0], block.at[0] + 480, [](float x) { return x == 0.0f; });
+        if (done >= silentFrom) EXPECT_TRUE(silent) << done;
+    }
+    EXPECT_EQ(session.status().refused, 0u);
+}
+
 } // namespace
 } // namespace physvib
