@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Channel sets that survive the way through a plug-in format in their order.
+#include "BusPlan.h"
+#include <algorithm>
+
+namespace physvib {
+
+namespace {
+
+using Processor = juce::AudioProcessor;
+using Set = juce::AudioChannelSet;
+
+// Up to this type JUCE numbers the speakers as VST3 does, so any choice of them keeps its order on the wire.
+constexpr auto lastInSpeakerOrder = Set::rightSurroundSide;
+
+bool keepsItsOrder(const Set& set) {
+    return set == channelsInOrder(set.size(), Processor::wrapperType_VST3) || set == Set::mono() || set.getChannelTypes().getLast() <= lastInSpeakerOrder;
+}
+
+bool isAcceptedAsOne(Processor::WrapperType format, const Set& set) {
+    if (set.size() < 1 || set.size() > BusPlan::widestBus) return false;
+    return format != Processor::wrapperType_VST3 || keepsItsOrder(set);
+}
+
+bool isAcceptedAsOneOfMany(const Set& set) { return set.isDisabled() || set == Set::mono() || set == Set::stereo(); }
+
+} // namespace
+
+juce::AudioChannelSet channelsInOrder(int channels, Processor::WrapperType format) {
+    if (channels == 1) return Set::mono();
+    if (channels == 2) return Set::stereo();
+    if (format != Processor::wrapperType_VST3) return Set::discreteChannels(channels);
+    Set set;
+    for (int type = 1; type <= channels; ++type) set.addChannel(static_cast<Set::ChannelType>(type));
+    return set;
+}
+
+std::vector<OutputBus> busesOf(const BusPlan& plan, Processor::WrapperType format) {
+    if (plan.kind == BusPlan::Kind::oneBus) return {{"Enchanters", channelsInOrder(plan.channels, format), true}};
+    std::vector<OutputBus> buses;
+    for (int b = 0; b < BusPlan::busCount; ++b) {
+        const auto name = "Enchanters " + juce::String{2 * b + 1} + "-" + juce::String{2 * b + 2};
+        buses.push_back({name, Set::stereo(), b < BusPlan::busesOfANewInstance});
+    }
+    return buses;
+}
+
+bool isAccepted(const BusPlan& plan, Processor::WrapperType format, const Processor::BusesLayout& layout) {
+    if (!layout.inputBuses.isEmpty()) return false;
+    const auto& sets = layout.outputBuses;
+    if (plan.kind == BusPlan::Kind::oneBus) return sets.size() == 1 && isAcceptedAsOne(format, sets[0]);
+    return std::all_of(sets.begin(), sets.end(), isAcceptedAsOneOfMany) && !sets[0].isDisabled();
+}
+
+OutputMap::OutputMap(const Processor& processor)
+    : OutputMap{} {
+    std::size_t enchanter = 0;
+    for (int b = 0; b < processor.getBusCount(false); ++b) {
+        const auto& bus = *processor.getBus(false, b);
+        const int places = bus.getLastEnabledLayout().size();
+        for (int c = 0; c < places && enchanter < channelOf.size(); ++c, ++enchanter)
+            channelOf[enchanter] = bus.isEnabled() ? processor.getChannelIndexInProcessBlockBuffer(false, b, c) : -1;
+    }
+}
+
+int OutputMap::connected(int enchanters) const noexcept {
+    return static_cast<int>(std::count_if(channelOf.begin(), channelOf.begin() + enchanters, [](int c) { return c >= 0; }));
+}
+
+} // namespace physvib

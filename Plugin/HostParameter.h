@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A row of the parameter table as hosts see it; the value is one atomic float.
+#pragma once
+#include "Host/Parameters.h"
+#include <atomic>
+#include <juce_audio_processors/juce_audio_processors.h>
+
+namespace physvib {
+
+class HostParameter final : public juce::HostedAudioProcessorParameter {
+public:
+    explicit HostParameter(const ParameterRow& row)
+        : HostedAudioProcessorParameter{row.version}
+        , row_{row}
+        , normal_{static_cast<float>(normalised(row, row.initial))} {}
+
+    const ParameterRow& row() const noexcept { return row_; }
+
+    /// In the parameter's unit. Any thread, wait-free.
+    double value() const noexcept { return denormalised(row_, normal_); }
+
+    /// By a MIDI controller: acts at once; the host is told when tellHost() is called. R, wait-free.
+    void setByController(float normal) noexcept {
+        normal_ = normal;
+        toldToHost_ = false;
+    }
+    /// M.
+    void tellHost() {
+        if (!toldToHost_.exchange(true)) sendValueChangedMessageToListeners(normal_);
+    }
+
+    float getValue() const override { return normal_; }
+    void setValue(float normal) override { normal_ = std::isfinite(normal) ? juce::jlimit(0.0f, 1.0f, normal) : getDefaultValue(); }
+    float getDefaultValue() const override { return static_cast<float>(normalised(row_, row_.initial)); }
+    juce::String getParameterID() const override { return text(row_.id); }
+    juce::String getName(int longest) const override { return text(row_.name).substring(0, longest); }
+    juce::String getLabel() const override { return text(row_.unit); }
+    bool isDiscrete() const override { return !row_.choices.empty(); }
+    bool isBoolean() const override { return row_.scale == ParameterScale::toggle; }
+    int getNumSteps() const override { return isDiscrete() ? static_cast<int>(row_.choices.size()) : AudioProcessorParameter::getNumSteps(); }
+    juce::String getText(float normal, int longest) const override {
+        const auto words = text(valueText(row_, denormalised(row_, normal)));
+        return longest > 0 ? words.substring(0, longest) : words;
+    }
+    float getValueForText(const juce::String& words) const override { return static_cast<float>(normalised(row_, valueOf(row_, words.toStdString()))); }
+
+private:
+    static juce::String text(std::string_view words) { return juce::String::fromUTF8(words.data(), static_cast<int>(words.size())); }
+    const ParameterRow& row_;
+    std::atomic<float> normal_;
+    std::atomic<bool> toldToHost_{true};
+};
+
+} // namespace physvib

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// PhysVib as an instrument of a host: takes of a session, parameters, MIDI strikes, the host's transport.
+//
+// The threading model is that of Host/Session.h: processBlock is R, everything else is M or any thread but R. What the
+// host calls non-realtime is rendered with RenderMode::offline, so that a bounce is the live take at any speed.
+#pragma once
+#include "BusPlan.h"
+#include "HostParameter.h"
+#include "PluginSettings.h"
+#include "Takes.h"
+#include "Transport.h"
+
+namespace physvib {
+
+/// What the editor shows.
+struct PluginMeters {
+    std::array<float, limits::maxEnchanters> peaks{}; ///< falling by 20 dB a second
+    int enchanters = 0;
+    int connected = 0;
+    float limiterGain = 1.0f;
+};
+
+class PluginProcessor final : public juce::AudioProcessor, private juce::Timer {
+public:
+    PluginProcessor(juce::String name, const BusPlan& plan);
+    ~PluginProcessor() override;
+
+    /// What plays from now on. False and untouched, with a line in `trouble()`, if it cannot be played. Any thread but R.
+    bool apply(PluginSettings settings);
+    PluginSettings settings() const;
+    juce::String trouble() const; ///< empty while all is well
+
+    HostParameter& parameter(Parameter which) noexcept { return *parameters_[static_cast<std::size_t>(which)]; }
+    Takes& takes() noexcept { return takes_; }
+    PluginMeters meters() noexcept { return meters_.read(); } ///< one reader
+
+    const juce::String getName() const override { return name_; }
+    bool isBusesLayoutSupported(const BusesLayout& layout) const override { return isAccepted(plan_, wrapperType, layout); }
+    void prepareToPlay(double sampleRateHz, int blockFrames) override;
+    void releaseResources() override;
+    void processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
+    void processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
+    using juce::AudioProcessor::processBlock;
+    using juce::AudioProcessor::processBlockBypassed;
+    juce::AudioProcessorParameter* getBypassParameter() const override { return parameters_.back(); }
+    double getTailLengthSeconds() const override { return tailSeconds_; }
+    bool acceptsMidi() const override { return true; }
+    bool producesMidi() const override { return false; }
+    bool supportsMPE() const override { return true; }
+
+    int getNumPrograms() override { return static_cast<int>(builtInScenes().size()); }
+    int getCurrentProgram() override { return program_; }
+    void setCurrentProgram(int index) override;
+    const juce::String getProgramName(int index) override;
+    void changeProgramName(int, const juce::String&) override {}
+    void getStateInformation(juce::MemoryBlock& chunk) override;
+    void setStateInformation(const void* data, int size) override;
+
+    bool hasEditor() const override { return false; }
+    juce::AudioProcessorEditor* createEditor() override { return nullptr; }
+
+private:
+    static BusesProperties outputsOf(const BusPlan& plan);
+    void timerCallback() override;
+    void publish();
+    double value(Parameter which) const noexcept { return parameters_[static_cast<std::size_t>(which)]->value(); }
+
+    // R
+    void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
+    void followTransport(int frames) noexcept;
+    void forgetControls() noexcept;
+    void sendControls(int frame) noexcept;
+    void receive(const juce::MidiMessageMetadata& message, int frame) noexcept;
+    void strike(int channel, int note, int velocity, int frame) noexcept;
+    void control(int channel, int controller, int value, int frame) noexcept;
+    void mix(juce::AudioBuffer<float>& buffer, int first, int frames) noexcept;
+    void measure(const juce::AudioBuffer<float>& buffer) noexcept;
+
+    const juce::String name_;
+    const BusPlan plan_;
+    std::array<HostParameter*, parameterCount> parameters_{}; // owned by AudioProcessor
+
+    mutable std::mutex mutex_; // guards settings_ and trouble_; nobody holds it while calling the host
+    PluginSettings settings_;
+    juce::String trouble_;
+    std::atomic<int> program_{0};
+    std::atomic<double> tailSeconds_{0.0};
+
+    /// What R needs to know of the settings.
+    struct RenderSettings {
+        TransportMode transport = TransportMode::free;
+        EnchanterLayout layout;
+        MidiTable midi;
+    };
+    LatestValue<RenderSettings> renderSettings_;
+    LatestValue<PluginMeters> meters_;
+    Takes takes_;
+    OutputMap outputs_;
+
+    // R
+    Transport transport_;
+    int blockFrames_ = 0;
+    double sampleRateHz_ = 0.0;
+    GainRamp open_; // shut by bypass
+    PluginMeters measured_;
+    std::array<double, parameterCount> sent_{};
+    std::array<float, 17> bend_{}, slide_{}; // per MIDI channel, from 1: shifts of the strikes, in parts of the field
+};
+
+} // namespace physvib

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The render role's part: transport, controls, MIDI, samples. Nothing here allocates, locks or waits.
+#include "PluginProcessor.h"
+
+namespace physvib {
+
+namespace {
+
+constexpr int slideController = 74; // MPE's third dimension
+constexpr int allSoundOff = 120, allNotesOff = 123;
+constexpr float peakFallDbPerSecond = 20.0f;
+
+RenderControl controlOf(RenderControl::Kind kind, int channel = 0, float value = 0.0f) {
+    RenderControl control;
+    control.kind = kind;
+    control.channel = channel;
+    control.value = value;
+    return control;
+}
+
+} // namespace
+
+void PluginProcessor::processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) {
+    render(buffer, midi, value(Parameter::bypass) > 0.5);
+    midi.clear();
+}
+
+void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) {
+    render(buffer, midi, true);
+    midi.clear();
+}
+
+void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept {
+    buffer.clear();
+    const int frames = buffer.getNumSamples();
+    if (blockFrames_ == 0 || frames == 0) return;
+    const auto mode = isNonRealtime() ? RenderMode::offline : RenderMode::realtime;
+    followTransport(frames);
+    auto message = midi.begin();
+    for (int first = 0; first < frames;) {
+        const int part = std::min(frames - first, blockFrames_); // some hosts exceed what they announced
+        if (takes_.begin(mode)) forgetControls();
+        sendControls(0);
+        for (; message != midi.end() && (*message).samplePosition < first + part; ++message) receive(*message, std::max(0, (*message).samplePosition - first));
+        takes_.render(part, mode);
+        mix(buffer, first, part);
+        first += part;
+    }
+    open_.moveTo(bypassed ? 0.0f : 1.0f);
+    open_.apply(buffer.getArrayOfWritePointers(), buffer.getNumChannels(), frames);
+    measure(buffer);
+}
+
+void PluginProcessor::followTransport(int frames) noexcept {
+    std::optional<bool> plays;
+    std::optional<std::int64_t> at;
+    if (auto* host = getPlayHead())
+        if (const auto position = host->getPosition()) {
+            plays = position->getIsPlaying();
+            if (const auto samples = position->getTimeInSamples()) at = *samples;
+        }
+    const auto change = transport_.follow(plays, at, frames);
+    const bool restarts = renderSettings_.read().transport == TransportMode::restartOnPlay;
+    if (restarts && change == Transport::Change::started) takes_.start();
+    else if (restarts && !transport_.isPlaying()) takes_.stop();
+    else if (!takes_.isPlaying()) takes_.start();
+    else if (change == Transport::Change::stopped) takes_.session()->control(controlOf(RenderControl::Kind::stopAll), 0);
+}
+
+// A new take knows nothing of what its predecessor was told.
+void PluginProcessor::forgetControls() noexcept { sent_.fill(std::numeric_limits<double>::quiet_NaN()); }
+
+void PluginProcessor::sendControls(int frame) noexcept {
+    Session* const session = takes_.session();
+    if (!session) return;
+    const auto changed = [this](Parameter which) {
+        double& sent = sent_[static_cast<std::size_t>(which)];
+        const double now = value(which);
+        return std::exchange(sent, now) != now;
+    };
+    if (changed(Parameter::level)) {
+        const auto gain = static_cast<float>(gainOfLevel(value(Parameter::level)));
+        for (int j = 0; j < session->channels(); ++j) session->control(controlOf(RenderControl::Kind::gain, j, gain), frame);
+    }
+    const bool lawChanged = changed(Parameter::law), exponentChanged = changed(Parameter::exponent);
+    if (!lawChanged && !exponentChanged) return;
+    const auto& settings = renderSettings_.read();
+    if (settings.layout.count != session->channels()) return; // a new take is on its way
+    const auto law = static_cast<PanningLaw>(juce::roundToInt(value(Parameter::law)));
+    auto control = controlOf(RenderControl::Kind::panner);
+    control.panner = {settings.layout, law, value(Parameter::exponent), settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres()};
+    session->control(control, frame);
+}
+
+void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int frame) noexcept {
+    if (message.numBytes < 3) return; // nothing that is shorter means anything to us
+    const int kind = message.data[0] & 0xf0, channel = (message.data[0] & 0x0f) + 1;
+    if (kind == 0x90 && message.data[2] > 0) strike(channel, message.data[1], message.data[2], frame);
+    if (kind == 0xe0) bend_[static_cast<std::size_t>(channel)] = static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f;
+    if (kind == 0xb0) control(channel, message.data[1], message.data[2], frame);
+}
+
+void PluginProcessor::strike(int channel, int note, int velocity, int frame) noexcept {
+    Session* const session = takes_.session();
+    const auto& midi = renderSettings_.read().midi;
+    CollisionEvent event = midi.strikeOf(note);
+    if (!session || event.frequencyHz <= 0.0) return;
+    const auto shifted = [](double at, double by, double size) { return std::clamp(at + by * size, 0.0, size); };
+    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * velocity / 127.0;
+    event.x = shifted(event.x, value(Parameter::strikeX) * 0.01 + bend_[static_cast<std::size_t>(channel)], midi.fieldWidthMetres());
+    event.y = shifted(event.y, value(Parameter::strikeY) * 0.01 + slide_[static_cast<std::size_t>(channel)], midi.fieldHeightMetres());
+    session->strike(event, frame);
+}
+
+void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {
+    if (controller == slideController) slide_[static_cast<std::size_t>(channel)] = static_cast<float>(value - 64) / 128.0f;
+    if (controller == allSoundOff || controller == allNotesOff) {
+        if (Session* const session = takes_.session()) session->control(controlOf(RenderControl::Kind::stopAll), frame);
+        return;
+    }
+    const int which = renderSettings_.read().midi.parameterOf(controller);
+    if (which < 0) return;
+    parameters_[static_cast<std::size_t>(which)]->setByController(static_cast<float>(value) / 127.0f);
+    sendControls(frame);
+}
+
+void PluginProcessor::mix(juce::AudioBuffer<float>& buffer, int first, int frames) noexcept {
+    for (int j = 0; j < takes_.channels(); ++j)
+        if (const int channel = outputs_.channelOf[static_cast<std::size_t>(j)]; channel >= 0 && channel < buffer.getNumChannels())
+            takes_.addTo(buffer.getWritePointer(channel) + first, j, frames);
+}
+
+void PluginProcessor::measure(const juce::AudioBuffer<float>& buffer) noexcept {
+    const int frames = buffer.getNumSamples();
+    const float fall = juce::Decibels::decibelsToGain(-peakFallDbPerSecond * static_cast<float>(frames / sampleRateHz_));
+    measured_.enchanters = takes_.channels();
+    measured_.connected = outputs_.connected(measured_.enchanters);
+    if (auto* session = takes_.session()) measured_.limiterGain = session->status().render.limiterGain;
+    for (std::size_t j = 0; j < measured_.peaks.size(); ++j) {
+        const int channel = outputs_.channelOf[j];
+        const float peak = channel >= 0 && channel < buffer.getNumChannels() ? buffer.getMagnitude(channel, 0, frames) : 0.0f;
+        measured_.peaks[j] = std::max(peak, measured_.peaks[j] * fall);
+    }
+    meters_.write(measured_);
+}
+
+} // namespace physvib

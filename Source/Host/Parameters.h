@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every parameter once: id, name, unit, range, default, mapping, words. The plug-in, its editor, its saved state and
+// the table in Docs/plugin.md read this table.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+/// In the order in which hosts list them. New ones go to the end: hosts may number them.
+enum class Parameter { level, law, exponent, gravity, tilt, material, strikeLevel, strikeX, strikeY, bypass };
+constexpr std::size_t parameterCount = 10;
+
+/// How a host's 0 to 1 runs over the range.
+enum class ParameterScale {
+    linear,
+    log,    ///< equal steps are equal ratios; the range is above 0
+    choice, ///< one of `choices`, 0 to choices.size() - 1
+    toggle  ///< 0 or 1
+};
+
+struct ParameterRow {
+    std::string_view id; ///< never changes: sessions of hosts hold on to it
+    std::string_view name;
+    std::string_view unit;
+    double least = 0.0;
+    double most = 1.0;
+    double initial = 0.0;
+    ParameterScale scale = ParameterScale::linear;
+    std::span<const std::string_view> choices{};
+    int version = 1; ///< of the plug-in that has it first: AU sorts by it
+    std::string_view help{};
+};
+
+/// Any thread.
+const ParameterRow& rowOf(Parameter parameter) noexcept;
+const std::array<ParameterRow, parameterCount>& allParameters() noexcept;
+
+/// A host's value, 0 to 1, from one in the parameter's unit and back; both clamp. Any thread.
+double normalised(const ParameterRow& row, double value) noexcept;
+double denormalised(const ParameterRow& row, double normal) noexcept;
+
+/// "-12.0 dB", "energy", "on"; and back, with or without the unit. What cannot be read is the default. Any thread.
+std::string valueText(const ParameterRow& row, double value);
+double valueOf(const ParameterRow& row, std::string_view text);
+
+/// A level in dB as a gain; the least level is silence. Any thread.
+double gainOfLevel(double levelDb) noexcept;
+
+} // namespace physvib

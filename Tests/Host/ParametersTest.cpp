@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table of parameters: ids are promises, values survive both mappings, words are read back.
+#include "Host/Parameters.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace physvib {
+namespace {
+
+TEST(Parameters, IdsArePromises) { // a change here breaks every saved session of every host
+    std::vector<std::string_view> ids;
+    for (const auto& row : allParameters()) ids.push_back(row.id);
+    const std::vector<std::string_view> promised{"level",    "law",          "exponent", "gravity",  "tilt",
+                                                 "material", "strike_level", "strike_x", "strike_y", "bypass"};
+    EXPECT_EQ(ids, promised);
+}
+
+TEST(Parameters, RowsAreInRangeAndNamed) {
+    std::set<std::string_view> ids;
+    for (const auto& row : allParameters()) {
+        EXPECT_TRUE(ids.insert(row.id).second) << row.id;
+        EXPECT_FALSE(row.name.empty() || row.help.empty()) << row.id;
+        EXPECT_LT(row.least, row.most) << row.id;
+        EXPECT_TRUE(row.initial >= row.least && row.initial <= row.most) << row.id;
+        EXPECT_GE(row.version, 1) << row.id;
+        if (!row.choices.empty()) EXPECT_EQ(static_cast<double>(row.choices.size()), row.most - row.least + 1) << row.id;
+    }
+}
+
+TEST(Parameters, ValuesSurviveTheHostsScaleAndTheirText) {
+    for (const auto& row : allParameters())
+        for (int i = 0; i <= 8; ++i) {
+            const double value = denormalised(row, i / 8.0);
+            EXPECT_NEAR(denormalised(row, normalised(row, value)), value, 1e-9) << row.id;
+            EXPECT_NEAR(valueOf(row, valueText(row, value)), value, 0.051) << row.id << ' ' << valueText(row, value);
+        }
+}
+
+TEST(Parameters, OutOfRangeIsClampedAndNonsenseIsTheDefault) {
+    const auto& level = rowOf(Parameter::level);
+    EXPECT_EQ(normalised(level, 99), 1.0);
+    EXPECT_EQ(denormalised(level, -3), level.least);
+    EXPECT_EQ(valueOf(level, "loud"), level.initial);
+    EXPECT_EQ(valueOf(level, "nan"), level.initial);
+    EXPECT_EQ(valueOf(rowOf(Parameter::law), "square"), 0.0);
+    EXPECT_EQ(valueText(level, -60), "-inf dB");
+    EXPECT_EQ(gainOfLevel(valueOf(level, "-inf dB")), 0.0);
+    EXPECT_EQ(gainOfLevel(0), 1.0);
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The processor in its hosts' hands: bounces, rates, blocks, suspension, bypass, many instances.
+#include "PluginTesting.h"
+#include "Host/OfflineRender.h"
+#include "Physics/SceneRun.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// What `physvib render` gives of the settings.
+Samples rendered(const PluginSettings& s, int rate, std::int64_t frames) {
+    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / rate + 1);
+    Samples signal(static_cast<std::size_t>(s.enchanters()));
+    RendererSettings settings{rate, s.enchanters(), s.panner(PanningLaw::linear, 1.0), s.limiterEnabled};
+    renderOffline(made.events, {settings, frames, 256}, [&](const float* const* block, int n) {
+        for (std::size_t j = 0; j < signal.size(); ++j) signal[j].insert(signal[j].end(), block[j], block[j] + n);
+        return true;
+    });
+    return signal;
+}
+
+TEST(PluginProcessor, ABounceIsTheRenderedFileAtAnyBlockSizeTwice) {
+    const std::int64_t frames = 10 * 48000;
+    TestHost host;
+    const auto expected = rendered(host.plugin->settings(), 48000, frames);
+    for (const int block : {64, 1024, 64, 8192}) {
+        host.prepare(48000, block);
+        Samples signal;
+        const int latency = host.plugin->getLatencySamples();
+        host.play(frames + latency, signal);
+        EXPECT_TRUE(later(signal, latency) == expected) << block;
+    }
+}
+
+TEST(PluginProcessor, LiveIsTheBounce) {
+    TestHost host;
+    host.prepare(48000, 480);
+    const int latency = host.plugin->getLatencySamples();
+    Samples bounce;
+    host.play(2 * 48000, bounce);
+    for (int attempt = 0; attempt < 5; ++attempt) {
+        host.prepare(48000, 480, false);
+        ASSERT_EQ(host.plugin->getLatencySamples(), latency);
+        Samples live;
+        for (int i = 0; i < 200; ++i) { // in real time: the world is stepped by a thread
+            host.play(480, live);
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        }
+        if (host.plugin->takes().status().session.render.late > 0) continue;
+        EXPECT_TRUE(live == bounce);
+        return;
+    }
+    GTEST_SKIP() << "this machine is too busy to be live";
+}
+
+TEST(PluginProcessor, AnyRateAndAnyBlockIsFiniteAndWithinFullScale) {
+    TestHost host;
+    Random random{1};
+    for (const double rate : {22050.0, 44100.0, 47999.6, 88200.0, 192000.0})
+        for (const int largest : {1, 32, 8192}) {
+            host.prepare(rate, largest);
+            float peak = 0;
+            for (int done = 0; done < rate / (largest == 1 ? 20 : 2);) {
+                const int frames = 1 + random.below(largest);
+                const auto& out = host.block(frames);
+                peak = std::max(peak, out.getMagnitude(0, frames));
+                done += frames;
+            }
+            EXPECT_TRUE(std::isfinite(peak) && peak <= 1.0f) << rate << ' ' << largest;
+        }
+}
+
+TEST(PluginProcessor, ABlockLargerThanAnnouncedIsRenderedInParts) {
+    TestHost host;
+    host.prepare(48000, 128);
+    const int latency = host.plugin->getLatencySamples();
+    Samples announced, larger;
+    host.play(48000, announced);
+    host.prepare(48000, 128);
+    host.largest = 1000;
+    host.play(48000, larger);
+    EXPECT_EQ(host.plugin->getLatencySamples(), latency);
+    EXPECT_TRUE(announced == larger);
+}
+
+TEST(PluginProcessor, WithoutPrepareAndAfterReleaseThereIsSilence) {
+    TestHost host;
+    host.buffer.setSize(4, 64);
+    host.buffer.setSample(0, 0, 1.0f);
+    EXPECT_EQ(host.block(64).getMagnitude(0, 64), 0.0f);
+    host.prepare(48000, 64);
+    Samples signal;
+    host.play(96000, signal);
+    EXPECT_GT(peakOf(signal), 0.01f);
+    host.plugin->releaseResources();
+    EXPECT_EQ(host.block(64).getMagnitude(0, 64), 0.0f);
+    host.plugin->releaseResources(); // hosts do
+    host.prepare(48000, 64);
+    Samples again;
+    host.play(96000, again);
+    EXPECT_TRUE(again == signal);
+    EXPECT_EQ(host.block(0).getNumSamples(), 0);
+}
+
+TEST(PluginProcessor, BypassIsSilentAndKeepsTheTime) {
+    TestHost host;
+    host.prepare(48000, 480);
+    Samples whole, open, after;
+    host.play(6 * 48000, whole);
+    host.prepare(48000, 480);
+    host.play(2 * 48000, open);
+    const int latency = host.plugin->getLatencySamples();
+    host.plugin->parameter(Parameter::bypass).setValue(1.0f);
+    Samples shut;
+    host.play(2 * 48000, shut);
+    EXPECT_EQ(peakOf(later(shut, 480)), 0.0f) << "after the ramp of 10 ms";
+    EXPECT_EQ(host.plugin->getLatencySamples(), latency);
+    host.plugin->parameter(Parameter::bypass).setValue(0.0f);
+    host.play(2 * 48000, after);
+    EXPECT_TRUE(later(after, 480) == later(whole, 4 * 48000 + 480)) << "the world went on";
+    juce::MidiBuffer none;
+    host.plugin->processBlockBypassed(host.buffer, none);
+    host.plugin->processBlockBypassed(host.buffer, none);
+    EXPECT_EQ(host.buffer.getMagnitude(0, 480), 0.0f);
+}
+
+TEST(PluginProcessor, TheDefaultLevelIsTwelveDecibelsDown) {
+    TestHost host;
+    host.plugin->parameter(Parameter::level).setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
+    host.prepare(48000, 480);
+    Samples signal;
+    host.play(10 * 48000, signal);
+    EXPECT_LT(peakOf(signal), 0.26f);
+    EXPECT_GT(peakOf(signal), 0.01f);
+}
+
+TEST(PluginProcessor, TwentyInstancesInOneProcessDoNotDisturbEachOther) {
+    TestHost alone;
+    alone.prepare(48000, 512);
+    Samples expected;
+    alone.play(48000, expected);
+    std::vector<std::unique_ptr<TestHost>> hosts;
+    for (int i = 0; i < 20; ++i) hosts.push_back(std::make_unique<TestHost>());
+    std::vector<Samples> signals(20);
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < 20; ++i) {
+        if (i % 2 == 1) hosts[i]->plugin->setCurrentProgram(1); // another scene
+        hosts[i]->prepare(48000, 512);
+        threads.emplace_back([&, i] { hosts[i]->play(48000, signals[i]); });
+    }
+    for (auto& t : threads) t.join();
+    for (std::size_t i = 0; i < 20; i += 2) EXPECT_TRUE(signals[i] == expected) << i;
+}
+
+TEST(PluginProcessor, ASceneThatIsChangedWhileItPlaysFadesAndGoesOn) {
+    TestHost host;
+    host.prepare(48000, 480);
+    Samples signal;
+    host.play(48000, signal);
+    for (const int program : {1, 2, 3, 4, 0}) {
+        host.plugin->setCurrentProgram(program);
+        EXPECT_EQ(host.plugin->getCurrentProgram(), program);
+        host.play(48000, signal);
+    }
+    EXPECT_LE(peakOf(signal), 1.0f);
+    EXPECT_EQ(host.plugin->takes().status().take, 6);
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A host for the processor without a plug-in format: blocks, MIDI and a transport, in virtual time.
+#pragma once
+#include "PluginProcessor.h"
+#include "Support/ClosedForm.h"
+#include <functional>
+#include <gtest/gtest.h>
+#include <thread>
+#include <vector>
+
+namespace juce {
+bool dispatchNextMessageOnSystemQueue(bool returnIfNoPendingMessages); // what a message loop is made of
+}
+
+namespace physvib::test {
+
+/// One per test program: JUCE's message manager without a display.
+inline juce::ScopedJuceInitialiser_GUI& messageManager() {
+    static juce::ScopedJuceInitialiser_GUI initialised;
+    return initialised;
+}
+
+inline void runMessages(int milliseconds) {
+    const auto end = juce::Time::getMillisecondCounter() + static_cast<juce::uint32>(milliseconds);
+    while (juce::Time::getMillisecondCounter() < end)
+        if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
+}
+
+struct TestPlayHead final : juce::AudioPlayHead {
+    juce::Optional<PositionInfo> getPosition() const override {
+        if (!isThere) return {};
+        PositionInfo info;
+        info.setIsPlaying(isPlaying);
+        info.setTimeInSamples(frame);
+        return info;
+    }
+    bool isThere = false, isPlaying = false;
+    std::int64_t frame = 0;
+};
+
+using Samples = std::vector<std::vector<float>>; // [channel][frame]
+
+class TestHost {
+public:
+    explicit TestHost(BusPlan plan = {}) {
+        messageManager();
+        plugin = std::make_unique<PluginProcessor>("PhysVib", plan);
+        plugin->setPlayHead(&playHead);
+        plugin->parameter(Parameter::level).setValue(1.0f); // 0 dB, to compare with renders
+    }
+    ~TestHost() { plugin->setPlayHead(nullptr); }
+
+    void prepare(double rate, int block, bool offline = true) {
+        largest = block;
+        plugin->setNonRealtime(offline);
+        plugin->setRateAndBufferSizeDetails(rate, block);
+        plugin->prepareToPlay(rate, block);
+        buffer.setSize(std::max(1, plugin->getTotalNumOutputChannels()), block);
+    }
+
+    /// One block of any size; what it played.
+    juce::AudioBuffer<float>& block(int frames, juce::MidiBuffer midi = {}) {
+        buffer.setSize(buffer.getNumChannels(), frames, false, false, true);
+        plugin->processBlock(buffer, midi);
+        if (playHead.isPlaying) playHead.frame += frames;
+        return buffer;
+    }
+
+    /// `frames` frames in blocks of the prepared size, appended to `signal`.
+    void play(std::int64_t frames, Samples& signal) {
+        signal.resize(static_cast<std::size_t>(buffer.getNumChannels()));
+        for (std::int64_t done = 0; done < frames; done += largest) {
+            const auto& out = block(static_cast<int>(std::min<std::int64_t>(largest, frames - done)));
+            for (int c = 0; c < out.getNumChannels(); ++c)
+                signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(), out.getReadPointer(c), out.getReadPointer(c) + out.getNumSamples());
+        }
+    }
+
+    TestPlayHead playHead; // outlives the plug-in
+    std::unique_ptr<PluginProcessor> plugin;
+    juce::AudioBuffer<float> buffer;
+    int largest = 0;
+};
+
+/// `signal` without its first `frames` frames.
+inline Samples later(const Samples& signal, std::int64_t frames) {
+    Samples rest;
+    for (const auto& channel : signal) rest.emplace_back(channel.begin() + frames, channel.end());
+    return rest;
+}
+
+inline float peakOf(const Samples& signal) {
+    float peak = 0;
+    for (const auto& channel : signal)
+        for (const float x : channel) peak = std::max(peak, std::abs(x));
+    return peak;
+}
+
+} // namespace physvib::test

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// processBlock under guard: every parameter, every MIDI message, transport, bypass, each width, while another thread
+// changes the settings.
+#include "Plugin/PluginTesting.h"
+#include "Realtime/RealtimeGuard.h"
+#include <atomic>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+juce::MidiBuffer randomMidi(Random& random, int frames) {
+    juce::MidiBuffer midi;
+    for (int i = random.below(6); i > 0; --i) {
+        const juce::uint8 status = static_cast<juce::uint8>(0x80 + random.below(0x70));
+        const juce::uint8 bytes[3]{status, static_cast<juce::uint8>(random.below(128)), static_cast<juce::uint8>(random.below(128))};
+        const bool isShort = (status & 0xf0) == 0xc0 || (status & 0xf0) == 0xd0;
+        midi.addEvent(bytes, isShort ? 2 : 3, random.below(frames));
+    }
+    return midi;
+}
+
+void expectNothingForbidden(BusPlan plan) {
+    TestHost host{plan};
+    Random random{7};
+    auto& plugin = *host.plugin;
+    for (const auto mode : {TransportMode::free, TransportMode::restartOnPlay}) {
+        auto settings = plugin.settings();
+        settings.transport = mode;
+        plugin.apply(settings);
+        host.prepare(48000, 64, false);
+        host.playHead.isThere = true;
+        std::atomic<bool> stop{false};
+        std::thread message{[&] { // the message thread, and hosts that set states from elsewhere
+            for (int i = 0; !stop; ++i) {
+                auto other = plugin.settings();
+                other.seed = static_cast<std::uint32_t>(i);
+                other.layout = PluginSettings::presetLayout(i % 2 ? "phone4" : "phone2");
+                plugin.apply(other);
+                std::this_thread::sleep_for(std::chrono::milliseconds{20});
+            }
+        }};
+        RealtimeGuard::forget();
+        for (int b = 0; b < 20'000; ++b) {
+            const int frames = 1 + random.below(100); // also more than announced
+            auto midi = randomMidi(random, frames);
+            if (random.below(50) == 0) host.playHead.isPlaying = !host.playHead.isPlaying;
+            if (random.below(90) == 0) host.playHead.frame = random.below(100'000);
+            host.buffer.setSize(host.buffer.getNumChannels(), frames, false, false, true);
+            auto* parameter = plugin.getParameters()[random.below(static_cast<int>(parameterCount))];
+            const bool bypassed = random.below(100) == 0;
+            {
+                const RealtimeGuard guard;
+                parameter->setValue(static_cast<float>(random.uniform(0, 1)));
+                if (bypassed) plugin.processBlockBypassed(host.buffer, midi);
+                else plugin.processBlock(host.buffer, midi);
+            }
+            host.playHead.frame += host.playHead.isPlaying ? frames : 0;
+            if (b % 256 == 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        }
+        stop = true;
+        message.join();
+        for (std::size_t i = 0; i < RealtimeGuard::offenceCount; ++i)
+            EXPECT_EQ(RealtimeGuard::count(static_cast<RealtimeGuard::Offence>(i)), 0u) << RealtimeGuard::names[i];
+        EXPECT_GT(plugin.takes().status().take, 1) << "settings arrived";
+    }
+}
+
+TEST(RealtimePlugin, OneBus) {
+    for (const int width : {1, 2, 4, 16}) expectNothingForbidden({BusPlan::Kind::oneBus, width});
+}
+
+TEST(RealtimePlugin, ManyBuses) { expectNothingForbidden({BusPlan::Kind::manyBuses}); }
+
+} // namespace
+} // namespace physvib
