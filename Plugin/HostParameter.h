@@ -7,11 +7,12 @@
 
 namespace physvib {
 
-class HostParameter final : public juce::HostedAudioProcessorParameter {
+class HostParameter final : public juce::RangedAudioParameter { // LV2 tells real ranges of this kind only
 public:
     explicit HostParameter(const ParameterRow& row)
-        : HostedAudioProcessorParameter{row.version}
+        : RangedAudioParameter{juce::ParameterID{text(row.id), row.version}, text(row.name), juce::AudioProcessorParameterWithIDAttributes{}.withLabel(text(row.unit))}
         , row_{row}
+        , range_{rangeOf(row)}
         , normal_{static_cast<float>(normalised(row, row.initial))} {}
 
     const ParameterRow& row() const noexcept { return row_; }
@@ -32,12 +33,10 @@ public:
     float getValue() const override { return normal_; }
     void setValue(float normal) override { normal_ = std::isfinite(normal) ? juce::jlimit(0.0f, 1.0f, normal) : getDefaultValue(); }
     float getDefaultValue() const override { return static_cast<float>(normalised(row_, row_.initial)); }
-    juce::String getParameterID() const override { return text(row_.id); }
-    juce::String getName(int longest) const override { return text(row_.name).substring(0, longest); }
-    juce::String getLabel() const override { return text(row_.unit); }
     bool isDiscrete() const override { return !row_.choices.empty(); }
     bool isBoolean() const override { return row_.scale == ParameterScale::toggle; }
     int getNumSteps() const override { return isDiscrete() ? static_cast<int>(row_.choices.size()) : AudioProcessorParameter::getNumSteps(); }
+    const juce::NormalisableRange<float>& getNormalisableRange() const override { return range_; }
     juce::String getText(float normal, int longest) const override {
         const auto words = text(valueText(row_, denormalised(row_, normal)));
         return longest > 0 ? words.substring(0, longest) : words;
@@ -45,8 +44,16 @@ public:
     float getValueForText(const juce::String& words) const override { return static_cast<float>(normalised(row_, valueOf(row_, words.toStdString()))); }
 
 private:
+    static juce::NormalisableRange<float> rangeOf(const ParameterRow& row) {
+        if (!row.choices.empty()) return {0.0f, 1.0f}; // the LV2 wrapper numbers choices from 0 to 1
+        const auto from = [&row](float, float, float normal) { return static_cast<float>(denormalised(row, normal)); };
+        const auto to = [&row](float, float, float value) { return static_cast<float>(normalised(row, value)); };
+        const auto snap = [from, to](float least, float most, float value) { return from(least, most, to(least, most, value)); };
+        return {static_cast<float>(row.least), static_cast<float>(row.most), from, to, snap};
+    }
     static juce::String text(std::string_view words) { return juce::String::fromUTF8(words.data(), static_cast<int>(words.size())); }
     const ParameterRow& row_;
+    const juce::NormalisableRange<float> range_;
     std::atomic<float> normal_;
     std::atomic<bool> toldToHost_{true};
 };

@@ -34,15 +34,17 @@ CollisionEvent strikeBy(const NoteRule& rule, const Scene& scene) {
 
 } // namespace
 
-MidiTable::MidiTable(const MidiMap& map, const Scene& scene)
-    : width_{scene.fieldWidthMetres}
-    , height_{scene.fieldHeightMetres} {
-    const auto materials = vibratingMaterials(scene);
+std::vector<ControllerRule> defaultControllers() { return {{1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}}; }
+
+MidiTable::MidiTable(const PluginState& state)
+    : width_{state.scene.fieldWidthMetres}
+    , height_{state.scene.fieldHeightMetres} {
+    const auto materials = vibratingMaterials(state.scene);
     for (int note = 0; note < 128 && !materials.empty(); ++note)
-        strikes_[static_cast<std::size_t>(note)] = strikeBy(defaultRule(note, materials), scene);
-    for (const auto& rule : map.notes) strikes_[static_cast<std::size_t>(rule.note & 127)] = strikeBy(rule, scene);
+        strikes_[static_cast<std::size_t>(note)] = strikeBy(defaultRule(note, materials), state.scene);
+    for (const auto& rule : state.notes) strikes_[static_cast<std::size_t>(rule.note & 127)] = strikeBy(rule, state.scene);
     parameters_.fill(-1);
-    for (const auto& rule : map.controllers) parameters_[static_cast<std::size_t>(rule.controller & 127)] = static_cast<int>(rule.parameter);
+    for (const auto& rule : state.controllers) parameters_[static_cast<std::size_t>(rule.controller & 127)] = parameterOfId(rule.parameter);
 }
 
 } // namespace physvib

@@ -2,47 +2,21 @@
 // Which note strikes what and where; which controller moves which parameter.
 #pragma once
 #include "Core/CollisionEvent.h"
+#include "Files/PluginState.h"
 #include "Host/Parameters.h"
-#include "Physics/Scene.h"
 #include <array>
-#include <optional>
-#include <vector>
 
 namespace physvib {
 
-/// A note that does not do what the default map says.
-struct NoteRule {
-    int note = 0;     ///< 0 to 127
-    int material = 0; ///< index of the scene's
-    double x = 0.5;   ///< place in parts of the field, from the lower left corner
-    double y = 0.5;
-    bool operator==(const NoteRule&) const = default;
-};
+/// What a new instance's controllers do.
+std::vector<ControllerRule> defaultControllers();
 
-/// A controller that moves a parameter over its whole range.
-struct ControllerRule {
-    int controller = 0; ///< 0 to 119
-    Parameter parameter = Parameter::level;
-    bool operator==(const ControllerRule&) const = default;
-};
-
-/// What differs from the default: every octave is a material of the scene, every note a place from left (C) to right (B).
-struct MidiMap {
-    std::vector<NoteRule> notes;
-    std::vector<ControllerRule> controllers{defaultControllers()};
-    bool operator==(const MidiMap&) const = default;
-
-    static std::vector<ControllerRule> defaultControllers() {
-        return {{1, Parameter::tilt}, {7, Parameter::level}, {16, Parameter::gravity}, {17, Parameter::exponent}};
-    }
-};
-
-/// A map made ready for the render role: a table, no search. Built on M, read by R.
+/// The rules of a state made ready for the render role: a table, no search. Built on M, read by R.
 class MidiTable {
 public:
     MidiTable() = default;
-    /// `scene` valid; materials that never vibrate strike nothing.
-    MidiTable(const MidiMap& map, const Scene& scene);
+    /// Materials that never vibrate strike nothing.
+    explicit MidiTable(const PluginState& state);
 
     /// The strike of a note, its amplitude 1; frequency 0 if it strikes nothing.
     const CollisionEvent& strikeOf(int note) const noexcept { return strikes_[static_cast<std::size_t>(note & 127)]; }

@@ -1,16 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The message thread's part: settings, buses, rates, latency.
 #include "PluginProcessor.h"
+#include "Files/SceneCatalogue.h"
+#include <algorithm>
 #include <stdexcept>
 
 namespace physvib {
+
+namespace {
+
+std::string firstUnknown(const PluginState& state) {
+    for (const auto& [id, value] : state.parameters)
+        if (parameterOfId(id) < 0) return id;
+    for (const auto& rule : state.controllers)
+        if (parameterOfId(rule.parameter) < 0) return rule.parameter;
+    return {};
+}
+
+int programOf(const Scene& scene) {
+    const auto& scenes = builtInScenes();
+    const auto found = std::ranges::find(scenes, scene.name, &Scene::name);
+    return found == scenes.end() ? 0 : static_cast<int>(found - scenes.begin());
+}
+
+} // namespace
 
 PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     : AudioProcessor{outputsOf(plan)}
     , name_{std::move(name)}
     , plan_{plan} {
     for (std::size_t i = 0; i < parameterCount; ++i) addParameter(parameters_[i] = new HostParameter{allParameters()[i]});
-    apply({});
+    apply(newPluginState());
     startTimerHz(20);
 }
 
@@ -25,29 +45,36 @@ PluginProcessor::~PluginProcessor() {
     takes_.release();
 }
 
-bool PluginProcessor::apply(PluginSettings settings) {
+bool PluginProcessor::apply(PluginState state) {
     try {
-        takes_.set(settings.session());
+        takes_.set(sessionSetupOf(state));
     } catch (const std::invalid_argument& error) {
-        const std::lock_guard lock{mutex_};
-        trouble_ = error.what();
-        return false;
+        return refuse(error.what());
     }
-    takes_.setQuickStarts(settings.transport == TransportMode::restartOnPlay);
-    tailSeconds_ = settings.longestRingSeconds();
+    takes_.setQuickStarts(state.transport == TransportMode::restartOnPlay);
+    tailSeconds_ = longestRingSeconds(state);
     {
         const std::lock_guard lock{mutex_};
         trouble_.clear();
-        settings_ = std::move(settings);
-        renderSettings_.write({settings_.transport, settings_.layout.geometry, {settings_.midi, settings_.scene}});
+        state_ = std::move(state);
+        renderSettings_.write({state_.transport, state_.layout.geometry, MidiTable{state_}});
     }
     publish();
     return true;
 }
 
-PluginSettings PluginProcessor::settings() const {
+bool PluginProcessor::refuse(const juce::String& why) {
     const std::lock_guard lock{mutex_};
-    return settings_;
+    trouble_ = why;
+    return false;
+}
+
+PluginState PluginProcessor::state() const {
+    const std::lock_guard lock{mutex_};
+    PluginState now = state_;
+    now.parameters.clear();
+    for (const auto* p : parameters_) now.parameters.emplace_back(p->row().id, p->value());
+    return now;
 }
 
 juce::String PluginProcessor::trouble() const {
@@ -83,9 +110,12 @@ void PluginProcessor::timerCallback() {
     for (auto* p : parameters_) p->tellHost();
 }
 
+// Factory presets are the built-in scenes.
+int PluginProcessor::getNumPrograms() { return static_cast<int>(builtInScenes().size()); }
+
 void PluginProcessor::setCurrentProgram(int index) {
     if (index < 0 || index >= getNumPrograms() || index == program_) return;
-    auto changed = settings();
+    auto changed = state();
     changed.scene = builtInScenes()[static_cast<std::size_t>(index)];
     if (apply(std::move(changed))) program_ = index;
 }
@@ -95,7 +125,29 @@ const juce::String PluginProcessor::getProgramName(int index) {
     return index >= 0 && index < static_cast<int>(scenes.size()) ? juce::String{scenes[static_cast<std::size_t>(index)].name} : juce::String{};
 }
 
-void PluginProcessor::getStateInformation(juce::MemoryBlock&) {}
-void PluginProcessor::setStateInformation(const void*, int) {}
+void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
+    const std::string text = pluginStateJson(state());
+    chunk.replaceAll(text.data(), text.size());
+}
+
+// A chunk that cannot be read leaves everything as it was.
+void PluginProcessor::setStateInformation(const void* data, int size) {
+    const auto read = readPluginState({static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))}, "state");
+    if (!read) {
+        refuse(juce::String::fromUTF8(read.error.c_str()));
+        return;
+    }
+    if (const auto unknown = firstUnknown(read.value); !unknown.empty()) {
+        refuse("state: no parameter \"" + juce::String::fromUTF8(unknown.c_str()) + "\"");
+        return;
+    }
+    if (!apply(read.value)) return;
+    for (auto* p : parameters_) p->setValueNotifyingHost(p->getDefaultValue());
+    for (const auto& [id, value] : read.value.parameters) {
+        auto& p = *parameters_[static_cast<std::size_t>(parameterOfId(id))];
+        p.setValueNotifyingHost(static_cast<float>(normalised(p.row(), value)));
+    }
+    program_ = programOf(read.value.scene);
+}
 
 } // namespace physvib

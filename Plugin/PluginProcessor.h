@@ -6,6 +6,7 @@
 #pragma once
 #include "BusPlan.h"
 #include "HostParameter.h"
+#include "MidiMap.h"
 #include "PluginSettings.h"
 #include "Takes.h"
 #include "Transport.h"
@@ -26,8 +27,8 @@ public:
     ~PluginProcessor() override;
 
     /// What plays from now on. False and untouched, with a line in `trouble()`, if it cannot be played. Any thread but R.
-    bool apply(PluginSettings settings);
-    PluginSettings settings() const;
+    bool apply(PluginState state);
+    PluginState state() const; ///< with the parameters as they are
     juce::String trouble() const; ///< empty while all is well
 
     HostParameter& parameter(Parameter which) noexcept { return *parameters_[static_cast<std::size_t>(which)]; }
@@ -48,7 +49,7 @@ public:
     bool producesMidi() const override { return false; }
     bool supportsMPE() const override { return true; }
 
-    int getNumPrograms() override { return static_cast<int>(builtInScenes().size()); }
+    int getNumPrograms() override;
     int getCurrentProgram() override { return program_; }
     void setCurrentProgram(int index) override;
     const juce::String getProgramName(int index) override;
@@ -62,6 +63,7 @@ public:
 private:
     static BusesProperties outputsOf(const BusPlan& plan);
     void timerCallback() override;
+    bool refuse(const juce::String& why);
     void publish();
     double value(Parameter which) const noexcept { return parameters_[static_cast<std::size_t>(which)]->value(); }
 
@@ -80,13 +82,13 @@ private:
     const BusPlan plan_;
     std::array<HostParameter*, parameterCount> parameters_{}; // owned by AudioProcessor
 
-    mutable std::mutex mutex_; // guards settings_ and trouble_; nobody holds it while calling the host
-    PluginSettings settings_;
+    mutable std::mutex mutex_; // guards state_ and trouble_; nobody holds it while calling the host
+    PluginState state_;
     juce::String trouble_;
     std::atomic<int> program_{0};
     std::atomic<double> tailSeconds_{0.0};
 
-    /// What R needs to know of the settings.
+    /// What R needs to know of the state.
     struct RenderSettings {
         TransportMode transport = TransportMode::free;
         EnchanterLayout layout;

@@ -1,54 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an instance of the plug-in plays, apart from its parameters.
+// From the state of an instance to what renders it.
 #pragma once
-#include "Files/LayoutFile.h"
-#include "Files/SceneCatalogue.h"
+#include "Files/PluginState.h"
 #include "Host/Session.h"
-#include "MidiMap.h"
-#include <cmath>
 
 namespace physvib {
 
-enum class TransportMode {
-    free,         ///< the scene runs whenever the host renders
-    restartOnPlay ///< the scene starts at its seed whenever the transport starts or jumps, and is silent while it stands
-};
+/// A preset's layout with its name. M only.
+LayoutDescription presetLayout(std::string_view name);
 
-struct PluginSettings {
-    Scene scene = *findBuiltInScene("shake-the-box");
-    std::uint32_t seed = 1;
-    int stepsPerSecond = 100;
-    LayoutDescription layout = presetLayout("phone4");
-    bool limiterEnabled = true;
-    TransportMode transport = TransportMode::free;
-    MidiMap midi;
+/// What a new instance plays: "shake the box" on four enchanters, running free. M only.
+PluginState newPluginState();
 
-    static LayoutDescription presetLayout(std::string_view name) {
-        EnchanterLayout geometry;
-        layoutPreset(name, geometry);
-        return describeLayout(std::string{name}, geometry);
-    }
-    int enchanters() const noexcept { return layout.geometry.count; }
-    PhantomPanner panner(PanningLaw law, double exponent) const noexcept {
-        return {layout.geometry, law, exponent, scene.fieldWidthMetres, scene.fieldHeightMetres};
-    }
-    SessionSetup session() const {
-        SessionSetup setup;
-        setup.scene = scene;
-        setup.seed = seed;
-        setup.stepsPerSecond = stepsPerSecond;
-        setup.channels = enchanters();
-        setup.panner = panner(PanningLaw::linear, 1.0);
-        setup.limiterEnabled = limiterEnabled;
-        return setup;
-    }
-    /// From a strike at full scale until it has fallen out of hearing, at the smallest decay of the scene.
-    double longestRingSeconds() const noexcept {
-        double least = limits::maxDecayPerSecond;
-        for (const auto& m : scene.materials)
-            if (m.frequencyHz > 0.0 && m.decayPerSecond > 0.0) least = std::min(least, m.decayPerSecond);
-        return limits::retireDecibels / 20.0 * std::log(10.0) / least;
-    }
-};
+inline int enchantersOf(const PluginState& state) noexcept { return state.layout.geometry.count; }
+
+/// Any thread.
+PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept;
+SessionSetup sessionSetupOf(const PluginState& state);
+
+/// From a strike at full scale until it has fallen out of hearing, at the smallest decay of the scene. Any thread.
+double longestRingSeconds(const PluginState& state) noexcept;
 
 } // namespace physvib

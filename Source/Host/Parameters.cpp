@@ -40,6 +40,11 @@ bool hasWords(const ParameterRow& row) { return !row.choices.empty(); }
 const std::array<ParameterRow, parameterCount>& allParameters() noexcept { return table; }
 const ParameterRow& rowOf(Parameter parameter) noexcept { return table[static_cast<std::size_t>(parameter)]; }
 
+int parameterOfId(std::string_view id) noexcept {
+    const auto found = std::ranges::find(table, id, &ParameterRow::id);
+    return found == table.end() ? -1 : static_cast<int>(found - table.begin());
+}
+
 double normalised(const ParameterRow& row, double value) noexcept {
     const double v = std::clamp(value, row.least, row.most);
     if (row.scale == log) return std::log(v / row.least) / std::log(row.most / row.least);

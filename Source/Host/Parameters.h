@@ -39,6 +39,9 @@ struct ParameterRow {
 const ParameterRow& rowOf(Parameter parameter) noexcept;
 const std::array<ParameterRow, parameterCount>& allParameters() noexcept;
 
+/// Place of the parameter with that id in the table; -1 if there is none. Any thread.
+int parameterOfId(std::string_view id) noexcept;
+
 /// A host's value, 0 to 1, from one in the parameter's unit and back; both clamp. Any thread.
 double normalised(const ParameterRow& row, double value) noexcept;
 double denormalised(const ParameterRow& row, double normal) noexcept;

@@ -41,8 +41,8 @@ TEST(BusPlan, ManyBusesTakeMonoStereoAndNothing) {
 }
 
 /// An enchanter of its own for each of n channels, all in a line; a note strikes at one of them.
-PluginSettings lineOf(int n) {
-    PluginSettings s;
+PluginState lineOf(int n) {
+    PluginState s = newPluginState();
     s.scene.bodies.clear();
     s.scene.joints.clear();
     s.scene.script.clear();
@@ -58,7 +58,7 @@ std::vector<int> channelsOfEnchanters(TestHost& host, int enchanters) {
     host.plugin->parameter(Parameter::exponent).setValue(1.0f); // neighbours get less than half
     for (int j = 0; j < enchanters; ++j) {
         auto settings = lineOf(enchanters);
-        settings.midi.notes = {{60, 3, enchanters > 1 ? j / (enchanters - 1.0) : 0.0, 0.0}};
+        settings.notes = {{60, 3, enchanters > 1 ? j / (enchanters - 1.0) : 0.0, 0.0}};
         EXPECT_TRUE(host.plugin->apply(settings));
         host.prepare(48000, 512);
         juce::MidiBuffer midi;

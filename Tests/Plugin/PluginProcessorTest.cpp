@@ -10,10 +10,10 @@ namespace {
 using namespace test;
 
 /// What `physvib render` gives of the settings.
-Samples rendered(const PluginSettings& s, int rate, std::int64_t frames) {
+Samples rendered(const PluginState& s, int rate, std::int64_t frames) {
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / rate + 1);
-    Samples signal(static_cast<std::size_t>(s.enchanters()));
-    RendererSettings settings{rate, s.enchanters(), s.panner(PanningLaw::linear, 1.0), s.limiterEnabled};
+    Samples signal(static_cast<std::size_t>(enchantersOf(s)));
+    RendererSettings settings{rate, enchantersOf(s), pannerOf(s, PanningLaw::linear, 1.0), s.limiterEnabled};
     renderOffline(made.events, {settings, frames, 256}, [&](const float* const* block, int n) {
         for (std::size_t j = 0; j < signal.size(); ++j) signal[j].insert(signal[j].end(), block[j], block[j] + n);
         return true;
@@ -24,7 +24,7 @@ Samples rendered(const PluginSettings& s, int rate, std::int64_t frames) {
 TEST(PluginProcessor, ABounceIsTheRenderedFileAtAnyBlockSizeTwice) {
     const std::int64_t frames = 10 * 48000;
     TestHost host;
-    const auto expected = rendered(host.plugin->settings(), 48000, frames);
+    const auto expected = rendered(host.plugin->state(), 48000, frames);
     for (const int block : {64, 1024, 64, 8192}) {
         host.prepare(48000, block);
         Samples signal;

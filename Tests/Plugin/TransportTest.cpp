@@ -25,8 +25,8 @@ TEST(Transport, AHostWithoutOnePlays) {
     EXPECT_EQ(t.follow({}, {}, 64), Change::none);
 }
 
-PluginSettings restarting() {
-    PluginSettings s;
+PluginState restarting() {
+    PluginState s = newPluginState();
     s.transport = TransportMode::restartOnPlay;
     return s;
 }

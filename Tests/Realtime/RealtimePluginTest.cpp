@@ -26,7 +26,7 @@ void expectNothingForbidden(BusPlan plan) {
     Random random{7};
     auto& plugin = *host.plugin;
     for (const auto mode : {TransportMode::free, TransportMode::restartOnPlay}) {
-        auto settings = plugin.settings();
+        auto settings = plugin.state();
         settings.transport = mode;
         plugin.apply(settings);
         host.prepare(48000, 64, false);
@@ -34,9 +34,9 @@ void expectNothingForbidden(BusPlan plan) {
         std::atomic<bool> stop{false};
         std::thread message{[&] { // the message thread, and hosts that set states from elsewhere
             for (int i = 0; !stop; ++i) {
-                auto other = plugin.settings();
+                auto other = plugin.state();
                 other.seed = static_cast<std::uint32_t>(i);
-                other.layout = PluginSettings::presetLayout(i % 2 ? "phone4" : "phone2");
+                other.layout = presetLayout(i % 2 ? "phone4" : "phone2");
                 plugin.apply(other);
                 std::this_thread::sleep_for(std::chrono::milliseconds{20});
             }

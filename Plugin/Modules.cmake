@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# physvib_plugin(TARGET NAME CODE LV2URI BUSES CHANNELS FORMATS...): NAME.vst3, NAME.lv2, NAME.component in plugins/
+# (spaces of the name become hyphens).
+# CODE (four characters) and LV2URI are promises: hosts find our instances by them.
+function(physvib_plugin target name code lv2uri buses channels)
+    string(REPLACE " " "-" file ${name})
+    juce_add_plugin(${target}
+        FORMATS ${ARGN}
+        PLUGIN_NAME ${name}
+        PRODUCT_NAME ${file}
+        DESCRIPTION "Collisions one can feel: each channel drives a vibration module"
+        VERSION ${PROJECT_VERSION}
+        COMPANY_NAME PhysVib
+        LV2URI https://unused # where a package does not lose it, the definition below still comes first
+        BUNDLE_ID org.physvib.${target}
+        PLUGIN_MANUFACTURER_CODE PhVb
+        PLUGIN_CODE ${code}
+        IS_SYNTH TRUE
+        NEEDS_MIDI_INPUT TRUE
+        VST3_CATEGORIES Instrument Generator
+        AU_MAIN_TYPE kAudioUnitType_MusicDevice)
+    target_sources(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Entry.cpp)
+    target_compile_definitions(${target} PUBLIC PHYSVIB_BUSES=${buses} PHYSVIB_CHANNELS=${channels} JUCE_VST3_CAN_REPLACE_VST2=0
+        JucePlugin_LV2URI="${lv2uri}") # juce_add_plugin's own argument is lost in Debian's package
+    target_link_libraries(${target} PUBLIC physvib-plugin)
+    set(plugins ${CMAKE_BINARY_DIR}/plugins)
+    if(TARGET ${target}_VST3)
+        set_target_properties(${target}_VST3 PROPERTIES LIBRARY_OUTPUT_DIRECTORY
+            $<IF:$<PLATFORM_ID:Linux>,${plugins}/${file}.vst3/Contents/${CMAKE_SYSTEM_PROCESSOR}-linux,${plugins}>)
+    endif()
+    if(TARGET ${target}_LV2)
+        set_target_properties(${target}_LV2 PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY "${plugins}/${file}.lv2")
+    endif()
+    if(TARGET ${target}_AU)
+        set_target_properties(${target}_AU PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${plugins})
+    endif()
+endfunction()
+
+if(NOT PHYSVIB_SANITIZE) # a sanitized module would need a sanitized host
+    physvib_plugin(PhysVibPlugin "PhysVib" Phys urn:physvib:plugin oneBus 4 VST3 LV2 AU)
+    physvib_plugin(PhysVibPairs "PhysVib Pairs" Phyp urn:physvib:plugin:pairs manyBuses 2 VST3 AU) # hosts without wide buses
+    physvib_plugin(PhysVib2 "PhysVib 2" Phy2 urn:physvib:plugin:2 oneBus 2 LV2) # LV2 cannot be asked for another width
+    physvib_plugin(PhysVib8 "PhysVib 8" Phy8 urn:physvib:plugin:8 oneBus 8 LV2)
+    physvib_plugin(PhysVib16 "PhysVib 16" PhyG urn:physvib:plugin:16 oneBus 16 LV2)
+endif()

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The plug-in's state: its own fields, and within them a scene and a layout as their own files have them.
+#include "Files/PluginState.h"
+#include "Files/JsonField.h"
+#include "Files/JsonLines.h"
+#include "Files/JsonVersion.h"
+#include "Files/SceneFile.h"
+#include "Physics/Simulation.h"
+#include <algorithm>
+#include <array>
+
+namespace physvib {
+namespace {
+
+constexpr const char* versionField = "physvib_plugin_state";
+constexpr std::array<std::string_view, 2> transportNames{"free", "restart-on-play"}; // as TransportMode
+constexpr std::size_t mostNotes = 128, mostControllers = 120, mostParameters = 1000;
+
+int wholeNumberUpTo(const JsonField& field, int most) {
+    const int found = field.wholeNumber();
+    if (found < 0 || found > most) field.fail("expected 0 to " + std::to_string(most) + ", found " + std::to_string(found));
+    return found;
+}
+
+std::size_t sizeUpTo(const JsonField& list, std::size_t most) {
+    const std::size_t size = list.arraySize();
+    if (size > most) list.fail("expected at most " + std::to_string(most) + " items, found " + std::to_string(size));
+    return size;
+}
+
+/// A part that has a reader of its own: its message begins with the part's name instead of a file's.
+template <class Part, class Read>
+Part readPart(const Json& root, const char* field, Read read) {
+    if (!root.contains(field)) throw JsonError({}, "field " + inQuotes(field) + " is missing");
+    const Result<Part> part = read(root[field].dump(-1, ' ', false, Json::error_handler_t::replace), field);
+    if (!part) throw JsonError({}, part.error);
+    return part.value;
+}
+
+std::uint32_t readSeed(const JsonField& field) {
+    const double found = field.numberUpTo(4294967295.0);
+    if (found != std::floor(found)) field.fail("expected a whole number, found " + numberText(found));
+    return static_cast<std::uint32_t>(found);
+}
+
+int readSteps(const JsonField& field) {
+    const int found = field.wholeNumber();
+    if (found < Simulation::minStepsPerSecond || found > Simulation::maxStepsPerSecond)
+        field.fail("expected " + std::to_string(Simulation::minStepsPerSecond) + " to " + std::to_string(Simulation::maxStepsPerSecond) +
+                   ", found " + std::to_string(found));
+    return found;
+}
+
+NoteRule readNote(const JsonField& field, const Scene& scene) {
+    field.expectObject({"note", "material", "x", "y"});
+    NoteRule rule;
+    rule.note = wholeNumberUpTo(field["note"], 127);
+    const std::string wanted = field["material"].text();
+    const auto found = std::ranges::find(scene.materials, wanted, &Material::name);
+    if (found == scene.materials.end()) field["material"].fail("expected the name of a material of the scene, found " + inQuotes(wanted));
+    rule.material = static_cast<int>(found - scene.materials.begin());
+    rule.x = field["x"].numberUpTo(1.0);
+    rule.y = field["y"].numberUpTo(1.0);
+    return rule;
+}
+
+ControllerRule readController(const JsonField& field) {
+    field.expectObject({"controller", "parameter"});
+    return {wholeNumberUpTo(field["controller"], 119), field["parameter"].text()};
+}
+
+PluginState readRoot(const Json& json) {
+    const JsonField root{json, {}};
+    checkVersion(root, versionField, pluginStateVersion);
+    root.expectObject({versionField, "scene", "seed", "steps_per_second", "layout", "limiter", "transport", "notes", "controllers", "parameters"});
+    PluginState state;
+    state.scene = readPart<Scene>(json, "scene", [](const std::string& text, const char* name) { return readScene(text, name); });
+    state.layout = readPart<LayoutDescription>(json, "layout", readLayout);
+    state.seed = readSeed(root["seed"]);
+    state.stepsPerSecond = readSteps(root["steps_per_second"]);
+    state.limiterEnabled = root["limiter"].truth();
+    state.transport = static_cast<TransportMode>(root["transport"].oneOf(transportNames));
+    const JsonField notes = root["notes"], controllers = root["controllers"], parameters = root["parameters"];
+    for (std::size_t i = 0, n = sizeUpTo(notes, mostNotes); i < n; ++i) state.notes.push_back(readNote(notes.item(i), state.scene));
+    for (std::size_t i = 0, n = sizeUpTo(controllers, mostControllers); i < n; ++i) state.controllers.push_back(readController(controllers.item(i)));
+    parameters.expectObject();
+    if (json["parameters"].size() > mostParameters) parameters.fail("expected at most " + std::to_string(mostParameters) + " parameters");
+    for (const auto& item : json["parameters"].items()) state.parameters.emplace_back(item.key(), parameters[item.key()].number());
+    return state;
+}
+
+} // namespace
+
+Result<PluginState> readPluginState(std::string_view text, std::string_view name) {
+    try {
+        if (text.size() > limits::maxSceneFileBytes) throw JsonError({}, "expected at most " + std::to_string(limits::maxSceneFileBytes) + " bytes, found more");
+        return readRoot(parseStrictly(text));
+    } catch (const JsonError& error) {
+        return Failure{std::string(name) + ": " + error.what()};
+    }
+}
+
+std::string pluginStateJson(const PluginState& state) {
+    OrderedJson root = {{versionField, pluginStateVersion}};
+    root["scene"] = OrderedJson::parse(sceneJson(state.scene));
+    root["seed"] = state.seed;
+    root["steps_per_second"] = state.stepsPerSecond;
+    root["layout"] = OrderedJson::parse(layoutJson(state.layout));
+    root["limiter"] = state.limiterEnabled;
+    root["transport"] = std::string(transportNames[static_cast<std::size_t>(state.transport)]);
+    root["notes"] = OrderedJson::array();
+    for (const NoteRule& rule : state.notes)
+        root["notes"].push_back({{"note", rule.note}, {"material", state.scene.materials[static_cast<std::size_t>(rule.material)].name}, {"x", rule.x}, {"y", rule.y}});
+    root["controllers"] = OrderedJson::array();
+    for (const ControllerRule& rule : state.controllers) root["controllers"].push_back({{"controller", rule.controller}, {"parameter", rule.parameter}});
+    root["parameters"] = OrderedJson::object();
+    for (const auto& [id, value] : state.parameters) root["parameters"][id] = value;
+    return jsonLines(root);
+}
+
+} // namespace physvib

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What an instance of the plug-in plays, and as versioned JSON in its host's session: whole in itself, so that a
+// session sounds the same when the built-in scenes have changed.
+#pragma once
+#include "Files/LayoutFile.h"
+#include "Files/Result.h"
+#include "Physics/Scene.h"
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// The version of the format that is written, and the newest that is read. A new field makes a new version.
+constexpr int pluginStateVersion = 1;
+
+enum class TransportMode {
+    free,         ///< the scene runs whenever the host renders
+    restartOnPlay ///< it starts at its seed whenever the transport starts or jumps, and is silent while that stands
+};
+
+/// A note that does not do what the default map says.
+struct NoteRule {
+    int note = 0;     ///< 0 to 127
+    int material = 0; ///< index into Scene::materials
+    double x = 0.5;   ///< place in parts of the field, 0 to 1 from the lower left corner
+    double y = 0.5;
+    bool operator==(const NoteRule&) const = default;
+};
+
+/// A controller that moves a parameter over its whole range.
+struct ControllerRule {
+    int controller = 0; ///< 0 to 119: the others are channel modes
+    std::string parameter; ///< its id
+    bool operator==(const ControllerRule&) const = default;
+};
+
+struct PluginState {
+    Scene scene;
+    std::uint32_t seed = 1;
+    int stepsPerSecond = 100;
+    LayoutDescription layout;
+    bool limiterEnabled = true;
+    TransportMode transport = TransportMode::free;
+    std::vector<NoteRule> notes; ///< others: every octave is a material, every note a place from left (C) to right (B)
+    std::vector<ControllerRule> controllers;
+    std::vector<std::pair<std::string, double>> parameters; ///< id and value in the parameter's unit
+};
+
+/// The state that `text` describes; or, of the first thing that is wrong, one line
+/// `name: notes[3].x: expected a number from 0 to 1, found 2`. Parameters and controllers may bear any ids. Any thread.
+Result<PluginState> readPluginState(std::string_view text, std::string_view name);
+
+/// `state` as JSON; readPluginState gives all of it back but the scene's variables, bit for bit. Any thread.
+std::string pluginStateJson(const PluginState& state);
+
+} // namespace physvib

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The plug-in's state: round trips, what is refused and where, and that states written by version 1 stay readable.
+#include "Files/PluginState.h"
+#include "Files/ReadFile.h"
+#include "Files/SceneCatalogue.h"
+#include "Files/SceneFile.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+PluginState sampleState(const char* scene = "fruit-basket") {
+    PluginState s;
+    s.scene = *findBuiltInScene(scene);
+    s.scene.variables.clear();
+    EnchanterLayout ring;
+    layoutPreset("ring3", ring);
+    s.layout = describeLayout("ring3", ring);
+    s.seed = 4294967295u;
+    s.stepsPerSecond = 500;
+    s.limiterEnabled = false;
+    s.transport = TransportMode::restartOnPlay;
+    s.notes = {{60, 1, 0.1, 1.0}, {127, 0, 0.0, 0.25}};
+    s.controllers = {{1, "tilt"}};
+    s.parameters = {{"bypass", 0.0}, {"level", -7.123456789}};
+    return s;
+}
+
+void expectSame(const PluginState& a, const PluginState& b) {
+    EXPECT_TRUE(a.scene == b.scene);
+    EXPECT_EQ(layoutJson(a.layout), layoutJson(b.layout));
+    EXPECT_EQ(a.seed, b.seed);
+    EXPECT_EQ(a.stepsPerSecond, b.stepsPerSecond);
+    EXPECT_EQ(a.limiterEnabled, b.limiterEnabled);
+    EXPECT_EQ(a.transport, b.transport);
+    EXPECT_EQ(a.notes, b.notes);
+    EXPECT_EQ(a.controllers, b.controllers);
+    EXPECT_EQ(a.parameters, b.parameters);
+}
+
+TEST(PluginState, EverySceneComesBackBitForBit) {
+    for (const Scene& scene : builtInScenes()) {
+        const auto state = sampleState(scene.name.c_str());
+        const std::string text = pluginStateJson(state);
+        const auto read = readPluginState(text, "f");
+        ASSERT_TRUE(read) << read.error;
+        expectSame(read.value, state);
+        EXPECT_EQ(pluginStateJson(read.value), text);
+    }
+}
+
+std::string refusal(std::string text, const std::string& found, const std::string& replacement) {
+    const auto at = text.find(found);
+    EXPECT_NE(at, std::string::npos) << found;
+    if (at != std::string::npos) text.replace(at, found.size(), replacement);
+    const auto read = readPluginState(text, "f");
+    EXPECT_FALSE(read);
+    EXPECT_TRUE(read.value.scene == Scene{}) << "half-loaded";
+    return read.error;
+}
+
+TEST(PluginState, WhatIsWrongIsNamed) {
+    const std::string text = pluginStateJson(sampleState());
+    EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 1", "\"physvib_plugin_state\": 2"),
+              "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 1, found 2");
+    EXPECT_EQ(refusal(text, "\"x\": 0.1", "\"x\": 2"), "f: notes[0].x: expected a number from 0 to 1, found 2");
+    EXPECT_EQ(refusal(text, "\"note\": 60", "\"note\": 128"), "f: notes[0].note: expected 0 to 127, found 128");
+    EXPECT_EQ(refusal(text, "\"controller\": 1", "\"controller\": 120"), "f: controllers[0].controller: expected 0 to 119, found 120");
+    EXPECT_EQ(refusal(text, "restart-on-play", "sometimes"), "f: transport: expected one of free, restart-on-play, found \"sometimes\"");
+    EXPECT_EQ(refusal(text, "\"steps_per_second\": 500", "\"steps_per_second\": 1"), "f: steps_per_second: expected 10 to 10000, found 1");
+    EXPECT_EQ(refusal(text, "\"seed\": 4294967295", "\"seed\": 1.5"), "f: seed: expected a whole number, found 1.5");
+    EXPECT_EQ(refusal(text, "\"level\": -7.123456789", "\"level\": \"loud\""), "f: parameters.level: expected a number, found a string");
+    EXPECT_NE(refusal(text, "\"extent_m\"", "\"extent\"").find("f: layout: "), std::string::npos);
+    EXPECT_NE(refusal(text, "\"limiter\"", "\"limit\"").find("unknown field \"limit\""), std::string::npos);
+    EXPECT_NE(refusal(text, "\"bodies\"", "\"bodys\"").find("f: scene: "), std::string::npos);
+    EXPECT_NE(refusal(text, "{", "").find("f: line 2"), std::string::npos);
+}
+
+TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never written again: hosts keep such states for years
+    const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Files/plugin-state-1.json", 1'000'000);
+    ASSERT_TRUE(text) << text.error;
+    const auto read = readPluginState(text.value, "f");
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(read.value.scene.name, "drop");
+    EXPECT_EQ(read.value.layout.enchanters.size(), 3u);
+    EXPECT_EQ(read.value.notes, (std::vector<NoteRule>{{60, 1, 0.1, 1.0}, {127, 0, 0.0, 0.25}}));
+    EXPECT_EQ(read.value.parameters.size(), 2u);
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// MIDI: strikes at their frame, in the log, moved by bends; controllers; notes off.
+#include "PluginTesting.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using Message = juce::MidiMessage;
+
+/// An instance whose world makes no sound of its own.
+struct QuietHost : TestHost {
+    QuietHost() {
+        auto state = plugin->state();
+        state.scene.bodies.clear();
+        state.scene.joints.clear();
+        state.scene.script.clear();
+        state.limiterEnabled = false;
+        EXPECT_TRUE(plugin->apply(state));
+        prepare(48000, 480);
+        latency = plugin->getLatencySamples();
+    }
+    void send(const Message& message, int frame = 0) { midi.addEvent(message, frame); }
+    Samples playOn(int frames) {
+        Samples signal;
+        juce::MidiBuffer first;
+        first.swapWith(midi);
+        const auto& out = block(480, first);
+        for (int c = 0; c < out.getNumChannels(); ++c) signal.emplace_back(out.getReadPointer(c), out.getReadPointer(c) + 480);
+        play(frames - 480, signal);
+        return signal;
+    }
+    std::vector<TakeEvent> log() { return plugin->takes().takeLog(); }
+    juce::MidiBuffer midi;
+    int latency = 0;
+};
+
+std::int64_t onsetOf(const std::vector<float>& channel) {
+    const auto at = std::find_if(channel.begin(), channel.end(), [](float x) { return std::abs(x) > 1e-6f; });
+    return at == channel.end() ? -1 : at - channel.begin() - 1; // a sine begins with 0
+}
+
+TEST(Midi, StrikesAreAtTheirFrameAndInTheLog) {
+    QuietHost host;
+    host.send(Message::noteOn(1, 48, juce::uint8{127}), 77);
+    const auto signal = host.playOn(48000);
+    EXPECT_NEAR(static_cast<double>(onsetOf(signal[0])), host.latency + 77, 1.0);
+    const auto log = host.log();
+    ASSERT_EQ(log.size(), 1u);
+    EXPECT_EQ(FrameClock{48000}.at(log[0].played.event.timeNs).frame, 77);
+    EXPECT_NEAR(log[0].played.event.amplitude, gainOfLevel(-6.0), 1e-6);
+}
+
+TEST(Midi, StrikesDoNotDependOnTheBlockSize) {
+    Samples expected;
+    for (const int size : {480, 64, 1, 4096}) {
+        QuietHost host;
+        host.prepare(48000, size);
+        Samples signal;
+        Random random{9};
+        signal.resize(4);
+        for (int done = 0; done < 48000; done += size) { // a strike at each frame that is a multiple of 1000
+            juce::MidiBuffer midi;
+            for (int n = 0; n < size; ++n)
+                if ((done + n) % 1000 == 0) midi.addEvent(Message::noteOn(1, 40 + (done + n) / 1000, juce::uint8{100}), n);
+            const auto& out = host.block(size, midi);
+            for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), out.getReadPointer(static_cast<int>(c)), out.getReadPointer(static_cast<int>(c)) + size);
+        }
+        signal = later(signal, host.plugin->getLatencySamples());
+        for (auto& c : signal) c.resize(40000);
+        if (expected.empty()) expected = signal;
+        EXPECT_TRUE(signal == expected) << size;
+    }
+    EXPECT_GT(peakOf(expected), 0.1f);
+}
+
+TEST(Midi, TheDefaultMapGoesFromLeftToRightAndThroughTheMaterials) {
+    QuietHost host;
+    for (const int note : {36, 41, 47, 48}) host.send(Message::noteOn(1, note, juce::uint8{64}), note);
+    host.playOn(9600);
+    const auto log = host.log();
+    ASSERT_EQ(log.size(), 4u);
+    EXPECT_EQ(log[0].played.event.x, 0.0);
+    EXPECT_GT(log[1].played.event.x, 0.0);
+    EXPECT_EQ(log[2].played.event.x, host.plugin->state().scene.fieldWidthMetres);
+    EXPECT_EQ(log[0].played.event.frequencyHz, log[2].played.event.frequencyHz);
+    EXPECT_NE(log[3].played.event.frequencyHz, log[2].played.event.frequencyHz);
+}
+
+TEST(Midi, BendSlideAndParametersMoveThePhantom) {
+    QuietHost host;
+    const double width = host.plugin->state().scene.fieldWidthMetres, height = host.plugin->state().scene.fieldHeightMetres;
+    host.send(Message::pitchWheel(2, 16383), 0);
+    host.send(Message::controllerEvent(2, 74, 0), 0);
+    host.send(Message::noteOn(2, 36, juce::uint8{64}), 1);
+    host.send(Message::noteOn(3, 36, juce::uint8{64}), 2); // another MPE channel is not bent
+    host.playOn(9600);
+    host.plugin->parameter(Parameter::strikeX).setValue(1.0f);
+    host.send(Message::noteOn(3, 36, juce::uint8{64}), 2);
+    host.playOn(9600);
+    const auto log = host.log();
+    ASSERT_EQ(log.size(), 3u);
+    EXPECT_NEAR(log[0].played.event.x, 0.5 * width, 1e-3);
+    EXPECT_NEAR(log[0].played.event.y, 0.0, 1e-3);
+    EXPECT_NEAR(log[1].played.event.x, 0.0, 1e-9);
+    EXPECT_NEAR(log[1].played.event.y, 0.5 * height, 1e-9);
+    EXPECT_NEAR(log[2].played.event.x, width, 1e-3);
+}
+
+TEST(Midi, ControllersMoveParametersAndTheHostIsTold) {
+    QuietHost host;
+    struct Told final : juce::AudioProcessorParameter::Listener {
+        void parameterValueChanged(int, float value) override { told = value; }
+        void parameterGestureChanged(int, bool) override {}
+        float told = -1;
+    } told;
+    auto& level = host.plugin->parameter(Parameter::level);
+    level.addListener(&told);
+    host.send(Message::controllerEvent(1, 7, 127), 0);
+    host.playOn(480);
+    EXPECT_EQ(level.getValue(), 1.0f);
+    EXPECT_EQ(told.told, -1.0f) << "not by the render call";
+    runMessages(200);
+    EXPECT_EQ(told.told, 1.0f);
+    level.removeListener(&told);
+}
+
+TEST(Midi, NotesOffAndAStoppedTransportSilence) {
+    for (const int how : {0, 1, 2}) {
+        QuietHost host;
+        host.playHead.isThere = host.playHead.isPlaying = true;
+        host.send(Message::noteOn(1, 60, juce::uint8{127}), 0);
+        const auto sound = host.playOn(host.latency + 960);
+        EXPECT_GT(peakOf(later(sound, host.latency)), 0.01f);
+        if (how == 0) host.send(Message::allNotesOff(1), 0);
+        if (how == 1) host.send(Message::allSoundOff(1), 0);
+        if (how == 2) host.playHead.isPlaying = false;
+        const auto rest = host.playOn(host.latency + 9600);
+        EXPECT_EQ(peakOf(later(rest, host.latency + 4800)), 0.0f) << how;
+    }
+}
+
+TEST(Midi, NonsenseIsIgnored) {
+    QuietHost host;
+    const juce::uint8 bytes[]{0xf0, 1, 2, 3, 4, 5, 6, 7, 0xf7, 0xc0, 5, 0xfe, 0xff, 0x51, 3, 0, 0, 0};
+    host.midi.addEvent(bytes, 9, 0);
+    host.midi.addEvent(bytes + 9, 2, 1);
+    host.midi.addEvent(bytes + 11, 1, 2);
+    host.send(Message::noteOn(1, 60, juce::uint8{0}), 3);
+    host.send(Message::noteOff(1, 60), 3);
+    host.send(Message::pitchWheel(1, 8192), 479);
+    EXPECT_EQ(peakOf(host.playOn(9600)), 0.0f);
+    EXPECT_TRUE(host.log().empty());
+}
+
+} // namespace
+} // namespace physvib

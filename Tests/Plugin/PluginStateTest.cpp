@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// State in the host's chunk: round trips, broken ones, any thread, presets, what the host is told.
+#include "PluginTesting.h"
+#include "Files/SceneCatalogue.h"
+#include <atomic>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+juce::MemoryBlock chunkOf(PluginProcessor& plugin) {
+    juce::MemoryBlock chunk;
+    plugin.getStateInformation(chunk);
+    return chunk;
+}
+
+TEST(PluginChunk, RoundTripsToTheByteAndToTheSample) {
+    TestHost first, second;
+    Random random{3};
+    for (int i = 0; i < 20; ++i) {
+        auto state = first.plugin->state();
+        state.scene = builtInScenes()[static_cast<std::size_t>(random.below(5))];
+        state.seed = static_cast<std::uint32_t>(random.below(1000));
+        state.layout = presetLayout(layoutPresetNames[static_cast<std::size_t>(random.below(8))]);
+        state.transport = static_cast<TransportMode>(random.below(2));
+        state.limiterEnabled = random.below(2) == 0;
+        ASSERT_TRUE(first.plugin->apply(state));
+        for (auto* p : first.plugin->getParameters()) p->setValue(static_cast<float>(random.uniform(0, 1)));
+        const auto chunk = chunkOf(*first.plugin);
+        second.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+        ASSERT_EQ(second.plugin->trouble(), "");
+        EXPECT_TRUE(chunkOf(*second.plugin) == chunk);
+        if (i % 5 > 0) continue;
+        first.prepare(48000, 512);
+        second.prepare(48000, 512);
+        Samples a, b;
+        first.play(24000, a);
+        second.play(24000, b);
+        EXPECT_TRUE(a == b);
+    }
+}
+
+TEST(PluginChunk, ABrokenChunkLeavesTheLastGoodStateAndSaysSo) {
+    TestHost host;
+    host.plugin->setCurrentProgram(2);
+    host.plugin->parameter(Parameter::tilt).setValue(0.75f);
+    const auto good = chunkOf(*host.plugin);
+    const std::string text = good.toString().toStdString();
+    Random random{5};
+    for (int i = 0; i < 300; ++i) {
+        std::string broken = text;
+        const auto at = static_cast<std::size_t>(random.below(static_cast<int>(text.size())));
+        if (i % 3 == 0) broken.resize(at);
+        else broken[at] = static_cast<char>(random.below(256));
+        host.plugin->setStateInformation(broken.data(), static_cast<int>(broken.size()));
+        if (host.plugin->trouble().isNotEmpty()) EXPECT_TRUE(chunkOf(*host.plugin) == good) << host.plugin->trouble();
+        host.plugin->setStateInformation(good.getData(), static_cast<int>(good.getSize()));
+        ASSERT_EQ(host.plugin->trouble(), "");
+    }
+    host.plugin->setStateInformation("{}", 2);
+    EXPECT_TRUE(host.plugin->trouble().startsWith("state: ")) << host.plugin->trouble();
+    host.plugin->setStateInformation(nullptr, 0);
+    EXPECT_TRUE(chunkOf(*host.plugin) == good);
+}
+
+TEST(PluginChunk, ParametersOfAnotherPhysVibAreRefused) {
+    TestHost host;
+    auto state = host.plugin->state();
+    state.parameters.emplace_back("wobble", 1.0);
+    const auto text = pluginStateJson(state);
+    host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
+    EXPECT_EQ(host.plugin->trouble(), "state: no parameter \"wobble\"");
+}
+
+TEST(PluginChunk, ComesAndGoesOnAnyThreadWhileItPlays) {
+    TestHost host;
+    host.prepare(48000, 256, false);
+    std::vector<juce::MemoryBlock> chunks;
+    for (int program = 0; program < 5; ++program) {
+        host.plugin->setCurrentProgram(program);
+        chunks.push_back(chunkOf(*host.plugin));
+    }
+    std::atomic<bool> stop{false};
+    std::thread other{[&] {
+        for (std::size_t i = 0; !stop; ++i) {
+            host.plugin->setStateInformation(chunks[i % 5].getData(), static_cast<int>(chunks[i % 5].getSize()));
+            EXPECT_GT(chunkOf(*host.plugin).getSize(), 1000u);
+        }
+    }};
+    float peak = 0;
+    for (int b = 0; b < 2000; ++b) peak = std::max(peak, host.block(256).getMagnitude(0, 256));
+    stop = true;
+    other.join();
+    EXPECT_LE(peak, 1.0f);
+    EXPECT_EQ(host.plugin->trouble(), "");
+}
+
+TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenes) {
+    TestHost host;
+    ASSERT_EQ(host.plugin->getNumPrograms(), 5);
+    for (int i = 0; i < 5; ++i) {
+        host.plugin->setCurrentProgram(i);
+        EXPECT_EQ(host.plugin->getProgramName(i).toStdString(), host.plugin->state().scene.name);
+        EXPECT_GT(host.plugin->getTailLengthSeconds(), 0.05);
+    }
+    host.plugin->setCurrentProgram(99);
+    EXPECT_EQ(host.plugin->getCurrentProgram(), 4);
+    EXPECT_EQ(host.plugin->getProgramName(99), "");
+}
+
+struct Listener final : juce::AudioProcessorListener {
+    void audioProcessorParameterChanged(juce::AudioProcessor*, int, float) override { ++parameters; }
+    void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& details) override { latencies += details.latencyChanged ? 1 : 0; }
+    std::atomic<int> parameters{0}, latencies{0};
+};
+
+TEST(PluginChunk, TheHostIsToldOfALatencyThatChanges) {
+    TestHost host;
+    host.prepare(48000, 512);
+    const int before = host.plugin->getLatencySamples();
+    EXPECT_EQ(before, 512 + 480 + 960 + 47) << "a block, 10 ms of gap, two steps, the limiter";
+    Listener listener;
+    host.plugin->addListener(&listener);
+    auto state = host.plugin->state();
+    state.stepsPerSecond = 1000;
+    host.plugin->apply(state);
+    EXPECT_LT(host.plugin->getLatencySamples(), before);
+    EXPECT_EQ(listener.latencies, 1);
+    host.plugin->removeListener(&listener);
+}
+
+} // namespace
+} // namespace physvib
