@@ -19,6 +19,7 @@ Take::Take(const SessionSetup& setup, std::uint64_t ofGeneration, int sampleRate
 
 void Take::rewind() {
     session.prepare(sampleRateHz_, blockFrames_);
+    session.advance(); // its time begins with the first block
     fade_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
     owed_ = -1;
     over_ = false;

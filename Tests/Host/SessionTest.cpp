@@ -164,6 +164,7 @@ TEST(Session, StrikesOfTheRenderCallAreFeltLLaterAtTheirFrame) {
     for (const auto mode : {RenderMode::realtime, RenderMode::offline}) {
         Session session{setup};
         session.prepare(44100, 512);
+        session.advance(); // time begins
         Block block;
         Interleaved signal;
         for (int done = 0; done < 44100; done += 512) {

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Plays shake-the-box live into a JACK server of its own and records it with a JACK client; passes if nothing was late
-# or lost, the program's own recording is the rendered file to the bit after an integer alignment, and so is the
-# client's, but for breaks of which there are no more than the server reports xruns.
+# or lost, the saved session, rendered again, gives the events that were played, the program's own recording is that
+# render to the bit after an integer alignment, and so is the client's, but for breaks of which there are no more than the server reports xruns.
 # Usage: live.sh BIN_FOLDER SECONDS message|thread BLOCK_FRAMES [jackd mode: -S, synchronous (default), or -s]
 set -eu
 bin=$1 seconds=$2 driver=$3 block=$4 mode=${5:--S}
@@ -25,11 +25,21 @@ jack_wait -w -t 20 >/dev/null 2>&1
 
 "$bin/physvib-jack-recorder" "$folder/live.raw" 4 "$seconds" >"$folder/ready" &
 recording=$!
-for _ in $(seq 100); do grep -q ready "$folder/ready" && break; sleep 0.1; done
+for _ in $(seq 100); do grep -qs ready "$folder/ready" && break; sleep 0.1; done
 "$physvib" play shake-the-box --device JACK:system --driver "$driver" --steps-per-second "$steps" --level 0 \
-    --seconds "$((seconds + 1))" --record "$folder/own.wav" | tee "$folder/report"
+    --seconds "$((seconds + 1))" --record "$folder/own.wav" --save "$folder/session.json" | tee "$folder/report"
 wait "$recording"
-"$physvib" render shake-the-box --steps-per-second "$steps" --seconds "$seconds" --out "$folder/render.wav" >/dev/null
+"$physvib" render "$folder/session.json" --seconds "$seconds" --out "$folder/render.wav" --events "$folder/render.csv" >/dev/null
+
+# Those played in the last L of the session are in the render only.
+rows() { grep -v '^#' "$1"; }
+rows "$folder/session.events.csv" >"$folder/played"
+rows "$folder/render.csv" >"$folder/rendered"
+common=$(($(wc -l <"$folder/played") < $(wc -l <"$folder/rendered") ? $(wc -l <"$folder/played") : $(wc -l <"$folder/rendered")))
+[ "$common" -gt "$seconds" ]
+head -n "$common" "$folder/played" >"$folder/a"
+head -n "$common" "$folder/rendered" | cmp - "$folder/a"
+echo "events: $((common - 1)) played as rendered again"
 
 # Both as raw interleaved samples: the data chunk is what follows the word "data" and its length.
 raw() { tail -c +"$(($(grep -abo data "$1" | head -n 1 | cut -d: -f1) + 9))" "$1"; }

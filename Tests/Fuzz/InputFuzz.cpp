@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Fuzz target of live input lines; what is accepted acts on a small world.
+#include "Files/InputLine.h"
+#include "Files/SceneCatalogue.h"
+#include "Fuzzing.h"
+#include "Physics/InputCheck.h"
+#include "Physics/Simulation.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace physvib;
+    static const Scene scene = *findBuiltInScene("drop");
+    const auto read = readInputLine(fuzz::asText(data, size), "f", scene.materials, 4);
+    if (!read) {
+        fuzz::demandClearRefusal(read, true);
+        return 0;
+    }
+    const auto* action = std::get_if<Action>(&read.value);
+    if (action == nullptr || !InputCheck(scene).take(*action).empty()) return 0;
+    Simulation world(scene, 1, 100);
+    world.addInput(0.0, *action);
+    std::vector<CollisionEvent> events;
+    for (int step = 0; step < 5; ++step) world.step(events);
+    return 0;
+}

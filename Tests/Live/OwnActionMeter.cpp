@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Measures how long after one's own push the hit comes out of a JACK server. A ball between two walls, 4 mm of way: each
+// push is a hit within the step. Prints a line; fails unless every hit is heard exactly L after its contact.
+// Usage: physvib-own-action-meter PUSHES
+#include "Host/AudioOutput.h"
+#include "Host/SimulationDriver.h"
+#include "MeterClient.h"
+#include "Physics/SceneRun.h"
+#include <cstdio>
+#include <random>
+#include <thread>
+
+using namespace physvib;
+
+namespace {
+
+SessionSetup setupOfWalls() {
+    SessionSetup s;
+    s.scene.name = "walls";
+    s.scene.fieldWidthMetres = s.scene.fieldHeightMetres = 4.0;
+    s.scene.normalisation = {0.02, 1.0};
+    s.scene.materials = {{"felt", 10.0, 0.0, 0.0, 200.0, 60.0}};
+    const auto wall = [&](const char* name, double x) {
+        BodyDescription body;
+        body.name = name;
+        body.type = BodyType::staticBody;
+        body.fixtures = {{BoxShape{1.0, 2.0}, {}, 0.0, 0, true}};
+        body.positionMetres = {x, 2.0};
+        body.massKg = 10.0;
+        s.scene.bodies.push_back(body);
+    };
+    wall("left", 1.298);
+    wall("right", 2.702);
+    BodyDescription ball;
+    ball.name = "ball";
+    ball.fixtures = {{CircleShape{0.2}, {}, 0.0, 0}};
+    ball.positionMetres = {2.0, 2.0};
+    s.scene.bodies.push_back(ball);
+    s.seed = 0;
+    s.stepsPerSecond = 1000;
+    s.longestGapSeconds = driverThreadGapSeconds;
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    s.panner = {layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
+    return s;
+}
+
+std::vector<std::int64_t> push(Session& session, const test::MeterClient& client, int times) {
+    std::mt19937 random{1};
+    std::vector<std::int64_t> frames;
+    for (int i = 0; i < times; ++i) {
+        std::this_thread::sleep_for(std::chrono::microseconds{80'000 + random() % 40'000});
+        frames.push_back(client.sessionFrame);
+        if (const auto fault = session.act(VelocityAction{"ball", {i % 2 == 0 ? 20.0 : -20.0, 0.0}, 0.0}); !fault.empty()) std::puts(fault.c_str());
+    }
+    return frames;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) return 2;
+    const int pushes = std::atoi(argv[1]);
+    const juce::ScopedJuceInitialiser_GUI juce;
+    const SessionSetup setup = setupOfWalls();
+    Session session{setup};
+    AudioOutput output{session};
+    if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty()) return std::puts(error.c_str()), 1;
+    std::vector<std::int64_t> pushed;
+    const double seconds = 0.13 * pushes + 1.0;
+    test::MeterClient client{session, seconds};
+    {
+        const ThreadDriver driver{session, setup.stepsPerSecond};
+        pushed = push(session, client, pushes);
+        std::this_thread::sleep_for(std::chrono::milliseconds{300});
+        client.stop();
+    }
+    SessionLog log;
+    session.readLog(log);
+    const auto made = runTakes(log.takes, setup.run(), std::llround(seconds * 1e9));
+    const auto render = test::rendered(made.events, setup, client.rate, seconds);
+    const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
+    const bool isWhole = result.isAligned && static_cast<int>(made.events.size()) == pushes;
+    if (!isWhole) return std::printf("%zu hits after %d pushes, or they are not what was recorded\n", made.events.size(), pushes), 1;
+    const std::int64_t law = session.playOutFrames(), measured = client.firstFrame + result.offset;
+    std::int64_t sum = 0, most = 0;
+    for (int i = 0; i < pushes; ++i) {
+        const auto heard = FrameClock{client.rate}.at(made.events[static_cast<std::size_t>(i)].timeNs).frame + measured;
+        const auto after = heard - pushed[static_cast<std::size_t>(i)];
+        sum += after;
+        most = std::max(most, after);
+    }
+    const auto ms = [&](auto frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
+    std::printf("%d pushes, blocks of %d: L %.2f ms, heard %.2f ms after their contacts; after the pushes %.2f ms on average, %.2f ms at most; %llu late\n",
+                pushes, client.block, ms(law), ms(measured), ms(sum) / pushes, ms(most), static_cast<unsigned long long>(session.status().render.late));
+    return measured == law ? 0 : 1;
+}
