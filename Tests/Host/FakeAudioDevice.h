@@ -48,6 +48,7 @@ public:
     juce::String open(const juce::BigInteger&, const juce::BigInteger& outputs, double, int) override {
         ++thing_.timesOpened;
         if (!thing_.opens) return "busy";
+        const std::lock_guard lock{thing_.mutex};
         thing_.opened = outputs;
         thing_.device = this;
         return {};
