@@ -54,6 +54,7 @@ private:
         const auto at = recording.samples.size();
         if (!isConnected_ || at + static_cast<std::size_t>(frames * channels) > recording.samples.capacity()) return 0;
         const auto now = FrameClock{rate}.at(session_.status().sessionNs).frame;
+        if (now == 0) return 0; // time has not begun
         if (firstFrame < 0) firstFrame = now - frames;
         sessionFrame = now;
         recording.samples.resize(at + static_cast<std::size_t>(frames * channels));
