@@ -19,7 +19,9 @@ std::string numbered(std::string prefix, std::size_t number) {
 template <class Trial>
 std::vector<Trial>& conditionNamed(StudyData<Trial>& data, const std::string& name) {
     const auto found = std::ranges::find(data.conditions, name, &StudyCondition<Trial>::name);
-    return found == data.conditions.end() ? data.conditions.emplace_back(name, std::vector<Trial>{}).trials : found->trials;
+    if (found != data.conditions.end()) return found->trials;
+    data.conditions.push_back({name, {}});
+    return data.conditions.back().trials;
 }
 
 /// Runs `take(rows, data)` per file; what it throws becomes a Failure, and so do files without a trial that counts.
