@@ -28,6 +28,18 @@ RenderControl randomEdit(test::Random& random) {
     return edit;
 }
 
+// Layouts, gains, mutes and stops; now and then an input, another scene, or the same one from its start.
+bool edit(Session& session, test::Random& random) {
+    const int kind = random.below(200);
+    if (kind < 4) return session.act(TiltAction{random.uniform(-3, 3)}).empty();
+    if (kind == 4) session.restart(random.below(64));
+    if (kind == 5) {
+        const char* const scenes[] = {"shake-the-box", "fruit-basket", "drop"};
+        session.setState({std::make_shared<const Scene>(*findBuiltInScene(scenes[random.below(3)])), 1});
+    }
+    return kind < 6 || session.post(randomEdit(random)) >= 0;
+}
+
 TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
     test::Random random{1};
     SessionSetup setup;
@@ -43,7 +55,7 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
         while (!stop) {
             session.advance();
             ++ticks;
-            if (edits < 10'000 && session.post(randomEdit(mine)) >= 0) ++edits;
+            if (edits < 10'000 && edit(session, mine)) ++edits;
             for (PlayedEvent e; session.played().pop(e);) ++played;
             std::this_thread::sleep_for(std::chrono::microseconds{50});
         }
@@ -53,7 +65,7 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
     for (auto& channel : samples) at.push_back(channel.data());
     float loudest = 0;
     test::RealtimeGuard::forget();
-    for (int block = 0; block < 1'000'000; ++block) {
+    for (int block = 0; block < 1'000'000 || edits < 10'000; ++block) {
         if (block % 256 == 0) // this host is faster than time; the world must keep up
             for (const auto before = ticks.load(); ticks < before + 2;) std::this_thread::yield();
         const int frames = 1 + random.below(64);
