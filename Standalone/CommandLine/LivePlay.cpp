@@ -54,11 +54,12 @@ private:
     }
 
     void everySecond(const SessionStatus& status) {
-        report(output_.maintain());
+        std::string trouble = output_.maintain();
         if (journal_) {
             journal_->keep(status.sessionNs);
-            report(journal_->error());
+            if (trouble.empty()) trouble = journal_->error();
         }
+        report(trouble);
         static const bool isTerminal = isatty(STDERR_FILENO) != 0;
         if (isTerminal) show(status);
     }

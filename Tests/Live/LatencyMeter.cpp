@@ -47,7 +47,9 @@ int main(int argc, char** argv) {
     juce::Timer::callAfterDelay(static_cast<int>(seconds * 1000) + 200, [] { juce::MessageManager::getInstance()->stopDispatchLoop(); });
     juce::MessageManager::getInstance()->runDispatchLoop();
     client.stop();
-    const auto made = runScene(setup.scene, setup.run(), std::llround(seconds * 1e9));
+    SessionLog log; // stalls, if there were any
+    session.readLog(log);
+    const auto made = runTakes(log.takes, setup.run(), std::llround(seconds * 1e9));
     const auto render = test::rendered(made.events, setup, client.rate, seconds);
     const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
     if (!result.isAligned) return std::puts("the recording is not the render"), 1;

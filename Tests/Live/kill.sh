@@ -5,18 +5,8 @@
 # Usage: kill.sh BIN_FOLDER
 set -eu
 physvib=$1/physvib
-folder=$(mktemp -d)
-export HOME="$folder" JACK_DEFAULT_SERVER="physvib-$$" JACK_NO_AUDIO_RESERVATION=1
-unset DISPLAY || true
-jackd -n "$JACK_DEFAULT_SERVER" -r -S -d dummy -r 48000 -p 512 -C 0 -P 8 >"$folder/jackd.log" 2>&1 &
-server=$!
-stop() {
-    kill "$server" 2>/dev/null || true
-    wait "$server" 2>/dev/null || true
-    rm -rf "$folder"
-}
-trap stop EXIT
-jack_wait -w -t 20 >/dev/null 2>&1
+. "$(dirname "$0")/jack.sh"
+serve 48000 512 8
 
 mkfifo "$folder/inputs"
 "$physvib" play shake-the-box --device JACK:system --seconds 60 --save "$folder/session.json" --listen <"$folder/inputs" &
@@ -29,14 +19,15 @@ for i in 1 2 3 4 5 6; do
 done
 kill -9 "$playing"
 wait "$playing" 2>/dev/null || true
+playing=
 exec 3>&-
 
 "$physvib" render "$folder/session.json" --out "$folder/again.wav" --events "$folder/again.csv" >/dev/null
 seconds=$(sed -n 's/^  "seconds": \([0-9]*\).*/\1/p' "$folder/session.json")
 inputs=$(grep -c '"tilt", "angle_rad": 0.[1-9] }' "$folder/session.json")
 gains=$(grep -c '"gain"' "$folder/session.json")
-grep -v '^#' "$folder/session.events.csv" >"$folder/played"
+rows "$folder/session.events.csv" >"$folder/played"
 played=$(wc -l <"$folder/played")
-grep -v '^#' "$folder/again.csv" | head -n "$played" | cmp - "$folder/played"
+rows "$folder/again.csv" | head -n "$played" | cmp - "$folder/played"
 echo "killed: $seconds s, $inputs inputs, $gains controls, $((played - 1)) events on disk; rendered again as played"
 [ "$seconds" -ge 4 ] && [ "$inputs" -ge 4 ] && [ "$gains" -ge 4 ] && [ "$played" -gt 20 ]

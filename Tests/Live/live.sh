@@ -7,21 +7,11 @@
 set -eu
 bin=$1 seconds=$2 driver=$3 block=$4 mode=${5:--S}
 physvib=$bin/physvib
-folder=$(mktemp -d)
-export HOME="$folder" JACK_DEFAULT_SERVER="physvib-$$" JACK_NO_AUDIO_RESERVATION=1
-unset DISPLAY || true
+. "$(dirname "$0")/jack.sh"
 steps=100
 [ "$driver" = thread ] && steps=1000
 
-jackd -n "$JACK_DEFAULT_SERVER" -r "$mode" -d dummy -r 48000 -p "$block" -C 0 -P 8 >"$folder/jackd.log" 2>&1 &
-server=$!
-stop() {
-    kill "$server" 2>/dev/null || true
-    wait "$server" 2>/dev/null || true
-    rm -rf "$folder"
-}
-trap stop EXIT
-jack_wait -w -t 20 >/dev/null 2>&1
+serve 48000 "$block" 8 "$mode"
 
 "$bin/physvib-jack-recorder" "$folder/live.raw" 4 "$seconds" >"$folder/ready" &
 recording=$!
@@ -32,7 +22,6 @@ wait "$recording"
 "$physvib" render "$folder/session.json" --seconds "$seconds" --out "$folder/render.wav" --events "$folder/render.csv" >/dev/null
 
 # Those played in the last L of the session are in the render only.
-rows() { grep -v '^#' "$1"; }
 rows "$folder/session.events.csv" >"$folder/played"
 rows "$folder/render.csv" >"$folder/rendered"
 common=$(($(wc -l <"$folder/played") < $(wc -l <"$folder/rendered") ? $(wc -l <"$folder/played") : $(wc -l <"$folder/rendered")))

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A JACK server without hardware, for the scripts beside this one, which source it: a folder that goes with the script,
+# a server of its own name, and `serve`. What else is to end with the script stands in `playing`.
+folder=$(mktemp -d)
+export HOME="$folder" JACK_DEFAULT_SERVER="physvib-$$" JACK_NO_AUDIO_RESERVATION=1
+unset DISPLAY || true
+server= playing=
+stop() {
+    for process in $playing $server; do kill "$process" 2>/dev/null || true; done
+    wait 2>/dev/null || true
+    rm -rf "$folder"
+}
+trap stop EXIT
+
+# serve RATE BLOCK_FRAMES PORTS [-s]: synchronous unless told.
+serve() {
+    jackd -n "$JACK_DEFAULT_SERVER" -r "${4:--S}" -d dummy -r "$1" -p "$2" -C 0 -P "$3" >>"$folder/jackd.log" 2>&1 &
+    server=$!
+    jack_wait -w -t 20 >/dev/null 2>&1
+}
+
+# close_server: another may be started then.
+close_server() {
+    kill "$server" 2>/dev/null || true
+    wait "$server" 2>/dev/null || true
+    server=
+}
+
+# rows EVENTS.csv: without the comment, which names the file's origin.
+rows() { grep -v '^#' "$1"; }
