@@ -104,25 +104,34 @@ void addModes(const TileLayer& layer, const TileModes& modes, std::size_t firstC
 }
 
 // out[t] = sum over k of c[k] U_k(t): even and odd polynomials apart, so that half the frames give the other half.
+template <std::size_t channels>
 HWY_INLINE void expand(const double* coefficients, std::size_t rank, const float* basis, float* out) {
     const Panel d;
-    constexpr std::size_t lanes = hn::MaxLanes(Panel()), half = frames / 2, vectors = HWY_MIN(4, half / lanes);
-    float c[tiles::maxRank];
-    for (std::size_t k = 0; k < rank; ++k) c[k] = static_cast<float>(coefficients[k]);
+    const Doubles wide;
+    const hn::Rebind<float, Doubles> narrow;
+    constexpr std::size_t lanes = hn::MaxLanes(Panel()), half = frames / 2, vectors = HWY_MIN(4, half / lanes), most = tiles::maxRank;
+    HWY_ALIGN float c[channels * most];
+    for (std::size_t j = 0; j < channels; ++j)
+        for (std::size_t k = 0; k < rank; k += hn::MaxLanes(Doubles()))
+            hn::Store(hn::DemoteTo(narrow, hn::Load(wide, coefficients + j * most + k)), narrow, c + j * most + k);
     for (std::size_t t = 0; t < half; t += vectors * lanes) {
-        hn::Vec<Panel> even[vectors], odd[vectors];
-        for (std::size_t v = 0; v < vectors; ++v) even[v] = odd[v] = hn::Zero(d);
-        for (std::size_t k = 0; k < rank; k += 2) {
-            const auto ce = hn::Set(d, c[k]), co = hn::Set(d, c[k + 1]);
+        hn::Vec<Panel> even[channels][vectors], odd[channels][vectors];
+        for (std::size_t j = 0; j < channels; ++j)
+            for (std::size_t v = 0; v < vectors; ++v) even[j][v] = odd[j][v] = hn::Zero(d);
+        for (std::size_t k = 0; k < rank; k += 2)
             for (std::size_t v = 0; v < vectors; ++v) {
-                even[v] = hn::MulAdd(ce, hn::Load(d, basis + k * half + t + v * lanes), even[v]);
-                odd[v] = hn::MulAdd(co, hn::Load(d, basis + (k + 1) * half + t + v * lanes), odd[v]);
+                const auto ue = hn::Load(d, basis + k * half + t + v * lanes), uo = hn::Load(d, basis + (k + 1) * half + t + v * lanes);
+                for (std::size_t j = 0; j < channels; ++j) {
+                    even[j][v] = hn::MulAdd(hn::Set(d, c[j * most + k]), ue, even[j][v]);
+                    odd[j][v] = hn::MulAdd(hn::Set(d, c[j * most + k + 1]), uo, odd[j][v]);
+                }
             }
-        }
-        for (std::size_t v = 0; v < vectors; ++v) {
-            hn::StoreU(hn::Add(even[v], odd[v]), d, out + t + v * lanes);
-            hn::StoreU(hn::Reverse(d, hn::Sub(even[v], odd[v])), d, out + frames - lanes - t - v * lanes);
-        }
+        for (std::size_t j = 0; j < channels; ++j)
+            for (std::size_t v = 0; v < vectors; ++v) {
+                float* at = out + j * frames + t + v * lanes;
+                hn::StoreU(hn::Add(even[j][v], odd[j][v]), d, at);
+                hn::StoreU(hn::Reverse(d, hn::Sub(even[j][v], odd[j][v])), d, out + (j + 1) * frames - lanes - t - v * lanes);
+            }
     }
 }
 
@@ -143,11 +152,11 @@ void render(const TileLayer& layer, float* out) {
             const bool isDirect = modes.rank > tiles::maxRank;
             if (modes.count > 0) addModes(layer, modes, first, channels, isDirect ? direct : sums, isDirect ? frames : most);
         }
-        for (std::size_t j = 0; j < channels; ++j) {
-            float* at = out + (first + j) * frames;
-            expand(sums + j * most, rank, layer.basis, at);
-            for (std::size_t t = 0; hasDirect && t < frames; ++t) at[t] += static_cast<float>(direct[j * frames + t]);
-        }
+        constexpr std::size_t together = hn::MaxLanes(Panel()) == 16 ? 2 : 1; // eight sums in either case
+        std::size_t j = 0;
+        for (; j + together <= channels; j += together) expand<together>(sums + j * most, rank, layer.basis, out + (first + j) * frames);
+        for (; j < channels; ++j) expand<1>(sums + j * most, rank, layer.basis, out + (first + j) * frames);
+        for (std::size_t i = 0; hasDirect && i < channels * frames; ++i) out[first * frames + i] += static_cast<float>(direct[i]);
     }
 }
 
