@@ -25,7 +25,7 @@ private:
     static constexpr auto half = static_cast<std::size_t>(tiles::frames / 2);
     static constexpr auto most = static_cast<std::size_t>(tiles::maxRank);
     std::array<double, most * half> values_{};
-    std::array<float, most * half> halves_{};
+    alignas(64) std::array<float, most * half> halves_{}; // kernels load whole vectors
 };
 
 } // namespace physvib
