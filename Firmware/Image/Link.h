@@ -4,9 +4,9 @@
 #include "Clock.h"
 #include "Core/BoardRenderer.h"
 #include "Outputs.h"
-#include "SelfTest.h"
 #include "SerialPort.h"
 #include "Wire/FrameDecoder.h"
+#include "Wire/SelfTest.h"
 #include <cstdint>
 
 namespace physvib::board {
@@ -47,7 +47,7 @@ private:
     Outputs* outputs_ = nullptr;
     SerialPort* serial_ = nullptr;
     wire::FrameDecoder decoder_;
-    SelfTest selfTest_;
+    wire::SelfTestRun selfTest_;
     std::uint32_t heardAt_ = 0; // frame of the last message
     std::uint32_t watchdogFrames_ = 0;
     std::uint32_t lost_ = 0, worstBlockCycles_ = 0;

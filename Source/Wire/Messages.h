@@ -104,7 +104,7 @@ struct TelemetryRequest {
     void visit(auto&&) {}
 };
 
-/// Counts since power came; those of the renderer since the last hello.
+/// Counts since power came; `lost` since the last hello.
 struct Telemetry {
     static constexpr Type type = Type::telemetry;
     std::uint32_t frame = 0;

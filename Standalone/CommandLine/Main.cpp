@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The `physvib` program: its commands, and how a wrong call is told.
 #include "CommandLine/AnalyseCommand.h"
+#include "CommandLine/BoardCommand.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/PlayCommand.h"
 #include "CommandLine/RenderCommand.h"
@@ -26,7 +27,7 @@ int listScenes() {
 }
 
 // Commands that are promised and not built: they say so instead of being unknown words.
-constexpr const char* notYetCommands[] = {"material", "calibrate", "study", "board"};
+constexpr const char* notYetCommands[] = {"material", "calibrate", "study"};
 
 int run(int argc, char** argv) {
     CLI::App app{"PhysVib: collisions one can feel, on every enchanter you attach."};
@@ -45,6 +46,9 @@ int run(int argc, char** argv) {
     StimulusOptions stimulusOptions;
     CLI::App* stimulus = app.add_subcommand("stimulus", "a single stimulus of a study");
     declareStimulus(*stimulus, stimulusOptions);
+    BoardOptions boardOptions;
+    CLI::App* board = app.add_subcommand("board", "the four-channel board: info, play an event list, test");
+    declareBoardOptions(*board, boardOptions);
     CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
     for (const char* name : notYetCommands) app.add_subcommand(name, "not yet")->prefix_command()->group("Not yet");
     try {
@@ -60,6 +64,7 @@ int run(int argc, char** argv) {
     if (analyse->parsed()) return runAnalyse(*analyse, analyseOptions);
     if (stimulus->parsed()) return runStimulus(*stimulus, stimulusOptions);
     if (play->parsed()) return runPlay(playOptions);
+    if (board->parsed()) return runBoard(boardOptions);
     if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");
     noteGiven(*render, options);
     const std::string refusal = checkRenderOptions(options);

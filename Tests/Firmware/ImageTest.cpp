@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The image itself: how large it is, what is not in it, and its self-test.
-#include "Image/SelfTest.h"
 #include "Rig.h"
+#include "Wire/SelfTest.h"
 #include <gtest/gtest.h>
 #include <iostream>
 
@@ -32,15 +32,7 @@ TEST(BoardImage, SelfTestGivesTheBitsOfThisComputer) {
     rig.connect();
     const auto onBoard = *rig.ask<wire::SelfTestReply>(wire::SelfTest{});
     BoardRenderer renderer;
-    renderer.prepare();
-    board::SelfTest here;
-    here.begin();
-    BoardRenderer::Codes block;
-    wire::SelfTestReply reply;
-    do {
-        here.strike(renderer);
-        renderer.render(block);
-    } while (!here.take(block, 0, renderer, reply));
+    const auto reply = wire::expectedSelfTest(renderer);
     std::cout << onBoard.modes << " modes: " << onBoard.blockCycles << " of " << onBoard.cyclesPerBlock << " cycles a block\n";
     EXPECT_EQ(onBoard.hash, reply.hash);
     EXPECT_EQ(onBoard.modes, 128);

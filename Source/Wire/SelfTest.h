@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A full bank of known notes, struck over the next blocks and not let out; then one block of it is counted in cycles.
+// The self-test, on the board and on a computer: a full bank of known notes, struck over the next blocks and not let out;
+// then one block of it is counted in cycles, and its bits are hashed.
 #pragma once
 #include "Core/BoardRenderer.h"
 #include "Wire/Crc16.h"
 #include "Wire/Messages.h"
 #include <cstdint>
 
-namespace physvib::board {
+namespace physvib::wire {
 
-/// Main loop, around each block.
-class SelfTest {
+/// Around each block of the renderer.
+class SelfTestRun {
 public:
     void begin() noexcept { step_ = 1; }
     bool isRunning() const noexcept { return step_ != 0; }
@@ -25,7 +26,7 @@ public:
     }
 
     /// After a block that took `cycles`: true once, when the result is there.
-    bool take(const BoardRenderer::Codes& block, std::uint32_t cycles, const BoardRenderer& renderer, wire::SelfTestReply& reply) noexcept {
+    bool take(const BoardRenderer::Codes& block, std::uint32_t cycles, const BoardRenderer& renderer, SelfTestReply& reply) noexcept {
         if (step_++ <= blocks) return false;
         step_ = 0;
         reply.modes = static_cast<std::uint16_t>(renderer.status().modes);
@@ -39,4 +40,18 @@ private:
     int step_ = 0;
 };
 
-} // namespace physvib::board
+/// What a board must answer, but for the cycles. `renderer` loses what it holds.
+inline SelfTestReply expectedSelfTest(BoardRenderer& renderer) noexcept {
+    SelfTestRun test;
+    SelfTestReply reply;
+    BoardRenderer::Codes block;
+    renderer.prepare();
+    test.begin();
+    do {
+        test.strike(renderer);
+        renderer.render(block);
+    } while (!test.take(block, 0, renderer, reply));
+    return reply;
+}
+
+} // namespace physvib::wire

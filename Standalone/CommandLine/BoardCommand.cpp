@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A board link for the length of a call.
+#include "CommandLine/BoardCommand.h"
+#include "CommandLine/ExitCode.h"
+#include "CommandLine/RenderJob.h"
+#include "Files/EventsCsv.h"
+#include "Host/BoardLink.h"
+#include "Wire/SelfTest.h"
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+namespace physvib {
+namespace {
+
+using State = BoardLinkStatus::State;
+constexpr std::int64_t ms = 1'000'000;
+
+volatile std::sig_atomic_t interrupted = 0;
+void interrupt(int) { interrupted = 1; }
+
+void nap(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
+
+/// False if it does not come true in time or the user interrupts.
+template <class Condition>
+bool waitFor(Condition isTrue, int milliseconds) {
+    for (const std::int64_t end = BoardLink::nowNs() + milliseconds * ms; !isTrue(); nap(5))
+        if (interrupted || BoardLink::nowNs() > end) return false;
+    return true;
+}
+
+int refuse(const BoardLinkStatus& status, const std::string& otherwise) { return leave(exitFailed, status.trouble.empty() ? otherwise : status.trouble); }
+
+void printInfo(const BoardLinkStatus& s) {
+    const auto& b = s.board;
+    const auto& t = s.telemetry;
+    std::cout << s.port << ": " << int(b.channels) << " channels at " << b.sampleRateHz << " Hz, " << b.maxModes << " modes, protocol " << int(b.version) << ", clock "
+              << (b.crystal ? "72 MHz from the crystal" : "64 MHz, internal") << ", " << int(b.resets) << " restarts by the watchdog\n"
+              << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call at the earliest; drift " << s.driftPpm << " ppm\n"
+              << t.played << " strikes played, " << t.late << " late, " << t.dropped << " dropped, " << t.stolen << " modes stolen; link: " << t.good << " good, " << t.bad
+              << " bad, " << t.lost << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; " << t.stackFree << " bytes of stack never used\n";
+}
+
+/// Ready and told how it does.
+bool connect(const BoardLink& link) {
+    return waitFor([&] { return link.status().state == State::ready && link.status().telemetry.good > 0; }, 8000);
+}
+
+/// Each channel alone, a quarter of a second of 205 Hz at a quarter of full scale.
+void playScale(BoardLink& link) {
+    const std::int64_t start = BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 50 * ms;
+    for (std::size_t j = 0; j < limits::board::channels; ++j) {
+        std::array<double, limits::board::channels> gains{};
+        gains[j] = 1.0;
+        CollisionEvent tone;
+        tone.frequencyHz = 205.0;
+        tone.decayPerSecond = 1.0;
+        tone.amplitude = 0.25;
+        tone.durationNs = 250 * ms;
+        link.push({start + static_cast<std::int64_t>(j) * 400 * ms, boardEventOf(tone, gains)});
+    }
+    waitFor([&] { return BoardLink::nowNs() > start + 1600 * ms; }, 5000);
+}
+
+int test(BoardLink& link) {
+    link.requestSelfTest();
+    if (!waitFor([&] { return link.status().selfTest.has_value(); }, 3000)) return refuse(link.status(), "no answer to the self-test");
+    const auto reply = *link.status().selfTest;
+    const auto here = std::make_unique<BoardRenderer>();
+    const bool isEqual = reply.hash == wire::expectedSelfTest(*here).hash;
+    std::cout << reply.modes << " modes: " << reply.blockCycles << " of " << reply.cyclesPerBlock << " cycles (" << std::fixed << std::setprecision(1)
+              << 100.0 * reply.blockCycles / reply.cyclesPerBlock << " %); the bits are " << (isEqual ? "those of this computer" : "NOT those of this computer") << '\n';
+    std::cout << "channels 1 to 4 in turn, 205 Hz" << std::endl;
+    playScale(link);
+    return isEqual ? exitDone : leave(exitFailed, link.status().port + ": the board computes other bits");
+}
+
+/// Hands the events over as their time comes; the last onset on the link's clock.
+std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
+    PhantomPanner::Gains gains{};
+    const std::int64_t start = BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 20 * ms;
+    std::int64_t end = start;
+    for (const CollisionEvent& event : events) {
+        const std::int64_t onset = start + event.timeNs;
+        if (!waitFor([&] { return onset < BoardLink::nowNs() + 2 * BoardLink::sendAheadMs * ms; }, 1'000'000'000)) break;
+        panner.gainsAt(event.x, event.y, gains);
+        link.push({onset, boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
+        end = onset + event.durationNs + (event.decayPerSecond > 0 ? static_cast<std::int64_t>(7.0 / event.decayPerSecond * 1e9) : 0);
+    }
+    return std::min(end, BoardLink::nowNs() + 5000 * ms);
+}
+
+int play(BoardLink& link, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
+    const auto before = link.status().telemetry; // the board counts on from call to call
+    const std::int64_t end = playAll(link, events, panner);
+    waitFor([&] { return BoardLink::nowNs() > end; }, 60'000);
+    if (interrupted) link.stopAll();
+    else waitFor([&, seen = link.status().telemetry.frame] { return link.status().telemetry.frame != seen; }, 1500);
+    nap(20);
+    const auto s = link.status();
+    std::cout << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call; " << s.sent << " strikes sent, " << s.thinned << " thinned, " << s.refused
+              << " refused; the board played " << s.telemetry.played - before.played << ", " << s.telemetry.late - before.late << " late, " << s.telemetry.dropped - before.dropped << " dropped, " << s.telemetry.lost << " lost\n";
+    return s.state == State::ready ? exitDone : refuse(s, "the board is gone");
+}
+
+} // namespace
+
+void declareBoardOptions(CLI::App& command, BoardOptions& o) {
+    command.add_option("port", o.port, "serial port, or auto: the first on which a board answers")->required();
+    command.add_option("action", o.action, "info, play or test")->required()->check(CLI::IsMember({"info", "play", "test"}));
+    command.add_option("events", o.eventsPath, "event list to play")->type_name("EVENTS.csv");
+    command.add_option("--layout", o.layout, "layout of at most four enchanters: preset or file")->capture_default_str();
+}
+
+int runBoard(const BoardOptions& o) {
+    if ((o.action == "play") != !o.eventsPath.empty()) return leave(exitUsage, "board: an event list goes with play, and only with it");
+    std::vector<CollisionEvent> events;
+    PhantomPanner panner;
+    if (o.action == "play") {
+        auto list = loadEventsCsv(o.eventsPath);
+        if (!list) return leave(exitFailed, list.error);
+        events = std::move(list.value);
+        const auto layout = layoutNamed(o.layout);
+        if (!layout) return leave(exitFailed, layout.error);
+        const auto& geometry = layout.value.geometry;
+        if (geometry.count > limits::board::channels) return leave(exitUsage, "--layout: the board has four channels, this layout " + std::to_string(geometry.count));
+        panner = {geometry, PanningLaw::linear, 1.0, geometry.extentWidthMetres, geometry.extentHeightMetres};
+    }
+    std::signal(SIGINT, interrupt);
+    std::signal(SIGTERM, interrupt);
+    BoardLink link{o.port == "auto" ? "" : o.port};
+    if (!connect(link)) return refuse(link.status(), "no board answers");
+    if (o.action == "info") return printInfo(link.status()), exitDone;
+    return o.action == "test" ? test(link) : play(link, events, panner);
+}
+
+} // namespace physvib

@@ -1,0 +1,66 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# The command line with the virtual board over a pseudo-terminal, in real time: board.sh PHYSVIB VIRTUAL_BOARD IMAGE.elf
+set -eu
+physvib=$1 virtual_board=$2 image=$3
+folder=$(mktemp -d)
+board=
+finish() {
+    if [ -n "$board" ]; then kill "$board" 2>/dev/null && wait "$board" 2>/dev/null; fi
+    rm -rf "$folder"
+}
+trap finish EXIT
+fail() {
+    echo "board.sh: $1" >&2
+    cat "$folder"/*.txt >&2
+    exit 1
+}
+start() {
+    "$virtual_board" "$image" --seconds 120 --wav "$folder/codes.wav" >"$folder/port.txt" 2>"$folder/board.txt" &
+    board=$!
+    for _ in 1 2 3 4 5 6 7 8 9 10; do
+        port=$(cat "$folder/port.txt")
+        [ -n "$port" ] && return 0
+        sleep 0.2
+    done
+    fail "the virtual board does not start"
+}
+stop() {
+    kill -INT "$board"
+    wait "$board" || fail "the virtual board failed"
+    board=
+}
+
+# 200 hits, then a crowd of 200 within a tenth of a second: more than the line carries.
+{
+    echo time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m
+    i=0
+    while [ $i -lt 200 ]; do
+        echo "$((i / 100)).$(printf %03d $((i % 100 * 10)))000000,$((100 + i % 30)),20,0.$((100 + i)),0.05,0.02"
+        i=$((i + 1))
+    done
+    i=0
+    while [ $i -lt 200 ]; do
+        echo "2.$(printf %03d $((i / 2)))000000,$((100 + i % 30)),40,0.$((100 + i)),0.05,0.02"
+        i=$((i + 1))
+    done
+} >"$folder/hits.csv"
+
+start
+"$physvib" board "$port" info >"$folder/info.txt" 2>&1 || fail "info"
+grep -q "4 channels at 8000 Hz, 128 modes, protocol 1, clock 72 MHz" "$folder/info.txt" || fail "info says something else"
+"$physvib" board "$port" test >"$folder/test.txt" 2>&1 || fail "test"
+grep -q "the bits are those of this computer" "$folder/test.txt" || fail "the self-test differs"
+"$physvib" board "$port" play "$folder/hits.csv" >"$folder/play.txt" 2>&1 || fail "play"
+cat "$folder/info.txt" "$folder/test.txt" "$folder/play.txt"
+sent=$(sed -n 's/.* \([0-9]*\) strikes sent, \([0-9]*\) thinned, \([0-9]*\) refused.*/\1 \2 \3/p' "$folder/play.txt")
+set -- $sent
+[ $(($1 + $2 + $3)) -eq 400 ] || fail "sent, thinned and refused do not make 400"
+[ "$2" -gt 0 ] || fail "nothing was thinned"
+[ "$1" -ge 200 ] || fail "too few were sent"
+grep -q "the board played $1, .* 0 dropped, 0 lost" "$folder/play.txt" || fail "not all that was sent was played"
+stop
+grep -q " 0 against their times, 0 samples missed, 0 restarts, 0 faults" "$folder/board.txt" || fail "the board was not well"
+cat "$folder/board.txt"
+if "$physvib" board "$port" info >"$folder/gone.txt" 2>&1; then fail "a board that is not there answers"; fi
+[ "$(wc -l <"$folder/gone.txt")" -eq 1 ] || fail "more than one line on a board that is not there"

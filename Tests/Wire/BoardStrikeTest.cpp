@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Rounding to the numbers of the link, and who stays when the line is too slow.
+#include "Wire/BoardStrike.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+BoardStrike strike(std::int64_t onsetNs, int peak) {
+    BoardStrike s;
+    s.onsetNs = onsetNs;
+    s.event.amplitudes = {1, static_cast<std::int16_t>(-peak), 0, 0};
+    return s;
+}
+
+TEST(BoardStrike, RoundsACollisionToTheLinksNumbers) {
+    CollisionEvent e;
+    e.frequencyHz = 205.03;
+    e.decayPerSecond = 0.001;
+    e.amplitude = 0.5;
+    const BoardEvent b = boardEventOf(e, {1.0, 0.25, -1.0, 100.0});
+    EXPECT_EQ(b.frequency16, 3280);
+    EXPECT_EQ(b.decay16, 1) << "a slow decay stays one";
+    EXPECT_EQ(b.durationMs, 0);
+    EXPECT_EQ(b.amplitudes, (std::array<std::int16_t, 4>{2048, 512, -2048, 32767}));
+    e.decayPerSecond = 0;
+    e.durationNs = 1;
+    EXPECT_EQ(boardEventOf(e, {}).decay16, 0);
+    EXPECT_EQ(boardEventOf(e, {}).durationMs, 1);
+    e.frequencyHz = 4000;
+    EXPECT_FALSE(isPlayable(boardEventOf(e, {})));
+}
+
+TEST(StrikeBacklog, GivesThemBackInTheOrderOfTheirOnsets) {
+    StrikeBacklog backlog;
+    for (const int t : {5, 1, 4, 1, 3}) backlog.push(strike(t, 100 + t));
+    for (const int t : {1, 1, 3, 4, 5}) {
+        EXPECT_EQ(backlog.first().onsetNs, t);
+        backlog.pop();
+    }
+    EXPECT_TRUE(backlog.empty());
+}
+
+TEST(StrikeBacklog, FullItLosesTheWeakestAndCounts) {
+    StrikeBacklog backlog;
+    for (int i = 0; i < 1000; ++i) backlog.push(strike(i, (i * 7919) % 1009));
+    EXPECT_EQ(backlog.size(), StrikeBacklog::capacity);
+    EXPECT_EQ(backlog.thinned(), 1000u - StrikeBacklog::capacity);
+    int weakest = 10000;
+    for (std::int64_t last = -1; !backlog.empty(); backlog.pop()) {
+        weakest = std::min(weakest, backlog.first().peak());
+        EXPECT_GT(backlog.first().onsetNs, last);
+        last = backlog.first().onsetNs;
+    }
+    int stronger = 0;
+    for (int i = 0; i < 1000; ++i) stronger += (i * 7919) % 1009 > weakest ? 1 : 0;
+    EXPECT_EQ(stronger, StrikeBacklog::capacity - 1);
+}
+
+} // namespace
+} // namespace physvib
