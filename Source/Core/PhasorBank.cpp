@@ -9,7 +9,6 @@
 namespace physvib {
 namespace {
 
-constexpr int channels = PhasorBank::channels;
 constexpr int frames = PhasorBank::blockFrames;
 constexpr float residueFactor = 0.875f;      // 60 dB in 52 frames, 6.5 ms: as short as limits::stealFadePerSecond
 constexpr float residueSilence = 1.0f / (1 << 20);
