@@ -7,11 +7,9 @@
 namespace physvib {
 
 bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept {
-    if (name == "linear") law = PanningLaw::linear;
-    else if (name == "log") law = PanningLaw::log;
-    else if (name == "log-outer") law = PanningLaw::logOuter;
-    else if (name == "energy") law = PanningLaw::energy;
-    else return false;
+    const auto found = std::find(panningLawNames.begin(), panningLawNames.end(), name);
+    if (found == panningLawNames.end()) return false;
+    law = static_cast<PanningLaw>(found - panningLawNames.begin());
     return true;
 }
 

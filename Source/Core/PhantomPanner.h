@@ -15,7 +15,10 @@ enum class PanningLaw {
     energy    ///< sqrt(1 - u): squares sum to one wherever linear gains do
 };
 
-/// The law of that name (linear, log, log-outer, energy); false if there is none. Any thread.
+/// Names of the laws, in their order.
+inline constexpr std::array<std::string_view, 4> panningLawNames{"linear", "log", "log-outer", "energy"};
+
+/// The law of that name; false if there is none. Any thread.
 bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept;
 
 /// Gains of one layout. Formulas for every arrangement stand in Docs/panning.md.

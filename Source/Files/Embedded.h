@@ -17,4 +17,7 @@ const std::vector<EmbeddedFile>& embeddedScenes();
 /// Source/Files/Materials/*.json. Any thread.
 const std::vector<EmbeddedFile>& embeddedMaterials();
 
+/// Source/Files/Protocols/*.json.
+const std::vector<EmbeddedFile>& embeddedProtocols();
+
 } // namespace physvib

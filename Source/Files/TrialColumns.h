@@ -11,9 +11,9 @@ constexpr std::string_view observer = "observer", phase = "phase", task = "task"
 constexpr std::string_view training = "training", simulated = "simulated";
 
 /// A study's rating scales follow.
-inline constexpr std::array<std::string_view, 20> names{
-    "participant", "observer", "condition", "session", "phase",   "trial",      "task",     "stimulus", "response", "target_column",
-    "target_row",  "x",        "y",         "correct", "replays", "response_s", "level_db", "choice",   "value",    "render"};
+inline constexpr std::array<std::string_view, 21> names{"participant",   "observer",   "condition", "session", "phase",   "trial",   "task",
+                                                        "stimulus",      "parts",      "response",  "target_column", "target_row", "x", "y",
+                                                        "choice",        "value",      "correct",   "replays", "response_s", "level_db", "render"};
 
 constexpr bool has(std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 

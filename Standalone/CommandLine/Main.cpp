@@ -6,6 +6,7 @@
 #include "CommandLine/PlayCommand.h"
 #include "CommandLine/RenderCommand.h"
 #include "CommandLine/StimulusCommand.h"
+#include "CommandLine/StudyCommand.h"
 #include "Files/SceneCatalogue.h"
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -27,7 +28,7 @@ int listScenes() {
 }
 
 // Commands that are promised and not built: they say so instead of being unknown words.
-constexpr const char* notYetCommands[] = {"material", "calibrate", "study"};
+constexpr const char* notYetCommands[] = {"material", "calibrate"};
 
 int run(int argc, char** argv) {
     CLI::App app{"PhysVib: collisions one can feel, on every enchanter you attach."};
@@ -49,6 +50,9 @@ int run(int argc, char** argv) {
     BoardOptions boardOptions;
     CLI::App* board = app.add_subcommand("board", "the four-channel board: info, play an event list, test");
     declareBoardOptions(*board, boardOptions);
+    StudyOptions studyOptions;
+    CLI::App* study = app.add_subcommand("study", "whole studies, from a protocol");
+    declareStudy(*study, studyOptions);
     CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
     for (const char* name : notYetCommands) app.add_subcommand(name, "not yet")->prefix_command()->group("Not yet");
     try {
@@ -63,6 +67,7 @@ int run(int argc, char** argv) {
     if (devices->parsed()) return runDevices();
     if (analyse->parsed()) return runAnalyse(*analyse, analyseOptions);
     if (stimulus->parsed()) return runStimulus(*stimulus, stimulusOptions);
+    if (study->parsed()) return runStudy(*study, studyOptions);
     if (play->parsed()) return runPlay(playOptions);
     if (board->parsed()) return runBoard(boardOptions);
     if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");

@@ -21,7 +21,8 @@ int writeStudyFiles(const std::vector<StudyFile>& files) {
 
 PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated) {
     PictureWords words{{}, "physvib " PHYSVIB_VERSION, isSimulated};
-    for (const auto& file : files) words.source += (words.source.empty() ? "" : ", ") + std::filesystem::path{file}.filename().string();
+    words.source = std::filesystem::path{files.front()}.filename().string();
+    if (files.size() > 1) words.source += " and " + std::to_string(files.size() - 1) + " more";
     return words;
 }
 

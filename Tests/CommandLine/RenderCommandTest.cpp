@@ -198,7 +198,7 @@ TEST_F(Render, BadOptionsAreUsageErrors) {
 TEST_F(Render, WhatIsPromisedAndNotBuiltSaysNotYet) {
     for (const char* option : {"--method AF-FF-DRF", "--actuator lra-205"})
         refuses(std::string{"render shake-the-box --out a.wav "} + option, 2, "not yet");
-    for (const char* command : {"material a.wav", "study run p.json"})
+    for (const char* command : {"material a.wav", "calibrate --device none"})
         refuses(command, 2, "not yet");
 }
 

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Every field of a protocol once: its name in files, its place in the structs, its range.
+#pragma once
+#include "Physics/SceneFields.h"
+#include "Study/Protocol.h"
+
+namespace physvib {
+
+inline constexpr std::array<std::string_view, 7> taskNames{"explore", "identify", "locate", "choose", "rate", "adjust", "estimate"};
+inline constexpr std::array<std::string_view, 3> trialOrderNames{"given", "random", "blocks"};
+inline constexpr std::array<std::string_view, 3> conditionOrderNames{"given", "random", "latin-square"};
+inline constexpr std::array<std::string_view, 3> stimulusSetNames{"patterns", "grid", "calls"};
+inline constexpr std::array<std::string_view, 2> gridPointNames{"corners", "middles"};
+
+namespace studyBounds {
+inline constexpr Bounds levelDb = within(80.0);       // beyond it one of the two is not felt
+inline constexpr Bounds rest = upTo(86400.0);         // a day
+inline constexpr Bounds count = upTo(100000.0);       // trials of a week
+inline constexpr Bounds names{{}, {}, 0, 64};         // alternatives, objects, scales: what fits on a screen
+inline constexpr Bounds lines{1.0, 16.0};             // what merging grids can divide (PercentCounts.h)
+} // namespace studyBounds
+
+template <>
+struct FieldsOf<PatternSet> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("enchanters", &PatternSet::enchanters, Bounds{1.0, 26.0}, Need::required);
+        v.field("pulse_s", &PatternSet::pulseSeconds, Bounds{0.001, 10.0, 1, 8}, Need::optional);
+        v.field("gap_s", &PatternSet::gapSeconds, upTo(10.0), Need::optional);
+    }
+};
+
+template <>
+struct FieldsOf<GridSet> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("columns", &GridSet::columns, studyBounds::lines, Need::required);
+        v.field("rows", &GridSet::rows, studyBounds::lines, Need::required);
+        v.choice("points", &GridSet::points, gridPointNames);
+        v.choice("law", &GridSet::law, panningLawNames);
+        v.field("exponent", &GridSet::exponent, Bounds{0.01, 100.0}, Need::optional);
+        v.field("seconds", &GridSet::seconds, Bounds{0.001, 600.0}, Need::optional);
+    }
+};
+
+template <>
+struct FieldsOf<StudyFactor> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("name", &StudyFactor::name, anyText, Need::required);
+        v.field("values", &StudyFactor::values, items(1, 256), Need::required);
+    }
+};
+
+template <>
+struct FieldsOf<CallSet> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("factors", &CallSet::factors, items(1, 16), Need::required);
+        v.field("call", &CallSet::call, anyText, Need::required);
+    }
+};
+
+template <>
+struct FieldsOf<ConditionPlan> {
+    template <class V>
+    static void visit(V& v) {
+        using C = ConditionPlan;
+        v.field("name", &C::name, anyText, Need::required);
+        v.field("group", &C::group, anyText, Need::optional);
+        v.field("layout", &C::layout, anyText, Need::optional);
+        v.field("frequency_hz", &C::frequencyHz, Bounds{1.0, limits::maxFrequencyHz}, Need::optional);
+        v.field("level_g", &C::levelG, Bounds{1e-6, 1000.0}, Need::optional);
+        v.variant("stimuli", &C::stimuli, stimulusSetNames);
+    }
+};
+
+template <>
+struct FieldsOf<Alternative> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("name", &Alternative::name, anyText, Need::required);
+        v.field("level_db", &Alternative::levelDb, studyBounds::levelDb, Need::optional);
+    }
+};
+
+template <>
+struct FieldsOf<Adjustment> {
+    template <class V>
+    static void visit(V& v) {
+        using A = Adjustment;
+        v.field("alternative", &A::alternative, anyText, Need::required);
+        v.field("start_db", &A::startDb, studyBounds::levelDb, Need::optional);
+        v.field("step_db", &A::stepDb, Bounds{0.01, 20.0}, Need::optional);
+        v.field("least_db", &A::leastDb, studyBounds::levelDb, Need::optional);
+        v.field("most_db", &A::mostDb, studyBounds::levelDb, Need::optional);
+    }
+};
+
+template <>
+struct FieldsOf<StaircasePlan> {
+    template <class V>
+    static void visit(V& v) {
+        using S = StaircasePlan;
+        v.field("alternative", &S::alternative, anyText, Need::required);
+        v.field("start_db", &S::startDb, studyBounds::levelDb, Need::optional);
+        v.field("step_db", &S::stepDb, Bounds{0.01, 20.0}, Need::optional);
+        v.field("least_step_db", &S::leastStepDb, Bounds{0.01, 20.0}, Need::optional);
+        v.field("least_db", &S::leastDb, studyBounds::levelDb, Need::optional);
+        v.field("most_db", &S::mostDb, studyBounds::levelDb, Need::optional);
+        v.field("down", &S::down, Bounds{1.0, 10.0}, Need::optional);
+        v.field("reversals", &S::reversals, Bounds{2.0, 100.0}, Need::optional);
+        v.field("most_trials", &S::mostTrials, Bounds{1.0, 10000.0}, Need::optional);
+    }
+};
+
+template <>
+struct FieldsOf<SessionPlan> {
+    template <class V>
+    static void visit(V& v) {
+        using S = SessionPlan;
+        v.field("name", &S::name, anyText, Need::required);
+        v.field("training", &S::isTraining, {}, Need::optional);
+        v.choice("task", &S::task, taskNames);
+        v.choice("order", &S::order, trialOrderNames);
+        v.field("repetitions", &S::repetitions, Bounds{1.0, 1000.0}, Need::optional);
+        v.field("fewest_touches", &S::fewestTouches, studyBounds::count, Need::optional);
+        v.field("most_plays", &S::mostPlays, studyBounds::count, Need::optional);
+        v.field("least_s", &S::leastSeconds, studyBounds::rest, Need::optional);
+        v.field("break_before_s", &S::breakBeforeSeconds, studyBounds::rest, Need::optional);
+        v.field("break_every", &S::breakEvery, studyBounds::count, Need::optional);
+        v.field("break_s", &S::breakSeconds, studyBounds::rest, Need::optional);
+        v.field("alternatives", &S::alternatives, studyBounds::names, Need::optional);
+        v.field("both_orders", &S::bothOrders, {}, Need::optional);
+        v.field("objects", &S::objects, studyBounds::names, Need::optional);
+        v.field("scales", &S::scales, studyBounds::names, Need::optional);
+        v.field("adjustment", &S::adjustment, {}, Need::optional);
+        v.field("staircase", &S::staircase, {}, Need::optional);
+        v.field("levels_from", &S::levelsFrom, anyText, Need::optional);
+    }
+};
+
+template <>
+struct FieldsOf<Protocol> {
+    template <class V>
+    static void visit(V& v) {
+        using P = Protocol;
+        v.field("name", &P::name, anyText, Need::required);
+        v.field("title", &P::title, anyText, Need::optional);
+        v.field("seed", &P::seed, upTo(1e9), Need::optional);
+        v.field("pink_noise", &P::hasPinkNoise, {}, Need::optional);
+        v.choice("condition_order", &P::conditionOrder, conditionOrderNames);
+        v.field("conditions", &P::conditions, items(1, 256), Need::required);
+        v.field("sessions", &P::sessions, items(1, 64), Need::required);
+    }
+};
+
+} // namespace physvib

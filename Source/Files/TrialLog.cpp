@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// Rows out and in; the columns are in TrialColumns.h.
+#include "Files/TrialLog.h"
+#include "Files/CsvTable.h"
+#include "Files/FileLimits.h"
+#include "Files/NumberText.h"
+#include "Files/ProtocolFields.h"
+#include "Files/ProtocolFile.h"
+#include "Files/ReadFile.h"
+#include "Files/StudyRows.h"
+#include "Files/TrialColumns.h"
+#include <cerrno>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+namespace columns = trialColumns;
+
+std::string joined(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const auto& part : parts) text.append(text.empty() ? "" : "|").append(part);
+    return text;
+}
+
+/// Cells by the name of their column; a column without one stays empty.
+using Cells = std::map<std::string_view, std::string>;
+
+void addPlace(Cells& cells, const FieldPlace& place) {
+    cells["x"] = numberText(place.x);
+    cells["y"] = numberText(place.y);
+}
+
+Cells cellsOf(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
+    const auto& [trial, answer] = record;
+    const SessionPlan& session = protocol.sessions[trial.session];
+    Cells cells{{"participant", participant.code}, {"observer", participant.observer}, {"condition", protocol.conditions[trial.condition].name}, {"session", session.name}};
+    cells["phase"] = session.isTraining ? columns::training : "main";
+    cells["trial"] = std::to_string(trial.number);
+    cells["task"] = taskNames[static_cast<std::size_t>(trial.task)];
+    cells["stimulus"] = trial.stimulus;
+    cells["parts"] = joined(trial.parts);
+    cells[trial.task == StudyTask::choose ? "choice" : "response"] = answer.response;
+    if (const auto target = targetOf(protocol.conditions[trial.condition], trial)) {
+        cells["target_column"] = std::to_string(target->column);
+        cells["target_row"] = std::to_string(target->row);
+    }
+    if (answer.place) addPlace(cells, *answer.place);
+    if (trial.task == StudyTask::adjust || trial.task == StudyTask::estimate) cells["value"] = numberText(answer.value);
+    if (const auto correct = isCorrect(protocol, record)) cells["correct"] = *correct ? "1" : "0";
+    cells["replays"] = std::to_string(answer.plays - 1);
+    cells["response_s"] = numberText(answer.seconds);
+    cells["level_db"] = numberText(trial.levelDb);
+    cells["render"] = callsOf(protocol, record);
+    for (std::size_t s = 0; s < answer.scores.size(); ++s) cells[session.scales[s]] = numberText(answer.scores[s]);
+    return cells;
+}
+
+std::vector<std::string> columnsOf(const Protocol& protocol) {
+    std::vector<std::string> all(columns::names.begin(), columns::names.end());
+    for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
+    return all;
+}
+
+/// Reads the rows of a table back into records. Throws StudyFault.
+class RecordReader {
+public:
+    RecordReader(const detail::StudyRows& rows, const Protocol& protocol)
+        : rows_{rows}, protocol_{protocol} {}
+
+    TrialRecord read(const CsvRow& row) const {
+        TrialRecord record;
+        Trial& trial = record.trial;
+        trial.condition = indexOf(row, "condition", protocol_.conditions);
+        trial.session = indexOf(row, "session", protocol_.sessions);
+        const SessionPlan& session = protocol_.sessions[trial.session];
+        trial.task = session.task;
+        trial.number = rows_.wholeNumber(row, rows_.required("trial"), 1, std::numeric_limits<int>::max());
+        trial.stimulus = cell(row, "stimulus");
+        record.answer.response = cell(row, session.task == StudyTask::choose ? "choice" : "response");
+        record.answer.plays = 1 + rows_.wholeNumber(row, rows_.required("replays"), 0, 1'000'000);
+        record.answer.seconds = rows_.number(row, rows_.required("response_s"), 0.0, 1e9);
+        if (!cell(row, "x").empty()) record.answer.place = FieldPlace{rows_.number(row, rows_.required("x"), 0.0, 1.0), rows_.number(row, rows_.required("y"), 0.0, 1.0)};
+        if (!cell(row, "value").empty()) record.answer.value = rows_.number(row, rows_.required("value"), -1e12, 1e12);
+        for (const auto& scale : session.scales) record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
+        return record;
+    }
+
+private:
+    const std::string& cell(const CsvRow& row, std::string_view column) const { return row.cells[rows_.required(column)]; }
+    template <class Item>
+    std::size_t indexOf(const CsvRow& row, std::string_view column, const std::vector<Item>& items) const {
+        const auto at = rows_.required(column);
+        const auto found = std::ranges::find(items, row.cells[at], &Item::name);
+        if (found == items.end()) throw detail::StudyFault{rows_.table().fault(row, at, std::string("a ") + std::string(column) + " of the protocol")};
+        return static_cast<std::size_t>(found - items.begin());
+    }
+    const detail::StudyRows& rows_;
+    const Protocol& protocol_;
+};
+
+/// The header without the version of the program, which may have changed since.
+std::string_view withoutVersion(std::string_view header) {
+    return header.substr(std::min(header.find(" protocol="), header.size()));
+}
+
+} // namespace
+
+std::string trialHeader(const Protocol& protocol, const Participant& participant, std::string_view version) {
+    std::string text = provenanceComment({std::string(version),
+                                          {{"protocol", protocol.name},
+                                           {"hash", protocolHash(protocol)},
+                                           {"seed", std::to_string(protocol.seed)},
+                                           {"participant", participant.code},
+                                           {"number", std::to_string(participant.number)},
+                                           {"observer", participant.observer}}});
+    std::string names;
+    for (const auto& column : columnsOf(protocol)) {
+        if (!names.empty()) names += ',';
+        appendCell(names, column);
+    }
+    return text + names + "\n";
+}
+
+std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
+    const Cells cells = cellsOf(protocol, participant, record);
+    std::string row;
+    bool isFirst = true;
+    for (const auto& column : columnsOf(protocol)) {
+        if (!std::exchange(isFirst, false)) row += ',';
+        if (const auto found = cells.find(column); found != cells.end()) appendCell(row, found->second);
+    }
+    return row + "\n";
+}
+
+Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol, const Participant& participant) {
+    const std::string header = trialHeader(protocol, participant, "");
+    TrialLog log;
+    const std::size_t end = text.rfind('\n');
+    const std::string_view whole = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
+    constexpr std::string_view ours = "# physvib ";
+    const bool isOurs = text.starts_with(ours) || ours.starts_with(text);
+    if (isOurs && std::ranges::count(whole, '\n') < 2) return log; // not even a header: nothing to go on from
+    if (!isOurs || !withoutVersion(whole).starts_with(withoutVersion(header)))
+        return Failure{std::string(name) + ":1: expected trials of this protocol, seed, participant, number and observer, found others"};
+    log.wholeBytes = whole.size();
+    if (withoutVersion(whole) == withoutVersion(header)) return log;
+    try {
+        const detail::StudyRows rows{whole, name};
+        const RecordReader reader{rows, protocol};
+        for (const CsvRow& row : rows.table().rows) log.records.push_back(reader.read(row));
+    } catch (const detail::StudyFault& fault) {
+        return Failure{fault.message};
+    }
+    return log;
+}
+
+TrialLogFile::TrialLogFile(std::filesystem::path path, const Protocol& protocol, Participant participant, std::string_view version)
+    : path_{std::move(path)}, protocol_{protocol}, participant_{std::move(participant)} {
+    open(version);
+}
+
+void TrialLogFile::open(std::string_view version) {
+    std::error_code code;
+    std::size_t kept = 0;
+    if (std::filesystem::exists(path_, code)) {
+        const auto text = readFile(path_, limits::maxTableBytes);
+        auto log = text ? readTrialLog(text.value, path_.string(), protocol_, participant_) : Result<TrialLog>{Failure{text.error}};
+        if (!log) {
+            error_ = log.error;
+            return;
+        }
+        kept = log.value.wholeBytes;
+        records_ = std::move(log.value.records);
+        if (kept < text.value.size()) std::filesystem::resize_file(path_, kept, code);
+        if (code) return fail("cannot be written: " + code.message());
+    }
+    file_.reset(std::fopen(path_.string().c_str(), "ab"));
+    if (!file_) return fail("cannot be written: " + std::generic_category().message(errno));
+    if (kept == 0) write(trialHeader(protocol_, participant_, version));
+}
+
+bool TrialLogFile::write(const std::string& text) {
+    if (!error_.empty()) return false;
+    if (std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() && std::fflush(file_.get()) == 0) return true;
+    fail("cannot be written: " + std::generic_category().message(errno));
+    return false;
+}
+
+bool TrialLogFile::append(const TrialRecord& record) { return write(trialRow(protocol_, participant_, record)); }
+
+} // namespace physvib

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// A participant's trials as CSV: a row per trial, written at once, so that a study that was cut off can go on.
+#pragma once
+#include "Files/Provenance.h"
+#include "Files/Result.h"
+#include "Study/Trial.h"
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// First lines of a trial file: where it is from, and the columns. Any thread.
+std::string trialHeader(const Protocol& protocol, const Participant& participant, std::string_view version);
+
+/// A trial's row, with its line end. Any thread.
+std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record);
+
+/// What a trial file holds so far.
+struct TrialLog {
+    std::vector<TrialRecord> records;
+    std::size_t wholeBytes = 0; ///< up to the last whole row: what follows was cut off while it was written
+};
+
+/// The trials of a file of this protocol and participant, up to the last whole row; or, of the first thing that is wrong, one
+/// line. Of a record's trial only condition, session, number and stimulus are filled in: an experiment knows the rest.
+/// Any thread.
+Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol, const Participant& participant);
+
+/// A trial file that grows. M only.
+class TrialLogFile {
+public:
+    /// Opens the file, or makes it with its header. What was cut off at its end is dropped.
+    TrialLogFile(std::filesystem::path path, const Protocol& protocol, Participant participant, std::string_view version);
+
+    /// Empty, or one line that says why the file cannot be used.
+    const std::string& error() const noexcept { return error_; }
+
+    /// The trials that were there when it was opened.
+    const std::vector<TrialRecord>& records() const noexcept { return records_; }
+
+    /// Adds a row and hands it to the system before it returns. False after an error.
+    bool append(const TrialRecord& record);
+
+private:
+    void open(std::string_view version);
+    bool write(const std::string& text);
+    void fail(const std::string& reason) { error_ = path_.string() + ": " + reason; }
+
+    struct Close {
+        void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+    };
+    std::filesystem::path path_;
+    const Protocol& protocol_;
+    Participant participant_;
+    std::vector<TrialRecord> records_;
+    std::unique_ptr<std::FILE, Close> file_;
+    std::string error_;
+};
+
+} // namespace physvib

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Conditions contain sessions, sessions contain trials; every choice of order comes from the seed.
+#include "Study/Experiment.h"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace physvib {
+namespace {
+
+bool isScore(double score) noexcept { return score >= 0.0 && score <= 100.0; }
+
+bool isOnField(const std::optional<FieldPlace>& place) noexcept {
+    return place && place->x >= 0.0 && place->x <= 1.0 && place->y >= 0.0 && place->y <= 1.0;
+}
+
+} // namespace
+
+TrialProgress::TrialProgress(const SessionPlan& session, const Trial& trial)
+    : session_{session}, parts_(std::max<std::size_t>(1, trial.parts.size())) {}
+
+bool TrialProgress::canPlay(std::size_t part) const noexcept {
+    return part < parts_.size() && (session_.mostPlays == 0 || parts_[part].plays < session_.mostPlays);
+}
+
+void TrialProgress::played(std::size_t part) noexcept { ++parts_[part].plays; }
+
+void TrialProgress::spent(std::size_t part, double seconds) noexcept { parts_[part].seconds += seconds; }
+
+bool TrialProgress::canAnswer() const noexcept {
+    return std::ranges::all_of(parts_, [this](const Part& p) { return p.plays > 0 && p.seconds >= session_.leastSeconds; });
+}
+
+int TrialProgress::plays() const noexcept {
+    return std::accumulate(parts_.begin(), parts_.end(), 0, [](int sum, const Part& p) { return sum + p.plays; });
+}
+
+Experiment::Experiment(const Protocol& protocol, Participant participant)
+    : protocol_{protocol}, participant_{std::move(participant)}, conditions_{conditionOrder(protocol, participant_.number)} {
+    beginSession();
+    advance();
+}
+
+SeededRandom Experiment::randomFor(const std::string& purpose) const {
+    const std::string& condition = protocol_.conditions[conditionIndex()].name;
+    return SeededRandom{static_cast<std::uint64_t>(protocol_.seed), std::to_string(participant_.number) + "/" + condition + "/" + plan().name + "/" + purpose};
+}
+
+void Experiment::beginSession() {
+    items_ = stimuliOf(protocol_.conditions[conditionIndex()]);
+    inSession_ = 0;
+    explored_.clear();
+    staircase_.reset();
+    auto random = randomFor("order");
+    order_ = sessionOrder(plan(), items_.size(), random);
+    if (plan().staircase) staircase_.emplace(*plan().staircase);
+}
+
+bool Experiment::isSessionOver() const {
+    if (staircase_) return staircase_->isDone();
+    if (plan().task != StudyTask::explore) return inSession_ >= static_cast<int>(order_.size());
+    return plan().fewestTouches > 0 ? inSession_ >= plan().fewestTouches : explored_.size() >= items_.size();
+}
+
+void Experiment::advance() {
+    trial_.reset();
+    while (isSessionOver()) {
+        if (++sessionAt_ == protocol_.sessions.size()) {
+            sessionAt_ = 0;
+            if (++conditionAt_ == conditions_.size()) return;
+        }
+        beginSession();
+    }
+    trial_ = nextTrial();
+}
+
+Trial Experiment::nextTrial() {
+    const SessionPlan& s = plan();
+    Trial trial;
+    trial.condition = conditionIndex();
+    trial.session = sessionAt_;
+    trial.number = inSession_ + 1;
+    trial.task = s.task;
+    if (inSession_ == 0) trial.restSeconds = s.breakBeforeSeconds;
+    else if (s.breakEvery > 0 && inSession_ % s.breakEvery == 0) trial.restSeconds = s.breakSeconds;
+    if (s.task == StudyTask::explore) return trial;
+
+    auto random = randomFor("trial " + std::to_string(trial.number));
+    const bool isPlanned = !staircase_;
+    const PlannedTrial planned = isPlanned ? order_[static_cast<std::size_t>(inSession_)] : PlannedTrial{random.below(items_.size()), random.chance(0.5)};
+    trial.stimulus = items_[planned.stimulus].label;
+    if (!s.alternatives.empty()) addAlternatives(trial, planned.isSwapped);
+    if (s.task == StudyTask::rate && !s.objects.empty()) {
+        trial.parts = s.objects;
+        random.shuffle(trial.parts);
+    }
+    return trial;
+}
+
+void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
+    const SessionPlan& s = plan();
+    std::vector<Alternative> buttons = s.alternatives;
+    if (isSwapped) std::ranges::reverse(buttons);
+    if (buttons.size() > 2 && s.task == StudyTask::choose) randomFor("buttons " + std::to_string(trial.number)).shuffle(buttons);
+    if (staircase_) trial.levelDb = staircase_->levelDb();
+    if (s.adjustment) trial.levelDb = s.adjustment->startDb;
+    const std::string moved = staircase_ ? s.staircase->alternative : s.adjustment ? s.adjustment->alternative : std::string{};
+    for (const Alternative& button : buttons) {
+        double db = button.levelDb + (button.name == moved ? trial.levelDb : 0.0);
+        if (!s.levelsFrom.empty()) {
+            const auto from = std::ranges::find(protocol_.sessions, s.levelsFrom, &SessionPlan::name);
+            if (button.name == from->adjustment->alternative) {
+                trial.levelDb = adjustedDb(trial.condition, s.levelsFrom, trial.stimulus).value_or(0.0);
+                db += trial.levelDb;
+            }
+        }
+        trial.parts.push_back(button.name);
+        trial.partLevelsDb.push_back(db);
+    }
+}
+
+std::string Experiment::choiceRefusal(const Answer& answer) const {
+    const bool isThere = std::ranges::find(trial_->parts, answer.response) != trial_->parts.end();
+    return isThere ? "" : "expected one of the alternatives, found " + answer.response;
+}
+
+std::string Experiment::refusal(const Answer& answer) const {
+    const SessionPlan& s = session();
+    const auto isLabel = [&] { return std::ranges::find(items_, answer.response, &StimulusItem::label) != items_.end(); };
+    if (answer.plays < 1) return "expected that the stimulus was felt";
+    if (!(answer.seconds >= 0.0)) return "expected a time from 0 s on";
+    switch (trial_->task) {
+    case StudyTask::explore:
+        if (s.fewestTouches > 0) return isOnField(answer.place) ? "" : "expected a place on the field";
+        return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
+    case StudyTask::identify: return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
+    case StudyTask::locate: return isOnField(answer.place) ? "" : "expected a place on the field";
+    case StudyTask::choose: return choiceRefusal(answer);
+    case StudyTask::rate:
+        return answer.scores.size() == s.scales.size() && std::ranges::all_of(answer.scores, isScore) ? "" : "expected a score from 0 to 100 per scale";
+    case StudyTask::adjust:
+        return answer.value >= s.adjustment->leastDb && answer.value <= s.adjustment->mostDb ? "" : "expected a level within the adjustment's range";
+    case StudyTask::estimate: return answer.value > 0.0 && std::isfinite(answer.value) ? "" : "expected a number > 0";
+    }
+    return "expected a task";
+}
+
+TrialRecord Experiment::take(Answer answer) {
+    TrialRecord record{std::move(*trial_), std::move(answer)};
+    if (record.trial.task == StudyTask::explore) explored_.insert(record.answer.response);
+    if (record.trial.task == StudyTask::adjust)
+        adjusted_[{record.trial.condition, plan().name}][record.trial.stimulus].push_back(record.answer.value);
+    if (staircase_) staircase_->answer(record.answer.response == plan().staircase->alternative);
+    ++inSession_;
+    ++taken_;
+    advance();
+    return record;
+}
+
+std::string Experiment::redo(const TrialRecord& record) {
+    if (isDone()) return "expected no more trials";
+    const Trial& t = *trial_;
+    if (record.trial.condition != t.condition) return "expected the condition " + protocol_.conditions[t.condition].name;
+    if (record.trial.session != t.session) return "expected the session " + protocol_.sessions[t.session].name;
+    if (record.trial.number != t.number) return "expected trial " + std::to_string(t.number);
+    if (record.trial.stimulus != t.stimulus) return "expected the stimulus " + t.stimulus;
+    if (auto fault = refusal(record.answer); !fault.empty()) return fault;
+    take(record.answer);
+    return {};
+}
+
+std::optional<double> Experiment::adjustedDb(std::size_t condition, const std::string& session, const std::string& stimulus) const {
+    const auto found = adjusted_.find({condition, session});
+    if (found == adjusted_.end()) return std::nullopt;
+    const auto values = found->second.find(stimulus);
+    if (values == found->second.end()) return std::nullopt;
+    return std::accumulate(values->second.begin(), values->second.end(), 0.0) / static_cast<double>(values->second.size());
+}
+
+} // namespace physvib

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// A study of one participant as a state machine: it says what to present, takes the answer, and says what is next.
+// A user interface or a simulated observer drives it; what was answered before can be done again, so a study that was
+// cut off goes on where it was.
+#pragma once
+#include "Study/SeededRandom.h"
+#include "Study/Staircase.h"
+#include "Study/StudyOrder.h"
+#include "Study/Trial.h"
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// The trial at hand while it is being felt: what unlocks the answer. Times come from the caller: there is no clock here.
+class TrialProgress {
+public:
+    TrialProgress(const SessionPlan& session, const Trial& trial);
+
+    /// True if `part` may be started (once more).
+    bool canPlay(std::size_t part) const noexcept;
+    void played(std::size_t part) noexcept;
+    /// Time spent with `part`.
+    void spent(std::size_t part, double seconds) noexcept;
+    /// Every part was felt, each for as long as the protocol asks.
+    bool canAnswer() const noexcept;
+    int plays() const noexcept;
+
+private:
+    struct Part {
+        int plays = 0;
+        double seconds = 0.0;
+    };
+    const SessionPlan& session_;
+    std::vector<Part> parts_;
+};
+
+/// M only. `protocol` is valid and outlives the experiment.
+class Experiment {
+public:
+    Experiment(const Protocol& protocol, Participant participant);
+
+    bool isDone() const noexcept { return !trial_; }
+
+    /// The trial at hand; not after the last.
+    const Trial& trial() const noexcept { return *trial_; }
+    const SessionPlan& session() const noexcept { return protocol_.sessions[trial_->session]; }
+    const ConditionPlan& condition() const noexcept { return protocol_.conditions[trial_->condition]; }
+
+    /// What the answer lacks to be one of this trial, e.g. `expected a place, found none`; empty if nothing.
+    std::string refusal(const Answer& answer) const;
+
+    /// Takes an answer that is not refused, and goes on to the next trial.
+    TrialRecord take(Answer answer);
+
+    /// take(), if the record is what this experiment would have asked; else what differs, and nothing happens.
+    std::string redo(const TrialRecord& record);
+
+    int trialsTaken() const noexcept { return taken_; }
+
+    /// The level that a session's adjustments gave for a stimulus: their mean; none if there was none. dB.
+    std::optional<double> adjustedDb(std::size_t condition, const std::string& session, const std::string& stimulus) const;
+
+private:
+    void beginSession();
+    void advance();
+    bool isSessionOver() const;
+    Trial nextTrial();
+    void addAlternatives(Trial& trial, bool isSwapped);
+    std::string choiceRefusal(const Answer& answer) const;
+    SeededRandom randomFor(const std::string& purpose) const;
+    std::size_t conditionIndex() const { return conditions_[conditionAt_]; }
+    const SessionPlan& plan() const { return protocol_.sessions[sessionAt_]; }
+
+    const Protocol& protocol_;
+    Participant participant_;
+    std::vector<std::size_t> conditions_; // in this participant's order
+    std::size_t conditionAt_ = 0, sessionAt_ = 0;
+
+    std::vector<StimulusItem> items_;     // of the condition at hand
+    std::vector<PlannedTrial> order_;     // of the session at hand
+    std::set<std::string> explored_;
+    std::optional<Staircase> staircase_;
+    int inSession_ = 0;                   // trials answered
+
+    std::map<std::pair<std::size_t, std::string>, std::map<std::string, std::vector<double>>> adjusted_; // (condition, session), stimulus
+    std::optional<Trial> trial_;
+    int taken_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Pink noise for headphones, so that actuators are felt and not heard (thesis 3.2.1). On another output than the stimuli.
+#pragma once
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace physvib {
+
+/// -3 dB per octave over sixteen octaves below half the sample rate (Voss and McCartney: rows of random numbers, row k
+/// renewed every 2^(k+1) samples). Within -1 to 1, the same samples for the same seed. One thread at a time; next() is wait-free.
+class PinkNoise {
+public:
+    explicit PinkNoise(std::uint32_t seed = 1) noexcept
+        : state_{seed * 2654435761u + 1u} {
+        for (float& row : rows_) sum_ += row = white();
+    }
+
+    float next() noexcept {
+        const auto row = static_cast<std::size_t>(std::countr_zero(++count_ | 1u << (rows_.size() - 1)));
+        sum_ -= rows_[row];
+        sum_ += rows_[row] = white();
+        return (sum_ + white()) / static_cast<float>(rows_.size() + 1);
+    }
+
+private:
+    /// From -1 to 1, in steps of 2^-15: their sums are exact, so they never drift.
+    float white() noexcept {
+        state_ ^= state_ << 13; // xorshift32 (Marsaglia 2003)
+        state_ ^= state_ >> 17;
+        state_ ^= state_ << 5;
+        return static_cast<float>(static_cast<std::int32_t>(state_) >> 16) * 0x1p-15f;
+    }
+
+    std::uint32_t state_;
+    std::uint32_t count_ = 0;
+    std::array<float, 16> rows_{};
+    float sum_ = 0.0f;
+};
+
+} // namespace physvib

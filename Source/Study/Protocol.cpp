@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// What the parts of a protocol ask of each other, and the stimuli they name.
+#include "Study/Protocol.h"
+#include <algorithm>
+#include <set>
+
+namespace physvib {
+namespace {
+
+constexpr double mostStimuli = 4096; // of a condition; a session of them lasts a day
+
+bool sharesNames(const auto& items, auto nameOf) {
+    std::set<std::string> names;
+    return !std::ranges::all_of(items, [&](const auto& item) { return names.insert(nameOf(item)).second; });
+}
+
+bool hasAlternative(const SessionPlan& s, const std::string& name) {
+    return std::ranges::find(s.alternatives, name, &Alternative::name) != s.alternatives.end();
+}
+
+bool isAdjustmentBefore(const Protocol& p, const SessionPlan& session) {
+    return std::ranges::any_of(p.sessions.data(), &session, [&](const SessionPlan& s) { return s.name == session.levelsFrom && s.adjustment; });
+}
+
+/// Of the fields that only some tasks use.
+std::string taskFault(const SessionPlan& s) {
+    const bool compares = s.task == StudyTask::choose || s.task == StudyTask::adjust;
+    if (compares && s.alternatives.size() < 2) return "alternatives: expected two or more, found " + std::to_string(s.alternatives.size());
+    if (!compares && !s.alternatives.empty()) return "alternatives: expected them of the tasks choose and adjust only";
+    if (sharesNames(s.alternatives, [](const auto& a) { return a.name; })) return "alternatives: expected a name of its own for each";
+    if (s.bothOrders && (s.task != StudyTask::choose || s.alternatives.size() != 2)) return "both_orders: expected it of two alternatives to choose from";
+    if ((s.task == StudyTask::rate) == s.scales.empty()) return "scales: expected them of the task rate, and of no other";
+    if (s.task != StudyTask::rate && !s.objects.empty()) return "objects: expected them of the task rate only";
+    if ((s.task == StudyTask::adjust) != s.adjustment.has_value()) return "adjustment: expected it of the task adjust, and of no other";
+    if (s.adjustment && !hasAlternative(s, s.adjustment->alternative)) return "adjustment.alternative: expected the name of an alternative";
+    if (s.staircase && s.task != StudyTask::choose) return "staircase: expected it of the task choose only";
+    if (s.staircase && s.bothOrders) return "staircase: expected alternatives in random order";
+    if (s.staircase && !hasAlternative(s, s.staircase->alternative)) return "staircase.alternative: expected the name of an alternative";
+    if (s.task == StudyTask::explore && !s.isTraining) return "task: expected explore in a training session only";
+    if (s.task != StudyTask::explore && s.fewestTouches > 0) return "fewest_touches: expected it of the task explore only";
+    return {};
+}
+
+std::string stimulusFault(const ConditionPlan& c, const SessionPlan& s) {
+    const bool isGrid = std::holds_alternative<GridSet>(c.stimuli);
+    if (s.task == StudyTask::locate && !isGrid) return "stimuli: expected a grid, which the task locate needs";
+    if (s.fewestTouches > 0 && !isGrid) return "stimuli: expected a grid, which free touches need";
+    return {};
+}
+
+std::string conditionFault(const Protocol& p, const ConditionPlan& c) {
+    if (stimulusCount(c) > mostStimuli) return "stimuli: expected at most " + std::to_string(static_cast<int>(mostStimuli)) + " of them";
+    for (const auto& s : p.sessions)
+        if (std::string fault = stimulusFault(c, s); !fault.empty()) return fault;
+    if (const auto* patterns = std::get_if<PatternSet>(&c.stimuli))
+        for (const double seconds : patterns->pulseSeconds)
+            if (parsePatternLabel(patternLabel({seconds, 1, {}}))->pulseSeconds != seconds) return "pulse_s: expected whole milliseconds";
+    if (const auto* calls = std::get_if<CallSet>(&c.stimuli))
+        if (sharesNames(calls->factors, [](const auto& f) { return f.name; })) return "factors: expected a name of its own for each";
+    if (sharesNames(stimuliOf(c), [](const auto& item) { return item.label; })) return "stimuli: expected no two of the same label";
+    return {};
+}
+
+std::vector<StimulusItem> itemsOf(const PatternSet& set) {
+    std::vector<StimulusItem> items;
+    for (const double seconds : set.pulseSeconds)
+        for (PulsePattern pattern : allPulsePatterns(set.enchanters)) {
+            if (pattern.pulseSeconds != pulseDurationsSeconds.front()) continue; // the combinations once per duration of ours
+            pattern.pulseSeconds = seconds;
+            items.push_back({patternLabel(pattern), {}});
+        }
+    return items;
+}
+
+std::vector<StimulusItem> itemsOf(const GridSet& set) {
+    std::vector<StimulusItem> items;
+    for (const GridCell& cell : set.grid().cells()) items.push_back({gridLabel(cell), {}});
+    return items;
+}
+
+/// "pair=wood size=small"; the value alone if there is one factor.
+std::string labelOf(const StimulusItem& item) {
+    std::string label;
+    if (item.values.size() == 1) return item.values.front().second;
+    for (const auto& [name, value] : item.values) label.append(label.empty() ? "" : " ").append(name).append("=").append(value);
+    return label;
+}
+
+std::vector<StimulusItem> itemsOf(const CallSet& set) {
+    std::vector<StimulusItem> items{{}};
+    for (const StudyFactor& factor : set.factors) {
+        std::vector<StimulusItem> longer;
+        for (const StimulusItem& item : items)
+            for (const std::string& value : factor.values) {
+                longer.push_back(item);
+                longer.back().values.emplace_back(factor.name, value);
+            }
+        items = std::move(longer);
+    }
+    for (StimulusItem& item : items) item.label = labelOf(item);
+    return items;
+}
+
+double countOf(const PatternSet& set) noexcept {
+    const double e = set.enchanters;
+    return static_cast<double>(set.pulseSeconds.size()) * (e + e * e + e * e * e);
+}
+double countOf(const GridSet& set) noexcept { return static_cast<double>(set.columns) * set.rows; }
+double countOf(const CallSet& set) noexcept {
+    double count = 1.0;
+    for (const auto& factor : set.factors) count *= static_cast<double>(factor.values.size());
+    return count;
+}
+
+} // namespace
+
+std::string validate(const Protocol& p) {
+    const auto at = [](const char* list, std::size_t index, const std::string& fault) { return std::string(list) + "[" + std::to_string(index) + "]." + fault; };
+    if (p.conditions.empty()) return "conditions: expected one or more, found none";
+    if (p.sessions.empty()) return "sessions: expected one or more, found none";
+    if (sharesNames(p.conditions, [](const auto& c) { return c.name; })) return "conditions: expected a name of its own for each";
+    if (sharesNames(p.sessions, [](const auto& s) { return s.name; })) return "sessions: expected a name of its own for each";
+    for (std::size_t i = 0; i < p.sessions.size(); ++i) {
+        const SessionPlan& s = p.sessions[i];
+        if (std::string fault = taskFault(s); !fault.empty()) return at("sessions", i, fault);
+        if (!s.levelsFrom.empty() && !isAdjustmentBefore(p, s)) return at("sessions", i, "levels_from: expected an earlier session of the task adjust");
+    }
+    for (std::size_t i = 0; i < p.conditions.size(); ++i)
+        if (std::string fault = conditionFault(p, p.conditions[i]); !fault.empty()) return at("conditions", i, fault);
+    return {};
+}
+
+std::vector<std::string> scalesOf(const Protocol& protocol) {
+    std::vector<std::string> scales;
+    for (const auto& session : protocol.sessions)
+        for (const auto& scale : session.scales)
+            if (std::ranges::find(scales, scale) == scales.end()) scales.push_back(scale);
+    return scales;
+}
+
+std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition) {
+    return std::visit([](const auto& set) { return itemsOf(set); }, condition.stimuli);
+}
+
+double stimulusCount(const ConditionPlan& condition) noexcept {
+    return std::visit([](const auto& set) { return countOf(set); }, condition.stimuli);
+}
+
+} // namespace physvib

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// A study as data: conditions (what is felt, where) and sessions (what is asked, how often, in which order).
+#pragma once
+#include "Core/PhantomPanner.h"
+#include "Study/PhantomGrid.h"
+#include "Study/PulsePattern.h"
+#include "Study/Stimulus.h"
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace physvib {
+
+/// What a participant does in a trial.
+enum class StudyTask {
+    explore,  ///< training: feels what they ask for, until all (or so many) were felt
+    identify, ///< names the stimulus
+    locate,   ///< points at where it was felt
+    choose,   ///< picks one of the alternatives
+    rate,     ///< scores what was felt on scales from 0 to 100
+    adjust,   ///< sets one alternative's level until it matches
+    estimate  ///< gives a number that is proportional to what was felt (magnitude estimation)
+};
+
+/// All spatiotemporal patterns of so many enchanters (thesis 3.2).
+struct PatternSet {
+    int enchanters = 0;
+    std::vector<double> pulseSeconds{pulseDurationsSeconds.begin(), pulseDurationsSeconds.end()};
+    double gapSeconds = pulseGapSeconds;
+    bool operator==(const PatternSet&) const = default;
+};
+
+/// Phantoms on a grid (thesis 4.1, 4.2).
+struct GridSet {
+    int columns = 0, rows = 0;
+    PhantomGrid::Points points = PhantomGrid::Points::corners;
+    PanningLaw law = PanningLaw::linear;
+    double exponent = 1.0, seconds = 1.0;
+    bool operator==(const GridSet&) const = default;
+    PhantomGrid grid() const noexcept { return {columns, rows, points}; }
+};
+
+struct StudyFactor {
+    std::string name;
+    std::vector<std::string> values;
+    bool operator==(const StudyFactor&) const = default;
+};
+
+/// Anything that a call of the program makes: every combination of the factors' values, put into `call` where it says
+/// {name}; also {alternative}, {object} and {level_db} of the trial.
+struct CallSet {
+    std::vector<StudyFactor> factors;
+    std::string call; ///< e.g. "render drop --set pair={pair} --method {alternative}"
+    bool operator==(const CallSet&) const = default;
+};
+
+using StimulusSet = std::variant<PatternSet, GridSet, CallSet>;
+
+struct ConditionPlan {
+    std::string name;
+    std::string group; ///< conditions of a group stay together, e.g. those of one day
+    std::string layout = "phone4";
+    double frequencyHz = 205.0, levelG = 1.0;
+    StimulusSet stimuli;
+    bool operator==(const ConditionPlan&) const = default;
+};
+
+/// One of the things to choose from; the level is relative to the condition's.
+struct Alternative {
+    std::string name;
+    double levelDb = 0.0;
+    bool operator==(const Alternative&) const = default;
+};
+
+/// Method of adjustment: the participant moves this alternative's level.
+struct Adjustment {
+    std::string alternative;
+    double startDb = 0.0, stepDb = 1.0, leastDb = -40.0, mostDb = 40.0;
+    bool operator==(const Adjustment&) const = default;
+};
+
+/// Transformed up-down staircase (Levitt 1971) on this alternative's level: choosing it is correct.
+struct StaircasePlan {
+    std::string alternative;
+    double startDb = 6.0, stepDb = 2.0; ///< the step is halved at every reversal, down to leastStepDb
+    double leastStepDb = 0.5, leastDb = 0.0, mostDb = 40.0;
+    int down = 2;       ///< correct answers in a row that make it harder; 2 aims at 70.7 %
+    int reversals = 8;  ///< then it ends
+    int mostTrials = 200;
+    bool operator==(const StaircasePlan&) const = default;
+};
+
+struct SessionPlan {
+    enum class Order {
+        given,  ///< as listed
+        random, ///< all shuffled together
+        blocks  ///< each repetition shuffled by itself
+    };
+    std::string name;
+    bool isTraining = false; ///< not analysed
+    StudyTask task = StudyTask::identify;
+    Order order = Order::random;
+    int repetitions = 1;
+    int fewestTouches = 0;    ///< explore: so many; 0: every stimulus once
+    int mostPlays = 0;        ///< of a trial's stimulus; 0: as often as wanted
+    double leastSeconds = 0.0; ///< with each part of a trial before the answer unlocks
+    double breakBeforeSeconds = 0.0;
+    int breakEvery = 0;       ///< trials; 0: no breaks
+    double breakSeconds = 0.0;
+    std::vector<Alternative> alternatives; ///< choose, adjust
+    bool bothOrders = false;               ///< choose: every order of two alternatives once, instead of a random one
+    std::vector<std::string> objects;      ///< rate: parts of every trial, in random order
+    std::vector<std::string> scales;       ///< rate
+    std::optional<Adjustment> adjustment;
+    std::optional<StaircasePlan> staircase;
+    std::string levelsFrom; ///< an earlier session whose adjustments hold here
+    bool operator==(const SessionPlan&) const = default;
+};
+
+struct Protocol {
+    enum class ConditionOrder { given, random, latinSquare };
+    std::string name, title;
+    int seed = 1;
+    bool hasPinkNoise = false; ///< on another output than the stimuli
+    ConditionOrder conditionOrder = ConditionOrder::given;
+    std::vector<ConditionPlan> conditions;
+    std::vector<SessionPlan> sessions; ///< of every condition
+    bool operator==(const Protocol&) const = default;
+};
+
+/// What makes no sense as a whole, `sessions[1].alternatives: expected two or more to choose from, found 1`; empty if
+/// all does. Ranges of single fields are the reader's business. Any thread (allocates).
+std::string validate(const Protocol& protocol);
+
+/// All scales of a protocol, in the order of their first mention. Any thread (allocates).
+std::vector<std::string> scalesOf(const Protocol& protocol);
+
+/// A stimulus of a condition: what it is called, and, of a CallSet, its factors' values.
+struct StimulusItem {
+    std::string label;
+    std::vector<std::pair<std::string, std::string>> values;
+};
+
+/// All stimuli of a condition, in a fixed order. Any thread (allocates).
+std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition);
+
+/// Number of stimuli without making them. Any thread.
+double stimulusCount(const ConditionPlan& condition) noexcept;
+
+} // namespace physvib

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// One small model per task.
+#include "Study/SimulatedObserver.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+/// To a multiple of 1/perUnit, in a way that prints short.
+double roundedTo(double value, double perUnit) { return std::round(value * perUnit) / perUnit; }
+
+/// True if a method's name says that this part varies: "AV" of AV-FF-DRV.
+bool varies(const std::string& label, const char* part) { return ("-" + label + "-").find(std::string("-") + part + "-") != std::string::npos; }
+
+} // namespace
+
+std::optional<ObserverSettings> observerNamed(std::string_view name) {
+    ObserverSettings settings;
+    settings.name = name;
+    if (name == "simulated") return settings;
+    if (name == "simulated-PHONE") settings.placeBlur = 0.2073;
+    else if (name == "simulated-RING") settings.placeBlur = 0.1524;
+    else return std::nullopt;
+    return settings;
+}
+
+SimulatedObserver::SimulatedObserver(ObserverSettings settings, const Protocol& protocol, const Participant& participant)
+    : settings_{std::move(settings)}, protocol_{protocol}, participant_{participant} {}
+
+Answer SimulatedObserver::answer(const Experiment& experiment) const {
+    const Trial& trial = experiment.trial();
+    const SessionPlan& session = experiment.session();
+    const ConditionPlan& condition = experiment.condition();
+    SeededRandom random{static_cast<std::uint64_t>(protocol_.seed), "observer/" + std::to_string(participant_.number) + "/" + condition.name + "/" + session.name + "/" +
+                                                                        std::to_string(trial.number)};
+    Answer answer;
+    answer.plays = 1 + static_cast<int>(random.below(session.mostPlays == 1 ? 1 : 3));
+    answer.seconds = roundedTo(session.leastSeconds * static_cast<double>(std::max<std::size_t>(1, trial.parts.size())) + 0.8 - 1.5 * std::log(1.0 - random.uniform()), 1000.0);
+    switch (trial.task) {
+    case StudyTask::explore: answer.response = explored(experiment, random, answer); break;
+    case StudyTask::identify: answer.response = identified(condition, trial, random); break;
+    case StudyTask::locate: answer.place = feltPlace(std::get<GridSet>(condition.stimuli).grid().place(*targetOf(condition, trial)), random); break;
+    case StudyTask::choose: answer.response = chosen(session, trial, random); break;
+    case StudyTask::rate:
+        for (std::size_t s = 0; s < session.scales.size(); ++s) answer.scores.push_back(scored(trial, random));
+        break;
+    case StudyTask::adjust:
+        answer.value = std::clamp(roundedTo(settings_.levelNoiseDb * random.normal(), 1.0 / session.adjustment->stepDb), session.adjustment->leastDb, session.adjustment->mostDb);
+        break;
+    case StudyTask::estimate: answer.value = magnitude(condition, trial, random); break;
+    }
+    return answer;
+}
+
+std::string SimulatedObserver::explored(const Experiment& experiment, SeededRandom& random, Answer& answer) const {
+    if (experiment.session().fewestTouches > 0) {
+        answer.place = FieldPlace{roundedTo(random.uniform(), 1e4), roundedTo(random.uniform(), 1e4)};
+        return {};
+    }
+    const auto items = stimuliOf(experiment.condition());
+    return items[static_cast<std::size_t>(experiment.trial().number - 1) % items.size()].label;
+}
+
+std::string SimulatedObserver::identified(const ConditionPlan& condition, const Trial& trial, SeededRandom& random) const {
+    if (const auto* patterns = std::get_if<PatternSet>(&condition.stimuli)) return patternLabel(feltPattern(*parsePatternLabel(trial.stimulus), *patterns, random));
+    if (const auto* set = std::get_if<GridSet>(&condition.stimuli)) {
+        const PhantomGrid grid = set->grid();
+        return gridLabel(grid.nearest(feltPlace(grid.place(*targetOf(condition, trial)), random)));
+    }
+    const auto items = stimuliOf(condition); // of no known kind: taken for another one now and then
+    return random.chance(settings_.pulsePlaceConfusion) ? items[random.below(items.size())].label : trial.stimulus;
+}
+
+PulsePattern SimulatedObserver::feltPattern(PulsePattern pattern, const PatternSet& set, SeededRandom& random) const {
+    const auto others = static_cast<std::size_t>(set.enchanters - 1);
+    for (int k = 0; k < pattern.count; ++k) {
+        int& place = pattern.enchanters[static_cast<std::size_t>(k)];
+        if (others > 0 && random.chance(settings_.pulsePlaceConfusion)) place = (place + 1 + static_cast<int>(random.below(others))) % set.enchanters;
+    }
+    if (set.pulseSeconds.size() > 1 && random.chance(settings_.durationConfusion)) {
+        const double played = pattern.pulseSeconds;
+        do pattern.pulseSeconds = set.pulseSeconds[random.below(set.pulseSeconds.size())];
+        while (pattern.pulseSeconds == played);
+    }
+    if (pattern.count > 1 && random.chance(settings_.numerosityConfusion)) --pattern.count;
+    return pattern;
+}
+
+FieldPlace SimulatedObserver::feltPlace(const FieldPlace& place, SeededRandom& random) const {
+    const auto felt = [&](double at, double offset) {
+        const double middle = 0.5 + (1.0 - settings_.pullToMiddle) * (at - 0.5) + offset;
+        return roundedTo(std::clamp(middle + settings_.placeBlur * random.normal(), 0.0, 1.0), 1e6);
+    };
+    const double x = felt(place.x, settings_.offsetX);
+    return {x, felt(place.y, settings_.offsetY)};
+}
+
+/// The stronger of two levels that differ; else the first of the session's list by preference.
+std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& trial, SeededRandom& random) const {
+    if (session.staircase) {
+        std::size_t strongest = 0;
+        double most = -1e9;
+        for (std::size_t i = 0; i < trial.parts.size(); ++i)
+            if (const double felt = trial.partLevelsDb[i] + settings_.levelNoiseDb * random.normal(); felt > most) {
+                most = felt;
+                strongest = i;
+            }
+        return trial.parts[strongest];
+    }
+    if (random.chance(settings_.firstAlternativePreference)) return session.alternatives.front().name;
+    return session.alternatives[1 + random.below(session.alternatives.size() - 1)].name;
+}
+
+double SimulatedObserver::scored(const Trial& trial, SeededRandom& random) const {
+    const double score = settings_.scoreBase + settings_.amplitudeScore * varies(trial.stimulus, "AV") + settings_.frequencyScore * varies(trial.stimulus, "FV") +
+                         settings_.decayScore * varies(trial.stimulus, "DRV") + settings_.scoreNoise * random.normal();
+    return std::round(std::clamp(score, 0.0, 100.0));
+}
+
+/// A power of the level, blurred by the same noise: Stevens' law with an exponent near one.
+double SimulatedObserver::magnitude(const ConditionPlan& condition, const Trial& trial, SeededRandom& random) const {
+    double levelG = condition.levelG; // or what the stimulus is called after
+    std::from_chars(trial.stimulus.data(), trial.stimulus.data() + trial.stimulus.size(), levelG);
+    const double db = 20.0 * std::log10(std::max(levelG, 1e-6)) + trial.levelDb + settings_.levelNoiseDb * random.normal();
+    return std::max(0.01, roundedTo(10.0 * std::pow(10.0, 0.9 * db / 20.0), 100.0));
+}
+
+} // namespace physvib

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Rows explain themselves: right or wrong, and how to feel them again.
+#include "Study/Trial.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+std::string text(double number) {
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
+}
+
+/// Level in g; dB are rounded to a thousandth so that the text is short and exact enough.
+double raised(double levelG, double db) { return db == 0.0 ? levelG : std::round(levelG * std::pow(10.0, db / 20.0) * 1e6) * 1e-6; }
+
+void replaceAll(std::string& words, const std::string& from, const std::string& to) {
+    for (std::size_t at = words.find(from); at != std::string::npos; at = words.find(from, at + to.size())) words.replace(at, from.size(), to);
+}
+
+struct Part {
+    std::string name;
+    double levelDb = 0.0;
+};
+
+struct CallMaker {
+    const ConditionPlan& condition;
+    const TrialRecord& record;
+
+    std::string common(double db) const {
+        return " --layout " + condition.layout + " --frequency " + text(condition.frequencyHz) + " --level-g " + text(raised(condition.levelG, db));
+    }
+    const std::string& label() const { return record.trial.stimulus.empty() ? record.answer.response : record.trial.stimulus; }
+
+    std::string call(const PatternSet& set, const Part& part) const { return "stimulus pattern " + label() + common(part.levelDb) + " --gap " + text(set.gapSeconds); }
+    std::string call(const GridSet& set, const Part& part) const {
+        const bool isTouch = record.trial.stimulus.empty() && record.answer.place;
+        const std::string where = isTouch ? "--at " + text(record.answer.place->x) + "," + text(record.answer.place->y)
+                                          : "--grid " + std::to_string(set.columns) + "x" + std::to_string(set.rows) + " --cell " + label() +
+                                                (set.points == PhantomGrid::Points::middles ? " --points middles" : "");
+        return "stimulus phantom " + where + common(part.levelDb) + " --law " + std::string(panningLawNames[static_cast<std::size_t>(set.law)]) + " --exponent " + text(set.exponent) +
+               " --seconds " + text(set.seconds);
+    }
+    std::string call(const CallSet& set, const Part& part) const {
+        std::string words = set.call;
+        const auto items = stimuliOf(condition);
+        const auto item = std::ranges::find(items, label(), &StimulusItem::label);
+        if (item != items.end())
+            for (const auto& [name, value] : item->values) replaceAll(words, "{" + name + "}", value);
+        replaceAll(words, "{alternative}", part.name);
+        replaceAll(words, "{object}", part.name);
+        replaceAll(words, "{level_db}", text(part.levelDb));
+        return words;
+    }
+};
+
+} // namespace
+
+std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& trial) {
+    return std::holds_alternative<GridSet>(condition.stimuli) ? parseGridCell(trial.stimulus) : std::nullopt;
+}
+
+std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record) {
+    const SessionPlan& session = protocol.sessions[record.trial.session];
+    if (record.trial.task == StudyTask::identify) return record.answer.response == record.trial.stimulus;
+    if (session.staircase) return record.answer.response == session.staircase->alternative;
+    return std::nullopt;
+}
+
+std::string callsOf(const Protocol& protocol, const TrialRecord& record) {
+    const ConditionPlan& condition = protocol.conditions[record.trial.condition];
+    const CallMaker maker{condition, record};
+    const SessionPlan& session = protocol.sessions[record.trial.session];
+    std::string words;
+    const auto add = [&](const Part& part) {
+        const std::string call = std::visit([&](const auto& set) { return maker.call(set, part); }, condition.stimuli);
+        words.append(words.empty() ? "" : " ; ").append(call);
+    };
+    for (std::size_t i = 0; i < record.trial.parts.size(); ++i) {
+        const std::string& name = record.trial.parts[i];
+        const bool isAdjusted = session.adjustment && session.adjustment->alternative == name; // felt at the level that was answered
+        add({name, isAdjusted ? record.answer.value : i < record.trial.partLevelsDb.size() ? record.trial.partLevelsDb[i] : 0.0});
+    }
+    if (record.trial.parts.empty()) add({{}, 0.0});
+    return words;
+}
+
+} // namespace physvib

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// One trial: what is presented, what is answered, and the calls that render it again.
+#pragma once
+#include "Study/Protocol.h"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// Who takes part. No personal data: a code, and the row of the Latin squares.
+struct Participant {
+    std::string code = "P01";
+    int number = 1;                  ///< from 1; decides orders
+    std::string observer = "person"; ///< "simulated-..." for a simulated one
+};
+
+struct Trial {
+    std::size_t condition = 0, session = 0; ///< indices in the protocol
+    int number = 0;                         ///< in its session, from 1
+    StudyTask task = StudyTask::identify;
+    std::string stimulus;            ///< its label; empty while exploring
+    std::vector<std::string> parts;  ///< what is felt one by one: alternatives in the order of their buttons, or objects
+    std::vector<double> partLevelsDb; ///< of alternatives
+    double levelDb = 0.0;            ///< of the alternative that is moved, or was matched before; else 0
+    double restSeconds = 0.0;        ///< break before it
+};
+
+/// What a participant says. Each task uses some of it.
+struct Answer {
+    std::string response;            ///< identify: a label; choose: an alternative; explore: the stimulus that was felt
+    std::optional<FieldPlace> place; ///< locate; explore with free touches
+    std::vector<double> scores;      ///< rate: one per scale
+    double value = 0.0;              ///< adjust: dB; estimate: a number > 0
+    int plays = 1;                   ///< how often it was felt
+    double seconds = 0.0;            ///< from the first feel to the answer
+    bool operator==(const Answer&) const = default;
+};
+
+/// A trial and its answer: a row of the trial file.
+struct TrialRecord {
+    Trial trial;
+    Answer answer;
+};
+
+/// The grid cell of a trial's stimulus; none if the stimulus is no cell. Any thread.
+std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& trial);
+
+/// Whether the answer was right; none if the task knows no right. Any thread.
+std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record);
+
+/// The arguments of `physvib` that render what was felt, part by part, joined by " ; ". M only (allocates).
+std::string callsOf(const Protocol& protocol, const TrialRecord& record);
+
+} // namespace physvib

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib study`: protocols, and studies run without a window.
+#pragma once
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace physvib {
+
+/// As given on the command line.
+struct StudyOptions {
+    std::string protocol;    ///< a built-in one's name or the path of a protocol file
+    std::string observer;    ///< who answers
+    std::string participant; ///< code; empty: P and the number
+    int number = 1;          ///< of the first participant: the row of the Latin squares
+    int participants = 1;
+    std::string folder = ".";
+    double paceSeconds = 0.0; ///< per trial, to watch it or to interrupt it
+};
+
+/// Declares list, show and run as subcommands of `command`.
+void declareStudy(CLI::App& command, StudyOptions& options);
+
+/// Does what `command` has parsed; the code to leave with.
+int runStudy(const CLI::App& command, const StudyOptions& options);
+
+} // namespace physvib

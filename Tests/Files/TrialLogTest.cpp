@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Trial files: rows come back as records, cut ends are dropped, other people's files are left alone.
+#include "Files/TrialLog.h"
+#include "FileTesting.h"
+#include "Files/ProtocolFile.h"
+#include "Files/ReadFile.h"
+#include "Files/StudyCsv.h"
+#include "Study/Experiment.h"
+#include "Study/SimulatedObserver.h"
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+const Participant participant{"P01", 1, "simulated"};
+
+std::string wholeFile(const Protocol& p) {
+    Experiment experiment{p, participant};
+    const SimulatedObserver observer{{}, p, participant};
+    std::string text = trialHeader(p, participant, "0");
+    while (!experiment.isDone()) text += trialRow(p, participant, experiment.take(observer.answer(experiment)));
+    return text;
+}
+
+TEST(TrialLog, EveryProtocolsRowsAreTheExperimentAgain) {
+    for (const Protocol& p : builtInProtocols()) {
+        const std::string text = wholeFile(p);
+        const auto log = readTrialLog(text, "t.csv", p, participant);
+        ASSERT_TRUE(log) << p.name << ": " << log.error;
+        EXPECT_EQ(log.value.wholeBytes, text.size());
+        Experiment experiment{p, participant};
+        std::string again = trialHeader(p, participant, "0");
+        for (const TrialRecord& record : log.value.records) {
+            const Trial trial = experiment.trial();
+            ASSERT_EQ(experiment.redo(record), "") << p.name;
+            again += trialRow(p, participant, {trial, record.answer});
+        }
+        EXPECT_TRUE(experiment.isDone());
+        EXPECT_EQ(again, text) << p.name;
+    }
+}
+
+TEST(TrialLog, CutAnywhereTheWholeRowsRemain) {
+    const Protocol protocol = findProtocol("level-steps").value;
+    const std::string text = wholeFile(protocol);
+    const std::size_t rows = readTrialLog(text, "t.csv", protocol, participant).value.records.size();
+    for (std::size_t bytes = 0; bytes < text.size(); bytes += 13) {
+        const auto log = readTrialLog(std::string_view{text}.substr(0, bytes), "t.csv", protocol, participant);
+        ASSERT_TRUE(log) << log.error;
+        EXPECT_LE(log.value.wholeBytes, bytes);
+        EXPECT_LT(log.value.records.size(), rows);
+        if (log.value.wholeBytes > 0) { EXPECT_EQ(text[log.value.wholeBytes - 1], '\n'); }
+    }
+}
+
+TEST(TrialLog, FilesOfOthersAreRefused) {
+    const Protocol p = findProtocol("level-steps").value;
+    const std::string text = wholeFile(p);
+    const auto refusal = [&](const Protocol& protocol, const Participant& who) { return readTrialLog(text, "t.csv", protocol, who).error; };
+    const std::string others = "t.csv:1: expected trials of this protocol, seed, participant, number and observer, found others";
+    EXPECT_EQ(refusal(p, participant), "");
+    EXPECT_EQ(refusal(p, {"P02", 1, "simulated"}), others);
+    EXPECT_EQ(refusal(p, {"P01", 2, "simulated"}), others);
+    EXPECT_EQ(refusal(p, {"P01", 1, "person"}), others);
+    Protocol changed = p;
+    changed.seed = 9;
+    EXPECT_EQ(refusal(changed, participant), others);
+    EXPECT_EQ(readTrialLog("my diary", "t.csv", p, participant).error, others) << "even a single line without an end";
+}
+
+TEST(TrialLog, BadRowsAreNamed) {
+    const Protocol p = findProtocol("level-steps").value;
+    std::string text = wholeFile(p);
+    const std::size_t at = text.find(",choose,");
+    text.replace(text.find("P01,simulated,PHONE", at - 60), 19, "P01,simulated,GLOVE");
+    EXPECT_EQ(readTrialLog(text, "t.csv", p, participant).error, "t.csv:3: column condition: expected a condition of the protocol, found \"GLOVE\"");
+}
+
+using TrialLogFiles = FolderTest;
+
+TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
+    const auto path = folder / "t.csv";
+    const Protocol p = findProtocol("magnitudes").value;
+    const std::string text = wholeFile(p);
+    for (const std::size_t bytes : {std::size_t{0}, std::size_t{40}, text.size() / 3, text.size() / 2, text.size() - 1}) {
+        std::ofstream{path, std::ios::binary} << text.substr(0, bytes);
+        TrialLogFile log{path, p, participant, "0"};
+        ASSERT_EQ(log.error(), "");
+        Experiment experiment{p, participant};
+        const SimulatedObserver observer{{}, p, participant};
+        for (const auto& record : log.records()) ASSERT_EQ(experiment.redo(record), "");
+        while (!experiment.isDone()) {
+            ASSERT_TRUE(log.append(experiment.take(observer.answer(experiment))));
+            EXPECT_EQ(readFile(path, 1'000'000).value.back(), '\n') << "each row is there at once";
+        }
+        EXPECT_EQ(readFile(path, 1'000'000).value, text) << bytes;
+    }
+    std::ofstream{path, std::ios::binary} << "my diary";
+    EXPECT_NE((TrialLogFile{path, p, participant, "0"}.error()), "");
+    EXPECT_EQ(readFile(path, 1'000'000).value, "my diary");
+}
+
+TEST(TrialLog, AnalysesReadIt) {
+    const auto trialsOf = [](const char* name) { return wholeFile(findProtocol(name).value); };
+    const auto one = [](const std::string& text) { return NamedText{text, "t.csv"}; };
+    std::string text = trialsOf("phantom-grids");
+    NamedText file = one(text);
+    const auto grids = readIdentification(std::span{&file, 1});
+    ASSERT_TRUE(grids) << grids.error;
+    EXPECT_EQ(grids.value.conditions.size(), 6u);
+    EXPECT_TRUE(grids.value.isSimulated);
+    std::size_t trials = 0;
+    for (const auto& c : grids.value.conditions) trials += c.trials.size();
+    EXPECT_EQ(trials, 2u * (90 + 160 + 250)) << "training left out";
+    text = trialsOf("phantom-places");
+    file = one(text);
+    EXPECT_EQ(readLocations(std::span{&file, 1}).value.conditions.size(), 4u);
+    text = trialsOf("model-or-sound");
+    file = one(text);
+    EXPECT_EQ(readChoices(std::span{&file, 1}).value.conditions.front().trials.size(), 108u);
+    text = trialsOf("eight-methods");
+    file = one(text);
+    EXPECT_EQ(readRatings(std::span{&file, 1}).value.scales, (std::vector<std::string>{"realism", "harmony", "liking"}));
+}
+
+} // namespace
+} // namespace physvib

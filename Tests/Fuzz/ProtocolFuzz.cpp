@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Fuzz target of the protocol reader, and of experiments on whatever it lets through.
+#include "Files/ProtocolFile.h"
+#include "Files/TrialLog.h"
+#include "Fuzzing.h"
+#include "Study/Experiment.h"
+#include "Study/SimulatedObserver.h"
+
+namespace {
+using namespace physvib;
+
+void tryExperiment(const Protocol& protocol) {
+    const Participant participant;
+    Experiment experiment{protocol, participant};
+    const SimulatedObserver observer{{}, protocol, participant};
+    std::string text = trialHeader(protocol, participant, "0");
+    for (int i = 0; i < 20 && !experiment.isDone(); ++i) {
+        const Answer answer = observer.answer(experiment);
+        fuzz::demand(experiment.refusal(answer).empty(), "the observer's answer is refused", experiment.refusal(answer));
+        text += trialRow(protocol, participant, experiment.take(answer));
+    }
+    const auto log = readTrialLog(text, "f", protocol, participant);
+    fuzz::demand(static_cast<bool>(log), "its trials cannot be read", log.error);
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto read = [](std::string_view text) { return readProtocol(text, "f"); };
+    const auto protocol = read(fuzz::asText(data, size));
+    if (!protocol) {
+        fuzz::demandClearRefusal(protocol, protocol.value == Protocol{});
+        return 0;
+    }
+    fuzz::demandRoundTrip(protocolJson(protocol.value), read, protocolJson);
+    tryExperiment(protocol.value);
+    return 0;
+}

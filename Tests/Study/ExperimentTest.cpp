@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// Studies trial by trial: what is presented, what is refused, what unlocks, and going on after a cut.
+#include "Study/Experiment.h"
+#include "Study/SimulatedObserver.h"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace physvib {
+namespace {
+
+Protocol protocolOf(StimulusSet stimuli, std::vector<SessionPlan> sessions) {
+    Protocol p;
+    p.name = "test";
+    p.conditions = {{"A", "", "phone4", 205.0, 1.0, std::move(stimuli)}};
+    p.sessions = std::move(sessions);
+    EXPECT_EQ(validate(p), "");
+    return p;
+}
+
+std::vector<TrialRecord> runWhole(const Protocol& p, const Participant& participant, const ObserverSettings& settings = {}) {
+    Experiment experiment{p, participant};
+    const SimulatedObserver observer{settings, p, participant};
+    std::vector<TrialRecord> records;
+    while (!experiment.isDone()) {
+        const Answer answer = observer.answer(experiment);
+        EXPECT_EQ(experiment.refusal(answer), "");
+        records.push_back(experiment.take(answer));
+    }
+    return records;
+}
+
+const Protocol patterns = protocolOf(PatternSet{2}, {{.name = "training", .isTraining = true, .task = StudyTask::explore}, {.name = "main", .breakBeforeSeconds = 120.0}});
+
+TEST(Experiment, TrainingShowsEveryPatternAndTheMainSessionEachOnce) {
+    const auto records = runWhole(patterns, {});
+    ASSERT_EQ(records.size(), 28u + 28u);
+    std::map<std::string, int> felt, asked;
+    for (const auto& [trial, answer] : records) trial.session == 0 ? ++felt[answer.response] : ++asked[trial.stimulus];
+    EXPECT_EQ(felt.size(), 28u);
+    EXPECT_EQ(asked.size(), 28u);
+    EXPECT_EQ(records[28].trial.restSeconds, 120.0);
+    EXPECT_EQ(records[29].trial.restSeconds, 0.0);
+}
+
+TEST(Experiment, OrdersDifferByParticipantAndRepeatBySeed) {
+    const auto stimuli = [](const std::vector<TrialRecord>& records) {
+        std::vector<std::string> all;
+        for (const auto& r : records) all.push_back(r.trial.stimulus);
+        return all;
+    };
+    EXPECT_EQ(stimuli(runWhole(patterns, {"P01", 1})), stimuli(runWhole(patterns, {"P01", 1})));
+    EXPECT_NE(stimuli(runWhole(patterns, {"P01", 1})), stimuli(runWhole(patterns, {"P02", 2})));
+}
+
+TEST(Experiment, GoesOnAfterEveryCutAsIfThereHadBeenNone) {
+    const auto whole = runWhole(patterns, {});
+    for (std::size_t cut = 0; cut <= whole.size(); cut += 7) {
+        Experiment experiment{patterns, {}};
+        for (std::size_t i = 0; i < cut; ++i) ASSERT_EQ(experiment.redo(whole[i]), "");
+        const SimulatedObserver observer{{}, patterns, {}};
+        for (std::size_t i = cut; i < whole.size(); ++i) {
+            const auto record = experiment.take(observer.answer(experiment));
+            EXPECT_EQ(record.trial.stimulus, whole[i].trial.stimulus);
+            EXPECT_EQ(record.answer, whole[i].answer);
+        }
+        EXPECT_TRUE(experiment.isDone());
+    }
+}
+
+TEST(Experiment, RecordsOfAnotherStudyAreRefused) {
+    const auto whole = runWhole(patterns, {});
+    Experiment experiment{patterns, {"P02", 2}};
+    for (std::size_t i = 0; i < 28; ++i) ASSERT_EQ(experiment.redo(whole[i]), "");
+    EXPECT_NE(experiment.redo(whole[29]), "");
+    EXPECT_EQ(experiment.trialsTaken(), 28);
+    auto broken = whole[0];
+    broken.answer.response = "Z-100";
+    EXPECT_NE(Experiment(patterns, {}).redo(broken), "");
+}
+
+TEST(Experiment, AnswersAreCheckedByTask) {
+    Experiment experiment{protocolOf(GridSet{2, 2}, {{.name = "main", .task = StudyTask::locate}}), {}};
+    EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 1.0}}), "");
+    EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 1.1}}), "expected a place on the field");
+    EXPECT_EQ(experiment.refusal({.place = FieldPlace{std::nan(""), 0.0}}), "expected a place on the field");
+    EXPECT_EQ(experiment.refusal({.response = "1,1"}), "expected a place on the field");
+    EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 0.5}, .plays = 0}), "expected that the stimulus was felt");
+}
+
+TEST(Experiment, FreeTouchesAreCountedNotListed) {
+    const auto p = protocolOf(GridSet{7, 5}, {{.name = "training", .isTraining = true, .task = StudyTask::explore, .fewestTouches = 100}, {.name = "main", .task = StudyTask::locate, .repetitions = 5}});
+    const auto records = runWhole(p, {});
+    EXPECT_EQ(records.size(), 100u + 175u);
+    EXPECT_TRUE(records.front().answer.place);
+    EXPECT_EQ(callsOf(p, records.front()).rfind("stimulus phantom --at ", 0), 0u) << callsOf(p, records.front());
+    EXPECT_EQ(callsOf(p, records.back()).rfind("stimulus phantom --grid 7x5 --cell ", 0), 0u);
+}
+
+TEST(Experiment, BothButtonOrdersOfEveryConditionAppearOncePerBlock) {
+    SessionPlan main{.name = "main", .task = StudyTask::choose, .order = SessionPlan::Order::blocks, .repetitions = 2, .alternatives = {{"RM"}, {"SV"}}, .bothOrders = true};
+    const auto p = protocolOf(CallSet{{{"pair", {"a", "b", "c"}}, {"size", {"1", "2", "3"}}, {"height", {"1", "2", "3"}}}, "render drop {pair} {alternative}"}, {main});
+    const auto records = runWhole(p, {});
+    ASSERT_EQ(records.size(), 108u);
+    std::map<std::pair<std::string, std::string>, int> seen;
+    for (std::size_t i = 0; i < 54; ++i) ++seen[{records[i].trial.stimulus, records[i].trial.parts.front()}];
+    EXPECT_EQ(seen.size(), 54u);
+    EXPECT_EQ(callsOf(p, records.front()).find('{'), std::string::npos);
+    EXPECT_NE(callsOf(p, records.front()).find(" ; "), std::string::npos);
+}
+
+TEST(Experiment, AdjustedLevelsHoldInLaterSessions) {
+    SessionPlan matching{.name = "matching", .isTraining = true, .task = StudyTask::adjust, .repetitions = 2, .alternatives = {{"RM"}, {"SV"}}, .adjustment = Adjustment{"RM"}};
+    SessionPlan main{.name = "main", .task = StudyTask::choose, .alternatives = {{"RM"}, {"SV"}}, .levelsFrom = "matching"};
+    const auto p = protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {matching, main});
+    Experiment experiment{p, {}};
+    std::map<std::string, double> sums;
+    while (experiment.trial().task == StudyTask::adjust) {
+        const double db = experiment.trial().stimulus == "a" ? -6.0 + experiment.trialsTaken() : 3.0;
+        sums[experiment.trial().stimulus] += db;
+        experiment.take({.value = db});
+    }
+    EXPECT_NEAR(*experiment.adjustedDb(0, "matching", "a"), sums["a"] / 2, 1e-12);
+    EXPECT_FALSE(experiment.adjustedDb(0, "matching", "z"));
+    while (!experiment.isDone()) {
+        const Trial trial = experiment.trial();
+        for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(trial.partLevelsDb[i], trial.parts[i] == "RM" ? sums[trial.stimulus] / 2 : 0.0, 1e-12);
+        experiment.take({.response = "RM"});
+    }
+}
+
+TEST(Experiment, RatingsWaitForEveryObject) {
+    SessionPlan main{.name = "main", .task = StudyTask::rate, .repetitions = 10, .leastSeconds = 10.0, .breakEvery = 20, .breakSeconds = 120.0, .objects = {"a", "b", "c"}, .scales = {"realism", "harmony", "liking"}};
+    const auto p = protocolOf(CallSet{{{"method", {"1", "2", "3", "4", "5", "6", "7", "8"}}}, "render {object} {method}"}, {main});
+    Experiment experiment{p, {}};
+    TrialProgress progress{experiment.session(), experiment.trial()};
+    for (std::size_t part = 0; part < 3; ++part) {
+        EXPECT_FALSE(progress.canAnswer());
+        progress.played(part);
+        progress.spent(part, 9.0);
+        EXPECT_FALSE(progress.canAnswer());
+        progress.spent(part, 1.0);
+    }
+    EXPECT_TRUE(progress.canAnswer());
+    EXPECT_EQ(progress.plays(), 3);
+    EXPECT_NE(experiment.refusal({.scores = {50, 50}}), "");
+    EXPECT_NE(experiment.refusal({.scores = {50, 50, 101}}), "");
+    const auto records = runWhole(p, {});
+    ASSERT_EQ(records.size(), 80u);
+    int breaks = 0;
+    for (const auto& r : records) breaks += r.trial.restSeconds > 0.0;
+    EXPECT_EQ(breaks, 3);
+}
+
+TEST(Experiment, PlaysCanBeLimited) {
+    const SessionPlan session{.mostPlays = 2};
+    TrialProgress progress{session, {}};
+    progress.played(0);
+    EXPECT_TRUE(progress.canPlay(0));
+    progress.played(0);
+    EXPECT_FALSE(progress.canPlay(0));
+    EXPECT_FALSE(progress.canPlay(1));
+}
+
+TEST(Staircase, TwoDownOneUpFindsTheLevelOf71PercentCorrect) {
+    StaircasePlan plan;
+    plan.alternative = "stronger";
+    plan.startDb = 10.0;
+    plan.reversals = 60;
+    plan.mostTrials = 5000;
+    Staircase stairs{plan};
+    SeededRandom random{5};
+    constexpr double noiseDb = 3.0; // of either of two levels: 70.7 % at 0.545 sqrt(2) noise
+    while (!stairs.isDone()) stairs.answer(stairs.levelDb() + noiseDb * random.normal() > noiseDb * random.normal());
+    EXPECT_NEAR(stairs.thresholdDb(), 0.545 * std::sqrt(2.0) * noiseDb, 0.5);
+    EXPECT_EQ(stairs.reversals().size(), 60u);
+}
+
+TEST(Staircase, EndsAndIsDoneAgainByTheSameAnswers) {
+    SessionPlan main{.name = "main", .task = StudyTask::choose, .alternatives = {{"standard"}, {"stronger"}}, .staircase = StaircasePlan{.alternative = "stronger"}};
+    const auto p = protocolOf(GridSet{1, 1}, {main});
+    const auto records = runWhole(p, {});
+    EXPECT_GT(records.size(), 8u);
+    EXPECT_LE(records.size(), 200u);
+    Experiment experiment{p, {}};
+    for (const auto& record : records) {
+        EXPECT_EQ(experiment.trial().levelDb, record.trial.levelDb);
+        ASSERT_EQ(experiment.redo(record), "");
+    }
+    EXPECT_TRUE(experiment.isDone());
+    EXPECT_TRUE(isCorrect(p, records.front()).has_value());
+}
+
+} // namespace
+} // namespace physvib

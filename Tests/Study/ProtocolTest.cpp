@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// What a protocol may say, the stimuli it names, and the orders it makes.
+#include "Study/Protocol.h"
+#include "Study/StudyOrder.h"
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+
+namespace physvib {
+namespace {
+
+Protocol gridProtocol() {
+    Protocol p;
+    p.name = "grid";
+    p.conditions = {{"A", "", "phone4", 205.0, 1.0, GridSet{3, 2}}};
+    p.sessions = {{.name = "main"}};
+    return p;
+}
+
+TEST(Protocol, FaultsAreNamedByTheirField) {
+    const auto fault = [](auto change) {
+        Protocol p = gridProtocol();
+        change(p);
+        return validate(p);
+    };
+    EXPECT_EQ(fault([](Protocol&) {}), "");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::choose; }), "sessions[0].alternatives: expected two or more, found 0");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].alternatives = {{"a"}, {"b"}}; }), "sessions[0].alternatives: expected them of the tasks choose and adjust only");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::rate; }), "sessions[0].scales: expected them of the task rate, and of no other");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::explore; }), "sessions[0].task: expected explore in a training session only");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions.push_back(p.sessions[0]); }), "sessions: expected a name of its own for each");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].levelsFrom = "main"; }), "sessions[0].levels_from: expected an earlier session of the task adjust");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{4}, p.sessions[0].task = StudyTask::locate; }),
+              "conditions[0].stimuli: expected a grid, which the task locate needs");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{26}; }), "conditions[0].stimuli: expected at most 4096 of them");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{2, {0.1, 0.1}}; }), "conditions[0].stimuli: expected no two of the same label");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{2, {0.1004}}; }), "conditions[0].pulse_s: expected whole milliseconds");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions.clear(); }), "conditions: expected one or more, found none");
+}
+
+TEST(Protocol, StimuliAreCountedAsTheyAreMade) {
+    const auto check = [](StimulusSet set, std::size_t count, const char* first) {
+        const ConditionPlan condition{"A", "", "phone4", 205.0, 1.0, std::move(set)};
+        const auto items = stimuliOf(condition);
+        EXPECT_EQ(items.size(), count);
+        EXPECT_EQ(stimulusCount(condition), static_cast<double>(count));
+        EXPECT_EQ(items.front().label, first);
+    };
+    check(PatternSet{2}, 28, "A-100");
+    check(PatternSet{3}, 78, "A-100");
+    check(PatternSet{4}, 168, "A-100");
+    check(PatternSet{2, {0.05, 0.2, 0.4}}, 42, "A-50");
+    check(GridSet{7, 5}, 35, "1,1");
+    check(CallSet{{{"pair", {"wood", "steel"}}, {"size", {"small", "large", "huge"}}}, "call"}, 6, "pair=wood size=small");
+    check(CallSet{{{"method", {"AV-FV-DRV", "AF-FF-DRF"}}}, "call"}, 2, "AV-FV-DRV");
+}
+
+TEST(StudyOrder, LatinSquaresBalancePositionsAndNeighbours) {
+    for (std::size_t count = 1; count <= 9; ++count) {
+        std::map<std::pair<std::size_t, std::size_t>, int> positions, neighbours;
+        const std::size_t rows = count % 2 ? 2 * count : count;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const auto order = latinSquareRow(count, row);
+            EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), count);
+            for (std::size_t i = 0; i < count; ++i) ++positions[{i, order[i]}];
+            for (std::size_t i = 0; i + 1 < count; ++i) ++neighbours[{order[i], order[i + 1]}];
+        }
+        const int each = static_cast<int>(rows / count);
+        EXPECT_EQ(positions.size(), count * count);
+        EXPECT_EQ(neighbours.size(), count * (count - 1));
+        for (const auto& [place, times] : positions) EXPECT_EQ(times, each) << count;
+        for (const auto& [pair, times] : neighbours) EXPECT_EQ(times, each) << count;
+    }
+}
+
+TEST(StudyOrder, ConditionsOfAGroupStayTogether) {
+    Protocol p = gridProtocol();
+    p.conditionOrder = Protocol::ConditionOrder::latinSquare;
+    p.conditions.clear();
+    for (const char* group : {"PHONE", "RING"})
+        for (const char* name : {"2", "3", "4"}) p.conditions.push_back({std::string(group) + name, group, "phone4", 205.0, 1.0, GridSet{2, 2}});
+    std::set<std::vector<std::size_t>> orders;
+    for (int number = 1; number <= 12; ++number) {
+        const auto order = conditionOrder(p, number);
+        orders.insert(order);
+        EXPECT_EQ(order[0] / 3, order[1] / 3);
+        EXPECT_EQ(order[1] / 3, order[2] / 3);
+        EXPECT_NE(order[2] / 3, order[3] / 3);
+        EXPECT_EQ(order, conditionOrder(p, number));
+    }
+    EXPECT_EQ(orders.size(), 12u) << "two orders of groups, six orders inside";
+}
+
+TEST(StudyOrder, SessionsHoldEveryStimulusAsOftenAsAsked) {
+    SessionPlan session;
+    session.repetitions = 5;
+    for (const auto order : {SessionPlan::Order::given, SessionPlan::Order::random, SessionPlan::Order::blocks}) {
+        session.order = order;
+        SeededRandom random{3};
+        const auto trials = sessionOrder(session, 7, random);
+        ASSERT_EQ(trials.size(), 35u);
+        std::map<std::size_t, int> counts;
+        for (const auto& trial : trials) ++counts[trial.stimulus];
+        for (const auto& [stimulus, times] : counts) EXPECT_EQ(times, 5);
+        std::set<std::size_t> firstBlock;
+        for (std::size_t i = 0; i < 7; ++i) firstBlock.insert(trials[i].stimulus);
+        if (order != SessionPlan::Order::random) { EXPECT_EQ(firstBlock.size(), 7u); }
+    }
+}
+
+TEST(SeededRandom, IsTheSameOnEveryMachineAndFairEnough) {
+    SeededRandom random{1, "name"};
+    EXPECT_EQ(random.next(), SeededRandom(1, "name").next());
+    EXPECT_NE(SeededRandom(1, "name").next(), SeededRandom(2, "name").next());
+    EXPECT_NE(SeededRandom(1, "name").next(), SeededRandom(1, "other").next());
+    std::array<int, 6> dice{};
+    double sum = 0.0, squares = 0.0;
+    for (int i = 0; i < 60000; ++i) {
+        ++dice[random.below(6)];
+        const double x = random.normal();
+        sum += x;
+        squares += x * x;
+    }
+    for (const int face : dice) EXPECT_NEAR(face, 10000, 400);
+    EXPECT_NEAR(sum / 60000, 0.0, 0.02);
+    EXPECT_NEAR(squares / 60000, 1.0, 0.03);
+}
+
+} // namespace
+} // namespace physvib
