@@ -8,6 +8,7 @@
 #include "Files/JsonWriter.h"
 #include "Files/ProtocolFields.h"
 #include "Files/ReadFile.h"
+#include "Files/TrialColumns.h"
 #include "Physics/SceneRanges.h"
 #include <cstdint>
 #include <stdexcept>
@@ -25,6 +26,8 @@ Protocol readRoot(Json& root) {
     auto protocol = readFields<Protocol>(JsonField(root, {}));
     if (const std::string fault = detail::checkFields("", protocol, 0); !fault.empty()) throw JsonError({}, fault);
     if (const std::string fault = validate(protocol); !fault.empty()) throw JsonError({}, fault);
+    for (const std::string& scale : scalesOf(protocol))
+        if (trialColumns::has(scale)) throw JsonError({}, "scales: expected names that no other column of a trial file has, found " + inQuotes(scale));
     return protocol;
 }
 

@@ -116,6 +116,34 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     return taken;
 }
 
+/// A row of one of the three kinds, or none.
+std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
+    const std::string& task = row.cells[rows.required("task")];
+    LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")), StudyRows::textIf(row, rows.optional("condition")),
+                     rows.text(row, rows.required("stimulus"))};
+    constexpr double most = 1e12;
+    if (task == "adjust") trial.kind = LevelTrial::Kind::adjustment;
+    else if (task == "estimate") trial.kind = LevelTrial::Kind::magnitude;
+    else if (task != "choose" || row.cells[rows.required("correct")].empty()) return std::nullopt;
+    if (trial.kind == LevelTrial::Kind::staircase) trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
+    else trial.value = rows.number(row, rows.required("value"), trial.kind == LevelTrial::Kind::magnitude ? 1e-12 : -most, most);
+    return trial;
+}
+
+std::size_t takeLevels(const StudyRows& rows, StudyData<LevelTrial>& data) {
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    const auto task = rows.required("task");
+    for (const CsvRow& row : rows.table().rows) {
+        if (row.cells[task] == "explore") continue; // it has no stimulus of its own
+        if (auto trial = levelTrial(rows, row)) {
+            ++taken;
+            conditionNamed(data, {}).push_back(std::move(*trial));
+        }
+    }
+    return taken;
+}
+
 /// Columns c1, c2, ... of the table, at least one.
 std::vector<std::size_t> countColumns(const StudyRows& rows) {
     std::vector<std::size_t> columns;
@@ -163,6 +191,8 @@ Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files)
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) { return readAll<StudyData<ChoiceTrial>>(files, takeChoices); }
 
 Result<RatingData> readRatings(std::span<const NamedText> files) { return readAll<RatingData>(files, takeRatings); }
+
+Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files) { return readAll<StudyData<LevelTrial>>(files, takeLevels); }
 
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files) {
     return readAll<StudyData<PercentCounts>>(files, takePercentCounts);

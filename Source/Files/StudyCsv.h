@@ -4,6 +4,7 @@
 #include "Files/Provenance.h"
 #include "Files/Result.h"
 #include "Study/ConfusionMatrix.h"
+#include "Study/LevelTrials.h"
 #include "Study/PercentCounts.h"
 #include "Study/ResponseMap.h"
 #include "Study/Votes.h"
@@ -55,6 +56,9 @@ Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);
 
 /// Columns stimulus (or condition), participant if there; every column that a trial file does not have is a scale, 0 to 100.
 Result<RatingData> readRatings(std::span<const NamedText> files);
+
+/// A trial file's staircases, adjustments (training, too) and magnitude estimations. One condition holds them all.
+Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files);
 
 /// Columns condition, row, c1 to cN; rows 1, 2, 3... of each condition, numbers from 0 to 100.
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files);

@@ -3,6 +3,7 @@
 #pragma once
 #include "Study/ConfusionMatrix.h"
 #include "Study/InformationTransfer.h"
+#include "Study/LevelTrials.h"
 #include "Study/ResponseMap.h"
 #include "Study/Votes.h"
 #include <span>
@@ -48,6 +49,9 @@ std::string resolutionPicture(std::span<const ConditionResolution> conditions, c
 
 /// Shares with their intervals.
 std::string choicePicture(std::span<const ChoiceSummary> summaries, const PictureWords& words);
+
+/// Thresholds, matched levels and magnitudes, a panel per kind.
+std::string levelPicture(std::span<const LevelSummary> summaries, const PictureWords& words);
 
 /// Mean scores with their intervals, a panel per scale.
 std::string ratingPicture(const std::vector<std::string>& scales, std::span<const RatingSummary> summaries, const PictureWords& words);

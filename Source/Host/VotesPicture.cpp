@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forced choices and ratings as bars.
+// Forced choices, ratings and levels as bars.
 #include "Host/StudyPage.h"
 #include <algorithm>
+#include <cmath>
 
 namespace physvib {
 namespace {
@@ -16,7 +17,47 @@ int nameWidth(auto&& summaries) {
     return std::min(width, 460);
 }
 
+/// Panels of the level picture: a kind, and what belongs to it.
+struct LevelPanel {
+    LevelTrial::Kind kind;
+    juce::String title, remark;
+    std::vector<const LevelSummary*> rows;
+};
+
+std::vector<LevelPanel> levelPanels(std::span<const LevelSummary> summaries) {
+    using Kind = LevelTrial::Kind;
+    std::vector<LevelPanel> panels{{Kind::staircase, "Thresholds", "dB, mean of the later reversals", {}},
+                                   {Kind::adjustment, "Matched levels", "dB, zero in the middle", {}},
+                                   {Kind::magnitude, "Magnitudes", "geometric means", {}}};
+    for (const auto& s : summaries) panels[static_cast<std::size_t>(s.kind)].rows.push_back(&s);
+    std::erase_if(panels, [](const auto& p) { return p.rows.empty(); });
+    return panels;
+}
+
+void drawLevels(const Canvas& canvas, const LevelPanel& panel, Area inside) {
+    canvas.heading(panel.title, panel.remark, inside.removeFromTop(24));
+    inside.removeFromTop(8);
+    double most = 1e-9;
+    for (const auto* s : panel.rows) most = std::max(most, 1.1 * (std::abs(s->estimate) + (panel.kind == LevelTrial::Kind::magnitude ? 0.0 : s->deviation)));
+    const bool isSigned = panel.kind == LevelTrial::Kind::adjustment;
+    const auto share = [&](double value) { return std::clamp(isSigned ? 0.5 + 0.5 * value / most : value / most, 0.0, 1.0); };
+    for (const auto* s : panel.rows) {
+        const double half = panel.kind == LevelTrial::Kind::magnitude ? 0.0 : s->deviation;
+        drawBar(canvas, inside.removeFromTop(rowHeight), 400, wordsOf(s->condition + (s->stimulus.empty() ? "" : ", " + s->stimulus)), share(s->estimate),
+                share(s->estimate - half), half > 0.0 ? share(s->estimate + half) : 0.0, number(s->estimate, 1), palette::enchanter(static_cast<int>(panel.kind)));
+    }
+}
+
 } // namespace
+
+std::string levelPicture(std::span<const LevelSummary> summaries, const PictureWords& words) {
+    const auto panels = levelPanels(summaries);
+    std::size_t most = 0;
+    for (const auto& panel : panels) most = std::max(most, panel.rows.size());
+    StudyPage page{"Levels", "lines: one standard deviation", panels.size(), 1, headHeight + rowHeight * static_cast<int>(most), {}};
+    page.draw = [&](const Canvas& canvas, std::size_t i, Area inside) { drawLevels(canvas, panels[i], inside); };
+    return studyPagePng(page, words);
+}
 
 std::string choicePicture(std::span<const ChoiceSummary> summaries, const PictureWords& words) {
     const auto& shares = summaries.front().shares;

@@ -22,6 +22,9 @@ bool isAdjustmentBefore(const Protocol& p, const SessionPlan& session) {
     return std::ranges::any_of(p.sessions.data(), &session, [&](const SessionPlan& s) { return s.name == session.levelsFrom && s.adjustment; });
 }
 
+/// Adjustments and staircases start within their range.
+bool startsInside(const auto& plan) { return plan.leastDb <= plan.startDb && plan.startDb <= plan.mostDb; }
+
 /// Of the fields that only some tasks use.
 std::string taskFault(const SessionPlan& s) {
     const bool compares = s.task == StudyTask::choose || s.task == StudyTask::adjust;
@@ -30,9 +33,12 @@ std::string taskFault(const SessionPlan& s) {
     if (sharesNames(s.alternatives, [](const auto& a) { return a.name; })) return "alternatives: expected a name of its own for each";
     if (s.bothOrders && (s.task != StudyTask::choose || s.alternatives.size() != 2)) return "both_orders: expected it of two alternatives to choose from";
     if ((s.task == StudyTask::rate) == s.scales.empty()) return "scales: expected them of the task rate, and of no other";
+    if (sharesNames(s.scales, [](const auto& scale) { return scale; })) return "scales: expected a name of its own for each";
     if (s.task != StudyTask::rate && !s.objects.empty()) return "objects: expected them of the task rate only";
     if ((s.task == StudyTask::adjust) != s.adjustment.has_value()) return "adjustment: expected it of the task adjust, and of no other";
     if (s.adjustment && !hasAlternative(s, s.adjustment->alternative)) return "adjustment.alternative: expected the name of an alternative";
+    if (s.adjustment && !startsInside(*s.adjustment)) return "adjustment: expected least_db <= start_db <= most_db";
+    if (s.staircase && !startsInside(*s.staircase)) return "staircase: expected least_db <= start_db <= most_db";
     if (s.staircase && s.task != StudyTask::choose) return "staircase: expected it of the task choose only";
     if (s.staircase && s.bothOrders) return "staircase: expected alternatives in random order";
     if (s.staircase && !hasAlternative(s, s.staircase->alternative)) return "staircase.alternative: expected the name of an alternative";

@@ -36,7 +36,7 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
     SeededRandom random{static_cast<std::uint64_t>(protocol_.seed), "observer/" + std::to_string(participant_.number) + "/" + condition.name + "/" + session.name + "/" +
                                                                         std::to_string(trial.number)};
     Answer answer;
-    answer.plays = 1 + static_cast<int>(random.below(session.mostPlays == 1 ? 1 : 3));
+    answer.plays = 1 + static_cast<int>(random.below(session.mostPlays == 0 ? 3 : static_cast<std::size_t>(std::min(3, session.mostPlays))));
     answer.seconds = roundedTo(session.leastSeconds * static_cast<double>(std::max<std::size_t>(1, trial.parts.size())) + 0.8 - 1.5 * std::log(1.0 - random.uniform()), 1000.0);
     switch (trial.task) {
     case StudyTask::explore: answer.response = explored(experiment, random, answer); break;

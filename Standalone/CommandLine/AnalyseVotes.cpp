@@ -22,6 +22,21 @@ void tell(const ChoiceSummary& summary) {
     std::cout << '\n';
 }
 
+const char* kindWord(LevelTrial::Kind kind) {
+    if (kind == LevelTrial::Kind::staircase) return "threshold";
+    return kind == LevelTrial::Kind::adjustment ? "matched at" : "magnitude";
+}
+
+void tell(const LevelSummary& s) {
+    const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
+    std::cout << printable(s.condition) << (s.stimulus.empty() ? "" : ", " + printable(s.stimulus)) << ": " << kindWord(s.kind) << ' ' << fixedNumber(s.estimate, isMagnitude ? 2 : 1)
+              << (isMagnitude ? "" : " dB");
+    if (s.deviation > 0.0) std::cout << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10)" : " dB)");
+    std::cout << ", " << s.trials << (s.trials == 1 ? " trial of " : " trials of ") << s.participants << (s.participants == 1 ? " participant" : " participants");
+    if (s.kind == LevelTrial::Kind::staircase) std::cout << ", " << s.reversals << " reversals";
+    std::cout << '\n';
+}
+
 } // namespace
 
 int analyseChoices(const AnalyseOptions& o) {
@@ -62,6 +77,20 @@ int analyseRatings(const AnalyseOptions& o) {
         std::cout << '\n';
     }
     return writeStudyFiles({{o.exportPath, table.text()}, {o.picturePath, [&] { return ratingPicture(scales, summaries, pictureWords(o.files, data.isSimulated)); }}});
+}
+
+int analyseLevels(const AnalyseOptions& o) {
+    const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readLevels(files); });
+    if (!data) return leave(exitFailed, data.error);
+    const auto summaries = summariseLevels(data.value.conditions.front().trials);
+    ExportTable table{"levels", data.value.isSimulated, "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation"};
+    tellIfSimulated(data.value.isSimulated);
+    for (const LevelSummary& s : summaries) {
+        tell(s);
+        table.cell(kindWord(s.kind)).cell(s.condition).cell(s.stimulus).cell(s.trials).cell(s.participants).cell(s.reversals).cell(s.estimate).cell(s.deviation);
+        table.endRow();
+    }
+    return writeStudyFiles({{o.exportPath, table.text()}, {o.picturePath, [&] { return levelPicture(summaries, pictureWords(o.files, data.value.isSimulated)); }}});
 }
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Analyses of opinions: forced choices and slider ratings.
+// Analyses of opinions and levels: forced choices, slider ratings, staircases, adjustments, magnitudes.
 #pragma once
 
 namespace physvib {
@@ -8,5 +8,6 @@ struct AnalyseOptions;
 
 int analyseChoices(const AnalyseOptions& options);
 int analyseRatings(const AnalyseOptions& options);
+int analyseLevels(const AnalyseOptions& options);
 
 } // namespace physvib

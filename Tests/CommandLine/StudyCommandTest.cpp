@@ -104,6 +104,8 @@ TEST_F(Study, ProtocolsOfOnesOwnNeedNoCode) {
     EXPECT_NE(read("level-steps-anna_1.csv").find(",choose,"), std::string::npos);
     ASSERT_EQ(call("study run magnitudes --observer simulated").exitCode, 0);
     EXPECT_NE(read("magnitudes-P01.csv").find(",estimate,"), std::string::npos);
+    EXPECT_NE(analyse("levels", " level-steps-anna_1.csv").find("PHONE: threshold "), std::string::npos);
+    EXPECT_NE(analyse("levels", " magnitudes-P01.csv").find("PHONE, 0.4: magnitude "), std::string::npos);
     EXPECT_EQ(std::ranges::count(call("study list").out, '\n'), 7);
 }
 

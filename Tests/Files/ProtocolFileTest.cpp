@@ -29,6 +29,8 @@ TEST(ProtocolFile, FaultsAreNamedByTheirField) {
     EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate" }] })"), "p.json: sessions[0].scales: expected them of the task rate, and of no other");
     EXPECT_EQ(fault(head + R"("conditions": [{ "name": "A", "stimuli": "grid", "columns": 17, "rows": 3 }], "sessions": [{ "name": "main" }] })"),
               "p.json: conditions[0].columns: expected 1 to 16, found 17");
+    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate", "scales": ["x"] }] })"),
+              "p.json: scales: expected names that no other column of a trial file has, found \"x\"");
     EXPECT_EQ(fault(R"({ "physvib_protocol": 2 })"), "p.json: physvib_protocol: made for a newer PhysVib: expected a version up to 1, found 2");
     EXPECT_EQ(fault("{"), "p.json: line 1, column 2: syntax error while parsing object key - unexpected end of input; expected string literal");
 }

@@ -32,6 +32,10 @@ void analyse(const StudyData<ChoiceTrial>& data) {
     for (const auto& summary : summariseChoices(data.conditions.front().trials)) fuzz::demand(std::isfinite(summary.pByChance), "a number is missing");
 }
 
+void analyse(const StudyData<LevelTrial>& data) {
+    for (const auto& summary : summariseLevels(data.conditions.front().trials)) fuzz::demand(std::isfinite(summary.estimate) && std::isfinite(summary.deviation), "a number is missing");
+}
+
 void analyse(const RatingData& ratings) {
     for (const auto& summary : summariseRatings(ratings.data.conditions.front().trials))
         for (const double half : summary.halfIntervals) fuzz::demand(std::isfinite(half), "a number is missing");
@@ -57,6 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tryOne(readLocations, text);
     tryOne(readChoices, text);
     tryOne(readRatings, text);
+    tryOne(readLevels, text);
     tryOne(readPercentCounts, text);
     return 0;
 }

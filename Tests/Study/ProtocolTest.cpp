@@ -36,6 +36,13 @@ TEST(Protocol, FaultsAreNamedByTheirField) {
     EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{26}; }), "conditions[0].stimuli: expected at most 4096 of them");
     EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{2, {0.1, 0.1}}; }), "conditions[0].stimuli: expected no two of the same label");
     EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = PatternSet{2, {0.1004}}; }), "conditions[0].pulse_s: expected whole milliseconds");
+    EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::rate, p.sessions[0].scales = {"a", "a"}; }), "sessions[0].scales: expected a name of its own for each");
+    EXPECT_EQ(fault([](Protocol& p) {
+                  p.sessions[0].task = StudyTask::adjust;
+                  p.sessions[0].alternatives = {{"a"}, {"b"}};
+                  p.sessions[0].adjustment = Adjustment{"a", 0.0, 1.0, 5.0, -5.0};
+              }),
+              "sessions[0].adjustment: expected least_db <= start_db <= most_db");
     EXPECT_EQ(fault([](Protocol& p) { p.conditions.clear(); }), "conditions: expected one or more, found none");
 }
 

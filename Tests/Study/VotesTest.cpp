@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Intervals and tests against tabled values; grouping of choices and ratings; the choice of icons.
+#include "Study/LevelTrials.h"
 #include "Study/TactileIcons.h"
 #include "Study/Votes.h"
 #include <algorithm>
@@ -62,6 +63,26 @@ TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
     ASSERT_EQ(summaries.size(), 1u);
     EXPECT_EQ(summaries[0].deviations[0], 0.0);
     EXPECT_EQ(summaries[0].halfIntervals[0], 0.0);
+}
+
+TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
+    std::vector<LevelTrial> trials;
+    for (const double level : {8.0, 8.0, 6.0, 6.0, 4.0, 5.0, 5.0, 4.5, 5.0, 4.5}) trials.push_back({LevelTrial::Kind::staircase, "P1", "A", "s", level});
+    for (const double level : {2.0, 1.0}) trials.push_back({LevelTrial::Kind::staircase, "P2", "A", "t", level});
+    const auto summaries = summariseLevels(trials);
+    ASSERT_EQ(summaries.size(), 1u);
+    EXPECT_EQ(summaries[0].reversals, 4u); // at 4, 5, 4.5 and 5
+    EXPECT_NEAR(summaries[0].estimate, (4.75 + 1.0) / 2, 1e-12);
+    EXPECT_NEAR(summaries[0].deviation, 3.75 / std::sqrt(2.0), 1e-12);
+}
+
+TEST(LevelTrials, MatchesAreMeansAndMagnitudesGeometricMeans) {
+    using Kind = LevelTrial::Kind;
+    const auto summaries = summariseLevels({{Kind::adjustment, "P1", "A", "s", 0, -3}, {Kind::adjustment, "P1", "A", "s", 0, -5}, {Kind::magnitude, "P1", "A", "s", 0, 1}, {Kind::magnitude, "P2", "A", "s", 0, 100}});
+    ASSERT_EQ(summaries.size(), 2u);
+    EXPECT_NEAR(summaries[0].estimate, -4.0, 1e-12);
+    EXPECT_NEAR(summaries[1].estimate, 10.0, 1e-12);
+    EXPECT_NEAR(summaries[1].deviation, std::sqrt(2.0), 1e-12);
 }
 
 TEST(TactileIcons, TheMostConfusedAreDroppedFirst) {

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Reversals from the sequence of levels; means in dB or in logarithms.
+#include "Study/LevelTrials.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+/// Levels at which a sequence turns round.
+std::vector<double> reversalsOf(const std::vector<double>& levels) {
+    std::vector<double> reversals;
+    double last = 0.0;
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+        const double change = levels[i + 1] - levels[i];
+        if (change == 0.0) continue;
+        if (change * last < 0.0) reversals.push_back(levels[i]);
+        last = change;
+    }
+    return reversals;
+}
+
+double meanOf(const std::vector<double>& values, std::size_t from = 0) {
+    double sum = 0.0;
+    for (std::size_t i = from; i < values.size(); ++i) sum += values[i];
+    return sum / static_cast<double>(values.size() - from);
+}
+
+double deviationOf(const std::vector<double>& values) {
+    if (values.size() < 2) return 0.0;
+    double squares = 0.0;
+    for (const double v : values) squares += (v - meanOf(values)) * (v - meanOf(values));
+    return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
+bool isSame(const LevelSummary& s, const LevelTrial& t) {
+    return s.kind == t.kind && s.condition == t.condition && (t.kind == LevelTrial::Kind::staircase || s.stimulus == t.stimulus);
+}
+
+/// Numbers by their value, before all other labels by their bytes.
+auto labelKey(const std::string& label) {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), number);
+    const bool isNumber = error == std::errc{} && end == label.data() + label.size() && std::isfinite(number);
+    return std::tuple{!isNumber, isNumber ? number : 0.0, std::string_view{label}};
+}
+
+void summariseStaircases(LevelSummary& summary, const std::map<std::string, std::vector<double>>& levels) {
+    std::vector<double> thresholds;
+    for (const auto& [participant, own] : levels) {
+        const auto reversals = reversalsOf(own);
+        summary.reversals += reversals.size();
+        thresholds.push_back(reversals.size() < 2 ? own.back() : meanOf(reversals, reversals.size() / 2));
+    }
+    summary.estimate = meanOf(thresholds);
+    summary.deviation = deviationOf(thresholds);
+}
+
+} // namespace
+
+std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials) {
+    std::vector<LevelSummary> summaries;
+    for (const LevelTrial& trial : trials)
+        if (std::ranges::none_of(summaries, [&](const auto& s) { return isSame(s, trial); }))
+            summaries.push_back({trial.kind, trial.condition, trial.kind == LevelTrial::Kind::staircase ? "" : trial.stimulus});
+    std::ranges::stable_sort(summaries, {}, [](const LevelSummary& s) { return std::tuple{s.kind, std::string_view{s.condition}, labelKey(s.stimulus)}; });
+    for (LevelSummary& summary : summaries) {
+        std::map<std::string, std::vector<double>> byParticipant;
+        std::vector<double> values;
+        for (const LevelTrial& trial : trials) {
+            if (!isSame(summary, trial)) continue;
+            byParticipant[trial.participant].push_back(trial.levelDb);
+            values.push_back(trial.kind == LevelTrial::Kind::magnitude ? std::log10(trial.value) : trial.value);
+        }
+        summary.trials = values.size();
+        summary.participants = byParticipant.size();
+        if (summary.kind == LevelTrial::Kind::staircase) {
+            summariseStaircases(summary, byParticipant);
+            continue;
+        }
+        summary.deviation = deviationOf(values);
+        summary.estimate = summary.kind == LevelTrial::Kind::magnitude ? std::pow(10.0, meanOf(values)) : meanOf(values);
+    }
+    return summaries;
+}
+
+} // namespace physvib
