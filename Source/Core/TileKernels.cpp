@@ -35,11 +35,11 @@ struct Rows {
 };
 
 // sums[channel * sumStride + k] += coefficient k of the panel, over all rows.
-template <std::size_t channels>
+template <std::size_t channels, std::size_t floats>
 HWY_INLINE void addPanel(const Rows& rows, const float* amplitudes, std::size_t amplitudeStride, double* sums, std::size_t sumStride) {
     const Panel d;
     const hn::Repartition<double, Panel> pairs;
-    constexpr std::size_t lanes = hn::MaxLanes(Panel()), vectors = panelFloats / lanes;
+    constexpr std::size_t lanes = hn::MaxLanes(Panel()), vectors = floats / lanes;
     hn::Vec<Panel> sum[channels][vectors];
     for (std::size_t j = 0; j < channels; ++j)
         for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = hn::Zero(d);
@@ -78,19 +78,25 @@ HWY_INLINE void turn(const TileLayer& layer, const std::int32_t* slots, std::siz
     }
 }
 
-// One chunk: all panels of its rows for `channels` channels.
-void addChunk(const Rows& rows, std::size_t panels, const float* z, std::size_t zStride, std::size_t channels, double* sums, std::size_t sumStride) {
-    for (std::size_t p = 0; p < panels; ++p) {
-        const Rows panel{rows.first + p * panelFloats, rows.stride, rows.count};
-        double* at = sums + p * panelFloats / 2;
-        std::size_t j = 0;
-        if constexpr (group >= 8)
-            for (; j + 8 <= channels; j += 8) addPanel<8>(panel, z + 2 * j, zStride, at + j * sumStride, sumStride);
-        if constexpr (group >= 4)
-            for (; j + 4 <= channels; j += 4) addPanel<4>(panel, z + 2 * j, zStride, at + j * sumStride, sumStride);
-        for (; j + 2 <= channels; j += 2) addPanel<2>(panel, z + 2 * j, zStride, at + j * sumStride, sumStride);
-        if (j < channels) addPanel<1>(panel, z + 2 * j, zStride, at + j * sumStride, sumStride);
-    }
+// One panel (of `floats`) of a chunk, for all channels.
+template <std::size_t floats>
+HWY_INLINE void addToAll(const Rows& panel, const float* z, std::size_t zStride, std::size_t channels, double* sums, std::size_t sumStride) {
+    std::size_t j = 0;
+    if constexpr (group >= 8)
+        for (; j + 8 <= channels; j += 8) addPanel<8, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+    if constexpr (group >= 4)
+        for (; j + 4 <= channels; j += 4) addPanel<4, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+    for (; j + 2 <= channels; j += 2) addPanel<2, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+    if (j < channels) addPanel<1, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+}
+
+// One chunk, panel by panel; two at once where there are registers for it.
+void addChunk(const Rows& rows, std::size_t rowFloats, const float* z, std::size_t zStride, std::size_t channels, double* sums, std::size_t sumStride) {
+    std::size_t p = 0;
+    if constexpr (HWY_TARGET == HWY_AVX3)
+        for (; p + 2 * panelFloats <= rowFloats; p += 2 * panelFloats)
+            addToAll<2 * panelFloats>({rows.first + p, rows.stride, rows.count}, z, zStride, channels, sums + p / 2, sumStride);
+    for (; p < rowFloats; p += panelFloats) addToAll<panelFloats>({rows.first + p, rows.stride, rows.count}, z, zStride, channels, sums + p / 2, sumStride);
 }
 
 void addModes(const TileLayer& layer, const TileModes& modes, std::size_t firstChannel, std::size_t channels, double* sums, std::size_t sumStride) {
@@ -99,7 +105,7 @@ void addModes(const TileLayer& layer, const TileModes& modes, std::size_t firstC
     for (std::size_t first = 0; first < static_cast<std::size_t>(modes.count); first += chunkModes) {
         const std::size_t count = HWY_MIN(chunkModes, static_cast<std::size_t>(modes.count) - first);
         turn(layer, modes.slots + first, count, firstChannel / 4, lines, z);
-        addChunk({modes.rows + first * rowFloats, rowFloats, count}, rowFloats / panelFloats, z, lines * 8, channels, sums, sumStride);
+        addChunk({modes.rows + first * rowFloats, rowFloats, count}, rowFloats, z, lines * 8, channels, sums, sumStride);
     }
 }
 
