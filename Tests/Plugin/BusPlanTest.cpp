@@ -40,26 +40,12 @@ TEST(BusPlan, ManyBusesTakeMonoStereoAndNothing) {
     EXPECT_FALSE(isAccepted(many, vst3, outputs({Set::quadraphonic()})));
 }
 
-/// An enchanter of its own for each of n channels, all in a line; a note strikes at one of them.
-PluginState lineOf(int n) {
-    PluginState s = newPluginState();
-    s.scene.bodies.clear();
-    s.scene.joints.clear();
-    s.scene.script.clear();
-    EnchanterLayout line{n > 1 ? n - 1.0 : 1.0, 1.0, n, {}};
-    for (int j = 0; j < n; ++j) line.places[static_cast<std::size_t>(j)] = {static_cast<double>(j), 0.0};
-    s.layout = describeLayout("line", line);
-    return s;
-}
-
 /// Channel j of the buffer that carries each enchanter; -1: none.
 std::vector<int> channelsOfEnchanters(TestHost& host, int enchanters) {
     std::vector<int> found;
     host.plugin->parameter(Parameter::exponent).setValue(1.0f); // neighbours get less than half
     for (int j = 0; j < enchanters; ++j) {
-        auto settings = lineOf(enchanters);
-        settings.notes = {{60, 3, enchanters > 1 ? j / (enchanters - 1.0) : 0.0, 0.0}};
-        EXPECT_TRUE(host.plugin->apply(settings));
+        EXPECT_TRUE(host.plugin->apply(strikeAt(j, enchanters)));
         host.prepare(48000, 512);
         juce::MidiBuffer midi;
         midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);

@@ -82,6 +82,19 @@ public:
     int largest = 0;
 };
 
+/// Nothing but n enchanters in a line; note 60 strikes at enchanter j.
+inline PluginState strikeAt(int j, int n) {
+    PluginState s = newPluginState();
+    s.scene.bodies.clear();
+    s.scene.joints.clear();
+    s.scene.script.clear();
+    EnchanterLayout line{n > 1 ? n - 1.0 : 1.0, 1.0, n, {}};
+    for (int i = 0; i < n; ++i) line.places[static_cast<std::size_t>(i)] = {static_cast<double>(i), 0.0};
+    s.layout = describeLayout("line", line);
+    s.notes = {{60, 3, n > 1 ? j / (n - 1.0) : 0.0, 0.0}};
+    return s;
+}
+
 /// `signal` without its first `frames` frames.
 inline Samples later(const Samples& signal, std::int64_t frames) {
     Samples rest;

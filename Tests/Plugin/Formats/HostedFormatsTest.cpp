@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// VST3 and LV2 in JUCE's host: what leaves them is what the processor renders, sample by sample.
+#include "Plugin/PluginTesting.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// VST3 goes by its bundle, LV2 by the address that its bundle tells.
+struct Format {
+    explicit Format(bool isVst3) {
+        messageManager();
+        if (isVst3) format = std::make_unique<juce::VST3PluginFormat>();
+        else format = std::make_unique<juce::LV2PluginFormat>();
+        format->searchPathsForPlugins(juce::FileSearchPath{PHYSVIB_PLUGINS}, true, false);
+    }
+    std::unique_ptr<juce::AudioPluginInstance> load(const juce::String& identifier) const {
+        juce::OwnedArray<juce::PluginDescription> found;
+        format->findAllTypesForFile(found, identifier);
+        if (found.isEmpty()) return nullptr;
+        juce::String error;
+        auto plugin = format->createInstanceFromDescription(*found[0], 48000.0, 512, error);
+        EXPECT_EQ(error, "");
+        return plugin;
+    }
+    std::unique_ptr<juce::AudioPluginFormat> format;
+};
+
+const juce::String vst3Identifier = PHYSVIB_PLUGINS "/PhysVib.vst3", lv2Identifier = "urn:physvib:plugin";
+
+juce::AudioProcessorParameter* named(juce::AudioPluginInstance& plugin, std::string_view name) {
+    for (auto* p : plugin.getParameters())
+        if (p->getName(100).toStdString() == name) return p;
+    return nullptr;
+}
+
+Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes) {
+    plugin.setNonRealtime(true);
+    plugin.setRateAndBufferSizeDetails(48000.0, 512);
+    plugin.prepareToPlay(48000.0, 512);
+    Samples signal(static_cast<std::size_t>(plugin.getTotalNumOutputChannels()));
+    juce::AudioBuffer<float> buffer(static_cast<int>(signal.size()), 512);
+    for (int done = 0; done < frames; done += 512) {
+        juce::MidiBuffer midi;
+        if (withNotes) midi.addEvent(juce::MidiMessage::noteOn(1, 36 + done / 512 % 60, juce::uint8{100}), done / 512 % 512);
+        buffer.clear();
+        plugin.processBlock(buffer, midi);
+        for (std::size_t c = 0; c < signal.size(); ++c) signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)), buffer.getReadPointer(static_cast<int>(c)) + 512);
+    }
+    runMessages(50); // this host hears of latencies by a message
+    EXPECT_EQ(plugin.getLatencySamples(), 1999) << "512 frames of a block, 10 ms of gap, two steps, the limiter";
+    plugin.releaseResources();
+    return signal;
+}
+
+Samples expected(int width) {
+    TestHost host{{BusPlan::Kind::oneBus, width}};
+    host.plugin->parameter(Parameter::level).setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
+    return blocksOf(*host.plugin, 96'256, true);
+}
+
+void expectTheProcessorsSamples(const Format& format, const juce::String& identifier, int width) {
+    const auto plugin = format.load(identifier);
+    ASSERT_NE(plugin, nullptr) << identifier;
+    EXPECT_EQ(plugin->getTotalNumOutputChannels(), width);
+    const auto signal = blocksOf(*plugin, 96'256, true);
+    EXPECT_GT(peakOf(signal), 0.01f);
+    EXPECT_TRUE(signal == expected(width)) << identifier;
+}
+
+TEST(HostedFormats, Vst3) { expectTheProcessorsSamples(Format{true}, vst3Identifier, 4); }
+
+TEST(HostedFormats, Lv2OfEveryWidth) {
+    const Format format{false};
+    for (const auto& [suffix, width] : {std::pair{":2", 2}, {"", 4}, {":8", 8}, {":16", 16}}) expectTheProcessorsSamples(format, lv2Identifier + suffix, width);
+}
+
+TEST(HostedFormats, ParametersHaveTheirNamesAndDefaults) {
+    for (const bool isVst3 : {true, false}) {
+        const Format format{isVst3};
+        const auto plugin = format.load(isVst3 ? vst3Identifier : lv2Identifier);
+        ASSERT_NE(plugin, nullptr);
+        for (const auto& row : allParameters()) {
+            const auto* parameter = named(*plugin, row.name);
+            ASSERT_NE(parameter, nullptr) << row.name;
+            const bool isBent = !isVst3 && row.scale == ParameterScale::log; // LV2 tells the range, hosts make the scale
+            if (!isBent) EXPECT_NEAR(parameter->getDefaultValue(), normalised(row, row.initial), 1e-6) << row.name;
+        }
+    }
+}
+
+TEST(HostedFormats, StateGoesThroughTheFormats) {
+    for (const bool isVst3 : {true, false}) {
+        const Format format{isVst3};
+        const auto identifier = isVst3 ? vst3Identifier : lv2Identifier;
+        const auto first = format.load(identifier), second = format.load(identifier);
+        ASSERT_NE(second, nullptr);
+        first->setCurrentProgram(1);
+        named(*first, "Level")->setValue(1.0f);
+        blocksOf(*first, 512, false); // hosts hand parameters over with a block
+        juce::MemoryBlock chunk;
+        first->getStateInformation(chunk);
+        second->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+        const auto a = blocksOf(*first, 48'128, false), b = blocksOf(*second, 48'128, false);
+        EXPECT_TRUE(a == b) << identifier;
+        EXPECT_GT(peakOf(a), 0.001f);
+        EXPECT_NEAR(named(*second, "Level")->getValue(), 1.0f, 1e-6f) << identifier;
+    }
+}
+
+} // namespace
+} // namespace physvib

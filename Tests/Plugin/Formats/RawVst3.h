@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The least a VST3 host can be: one component of a module, its buses, its state, blocks with notes. Does only what it
+// is told, so that a plug-in can be met in every order of calls.
+#pragma once
+#include <array>
+#include <cstring>
+#include <dlfcn.h>
+#include <pluginterfaces/base/funknown.h>
+#include <pluginterfaces/base/ibstream.h>
+#include <pluginterfaces/base/ipluginbase.h>
+#include <pluginterfaces/vst/ivstaudioprocessor.h>
+#include <pluginterfaces/vst/ivstcomponent.h>
+#include <pluginterfaces/vst/ivstevents.h>
+#include <pluginterfaces/vst/ivstprocesscontext.h>
+#include <pluginterfaces/vst/vstspeaker.h>
+#include <string>
+#include <vector>
+
+namespace physvib::test {
+
+namespace vst = Steinberg::Vst;
+using Steinberg::kResultOk;
+
+/// On the host's stack: never counted, never freed.
+template <class Interface>
+struct OnStack : Interface {
+    Steinberg::tresult PLUGIN_API queryInterface(const Steinberg::TUID, void** object) override {
+        *object = nullptr;
+        return Steinberg::kNoInterface;
+    }
+    Steinberg::uint32 PLUGIN_API addRef() override { return 1; }
+    Steinberg::uint32 PLUGIN_API release() override { return 1; }
+};
+
+struct Stream final : OnStack<Steinberg::IBStream> {
+    std::string bytes;
+    std::size_t at = 0;
+    Steinberg::tresult PLUGIN_API read(void* to, Steinberg::int32 count, Steinberg::int32* done) override {
+        const auto n = std::min(static_cast<std::size_t>(count), bytes.size() - at);
+        std::memcpy(to, bytes.data() + at, n);
+        at += n;
+        if (done) *done = static_cast<Steinberg::int32>(n);
+        return kResultOk;
+    }
+    Steinberg::tresult PLUGIN_API write(void* from, Steinberg::int32 count, Steinberg::int32* done) override {
+        bytes.append(static_cast<const char*>(from), static_cast<std::size_t>(count));
+        if (done) *done = count;
+        return kResultOk;
+    }
+    Steinberg::tresult PLUGIN_API seek(Steinberg::int64 place, Steinberg::int32 mode, Steinberg::int64* result) override {
+        const auto from = mode == kIBSeekSet ? 0 : mode == kIBSeekCur ? static_cast<Steinberg::int64>(at) : static_cast<Steinberg::int64>(bytes.size());
+        at = static_cast<std::size_t>(std::clamp<Steinberg::int64>(from + place, 0, static_cast<Steinberg::int64>(bytes.size())));
+        if (result) *result = static_cast<Steinberg::int64>(at);
+        return kResultOk;
+    }
+    Steinberg::tresult PLUGIN_API tell(Steinberg::int64* place) override {
+        *place = static_cast<Steinberg::int64>(at);
+        return kResultOk;
+    }
+};
+
+struct Notes final : OnStack<vst::IEventList> {
+    std::vector<vst::Event> events;
+    Steinberg::int32 PLUGIN_API getEventCount() override { return static_cast<Steinberg::int32>(events.size()); }
+    Steinberg::tresult PLUGIN_API getEvent(Steinberg::int32 index, vst::Event& event) override {
+        event = events[static_cast<std::size_t>(index)];
+        return kResultOk;
+    }
+    Steinberg::tresult PLUGIN_API addEvent(vst::Event& event) override {
+        events.push_back(event);
+        return kResultOk;
+    }
+};
+
+class RawVst3 {
+public:
+    explicit RawVst3(const std::string& bundle, const std::string& name) {
+        module_ = dlopen((bundle + "/Contents/x86_64-linux/" + name + ".so").c_str(), RTLD_NOW | RTLD_LOCAL);
+        if (!module_) return;
+        reinterpret_cast<bool (*)(void*)>(dlsym(module_, "ModuleEntry"))(module_);
+        factory_ = reinterpret_cast<Steinberg::IPluginFactory* (*)()>(dlsym(module_, "GetPluginFactory"))();
+        for (Steinberg::int32 i = 0; i < factory_->countClasses(); ++i) {
+            Steinberg::PClassInfo info;
+            factory_->getClassInfo(i, &info);
+            if (std::strcmp(info.category, kVstAudioEffectClass) == 0)
+                factory_->createInstance(info.cid, vst::IComponent_iid, reinterpret_cast<void**>(&component));
+        }
+        component->initialize(nullptr);
+        component->queryInterface(vst::IAudioProcessor_iid, reinterpret_cast<void**>(&processor));
+    }
+    ~RawVst3() {
+        if (!module_) return;
+        component->terminate();
+        processor->release();
+        component->release();
+        factory_->release();
+        reinterpret_cast<bool (*)()>(dlsym(module_, "ModuleExit"))();
+        dlclose(module_);
+    }
+    bool isLoaded() const { return component && processor; }
+
+    bool setState(const std::string& state) {
+        Stream stream;
+        stream.bytes = state;
+        return component->setState(&stream) == kResultOk;
+    }
+    std::string state() {
+        Stream stream;
+        component->getState(&stream);
+        return stream.bytes;
+    }
+    bool arrange(std::vector<vst::SpeakerArrangement> outputs) {
+        return processor->setBusArrangements(nullptr, 0, outputs.data(), static_cast<Steinberg::int32>(outputs.size())) == Steinberg::kResultTrue;
+    }
+    int channelsOf(int bus) {
+        vst::SpeakerArrangement arrangement = 0;
+        processor->getBusArrangement(vst::kOutput, bus, arrangement);
+        return vst::SpeakerArr::getChannelCount(arrangement);
+    }
+    int buses() { return component->getBusCount(vst::kAudio, vst::kOutput); }
+
+    /// Buffers for every bus, active or not, as the standard wants.
+    void start(int block, bool activateBuses = true) {
+        block_ = block;
+        if (activateBuses)
+            for (int b = 0; b < buses(); ++b) component->activateBus(vst::kAudio, vst::kOutput, b, true);
+        component->activateBus(vst::kEvent, vst::kInput, 0, true);
+        vst::ProcessSetup setup{vst::kOffline, vst::kSample32, block, 48000.0};
+        processor->setupProcessing(setup);
+        component->setActive(true);
+        processor->setProcessing(true);
+        channels.clear();
+        for (int b = 0; b < buses(); ++b) channels.push_back(std::vector<std::vector<float>>(static_cast<std::size_t>(channelsOf(b)), std::vector<float>(static_cast<std::size_t>(block))));
+    }
+    void stop() {
+        processor->setProcessing(false);
+        component->setActive(false);
+    }
+    void note(int pitch, int frame = 0) {
+        vst::Event event{};
+        event.type = vst::Event::kNoteOnEvent;
+        event.sampleOffset = frame;
+        event.noteOn.pitch = static_cast<Steinberg::int16>(pitch);
+        event.noteOn.velocity = 1.0f;
+        event.noteOn.noteId = -1;
+        notes_.events.push_back(event);
+    }
+    bool process() {
+        std::vector<std::vector<float*>> pointers;
+        std::vector<vst::AudioBusBuffers> outputs(channels.size());
+        for (auto& bus : channels) {
+            pointers.emplace_back();
+            for (auto& channel : bus) pointers.back().push_back(channel.data());
+        }
+        for (std::size_t b = 0; b < channels.size(); ++b) {
+            outputs[b].numChannels = static_cast<Steinberg::int32>(channels[b].size());
+            outputs[b].channelBuffers32 = pointers[b].data();
+        }
+        vst::ProcessContext context{};
+        context.sampleRate = 48000.0;
+        context.state = vst::ProcessContext::kPlaying;
+        vst::ProcessData data;
+        data.processMode = vst::kOffline;
+        data.numSamples = block_;
+        data.numOutputs = static_cast<Steinberg::int32>(outputs.size());
+        data.outputs = outputs.data();
+        data.inputEvents = &notes_;
+        data.processContext = &context;
+        const bool done = processor->process(data) == kResultOk;
+        notes_.events.clear();
+        return done;
+    }
+
+    vst::IComponent* component = nullptr;
+    vst::IAudioProcessor* processor = nullptr;
+    std::vector<std::vector<std::vector<float>>> channels; ///< [bus][channel][frame] of the last block
+
+private:
+    void* module_ = nullptr;
+    Steinberg::IPluginFactory* factory_ = nullptr;
+    Notes notes_;
+    int block_ = 0;
+};
+
+} // namespace physvib::test

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// VST3 in a host that does only what the standard makes it do: every arrangement, none at all, states, suspensions.
+#include "Plugin/PluginTesting.h"
+#include "RawVst3.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+namespace arr = Steinberg::Vst::SpeakerArr;
+
+const std::string oneBus = PHYSVIB_PLUGINS "/PhysVib.vst3", pairs = PHYSVIB_PLUGINS "/PhysVib-Pairs.vst3";
+
+/// The channel, counted over all buses, that carries a strike at enchanter j of n; -1: none.
+int channelOf(RawVst3& host, int j, int n) {
+    auto state = strikeAt(j, n);
+    state.parameters = {{"level", 0.0}, {"exponent", 4.0}};
+    EXPECT_TRUE(host.setState(pluginStateJson(state)));
+    host.start(512);
+    host.note(60);
+    int loudest = -1;
+    float peak = 0.35f; // a strike is 0.5 where it is, and less than half of that at its neighbours
+    for (int b = 0; b < 48; ++b) {
+        EXPECT_TRUE(host.process());
+        int at = 0;
+        for (const auto& bus : host.channels)
+            for (const auto& channel : bus) {
+                for (const float x : channel)
+                    if (std::abs(x) > peak) peak = std::abs(x), loudest = at;
+                ++at;
+            }
+    }
+    host.stop();
+    return loudest;
+}
+
+void expectChannelJIsEnchanterJ(RawVst3& host, int channels) {
+    for (int j = 0; j < channels; ++j) EXPECT_EQ(channelOf(host, j, channels), j) << "of " << channels;
+    if (channels < 4) EXPECT_EQ(channelOf(host, 3, 4), -1) << "more enchanters than channels";
+}
+
+TEST(RawVst3, WithoutAnyArrangement) {
+    RawVst3 host{oneBus, "PhysVib"};
+    ASSERT_TRUE(host.isLoaded());
+    ASSERT_EQ(host.buses(), 1);
+    EXPECT_EQ(host.channelsOf(0), 4);
+    expectChannelJIsEnchanterJ(host, 4);
+}
+
+TEST(RawVst3, TheFirstNSpeakers) {
+    for (int n = 1; n <= 16; n += n < 5 ? 1 : 3) {
+        RawVst3 host{oneBus, "PhysVib"};
+        const bool taken = host.arrange({n == 1 ? arr::kMono : (vst::SpeakerArrangement{1} << n) - 1});
+        EXPECT_TRUE(taken) << n;
+        ASSERT_EQ(host.channelsOf(0), n);
+        expectChannelJIsEnchanterJ(host, n);
+    }
+}
+
+TEST(RawVst3, SurroundArrangementsKeepTheirOrderOrAreRefused) {
+    for (const auto arrangement : {arr::kStereo, arr::k40Music, arr::k50, arr::k51, arr::k60Music, arr::k71Cine, arr::k71Music, arr::k70Music, arr::k71_4, arr::kAmbi3rdOrderACN}) {
+        RawVst3 host{oneBus, "PhysVib"};
+        const bool taken = host.arrange({arrangement});
+        if (taken) EXPECT_EQ(host.channelsOf(0), arr::getChannelCount(arrangement));
+        expectChannelJIsEnchanterJ(host, host.channelsOf(0));
+    }
+}
+
+TEST(RawVst3, Pairs) {
+    RawVst3 host{pairs, "PhysVib-Pairs"};
+    ASSERT_TRUE(host.isLoaded());
+    ASSERT_EQ(host.buses(), 32);
+    for (const int j : {0, 1, 2, 19, 40, 63}) EXPECT_EQ(channelOf(host, j, 64), j);
+}
+
+TEST(RawVst3, MonoBuses) {
+    RawVst3 host{pairs, "PhysVib-Pairs"};
+    ASSERT_TRUE(host.arrange(std::vector<vst::SpeakerArrangement>(32, arr::kMono)));
+    for (const int j : {0, 1, 2, 19}) EXPECT_EQ(channelOf(host, j, 20), j);
+}
+
+TEST(RawVst3, StateComesBackAndSuspensionRepeatsTheTake) {
+    RawVst3 host{oneBus, "PhysVib"};
+    const std::string fresh = host.state();
+    EXPECT_FALSE(host.setState("nonsense") && host.state() != fresh) << "a broken chunk leaves the last good state";
+    auto state = newPluginState();
+    state.seed = 42;
+    EXPECT_TRUE(host.setState(pluginStateJson(state)));
+    const std::string chunk = host.state();
+    EXPECT_NE(chunk, fresh);
+    std::vector<float> takes[2];
+    for (auto& take : takes) { // suspended and resumed in between
+        host.start(256);
+        for (int b = 0; b < 400; ++b) {
+            host.process();
+            for (const auto& channel : host.channels[0]) take.insert(take.end(), channel.begin(), channel.end());
+        }
+        host.stop();
+    }
+    EXPECT_TRUE(takes[0] == takes[1]);
+    EXPECT_GT(*std::max_element(takes[0].begin(), takes[0].end()), 0.001f);
+    EXPECT_EQ(host.state(), chunk);
+    EXPECT_EQ(host.processor->getLatencySamples(), 256u + 480 + 960 + 47);
+    EXPECT_GT(host.processor->getTailSamples(), 1000u);
+}
+
+TEST(RawVst3, TwentyInstances) {
+    std::vector<std::unique_ptr<RawVst3>> hosts;
+    for (int i = 0; i < 20; ++i) hosts.push_back(std::make_unique<RawVst3>(oneBus, "PhysVib"));
+    for (auto& host : hosts) host->start(512);
+    for (int b = 0; b < 200; ++b)
+        for (auto& host : hosts) host->process();
+    for (auto& host : hosts) EXPECT_TRUE(host->channels == hosts[0]->channels);
+    for (auto& host : hosts) host->stop();
+}
+
+} // namespace
+} // namespace physvib
