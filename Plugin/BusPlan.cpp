@@ -52,8 +52,8 @@ bool isAccepted(const BusPlan& plan, Processor::WrapperType format, const Proces
     return std::all_of(sets.begin(), sets.end(), isAcceptedAsOneOfMany) && !sets[0].isDisabled();
 }
 
-OutputMap::OutputMap(const Processor& processor)
-    : OutputMap{} {
+BusMap::BusMap(const Processor& processor)
+    : BusMap{} {
     std::size_t enchanter = 0;
     for (int b = 0; b < processor.getBusCount(false); ++b) {
         const auto& bus = *processor.getBus(false, b);
@@ -63,7 +63,7 @@ OutputMap::OutputMap(const Processor& processor)
     }
 }
 
-int OutputMap::connected(int enchanters) const noexcept {
+int BusMap::connected(int enchanters) const noexcept {
     return static_cast<int>(std::count_if(channelOf.begin(), channelOf.begin() + enchanters, [](int c) { return c >= 0; }));
 }
 

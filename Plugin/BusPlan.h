@@ -37,12 +37,12 @@ bool isAccepted(const BusPlan& plan, juce::AudioProcessor::WrapperType format, c
 
 /// For each enchanter the channel of the process block that it leaves by; -1: not connected. A bus that is off keeps
 /// its places, so that enchanters behind it stay where they are.
-struct OutputMap {
+struct BusMap {
     std::array<int, limits::maxEnchanters> channelOf{};
 
-    OutputMap() { channelOf.fill(-1); }
+    BusMap() { channelOf.fill(-1); }
     /// M, while nothing is rendered.
-    explicit OutputMap(const juce::AudioProcessor& processor);
+    explicit BusMap(const juce::AudioProcessor& processor);
     /// How many of the first `enchanters` are connected. Any thread.
     int connected(int enchanters) const noexcept;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The message thread's part: settings, buses, rates, latency.
 #include "PluginProcessor.h"
+#include "PluginEditor.h"
 #include "Files/SceneCatalogue.h"
 #include <algorithm>
 #include <stdexcept>
@@ -59,8 +60,13 @@ bool PluginProcessor::apply(PluginState state) {
         state_ = std::move(state);
         renderSettings_.write({state_.transport, state_.layout.geometry, MidiTable{state_}});
     }
+    ++stateCount_;
     publish();
     return true;
+}
+
+void PluginProcessor::edit(PluginState state) {
+    if (apply(std::move(state))) updateHostDisplay(ChangeDetails{}.withNonParameterStateChanged(true));
 }
 
 bool PluginProcessor::refuse(const juce::String& why) {
@@ -91,7 +97,7 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     sampleRateHz_ = sampleRateHz;
     blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, blockFrames);
     const int rate = juce::jlimit(limits::minSampleRateHz, limits::maxSampleRateHz, juce::roundToInt(sampleRateHz));
-    outputs_ = OutputMap{*this};
+    outputs_ = BusMap{*this};
     open_.prepare(rate, limits::channelRampSeconds, value(Parameter::bypass) > 0.5 ? 0.0f : 1.0f);
     transport_.reset();
     measured_ = {};
@@ -109,6 +115,8 @@ void PluginProcessor::releaseResources() {
 void PluginProcessor::timerCallback() {
     for (auto* p : parameters_) p->tellHost();
 }
+
+juce::AudioProcessorEditor* PluginProcessor::createEditor() { return new PluginEditor{*this}; }
 
 // Factory presets are the built-in scenes.
 int PluginProcessor::getNumPrograms() { return static_cast<int>(builtInScenes().size()); }

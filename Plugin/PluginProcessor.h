@@ -16,6 +16,7 @@ namespace physvib {
 /// What the editor shows.
 struct PluginMeters {
     std::array<float, limits::maxEnchanters> peaks{}; ///< falling by 20 dB a second
+    std::array<bool, limits::maxEnchanters> isConnected{};
     int enchanters = 0;
     int connected = 0;
     float limiterGain = 1.0f;
@@ -28,8 +29,12 @@ public:
 
     /// What plays from now on. False and untouched, with a line in `trouble()`, if it cannot be played. Any thread but R.
     bool apply(PluginState state);
+    /// The same for an edit by a person: the host marks its session as changed. M.
+    void edit(PluginState state);
     PluginState state() const; ///< with the parameters as they are
     juce::String trouble() const; ///< empty while all is well
+    std::uint64_t stateCount() const noexcept { return stateCount_; } ///< grows with every state that was taken
+    int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
     HostParameter& parameter(Parameter which) noexcept { return *parameters_[static_cast<std::size_t>(which)]; }
     Takes& takes() noexcept { return takes_; }
@@ -57,8 +62,8 @@ public:
     void getStateInformation(juce::MemoryBlock& chunk) override;
     void setStateInformation(const void* data, int size) override;
 
-    bool hasEditor() const override { return false; }
-    juce::AudioProcessorEditor* createEditor() override { return nullptr; }
+    bool hasEditor() const override { return true; }
+    juce::AudioProcessorEditor* createEditor() override;
 
 private:
     static BusesProperties outputsOf(const BusPlan& plan);
@@ -86,6 +91,8 @@ private:
     PluginState state_;
     juce::String trouble_;
     std::atomic<int> program_{0};
+    std::atomic<std::uint64_t> stateCount_{0};
+    std::atomic<double> sampleRateHz_{0.0};
     std::atomic<double> tailSeconds_{0.0};
 
     /// What R needs to know of the state.
@@ -97,12 +104,11 @@ private:
     LatestValue<RenderSettings> renderSettings_;
     LatestValue<PluginMeters> meters_;
     Takes takes_;
-    OutputMap outputs_;
+    BusMap outputs_;
 
     // R
     Transport transport_;
     int blockFrames_ = 0;
-    double sampleRateHz_ = 0.0;
     GainRamp open_; // shut by bypass
     PluginMeters measured_;
     std::array<double, parameterCount> sent_{};

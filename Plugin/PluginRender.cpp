@@ -132,12 +132,13 @@ void PluginProcessor::mix(juce::AudioBuffer<float>& buffer, int first, int frame
 
 void PluginProcessor::measure(const juce::AudioBuffer<float>& buffer) noexcept {
     const int frames = buffer.getNumSamples();
-    const float fall = juce::Decibels::decibelsToGain(-peakFallDbPerSecond * static_cast<float>(frames / sampleRateHz_));
+    const float fall = juce::Decibels::decibelsToGain(-peakFallDbPerSecond * static_cast<float>(frames / sampleRateHz_.load(std::memory_order_relaxed)));
     measured_.enchanters = takes_.channels();
     measured_.connected = outputs_.connected(measured_.enchanters);
     if (auto* session = takes_.session()) measured_.limiterGain = session->status().render.limiterGain;
     for (std::size_t j = 0; j < measured_.peaks.size(); ++j) {
         const int channel = outputs_.channelOf[j];
+        measured_.isConnected[j] = channel >= 0;
         const float peak = channel >= 0 && channel < buffer.getNumChannels() ? buffer.getMagnitude(channel, 0, frames) : 0.0f;
         measured_.peaks[j] = std::max(peak, measured_.peaks[j] * fall);
     }

@@ -23,6 +23,7 @@ void Take::rewind() {
     fade_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
     owed_ = -1;
     over_ = false;
+    number = 0;
     isEnded = false;
 }
 
@@ -144,6 +145,15 @@ std::vector<TakeEvent> Takes::takeLog() {
     const std::lock_guard lock{mutex_};
     for (auto& take : takes_) drain(*take);
     return std::exchange(log_, {});
+}
+
+std::int64_t Takes::poses(std::vector<BodyPose>& now) {
+    const std::lock_guard lock{mutex_};
+    const Take* newest = nullptr;
+    for (const auto& take : takes_)
+        if (!take->isEnded && take->number > 0 && (!newest || take->number > newest->number)) newest = take.get();
+    now.clear();
+    return newest ? newest->session.readPoses(now) : 0;
 }
 
 // R

@@ -50,7 +50,7 @@ public:
 
     Session session;
     const std::uint64_t generation;
-    int number = 0;                   ///< set by R when it starts
+    std::atomic<int> number{0};       ///< set by R when it starts
     std::atomic<bool> isEnded{false}; ///< R lets go of it
     std::vector<std::vector<float>> out;
 
@@ -105,11 +105,13 @@ public:
 
     /// What was played since the last call, at most `logSize` events; `lost` counts the rest. Any thread but R.
     std::vector<TakeEvent> takeLog();
+    /// Where the bodies of the playing take are, and the session time of that; none: empty. Any thread but R.
+    std::int64_t poses(std::vector<BodyPose>& now);
     std::uint64_t lostFromLog() const noexcept { return lost_; }
     TakesStatus status() noexcept { return status_.read(); } ///< one reader
 
 private:
-    static constexpr std::size_t logSize = 65536; // half a minute of a lively scene, if nobody looks
+    static constexpr std::size_t logSize = 16384; // ten minutes of "shake the box", if nobody looks
     static int channelsOf(const Take* take) noexcept { return take ? take->session.channels() : 0; }
     void run();
     void tick();

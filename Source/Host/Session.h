@@ -106,6 +106,10 @@ public:
     /// Time that was given up after stalls. Any thread.
     std::int64_t slippedNs() const noexcept { return slippedNs_.load(std::memory_order_relaxed); }
 
+    /// Where the bodies of sceneCast() are, as far as the world has been stepped: the session time of that, L before it is
+    /// felt. Any thread but R.
+    std::int64_t readPoses(std::vector<BodyPose>& poses) const;
+
     /// Collisions lost in the physics step. Any thread but R.
     std::uint64_t drops() const;
 

@@ -61,4 +61,11 @@ void Session::readLog(SessionLog& log) const {
     world_.bringUpToDate(log.takes);
 }
 
+std::int64_t Session::readPoses(std::vector<BodyPose>& poses) const {
+    const std::lock_guard lock{worldMutex_};
+    poses.resize(world_.bodyCount());
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = world_.pose(i);
+    return world_.timeNs();
+}
+
 } // namespace physvib

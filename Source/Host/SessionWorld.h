@@ -39,6 +39,8 @@ public:
     const SceneTake& take() const noexcept { return takes_.back(); } ///< the one that runs; without its inputs
     const Scene& sceneNow() const noexcept { return world_->scene(); } ///< with its inputs
     std::size_t takeCount() const noexcept { return takes_.size(); }
+    std::size_t bodyCount() const noexcept { return world_->bodyCount(); }
+    BodyPose pose(std::size_t body) const noexcept { return world_->pose(body); }
     std::uint64_t drops() const noexcept { return dropsBefore_ + world_->drops(); }
 
     /// Adds to `log`, which is empty or filled by this function, what is new since: costs as much as that.

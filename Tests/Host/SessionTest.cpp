@@ -197,5 +197,19 @@ TEST(Session, AControlOfTheRenderCallMutesTheWorldAtItsFrame) {
     EXPECT_EQ(session.status().refused, 0u);
 }
 
+TEST(Session, PosesAreThoseOfTheSceneAtTheirTime) {
+    const auto setup = shakeTheBoxSetup(0.05);
+    Session session{setup};
+    session.prepare(rate, 480);
+    Block block;
+    std::vector<BodyPose> poses;
+    for (int i = 0; i < 150; ++i) session.render(block.at.data(), 480, RenderMode::offline);
+    const auto time = session.readPoses(poses);
+    EXPECT_EQ(time, 1'500'000'000);
+    const auto expected = posesAt(setup.scene, {setup.seed, setup.stepsPerSecond}, time);
+    ASSERT_EQ(poses.size(), expected.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].xMetres, expected[i].xMetres) << i;
+}
+
 } // namespace
 } // namespace physvib

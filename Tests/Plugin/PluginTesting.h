@@ -3,8 +3,8 @@
 #pragma once
 #include "PluginProcessor.h"
 #include "Support/ClosedForm.h"
-#include <functional>
 #include <gtest/gtest.h>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -14,11 +14,17 @@ bool dispatchNextMessageOnSystemQueue(bool returnIfNoPendingMessages); // what a
 
 namespace physvib::test {
 
-/// One per test program: JUCE's message manager without a display.
-inline juce::ScopedJuceInitialiser_GUI& messageManager() {
-    static juce::ScopedJuceInitialiser_GUI initialised;
-    return initialised;
-}
+/// JUCE's message manager without a display, from before the first test until after the last one: its own statics do
+/// not outlive those of a program.
+class MessageManagerForTests final : public testing::Environment {
+public:
+    void SetUp() override { initialised_.emplace(); }
+    void TearDown() override { initialised_.reset(); }
+
+private:
+    std::optional<juce::ScopedJuceInitialiser_GUI> initialised_;
+};
+inline testing::Environment* const messageManagerForTests = testing::AddGlobalTestEnvironment(new MessageManagerForTests);
 
 inline void runMessages(int milliseconds) {
     const auto end = juce::Time::getMillisecondCounter() + static_cast<juce::uint32>(milliseconds);
@@ -43,7 +49,6 @@ using Samples = std::vector<std::vector<float>>; // [channel][frame]
 class TestHost {
 public:
     explicit TestHost(BusPlan plan = {}) {
-        messageManager();
         plugin = std::make_unique<PluginProcessor>("PhysVib", plan);
         plugin->setPlayHead(&playHead);
         plugin->parameter(Parameter::level).setValue(1.0f); // 0 dB, to compare with renders

@@ -10,7 +10,6 @@ using namespace test;
 /// VST3 goes by its bundle, LV2 by the address that its bundle tells.
 struct Format {
     explicit Format(bool isVst3) {
-        messageManager();
         if (isVst3) format = std::make_unique<juce::VST3PluginFormat>();
         else format = std::make_unique<juce::LV2PluginFormat>();
         format->searchPathsForPlugins(juce::FileSearchPath{PHYSVIB_PLUGINS}, true, false);

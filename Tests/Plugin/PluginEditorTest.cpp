@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The editor without a window: fifty openings, sizes, what it costs, and a picture of it to look at.
+#include "PluginTesting.h"
+#include "PluginEditor.h"
+#include "Files/SceneCatalogue.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+std::unique_ptr<PluginEditor> openEditor(PluginProcessor& plugin) {
+    return std::unique_ptr<PluginEditor>{dynamic_cast<PluginEditor*>(plugin.createEditorIfNeeded())};
+}
+
+juce::Image pictureOf(PluginEditor& editor) { return editor.createComponentSnapshot(editor.getLocalBounds(), true, 1.0f); }
+
+TEST(PluginEditor, OpensFiftyTimesWhileItPlays) {
+    TestHost host;
+    host.prepare(48000, 512);
+    for (int i = 0; i < 50; ++i) {
+        auto editor = openEditor(*host.plugin);
+        ASSERT_NE(editor, nullptr);
+        for (int b = 0; b < 5; ++b) host.block(512);
+        editor->refresh();
+        editor->setSize(720 + 30 * i, 460 + 20 * i);
+        if (i % 10 == 0) EXPECT_EQ(pictureOf(*editor).getWidth(), 720 + 30 * i);
+        if (i % 7 == 0) host.plugin->setCurrentProgram(i % 5);
+    }
+}
+
+TEST(PluginEditor, ShowsTheWorldMoving) {
+    TestHost host;
+    host.prepare(48000, 480);
+    auto editor = openEditor(*host.plugin);
+    std::vector<juce::Image> pictures;
+    for (int second = 0; second < 3; ++second) {
+        for (int b = 0; b < 100; ++b) host.block(480);
+        editor->refresh();
+        pictures.push_back(pictureOf(*editor));
+    }
+    const auto differ = [](const juce::Image& a, const juce::Image& b) {
+        int pixels = 0;
+        for (int y = 0; y < a.getHeight(); ++y)
+            for (int x = 0; x < a.getWidth(); ++x) pixels += a.getPixelAt(x, y) != b.getPixelAt(x, y) ? 1 : 0;
+        return pixels;
+    };
+    EXPECT_GT(differ(pictures[0], pictures[1]), 500);
+    EXPECT_GT(differ(pictures[1], pictures[2]), 500);
+    if (const char* folder = std::getenv("PHYSVIB_PICTURES")) { // to look at
+        juce::FileOutputStream file{juce::File{folder}.getChildFile("plugin-editor.png")};
+        file.setPosition(0);
+        file.truncate();
+        juce::PNGImageFormat{}.writeImageToStream(pictures.back(), file);
+    }
+}
+
+TEST(PluginEditor, EditsReachTheProcessorAndItsHost) {
+    TestHost host;
+    struct Listener final : juce::AudioProcessorListener {
+        void audioProcessorParameterChanged(juce::AudioProcessor*, int, float) override {}
+        void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& d) override { edits += d.nonParameterStateChanged ? 1 : 0; }
+        int edits = 0;
+    } listener;
+    host.plugin->addListener(&listener);
+    auto editor = openEditor(*host.plugin);
+    EXPECT_EQ(listener.edits, 0) << "to open it is no edit";
+    auto state = host.plugin->state();
+    state.seed = 99;
+    host.plugin->edit(state);
+    EXPECT_EQ(listener.edits, 1);
+    editor->refresh();
+    host.plugin->removeListener(&listener);
+}
+
+} // namespace
+} // namespace physvib
