@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From rules to a table.
 #include "MidiMap.h"
+#include <string>
 
 namespace physvib {
 
@@ -16,8 +17,11 @@ std::vector<int> vibratingMaterials(const Scene& scene) {
 }
 
 NoteRule defaultRule(int note, const std::vector<int>& materials) {
-    const auto octave = static_cast<std::size_t>(note / notesPerOctave);
-    return {note, materials[octave % materials.size()], (note % notesPerOctave) / (notesPerOctave - 1.0), 0.5};
+    NoteRule rule;
+    rule.note = note;
+    rule.material = materials[static_cast<std::size_t>(note / notesPerOctave) % materials.size()];
+    rule.x = (note % notesPerOctave) / (notesPerOctave - 1.0);
+    return rule;
 }
 
 CollisionEvent strikeBy(const NoteRule& rule, const Scene& scene) {
@@ -32,7 +36,42 @@ CollisionEvent strikeBy(const NoteRule& rule, const Scene& scene) {
     return strike;
 }
 
+constexpr int asTheScene = -1;
+
+// A material for every fixture that is felt; asTheScene: its own.
+std::vector<Action> materialActions(const Scene& scene, int material) {
+    std::vector<Action> actions;
+    for (const auto& body : scene.bodies)
+        for (std::size_t f = 0; f < body.fixtures.size(); ++f)
+            if (body.fixtures[f].isCamera) actions.push_back(MaterialAction{body.name, static_cast<int>(f), material == asTheScene ? body.fixtures[f].material : material});
+    return actions;
+}
+
+std::vector<Action> noteActions(const NoteRule& rule, const Scene& scene) {
+    if (rule.kind == NoteKind::push) return {ImpulseAction{rule.object, rule.atFullVelocity, {}}};
+    if (rule.kind == NoteKind::strike) return {};
+    SpawnAction spawn;
+    spawn.body.name = "note " + std::to_string(rule.note);
+    FixtureDescription disc;
+    disc.shape = CircleShape{rule.radiusMetres};
+    disc.material = rule.material;
+    spawn.body.fixtures.push_back(disc);
+    spawn.body.positionMetres = {rule.x * scene.fieldWidthMetres, rule.y * scene.fieldHeightMetres};
+    spawn.body.velocityMetresPerSecond = rule.atFullVelocity;
+    return {spawn};
+}
+
 } // namespace
+
+std::vector<std::vector<Action>> actionGroups(const PluginState& state) {
+    std::vector<std::vector<Action>> groups;
+    for (int m = asTheScene; m < static_cast<int>(state.scene.materials.size()); ++m) {
+        const bool isFelt = m == asTheScene || state.scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
+        groups.push_back(isFelt ? materialActions(state.scene, m) : std::vector<Action>{}); // a camera needs a sound
+    }
+    for (const auto& rule : state.notes) groups.push_back(noteActions(rule, state.scene));
+    return groups;
+}
 
 std::vector<ControllerRule> defaultControllers() { return {{1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}}; }
 
@@ -42,7 +81,15 @@ MidiTable::MidiTable(const PluginState& state)
     const auto materials = vibratingMaterials(state.scene);
     for (int note = 0; note < 128 && !materials.empty(); ++note)
         strikes_[static_cast<std::size_t>(note)] = strikeBy(defaultRule(note, materials), state.scene);
-    for (const auto& rule : state.notes) strikes_[static_cast<std::size_t>(rule.note & 127)] = strikeBy(rule, state.scene);
+    groups_.fill(-1);
+    materials_ = static_cast<int>(state.scene.materials.size());
+    gravity_ = state.scene.gravityMetresPerSecond2;
+    for (int group = materials_ + 1; const auto& rule : state.notes) {
+        const auto note = static_cast<std::size_t>(rule.note & 127);
+        if (rule.kind == NoteKind::strike) strikes_[note] = strikeBy(rule, state.scene);
+        groups_[note] = rule.kind == NoteKind::strike ? -1 : group;
+        ++group;
+    }
     parameters_.fill(-1);
     for (const auto& rule : state.controllers) parameters_[static_cast<std::size_t>(rule.controller & 127)] = parameterOfId(rule.parameter);
 }

@@ -8,6 +8,10 @@
 
 namespace physvib {
 
+/// What notes and the material parameter do to the world, in the order of MidiTable's numbers: the scene's own materials,
+/// each material for all that is felt, then each note rule.
+std::vector<std::vector<Action>> actionGroups(const PluginState& state);
+
 /// What a new instance's controllers do.
 std::vector<ControllerRule> defaultControllers();
 
@@ -20,14 +24,21 @@ public:
 
     /// The strike of a note, its amplitude 1; frequency 0 if it strikes nothing.
     const CollisionEvent& strikeOf(int note) const noexcept { return strikes_[static_cast<std::size_t>(note & 127)]; }
+    /// The group of actions that a note performs; -1: none, it strikes.
+    int groupOf(int note) const noexcept { return groups_[static_cast<std::size_t>(note & 127)]; }
+    /// The group that gives what is felt the material of that number of the parameter (0: the scene's own); -1: none.
+    int groupOfMaterial(int choice) const noexcept { return choice <= materials_ ? choice : -1; }
     /// -1: none.
     int parameterOf(int controller) const noexcept { return parameters_[static_cast<std::size_t>(controller & 127)]; }
+    Vector gravityMetresPerSecond2() const noexcept { return gravity_; }
     double fieldWidthMetres() const noexcept { return width_; }
     double fieldHeightMetres() const noexcept { return height_; }
 
 private:
     std::array<CollisionEvent, 128> strikes_{};
-    std::array<int, 128> parameters_{};
+    std::array<int, 128> parameters_{}, groups_{};
+    int materials_ = 0;
+    Vector gravity_;
     double width_ = 1.0, height_ = 1.0;
 };
 

@@ -76,7 +76,10 @@ private:
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
     void followTransport(int frames) noexcept;
     void forgetControls() noexcept;
+    bool hasChanged(Parameter which) noexcept;
     void sendControls(int frame) noexcept;
+    void sendPanner(Session& session, int frame) noexcept;
+    void sendGravity(Session& session, int frame) noexcept;
     void receive(const juce::MidiMessageMetadata& message, int frame) noexcept;
     void strike(int channel, int note, int velocity, int frame) noexcept;
     void control(int channel, int controller, int value, int frame) noexcept;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The render role's part: transport, controls, MIDI, samples. Nothing here allocates, locks or waits.
 #include "PluginProcessor.h"
+#include "Physics/SceneLimits.h"
+#include <cmath>
 
 namespace physvib {
 
@@ -67,29 +69,56 @@ void PluginProcessor::followTransport(int frames) noexcept {
     else if (change == Transport::Change::stopped) takes_.session()->control(controlOf(RenderControl::Kind::stopAll), 0);
 }
 
-// A new take knows nothing of what its predecessor was told.
-void PluginProcessor::forgetControls() noexcept { sent_.fill(std::numeric_limits<double>::quiet_NaN()); }
+// A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
+void PluginProcessor::forgetControls() noexcept {
+    sent_.fill(std::numeric_limits<double>::quiet_NaN());
+    for (const auto which : {Parameter::gravity, Parameter::tilt, Parameter::material}) {
+        const auto& row = rowOf(which);
+        sent_[static_cast<std::size_t>(which)] = denormalised(row, static_cast<float>(normalised(row, row.initial)));
+    }
+}
+
+bool PluginProcessor::hasChanged(Parameter which) noexcept {
+    double& sent = sent_[static_cast<std::size_t>(which)];
+    const double now = value(which);
+    return std::exchange(sent, now) != now;
+}
 
 void PluginProcessor::sendControls(int frame) noexcept {
     Session* const session = takes_.session();
     if (!session) return;
-    const auto changed = [this](Parameter which) {
-        double& sent = sent_[static_cast<std::size_t>(which)];
-        const double now = value(which);
-        return std::exchange(sent, now) != now;
-    };
-    if (changed(Parameter::level)) {
+    if (hasChanged(Parameter::level)) {
         const auto gain = static_cast<float>(gainOfLevel(value(Parameter::level)));
         for (int j = 0; j < session->channels(); ++j) session->control(controlOf(RenderControl::Kind::gain, j, gain), frame);
     }
-    const bool lawChanged = changed(Parameter::law), exponentChanged = changed(Parameter::exponent);
-    if (!lawChanged && !exponentChanged) return;
+    const bool lawChanged = hasChanged(Parameter::law), exponentChanged = hasChanged(Parameter::exponent);
+    if (lawChanged || exponentChanged) sendPanner(*session, frame);
+    const bool gravityChanged = hasChanged(Parameter::gravity), tiltChanged = hasChanged(Parameter::tilt);
+    if (gravityChanged || tiltChanged) sendGravity(*session, frame);
+    if (hasChanged(Parameter::material)) {
+        RenderInput input;
+        input.group = renderSettings_.read().midi.groupOfMaterial(juce::roundToInt(value(Parameter::material)));
+        if (input.group >= 0) session->perform(input, frame);
+    }
+}
+
+void PluginProcessor::sendPanner(Session& session, int frame) noexcept {
     const auto& settings = renderSettings_.read();
-    if (settings.layout.count != session->channels()) return; // a new take is on its way
+    if (settings.layout.count != session.channels()) return; // a new take is on its way
     const auto law = static_cast<PanningLaw>(juce::roundToInt(value(Parameter::law)));
     auto control = controlOf(RenderControl::Kind::panner);
     control.panner = {settings.layout, law, value(Parameter::exponent), settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres()};
-    session->control(control, frame);
+    session.control(control, frame);
+}
+
+void PluginProcessor::sendGravity(Session& session, int frame) noexcept {
+    const Vector scene = renderSettings_.read().midi.gravityMetresPerSecond2();
+    const double factor = value(Parameter::gravity), angle = juce::degreesToRadians(value(Parameter::tilt));
+    constexpr double most = sceneLimits::maxAccelerationMetresPerSecond2;
+    RenderInput input;
+    input.gravityMetresPerSecond2 = {std::clamp(factor * (std::cos(angle) * scene.x - std::sin(angle) * scene.y), -most, most),
+                                     std::clamp(factor * (std::sin(angle) * scene.x + std::cos(angle) * scene.y), -most, most)};
+    session.perform(input, frame);
 }
 
 void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int frame) noexcept {
@@ -103,8 +132,14 @@ void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int fram
 void PluginProcessor::strike(int channel, int note, int velocity, int frame) noexcept {
     Session* const session = takes_.session();
     const auto& midi = renderSettings_.read().midi;
+    if (!session) return;
+    if (RenderInput input; (input.group = midi.groupOf(note)) >= 0) {
+        input.scale = velocity / 127.0;
+        session->perform(input, frame);
+        return;
+    }
     CollisionEvent event = midi.strikeOf(note);
-    if (!session || event.frequencyHz <= 0.0) return;
+    if (event.frequencyHz <= 0.0) return;
     const auto shifted = [](double at, double by, double size) { return std::clamp(at + by * size, 0.0, size); };
     event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * velocity / 127.0;
     event.x = shifted(event.x, value(Parameter::strikeX) * 0.01 + bend_[static_cast<std::size_t>(channel)], midi.fieldWidthMetres());

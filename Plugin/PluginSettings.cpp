@@ -34,6 +34,7 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     setup.channels = enchantersOf(state);
     setup.panner = pannerOf(state, PanningLaw::linear, 1.0);
     setup.limiterEnabled = state.limiterEnabled;
+    setup.groups = actionGroups(state);
     return setup;
 }
 

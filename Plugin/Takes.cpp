@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Starting, ending and recycling takes.
 #include "Takes.h"
+#include "Physics/InputCheck.h"
+#include "Physics/SceneValidation.h"
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
 namespace physvib {
@@ -46,8 +49,22 @@ void Take::render(int frames, RenderMode mode) noexcept {
 
 // Any thread but R
 
+namespace {
+
+void checkGroups(const SessionSetup& setup) {
+    if (std::string fault = validate(setup.scene); !fault.empty()) throw std::invalid_argument(fault);
+    for (const auto& group : setup.groups) {
+        InputCheck check{setup.scene};
+        for (const Action& action : group)
+            if (std::string fault = check.take(action); !fault.empty()) throw std::invalid_argument(fault);
+    }
+}
+
+} // namespace
+
 void Takes::set(SessionSetup setup) {
     setup.longestGapSeconds = TakePace::longestGapSeconds(setup.stepsPerSecond);
+    checkGroups(setup);
     const std::lock_guard lock{mutex_};
     if (blockFrames_ == 0) {
         Simulation{setup.scene, setup.seed, setup.stepsPerSecond}; // throws if it is not valid

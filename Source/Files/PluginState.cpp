@@ -5,15 +5,18 @@
 #include "Files/JsonLines.h"
 #include "Files/JsonVersion.h"
 #include "Files/SceneFile.h"
+#include "Physics/SceneLimits.h"
 #include "Physics/Simulation.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace physvib {
 namespace {
 
 constexpr const char* versionField = "physvib_plugin_state";
 constexpr std::array<std::string_view, 2> transportNames{"free", "restart-on-play"}; // as TransportMode
+constexpr std::array<std::string_view, 3> noteKindNames{"strike", "push", "spawn"};   // as NoteKind
 constexpr std::size_t mostNotes = 128, mostControllers = 120, mostParameters = 1000;
 
 int wholeNumberUpTo(const JsonField& field, int most) {
@@ -51,16 +54,49 @@ int readSteps(const JsonField& field) {
     return found;
 }
 
+int readMaterial(const JsonField& field, const Scene& scene) {
+    const std::string wanted = field.text();
+    const auto found = std::ranges::find(scene.materials, wanted, &Material::name);
+    if (found == scene.materials.end()) field.fail("expected the name of a material of the scene, found " + inQuotes(wanted));
+    return static_cast<int>(found - scene.materials.begin());
+}
+
+std::string readObject(const JsonField& field, const Scene& scene) {
+    const std::string wanted = field.text();
+    if (std::ranges::find(scene.bodies, wanted, &BodyDescription::name) == scene.bodies.end())
+        field.fail("expected the name of a body that the scene starts with, found " + inQuotes(wanted));
+    return wanted;
+}
+
+Vector readVector(const JsonField& field, double reach) {
+    if (const std::size_t size = field.arraySize(); size != 2) field.fail("expected 2 numbers, found " + std::to_string(size) + " items");
+    const Vector v{field.item(0).number(), field.item(1).number()};
+    if (!(std::abs(v.x) <= reach && std::abs(v.y) <= reach)) field.fail("expected up to " + numberText(reach));
+    return v;
+}
+
 NoteRule readNote(const JsonField& field, const Scene& scene) {
-    field.expectObject({"note", "material", "x", "y"});
+    field.expectObject();
     NoteRule rule;
     rule.note = wholeNumberUpTo(field["note"], 127);
-    const std::string wanted = field["material"].text();
-    const auto found = std::ranges::find(scene.materials, wanted, &Material::name);
-    if (found == scene.materials.end()) field["material"].fail("expected the name of a material of the scene, found " + inQuotes(wanted));
-    rule.material = static_cast<int>(found - scene.materials.begin());
+    rule.kind = static_cast<NoteKind>(field["do"].oneOf(noteKindNames));
+    if (rule.kind == NoteKind::push) {
+        field.expectObject({"note", "do", "object", "impulse_ns"});
+        rule.object = readObject(field["object"], scene);
+        rule.atFullVelocity = readVector(field["impulse_ns"], sceneLimits::maxImpulseNewtonSeconds);
+        return rule;
+    }
+    rule.material = readMaterial(field["material"], scene);
     rule.x = field["x"].numberUpTo(1.0);
     rule.y = field["y"].numberUpTo(1.0);
+    if (rule.kind == NoteKind::strike) {
+        field.expectObject({"note", "do", "material", "x", "y"});
+        return rule;
+    }
+    field.expectObject({"note", "do", "material", "x", "y", "radius_m", "velocity_m_per_s"});
+    rule.radiusMetres = field["radius_m"].numberUpTo(sceneLimits::maxSizeMetres);
+    if (rule.radiusMetres < sceneLimits::minSizeMetres) field["radius_m"].fail("expected at least " + numberText(sceneLimits::minSizeMetres));
+    rule.atFullVelocity = readVector(field["velocity_m_per_s"], sceneLimits::maxSpeedMetresPerSecond);
     return rule;
 }
 
@@ -89,6 +125,23 @@ PluginState readRoot(const Json& json) {
     return state;
 }
 
+OrderedJson noteJson(const NoteRule& rule, const Scene& scene) {
+    OrderedJson json = {{"note", rule.note}, {"do", std::string(noteKindNames[static_cast<std::size_t>(rule.kind)])}};
+    const OrderedJson vector = OrderedJson::array({rule.atFullVelocity.x, rule.atFullVelocity.y});
+    if (rule.kind == NoteKind::push) {
+        json["object"] = rule.object;
+        json["impulse_ns"] = vector;
+        return json;
+    }
+    json["material"] = scene.materials[static_cast<std::size_t>(rule.material)].name;
+    json["x"] = rule.x;
+    json["y"] = rule.y;
+    if (rule.kind == NoteKind::strike) return json;
+    json["radius_m"] = rule.radiusMetres;
+    json["velocity_m_per_s"] = vector;
+    return json;
+}
+
 } // namespace
 
 Result<PluginState> readPluginState(std::string_view text, std::string_view name) {
@@ -109,8 +162,7 @@ std::string pluginStateJson(const PluginState& state) {
     root["limiter"] = state.limiterEnabled;
     root["transport"] = std::string(transportNames[static_cast<std::size_t>(state.transport)]);
     root["notes"] = OrderedJson::array();
-    for (const NoteRule& rule : state.notes)
-        root["notes"].push_back({{"note", rule.note}, {"material", state.scene.materials[static_cast<std::size_t>(rule.material)].name}, {"x", rule.x}, {"y", rule.y}});
+    for (const NoteRule& rule : state.notes) root["notes"].push_back(noteJson(rule, state.scene));
     root["controllers"] = OrderedJson::array();
     for (const ControllerRule& rule : state.controllers) root["controllers"].push_back({{"controller", rule.controller}, {"parameter", rule.parameter}});
     root["parameters"] = OrderedJson::object();

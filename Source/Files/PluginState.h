@@ -21,12 +21,22 @@ enum class TransportMode {
     restartOnPlay ///< it starts at its seed whenever the transport starts or jumps, and is silent while that stands
 };
 
+enum class NoteKind {
+    strike, ///< sounds a material at a place, at once
+    push,   ///< an impulse on a body of the scene
+    spawn   ///< drops a disc of a material at a place
+};
+
 /// A note that does not do what the default map says.
 struct NoteRule {
-    int note = 0;     ///< 0 to 127
-    int material = 0; ///< index into Scene::materials
-    double x = 0.5;   ///< place in parts of the field, 0 to 1 from the lower left corner
+    int note = 0; ///< 0 to 127
+    NoteKind kind = NoteKind::strike;
+    int material = 0;   ///< strike, spawn: index into Scene::materials
+    double x = 0.5;     ///< strike, spawn: place in parts of the field, 0 to 1 from the lower left corner
     double y = 0.5;
+    std::string object; ///< push: name of a body that the scene starts with
+    Vector atFullVelocity; ///< push: N s; spawn: m/s
+    double radiusMetres = 0.1; ///< spawn
     bool operator==(const NoteRule&) const = default;
 };
 

@@ -56,6 +56,9 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     made_.clear();
     handed_ = 0;
     for (CollisionEvent unplayed; queue_.pop(unplayed) || ownStrikes_.pop(unplayed);) {}
+    for (RenderInput undone; ownInputs_.pop(undone);) {}
+    ownSpawns_ = 0;
+    ownNames_.fill({});
     for (RenderControl undone; controls_.pop(undone) || ownControls_.pop(undone);) {}
     check_.reset();
     controlLog_ = {};
@@ -89,6 +92,11 @@ bool Session::control(RenderControl control, int frame) noexcept {
     return ownControls_.push(control);
 }
 
+bool Session::perform(RenderInput input, int frame) noexcept {
+    input.timeNs = sessionNs(sessionFrames_.load(std::memory_order_relaxed) + frame);
+    return ownInputs_.push(input);
+}
+
 int Session::advance() {
     const std::lock_guard lock{worldMutex_};
     if (offline_.load(std::memory_order_acquire)) return 0;
@@ -103,6 +111,7 @@ int Session::catchUp() {
         slippedNs_ += lag - law_.safeLagNs();
         world_.standStill(lag - law_.safeLagNs());
     }
+    takeOwnInputs(); // what R did until `now` is in the queue: it came before the frames were told
     int steps = 0;
     for (; world_.timeNs() < now; ++steps) {
         world_.step(made_);
@@ -146,7 +155,7 @@ void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     const std::int64_t done = sessionFrames_.load(std::memory_order_relaxed);
     sessionFrames_.store(done + frames, std::memory_order_release);
     renderBehind(out, done, frames, mode);
-    status_.write({renderer_->status(), sessionNs(done + frames), leastMarginFrames_, ownStrikes_.overflows() + ownControls_.overflows()});
+    status_.write({renderer_->status(), sessionNs(done + frames), leastMarginFrames_, ownStrikes_.overflows() + ownControls_.overflows() + ownInputs_.overflows()});
 }
 
 // The renderer's own output lags by the limiter's frames, which are part of L: it starts that much earlier.
@@ -170,6 +179,7 @@ void Session::renderOwnWorld(float* const* out, int frames, std::int64_t endNs) 
     const std::lock_guard lock{worldMutex_};
     offline_.store(true, std::memory_order_release);
     takeUp();
+    takeOwnInputs();
     OfflineSource source{*this, endNs};
     if (frames > 0) renderer_->render(source, out, frames);
     while (world_.timeNs() < endNs) world_.step(made_);

@@ -37,6 +37,7 @@
 #include "Host/SessionSetup.h"
 #include "Host/SessionWorld.h"
 #include "Physics/InputCheck.h"
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -99,6 +100,7 @@ public:
     /// is felt L later like everything else, at an exact frame. False, and counted, if it found no room. R, wait-free.
     bool strike(CollisionEvent event, int frame) noexcept;
     bool control(RenderControl control, int frame) noexcept;
+    bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step
 
     /// What has been played, in the renderer's frames (session frame - L). One reader.
     HapticRenderer<DesktopProfile>::PlayedQueue& played() noexcept { return renderer_->played(); }
@@ -120,11 +122,14 @@ private:
     using Queue = EventQueue<CollisionEvent, 8192>;
     using Controls = EventQueue<RenderControl, 256>;
     using OwnStrikes = EventQueue<CollisionEvent, 1024>; // both ends are R: a dense chord in a block of 8192 frames
+    using OwnInputs = EventQueue<RenderInput, 1024>;     // from R to whoever steps the world
     using OwnControls = EventQueue<RenderControl, 128>;  // a gain for each enchanter, and more
     struct LiveSource;
     struct OfflineSource;
     void setLaw(int sampleRateHz, int maxBlockFrames);
     void takeUp();
+    void takeOwnInputs();
+    void spawnOwn(std::int64_t timeNs, SpawnAction action);
     int catchUp();
     bool handOver();
     std::int64_t nowNs() const noexcept;
@@ -139,6 +144,7 @@ private:
     Controls controls_;
     OwnStrikes ownStrikes_;
     OwnControls ownControls_;
+    OwnInputs ownInputs_;
     std::atomic<std::int64_t> sessionFrames_{0};
     std::atomic<std::int64_t> restartFrame_{-1}; // -1: not wanted
     std::atomic<bool> offline_{false};
@@ -155,6 +161,8 @@ private:
     SessionWorld world_;
     std::vector<CollisionEvent> made_; // events that the queue had no room for yet, from handed_ on
     std::size_t handed_ = 0;
+    std::uint64_t ownSpawns_ = 0;
+    std::array<std::string, 64> ownNames_; // of bodies that R spawned, the newest; no world here needs more at once
 
     mutable std::mutex inputMutex_; // taken first; guards what follows, and the producer's side of controls_
     std::optional<InputCheck> check_;

@@ -21,6 +21,32 @@ std::string Session::act(Action action) {
     }
 }
 
+// The world mutex is held.
+void Session::takeOwnInputs() {
+    for (RenderInput input; ownInputs_.pop(input);) {
+        if (input.group == RenderInput::gravity) world_.addInput(input.timeNs, GravityAction{input.gravityMetresPerSecond2});
+        if (input.group < 0 || input.group >= static_cast<int>(setup_.groups.size())) continue;
+        for (Action action : setup_.groups[static_cast<std::size_t>(input.group)]) {
+            const auto scale = [&input](Vector& v) { v = {v.x * input.scale, v.y * input.scale}; };
+            if (auto* impulse = std::get_if<ImpulseAction>(&action)) scale(impulse->newtonSeconds);
+            if (auto* spawn = std::get_if<SpawnAction>(&action)) {
+                scale(spawn->body.velocityMetresPerSecond);
+                spawnOwn(input.timeNs, *spawn);
+            } else {
+                world_.addInput(input.timeNs, std::move(action));
+            }
+        }
+    }
+}
+
+// Each is a body of its own; the oldest makes room.
+void Session::spawnOwn(std::int64_t timeNs, SpawnAction action) {
+    std::string& name = ownNames_[ownSpawns_ % ownNames_.size()];
+    if (!name.empty()) world_.addInput(timeNs, RemoveAction{name});
+    name = action.body.name += " #" + std::to_string(++ownSpawns_);
+    world_.addInput(timeNs, std::move(action));
+}
+
 std::int64_t Session::post(RenderControl control) {
     const std::lock_guard lock{inputMutex_};
     control.timeNs = nowNs();

@@ -8,8 +8,18 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <vector>
 
 namespace physvib {
+
+/// What the render call may do to the world: set its gravity, or perform a group of actions that was prepared for it.
+struct RenderInput {
+    static constexpr int gravity = -1;
+    int group = gravity;            ///< index into SessionSetup::groups
+    double scale = 1.0;             ///< of the group's impulses, and of the velocities of what it spawns
+    Vector gravityMetresPerSecond2; ///< if `group` is gravity
+    std::int64_t timeNs = 0;        ///< given by the session
+};
 
 /// What a session plays, and on what.
 struct SessionSetup {
@@ -23,6 +33,7 @@ struct SessionSetup {
     bool limiterEnabled = true;
     std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel, > 0
     double longestGapSeconds = messageTimerGapSeconds;
+    std::vector<std::vector<Action>> groups; ///< what notes do; valid inputs of the scene
 
     SceneRun run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
 };
@@ -46,7 +57,7 @@ struct SessionStatus {
     RenderStatus render;
     std::int64_t sessionNs = 0;
     std::int64_t leastMarginFrames = noMargin; ///< by how much the tightest event of realtime blocks came in time; < 0: late
-    std::uint64_t refused = 0; ///< strikes and controls of the render call that found no room
+    std::uint64_t refused = 0; ///< strikes, controls and inputs of the render call that found no room
 };
 
 } // namespace physvib

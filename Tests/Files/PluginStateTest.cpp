@@ -9,6 +9,15 @@
 namespace physvib {
 namespace {
 
+NoteRule strike(int note, int material, double x, double y) {
+    NoteRule rule;
+    rule.note = note;
+    rule.material = material;
+    rule.x = x;
+    rule.y = y;
+    return rule;
+}
+
 PluginState sampleState(const char* scene = "fruit-basket") {
     PluginState s;
     s.scene = *findBuiltInScene(scene);
@@ -20,7 +29,18 @@ PluginState sampleState(const char* scene = "fruit-basket") {
     s.stepsPerSecond = 500;
     s.limiterEnabled = false;
     s.transport = TransportMode::restartOnPlay;
-    s.notes = {{60, 1, 0.1, 1.0}, {127, 0, 0.0, 0.25}};
+    s.notes = {strike(60, 1, 0.1, 1.0), strike(127, 0, 0.0, 0.25)};
+    NoteRule push, spawn;
+    push.note = 1;
+    push.kind = NoteKind::push;
+    push.object = s.scene.bodies.front().name;
+    push.atFullVelocity = {1.5, -2.0};
+    spawn = strike(2, 0, 0.5, 0.9);
+    spawn.kind = NoteKind::spawn;
+    spawn.atFullVelocity = {0.0, -3.0};
+    spawn.radiusMetres = 0.25;
+    s.notes.push_back(push);
+    s.notes.push_back(spawn);
     s.controllers = {{1, "tilt"}};
     s.parameters = {{"bypass", 0.0}, {"level", -7.123456789}};
     return s;
@@ -65,6 +85,9 @@ TEST(PluginState, WhatIsWrongIsNamed) {
               "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 1, found 2");
     EXPECT_EQ(refusal(text, "\"x\": 0.1", "\"x\": 2"), "f: notes[0].x: expected a number from 0 to 1, found 2");
     EXPECT_EQ(refusal(text, "\"note\": 60", "\"note\": 128"), "f: notes[0].note: expected 0 to 127, found 128");
+    EXPECT_EQ(refusal(text, "\"do\": \"push\", \"object\": \"" + sampleState().scene.bodies.front().name + "\"", "\"do\": \"push\", \"object\": \"nobody\""),
+              "f: notes[2].object: expected the name of a body that the scene starts with, found \"nobody\"");
+    EXPECT_EQ(refusal(text, "\"radius_m\": 0.25", "\"radius_m\": 0"), "f: notes[3].radius_m: expected at least 0.01");
     EXPECT_EQ(refusal(text, "\"controller\": 1", "\"controller\": 120"), "f: controllers[0].controller: expected 0 to 119, found 120");
     EXPECT_EQ(refusal(text, "restart-on-play", "sometimes"), "f: transport: expected one of free, restart-on-play, found \"sometimes\"");
     EXPECT_EQ(refusal(text, "\"steps_per_second\": 500", "\"steps_per_second\": 1"), "f: steps_per_second: expected 10 to 10000, found 1");
@@ -83,7 +106,7 @@ TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never writte
     ASSERT_TRUE(read) << read.error;
     EXPECT_EQ(read.value.scene.name, "drop");
     EXPECT_EQ(read.value.layout.enchanters.size(), 3u);
-    EXPECT_EQ(read.value.notes, (std::vector<NoteRule>{{60, 1, 0.1, 1.0}, {127, 0, 0.0, 0.25}}));
+    EXPECT_EQ(read.value.notes, (std::vector<NoteRule>{strike(60, 1, 0.1, 1.0), strike(127, 0, 0.0, 0.25)}));
     EXPECT_EQ(read.value.parameters.size(), 2u);
 }
 

@@ -96,7 +96,12 @@ inline PluginState strikeAt(int j, int n) {
     EnchanterLayout line{n > 1 ? n - 1.0 : 1.0, 1.0, n, {}};
     for (int i = 0; i < n; ++i) line.places[static_cast<std::size_t>(i)] = {static_cast<double>(i), 0.0};
     s.layout = describeLayout("line", line);
-    s.notes = {{60, 3, n > 1 ? j / (n - 1.0) : 0.0, 0.0}};
+    NoteRule strike;
+    strike.note = 60;
+    strike.material = 3; // the first that vibrates
+    strike.x = n > 1 ? j / (n - 1.0) : 0.0;
+    strike.y = 0.0;
+    s.notes = {strike};
     return s;
 }
 

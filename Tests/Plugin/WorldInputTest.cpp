@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What automation and notes do to the world: gravity, tilt, materials, pushes, spawned discs; each felt, each repeatable.
+#include "PluginTesting.h"
+#include "Files/SceneCatalogue.h"
+#include <set>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+std::vector<CollisionEvent> eventsOf(TestHost& host) {
+    std::vector<CollisionEvent> events;
+    for (const auto& e : host.plugin->takes().takeLog()) events.push_back(e.played.event);
+    return events;
+}
+
+NoteRule rule(NoteKind kind, int note) {
+    NoteRule r;
+    r.note = note;
+    r.kind = kind;
+    return r;
+}
+
+/// What is played in three seconds, of which the first second is left alone.
+template <class Change>
+std::vector<CollisionEvent> after(Change change, int block = 480, const PluginState& state = newPluginState()) {
+    TestHost host;
+    EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
+    host.prepare(48000, block);
+    Samples signal;
+    host.play(48000, signal);
+    change(host);
+    host.play(96000 + host.plugin->getLatencySamples(), signal);
+    host.plugin->releaseResources();
+    auto events = eventsOf(host);
+    std::erase_if(events, [](const auto& e) { return e.timeNs >= 3'000'000'000; });
+    return events;
+}
+
+constexpr auto nothing = [](TestHost&) {};
+auto set(Parameter which, float normal) {
+    return [=](TestHost& host) { host.plugin->parameter(which).setValue(normal); };
+}
+auto play(int note, int velocity = 127) {
+    return [=](TestHost& host) {
+        juce::MidiBuffer midi;
+        midi.addEvent(juce::MidiMessage::noteOn(1, note, static_cast<juce::uint8>(velocity)), 0);
+        host.block(host.largest, midi);
+    };
+}
+
+TEST(WorldInput, GravityTiltAndMaterialAreFeltAndRepeat) {
+    const auto undisturbed = after(nothing);
+    for (const auto& [which, normal] : {std::pair{Parameter::gravity, 0.9f}, {Parameter::tilt, 0.75f}, {Parameter::material, 0.5f}}) {
+        const auto moved = after(set(which, normal));
+        EXPECT_FALSE(moved == undisturbed) << rowOf(which).id;
+        EXPECT_TRUE(moved == after(set(which, normal))) << rowOf(which).id;
+        EXPECT_TRUE(moved == after(set(which, normal), 64)) << rowOf(which).id << " at another block size";
+        const auto first = [](const auto& events) {
+            return std::count_if(events.begin(), events.end(), [](const auto& e) { return e.timeNs < 1'000'000'000; });
+        };
+        EXPECT_EQ(first(moved), first(undisturbed)) << "nothing before it";
+    }
+}
+
+TEST(WorldInput, ThePresentGravityIsNoInput) {
+    EXPECT_TRUE(after(set(Parameter::gravity, 0.25f)) == after(nothing));
+}
+
+TEST(WorldInput, AMaterialIsHeardInEverythingThatIsFelt) {
+    const auto scene = newPluginState().scene;
+    const auto events = after(set(Parameter::material, 4.0f / 8.0f)); // the fourth: concrete wall
+    std::set<double> later;
+    for (const auto& e : events)
+        if (e.timeNs > 1'100'000'000) later.insert(e.frequencyHz);
+    EXPECT_EQ(later, (std::set<double>{scene.materials[3].frequencyHz}));
+}
+
+TEST(WorldInput, APushMovesABodyByItsVelocity) {
+    auto state = newPluginState();
+    const auto body = std::ranges::find_if(state.scene.bodies, [](const auto& b) { return b.type == BodyType::dynamicBody; });
+    ASSERT_NE(body, state.scene.bodies.end());
+    auto push = rule(NoteKind::push, 60);
+    push.object = body->name;
+    push.atFullVelocity = {100000.0, 0.0};
+    state.notes = {push};
+    const auto hard = after(play(60), 480, state), soft = after(play(60, 1), 480, state);
+    EXPECT_FALSE(hard == soft);
+    EXPECT_TRUE(hard == after(play(60), 480, state));
+}
+
+TEST(WorldInput, SpawnedDiscsAreFeltAndTheOldestMakeRoom) {
+    auto state = newPluginState();
+    auto spawn = rule(NoteKind::spawn, 61);
+    spawn.material = 1;
+    spawn.radiusMetres = 0.1;
+    spawn.atFullVelocity = {0.0, -5.0};
+    state.notes = {spawn};
+    TestHost host;
+    ASSERT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
+    host.prepare(48000, 480);
+    std::vector<BodyPose> poses;
+    host.block(480);
+    host.plugin->takes().poses(poses);
+    const auto before = std::ranges::count_if(poses, &BodyPose::isPresent);
+    for (int i = 0; i < 100; ++i) play(61)(host);
+    for (int i = 0; i < 10; ++i) host.block(480);
+    host.plugin->takes().poses(poses);
+    EXPECT_EQ(std::ranges::count_if(poses, &BodyPose::isPresent), before + 64);
+    EXPECT_FALSE(after(play(61), 480, state) == after(nothing, 480, state));
+}
+
+TEST(WorldInput, RulesThatTheSceneDoesNotBearAreRefused) {
+    TestHost host;
+    auto state = host.plugin->state();
+    auto push = rule(NoteKind::push, 60);
+    push.object = "nobody";
+    state.notes = {push};
+    EXPECT_FALSE(host.plugin->apply(state));
+    EXPECT_NE(host.plugin->trouble(), "");
+    EXPECT_TRUE(host.plugin->state().notes.empty());
+}
+
+TEST(WorldInput, EverySceneTakesEveryMaterial) {
+    for (const auto& scene : builtInScenes()) {
+        auto state = newPluginState();
+        state.scene = scene;
+        TestHost host;
+        EXPECT_TRUE(host.plugin->apply(state)) << scene.name << ": " << host.plugin->trouble();
+    }
+}
+
+} // namespace
+} // namespace physvib
