@@ -150,7 +150,8 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const PluginMet
     juce::String line = "felt " + juce::String{1e3 * static_cast<double>(plugin_.takes().playOutFrames()) / rate, 1} + " ms after the contact (told to the host)";
     if (meters.connected < enchanters) line << "   |   " << meters.connected << " of " << enchanters << " connected";
     line << "   |   take " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)} << " played, "
-         << juce::String{static_cast<juce::int64>(r.late)} << " late, " << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";
+         << juce::String{static_cast<juce::int64>(status.late)} << " late, " << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";
+    if (status.slippedNs > 0) line << ", " << juce::String{static_cast<double>(status.slippedNs) * 1e-6, 1} << " ms of stalls";
     if (status.delayedBlocks > 0) line << ", " << juce::String{static_cast<juce::int64>(status.delayedBlocks)} << " blocks of delayed starts";
     return line;
 }

@@ -65,15 +65,28 @@ void checkGroups(const SessionSetup& setup) {
 void Takes::set(SessionSetup setup) {
     setup.longestGapSeconds = TakePace::longestGapSeconds(setup.stepsPerSecond);
     checkGroups(setup);
-    const std::lock_guard lock{mutex_};
-    if (blockFrames_ == 0) {
-        Simulation{setup.scene, setup.seed, setup.stepsPerSecond}; // throws if it is not valid
+    const std::lock_guard one{setMutex_};
+    for (;;) { // a take is built without the mutex, so that the worlds that play are stepped meanwhile
+        auto [rate, block, generation] = present();
+        std::unique_ptr<Take> take;
+        if (block > 0) take = std::make_unique<Take>(setup, generation + 1, rate, block);
+        else Simulation{setup.scene, setup.seed, setup.stepsPerSecond}; // throws if it cannot be simulated
+        const std::lock_guard lock{mutex_};
+        if (rate != sampleRateHz_ || block != blockFrames_) continue; // the host has prepared us meanwhile
         setup_ = std::move(setup);
+        if (take) exchange(std::move(take));
         return;
     }
-    auto take = std::make_unique<Take>(setup, generation_ + 1, sampleRateHz_, blockFrames_);
-    ++generation_;
-    setup_ = std::move(setup);
+}
+
+std::tuple<int, int, std::uint64_t> Takes::present() {
+    const std::lock_guard lock{mutex_};
+    return {sampleRateHz_, blockFrames_, generation_};
+}
+
+// The mutex is held.
+void Takes::exchange(std::unique_ptr<Take> take) {
+    generation_ = take->generation;
     ticksPerSecond_ = TakePace::ticksPerSecond(setup_->stepsPerSecond);
     playOutFrames_ = take->session.playOutFrames();
     takes_.push_back(std::move(take));
@@ -90,7 +103,8 @@ void Takes::prepare(int sampleRateHz, int blockFrames) {
     blockFrames_ = blockFrames;
     ticksPerSecond_ = TakePace::ticksPerSecond(setup_->stepsPerSecond);
     started_ = 0;
-    delayedBlocks_ = 0;
+    delayedBlocks_ = lateBefore_ = 0;
+    slippedBefore_ = 0;
     startWanted_ = false;
     renew_ = false;
     status_.write({});
@@ -108,7 +122,7 @@ void Takes::release() {
     playing_ = ending_ = nullptr;
     spare_ = nullptr;
     takes_.clear();
-    blockFrames_ = 0;
+    sampleRateHz_ = blockFrames_ = 0;
 }
 
 Take& Takes::add() {
@@ -203,6 +217,8 @@ void Takes::stop() noexcept {
     startWanted_ = false;
     if (!playing_) return;
     letGo(ending_);
+    lateBefore_ += playing_->session.status().render.late;
+    slippedBefore_ += playing_->session.slippedNs();
     ending_ = playing_;
     ending_->end();
     playing_ = nullptr;
@@ -216,7 +232,8 @@ void Takes::letGo(Take*& take) noexcept {
 void Takes::render(int frames, RenderMode mode) noexcept {
     if (playing_) {
         playing_->render(frames, mode);
-        status_.write({playing_->session.status(), playing_->number, delayedBlocks_});
+        const auto& now = playing_->session.status();
+        status_.write({now, playing_->number, lateBefore_ + now.render.late, slippedBefore_ + playing_->session.slippedNs(), delayedBlocks_});
     }
     if (ending_ && !ending_->isOver()) ending_->render(frames, mode);
 }

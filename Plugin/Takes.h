@@ -15,6 +15,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 namespace physvib {
@@ -66,6 +67,8 @@ private:
 struct TakesStatus {
     SessionStatus session; ///< of the playing take
     int take = 0;
+    std::uint64_t late = 0;          ///< events played after their time, in all takes
+    std::int64_t slippedNs = 0;      ///< stalls of the worlds of all takes
     std::uint64_t delayedBlocks = 0; ///< blocks that a start had to wait for a take to be ready
 };
 
@@ -113,6 +116,8 @@ public:
 private:
     static constexpr std::size_t logSize = 16384; // ten minutes of "shake the box", if nobody looks
     static int channelsOf(const Take* take) noexcept { return take ? take->session.channels() : 0; }
+    std::tuple<int, int, std::uint64_t> present();
+    void exchange(std::unique_ptr<Take> take);
     void run();
     void tick();
     void drain(Take& take);
@@ -121,7 +126,8 @@ private:
     void letGo(Take*& take) noexcept;
     Take& add();
 
-    std::mutex mutex_; // guards what follows, up to the atomics
+    std::mutex setMutex_; // one `set` at a time; taken first
+    std::mutex mutex_;    // guards what follows, up to the atomics
     std::optional<SessionSetup> setup_;
     std::vector<std::unique_ptr<Take>> takes_;
     std::vector<TakeEvent> log_;
@@ -140,7 +146,8 @@ private:
     Take* ending_ = nullptr;
     bool startWanted_ = false;
     int started_ = 0;
-    std::uint64_t delayedBlocks_ = 0;
+    std::uint64_t delayedBlocks_ = 0, lateBefore_ = 0;
+    std::int64_t slippedBefore_ = 0;
 
     std::thread thread_;
 };

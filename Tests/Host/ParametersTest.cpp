@@ -2,7 +2,9 @@
 // The table of parameters: ids are promises, values survive both mappings, words are read back.
 #include "Host/Parameters.h"
 #include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <set>
 
 namespace physvib {
@@ -47,6 +49,18 @@ TEST(Parameters, OutOfRangeIsClampedAndNonsenseIsTheDefault) {
     EXPECT_EQ(valueText(level, -60), "-inf dB");
     EXPECT_EQ(gainOfLevel(valueOf(level, "-inf dB")), 0.0);
     EXPECT_EQ(gainOfLevel(0), 1.0);
+}
+
+TEST(Parameters, TheTableInTheDocsIsThisOne) {
+    std::ifstream file{PHYSVIB_SOURCE_DIR "/Docs/plugin.md"};
+    const std::string docs{std::istreambuf_iterator<char>{file}, {}};
+    for (const auto& row : allParameters()) {
+        std::string range;
+        for (const auto word : row.choices) range += (range.empty() ? "" : ", ") + std::string{word};
+        if (row.choices.empty()) range = valueText(row, row.least) + " to " + valueText(row, row.most);
+        const auto line = "| `" + std::string{row.id} + "` | " + std::string{row.name} + " | " + range + " (" + valueText(row, row.initial) + ") | " + std::string{row.help} + " |\n";
+        EXPECT_NE(docs.find(line), std::string::npos) << line;
+    }
 }
 
 } // namespace

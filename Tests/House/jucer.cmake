@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
-# PhysVib.jucer builds the program that CMake builds: same sources, JUCE modules, definitions, version, rounding.
+# PhysVib.jucer builds the plug-in that CMake builds: same sources, embedded files, JUCE modules, definitions, names, version,
+# rounding.
 file(READ ${ROOT}/PhysVib.jucer jucer)
 file(READ ${ROOT}/CMakeLists.txt house)
-file(READ ${ROOT}/Standalone/CMakeLists.txt standalone)
+file(READ ${ROOT}/Plugin/Modules.cmake plugin)
 file(GLOB room_lists ${ROOT}/Source/*/CMakeLists.txt)
 set(rooms "")
 foreach(list ${room_lists})
     file(READ ${list} room)
     string(APPEND rooms "${room}")
 endforeach()
-foreach(text house standalone rooms) # what stands in a comment does not count
+foreach(text house plugin rooms) # what stands in a comment does not count
     string(REGEX REPLACE "#[^\n]*" "" ${text} "${${text}}")
 endforeach()
 
@@ -56,21 +57,42 @@ endfunction()
 
 set(bad "")
 
-# Each folder of Standalone/ is a program of its own; a Projucer project builds one, here the command line.
-file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/Source/*.cpp ${ROOT}/Standalone/CommandLine/*.cpp)
+# A Projucer project builds one thing, here the plug-in of one bus.
+file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/Source/*.cpp ${ROOT}/Plugin/*.cpp)
 collect(listed_sources "<FILE [^>]*compile=\"1\"[^>]*file=\"([^\"]+\\.cpp)\"" "${jucer}")
 compare(sources listed_sources)
+
+# The built-in scenes and materials, in the order of their listing.
+set(embedded "")
+foreach(kind Scenes Materials)
+    string(TOLOWER ${kind} list)
+    string(REGEX MATCH "set\\(${list} ([^)]*)\\)" ignored "${rooms}")
+    string(REPLACE " " ";" names "${CMAKE_MATCH_1}")
+    list(TRANSFORM names REPLACE "(.+)" "Source/Files/${kind}/\\1.json")
+    list(APPEND embedded ${names})
+endforeach()
+collect(listed_embedded "<FILE [^>]*resource=\"1\"[^>]*file=\"([^\"]+)\"" "${jucer}")
+if(NOT embedded STREQUAL listed_embedded)
+    string(APPEND bad "\n  embed, in this order: ${embedded}")
+endif()
 
 string(REGEX MATCH "set\\(PHYSVIB_JUCE_MODULES([^)]*)\\)" ignored "${rooms}")
 collect(modules "(juce_[a-z0-9_]+)" "${CMAKE_MATCH_1}")
 collect(listed_modules "<MODULE id=\"([^\"]+)\"" "${jucer}")
+list(APPEND modules juce_audio_plugin_client) # CMake compiles it into each module
 compare(modules listed_modules)
 
 string(REGEX MATCH "project\\(PhysVib VERSION ([0-9.]+)" ignored "${house}")
 set(version ${CMAKE_MATCH_1})
 string(REGEX MATCHALL "target_compile_definitions\\([^)]*\\)" calls "${rooms}")
-string(REGEX MATCH "target_compile_definitions\\(physvib[ \n][^)]*\\)" program_call "${standalone}")
-string(REPLACE "\${PROJECT_VERSION}" "${version}" calls "${calls} ${program_call}")
+string(REGEX MATCH "target_compile_definitions\\(\\\${target}[^)]*\\)" plugin_call "${plugin}")
+string(REGEX MATCH "physvib_plugin\\(PhysVibPlugin \"([^\"]*)\" ([^ ]*) ([^ ]*) ([^ ]*) ([^ ]*) " ignored "${plugin}")
+set(name "${CMAKE_MATCH_1}")
+set(code "${CMAKE_MATCH_2}")
+string(REPLACE "\${lv2uri}" "${CMAKE_MATCH_3}" plugin_call "${plugin_call}")
+string(REPLACE "\${buses}" "${CMAKE_MATCH_4}" plugin_call "${plugin_call}")
+string(REPLACE "\${channels}" "${CMAKE_MATCH_5}" plugin_call "${plugin_call}")
+string(REPLACE "\${PROJECT_VERSION}" "${version}" calls "${calls} ${plugin_call}")
 collect(definitions "([A-Za-z0-9_]+=(\"[^\"]*\"|[^ \n\")]+))" "${calls}")
 string(REGEX MATCH "<JUCEOPTIONS[^>]*>" options "${jucer}")
 collect(listed_options "(JUCE_[A-Z0-9_]+=\"[01])\"" "${options}")
@@ -83,7 +105,7 @@ compare(definitions listed_definitions)
 
 string(REGEX MATCH "<JUCERPROJECT[^>]*>" head "${jucer}")
 string(REGEX MATCH "CMAKE_CXX_STANDARD ([0-9]+)" ignored "${house}")
-foreach(attribute "version=\"${version}\"" "cppLanguageStandard=\"${CMAKE_MATCH_1}\"")
+foreach(attribute "version=\"${version}\"" "cppLanguageStandard=\"${CMAKE_MATCH_1}\"" "pluginName=\"${name}\"" "pluginCode=\"${code}\"")
     if(NOT head MATCHES "[ \n]${attribute}")
         string(APPEND bad "\n  set in <JUCERPROJECT ...>: ${attribute}")
     endif()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A JACK client that records the outputs of `physvib`, from the moment they appear, as raw interleaved floats, and
 // counts the server's xruns meanwhile (a line on stdout).
-// Usage: physvib-jack-recorder FILE CHANNELS SECONDS
+// Usage: physvib-jack-recorder FILE CHANNELS SECONDS [SOURCE_PORTS (physvib:out_)]
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -16,6 +16,7 @@ namespace {
 struct Recorder {
     jack_client_t* client = nullptr;
     std::vector<jack_port_t*> ports;
+    std::string sources = "physvib:out_";
     std::vector<float> samples; // preallocated: the process callback only copies
     std::atomic<std::size_t> used{0};
     std::atomic<bool> connected{false};
@@ -40,7 +41,7 @@ struct Recorder {
     }
     bool connect() {
         for (std::size_t j = 0; j < ports.size(); ++j) {
-            const std::string source = "physvib:out_" + std::to_string(j + 1);
+            const std::string source = sources + std::to_string(j + 1);
             const int code = jack_connect(client, source.c_str(), jack_port_name(ports[j]));
             if (code != 0 && code != EEXIST) return false;
         }
@@ -51,10 +52,11 @@ struct Recorder {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 4) return 2;
+    if (argc != 4 && argc != 5) return 2;
     const int channels = std::atoi(argv[2]);
     const double seconds = std::atof(argv[3]);
     Recorder recorder;
+    if (argc == 5) recorder.sources = argv[4];
     recorder.client = jack_client_open("recorder", JackNoStartServer, nullptr);
     if (recorder.client == nullptr) return 1;
     const auto rate = jack_get_sample_rate(recorder.client);

@@ -51,12 +51,15 @@ auto play(int note, int velocity = 127) {
 }
 
 TEST(WorldInput, GravityTiltAndMaterialAreFeltAndRepeat) {
-    const auto undisturbed = after(nothing);
+    auto state = newPluginState();
+    state.scene.script.clear(); // which sets gravity itself
+    state.scene.scriptPeriodSeconds = 0.0;
+    const auto undisturbed = after(nothing, 480, state);
     for (const auto& [which, normal] : {std::pair{Parameter::gravity, 0.9f}, {Parameter::tilt, 0.75f}, {Parameter::material, 0.5f}}) {
-        const auto moved = after(set(which, normal));
+        const auto moved = after(set(which, normal), 480, state);
         EXPECT_FALSE(moved == undisturbed) << rowOf(which).id;
-        EXPECT_TRUE(moved == after(set(which, normal))) << rowOf(which).id;
-        EXPECT_TRUE(moved == after(set(which, normal), 64)) << rowOf(which).id << " at another block size";
+        EXPECT_TRUE(moved == after(set(which, normal), 480, state)) << rowOf(which).id;
+        EXPECT_TRUE(moved == after(set(which, normal), 64, state)) << rowOf(which).id << " at another block size";
         const auto first = [](const auto& events) {
             return std::count_if(events.begin(), events.end(), [](const auto& e) { return e.timeNs < 1'000'000'000; });
         };
