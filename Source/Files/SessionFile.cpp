@@ -64,9 +64,19 @@ void readTimedControl(const JsonField& json, SavedSession& session) {
     else log.channels.push_back({time, control.kind, control.channel, control.value});
 }
 
+// One per channel; left out: full scale.
+void readCeilings(const JsonField& list, SavedSession& session) {
+    if (list.arraySize() != static_cast<std::size_t>(session.channels))
+        list.fail("expected " + std::to_string(session.channels) + " numbers, one per channel");
+    for (std::size_t j = 0; j < list.arraySize(); ++j) {
+        if (list.item(j).number() <= 0.0) list.item(j).fail("expected a number > 0");
+        session.ceilings[j] = static_cast<float>(list.item(j).numberUpTo(1.0));
+    }
+}
+
 SavedSession readRoot(const JsonField& root) {
     checkVersion(root, versionField, sessionFormatVersion);
-    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "channels", "panning", "takes", "controls"});
+    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "channels", "panning", "takes", "controls"});
     SavedSession session;
     session.lengthNs = readTime(root["seconds"]);
     session.run.stepsPerSecond = readWhole(root["steps_per_second"], Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond);
@@ -74,6 +84,7 @@ SavedSession readRoot(const JsonField& root) {
     session.run.location = static_cast<ImpactLocation>(root["location"].oneOf(locationNames));
     session.limiterEnabled = root["limiter"].truth();
     session.channels = readWhole(root["channels"], 1, limits::maxEnchanters);
+    if (root.has("ceilings")) readCeilings(root["ceilings"], session);
     session.panner = readPanner(root["panning"], session.channels);
     const JsonField takes = root["takes"];
     if (takes.arraySize() == 0) takes.fail("expected at least 1 take, found none");
@@ -128,6 +139,8 @@ std::string sessionJson(const SavedSession& session) {
                      {"channels", session.channels},
                      {"panning", pannerJson(session.panner)},
                      {"takes", OrderedJson::array()}};
+    const std::vector<double> ceilings(session.ceilings.begin(), session.ceilings.begin() + session.channels);
+    if (std::ranges::any_of(ceilings, [](double most) { return most != 1.0; })) root["ceilings"] = ceilings;
     const SceneTake* before = nullptr;
     for (const SceneTake& take : session.log.takes) {
         root["takes"].push_back(takeJson(take, before));

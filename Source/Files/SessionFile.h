@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Live sessions as JSON: scenes, seeds, inputs and controls with their times; rendering them again gives what was felt.
 #pragma once
+#include "Core/HapticRenderer.h"
 #include "Files/Result.h"
 #include "Files/SessionLog.h"
 #include "Physics/SceneRun.h"
@@ -19,6 +20,7 @@ struct SavedSession {
     PhantomPanner panner;   ///< at the start
     int channels = 0;       ///< outputs, at least as many as any layout of the session has enchanters
     bool limiterEnabled = true;
+    std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel
     std::int64_t lengthNs = 0;
     SessionLog log; ///< at least one take
 };

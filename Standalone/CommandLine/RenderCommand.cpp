@@ -58,7 +58,7 @@ std::string readInputs(RenderJob& job) {
 
 OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls) {
     const RenderOptions& o = job.options;
-    return {{o.sampleRateHz, job.channels(), job.panner(), job.isLimited()}, job.frames(), o.blockFrames, controls};
+    return {{o.sampleRateHz, job.channels(), job.panner(), job.isLimited(), job.ceilings()}, job.frames(), o.blockFrames, controls};
 }
 
 SceneEvents eventsOf(const RenderJob& job) {

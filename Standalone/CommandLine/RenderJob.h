@@ -39,6 +39,10 @@ struct RenderJob {
     double seconds() const {
         return session && !options.given.contains("--seconds") ? static_cast<double>(session->lengthNs) * 1e-9 : options.seconds;
     }
+    /// Those of a saved session belong to its actuators: on other layouts they say nothing.
+    std::array<float, limits::maxEnchanters> ceilings() const {
+        return keepsLayouts() ? session->ceilings : RendererSettings::fullScale();
+    }
     bool isLimited() const { return session ? session->limiterEnabled : options.limiter == "on"; }
     std::int64_t frames() const { return std::llround(seconds() * options.sampleRateHz); }
     std::int64_t endNs() const { return std::llround(seconds() * 1e9); }

@@ -84,20 +84,21 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
 }
 
 SavedSession saved(const SessionSetup& setup, const SessionLog& log, std::int64_t frames) {
-    return {setup.run(), setup.panner, setup.channels, setup.limiterEnabled, frames * 1'000'000'000 / rate, log};
+    return {setup.run(), setup.panner, setup.channels, setup.limiterEnabled, setup.ceilings, frames * 1'000'000'000 / rate, log};
 }
 
 Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, std::int64_t frames) {
     const auto made = runTakes(session.log.takes, session.run, session.lengthNs);
     const auto controls = controlsOf(session.log, true, channels);
     Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
-    renderOffline(made.events, {{rate, channels, session.panner, session.limiterEnabled}, frames - delayFrames, 333, controls},
+    renderOffline(made.events, {{rate, channels, session.panner, session.limiterEnabled, session.ceilings}, frames - delayFrames, 333, controls},
                   [&](const float* const* block, int n) { append(signal, block, n); return true; });
     return signal;
 }
 
 TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
-    const auto setup = shakeTheBoxSetup(0.05);
+    auto setup = shakeTheBoxSetup(0.05);
+    setup.ceilings = {0.2f, 0.1f, 0.3f, 1.0f};
     Session session{setup};
     const Felt felt = playEdited(session, setup, 60 * rate);
     const auto frames = static_cast<std::int64_t>(felt.signal.size()) / channels;
