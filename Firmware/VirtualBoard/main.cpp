@@ -42,8 +42,11 @@ Options parse(int argc, char** argv) {
 void runLive(VirtualBoard& board, PseudoTerminal& line, double seconds) {
     const auto began = std::chrono::steady_clock::now();
     while (!interrupted && (seconds <= 0 || board.seconds() < seconds)) {
-        board.send(line.read());
-        board.runUntil(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+        // Bytes come when they are read, not when the board stood still for want of a processor: its clock stays steady.
+        const auto bytes = line.read();
+        const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        board.send(bytes, now);
+        board.runUntil(now);
         std::vector<std::uint8_t> answer;
         for (const auto& byte : board.received()) answer.push_back(byte.value);
         if (!answer.empty()) line.write(answer);

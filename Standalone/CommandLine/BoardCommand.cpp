@@ -5,6 +5,7 @@
 #include "CommandLine/RenderJob.h"
 #include "Files/EventsCsv.h"
 #include "Host/BoardLink.h"
+#include "Physics/Simulation.h"
 #include "Wire/SelfTest.h"
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -47,7 +48,7 @@ void printInfo(const BoardLinkStatus& s) {
 
 /// Ready and told how it does.
 bool connect(const BoardLink& link) {
-    return waitFor([&] { return link.status().state == State::ready && link.status().telemetry.good > 0; }, 8000);
+    return waitFor([&] { return link.status().state == State::ready && link.status().telemetry.good > 0; }, 20'000);
 }
 
 /// Each channel alone, a quarter of a second of 205 Hz at a quarter of full scale.
@@ -94,17 +95,44 @@ std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events,
     return std::min(end, BoardLink::nowNs() + 5000 * ms);
 }
 
+int finish(const BoardLink& link, const wire::Telemetry& before) {
+    waitFor([&, seen = link.status().telemetry.frame] { return link.status().telemetry.frame != seen; }, 1500);
+    const auto s = link.status();
+    std::cout << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call; " << s.sent << " strikes sent, " << s.thinned << " thinned, " << s.refused
+              << " refused; the board played " << s.telemetry.played - before.played << ", " << s.telemetry.late - before.late << " late, " << s.telemetry.dropped - before.dropped
+              << " dropped, " << s.telemetry.lost << " lost\n";
+    return s.state == State::ready ? exitDone : refuse(s, "the board is gone");
+}
+
 int play(BoardLink& link, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
     const auto before = link.status().telemetry; // the board counts on from call to call
     const std::int64_t end = playAll(link, events, panner);
     waitFor([&] { return BoardLink::nowNs() > end; }, 60'000);
     if (interrupted) link.stopAll();
-    else waitFor([&, seen = link.status().telemetry.frame] { return link.status().telemetry.frame != seen; }, 1500);
-    nap(20);
-    const auto s = link.status();
-    std::cout << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call; " << s.sent << " strikes sent, " << s.thinned << " thinned, " << s.refused
-              << " refused; the board played " << s.telemetry.played - before.played << ", " << s.telemetry.late - before.late << " late, " << s.telemetry.dropped - before.dropped << " dropped, " << s.telemetry.lost << " lost\n";
-    return s.state == State::ready ? exitDone : refuse(s, "the board is gone");
+    return finish(link, before);
+}
+
+/// Steps the world up to this computer's clock; a collision at world time w is felt at w + `delayNs`. The time given up after stalls.
+std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t delayNs, const PhantomPanner& panner, BoardLink& link) {
+    constexpr std::int64_t mostBehind = 500 * ms;
+    PhantomPanner::Gains gains{};
+    std::vector<CollisionEvent> made;
+    std::int64_t start = BoardLink::nowNs(), slipped = 0;
+    while (!interrupted && world.timeNs() < endNs) {
+        const std::int64_t behind = BoardLink::nowNs() - start - world.timeNs();
+        if (behind > mostBehind) start += behind, slipped += behind;
+        if (behind < 0) {
+            nap(1);
+            continue;
+        }
+        made.clear();
+        world.step(made);
+        for (const CollisionEvent& event : made) {
+            panner.gainsAt(event.x, event.y, gains);
+            link.push({start + event.timeNs + delayNs, boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
+        }
+    }
+    return slipped;
 }
 
 } // namespace
@@ -136,6 +164,27 @@ int runBoard(const BoardOptions& o) {
     if (!connect(link)) return refuse(link.status(), "no board answers");
     if (o.action == "info") return printInfo(link.status()), exitDone;
     return o.action == "test" ? test(link) : play(link, events, panner);
+}
+
+int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelDb) {
+    if (job.channels() > limits::board::channels) return leave(exitUsage, "--board: the board has four channels, this layout " + std::to_string(job.channels()));
+    const SceneRun run = job.run();
+    Simulation world(*job.scene, run.seed, run.stepsPerSecond, run.timing, run.location);
+    std::signal(SIGINT, interrupt);
+    std::signal(SIGTERM, interrupt);
+    BoardLink link{port == "auto" ? "" : port};
+    if (!connect(link)) return refuse(link.status(), "no board answers");
+    const double level = std::pow(10.0, levelDb / 20.0);
+    link.setGains({level, level, level, level});
+    const auto before = link.status().telemetry;
+    const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms; // a contact is known two steps later
+    const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + spare;
+    const std::int64_t slipped = followClock(world, job.endNs(), delay, job.panner(), link);
+    if (interrupted) link.stopAll();
+    else nap(static_cast<int>(delay / ms) + 500);
+    std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(delay) * 1e-6 << " ms after the contact; " << static_cast<double>(slipped) * 1e-6
+              << " ms of stalls\n";
+    return finish(link, before);
 }
 
 } // namespace physvib

@@ -21,4 +21,9 @@ void declareBoardOptions(CLI::App& command, BoardOptions& options);
 /// An exit code.
 int runBoard(const BoardOptions& options);
 
+struct RenderJob;
+
+/// A scene felt on the board alone (`physvib play --board`), its world stepped by this computer's clock; an exit code.
+int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelDb);
+
 } // namespace physvib

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib play`, from words to a session's setup.
 #include "CommandLine/PlayCommand.h"
+#include "CommandLine/BoardCommand.h"
 #include "CommandLine/LivePlay.h"
 #include "CommandLine/NumberList.h"
 #include "CommandLine/RenderJob.h"
 #include "Host/AudioOutput.h"
+#include "Host/SerialLine.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -54,7 +56,8 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
 
 void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     declareSceneOptions(command, o.scene);
-    command.add_option("--device", o.device, "output device (see physvib devices)")->required();
+    command.add_option("--device", o.device, "output device (see physvib devices)");
+    command.add_option("--board", o.board, "four-channel board: serial port, or auto; instead of a device")->type_name("PORT");
     command.add_option("--map", o.map, "device outputs of the enchanters, from 1")->type_name("1,2,3,4");
     command.add_option("--driver", o.driver, "who steps the world: message or thread")->check(CLI::IsMember({"message", "thread"}))->capture_default_str();
     command.add_option("--level", o.levelDb, "master level in dB")->check(CLI::Range(-90.0, 0.0))->capture_default_str();
@@ -67,6 +70,7 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
 }
 
 int runPlay(PlayOptions& o) {
+    if (o.device.empty() == o.board.empty()) return leave(exitUsage, "play: expected --device or --board; both at once: not yet");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
@@ -74,6 +78,7 @@ int runPlay(PlayOptions& o) {
     auto layout = layoutNamed(o.scene.layout);
     if (!layout) return leave(exitFailed, layout.error);
     job.layout = std::move(layout.value);
+    if (!o.board.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
         return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
@@ -89,6 +94,7 @@ int runPlay(PlayOptions& o) {
 int runDevices() {
     const juce::ScopedJuceInitialiser_GUI juce;
     for (const auto& device : listAudioDevices()) std::cout << device.type << ':' << device.name << "  " << device.channels << " outputs\n";
+    for (const auto& port : listSerialPorts()) std::cout << port.path << "  " << port.description << '\n';
     return exitDone;
 }
 

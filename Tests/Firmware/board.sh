@@ -59,6 +59,9 @@ set -- $sent
 [ "$2" -gt 0 ] || fail "nothing was thinned"
 [ "$1" -ge 200 ] || fail "too few were sent"
 grep -q "the board played $1, .* 0 dropped, 0 lost" "$folder/play.txt" || fail "not all that was sent was played"
+"$physvib" play shake-the-box --board "$port" --seconds 3 >"$folder/scene.txt" 2>&1 || fail "play a scene"
+grep -q " strikes sent, .* 0 dropped, 0 lost" "$folder/scene.txt" || fail "the scene was not played"
+cat "$folder/scene.txt"
 stop
 grep -q " 0 against their times, 0 samples missed, 0 restarts, 0 faults" "$folder/board.txt" || fail "the board was not well"
 cat "$folder/board.txt"
