@@ -62,7 +62,7 @@ juce::Colour shareColour(double share) {
 }
 
 void drawBar(const Canvas& canvas, Area row, int nameWidth, const juce::String& name, double share, double least, double most,
-             const juce::String& value, juce::Colour colour) {
+             const juce::String& value, juce::Colour colour, double from) {
     canvas.text(name, row.removeFromLeft(nameWidth).withTrimmedRight(12), J::centredRight, palette::text);
     canvas.text(value, row.removeFromRight(76), J::centredRight, palette::text);
     const Area lane = row.reduced(0, 2).withTrimmedRight(8);
@@ -70,7 +70,8 @@ void drawBar(const Canvas& canvas, Area row, int nameWidth, const juce::String& 
     const auto x = [&](double at) { return static_cast<float>(lane.getX() + at * lane.getWidth()); };
     const auto top = static_cast<float>(lane.getY()), height = static_cast<float>(lane.getHeight());
     canvas.graphics.setColour(colour.withMultipliedAlpha(0.85f));
-    canvas.graphics.fillRoundedRectangle(x(0.0), top, x(share) - x(0.0), height, 3.0f);
+    const auto [left, right] = std::minmax(x(from), x(share));
+    canvas.graphics.fillRoundedRectangle(left, top, right - left, height, 3.0f);
     if (!(most > least)) return;
     canvas.graphics.setColour(palette::text);
     canvas.graphics.fillRect(x(least), top + 0.5f * height - 1.0f, x(most) - x(least), 2.0f);

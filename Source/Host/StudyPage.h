@@ -28,8 +28,8 @@ std::string studyPagePng(const StudyPage& page, const PictureWords& words);
 /// From the ground of a well to the accent, for a share from 0 to 1; small shares still show.
 juce::Colour shareColour(double share);
 
-/// A horizontal bar with its interval (both 0 to 1) in `row`, a name at its left and words at its right.
+/// A horizontal bar with its interval (both 0 to 1) in `row`, a name at its left and words at its right; it begins at `from`.
 void drawBar(const Canvas& canvas, Area row, int nameWidth, const juce::String& name, double share, double least, double most,
-             const juce::String& value, juce::Colour colour);
+             const juce::String& value, juce::Colour colour, double from = 0.0);
 
 } // namespace physvib::picture

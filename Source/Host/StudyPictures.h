@@ -50,7 +50,7 @@ std::string resolutionPicture(std::span<const ConditionResolution> conditions, c
 /// Shares with their intervals.
 std::string choicePicture(std::span<const ChoiceSummary> summaries, const PictureWords& words);
 
-/// Thresholds, matched levels and magnitudes, a panel per kind.
+/// Thresholds, matched levels and magnitudes, one kind below the other.
 std::string levelPicture(std::span<const LevelSummary> summaries, const PictureWords& words);
 
 /// Mean scores with their intervals, a panel per scale.

@@ -17,7 +17,7 @@ int nameWidth(auto&& summaries) {
     return std::min(width, 460);
 }
 
-/// Panels of the level picture: a kind, and what belongs to it.
+/// Parts of the level picture: a kind, and what belongs to it.
 struct LevelPanel {
     LevelTrial::Kind kind;
     juce::String title, remark;
@@ -34,7 +34,7 @@ std::vector<LevelPanel> levelPanels(std::span<const LevelSummary> summaries) {
     return panels;
 }
 
-void drawLevels(const Canvas& canvas, const LevelPanel& panel, Area inside) {
+void drawLevels(const Canvas& canvas, const LevelPanel& panel, Area& inside) {
     canvas.heading(panel.title, panel.remark, inside.removeFromTop(24));
     inside.removeFromTop(8);
     double most = 1e-9;
@@ -44,7 +44,7 @@ void drawLevels(const Canvas& canvas, const LevelPanel& panel, Area inside) {
     for (const auto* s : panel.rows) {
         const double half = panel.kind == LevelTrial::Kind::magnitude ? 0.0 : s->deviation;
         drawBar(canvas, inside.removeFromTop(rowHeight), 400, wordsOf(s->condition + (s->stimulus.empty() ? "" : ", " + s->stimulus)), share(s->estimate),
-                share(s->estimate - half), half > 0.0 ? share(s->estimate + half) : 0.0, number(s->estimate, 1), palette::enchanter(static_cast<int>(panel.kind)));
+                share(s->estimate - half), half > 0.0 ? share(s->estimate + half) : 0.0, number(s->estimate, 1), palette::enchanter(static_cast<int>(panel.kind)), share(0.0));
     }
 }
 
@@ -52,10 +52,15 @@ void drawLevels(const Canvas& canvas, const LevelPanel& panel, Area inside) {
 
 std::string levelPicture(std::span<const LevelSummary> summaries, const PictureWords& words) {
     const auto panels = levelPanels(summaries);
-    std::size_t most = 0;
-    for (const auto& panel : panels) most = std::max(most, panel.rows.size());
-    StudyPage page{"Levels", "lines: one standard deviation", panels.size(), 1, headHeight + rowHeight * static_cast<int>(most), {}};
-    page.draw = [&](const Canvas& canvas, std::size_t i, Area inside) { drawLevels(canvas, panels[i], inside); };
+    int height = 24;
+    for (const auto& panel : panels) height += headHeight + rowHeight * static_cast<int>(panel.rows.size());
+    StudyPage page{"Levels", "lines: one standard deviation", 1, 1, height, {}};
+    page.draw = [&](const Canvas& canvas, std::size_t, Area inside) {
+        for (const auto& panel : panels) {
+            drawLevels(canvas, panel, inside);
+            inside.removeFromTop(headHeight - 32);
+        }
+    };
     return studyPagePng(page, words);
 }
 
