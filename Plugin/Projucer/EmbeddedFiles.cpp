@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The built-in scenes and materials where the Projucer embeds them (CMake does by Source/Files/embed.cmake).
+// The built-in scenes, materials and protocols where the Projucer embeds them (CMake does by Source/Files/embed.cmake).
 #include "BinaryData.h"
 #include "Files/Embedded.h"
 
@@ -7,15 +7,14 @@ namespace physvib {
 
 namespace {
 
-constexpr std::string_view sceneVersion = "\"physvib_scene\""; // what tells a scene from a table of materials
-
-std::vector<EmbeddedFile> embedded(bool areScenes) {
+/// All that hold this field, the version of their format: it tells the kinds from each other.
+std::vector<EmbeddedFile> embedded(std::string_view versionField) {
     std::vector<EmbeddedFile> files;
     for (int i = 0; i < BinaryData::namedResourceListSize; ++i) {
         int size = 0;
         const char* const text = BinaryData::getNamedResource(BinaryData::namedResourceList[i], size);
         const std::string_view content{text, static_cast<std::size_t>(size)};
-        if ((content.find(sceneVersion) != content.npos) == areScenes) files.push_back({BinaryData::originalFilenames[i], content});
+        if (content.find(versionField) != content.npos) files.push_back({BinaryData::originalFilenames[i], content});
     }
     return files;
 }
@@ -23,12 +22,17 @@ std::vector<EmbeddedFile> embedded(bool areScenes) {
 } // namespace
 
 const std::vector<EmbeddedFile>& embeddedScenes() {
-    static const auto files = embedded(true);
+    static const auto files = embedded("\"physvib_scene\"");
     return files;
 }
 
 const std::vector<EmbeddedFile>& embeddedMaterials() {
-    static const auto files = embedded(false);
+    static const auto files = embedded("\"physvib_materials\"");
+    return files;
+}
+
+const std::vector<EmbeddedFile>& embeddedProtocols() {
+    static const auto files = embedded("\"physvib_protocol\"");
     return files;
 }
 

@@ -62,9 +62,9 @@ file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/Source/*.cpp ${ROOT}/Plugin/*
 collect(listed_sources "<FILE [^>]*compile=\"1\"[^>]*file=\"([^\"]+\\.cpp)\"" "${jucer}")
 compare(sources listed_sources)
 
-# The built-in scenes and materials, in the order of their listing.
+# The built-in scenes, materials and protocols, in the order of their listing.
 set(embedded "")
-foreach(kind Scenes Materials)
+foreach(kind Scenes Materials Protocols)
     string(TOLOWER ${kind} list)
     string(REGEX MATCH "set\\(${list} ([^)]*)\\)" ignored "${rooms}")
     string(REPLACE " " ";" names "${CMAKE_MATCH_1}")
