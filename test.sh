@@ -7,11 +7,17 @@ cd "$(dirname "$0")"
 
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_test_packages
+# What plays in real time comes last and may be tried twice: the machine may be shared.
+run_tests() {
+    ctest --preset "$1" -j2 --progress -LE live
+    ctest --preset "$1" -L live --repeat until-pass:2
+}
+
 build release all
-ctest --preset release -j2 --progress
+run_tests release
 build fuzz all
 Tests/Fuzz/run.sh 20000 >build/fuzz.log 2>&1 || { cat build/fuzz.log >&2; exit 1; }
 for preset in asan tsan; do
     build "$preset" all
-    ctest --preset "$preset" -j2 --progress
+    run_tests "$preset"
 done

@@ -46,9 +46,18 @@ void printInfo(const BoardLinkStatus& s) {
               << " bad, " << t.lost << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; " << t.stackFree << " bytes of stack never used\n";
 }
 
-/// Ready and told how it does.
+/// Ready and told how it does. A port that could never be opened is not waited for long, a board that starts is.
 bool connect(const BoardLink& link) {
-    return waitFor([&] { return link.status().state == State::ready && link.status().telemetry.good > 0; }, 20'000);
+    const std::int64_t patience = BoardLink::nowNs() + 2'000 * ms;
+    bool isReady = false;
+    waitFor(
+        [&] {
+            const BoardLinkStatus s = link.status();
+            isReady = s.state == State::ready && s.telemetry.good > 0;
+            return isReady || (s.port.empty() && !s.trouble.empty() && BoardLink::nowNs() > patience);
+        },
+        20'000);
+    return isReady;
 }
 
 /// Each channel alone, a quarter of a second of 205 Hz at a quarter of full scale.
