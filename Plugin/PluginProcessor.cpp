@@ -18,6 +18,14 @@ std::string firstUnknown(const PluginState& state) {
     return {};
 }
 
+/// A message may quote bytes of a broken chunk, and JUCE writes beyond its memory where a text is no UTF-8.
+juce::String readable(std::string text) {
+    if (!juce::CharPointer_UTF8::isValidString(text.data(), static_cast<int>(text.size())))
+        for (char& c : text)
+            if (static_cast<unsigned char>(c) >= 0x80) c = '?';
+    return juce::String::fromUTF8(text.data(), static_cast<int>(text.size()));
+}
+
 int programOf(const Scene& scene) {
     const auto& scenes = builtInScenes();
     const auto found = std::ranges::find(scenes, scene.name, &Scene::name);
@@ -50,7 +58,7 @@ bool PluginProcessor::apply(PluginState state) {
     try {
         takes_.set(sessionSetupOf(state));
     } catch (const std::invalid_argument& error) {
-        return refuse(error.what());
+        return refuse(readable(error.what()));
     }
     takes_.setQuickStarts(state.transport == TransportMode::restartOnPlay);
     tailSeconds_ = longestRingSeconds(state);
@@ -142,11 +150,11 @@ void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
 void PluginProcessor::setStateInformation(const void* data, int size) {
     const auto read = readPluginState({static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))}, "state");
     if (!read) {
-        refuse(juce::String::fromUTF8(read.error.c_str()));
+        refuse(readable(read.error));
         return;
     }
     if (const auto unknown = firstUnknown(read.value); !unknown.empty()) {
-        refuse("state: no parameter \"" + juce::String::fromUTF8(unknown.c_str()) + "\"");
+        refuse(readable("state: no parameter \"" + unknown + "\""));
         return;
     }
     if (!apply(read.value)) return;

@@ -58,6 +58,11 @@ TEST(PluginChunk, ABrokenChunkLeavesTheLastGoodStateAndSaysSo) {
         host.plugin->setStateInformation(good.getData(), static_cast<int>(good.getSize()));
         ASSERT_EQ(host.plugin->trouble(), "");
     }
+    for (const std::string bytes : {"{ \"\xff\": 1 }", "\xf0\x9f", "{ \"physvib_plugin_state\": \"\xe2\x82"}) { // no UTF-8, which messages quote
+        host.plugin->setStateInformation(bytes.data(), static_cast<int>(bytes.size()));
+        EXPECT_TRUE(host.plugin->trouble().startsWith("state: "));
+        EXPECT_TRUE(juce::CharPointer_UTF8::isValidString(host.plugin->trouble().toRawUTF8(), static_cast<int>(host.plugin->trouble().getNumBytesAsUTF8())));
+    }
     host.plugin->setStateInformation("{}", 2);
     EXPECT_TRUE(host.plugin->trouble().startsWith("state: ")) << host.plugin->trouble();
     host.plugin->setStateInformation(nullptr, 0);
