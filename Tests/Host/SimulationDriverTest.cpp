@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Drivers take over from each other at any moment, and from blocks that step the world themselves: nothing is missing.
+#include "Host/SimulationDriver.h"
+#include "FakeHost.h"
+#include "Physics/SceneRun.h"
+#include <atomic>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace juce {
+bool dispatchNextMessageOnSystemQueue(bool returnIfNoPendingMessages); // what a message loop is made of
+}
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+std::unique_ptr<SimulationDriver> make(int kind, Session& session) {
+    if (kind == 0) return std::make_unique<MessageTimerDriver>(session);
+    if (kind == 1) return std::make_unique<ThreadDriver>(session, 100);
+    return nullptr; // the render call
+}
+
+void runMessages(int milliseconds) {
+    const auto end = juce::Time::getMillisecondCounter() + static_cast<juce::uint32>(milliseconds);
+    while (juce::Time::getMillisecondCounter() < end)
+        if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
+}
+
+TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
+    const juce::ScopedJuceInitialiser_GUI juce;
+    constexpr int frames = 480;
+    const auto setup = shakeTheBoxSetup(0.1);
+    Session session{setup};
+    session.prepare(hostRate, frames);
+    session.advance();
+    std::atomic<bool> stop{false}, offline{false};
+    std::vector<CollisionEvent> played;
+    std::thread device{[&] { // blocks in real time
+        Block block;
+        for (auto next = std::chrono::steady_clock::now(); !stop; next += std::chrono::milliseconds{10}) {
+            std::this_thread::sleep_until(next);
+            session.render(block.at.data(), frames, offline ? RenderMode::offline : RenderMode::realtime);
+            for (const auto& e : drain(session)) played.push_back(e);
+        }
+    }};
+    Random random{1};
+    for (int i = 0; i < 40; ++i) {
+        const int kind = random.below(3);
+        offline = kind == 2;
+        const auto driver = make(kind, session);
+        runMessages(20 + random.below(100));
+    }
+    stop = true;
+    device.join();
+    SessionLog log;
+    session.readLog(log);
+    ASSERT_GT(played.size(), 40u);
+    EXPECT_TRUE(played == runTakes(log.takes, setup.run(), played.back().timeNs + 1).events);
+    EXPECT_EQ(session.status().render.late, 0u);
+}
+
+} // namespace
+} // namespace physvib
