@@ -3,6 +3,7 @@
 #include "CommandLine/AnalyseCommand.h"
 #include "CommandLine/BoardCommand.h"
 #include "CommandLine/ExitCode.h"
+#include "CommandLine/MaterialCommand.h"
 #include "CommandLine/PlayCommand.h"
 #include "CommandLine/RenderCommand.h"
 #include "CommandLine/StimulusCommand.h"
@@ -28,7 +29,7 @@ int listScenes() {
 }
 
 // Commands that are promised and not built: they say so instead of being unknown words.
-constexpr const char* notYetCommands[] = {"material", "calibrate"};
+constexpr const char* notYetCommands[] = {"calibrate"};
 
 int run(int argc, char** argv) {
     CLI::App app{"PhysVib: collisions one can feel, on every enchanter you attach."};
@@ -53,6 +54,9 @@ int run(int argc, char** argv) {
     StudyOptions studyOptions;
     CLI::App* study = app.add_subcommand("study", "whole studies, from a protocol");
     declareStudy(*study, studyOptions);
+    MaterialOptions materialOptions;
+    CLI::App* material = app.add_subcommand("material", "frequency and decay of a recorded contact");
+    declareMaterial(*material, materialOptions);
     CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
     for (const char* name : notYetCommands) app.add_subcommand(name, "not yet")->prefix_command()->group("Not yet");
     try {
@@ -68,6 +72,7 @@ int run(int argc, char** argv) {
     if (analyse->parsed()) return runAnalyse(*analyse, analyseOptions);
     if (stimulus->parsed()) return runStimulus(*stimulus, stimulusOptions);
     if (study->parsed()) return runStudy(*study, studyOptions);
+    if (material->parsed()) return runMaterial(materialOptions);
     if (play->parsed()) return runPlay(playOptions);
     if (board->parsed()) return runBoard(boardOptions);
     if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");

@@ -72,6 +72,7 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
 int runPlay(PlayOptions& o) {
     if (o.device.empty() == o.board.empty()) return leave(exitUsage, "play: expected --device or --board; both at once: not yet");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
+    if (!o.scene.renderingMethod.fixesNothing()) return leave(exitUsage, "--method " + o.scene.method + ": not yet in play (only AV-FV-DRV); render has it");
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");

@@ -4,6 +4,7 @@
 #include "CommandLine/RenderCommand.h"
 #include "CommandLine/RenderJob.h"
 #include "CommandLine/RenderOutputs.h"
+#include "Files/NumberText.h"
 #include "Host/OfflineRender.h"
 #include <algorithm>
 #include <iostream>
@@ -41,6 +42,20 @@ void warn(const RenderStatus& status, const RenderJob& job) {
     say(static_cast<std::uint64_t>(beyond), "events that begin after the end of the render (see --seconds)");
 }
 
+// An event has one amplitude: 1.5 g on every enchanter is one only if their full scales are one.
+std::string fixedLevelFault(const RenderJob& job) {
+    if (!job.method().fixesAmplitude) return {};
+    for (const auto& enchanter : job.layout.enchanters)
+        if (enchanter.fullScaleG != job.fullScaleG())
+            return job.options.layout + ": --method " + job.options.method + ": expected one full_scale_g for all enchanters, found " +
+                   numberText(job.fullScaleG()) + " and " + numberText(enchanter.fullScaleG);
+    if (job.method().fixedAmplitude > 1.0)
+        std::cerr << "physvib: warning: --method " << job.options.method << ": the fixed level of " << numberText(RenderingMethod::fixedLevelG)
+                  << " g is above the enchanters' full scale of " << numberText(job.fullScaleG()) << " g"
+                  << (job.isLimited() ? "; the limiter lowers it\n" : "\n");
+    return {};
+}
+
 std::string readInputs(RenderJob& job) {
     if (job.session && !job.options.given.contains("--layout")) {
         job.layout = describeLayout("session", job.session->panner.layout());
@@ -49,6 +64,7 @@ std::string readInputs(RenderJob& job) {
         if (!layout) return layout.error;
         job.layout = std::move(layout.value);
     }
+    if (auto fault = fixedLevelFault(job); !fault.empty()) return fault;
     if (job.scene) return {};
     auto events = loadEventsCsv(job.options.fromEvents);
     if (!events) return events.error;
@@ -69,6 +85,7 @@ std::string render(RenderJob& job) {
     RenderOutputs outputs{job};
     if (auto error = outputs.open(); !error.empty()) return error;
     if (job.scene) job.made = eventsOf(job);
+    std::ranges::transform(job.made.events, job.made.events.begin(), job.method());
     const auto& source = job.scene ? job.scene->name : job.options.fromEvents;
     if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, source); !error.empty()) return error;
     outputs.begin();

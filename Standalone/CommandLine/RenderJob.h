@@ -56,6 +56,14 @@ struct RenderJob {
         if (session) return session->panner.fieldHeightMetres();
         return scene ? scene->fieldHeightMetres : layout.geometry.extentHeightMetres;
     }
+    /// The wanted method, its fixed level in shares of the enchanters' full scale.
+    RenderingMethod method() const {
+        RenderingMethod wanted = options.renderingMethod;
+        wanted.fixedAmplitude = RenderingMethod::fixedLevelG / fullScaleG();
+        return wanted;
+    }
+    /// Of the first enchanter; a fixed level needs it to be that of all.
+    double fullScaleG() const { return layout.enchanters.front().fullScaleG; }
     PhantomPanner panner() const {
         if (keepsLayouts()) return session->panner;
         return {layout.geometry, options.panningLaw, options.exponent, fieldWidthMetres(), fieldHeightMetres()};

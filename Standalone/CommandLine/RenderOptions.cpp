@@ -67,7 +67,7 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
         ->check(CLI::IsMember({"contact", "fixture"}))->capture_default_str();
     command.add_option("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)")
         ->check(CLI::IsMember({"onset", "release"}))->capture_default_str();
-    command.add_option("--method", o.method, "rendering method: AV-FV-DRV (others: not yet)")->capture_default_str();
+    command.add_option("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed")->capture_default_str();
     command.add_option("--actuator", o.actuator, "actuator model: none (others: not yet)")->capture_default_str();
 }
 
@@ -92,9 +92,9 @@ std::string checkSceneOptions(RenderOptions& o) {
     if (!parseSettings(o)) return "--set: expected NAME=VALUE";
     if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
     if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
-    for (const auto& refusal : {notYet("--method", o.method, "AV-FV-DRV"), notYet("--actuator", o.actuator, "none")})
-        if (!refusal.empty()) return refusal;
-    return {};
+    if (o.method == "SV") return notYet("--method", o.method, "AV-FV-DRV to AF-FF-DRF");
+    if (!renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, found \"" + o.method + "\"";
+    return notYet("--actuator", o.actuator, "none");
 }
 
 std::string checkRenderOptions(RenderOptions& o) {

@@ -2,6 +2,7 @@
 // The options of `physvib render`, from words to checked values.
 #pragma once
 #include "Core/PhantomPanner.h"
+#include "Core/RenderingMethod.h"
 #include "Files/SceneFile.h"
 #include <cstdint>
 #include <set>
@@ -36,6 +37,7 @@ struct RenderOptions {
     SceneSettings settings; ///< from `sets` by checkRenderOptions
     double fieldWidthMetres = 0.0, fieldHeightMetres = 0.0; ///< from `field` by checkRenderOptions; 0: not given
     PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
+    RenderingMethod renderingMethod;                        ///< from `method`; its amplitude needs the layout
 };
 
 /// Declares what says which scene is spread how (shared with `play`); `command` fills `options` while it parses.

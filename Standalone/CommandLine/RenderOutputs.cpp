@@ -60,6 +60,13 @@ std::string RenderOutputs::finish() {
 
 Provenance RenderOutputs::provenance() const {
     const RenderOptions& o = job_.options;
+    Provenance p = inputProvenance();
+    if (!job_.method().fixesNothing()) p.entries.emplace_back("method", o.method);
+    return p;
+}
+
+Provenance RenderOutputs::inputProvenance() const {
+    const RenderOptions& o = job_.options;
     if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
     Provenance p{PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(job_.session ? job_.session->log.takes.front().seed : o.seed)},
                                    {"steps_per_second", std::to_string(job_.run().stepsPerSecond)}}};

@@ -35,6 +35,7 @@ public:
 
 private:
     Provenance provenance() const;
+    Provenance inputProvenance() const;
     std::string provenanceText() const;
     std::string writePictureFile();
     void showProgress();

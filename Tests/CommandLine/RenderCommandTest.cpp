@@ -5,6 +5,7 @@
 #include "Support/ClosedForm.h"
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 
 namespace physvib {
 namespace {
@@ -196,10 +197,47 @@ TEST_F(Render, BadOptionsAreUsageErrors) {
 }
 
 TEST_F(Render, WhatIsPromisedAndNotBuiltSaysNotYet) {
-    for (const char* option : {"--method AF-FF-DRF", "--actuator lra-205"})
+    for (const char* option : {"--method SV", "--actuator lra-205"})
         refuses(std::string{"render shake-the-box --out a.wav "} + option, 2, "not yet");
-    for (const char* command : {"material a.wav", "calibrate --device none"})
+    for (const char* command : {"calibrate --device none"})
         refuses(command, 2, "not yet");
+}
+
+TEST_F(Render, MethodsFixWhatTheirNamesSay) {
+    ASSERT_EQ(call("render drop --seconds 3 --out a.wav --events a.csv").exitCode, 0);
+    ASSERT_EQ(call("render drop --seconds 3 --method AV-FV-DRV --out b.wav --events b.csv").exitCode, 0);
+    EXPECT_EQ(read("b.wav"), read("a.wav"));
+    EXPECT_EQ(read("b.csv"), read("a.csv"));
+    const auto outcome = call("render drop --seconds 3 --method AF-FF-DRF --out c.wav --events c.csv");
+    ASSERT_EQ(outcome.exitCode, 0);
+    EXPECT_NE(outcome.err.find("fixed level of 1.5 g is above the enchanters' full scale of 1 g; the limiter lowers it"), std::string::npos) << outcome.err;
+    const auto varied = readEventsCsv(read("a.csv"), "a.csv"), fixed = readEventsCsv(read("c.csv"), "c.csv");
+    ASSERT_EQ(fixed.value.size(), varied.value.size());
+    ASSERT_FALSE(fixed.value.empty());
+    for (std::size_t i = 0; i < fixed.value.size(); ++i) {
+        const CollisionEvent& e = fixed.value[i];
+        EXPECT_EQ(std::tuple(e.amplitude, e.frequencyHz, e.decayPerSecond, e.durationNs), std::tuple(1.5, 250.0, 0.0, 20'000'000));
+        EXPECT_EQ(std::tuple(e.timeNs, e.x, e.y, e.source), std::tuple(varied.value[i].timeNs, varied.value[i].x, varied.value[i].y, varied.value[i].source));
+    }
+    EXPECT_NE(read("c.csv").substr(0, 200).find("method=AF-FF-DRF"), std::string::npos);
+    ASSERT_EQ(call("render --from-events a.csv --seconds 3 --field 9,5 --method AF-FF-DRF --out d.wav").exitCode, 0);
+    ASSERT_EQ(call("render --from-events c.csv --seconds 3 --field 9,5 --out e.wav").exitCode, 0);
+    EXPECT_EQ(Wav{read("d.wav")}.samples, Wav{read("e.wav")}.samples) << "what is written is what is rendered";
+}
+
+TEST_F(Render, AFixedLevelIsInG) {
+    const std::string start = R"({"extent_m":[1,1],"enchanters":[{"x_m":0,"y_m":0.5,"full_scale_g":3},{"x_m":1,"y_m":0.5,"full_scale_g":)";
+    write("strong.json", start + "3}]}");
+    write("mixed.json", start + "1}]}");
+    const auto outcome = call("render drop --seconds 3 --method AF-FV-DRV --layout strong.json --events a.csv");
+    EXPECT_EQ(outcome.err, "");
+    const auto events = readEventsCsv(read("a.csv"), "a.csv");
+    ASSERT_FALSE(events.value.empty());
+    EXPECT_EQ(events.value.front().amplitude, 0.5);
+    refuses("render drop --method AF-FV-DRV --layout mixed.json --out b.wav", 1, "mixed.json: --method AF-FV-DRV: expected one full_scale_g for all enchanters, found 3 and 1", 3);
+    EXPECT_EQ(call("render drop --seconds 1 --method AV-FF-DRF --layout mixed.json --events b.csv").exitCode, 0);
+    refuses("render drop --method AF --out b.wav", 2, "--method: expected a name from AV-FV-DRV to AF-FF-DRF, found \"AF\"", 4);
+    refuses("play drop --device Nowhere --method AF-FF-DRF", 2, "--method AF-FF-DRF: not yet in play", 4);
 }
 
 TEST_F(Render, UnwritableOutputsLeaveNothing) {

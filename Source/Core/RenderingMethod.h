@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What is rendered of a collision: the eight renderings of the thesis' study 2 (5.3).
+#pragma once
+#include "Core/CollisionEvent.h"
+#include <string_view>
+
+namespace physvib {
+
+/// A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency and decay are varied (from physics) or fixed. Turns a collision into the
+/// event that is rendered; AV-FV-DRV changes nothing. Any thread.
+struct RenderingMethod {
+    static constexpr double fixedLevelG = 1.5;                ///< acceleration; divide by the full scale for an amplitude
+    static constexpr double fixedFrequencyHz = 250.0;
+    static constexpr std::int64_t fixedPulseNs = 20'000'000;  ///< rectangular: five periods of 250 Hz, cut anywhere of others
+
+    bool fixesAmplitude = false;
+    bool fixesFrequency = false;
+    bool fixesDecay = false;
+    double fixedAmplitude = fixedLevelG; ///< 1 = full scale of an enchanter, as in an event
+
+    constexpr CollisionEvent operator()(CollisionEvent event) const noexcept {
+        if (fixesAmplitude) event.amplitude = fixedAmplitude;
+        if (fixesFrequency) event.frequencyHz = fixedFrequencyHz;
+        if (!fixesDecay) return event;
+        event.decayPerSecond = 0.0;
+        event.durationNs = fixedPulseNs;
+        return event;
+    }
+    constexpr bool fixesNothing() const noexcept { return !fixesAmplitude && !fixesFrequency && !fixesDecay; }
+    bool operator==(const RenderingMethod&) const = default;
+};
+
+/// The method of a name like "AF-FV-DRF"; false, and `method` as it was, if there is none. Any thread.
+constexpr bool renderingMethodNamed(std::string_view name, RenderingMethod& method) noexcept {
+    constexpr std::string_view varied = "AV-FV-DRV";
+    constexpr std::size_t choices[] = {1, 4, 8}; // where V or F stands
+    bool fixes[3] = {};
+    if (name.size() != varied.size()) return false;
+    for (std::size_t i = 0, next = 0; i < varied.size(); ++i) {
+        const bool isChoice = next < 3 && i == choices[next];
+        if (isChoice) fixes[next++] = name[i] == 'F';
+        if (name[i] != varied[i] && !(isChoice && name[i] == 'F')) return false;
+    }
+    method.fixesAmplitude = fixes[0];
+    method.fixesFrequency = fixes[1];
+    method.fixesDecay = fixes[2];
+    return true;
+}
+
+} // namespace physvib

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib material` as users and scripts hold on to it.
+#include "Calls.h"
+#include <cstring>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+class MaterialCommand : public test::CommandLine {
+protected:
+    /// What `render` makes of one hit on one enchanter.
+    void record(const std::string& hit, const std::string& seconds = "1") const {
+        write("hit.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n" + hit + "\n");
+        ASSERT_EQ(call("render --from-events hit.csv --layout phone1 --seconds " + seconds + " --out hit.wav").exitCode, 0);
+    }
+    /// 16 bits, one channel.
+    void writeWav(const std::string& name, std::uint32_t rate, std::uint32_t frames, const std::string& data) const {
+        const auto number = [](std::uint32_t value, std::size_t bytes) { return std::string(reinterpret_cast<const char*>(&value), bytes); };
+        write(name, "RIFF" + number(36 + 2 * frames, 4) + "WAVEfmt " + number(16, 4) + number(1, 2) + number(1, 2) + number(rate, 4) + number(2 * rate, 4) + number(2, 2) +
+                        number(16, 2) + "data" + number(2 * frames, 4) + data);
+    }
+};
+
+TEST_F(MaterialCommand, PrintsFrequencyAndDecayOfARenderedHit) {
+    record("0.1,349,106.99,0.8,0,0");
+    const auto outcome = call("material hit.wav --band 90-1000");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::istringstream lines{outcome.out};
+    std::string header, row, more;
+    std::getline(lines, header);
+    std::getline(lines, row);
+    EXPECT_EQ(header, "frequency_hz,decay_per_s");
+    EXPECT_FALSE(std::getline(lines, more));
+    EXPECT_NEAR(std::stod(row), 349, 0.17);
+    EXPECT_NEAR(std::stod(row.substr(row.find(',') + 1)), 106.99, 0.53);
+    EXPECT_NE(outcome.err.find("confidence high"), std::string::npos) << outcome.err;
+    EXPECT_EQ(call("material hit.wav --band 90-1000").out, outcome.out);
+    EXPECT_EQ(call("material hit.wav --rule two-peaks").exitCode, 0);
+}
+
+TEST_F(MaterialCommand, ListsTheThreeMeasuredPairsAndTheirSource) {
+    const auto outcome = call("material --list");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(outcome.out.rfind("# Table 5.1", 0), 0u) << outcome.out;
+    for (const char* pair : {"\nconcrete block,80,34.13\n", "\nwooden board,349,106.99\n", "\nsteel plate,430,11.97\n"}) EXPECT_NE(outcome.out.find(pair), std::string::npos) << pair;
+}
+
+TEST_F(MaterialCommand, BadRecordingsAreOneLine) {
+    record("0.1,349,106.99,0,0,0");
+    refuses("material hit.wav", 1, "hit.wav: expected a hit, found silence", 2);
+    write("text.wav", "not a recording");
+    refuses("material text.wav", 1, "text.wav: expected a WAV file", 3);
+    refuses("material none.wav", 1, "none.wav: cannot be read", 3);
+    writeWav("one.wav", 48000, 1, {"\1\2", 2});
+    refuses("material one.wav", 1, "one.wav: expected at least 0.01 s, found 1 sample", 4);
+    writeWav("hour.wav", 5000, 3600 * 5000, std::string(2u * 3600 * 5000, '\0'));
+    refuses("material hour.wav", 1, "hour.wav: expected at most 600 s", 5);
+    writeWav("none-in-it.wav", 48000, 0, "");
+    refuses("material none-in-it.wav", 1, "none-in-it.wav: expected samples, found none", 6);
+}
+
+TEST_F(MaterialCommand, BadCallsAreUsageErrors) {
+    for (const char* band : {"90", "90-", "1000-90", "-90-100", "a-b", "0-100", "90-90"})
+        refuses(std::string{"material a.wav --band="} + band, 2, "--band: expected LO-HI in Hz like 90-1000");
+    refuses("material a.wav --rule guess", 2, "--rule");
+    refuses("material", 2, "give either FILE.wav or --list");
+    refuses("material a.wav --list", 2, "give either FILE.wav or --list");
+}
+
+} // namespace
+} // namespace physvib
