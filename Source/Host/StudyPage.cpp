@@ -70,7 +70,7 @@ void drawBar(const Canvas& canvas, Area row, int nameWidth, const juce::String& 
     const auto x = [&](double at) { return static_cast<float>(lane.getX() + at * lane.getWidth()); };
     const auto top = static_cast<float>(lane.getY()), height = static_cast<float>(lane.getHeight());
     canvas.graphics.setColour(colour.withMultipliedAlpha(0.85f));
-    const auto [left, right] = std::minmax(x(from), x(share));
+    const auto [left, right] = std::minmax({x(from), x(share)}); // by value
     canvas.graphics.fillRoundedRectangle(left, top, right - left, height, 3.0f);
     if (!(most > least)) return;
     canvas.graphics.setColour(palette::text);

@@ -82,7 +82,8 @@ TEST(Experiment, RecordsOfAnotherStudyAreRefused) {
 }
 
 TEST(Experiment, AnswersAreCheckedByTask) {
-    Experiment experiment{protocolOf(GridSet{2, 2}, {{.name = "main", .task = StudyTask::locate}}), {}};
+    const auto protocol = protocolOf(GridSet{2, 2}, {{.name = "main", .task = StudyTask::locate}});
+    Experiment experiment{protocol, {}};
     EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 1.0}}), "");
     EXPECT_EQ(experiment.refusal({.place = FieldPlace{0.5, 1.1}}), "expected a place on the field");
     EXPECT_EQ(experiment.refusal({.place = FieldPlace{std::nan(""), 0.0}}), "expected a place on the field");
