@@ -2,6 +2,7 @@
 // Drawing the world within a frame of a software renderer: plain paths and gradients, nothing blurred.
 #include "WorldView.h"
 #include "Host/Palette.h"
+#include "Host/ShapeOutline.h"
 #include "Physics/SceneCast.h"
 #include <algorithm>
 
@@ -67,29 +68,6 @@ void WorldView::paint(juce::Graphics& g) {
     drawEnchanters(g, at);
 }
 
-juce::Path WorldView::outlineOf(const Shape& shape, float scale) const {
-    juce::Path path;
-    const auto px = [scale](double metres) { return static_cast<float>(metres) * scale; };
-    const auto follow = [&](const std::vector<Vector>& vertices, bool closed) {
-        path.startNewSubPath(px(vertices.front().x), -px(vertices.front().y));
-        for (const auto& v : vertices) path.lineTo(px(v.x), -px(v.y));
-        if (closed) path.closeSubPath();
-    };
-    if (const auto* circle = std::get_if<CircleShape>(&shape)) {
-        const float r = std::max(px(circle->radiusMetres), 1.5f);
-        path.addEllipse(-r, -r, 2.0f * r, 2.0f * r);
-    } else if (const auto* box = std::get_if<BoxShape>(&shape)) {
-        const float w = std::max(px(box->widthMetres), 2.0f), h = std::max(px(box->heightMetres), 2.0f);
-        path.addRectangle(-0.5f * w, -0.5f * h, w, h);
-    } else if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-        follow(polygon->verticesMetres, true);
-    } else {
-        const auto& chain = std::get<ChainShape>(shape);
-        follow(chain.verticesMetres, chain.isLoop);
-    }
-    return path;
-}
-
 void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
     for (std::size_t i = 0; i < cast_.size(); ++i) {
         const auto& body = cast_[i];
@@ -101,7 +79,7 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
             const auto place = juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
                                    .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre, static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
                                    .followedBy(move);
-            const auto path = outlineOf(fixture.shape, at.pixelsPerMetre);
+            const auto path = shapeOutline(fixture.shape, at.pixelsPerMetre);
             g.setColour(palette::material(fixture.material).withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.9f : 0.6f));
             if (std::holds_alternative<ChainShape>(fixture.shape)) g.strokePath(path, juce::PathStrokeType{3.0f}, place);
             else g.fillPath(path, place);

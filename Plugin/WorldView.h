@@ -37,7 +37,6 @@ private:
     };
     Map map() const;
     juce::Colour colourOf(const CollisionEvent& event) const;
-    juce::Path outlineOf(const Shape& shape, float pixelsPerMetre) const;
     void drawBodies(juce::Graphics& g, const Map& at) const;
     void drawHits(juce::Graphics& g, const Map& at) const;
     void drawEnchanters(juce::Graphics& g, const Map& at) const;

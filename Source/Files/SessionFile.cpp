@@ -9,6 +9,7 @@
 #include "Physics/SceneValidation.h"
 #include "Physics/Simulation.h"
 #include <cmath>
+#include <fstream>
 
 namespace physvib {
 namespace {
@@ -123,10 +124,11 @@ Result<SavedSession> loadSession(const std::filesystem::path& path) {
     return readSession(text.value, path.string());
 }
 
-// It is the first thing that sessionJson writes.
+// It is the first thing that sessionJson writes, so there is no need to read more.
 bool isSessionFile(const std::filesystem::path& path) {
-    const Result<std::string> text = readFile(path, limits::maxSessionFileBytes);
-    return text && text.value.substr(0, 64).find(versionField) != std::string::npos;
+    std::string head(64, '\0');
+    std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+    return head.find(versionField) != std::string::npos;
 }
 
 std::string sessionJson(const SavedSession& session) {

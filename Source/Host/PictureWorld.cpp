@@ -2,6 +2,7 @@
 // The panel that shows the world: field, bodies, hits as light, enchanters.
 #include "Host/PictureLight.h"
 #include "Host/PictureParts.h"
+#include "Host/ShapeOutline.h"
 #include "Physics/SceneCast.h"
 #include <algorithm>
 #include <cmath>
@@ -42,35 +43,12 @@ Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
 constexpr float wallPixels = 12.0f;
 
 // A chain is a line: it is stroked, the others are filled.
-juce::Path outlineOf(const Shape& shape, const FieldMap& map) {
-    juce::Path path;
-    const auto follow = [&](const std::vector<Vector>& vertices, bool closed) {
-        path.startNewSubPath(map.length(vertices.front().x), -map.length(vertices.front().y));
-        for (const auto& v : vertices) path.lineTo(map.length(v.x), -map.length(v.y));
-        if (closed) path.closeSubPath();
-    };
-    if (const auto* circle = std::get_if<CircleShape>(&shape)) {
-        const float r = std::max(map.length(circle->radiusMetres), 1.5f);
-        path.addEllipse(-r, -r, 2.0f * r, 2.0f * r);
-    } else if (const auto* box = std::get_if<BoxShape>(&shape)) {
-        const float w = std::max(map.length(box->widthMetres), 2.0f),
-                    h = std::max(map.length(box->heightMetres), 2.0f);
-        path.addRectangle(-0.5f * w, -0.5f * h, w, h);
-    } else if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-        follow(polygon->verticesMetres, true);
-    } else {
-        const auto& chain = std::get<ChainShape>(shape);
-        follow(chain.verticesMetres, chain.isLoop);
-    }
-    return path;
-}
-
 void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, bool isDynamic,
                  const juce::AffineTransform& body, const FieldMap& map) {
     const auto move = juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
                           .translated(map.length(fixture.offsetMetres.x), -map.length(fixture.offsetMetres.y))
                           .followedBy(body);
-    const auto outline = outlineOf(fixture.shape, map);
+    const auto outline = shapeOutline(fixture.shape, map.pixelsPerMetre);
     const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
     canvas.graphics.setColour(
         palette::material(fixture.material).withMultipliedBrightness(isDynamic ? 0.9f : 0.6f));
