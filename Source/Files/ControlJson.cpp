@@ -2,6 +2,7 @@
 // Fields of controls and panners, with their ranges.
 #include "Files/ControlJson.h"
 #include "Files/LayoutJson.h"
+#include "Files/NumberText.h"
 #include <cmath>
 #include <string>
 #include <vector>

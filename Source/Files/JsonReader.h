@@ -3,6 +3,7 @@
 // Files.
 #pragma once
 #include "Files/JsonField.h"
+#include "Files/NumberText.h"
 #include "Physics/SceneFields.h"
 #include <array>
 #include <optional>

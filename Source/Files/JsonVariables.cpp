@@ -3,6 +3,7 @@
 #include "Files/JsonVariables.h"
 #include "Files/FileLimits.h"
 #include "Files/JsonField.h"
+#include "Files/NumberText.h"
 #include <algorithm>
 
 namespace physvib {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Every field of a layout file, checked when read and in a fixed order when written.
 #include "Files/LayoutFile.h"
+#include "Files/FileLimits.h"
 #include "Files/JsonField.h"
 #include "Files/JsonLines.h"
 #include "Files/LayoutJson.h"
+#include "Files/NumberText.h"
 #include "Files/ReadFile.h"
 #include "Files/StrictJson.h"
 

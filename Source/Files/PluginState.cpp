@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The plug-in's state: its own fields, and within them a scene and a layout as their own files have them.
 #include "Files/PluginState.h"
+#include "Files/FileLimits.h"
 #include "Files/JsonField.h"
 #include "Files/JsonLines.h"
 #include "Files/JsonVersion.h"
+#include "Files/NumberText.h"
 #include "Files/SceneFile.h"
 #include "Physics/SceneLimits.h"
 #include "Physics/Simulation.h"

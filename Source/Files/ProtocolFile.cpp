@@ -6,6 +6,7 @@
 #include "Files/JsonReader.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
+#include "Files/NumberText.h"
 #include "Files/ProtocolFields.h"
 #include "Files/ReadFile.h"
 #include "Files/TrialColumns.h"

@@ -2,6 +2,7 @@
 // Reading and writing a session; scenes and inputs by the table in SceneFields.h.
 #include "Files/SessionFile.h"
 #include "Files/ControlJson.h"
+#include "Files/FileLimits.h"
 #include "Files/JsonReader.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
