@@ -50,6 +50,22 @@ void startCycleCounter() noexcept {
     reg(core::dwtControl) |= 1;
 }
 
+// Apart from the start and never inlined there: the linker puts it beside the core.
+[[noreturn, gnu::noinline]] void loop(BoardRenderer& renderer) noexcept {
+    for (;;) {
+        while (!outputs.hasRoom()) asm volatile("wfi");
+        link.poll(); // every half millisecond: six bytes of the line at most
+        BoardRenderer::Codes block;
+        link.beforeBlock();
+        const std::uint32_t began = reg(core::dwtCycles);
+        renderer.render(block);
+        link.afterBlock(block, reg(core::dwtCycles) - began);
+        outputs.put(block);
+        showLed();
+        reg(iwdg::kr) = 0xAAAA;
+    }
+}
+
 [[noreturn]] void run() noexcept {
     reg(rcc::ahbenr) |= 1u << 17 | 1u << 19; // ports A and C
     DacBus::start();
@@ -63,18 +79,7 @@ void startCycleCounter() noexcept {
     serial.start(clock, outputs);
     startHardwareWatchdog();
     startSampleTimer(clock);
-    for (;;) {
-        while (!outputs.hasRoom()) asm volatile("wfi");
-        link.poll(); // every half millisecond: six bytes of the line at most
-        BoardRenderer::Codes block;
-        link.beforeBlock();
-        const std::uint32_t began = reg(core::dwtCycles);
-        renderer.render(block);
-        link.afterBlock(block, reg(core::dwtCycles) - began);
-        outputs.put(block);
-        showLed();
-        reg(iwdg::kr) = 0xAAAA;
-    }
+    loop(renderer);
 }
 
 } // namespace

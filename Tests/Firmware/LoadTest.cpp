@@ -57,7 +57,7 @@ void expectLoad(int modes, double perSecond, CostModel model, double most) {
 TEST(BoardLoad, AllModesOnAFullLineOptimistic) { expectLoad(128, fullLine, CostModel::optimistic, 0.50); }
 TEST(BoardLoad, AllModesOnAFullLinePessimistic) { expectLoad(128, fullLine, CostModel::pessimistic, 0.50); }
 TEST(BoardLoad, HalfTheModesOptimistic) { expectLoad(64, someStrikes, CostModel::optimistic, 0.25); }
-TEST(BoardLoad, HalfTheModesPessimistic) { expectLoad(64, someStrikes, CostModel::pessimistic, 0.28); }
+TEST(BoardLoad, HalfTheModesPessimistic) { expectLoad(64, someStrikes, CostModel::pessimistic, 0.25); }
 TEST(BoardLoad, HalfTheModesOnAFullLine) { expectLoad(64, fullLine, CostModel::pessimistic, 0.34); }
 
 } // namespace
