@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // physvib-virtual-board: the firmware's image as a board on a pseudo-terminal, in real time.
-#include "PseudoTerminal.h"
+#include "Plug.h"
+#include "SoundLog.h"
 #include "VirtualBoard.h"
 #include "WavFile.h"
 #include <atomic>
@@ -14,10 +15,10 @@ namespace {
 
 using namespace physvib::virtualboard;
 
-std::atomic<bool> interrupted{false};
+std::atomic<bool> interrupted{false}, plugMoved{false};
 
 struct Options {
-    std::string image, wav;
+    std::string image, wav, link, log;
     double seconds = 0; // 0: until interrupted
     CostModel model = CostModel::optimistic;
     bool hasCrystal = true, isValid = true;
@@ -29,6 +30,8 @@ Options parse(int argc, char** argv) {
         const std::string word = argv[i];
         const bool hasValue = i + 1 < argc;
         if (word == "--wav" && hasValue) o.wav = argv[++i];
+        else if (word == "--link" && hasValue) o.link = argv[++i];
+        else if (word == "--log" && hasValue) o.log = argv[++i];
         else if (word == "--seconds" && hasValue) o.seconds = std::strtod(argv[++i], nullptr);
         else if (word == "--pessimistic") o.model = CostModel::pessimistic;
         else if (word == "--no-crystal") o.hasCrystal = false;
@@ -39,17 +42,20 @@ Options parse(int argc, char** argv) {
     return o;
 }
 
-void runLive(VirtualBoard& board, PseudoTerminal& line, double seconds) {
+void runLive(VirtualBoard& board, Plug& plug, SoundLog& log, double seconds) {
     const auto began = std::chrono::steady_clock::now();
+    log.begin(began);
     while (!interrupted && (seconds <= 0 || board.seconds() < seconds)) {
         // Bytes come when they are read, not when the board stood still for want of a processor: its clock stays steady.
-        const auto bytes = line.read();
+        const auto bytes = plug.read();
         const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        if (plugMoved.exchange(false)) log.note(plug.move() ? "plugged" : "unplugged", now);
         board.send(bytes, now);
         board.runUntil(now);
+        log.follow(board.io());
         std::vector<std::uint8_t> answer;
         for (const auto& byte : board.received()) answer.push_back(byte.value);
-        if (!answer.empty()) line.write(answer);
+        if (!answer.empty()) plug.write(answer);
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
 }
@@ -67,16 +73,19 @@ void report(VirtualBoard& board) {
 int main(int argc, char** argv) {
     const Options o = parse(argc, argv);
     if (!o.isValid) {
-        std::cerr << "usage: physvib-virtual-board IMAGE.elf [--seconds S] [--wav CONVERTERS.wav] [--pessimistic] [--no-crystal]\n";
+        std::cerr << "usage: physvib-virtual-board IMAGE.elf [--seconds S] [--wav CONVERTERS.wav] [--link PORT] [--log SOUND.csv] [--pessimistic] [--no-crystal]\n"
+                     "SIGUSR1 pulls the plug of its serial line, and puts it back\n";
         return 2;
     }
     try {
         VirtualBoard board(readElf(o.image), o.model, o.hasCrystal);
-        PseudoTerminal line;
+        Plug plug{o.link};
+        SoundLog log{o.log};
         std::signal(SIGINT, [](int) { interrupted = true; });
         std::signal(SIGTERM, [](int) { interrupted = true; });
-        std::cout << line.path() << std::endl; // the port to connect to; scripts wait for this line
-        runLive(board, line, o.seconds);
+        std::signal(SIGUSR1, [](int) { plugMoved = true; });
+        std::cout << plug.path() << std::endl; // the port to connect to; scripts wait for this line
+        runLive(board, plug, log, o.seconds);
         report(board);
         if (!o.wav.empty() && !writeWav(o.wav, board.io().frames, 8000)) throw std::runtime_error(o.wav + ": cannot be written");
     } catch (const std::exception& e) {

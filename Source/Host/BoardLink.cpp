@@ -80,7 +80,6 @@ void BoardLink::search() {
     line_ = openSerialLine(path, now_.trouble);
     if (!line_) return;
     now_.port = path;
-    now_.trouble.clear();
     now_.state = State::greeting;
     heardNs_ = nowNs();
     nextHelloNs_ = lineFreeNs_ = 0;
@@ -106,8 +105,9 @@ void BoardLink::receive() {
 
 void BoardLink::handle(std::span<const std::uint8_t> payload) {
     heardNs_ = nowNs();
-    if (wire::HelloReply hello; wire::decode(payload, hello)) {
+    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting) { // the first of several
         now_.board = hello;
+        now_.trouble.clear();
         now_.state = State::synchronising;
         sequence_ = 0xFF;
         ++now_.connections;

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <libserialport.h>
 #include <poll.h>
 #include <termios.h>
@@ -65,6 +66,12 @@ std::unique_ptr<SerialLine> openTerminal(const std::string& path, std::string& e
     return std::make_unique<TerminalLine>(file);
 }
 
+// Also by another name, as links give one that stays.
+bool isTerminal(const std::string& path) {
+    std::error_code none;
+    return std::filesystem::weakly_canonical(path, none).string().starts_with("/dev/pts/");
+}
+
 std::string textOr(const char* text, const char* otherwise) { return text != nullptr ? text : otherwise; }
 
 } // namespace
@@ -83,7 +90,7 @@ std::vector<SerialPortName> listSerialPorts() {
 }
 
 std::unique_ptr<SerialLine> openSerialLine(const std::string& path, std::string& error) {
-    if (path.starts_with("/dev/pts/")) return openTerminal(path, error);
+    if (isTerminal(path)) return openTerminal(path, error);
     sp_port* found = nullptr;
     if (sp_get_port_by_name(path.c_str(), &found) != SP_OK) {
         error = path + ": no such serial port";

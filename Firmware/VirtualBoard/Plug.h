@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The plug of the virtual board's serial line: pulled, the port is gone, as with a USB cable.
+#pragma once
+#include "PseudoTerminal.h"
+#include <filesystem>
+#include <optional>
+
+namespace physvib::virtualboard {
+
+class Plug {
+public:
+    /// In. `link`: a name that stays the same from plug to plug (a symbolic link), or empty. Throws what
+    /// PseudoTerminal and std::filesystem throw.
+    explicit Plug(std::string link) : link_{std::move(link)} { move(); }
+    ~Plug() { if (line_) pull(); }
+    Plug(const Plug&) = delete;
+    Plug& operator=(const Plug&) = delete;
+
+    /// Out if it was in, in if it was out; true if it is in now.
+    bool move() {
+        if (line_) pull();
+        else putIn();
+        return line_.has_value();
+    }
+
+    /// The port's name.
+    const std::string& path() const { return link_.empty() ? line_->path() : link_; }
+
+    std::vector<std::uint8_t> read() { return line_ ? line_->read() : std::vector<std::uint8_t>{}; }
+    void write(std::span<const std::uint8_t> bytes) { if (line_) line_->write(bytes); }
+
+private:
+    void putIn() {
+        line_.emplace();
+        if (link_.empty()) return;
+        std::filesystem::remove(link_);
+        std::filesystem::create_symlink(line_->path(), link_);
+    }
+    void pull() {
+        if (!link_.empty()) std::filesystem::remove(link_);
+        line_.reset();
+    }
+
+    std::string link_;
+    std::optional<PseudoTerminal> line_;
+};
+
+} // namespace physvib::virtualboard
