@@ -25,6 +25,26 @@ TEST(Transport, AHostWithoutOnePlays) {
     EXPECT_EQ(t.follow({}, {}, 64), Change::none);
 }
 
+TEST(Transport, AHostThatTellsChangesOnlyGoesOnAsBefore) {
+    Transport t;
+    EXPECT_EQ(t.follow(false, 0, 64), Change::none);
+    EXPECT_EQ(t.follow({}, {}, 64), Change::none) << "it still stands";
+    EXPECT_EQ(t.follow(true, 0, 64), Change::started);
+    EXPECT_EQ(t.follow({}, {}, 64), Change::none);
+    EXPECT_EQ(t.follow(true, 140, 64), Change::none) << "a change of tempo within the block";
+    EXPECT_EQ(t.follow({}, {}, 64), Change::none);
+    EXPECT_EQ(t.follow(true, 320, 64), Change::started) << "a jump, after what was not told";
+    EXPECT_EQ(t.follow(false, 384, 64), Change::stopped);
+    EXPECT_EQ(t.follow({}, {}, 64), Change::none);
+}
+
+TEST(Transport, AStartThatIsTheFirstThingToldIsAStart) {
+    Transport t;
+    EXPECT_EQ(t.follow({}, {}, 64), Change::started) << "perhaps a host without a transport";
+    EXPECT_EQ(t.follow(true, 0, 64), Change::started);
+    EXPECT_EQ(t.follow({}, {}, 64), Change::none);
+}
+
 PluginState restarting() {
     PluginState s = newPluginState();
     s.transport = TransportMode::restartOnPlay;
