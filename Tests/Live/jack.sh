@@ -11,6 +11,7 @@ stop() {
     rm -rf "$folder"
 }
 trap stop EXIT
+trap "exit 1" HUP INT TERM
 
 # serve RATE BLOCK_FRAMES PORTS [-s]: synchronous unless told.
 serve() {
