@@ -11,22 +11,22 @@ namespace {
 constexpr int framesPerSecond = 25; // a software renderer has other things to do
 constexpr int barHeight = 46, controlsHeight = 118, statusHeight = 26, metersWidth = 230;
 
-juce::String text(std::string_view words) { return juce::String::fromUTF8(words.data(), static_cast<int>(words.size())); }
+juce::String words(std::string_view utf8) { return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size())); }
 
 } // namespace
 
 ParameterControl::ParameterControl(HostParameter& parameter) {
     const auto& row = parameter.row();
-    name_.setText(text(row.name), juce::dontSendNotification);
+    name_.setText(words(row.name), juce::dontSendNotification);
     name_.setJustificationType(juce::Justification::centred);
-    name_.setFont(juce::Font{13.0f});
+    name_.setFont(juce::Font{text::small});
     name_.setColour(juce::Label::textColourId, palette::muted);
     addAndMakeVisible(name_);
     if (row.scale == ParameterScale::toggle) {
         button_.setButtonText("SILENCE");
         button_.setClickingTogglesState(true);
-        button_.setColour(juce::TextButton::buttonOnColourId, palette::limit);
-        button_.setTooltip(text(row.help));
+        button_.getProperties().set(stopProperty, true);
+        button_.setTooltip(words(row.help));
         addAndMakeVisible(button_);
         buttonAttachment_ = std::make_unique<juce::ButtonParameterAttachment>(parameter, button_);
         return;
@@ -34,7 +34,7 @@ ParameterControl::ParameterControl(HostParameter& parameter) {
     knob_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
     knob_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack); // asked for when the box is made
     knob_.setTextBoxStyle(juce::Slider::TextBoxBelow, false, 92, 20);
-    knob_.setTooltip(text(row.help));
+    knob_.setTooltip(words(row.help));
     addAndMakeVisible(knob_);
     knobAttachment_ = std::make_unique<juce::SliderParameterAttachment>(parameter, knob_);
     knob_.setDoubleClickReturnValue(true, parameter.convertFrom0to1(parameter.getDefaultValue()));
@@ -47,37 +47,15 @@ void ParameterControl::resized() {
     button_.setBounds(area.reduced(6, std::max(0, area.getHeight() / 2 - 24)));
 }
 
-PluginEditor::Look::Look() {
-    using namespace juce;
-    setColour(ComboBox::backgroundColourId, palette::well);
-    setColour(ComboBox::outlineColourId, palette::line);
-    setColour(ComboBox::textColourId, palette::text);
-    setColour(PopupMenu::backgroundColourId, palette::panel);
-    setColour(PopupMenu::textColourId, palette::text);
-    setColour(PopupMenu::highlightedBackgroundColourId, palette::line);
-    setColour(TextEditor::backgroundColourId, palette::well);
-    setColour(TextEditor::outlineColourId, palette::line);
-    setColour(TextEditor::textColourId, palette::text);
-    setColour(TextButton::buttonColourId, palette::well);
-    setColour(TextButton::textColourOffId, palette::limit);
-    setColour(ToggleButton::textColourId, palette::text);
-    setColour(ToggleButton::tickColourId, palette::now);
-    setColour(Label::textColourId, palette::text);
-    setColour(Slider::rotarySliderFillColourId, palette::enchanter(0));
-    setColour(Slider::rotarySliderOutlineColourId, palette::line);
-    setColour(Slider::thumbColourId, palette::text);
-    setColour(Slider::textBoxTextColourId, palette::text);
-}
-
 PluginEditor::PluginEditor(PluginProcessor& plugin)
     : AudioProcessorEditor{plugin}
     , plugin_{plugin} {
     setLookAndFeel(&look_);
     setOpaque(true);
     title_.setText("PhysVib", juce::dontSendNotification);
-    title_.setFont(juce::Font{21.0f, juce::Font::bold});
+    title_.setFont(juce::Font{text::large, juce::Font::bold});
     seedName_.setText("Seed", juce::dontSendNotification);
-    status_.setFont(juce::Font{14.0f});
+    status_.setFont(juce::Font{text::medium});
     for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &seedName_, &seed_, &restart_, &world_, &meters_, &status_}) addAndMakeVisible(c);
     for (std::size_t i = 0; i < parameterCount; ++i) {
         controls_.push_back(std::make_unique<ParameterControl>(plugin.parameter(static_cast<Parameter>(i))));
@@ -97,8 +75,8 @@ PluginEditor::~PluginEditor() {
 }
 
 void PluginEditor::fillChoices() {
-    for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(text(scene.name), id++);
-    for (int id = 1; const auto name : layoutPresetNames) layout_.addItem(text(name), id++);
+    for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(words(scene.name), id++);
+    for (int id = 1; const auto name : layoutPresetNames) layout_.addItem(words(name), id++);
     seed_.setInputRestrictions(10, "0123456789");
     scene_.onChange = [this] { edit([this](PluginState& s) { s.scene = builtInScenes()[static_cast<std::size_t>(scene_.getSelectedItemIndex())]; }); };
     layout_.onChange = [this] { edit([this](PluginState& s) { s.layout = presetLayout(layoutPresetNames[static_cast<std::size_t>(layout_.getSelectedItemIndex())]); }); };
@@ -117,14 +95,16 @@ void PluginEditor::takeState() {
     shown_ = plugin_.stateCount();
     state_ = plugin_.state();
     const auto select = [](juce::ComboBox& box, const std::string& name) { // a scene or layout of one's own is its name only
-        const auto words = text(name);
-        box.setText(words.isEmpty() ? juce::String{"(no name)"} : words, juce::dontSendNotification);
+        const auto shown = words(name);
+        box.setText(shown.isEmpty() ? juce::String{"(no name)"} : shown, juce::dontSendNotification);
     };
     select(scene_, state_.scene.name);
     select(layout_, state_.layout.name);
     seed_.setText(juce::String{static_cast<juce::int64>(state_.seed)}, false);
     restart_.setToggleState(state_.transport == TransportMode::restartOnPlay, juce::dontSendNotification);
-    world_.show(state_);
+    const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
+    world_.show(state_.scene);
+    world_.show(state_.layout, {state_.layout.geometry, static_cast<PanningLaw>(value(Parameter::law)), value(Parameter::exponent), state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
 }
 
 void PluginEditor::refresh() {
@@ -136,14 +116,16 @@ void PluginEditor::refresh() {
     const int rate = std::max(1, plugin_.preparedRateHz());
     std::vector<BodyPose> poses;
     const auto at = plugin_.takes().poses(poses);
-    world_.update(std::move(poses), at, plugin_.takes().playOutFrames() * 1'000'000'000 / rate, hits, meters);
+    std::vector<CollisionEvent> felt;
+    for (const auto& hit : hits) felt.push_back(hit.played.event);
+    world_.update({std::move(poses), at, plugin_.takes().playOutFrames() * 1'000'000'000 / rate, felt, meters.peaks});
     meters_.update(meters, state_.layout);
     const auto trouble = plugin_.trouble();
-    status_.setColour(juce::Label::textColourId, trouble.isEmpty() ? palette::muted : palette::limit);
+    status_.setColour(juce::Label::textColourId, trouble.isEmpty() ? shade(*this, Shade::muted) : shade(*this, Shade::limit));
     status_.setText(trouble.isEmpty() ? statusLine(status, meters) : trouble, juce::dontSendNotification);
 }
 
-juce::String PluginEditor::statusLine(const TakesStatus& status, const PluginMeters& meters) const {
+juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMeters& meters) const {
     const int rate = plugin_.preparedRateHz(), enchanters = enchantersOf(state_);
     if (rate == 0 || plugin_.takes().playOutFrames() == 0) return "The host has not started the plug-in yet.";
     const auto& r = status.session.render;
@@ -156,7 +138,7 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const PluginMet
     return line;
 }
 
-void PluginEditor::paint(juce::Graphics& g) { g.fillAll(palette::ground); }
+void PluginEditor::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::ground)); }
 
 void PluginEditor::resized() {
     auto area = getLocalBounds().reduced(12, 6);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The plug-in's window: the world, the enchanters' meters, scene and layout, a knob per parameter, what went wrong.
 #pragma once
-#include "MeterView.h"
-#include "WorldView.h"
+#include "Host/Views/MeterView.h"
+#include "Host/Views/WorldView.h"
+#include "PluginProcessor.h"
 #include <memory>
 #include <vector>
 
@@ -39,11 +40,7 @@ private:
     void fillChoices();
     template <class Change>
     void edit(Change change);
-    juce::String statusLine(const TakesStatus& status, const PluginMeters& meters) const;
-
-    struct Look final : juce::LookAndFeel_V4 {
-        Look();
-    };
+    juce::String statusLine(const TakesStatus& status, const ChannelMeters& meters) const;
 
     PluginProcessor& plugin_;
     Look look_;

@@ -5,6 +5,7 @@
 // host calls non-realtime is rendered with RenderMode::offline, so that a bounce is the live take at any speed.
 #pragma once
 #include "BusPlan.h"
+#include "Host/ChannelMeters.h"
 #include "HostParameter.h"
 #include "MidiMap.h"
 #include "PluginSettings.h"
@@ -12,15 +13,6 @@
 #include "Transport.h"
 
 namespace physvib {
-
-/// What the editor shows.
-struct PluginMeters {
-    std::array<float, limits::maxEnchanters> peaks{}; ///< falling by 20 dB a second
-    std::array<bool, limits::maxEnchanters> isConnected{};
-    int enchanters = 0;
-    int connected = 0;
-    float limiterGain = 1.0f;
-};
 
 class PluginProcessor final : public juce::AudioProcessor, private juce::Timer {
 public:
@@ -38,7 +30,7 @@ public:
 
     HostParameter& parameter(Parameter which) noexcept { return *parameters_[static_cast<std::size_t>(which)]; }
     Takes& takes() noexcept { return takes_; }
-    PluginMeters meters() noexcept { return meters_.read(); } ///< one reader
+    ChannelMeters meters() noexcept { return meters_.read(); } ///< one reader
 
     const juce::String getName() const override { return name_; }
     bool isBusesLayoutSupported(const BusesLayout& layout) const override { return isAccepted(plan_, wrapperType, layout); }
@@ -105,7 +97,7 @@ private:
         MidiTable midi;
     };
     LatestValue<RenderSettings> renderSettings_;
-    LatestValue<PluginMeters> meters_;
+    LatestValue<ChannelMeters> meters_;
     Takes takes_;
     BusMap outputs_;
 
@@ -113,7 +105,7 @@ private:
     Transport transport_;
     int blockFrames_ = 0;
     GainRamp open_; // shut by bypass
-    PluginMeters measured_;
+    ChannelMeters measured_;
     std::array<double, parameterCount> sent_{};
     std::array<float, 17> bend_{}, slide_{}; // per MIDI channel, from 1: shifts of the strikes, in parts of the field
 };

@@ -27,6 +27,7 @@ struct SessionLog {
     std::vector<SceneTake> takes; ///< one after the other; the last goes on
     std::vector<PannerChange> panners;   ///< in time order
     std::vector<ChannelChange> channels; ///< in time order
+    std::vector<CollisionEvent> strikes; ///< apart from the world, in the order in which they were asked for
 
     std::int64_t lastControlNs() const noexcept {
         return std::max(panners.empty() ? 0 : panners.back().timeNs, channels.empty() ? 0 : channels.back().timeNs);

@@ -21,10 +21,20 @@ AudioOutput::~AudioOutput() { close(); }
 
 std::string AudioOutput::open(const AudioOutputSettings& settings) {
     close();
-    if (auto error = map_.want(session_.channels(), settings.channelMap); !error.empty()) return error;
+    if (auto error = map_.want(session_.channels(), settings.channelMap, settings.enchanters); !error.empty()) return error;
     settings_ = settings;
     setLevel(settings.level);
     return openDevice();
+}
+
+std::string AudioOutput::assign(const std::vector<int>& channelMap, int enchanters) {
+    if (auto error = map_.want(session_.channels(), channelMap, enchanters); !error.empty()) return error;
+    settings_.channelMap = channelMap;
+    settings_.enchanters = enchanters;
+    if (!found_.device || !running_) return {};
+    if (settings_.opensAll) map_.place(found_.device->getActiveOutputChannels());
+    else stopDevice(), void(openDevice());
+    return {};
 }
 
 std::string AudioOutput::openDevice() {
@@ -38,7 +48,9 @@ std::string AudioOutput::openDevice() {
 
 std::string AudioOutput::startDevice() {
     auto& device = *found_.device;
-    const auto outputs = map_.outputs(device.getOutputChannelNames().size());
+    const int offered = device.getOutputChannelNames().size();
+    auto outputs = map_.outputs(offered);
+    if (settings_.opensAll) outputs.setRange(0, offered, true);
     if (outputs.isZero()) return settings_.device + ": has none of the outputs that are wanted";
     const auto error = device.open({}, outputs, settings_.sampleRateHz > 0 ? settings_.sampleRateHz : device.getCurrentSampleRate(),
                                    settings_.blockFrames > 0 ? settings_.blockFrames : device.getDefaultBufferSize());
@@ -132,6 +144,7 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
 void AudioOutput::renderPart(float* const* out, int outputs, int first, int frames) noexcept {
     session_.render(scratchAt_.data(), frames, RenderMode::realtime);
     if (auto* recorder = recorder_.load(std::memory_order_acquire)) recorder->take(scratchAt_.data(), frames);
+    if (tap_ != nullptr) tap_->take(scratchAt_.data(), frames);
     for (int j = 0; j < session_.channels(); ++j) { // the limiter, if on, leaves nothing to cut
         float* at = scratchAt_[static_cast<std::size_t>(j)];
         juce::FloatVectorOperations::clip(at, at, -session_.ceiling(j), session_.ceiling(j), frames);
@@ -158,5 +171,7 @@ AudioOutputStatus AudioOutput::status() {
 }
 
 int AudioOutput::deviceLatencyFrames() const { return found_.device ? found_.device->getOutputLatencyInSamples() : 0; }
+
+int AudioOutput::deviceOutputs() const { return found_.device ? found_.device->getOutputChannelNames().size() : 0; }
 
 } // namespace physvib

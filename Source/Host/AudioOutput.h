@@ -12,6 +12,7 @@
 #include "Host/OutputMap.h"
 #include "Host/PlayedRecorder.h"
 #include "Host/Session.h"
+#include "Host/SignalTap.h"
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -31,6 +32,8 @@ struct AudioOutputSettings {
     int sampleRateHz = 0;        ///< 0: as the device stands
     int blockFrames = 0;         ///< 0: as the device stands
     float level = safeStartLevel; ///< master gain, 0 to 1, reached in a ramp
+    int enchanters = 0;          ///< how many there are to be felt; 0: as many as the session has channels
+    bool opensAll = false;       ///< every output of the device, so that assign() need not open it again
 };
 
 /// A moment of the output, for people.
@@ -58,6 +61,10 @@ public:
     /// device and resumed by later ones. M.
     std::string open(const AudioOutputSettings& settings);
 
+    /// Another map of outputs and number of enchanters, while it plays if the device's outputs are open; empty, or one
+    /// line with the reason, and all is as before. M.
+    std::string assign(const std::vector<int>& channelMap, int enchanters);
+
     /// Stops and closes; what is left of the session stays. M.
     void close();
 
@@ -74,11 +81,18 @@ public:
     void record(PlayedRecorder* recorder) noexcept { recorder_.store(recorder, std::memory_order_release); }
     bool isRecording() const noexcept { return recorder_.load(std::memory_order_relaxed) != nullptr; }
 
+    /// `tap` takes all that is played until the output is closed; it outlives the output. M, before open().
+    void listen(SignalTap* tap) noexcept { tap_ = tap; }
+
+    /// The device that is wanted, as type:name once it was found; empty: none. M.
+    const std::string& device() const noexcept { return settings_.device; }
+
     /// M.
     AudioOutputStatus status();
     int sampleRateHz() const noexcept { return rate_; }
     int blockFrames() const noexcept { return block_; }
     int deviceLatencyFrames() const;
+    int deviceOutputs() const; ///< that it offers; 0: there is none
 
 private:
     void audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outputs, int frames,
@@ -110,6 +124,7 @@ private:
     std::atomic<float> level_{0.0f};
     std::atomic<int> largestBlock_{0}; // that the device has asked for
     std::atomic<PlayedRecorder*> recorder_{nullptr};
+    SignalTap* tap_ = nullptr;
     LatestValue<Load> load_;
 
     // M

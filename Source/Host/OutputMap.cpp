@@ -6,14 +6,15 @@
 
 namespace physvib {
 
-std::string OutputMap::want(int enchanters, const std::vector<int>& wanted) {
-    wanted_.assign(static_cast<std::size_t>(enchanters), -1);
-    at_.fill(-1);
-    if (wanted.empty()) std::iota(wanted_.begin(), wanted_.end(), 0);
-    else std::copy_n(wanted.begin(), std::min(wanted.size(), wanted_.size()), wanted_.begin());
-    for (std::size_t j = 0; j < wanted_.size(); ++j)
-        if (wanted_[j] >= 0 && std::count(wanted_.begin(), wanted_.end(), wanted_[j]) > 1)
-            return "output " + std::to_string(wanted_[j] + 1) + " is given to two enchanters; expected one each";
+std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int felt) {
+    std::vector<int> outputs(static_cast<std::size_t>(enchanters), -1);
+    if (wanted.empty()) std::iota(outputs.begin(), outputs.end(), 0);
+    else std::copy_n(wanted.begin(), std::min(wanted.size(), outputs.size()), outputs.begin());
+    for (const int output : outputs)
+        if (output >= 0 && std::count(outputs.begin(), outputs.end(), output) > 1)
+            return "output " + std::to_string(output + 1) + " is given to two enchanters; expected one each";
+    wanted_ = std::move(outputs);
+    felt_ = felt > 0 ? std::min(felt, enchanters) : enchanters;
     return {};
 }
 
@@ -31,7 +32,7 @@ void OutputMap::place(const juce::BigInteger& active) {
         for (int k = 0; k < output; ++k) before += active[k] ? 1 : 0;
         return before;
     };
-    std::transform(wanted_.begin(), wanted_.end(), at_.begin(), packed);
+    for (std::size_t j = 0; j < wanted_.size(); ++j) at_[j].store(packed(wanted_[j]), std::memory_order_relaxed);
 }
 
 int OutputMap::unfelt() const noexcept {

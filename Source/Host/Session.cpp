@@ -30,7 +30,7 @@ struct Session::OfflineSource {
         while (!session.queue_.pop(event)) {
             const bool hasMore = !session.handOver() || session.world_.timeNs() < endNs;
             if (!hasMore) return session.queue_.pop(event);
-            if (session.world_.timeNs() < endNs) session.world_.step(session.made_);
+            if (session.world_.timeNs() < endNs) session.moveWorld(endNs);
         }
         return true;
     }
@@ -66,6 +66,8 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     leastMarginFrames_ = noMargin;
     offline_ = false;
     isDriven_ = false;
+    slowness_ = 1;
+    stepsWanted_ = 0;
 }
 
 void Session::setLaw(int sampleRateHz, int maxBlockFrames) {
@@ -114,11 +116,23 @@ int Session::catchUp() {
     takeOwnInputs(); // what R did until `now` is in the queue: it came before the frames were told
     int steps = 0;
     for (; world_.timeNs() < now; ++steps) {
-        world_.step(made_);
+        moveWorld(now);
         handOver(); // the next block may begin before the last step
     }
     handOver();
     return steps;
+}
+
+// One step; or none, where the world stands still. It is before `untilNs`. The world mutex is held.
+void Session::moveWorld(std::int64_t untilNs) {
+    const int slowness = slowness_.load(std::memory_order_relaxed);
+    if (slowness == 0) {
+        if (stepsWanted_.load(std::memory_order_relaxed) == 0) return world_.standStill(untilNs - world_.timeNs());
+        stepsWanted_.fetch_sub(1, std::memory_order_relaxed);
+    }
+    const std::int64_t before = world_.timeNs();
+    world_.step(made_);
+    if (slowness > 1) world_.standStill((slowness - 1) * (world_.timeNs() - before));
 }
 
 // Starts a new take if one is wanted. The world mutex is held.
@@ -182,7 +196,7 @@ void Session::renderOwnWorld(float* const* out, int frames, std::int64_t endNs) 
     takeOwnInputs();
     OfflineSource source{*this, endNs};
     if (frames > 0) renderer_->render(source, out, frames);
-    while (world_.timeNs() < endNs) world_.step(made_);
+    while (world_.timeNs() < endNs) moveWorld(endNs);
     handOver();
 }
 

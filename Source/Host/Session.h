@@ -37,12 +37,14 @@
 #include "Host/SessionSetup.h"
 #include "Host/SessionWorld.h"
 #include "Physics/InputCheck.h"
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -90,6 +92,17 @@ public:
     /// What is played, or will be from the next step on. Any thread but R.
     SessionState state() const;
 
+    /// Strikes apart from the world (a test pulse, a material to be heard): each is felt L after session time plus its
+    /// own time, and logged. False, and nothing is played, if one cannot be (see isPlayable). Any thread but R.
+    bool play(std::span<const CollisionEvent> strikes);
+
+    /// How fast the world goes from its next step on: each step takes `slowness` times its time; 0: it stands still. What
+    /// has been struck rings on. Logged as stalls. Any thread, wait-free.
+    void setSlowness(int slowness) noexcept { slowness_.store(std::max(0, slowness), std::memory_order_relaxed); }
+    int slowness() const noexcept { return slowness_.load(std::memory_order_relaxed); }
+    /// One step of a world that stands still. Any thread, wait-free.
+    void stepOnce() noexcept { stepsWanted_.fetch_add(1, std::memory_order_relaxed); }
+
     /// The scene starts anew when frame `offset` of the next block is the present, as a new take. R, wait-free, or M.
     void restart(int offset = 0) noexcept;
 
@@ -131,6 +144,7 @@ private:
     void takeOwnInputs();
     void spawnOwn(std::int64_t timeNs, SpawnAction action);
     int catchUp();
+    void moveWorld(std::int64_t untilNs);
     bool handOver();
     std::int64_t nowNs() const noexcept;
     std::int64_t sessionNs(std::int64_t frames) const noexcept;
@@ -150,6 +164,7 @@ private:
     std::atomic<bool> offline_{false};
     std::atomic<bool> isDriven_{false}; // somebody has begun to step the world
     std::atomic<std::int64_t> slippedNs_{0};
+    std::atomic<int> slowness_{1}, stepsWanted_{0};
     LatestValue<SessionStatus> status_;
     std::int64_t leastMarginFrames_ = noMargin; // R
 

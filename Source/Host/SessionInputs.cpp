@@ -2,6 +2,7 @@
 // What comes from outside while a session plays: inputs, controls, other scenes, and the log of it all.
 #include "Host/Session.h"
 #include "Physics/SceneValidation.h"
+#include <algorithm>
 #include <utility>
 
 namespace physvib {
@@ -58,6 +59,20 @@ std::int64_t Session::post(RenderControl control) {
     return control.timeNs;
 }
 
+bool Session::play(std::span<const CollisionEvent> strikes) {
+    const std::scoped_lock lock{inputMutex_, worldMutex_};
+    const std::int64_t now = nowNs();
+    const auto isTimely = [](const CollisionEvent& e) { return isPlayable(e) && e.timeNs < limits::maxTimeNs / 2; };
+    if (!std::ranges::all_of(strikes, isTimely)) return false;
+    for (CollisionEvent strike : strikes) {
+        strike.timeNs += now;
+        made_.push_back(strike);
+        controlLog_.strikes.push_back(strike);
+    }
+    handOver();
+    return true;
+}
+
 std::string Session::setState(SessionState state) {
     if (std::string fault = validate(*state.scene); !fault.empty()) return fault;
     const std::lock_guard lock{stateMutex_};
@@ -83,6 +98,7 @@ void Session::readLog(SessionLog& log) const {
     };
     append(controlLog_.panners, log.panners);
     append(controlLog_.channels, log.channels);
+    append(controlLog_.strikes, log.strikes);
     const std::lock_guard lock{worldMutex_};
     world_.bringUpToDate(log.takes);
 }

@@ -15,6 +15,8 @@ void SessionWorld::start(std::int64_t sessionNs, std::shared_ptr<const Scene> sc
     }
     world_ = std::move(next);
     originNs_ = sessionNs;
+    steps_ = 0;
+    stalledStep_ = -1;
     takes_.push_back({sessionNs, 0, seed, std::move(scene), {}, {}});
 }
 
@@ -29,11 +31,18 @@ void SessionWorld::forget() {
 void SessionWorld::step(std::vector<CollisionEvent>& made) {
     const std::size_t before = made.size();
     world_->step(made);
+    ++steps_;
     for (std::size_t i = before; i < made.size(); ++i) made[i].timeNs += originNs_;
 }
 
 void SessionWorld::standStill(std::int64_t lengthNs) {
-    takes_.back().stalls.push_back({world_->timeNs(), lengthNs});
+    auto& stalls = takes_.back().stalls;
+    const bool isSameMoment = stalledStep_ == steps_ && stalls.back().steps == 1;
+    const bool isSlowMotion = stalledStep_ == steps_ - 1 && !stalls.empty() && stalls.back().lengthNs == lengthNs;
+    if (isSameMoment) stalls.back().lengthNs += lengthNs;
+    else if (isSlowMotion) ++stalls.back().steps;
+    else stalls.push_back({world_->timeNs(), lengthNs});
+    stalledStep_ = steps_;
     originNs_ += lengthNs;
 }
 

@@ -53,6 +53,7 @@ private:
     std::vector<SceneTake> takes_;
     std::unique_ptr<Simulation> world_;
     std::int64_t originNs_ = 0; // session time - world time
+    std::int64_t steps_ = 0, stalledStep_ = -1; // of the take; the last one after which it stood still
     std::uint64_t dropsBefore_ = 0;
 };
 

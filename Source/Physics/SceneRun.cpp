@@ -17,9 +17,9 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
         Simulation world{take.whole(), take.seed, run.stepsPerSecond, run.timing, run.location};
         const bool isLast = &take == &takes.back();
         std::int64_t originNs = take.startNs;
-        auto stall = take.stalls.begin();
+        StallReader stalls{take.stalls};
         while (isLast ? originNs + world.settledNs() < endNs : world.timeNs() < take.worldEndNs) {
-            for (; stall != take.stalls.end() && stall->worldNs <= world.timeNs(); ++stall) originNs += stall->lengthNs;
+            originNs += stalls.lengthBefore(world.timeNs());
             const std::size_t before = all.events.size();
             world.step(all.events);
             for (std::size_t i = before; i < all.events.size(); ++i) all.events[i].timeNs += originNs;

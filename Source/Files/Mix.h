@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Everything that is set on the mixer's desk: the scene that is played, the enchanters, and a strip for each.
+#pragma once
+#include "Core/PhantomPanner.h"
+#include "Files/LayoutFile.h"
+#include "Physics/Scene.h"
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace physvib {
+
+struct Strip {
+    double gainDb = 0.0;     ///< leastStripDb (silence) to mostStripDb
+    bool isMuted = false;
+    bool isSolo = false;
+    bool isInverted = false; ///< polarity
+    double delayMs = 0.0;    ///< 0 to limits::maxChannelDelaySeconds
+    double ceilingDb = 0.0;  ///< of full scale, leastCeilingDb to 0
+    int output = -1;         ///< of the device, from 0; -1: none
+    bool operator==(const Strip&) const = default;
+};
+
+constexpr double leastStripDb = -60.0, mostStripDb = 6.0, leastCeilingDb = -40.0;
+
+struct Mix {
+    std::shared_ptr<const Scene> scene; ///< never null
+    std::uint32_t seed = 1;
+    LayoutDescription layout;
+    PanningLaw law = PanningLaw::linear;
+    double exponent = 1.0;
+    std::vector<Strip> strips; ///< one per enchanter
+    double levelDb = -12.0;    ///< master; the least is silence
+
+    int count() const noexcept { return layout.geometry.count; }
+    PhantomPanner panner() const noexcept { return {layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres}; }
+
+    /// True if the strip is not to be felt: it is muted, or others are solo.
+    bool isSilent(int strip) const noexcept {
+        bool anySolo = false;
+        for (const Strip& s : strips) anySolo = anySolo || s.isSolo;
+        const Strip& s = strips[static_cast<std::size_t>(strip)];
+        return s.isMuted || (anySolo && !s.isSolo);
+    }
+};
+
+/// The gain of a channel: its level and polarity. Any thread.
+inline float channelGain(const Strip& strip) noexcept {
+    const double gain = strip.gainDb <= leastStripDb ? 0.0 : std::pow(10.0, strip.gainDb / 20.0);
+    return static_cast<float>(strip.isInverted ? -gain : gain);
+}
+
+} // namespace physvib

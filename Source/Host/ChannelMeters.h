@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the outputs play, for views: of the plug-in and of the mixer.
+#pragma once
+#include "Core/Limits.h"
+#include <array>
+
+namespace physvib {
+
+struct ChannelMeters {
+    std::array<float, limits::maxEnchanters> peaks{}; ///< 1 = full scale; falling by `meterFallDbPerSecond`
+    std::array<bool, limits::maxEnchanters> isConnected{};
+    int enchanters = 0;
+    int connected = 0;
+    float limiterGain = 1.0f;
+};
+
+constexpr double meterFallDbPerSecond = 20.0;
+
+} // namespace physvib

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Two grounds, and flat controls on them.
+#include "Host/Views/Look.h"
+
+namespace physvib {
+
+namespace {
+
+using Argb = palette::Argb;
+constexpr int firstShadeId = 0x7068b00; // colour ids of our own
+constexpr float corner = 5.0f;
+
+int idOf(Shade which) { return firstShadeId + static_cast<int>(which); }
+
+struct Shades {
+    juce::Colour ground, panel, raised, well, line, text, muted, now, limit, camera, accent;
+};
+
+const Shades& shadesOf(Ground ground) {
+    static const Shades dark{palette::ground, palette::panel, juce::Colour{Argb{0xff272a33}}, palette::well,  palette::line,        palette::text,
+                             palette::muted,  palette::now,   palette::limit,                 palette::camera, palette::enchanter(0)};
+    static const Shades light{juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffdfe3eb}}, juce::Colour{Argb{0xffffffff}},
+                              juce::Colour{Argb{0xffc3c9d6}}, juce::Colour{Argb{0xff1b1e27}}, juce::Colour{Argb{0xff545c6e}}, juce::Colour{Argb{0xff8a5a00}},
+                              juce::Colour{Argb{0xffc42b2b}}, juce::Colour{Argb{0xff8d7a45}}, juce::Colour{Argb{0xff0d756b}}};
+    return ground == Ground::dark ? dark : light;
+}
+
+bool isTrue(const juce::Component& c, const juce::Identifier& property) { return c.getProperties()[property]; }
+
+juce::Colour tintOf(const juce::Component& c) {
+    const auto& properties = c.getProperties();
+    return properties.contains(tintProperty) ? juce::Colour{static_cast<Argb>(static_cast<juce::int64>(properties[tintProperty]))} : shade(c, Shade::accent);
+}
+
+juce::Colour readableOn(juce::Colour ground) { return ground.getPerceivedBrightness() > 0.55f ? juce::Colour{Argb{0xff101218}} : juce::Colours::white; }
+
+void drawFader(juce::Graphics& g, juce::Rectangle<float> area, float place, const juce::Slider& slider) {
+    const float x = area.getCentreX();
+    g.setColour(shade(slider, Shade::raised));
+    g.fillRoundedRectangle(x - 2.0f, area.getY(), 4.0f, area.getHeight(), 2.0f);
+    const auto cap = juce::Rectangle<float>{26.0f, 15.0f}.withCentre({x, place});
+    g.setColour(shade(slider, Shade::ground));
+    g.fillRoundedRectangle(cap.expanded(1.5f), 4.5f);
+    const auto colour = shade(slider, Shade::text).interpolatedWith(shade(slider, Shade::panel), slider.isEnabled() ? 0.18f : 0.6f);
+    g.setColour(colour);
+    g.fillRoundedRectangle(cap, 3.5f);
+    g.setColour(shade(slider, Shade::ground).withAlpha(0.75f));
+    g.fillRect(cap.withSizeKeepingCentre(18.0f, 1.5f));
+}
+
+} // namespace
+
+juce::Colour shade(const juce::Component& component, Shade which) { return component.findColour(idOf(which)); }
+
+juce::Colour enchanterColour(const juce::Component& component, int index) {
+    const auto colour = palette::enchanter(index);
+    return shade(component, Shade::panel).getPerceivedBrightness() > 0.5f ? colour.withMultipliedSaturation(1.6f).withMultipliedBrightness(0.62f) : colour;
+}
+
+void Look::setGround(Ground ground) {
+    using namespace juce;
+    ground_ = ground;
+    const Shades& s = shadesOf(ground);
+    const std::array all{s.ground, s.panel, s.raised, s.well, s.line, s.text, s.muted, s.now, s.limit, s.camera, s.accent};
+    for (std::size_t i = 0; i < all.size(); ++i) setColour(firstShadeId + static_cast<int>(i), all[i]);
+    setColourScheme({s.ground, s.well, s.panel, s.line, s.text, s.accent.withAlpha(0.35f), s.text, s.raised, s.text});
+    setColour(ResizableWindow::backgroundColourId, s.ground);
+    setColour(ComboBox::backgroundColourId, s.raised);
+    setColour(ComboBox::outlineColourId, Colours::transparentBlack);
+    setColour(PopupMenu::backgroundColourId, s.panel);
+    setColour(PopupMenu::highlightedBackgroundColourId, s.accent.withAlpha(0.22f));
+    setColour(PopupMenu::highlightedTextColourId, s.text);
+    setColour(PopupMenu::headerTextColourId, s.muted);
+    setColour(TextEditor::backgroundColourId, s.well);
+    setColour(TextEditor::outlineColourId, s.line);
+    setColour(TextEditor::focusedOutlineColourId, s.accent);
+    setColour(TextButton::buttonColourId, s.raised);
+    setColour(TextButton::buttonOnColourId, s.accent.withAlpha(0.35f));
+    setColour(TextButton::textColourOffId, s.text);
+    setColour(TextButton::textColourOnId, s.text);
+    setColour(ToggleButton::textColourId, s.text);
+    setColour(ToggleButton::tickColourId, s.accent);
+    setColour(ToggleButton::tickDisabledColourId, s.muted);
+    setColour(Label::textColourId, s.text);
+    setColour(Slider::backgroundColourId, s.raised);
+    setColour(Slider::trackColourId, s.accent);
+    setColour(Slider::rotarySliderFillColourId, s.accent);
+    setColour(Slider::rotarySliderOutlineColourId, s.raised);
+    setColour(Slider::thumbColourId, s.text);
+    setColour(Slider::textBoxTextColourId, s.text);
+    setColour(Slider::textBoxOutlineColourId, Colours::transparentBlack);
+    setColour(ScrollBar::thumbColourId, s.muted.withAlpha(0.5f));
+    setColour(TooltipWindow::backgroundColourId, s.panel);
+    setColour(TooltipWindow::textColourId, s.text);
+    setColour(TooltipWindow::outlineColourId, s.line);
+    setColour(ListBox::backgroundColourId, s.well);
+    setColour(ProgressBar::backgroundColourId, s.well);
+    setColour(ProgressBar::foregroundColourId, s.accent);
+}
+
+void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver, bool isDown) {
+    const auto area = button.getLocalBounds().toFloat().reduced(0.5f);
+    const bool isQuiet = isTrue(button, quietProperty), stops = isTrue(button, stopProperty);
+    auto colour = button.getToggleState() ? tintOf(button) : shade(button, Shade::raised);
+    if (stops) colour = shade(button, Shade::limit).withMultipliedBrightness(button.getToggleState() ? 1.0f : 0.82f);
+    if (isQuiet && !button.getToggleState()) colour = colour.withAlpha(isOver ? 0.6f : 0.0f);
+    if (isOver && button.isEnabled()) colour = colour.brighter(0.08f);
+    if (isDown) colour = colour.darker(0.15f);
+    g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.45f));
+    g.fillRoundedRectangle(area, corner);
+    if (stops && button.getToggleState()) {
+        g.setColour(shade(button, Shade::text));
+        g.drawRoundedRectangle(area.reduced(1.0f), corner, 2.0f);
+    }
+}
+
+void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool, bool) {
+    auto colour = shade(button, Shade::text);
+    if (isTrue(button, stopProperty)) colour = juce::Colours::white;
+    else if (button.getToggleState()) colour = readableOn(tintOf(button));
+    else if (isTrue(button, quietProperty)) colour = shade(button, Shade::accent);
+    g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.4f));
+    auto font = getTextButtonFont(button, button.getHeight());
+    if (isTrue(button, stopProperty)) font = juce::Font{text::medium, juce::Font::bold};
+    g.setFont(font);
+    g.drawFittedText(button.getButtonText(), button.getLocalBounds().reduced(2, 0), juce::Justification::centred, 1, 0.9f);
+}
+
+void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int, juce::ComboBox& box) {
+    const auto area = juce::Rectangle<int>{width, height}.toFloat().reduced(0.5f);
+    g.setColour(shade(box, Shade::raised).brighter(box.isMouseOver(true) ? 0.08f : 0.0f));
+    g.fillRoundedRectangle(area, corner);
+    juce::Path arrow;
+    const float x = area.getRight() - 14.0f, y = area.getCentreY();
+    arrow.addTriangle(x - 4.0f, y - 2.0f, x + 4.0f, y - 2.0f, x, y + 3.0f);
+    g.setColour(shade(box, Shade::muted));
+    g.fillPath(arrow);
+}
+
+void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label) {
+    label.setBounds(6, 0, box.getWidth() - 28, box.getHeight());
+    label.setFont(getComboBoxFont(box));
+}
+
+void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float, juce::Slider::SliderStyle style, juce::Slider& slider) {
+    const auto area = juce::Rectangle<int>{x, y, width, height}.toFloat();
+    if (isTrue(slider, faderProperty)) return drawFader(g, area, place, slider);
+    const bool isUpright = style == juce::Slider::LinearVertical;
+    const auto track = isUpright ? area.withSizeKeepingCentre(4.0f, area.getHeight()) : area.withSizeKeepingCentre(area.getWidth(), 4.0f);
+    g.setColour(shade(slider, Shade::raised));
+    g.fillRoundedRectangle(track, 2.0f);
+    g.setColour(tintOf(slider).withMultipliedAlpha(slider.isEnabled() ? 1.0f : 0.4f));
+    g.fillRoundedRectangle(isUpright ? track.withTop(place) : track.withRight(place), 2.0f);
+    g.setColour(shade(slider, Shade::text));
+    g.fillEllipse(juce::Rectangle<float>{13.0f, 13.0f}.withCentre(isUpright ? juce::Point<float>{area.getCentreX(), place} : juce::Point<float>{place, area.getCentreY()}));
+}
+
+void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float start, float end, juce::Slider& slider) {
+    const auto dial = juce::Rectangle<int>{x, y, width, height}.toFloat().withSizeKeepingCentre(static_cast<float>(std::min(width, height)) - 4.0f, static_cast<float>(std::min(width, height)) - 4.0f);
+    const auto centre = dial.getCentre();
+    const float radius = 0.5f * dial.getWidth(), angle = start + place * (end - start);
+    g.setColour(shade(slider, Shade::well));
+    g.fillEllipse(dial);
+    g.setColour(shade(slider, Shade::line));
+    g.drawEllipse(dial, 1.5f);
+    const auto tip = centre.getPointOnCircumference(radius - 6.0f, angle);
+    g.setColour(tintOf(slider));
+    g.drawLine({centre, tip}, 3.0f);
+    g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(tip));
+}
+
+std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::Component&) {
+    struct Ring final : juce::FocusOutline::OutlineWindowProperties {
+        juce::Rectangle<int> getOutlineBounds(juce::Component& c) override { return c.getScreenBounds().expanded(2); }
+        void drawOutline(juce::Graphics& g, int width, int height) override {
+            g.setColour(colour);
+            g.drawRoundedRectangle(juce::Rectangle<int>{width, height}.toFloat().reduced(1.0f), corner + 1.0f, 2.0f);
+        }
+        juce::Colour colour;
+    };
+    auto ring = std::make_unique<Ring>();
+    ring->colour = findColour(idOf(Shade::accent));
+    return std::make_unique<juce::FocusOutline>(std::move(ring));
+}
+
+} // namespace physvib

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a hand does in the world: pulls bodies, moves, attaches and detaches enchanters.
+#include "Host/ShapeOutline.h"
+#include "Host/Views/WorldView.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+int WorldView::bodyAt(juce::Point<float> p) const {
+    const auto at = map();
+    for (int i = static_cast<int>(cast_.size()) - 1; i >= 0; --i) { // the one on top
+        const auto& body = cast_[static_cast<std::size_t>(i)];
+        const auto pose = poseOf(static_cast<std::size_t>(i));
+        if (body.type != BodyType::dynamicBody || !pose.isPresent) continue;
+        for (const auto& fixture : body.fixtures) {
+            auto path = shapeOutline(fixture.shape, at.pixelsPerMetre);
+            path.applyTransform(juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
+                                    .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre, static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
+                                    .followedBy(placeOf(pose, at)));
+            if (path.contains(p) || path.getBounds().withSizeKeepingCentre(16.0f, 16.0f).contains(p)) return i;
+        }
+    }
+    return -1;
+}
+
+int WorldView::enchanterAt(juce::Point<float> p) const {
+    const auto at = map();
+    for (int j = layout_.geometry.count - 1; j >= 0; --j)
+        if (badgeOf(j, at).expanded(3.0f).contains(p)) return j;
+    return -1;
+}
+
+void WorldView::mouseMove(const juce::MouseEvent& e) {
+    const bool canGrip = (onMove && enchanterAt(e.position) >= 0) || (onPull && bodyAt(e.position) >= 0);
+    setMouseCursor(canGrip ? juce::MouseCursor::DraggingHandCursor : juce::MouseCursor::NormalCursor);
+}
+
+void WorldView::mouseDown(const juce::MouseEvent& e) {
+    grip_ = {onSelect || onMove ? enchanterAt(e.position) : -1, -1, e.position, e.position};
+    const int body = grip_.enchanter < 0 ? bodyAt(e.position) : -1;
+    if (e.mods.isPopupMenu()) {
+        grip_ = {};
+        if (onMenu) onMenu(body >= 0 ? cast_[static_cast<std::size_t>(body)].name : std::string{}, map().shareAt(e.position));
+        return;
+    }
+    if (onPull) grip_.body = body;
+    if (onSelect) onSelect(grip_.enchanter);
+}
+
+void WorldView::mouseDrag(const juce::MouseEvent& e) {
+    grip_.to = e.position;
+    grip_.isOutside = !getLocalBounds().toFloat().contains(e.position);
+    if (grip_.enchanter >= 0 && onMove && !grip_.isOutside && e.mouseWasDraggedSinceMouseDown()) onMove(grip_.enchanter, map().shareAt(e.position));
+    if (grip_.body >= 0) repaint();
+}
+
+void WorldView::mouseUp(const juce::MouseEvent& e) {
+    const Grip grip = std::exchange(grip_, {});
+    repaint();
+    if (grip.enchanter >= 0 && grip.isOutside && onDetach) return onDetach(grip.enchanter);
+    if (grip.body < 0 || !onPull || !e.mouseWasDraggedSinceMouseDown()) return;
+    const auto at = map();
+    const auto pose = poseOf(static_cast<std::size_t>(grip.body));
+    const auto way = (e.position - grip.from) / at.pixelsPerMetre;
+    const auto start = (grip.from - at.at(pose.xMetres, pose.yMetres)) / at.pixelsPerMetre; // on the body, turned with it
+    const double c = std::cos(pose.angleRadians), s = std::sin(pose.angleRadians);
+    onPull(cast_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, {c * start.x - s * start.y, -s * start.x - c * start.y});
+}
+
+bool WorldView::isInterestedInDragSource(const SourceDetails& details) { return onAttach && details.description == newEnchanter; }
+
+void WorldView::itemDragMove(const SourceDetails& details) {
+    dropAt_ = details.localPosition.toFloat();
+    repaint();
+}
+
+void WorldView::itemDragExit(const SourceDetails&) {
+    dropAt_.reset();
+    repaint();
+}
+
+void WorldView::itemDropped(const SourceDetails& details) {
+    dropAt_.reset();
+    onAttach(map().shareAt(details.localPosition.toFloat()));
+}
+
+} // namespace physvib

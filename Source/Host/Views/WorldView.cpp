@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Drawing the world within a frame of a software renderer: plain paths and gradients, nothing blurred.
+#include "Host/Views/WorldView.h"
+#include "Host/ShapeOutline.h"
+#include "Physics/SceneCast.h"
+#include <juce_audio_basics/juce_audio_basics.h>
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+constexpr double hitMs = 450.0;          // how long the light of a hit is seen
+constexpr std::size_t mostHits = 48;     // at once: more are a glare anyway
+constexpr float wallPixels = 11.0f;      // what stands around the field shows as a frame of this width
+constexpr int margin = 38;               // badges sit on the field's edge
+constexpr float badgePixels = 30.0f;
+
+float levelOf(double amplitude) {
+    return juce::jlimit(0.12f, 1.0f, 1.0f + static_cast<float>(juce::Decibels::gainToDecibels(std::abs(amplitude), -50.0)) / 50.0f);
+}
+
+float ageOf(double shownAtMs) { return static_cast<float>(juce::jlimit(0.0, 1.0, (juce::Time::getMillisecondCounterHiRes() - shownAtMs) / hitMs)); }
+
+void glow(juce::Graphics& g, juce::Point<float> centre, float radius, juce::Colour colour) {
+    g.setGradientFill({colour, centre, colour.withAlpha(0.0f), centre.translated(radius, 0.0f), true});
+    g.fillEllipse(juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(centre));
+}
+
+bool isSame(const std::vector<BodyPose>& a, const std::vector<BodyPose>& b) {
+    return std::ranges::equal(a, b, [](const BodyPose& p, const BodyPose& q) {
+        return p.xMetres == q.xMetres && p.yMetres == q.yMetres && p.angleRadians == q.angleRadians && p.isPresent == q.isPresent;
+    });
+}
+
+} // namespace
+
+juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour colour, int width, int height) {
+    juce::Image image{juce::Image::ARGB, std::max(1, width), std::max(1, height), true};
+    PhantomPanner::Gains gains{};
+    juce::Image::BitmapData pixels{image, juce::Image::BitmapData::writeOnly};
+    for (int y = 0; y < image.getHeight(); ++y)
+        for (int x = 0; x < image.getWidth(); ++x) {
+            panner.gainsAt((x + 0.5) / image.getWidth() * panner.fieldWidthMetres(), (1.0 - (y + 0.5) / image.getHeight()) * panner.fieldHeightMetres(), gains);
+            const auto share = static_cast<float>(juce::jlimit(0.0, 1.0, gains[static_cast<std::size_t>(enchanter)]));
+            pixels.setPixelColour(x, y, colour.withAlpha(0.75f * share));
+        }
+    return image;
+}
+
+WorldView::WorldView() {
+    setOpaque(true);
+    setTitle("World");
+    setDescription("Bodies as they are felt now. Drag a body to push it.");
+}
+
+void WorldView::show(const Scene& scene) {
+    const bool isNew = scene.name != scene_.name || scene.bodies != scene_.bodies;
+    scene_ = scene;
+    cast_ = sceneCast(scene_);
+    if (isNew) {
+        ahead_.clear();
+        hits_.clear();
+    }
+    repaint();
+}
+
+void WorldView::show(const LayoutDescription& layout, const PhantomPanner& panner) {
+    layout_ = layout;
+    panner_ = panner;
+    gains_ = {};
+    repaint();
+}
+
+void WorldView::showGainsOf(int enchanter) {
+    if (enchanter == shownGains_) return;
+    shownGains_ = enchanter;
+    gains_ = {};
+    repaint();
+}
+
+void WorldView::select(int enchanter) {
+    if (enchanter == selected_) return;
+    selected_ = enchanter;
+    repaint();
+}
+
+void WorldView::update(WorldMoment moment) {
+    if (!ahead_.empty() && moment.sessionNs < ahead_.back().timeNs) ahead_.clear(); // a new take
+    const auto before = ahead_.empty() ? std::vector<BodyPose>{} : ahead_.front().poses;
+    if (!moment.poses.empty()) ahead_.push_back({moment.sessionNs, std::move(moment.poses)});
+    while (ahead_.size() > 1 && ahead_[1].timeNs + moment.aheadNs <= moment.sessionNs) ahead_.pop_front();
+    bool isOther = !hits_.empty() || !moment.hits.empty() || (!ahead_.empty() && !isSame(before, ahead_.front().poses));
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    for (const auto& event : moment.hits) hits_.push_back({event, colourOf(event), now});
+    while (!hits_.empty() && (hits_.size() > mostHits || now - hits_.front().shownAtMs > hitMs)) hits_.pop_front();
+    for (std::size_t j = 0; j < std::min(moment.peaks.size(), peaks_.size()); ++j) {
+        isOther = isOther || std::abs(std::sqrt(peaks_[j]) - std::sqrt(moment.peaks[j])) > 0.01f;
+        if (isOther) peaks_[j] = moment.peaks[j];
+    }
+    if (isOther) repaint();
+}
+
+juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+        if (scene_.materials[i].frequencyHz == event.frequencyHz && scene_.materials[i].decayPerSecond == event.decayPerSecond)
+            return palette::material(static_cast<int>(i));
+    return palette::other;
+}
+
+WorldView::Map WorldView::map() const {
+    const auto room = getLocalBounds().reduced(margin, margin - 8).toFloat();
+    const auto width = static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)), height = static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6));
+    const float scale = std::min(room.getWidth() / width, room.getHeight() / height);
+    return {room.withSizeKeepingCentre(width * scale, height * scale), scale};
+}
+
+BodyPose WorldView::poseOf(std::size_t body) const {
+    if (!ahead_.empty() && body < ahead_.front().poses.size()) return ahead_.front().poses[body];
+    const auto& b = cast_[body];
+    return {b.positionMetres.x, b.positionMetres.y, b.angleRadians, body < scene_.bodies.size()};
+}
+
+juce::AffineTransform WorldView::placeOf(const BodyPose& pose, const Map& at) const {
+    return juce::AffineTransform::rotation(static_cast<float>(-pose.angleRadians)).translated(at.at(pose.xMetres, pose.yMetres));
+}
+
+juce::Point<float> WorldView::placeOfEnchanter(int enchanter) const {
+    const auto& layout = layout_.geometry;
+    const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
+    return map().at(place.xMetres / layout.extentWidthMetres * scene_.fieldWidthMetres, place.yMetres / layout.extentHeightMetres * scene_.fieldHeightMetres);
+}
+
+juce::Point<float> WorldView::placeOfBody(const std::string& name) const {
+    for (std::size_t i = 0; i < cast_.size(); ++i)
+        if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent) return map().at(pose.xMetres, pose.yMetres);
+    return {-1e4f, -1e4f};
+}
+
+juce::Rectangle<float> WorldView::badgeOf(int enchanter, const Map&) const {
+    const float size = layout_.geometry.count > 16 ? 0.7f * badgePixels : badgePixels;
+    return juce::Rectangle<float>{size, size}.withCentre(placeOfEnchanter(enchanter)).constrainedWithin(getLocalBounds().reduced(4).toFloat());
+}
+
+void WorldView::paint(juce::Graphics& g) {
+    g.fillAll(shade(*this, Shade::panel));
+    if (getWidth() < 2 * margin + 20 || getHeight() < 2 * margin + 20) return;
+    const auto at = map();
+    drawHalos(g, at);
+    drawGround(g, at);
+    {
+        const juce::Graphics::ScopedSaveState whole{g};
+        g.reduceClipRegion(at.field.expanded(wallPixels).toNearestInt());
+        drawBodies(g, at);
+    }
+    drawRays(g, at);
+    drawHits(g, at);
+    drawEnchanters(g, at);
+    drawGrip(g, at);
+}
+
+void WorldView::drawGround(juce::Graphics& g, const Map& at) {
+    g.setColour(shade(*this, Shade::well));
+    g.fillRect(at.field);
+    if (shownGains_ < 0 || shownGains_ >= layout_.geometry.count || panner_.channels() == 0) return;
+    if (gains_.isNull()) gains_ = gainImage(panner_, shownGains_, enchanterColour(*this, shownGains_), 96, 54);
+    g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality);
+    g.drawImage(gains_, at.field);
+}
+
+void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
+    for (std::size_t i = 0; i < cast_.size(); ++i) {
+        const auto& body = cast_[i];
+        const BodyPose pose = poseOf(i);
+        if (!pose.isPresent) continue;
+        const auto move = placeOf(pose, at);
+        for (const auto& fixture : body.fixtures) {
+            const auto place = juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
+                                   .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre, static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
+                                   .followedBy(move);
+            const auto path = shapeOutline(fixture.shape, at.pixelsPerMetre);
+            const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
+            g.setColour(palette::material(fixture.material).withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f));
+            if (isLine) g.strokePath(path, juce::PathStrokeType{3.0f}, place);
+            else g.fillPath(path, place);
+            if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) { // shows the rotation
+                const float r = static_cast<float>(circle->radiusMetres) * at.pixelsPerMetre;
+                juce::Path spoke;
+                spoke.startNewSubPath(0.0f, 0.0f);
+                spoke.lineTo(r * 0.9f, 0.0f);
+                g.setColour(palette::well.withAlpha(0.45f));
+                g.strokePath(spoke, juce::PathStrokeType{1.5f}, place);
+            }
+            if (!fixture.isCamera) continue;
+            g.setColour(shade(*this, Shade::camera));
+            g.strokePath(path, juce::PathStrokeType{isLine ? 1.0f : 2.0f}, place);
+        }
+    }
+}
+
+void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
+    const auto amber = palette::now;
+    for (const auto& hit : hits_) {
+        const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude), fade = (1.0f - age) * level;
+        const auto centre = at.at(hit.event.x, hit.event.y);
+        const float radius = 10.0f + 34.0f * level * (0.5f + 0.5f * age);
+        glow(g, centre, radius, hit.colour.interpolatedWith(amber, 0.7f).withAlpha(0.85f * fade));
+        g.setColour(amber.withAlpha(0.8f * fade));
+        g.drawEllipse(juce::Rectangle<float>{1.5f * radius, 1.5f * radius}.withCentre(centre), 1.4f);
+        g.setColour(juce::Colours::white.withAlpha(fade));
+        g.fillEllipse(juce::Rectangle<float>{6.0f, 6.0f}.withCentre(centre));
+    }
+}
+
+// Lines from the hit that is strongest now to each enchanter, as wide and bright as its share of it.
+void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
+    const auto light = [](const Hit& hit) { return levelOf(hit.event.amplitude) * (1.0f - ageOf(hit.shownAtMs)); };
+    const auto strongest = std::ranges::max_element(hits_, {}, light);
+    if (strongest == hits_.end() || panner_.channels() == 0) return;
+    PhantomPanner::Gains gains{};
+    panner_.gainsAt(strongest->event.x, strongest->event.y, gains);
+    const auto from = at.at(strongest->event.x, strongest->event.y);
+    for (int j = 0; j < layout_.geometry.count; ++j) {
+        const auto gain = static_cast<float>(gains[static_cast<std::size_t>(j)]);
+        if (gain < 0.02f) continue;
+        g.setColour(enchanterColour(*this, j).withAlpha(0.9f * gain * light(*strongest)));
+        g.drawLine({from, badgeOf(j, at).getCentre()}, 1.0f + 4.0f * gain);
+    }
+}
+
+void WorldView::drawHalos(juce::Graphics& g, const Map& at) const {
+    for (int j = 0; j < layout_.geometry.count; ++j) {
+        const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
+        if (share > 0.03f) glow(g, badgeOf(j, at).getCentre(), 20.0f + 70.0f * share, enchanterColour(*this, j).withAlpha(std::min(0.8f, 0.25f + 0.6f * share)));
+    }
+}
+
+void WorldView::drawEnchanters(juce::Graphics& g, const Map& at) const {
+    for (int j = 0; j < layout_.geometry.count; ++j) {
+        const auto colour = enchanterColour(*this, j);
+        const auto badge = badgeOf(j, at);
+        const float share = std::sqrt(juce::jlimit(0.0f, 1.0f, peaks_[static_cast<std::size_t>(j)]));
+        if (share > 0.03f) glow(g, badge.getCentre(), 18.0f + 34.0f * share, colour.withAlpha(0.5f * share)); // over the field, too
+        g.setColour(shade(*this, Shade::well));
+        g.fillRoundedRectangle(badge, 7.0f);
+        g.setColour(colour);
+        g.drawRoundedRectangle(badge, 7.0f, 2.0f);
+        if (j == selected_) g.drawRoundedRectangle(badge.expanded(4.0f), 9.0f, 1.5f);
+        g.setFont(juce::Font{text::medium, juce::Font::bold});
+        g.drawText(juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(j)].label.c_str()), badge, juce::Justification::centred, false);
+    }
+}
+
+void WorldView::drawGrip(juce::Graphics& g, const Map& at) const {
+    if (dropAt_) {
+        const auto badge = juce::Rectangle<float>{badgePixels, badgePixels}.withCentre(*dropAt_);
+        g.setColour(shade(*this, Shade::accent));
+        g.drawRoundedRectangle(badge, 7.0f, 2.0f);
+        g.setFont(juce::Font{text::large});
+        g.drawText("+", badge, juce::Justification::centred, false);
+    }
+    if (grip_.body < 0 || grip_.from.getDistanceFrom(grip_.to) < 3.0f) return;
+    juce::Path line, dashed;
+    line.startNewSubPath(grip_.from);
+    line.lineTo(grip_.to);
+    constexpr float dashes[]{6.0f, 5.0f};
+    juce::PathStrokeType{1.8f}.createDashedStroke(dashed, line, dashes, 2);
+    g.setColour(shade(*this, Shade::text));
+    g.fillPath(dashed);
+    if (!pullText) return;
+    g.setFont(juce::Font{text::small});
+    const auto words = juce::Rectangle<float>{130.0f, 18.0f}.withCentre(grip_.to.translated(0.0f, -16.0f)).constrainedWithin(getLocalBounds().reduced(4).toFloat());
+    g.drawText(pullText(grip_.from.getDistanceFrom(grip_.to) / at.pixelsPerMetre), words, juce::Justification::centred, false);
+}
+
+} // namespace physvib

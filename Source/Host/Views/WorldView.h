@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The world as it is felt now: bodies, hits as light, enchanters with what they play. Where a hand may act, bodies can be
+// pulled and enchanters moved.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Core/PhantomPanner.h"
+#include "Files/LayoutFile.h"
+#include "Host/Views/Look.h"
+#include "Physics/Scene.h"
+#include "Physics/SceneWorld.h"
+#include <deque>
+#include <functional>
+#include <optional>
+#include <span>
+
+namespace physvib {
+
+/// What is new since the last call of WorldView::update.
+struct WorldMoment {
+    std::vector<BodyPose> poses;          ///< of the cast, as at `sessionNs`
+    std::int64_t sessionNs = 0;
+    std::int64_t aheadNs = 0;             ///< they are felt so much later
+    std::span<const CollisionEvent> hits; ///< that have been played
+    std::span<const float> peaks;         ///< per enchanter, 1 = full scale
+};
+
+/// A place in the field, each coordinate 0 to 1 from its lower left corner.
+struct FieldShare {
+    double x = 0.0, y = 0.0;
+};
+
+class WorldView final : public juce::Component, public juce::DragAndDropTarget {
+public:
+    /// What modules say of themselves while they are dragged here.
+    static constexpr const char* newEnchanter = "physvib-new-enchanter";
+
+    WorldView();
+
+    /// Another scene, or one with more bodies. M.
+    void show(const Scene& scene);
+    /// Enchanters, and how hits are spread over them. M.
+    void show(const LayoutDescription& layout, const PhantomPanner& panner);
+    /// M, a few times a second; repaints what is not as before.
+    void update(WorldMoment moment);
+    /// Behind the bodies: what that enchanter plays of a hit at each place; -1: nothing. M.
+    void showGainsOf(int enchanter);
+    void select(int enchanter); ///< drawn with a ring; -1: none
+
+    // What a hand does; what is not set cannot be done. M.
+    std::function<void(const std::string& body, Vector pullMetres, Vector pointMetres)> onPull; ///< in the field's axes; the point on the body
+    std::function<juce::String(double metres)> pullText;                                     ///< beside the line while it is pulled
+    std::function<void(int enchanter, FieldShare to)> onMove;                                ///< while it is moved
+    std::function<void(int enchanter)> onDetach;                                             ///< dropped outside
+    std::function<void(FieldShare at)> onAttach;
+    std::function<void(int enchanter)> onSelect;
+    std::function<void(const std::string& body, FieldShare at)> onMenu; ///< right click; body may be empty
+
+    void paint(juce::Graphics& g) override;
+    void resized() override { gains_ = {}; }
+    void mouseDown(const juce::MouseEvent& e) override;
+    void mouseDrag(const juce::MouseEvent& e) override;
+    void mouseUp(const juce::MouseEvent& e) override;
+    void mouseMove(const juce::MouseEvent& e) override;
+    bool isInterestedInDragSource(const SourceDetails& details) override;
+    void itemDragMove(const SourceDetails& details) override;
+    void itemDragExit(const SourceDetails&) override;
+    void itemDropped(const SourceDetails& details) override;
+
+    /// Where things are, in pixels of this component. M.
+    juce::Point<float> placeOfEnchanter(int enchanter) const;
+    juce::Point<float> placeOfBody(const std::string& name) const; ///< outside the view if it is not there
+
+private:
+    struct Snapshot {
+        std::int64_t timeNs;
+        std::vector<BodyPose> poses;
+    };
+    struct Hit {
+        CollisionEvent event;
+        juce::Colour colour;
+        double shownAtMs;
+    };
+    struct Map {
+        juce::Rectangle<float> field;
+        float pixelsPerMetre;
+        juce::Point<float> at(double x, double y) const {
+            return {field.getX() + static_cast<float>(x) * pixelsPerMetre, field.getBottom() - static_cast<float>(y) * pixelsPerMetre};
+        }
+        FieldShare shareAt(juce::Point<float> p) const {
+            return {juce::jlimit(0.0, 1.0, static_cast<double>((p.x - field.getX()) / field.getWidth())),
+                    juce::jlimit(0.0, 1.0, static_cast<double>((field.getBottom() - p.y) / field.getHeight()))};
+        }
+    };
+    struct Grip { // what the mouse holds
+        int enchanter = -1, body = -1;
+        juce::Point<float> from, to;
+        bool isOutside = false;
+    };
+    Map map() const;
+    juce::Colour colourOf(const CollisionEvent& event) const;
+    BodyPose poseOf(std::size_t body) const;
+    juce::AffineTransform placeOf(const BodyPose& pose, const Map& at) const;
+    int bodyAt(juce::Point<float> p) const;
+    int enchanterAt(juce::Point<float> p) const;
+    juce::Rectangle<float> badgeOf(int enchanter, const Map& at) const;
+    void drawGround(juce::Graphics& g, const Map& at);
+    void drawBodies(juce::Graphics& g, const Map& at) const;
+    void drawHits(juce::Graphics& g, const Map& at) const;
+    void drawRays(juce::Graphics& g, const Map& at) const;
+    void drawHalos(juce::Graphics& g, const Map& at) const;
+    void drawEnchanters(juce::Graphics& g, const Map& at) const;
+    void drawGrip(juce::Graphics& g, const Map& at) const;
+
+    Scene scene_;
+    std::vector<BodyDescription> cast_;
+    LayoutDescription layout_;
+    PhantomPanner panner_;
+    std::deque<Snapshot> ahead_; // not felt yet, but for the first
+    std::deque<Hit> hits_;
+    std::array<float, limits::maxEnchanters> peaks_{};
+    int shownGains_ = -1, selected_ = -1;
+    juce::Image gains_;
+    Grip grip_;
+    std::optional<juce::Point<float>> dropAt_;
+};
+
+/// What `enchanter` plays of a hit at each place of the field, as opacity of `colour`. M.
+juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour colour, int width, int height);
+
+} // namespace physvib

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the mixer's window shows and changes: a live session on a device, the mix that is set on it, and the way back of
+// every change.
+#pragma once
+#include "Files/Mix.h"
+#include "Host/AudioOutput.h"
+#include "Host/ChannelMeters.h"
+#include "Host/SimulationDriver.h"
+#include "Mixer/ScopeTrace.h"
+#include <juce_data_structures/juce_data_structures.h>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// What has happened since the last look.
+struct DeskMoment {
+    std::vector<BodyPose> poses;
+    std::int64_t sessionNs = 0; ///< of the poses
+    std::int64_t aheadNs = 0;   ///< they are felt so much later
+    std::vector<CollisionEvent> hits;
+    ChannelMeters meters;
+    std::array<float, limits::maxEnchanters> holds{}; ///< highest peaks of the last moments
+    float masterPeak = 0.0f;                          ///< behind the master level
+    SessionStatus session;
+    AudioOutputStatus device;
+};
+
+/// The device that is wanted.
+struct DeviceChoice {
+    std::string name;     ///< type:name
+    int sampleRateHz = 0; ///< 0: as it stands
+    int blockFrames = 0;
+};
+
+/// M only. Listeners are told when the mix, the device or the trouble changes.
+class Desk final : public juce::ChangeBroadcaster {
+public:
+    /// Channels of the session: whatever is attached while it plays finds one.
+    static constexpr int channels = limits::maxEnchanters;
+
+    /// Opens the first `device` of `types` that works; silence and trouble() if there is none.
+    explicit Desk(AudioDeviceTypes types, const DeviceChoice& device);
+    ~Desk() override;
+
+    // ---- the mix
+    const Mix& mix() const noexcept { return mix_; }
+    /// Takes up another mix, which can be undone. `name` is what the menu says; of edits that follow each other with
+    /// `goesOn`, as those of a fader that is held, only the first starts something to undo.
+    void edit(const juce::String& name, const Mix& next, bool goesOn = false);
+    template <class Change>
+    void change(const juce::String& name, Change change, bool goesOn = false) {
+        Mix next = mix_;
+        change(next);
+        edit(name, next, goesOn);
+    }
+    juce::UndoManager& undoManager() noexcept { return undo_; }
+    /// Attaches an enchanter at a place of the field (shares of its width and height), quietly; false: no room.
+    bool attach(double shareX, double shareY);
+    void detach(int enchanter); ///< one always stays
+
+    // ---- the world
+    const Scene& sceneNow() const noexcept { return sceneNow_; } ///< with what was spawned since it began
+    std::string act(const Action& action);                       ///< empty, or what is wrong with it
+    void restart(std::uint32_t seed);
+    void setSlowness(int slowness);
+    int slowness() const noexcept { return session_.slowness(); }
+    void stepOnce() { session_.stepOnce(); }
+    /// A pulse of one enchanter, or a sweep of its range.
+    void testPulse(int enchanter);
+    void testSweep(int enchanter);
+    Session& session() noexcept { return session_; }
+
+    // ---- the output
+    std::string open(const DeviceChoice& device);
+    const DeviceChoice& device() const noexcept { return device_; }
+    const AudioDeviceTypes& deviceTypes() const noexcept { return types_; }
+    AudioOutput& output() noexcept { return output_; }
+    int outputs() const { return output_.deviceOutputs(); } ///< that the device offers
+    void setSilent(bool silent);
+    bool isSilent() const noexcept { return isSilent_; }
+    double playOutSeconds() const noexcept;
+
+    // ---- looking
+    /// What is new; at most about 30 times a second.
+    DeskMoment look();
+    const ScopeTrace& scope() const noexcept { return scope_; }
+    const juce::String& trouble() const noexcept { return trouble_; } ///< one line; empty while all is well
+    void report(const juce::String& trouble);
+
+private:
+    class MixEdit;
+    void apply(const Mix& next);
+    void postDifferences(const Mix& before, bool all);
+    std::vector<int> outputMap() const;
+    void measure(const float* const* block, int frames);
+    void strike(int enchanter, std::vector<CollisionEvent> strikes);
+
+    AudioDeviceTypes types_;
+    Mix mix_;
+    Session session_;
+    SignalTap tap_;
+    AudioOutput output_;
+    std::unique_ptr<SimulationDriver> driver_;
+    juce::UndoManager undo_;
+    Scene sceneNow_;
+    DeviceChoice device_;
+    juce::String trouble_, deviceTrouble_;
+    bool isSilent_ = false;
+
+    ScopeTrace scope_;
+    DeskMoment now_;
+    std::array<double, limits::maxEnchanters> heldAtMs_{};
+    double lookedAtMs_ = 0.0, maintainedAtMs_ = 0.0;
+};
+
+/// Names of built-in scenes as people write them: "shake-the-box" as "Shake the box".
+juce::String titleOf(const std::string& name);
+
+} // namespace physvib

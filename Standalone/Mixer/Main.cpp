@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The application `physvib-mixer`: its window, or pictures of it.
+#include "Mixer/MixerWindow.h"
+#include "Mixer/Shots.h"
+#include "Host/NoDevice.h"
+#include <iostream>
+
+namespace physvib {
+
+namespace {
+
+constexpr int exitFailed = 1, exitUsage = 2;
+constexpr const char* usage = R"(physvib-mixer [SESSION.json] [--device TYPE:NAME]
+physvib-mixer --shot FILE.png [--state NAME]   a picture of the window, without a display
+physvib-mixer --states | --help | --version
+)";
+
+AudioDeviceTypes deviceTypes() {
+    return [] {
+        auto types = systemAudioDeviceTypes();
+        types.push_back(std::make_unique<NoDeviceType>());
+        return types;
+    };
+}
+
+/// The word after `option`; empty if there is none.
+juce::String valueOf(const juce::ArgumentList& arguments, juce::StringRef option) {
+    const int at = arguments.indexOfOption(option);
+    return at < 0 ? juce::String{} : arguments[at + 1].text;
+}
+
+/// What the command line wants, apart from a window; an exit code, or none.
+std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
+    if (arguments.containsOption("--help|-h")) return std::cout << usage, 0;
+    if (arguments.containsOption("--version")) return std::cout << "physvib-mixer " PHYSVIB_VERSION "\n", 0;
+    if (arguments.containsOption("--states")) return std::cout << shotStates().joinIntoString("\n") << '\n', 0;
+    if (!arguments.containsOption("--shot")) return {};
+    const auto path = valueOf(arguments, "--shot");
+    const auto state = valueOf(arguments, "--state");
+    if (path.isEmpty()) return std::cerr << "physvib-mixer: --shot: expected a file\n", exitUsage;
+    const auto error = takeShot(juce::File::getCurrentWorkingDirectory().getChildFile(path), state.isEmpty() ? shotStates()[0] : state);
+    if (error.isEmpty()) return 0;
+    return std::cerr << "physvib-mixer: " << error << '\n', error.startsWith("--") ? exitUsage : exitFailed;
+}
+
+class MixerApplication final : public juce::JUCEApplication {
+public:
+    const juce::String getApplicationName() override { return "PhysVib mixer"; }
+    const juce::String getApplicationVersion() override { return PHYSVIB_VERSION; }
+    bool moreThanOneInstanceAllowed() override { return true; }
+
+    void initialise(const juce::String&) override {
+        const juce::ArgumentList arguments{"physvib-mixer", getCommandLineParameterArray()};
+        const auto device = valueOf(arguments, "--device");
+        const auto none = std::string{noDeviceType} + ":" + noDeviceName;
+        desk_ = std::make_unique<Desk>(deviceTypes(), DeviceChoice{device.isEmpty() ? none : device.toStdString(), 0, 0});
+        window_ = std::make_unique<MixerWindow>(*desk_);
+    }
+    void shutdown() override {
+        window_.reset();
+        desk_.reset();
+    }
+    void systemRequestedQuit() override { quit(); }
+
+private:
+    std::unique_ptr<Desk> desk_;
+    std::unique_ptr<MixerWindow> window_;
+};
+
+juce::JUCEApplicationBase* makeApplication() { return new MixerApplication; }
+
+} // namespace
+} // namespace physvib
+
+int main(int argc, char* argv[]) {
+    {
+        const juce::ArgumentList arguments{argc, argv};
+        const juce::ScopedJuceInitialiser_GUI juce;
+        if (const auto code = physvib::runWithoutWindow(arguments)) return *code;
+    }
+    juce::JUCEApplicationBase::createInstance = physvib::makeApplication;
+    return juce::JUCEApplicationBase::main(argc, const_cast<const char**>(argv));
+}

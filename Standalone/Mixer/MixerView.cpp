@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Places of the panels, keys, and 30 pictures a second.
+#include "Mixer/MixerView.h"
+#include "Mixer/EnchantersTab.h"
+#include "Mixer/OutputTab.h"
+
+namespace physvib {
+
+namespace {
+
+constexpr int barHeight = 52, stripsHeight = 292, troubleHeight = 34;
+
+} // namespace
+
+MixerView::MixerView(Desk& desk)
+    : desk_{desk}
+    , bar_{desk}
+    , world_{desk}
+    , scope_{desk}
+    , strips_{desk} {
+    setLookAndFeel(&look_);
+    setOpaque(true);
+    setTitle("PhysVib mixer");
+    setWantsKeyboardFocus(true);
+    tabs_.add("Enchanters", std::make_unique<EnchantersTab>(desk, world_.view()));
+    tabs_.add("Output", std::make_unique<OutputTab>(desk));
+    trouble_.setTitle("Trouble");
+    trouble_.setFont(juce::Font{text::medium});
+    dismiss_ = quietButton("Dismiss", "Dismiss the message");
+    dismiss_->onClick = [this] { desk_.report({}); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&bar_, &world_, &tabs_, &scope_, &strips_}) addAndMakeVisible(c);
+    addChildComponent(trouble_);
+    addChildComponent(*dismiss_);
+    desk_.addChangeListener(this);
+    takeMix();
+    setSize(1440, 900);
+    startTimerHz(framesPerSecond);
+}
+
+MixerView::~MixerView() {
+    desk_.removeChangeListener(this);
+    setLookAndFeel(nullptr);
+}
+
+void MixerView::setGround(Ground ground) {
+    look_.setGround(ground);
+    sendLookAndFeelChange();
+    takeMix();
+    repaint();
+}
+
+void MixerView::takeMix() {
+    bar_.takeMix();
+    world_.takeMix();
+    tabs_.takeMix();
+    strips_.takeMix();
+    scope_.repaint();
+    const bool isTrouble = desk_.trouble().isNotEmpty();
+    trouble_.setText(desk_.trouble(), juce::dontSendNotification);
+    trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
+    if (isTrouble == trouble_.isVisible()) return;
+    trouble_.setVisible(isTrouble);
+    dismiss_->setVisible(isTrouble);
+    resized();
+    repaint();
+}
+
+void MixerView::refresh() {
+    const auto moment = desk_.look();
+    bar_.refresh(moment);
+    world_.refresh(moment);
+    tabs_.refresh(moment);
+    scope_.refresh();
+    strips_.refresh(moment);
+}
+
+void MixerView::setHint(const juce::String& hint) {
+    hint_ = hint;
+    repaint();
+}
+
+bool MixerView::keyPressed(const juce::KeyPress& key) {
+    using juce::KeyPress;
+    if (key == KeyPress::escapeKey) return bar_.toggleSilence(), true;
+    if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
+    if (key == KeyPress{'.'}) return desk_.stepOnce(), true;
+    if (key == KeyPress{'z', juce::ModifierKeys::commandModifier, 0}) return desk_.undoManager().undo(), true;
+    if (key == KeyPress{'z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier, 0} || key == KeyPress{'y', juce::ModifierKeys::commandModifier, 0})
+        return desk_.undoManager().redo(), true;
+    return world_.keyPressed(key);
+}
+
+void MixerView::paint(juce::Graphics& g) {
+    g.fillAll(shade(*this, Shade::ground));
+    if (!trouble_.isVisible()) return;
+    g.setColour(shade(*this, Shade::limit).withAlpha(0.22f));
+    g.fillRoundedRectangle(trouble_.getBounds().getUnion(dismiss_->getBounds()).toFloat(), 6.0f);
+}
+
+void MixerView::paintOverChildren(juce::Graphics& g) {
+    if (hint_.isEmpty()) return;
+    const auto lines = juce::StringArray::fromLines(hint_);
+    const juce::Font font{text::medium};
+    const auto at = world_.getBounds().reduced(30).removeFromBottom(150).withSizeKeepingCentre(470, 30 + 24 * lines.size());
+    g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
+    g.fillRoundedRectangle(at.toFloat(), 10.0f);
+    g.setFont(font);
+    auto area = at.reduced(20, 15);
+    for (const auto& line : lines) {
+        g.setColour(shade(*this, Shade::text));
+        g.drawText(line, area.removeFromTop(24), juce::Justification::centredLeft, true);
+    }
+}
+
+void MixerView::resized() {
+    auto area = getLocalBounds();
+    bar_.setBounds(area.removeFromTop(barHeight));
+    area.reduce(gap, gap);
+    if (trouble_.isVisible()) {
+        auto row = area.removeFromTop(troubleHeight);
+        dismiss_->setBounds(row.removeFromRight(90));
+        trouble_.setBounds(row);
+        area.removeFromTop(gap);
+    }
+    const int lower = std::min(stripsHeight, area.getHeight() * 2 / 5);
+    auto bottom = area.removeFromBottom(lower);
+    area.removeFromBottom(gap);
+    const int right = juce::jlimit(400, 620, area.getWidth() * 37 / 100);
+    tabs_.setBounds(area.removeFromRight(right));
+    area.removeFromRight(gap);
+    world_.setBounds(area);
+    strips_.setBounds(bottom.removeFromRight(right));
+    bottom.removeFromRight(gap);
+    scope_.setBounds(bottom);
+}
+
+} // namespace physvib

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All of the mixer's window: the bar, the world, the tabs, the scope and the strips.
+#pragma once
+#include "Mixer/ScopeView.h"
+#include "Mixer/StripsPanel.h"
+#include "Mixer/TabPanel.h"
+#include "Mixer/TopBar.h"
+#include "Mixer/WorldPanel.h"
+
+namespace physvib {
+
+class MixerView final : public juce::Component, public juce::DragAndDropContainer, private juce::ChangeListener, private juce::Timer {
+public:
+    static constexpr int framesPerSecond = 30, leastWidth = 1040, leastHeight = 640;
+
+    explicit MixerView(Desk& desk);
+    ~MixerView() override;
+
+    /// One picture of what is going on; the timer calls it.
+    void refresh();
+    void setGround(Ground ground);
+    Ground ground() const noexcept { return look_.ground(); }
+
+    TopBar& topBar() noexcept { return bar_; }
+    WorldPanel& world() noexcept { return world_; }
+    TabPanel& tabs() noexcept { return tabs_; }
+    /// A line at the window's foot; empty hides it.
+    void setHint(const juce::String& hint);
+
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void paintOverChildren(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    void changeListenerCallback(juce::ChangeBroadcaster*) override { takeMix(); }
+    void timerCallback() override { refresh(); }
+    void takeMix();
+
+    Desk& desk_;
+    Look look_;
+    TopBar bar_;
+    WorldPanel world_;
+    TabPanel tabs_;
+    ScopeView scope_;
+    StripsPanel strips_;
+    juce::Label trouble_;
+    std::unique_ptr<juce::TextButton> dismiss_;
+    juce::String hint_;
+    juce::TooltipWindow tooltips_{this, 600};
+};
+
+} // namespace physvib

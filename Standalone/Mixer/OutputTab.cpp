@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Choices of a device, and what it says of itself.
+#include "Mixer/OutputTab.h"
+#include "Host/NoDevice.h"
+
+namespace physvib {
+
+namespace {
+
+constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
+constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
+constexpr int factRow = 26;
+
+void caption(juce::Label& label, const juce::String& words) {
+    label.setText(words, juce::dontSendNotification);
+    label.setFont(juce::Font{text::small});
+    label.setBorderSize({0, 0, 0, 0});
+}
+
+} // namespace
+
+OutputTab::OutputTab(Desk& desk)
+    : desk_{desk} {
+    setTitle("Output");
+    caption(deviceName_, "Device");
+    caption(rateName_, "Rate");
+    caption(blockName_, "Block");
+    device_.setTitle("Device");
+    rate_.setTitle("Rate");
+    block_.setTitle("Block");
+    rate_.addItem("as it stands", 1);
+    for (const int hz : rates) rate_.addItem(juce::String{hz} + " Hz", hz);
+    block_.addItem("as it stands", 1);
+    for (const int frames : blocks) block_.addItem(juce::String{frames} + " frames", frames);
+    scan_ = quietButton("Look again", "Look for devices again");
+    scan_->onClick = [this] { scan(); };
+    for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_}) addAndMakeVisible(c);
+    takeMix();
+}
+
+void OutputTab::visibilityChanged() {
+    if (isVisible() && !isScanned_) scan();
+}
+
+void OutputTab::scan() {
+    found_ = listAudioDevices(desk_.deviceTypes());
+    isScanned_ = true;
+    takeMix();
+}
+
+void OutputTab::open() {
+    const int index = device_.getSelectedId() - 1;
+    DeviceChoice choice = desk_.device();
+    if (index >= 0 && index < static_cast<int>(found_.size())) choice.name = found_[static_cast<std::size_t>(index)].type + ":" + found_[static_cast<std::size_t>(index)].name;
+    choice.sampleRateHz = rate_.getSelectedId() > 1 ? rate_.getSelectedId() : 0;
+    choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
+    desk_.open(choice);
+    takeMix();
+}
+
+void OutputTab::takeMix() {
+    const auto& choice = desk_.device();
+    device_.clear(juce::dontSendNotification);
+    int chosen = 0;
+    for (int id = 1; const auto& d : found_) {
+        const bool isNone = d.type == noDeviceType;
+        device_.addItem(isNone ? juce::String{"No device: seen, not felt"} : utf8(d.type + ": " + d.name) + " (" + juce::String{d.channels} + " outputs)", id);
+        if (d.type + ":" + d.name == choice.name) chosen = id;
+        ++id;
+    }
+    device_.setSelectedId(chosen, juce::dontSendNotification);
+    if (chosen == 0) device_.setText(utf8(choice.name), juce::dontSendNotification);
+    rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
+    block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
+    for (auto* label : {&deviceName_, &rateName_, &blockName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+}
+
+void OutputTab::setFacts(std::vector<Fact> facts) {
+    const auto same = [](const Fact& a, const Fact& b) { return a.name == b.name && a.value == b.value && a.shade == b.shade; };
+    if (std::ranges::equal(facts, facts_, same)) return;
+    facts_ = std::move(facts);
+    repaint(factsArea_);
+}
+
+void OutputTab::refresh(const DeskMoment& moment) {
+    const auto& output = desk_.output();
+    const double rate = std::max(1, output.sampleRateHz());
+    const bool isNone = juce::String{utf8(output.device())}.startsWith(noDeviceType);
+    const auto& r = moment.session.render;
+    int connected = 0;
+    for (const Strip& strip : desk_.mix().strips) connected += strip.output >= 0 && strip.output < desk_.outputs() ? 1 : 0;
+    const int all = desk_.mix().count();
+    const double slipped = 1e-6 * static_cast<double>(desk_.session().slippedNs());
+    setFacts({{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
+               !moment.device.isRunning ? Shade::limit : isNone ? Shade::now : Shade::text},
+              {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" + number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
+              {"Felt", number(1e3 * desk_.playOutSeconds(), 1) + " ms after the contact, and the device's own " + number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
+              {"Enchanters", juce::String{connected} + " of " + juce::String{all} + " have an output there", connected < all ? Shade::now : Shade::text},
+              {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " + number(100.0 * moment.device.worstLoad, 1) + " % at most"},
+              {"Late", juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls", r.late > 0 ? Shade::now : Shade::text},
+              {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}},
+              {"Opened again", juce::String{moment.device.losses} + " times"},
+              {"Board", "not connected", Shade::muted}});
+}
+
+void OutputTab::paint(juce::Graphics& g) {
+    auto area = factsArea_;
+    for (const auto& fact : facts_) {
+        auto row = area.removeFromTop(factRow);
+        g.setFont(juce::Font{text::medium});
+        g.setColour(shade(*this, Shade::muted));
+        g.drawText(fact.name, row.removeFromLeft(116), juce::Justification::centredLeft, false);
+        g.setColour(shade(*this, fact.shade));
+        g.drawText(fact.value, row, juce::Justification::centredLeft, true);
+    }
+}
+
+void OutputTab::resized() {
+    auto area = getLocalBounds();
+    deviceName_.setBounds(area.removeFromTop(18));
+    auto row = area.removeFromTop(rowHeight);
+    scan_->setBounds(row.removeFromRight(90));
+    row.removeFromRight(gap);
+    device_.setBounds(row);
+    area.removeFromTop(10);
+    auto names = area.removeFromTop(18);
+    row = area.removeFromTop(rowHeight);
+    const int half = (row.getWidth() - gap) / 2;
+    rateName_.setBounds(names.removeFromLeft(half));
+    names.removeFromLeft(gap);
+    blockName_.setBounds(names);
+    rate_.setBounds(row.removeFromLeft(half));
+    row.removeFromLeft(gap);
+    block_.setBounds(row);
+    area.removeFromTop(14);
+    factsArea_ = area;
+}
+
+} // namespace physvib

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the enchanters are fed from: device, rate, block and the delay that follows from them; the board.
+#pragma once
+#include "Mixer/TabPanel.h"
+
+namespace physvib {
+
+class OutputTab final : public Tab {
+public:
+    explicit OutputTab(Desk& desk);
+    void takeMix() override;
+    void refresh(const DeskMoment& moment) override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    void visibilityChanged() override;
+
+private:
+    struct Fact {
+        juce::String name, value;
+        Shade shade = Shade::text;
+    };
+    void scan();
+    void open();
+    void setFacts(std::vector<Fact> facts);
+
+    Desk& desk_;
+    juce::ComboBox device_, rate_, block_;
+    juce::Label deviceName_, rateName_, blockName_;
+    std::unique_ptr<juce::TextButton> scan_;
+    juce::Rectangle<int> factsArea_;
+    std::vector<Fact> facts_;
+    std::vector<AudioDeviceName> found_;
+    bool isScanned_ = false;
+};
+
+} // namespace physvib

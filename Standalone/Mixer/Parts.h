@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Small parts of the mixer's window: buttons with drawn signs, two lines of text, panels.
+#pragma once
+#include "Host/Views/Look.h"
+#include <functional>
+
+namespace physvib {
+
+enum class Sign { play, pause, step, restart, plus };
+
+/// A button with a sign that needs no font; `name` is what a screen reader and the tooltip say.
+class SignButton final : public juce::Button {
+public:
+    SignButton(Sign sign, const juce::String& name);
+    void setSign(Sign sign, const juce::String& name);
+    void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
+
+private:
+    Sign sign_;
+};
+
+/// A line to read and a quieter one under it.
+class TwoLines final : public juce::Component, public juce::SettableTooltipClient {
+public:
+    explicit TwoLines(const juce::String& title) { setTitle(title); }
+    void set(const juce::String& first, const juce::String& second, Shade firstShade = Shade::text);
+    void paint(juce::Graphics& g) override;
+    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
+        return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
+    }
+
+private:
+    juce::String first_, second_;
+    Shade shade_ = Shade::text;
+};
+
+/// A rounded ground; what is in it keeps `panelInset` from its edge.
+void drawPanel(juce::Graphics& g, const juce::Component& component);
+constexpr int panelInset = 14, gap = 12, rowHeight = 30;
+
+/// A button that looks like a word in the accent's colour.
+std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name);
+
+/// Fixed notation, with a true minus sign.
+juce::String number(double value, int decimals);
+juce::String utf8(const std::string& words);
+
+} // namespace physvib

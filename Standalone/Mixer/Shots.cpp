@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// States are reached as a person would reach them, with a clock instead of a device.
+#include "Mixer/Shots.h"
+#include "Mixer/MixerView.h"
+#include "Host/NoDevice.h"
+#include <functional>
+
+namespace physvib {
+
+namespace {
+
+struct State {
+    const char* name;
+    int width, height;
+    double seconds; // until the picture is taken
+    std::function<void(Desk&, MixerView&)> reach;
+};
+
+AudioDeviceTypes onlyNoDevice() {
+    return [] {
+        std::vector<std::unique_ptr<juce::AudioIODeviceType>> types;
+        types.push_back(std::make_unique<NoDeviceType>());
+        return types;
+    };
+}
+
+const std::vector<State>& states() {
+    static const std::vector<State> all{
+        {"four-enchanters", 1440, 900, 4.0, [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
+        {"output", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }},
+        {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
+        {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},
+        {"error", 1440, 900, 2.0, [](Desk& d, MixerView&) { d.report("session.json: takes[0].scene.bodies[4].fixtures[0].radius_m: expected 0.01 to 100, found 0"); }},
+        {"six-enchanters", 1440, 900, 3.0, [](Desk& d, MixerView&) {
+             d.attach(0.5, 0.5);
+             d.attach(0.5, 1.0);
+         }},
+    };
+    return all;
+}
+
+void runFor(double seconds, MixerView& view) {
+    const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds;
+    while (juce::Time::getMillisecondCounterHiRes() < end) {
+        juce::Thread::sleep(30);
+        view.refresh();
+    }
+}
+
+} // namespace
+
+juce::StringArray shotStates() {
+    juce::StringArray names;
+    for (const auto& state : states()) names.add(state.name);
+    return names;
+}
+
+juce::String takeShot(const juce::File& file, const juce::String& name) {
+    const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
+    if (state == states().end()) return "--state: expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
+    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128}};
+    MixerView view{desk};
+    view.setSize(state->width, state->height);
+    state->reach(desk, view);
+    desk.dispatchPendingMessages();
+    runFor(state->seconds, view);
+    const auto image = view.createComponentSnapshot(view.getLocalBounds(), true, 1.0f);
+    juce::TemporaryFile temporary{file};
+    if (auto out = temporary.getFile().createOutputStream(); !out || !juce::PNGImageFormat{}.writeImageToStream(image, *out)) return file.getFullPathName() + ": cannot be written";
+    return temporary.overwriteTargetFileWithTemporary() ? juce::String{} : file.getFullPathName() + ": cannot be written";
+}
+
+} // namespace physvib

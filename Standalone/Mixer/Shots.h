@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pictures of the window's states without a display: for the documents, and to look at.
+#pragma once
+#include <juce_core/juce_core.h>
+
+namespace physvib {
+
+/// Names of the states, in the order of the documents.
+juce::StringArray shotStates();
+
+/// Draws the window in that state to a PNG file; empty, or what went wrong. Takes some seconds: the world moves. M.
+juce::String takeShot(const juce::File& file, const juce::String& state);
+
+} // namespace physvib

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Strips and what they change on the desk.
+#include "Mixer/StripView.h"
+#include "Host/Views/MeterView.h"
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+constexpr int metersTop = 56;
+
+void setUpFader(juce::Slider& fader, double least, double most, const juce::String& title) {
+    fader.setSliderStyle(juce::Slider::LinearVertical);
+    fader.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
+    fader.getProperties().set(faderProperty, true);
+    fader.setRange(least, most, 0.1);
+    fader.setSkewFactorFromMidPoint(-15.0);
+    fader.setTitle(title);
+    fader.setDoubleClickReturnValue(true, 0.0);
+    fader.textFromValueFunction = [](double db) { return db <= leastStripDb ? juce::String{"silent"} : number(db, 1) + " dB"; };
+    fader.setPopupDisplayEnabled(true, true, nullptr);
+    fader.setWantsKeyboardFocus(true);
+}
+
+double gOf(const Desk& desk, std::size_t strip, float peak) {
+    const double level = desk.mix().levelDb <= leastStripDb ? 0.0 : std::pow(10.0, desk.mix().levelDb / 20.0);
+    return desk.isSilent() ? 0.0 : peak * level * desk.mix().layout.enchanters[strip].fullScaleG;
+}
+
+} // namespace
+
+PeakMeter::PeakMeter(const juce::String& title) { setTitle(title); }
+
+void PeakMeter::set(float peak, float hold) {
+    const float height = meterHeight(peak), held = meterHeight(hold);
+    if (std::abs(height - peak_) < 0.004f && std::abs(held - hold_) < 0.004f) return;
+    peak_ = height;
+    hold_ = held;
+    setDescription(peak > 0.001f ? number(juce::Decibels::gainToDecibels(peak), 0) + " dB" : juce::String{"silent"});
+    repaint();
+}
+
+void PeakMeter::paint(juce::Graphics& g) {
+    const auto bar = getLocalBounds().toFloat();
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(bar, 3.0f);
+    const auto green = palette::enchanter(3);
+    const auto lit = bar.withTrimmedTop(bar.getHeight() * (1.0f - peak_));
+    if (lit.getHeight() > 0.5f) {
+        juce::ColourGradient ramp{green.darker(0.7f), bar.getBottomLeft(), palette::limit, bar.getTopLeft(), false};
+        ramp.addColour(0.6, green);
+        ramp.addColour(0.85, palette::now);
+        g.setGradientFill(ramp);
+        g.fillRoundedRectangle(lit, 3.0f);
+    }
+    if (hold_ <= 0.0f) return;
+    g.setColour(shade(*this, Shade::text));
+    g.fillRect(bar.getX() - 1.0f, bar.getY() + bar.getHeight() * (1.0f - hold_), bar.getWidth() + 2.0f, 2.0f);
+}
+
+StripView::StripView(Desk& desk, int strip)
+    : desk_{desk}
+    , index_{static_cast<std::size_t>(strip)}
+    , meter_{"Level of " + utf8(desk.mix().layout.enchanters[index_].label)} {
+    const auto label = utf8(desk.mix().layout.enchanters[index_].label);
+    setTitle("Strip " + label);
+    setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
+    fader_.onValueChange = [this, held = false]() mutable {
+        const bool goesOn = held && fader_.isMouseButtonDown();
+        held = fader_.isMouseButtonDown();
+        change("Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn);
+    };
+    const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint, bool Strip::*what) {
+        button.setTitle(name + " " + label);
+        button.setTooltip(name);
+        button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB()));
+        button.onClick = [this, what, name] { change(name, [what](Strip& s) { s.*what = !(s.*what); }); };
+        addAndMakeVisible(button);
+    };
+    toggle(mute_, "Mute", palette::limit, &Strip::isMuted);
+    toggle(solo_, "Solo", palette::now, &Strip::isSolo);
+    toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
+    delay_.setTitle("Delay of " + label);
+    delay_.onClick = [this] { askDelay(); };
+    level_.setFont(juce::Font{text::small, juce::Font::bold});
+    level_.setJustificationType(juce::Justification::centred);
+    level_.setTitle("Level of " + label + " in g");
+    output_.setTitle("Output of " + label);
+    output_.setJustificationType(juce::Justification::centred);
+    output_.onChange = [this] { change("Output", [this](Strip& s) { s.output = output_.getSelectedId() - 2; }); };
+    test_ = quietButton(juce::String::fromUTF8("Test \xe2\x96\xb8"), "Test pulse on " + label + "; with Shift: a sweep from 40 to 400 Hz");
+    test_->onClick = [this] {
+        if (juce::ModifierKeys::currentModifiers.isShiftDown()) desk_.testSweep(static_cast<int>(index_));
+        else desk_.testPulse(static_cast<int>(index_));
+    };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&meter_, &fader_, &delay_, &level_, &output_, test_.get()}) addAndMakeVisible(c);
+    takeMix();
+}
+
+template <class Change>
+void StripView::change(const juce::String& name, Change change, bool goesOn) {
+    const auto label = utf8(desk_.mix().layout.enchanters[index_].label);
+    desk_.change(name + " of " + label, [&](Mix& mix) { change(mix.strips[index_]); }, goesOn);
+}
+
+void StripView::fillOutputs() {
+    output_.clear(juce::dontSendNotification);
+    output_.addItem("none", 1);
+    for (int k = 0; k < desk_.outputs(); ++k) output_.addItem("out " + juce::String{k + 1}, k + 2);
+    if (strip().output >= desk_.outputs()) output_.addItem("out " + juce::String{strip().output + 1} + " (not there)", strip().output + 2);
+}
+
+void StripView::takeMix() {
+    const Strip& s = strip();
+    if (!fader_.isMouseButtonDown()) fader_.setValue(s.gainDb, juce::dontSendNotification);
+    mute_.setToggleState(s.isMuted, juce::dontSendNotification);
+    solo_.setToggleState(s.isSolo, juce::dontSendNotification);
+    polarity_.setToggleState(s.isInverted, juce::dontSendNotification);
+    delay_.setButtonText(s.delayMs > 0.0 ? number(s.delayMs, s.delayMs < 10.0 ? 1 : 0) : juce::String{"ms"});
+    delay_.setToggleState(s.delayMs > 0.0, juce::dontSendNotification);
+    delay_.setTooltip("Delay: " + number(s.delayMs, 1) + " ms");
+    fillOutputs();
+    output_.setSelectedId(s.output + 2, juce::dontSendNotification);
+    repaint();
+}
+
+void StripView::askDelay() {
+    juce::PopupMenu menu;
+    menu.addSectionHeader("Delay");
+    for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
+        menu.addItem(number(ms, ms < 1.0 && ms > 0.0 ? 1 : 0) + " ms", true, strip().delayMs == ms, [this, ms] { change("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_));
+}
+
+void StripView::refresh(const DeskMoment& moment) {
+    meter_.set(moment.meters.peaks[index_], moment.holds[index_]);
+    level_.setText(number(gOf(desk_, index_, moment.holds[index_]), 2) + " g", juce::dontSendNotification);
+}
+
+void StripView::paint(juce::Graphics& g) {
+    auto area = getLocalBounds();
+    const auto& enchanter = desk_.mix().layout.enchanters[index_];
+    const bool isSilent = desk_.mix().isSilent(static_cast<int>(index_));
+    g.setColour(enchanterColour(*this, static_cast<int>(index_)).withMultipliedAlpha(isSilent ? 0.35f : 1.0f));
+    g.fillRoundedRectangle(area.removeFromTop(4).toFloat(), 2.0f);
+    area.removeFromTop(4);
+    g.setColour(shade(*this, isSilent ? Shade::muted : Shade::text));
+    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.drawText(utf8(enchanter.label), area.removeFromTop(20), juce::Justification::centred, true);
+    g.setColour(shade(*this, Shade::muted));
+    g.setFont(juce::Font{text::small});
+    g.drawText(enchanter.actuator == "none" ? juce::String{"no profile"} : utf8(enchanter.actuator), area.removeFromTop(18), juce::Justification::centred, true);
+    g.setFont(juce::Font{11.0f});
+    for (const int db : {0, -20, -40, -60}) { // the meter's scale, right of the fader
+        const auto y = static_cast<float>(meter_.getY()) + static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
+        g.drawText(number(db, 0), juce::Rectangle<float>{static_cast<float>(getWidth()) - 25.0f, y - 7.0f, 24.0f, 14.0f}, juce::Justification::centredRight, false);
+    }
+}
+
+void StripView::resized() {
+    auto area = getLocalBounds().withTrimmedTop(metersTop);
+    test_->setBounds(area.removeFromBottom(22).reduced(4, 0));
+    output_.setBounds(area.removeFromBottom(26).reduced(2, 1));
+    level_.setBounds(area.removeFromBottom(22));
+    auto row = area.removeFromBottom(24);
+    const int each = row.getWidth() / 4;
+    for (auto* button : {&mute_, &solo_, &polarity_, &delay_}) button->setBounds(row.removeFromLeft(each).reduced(1, 0));
+    area.removeFromBottom(8);
+    meter_.setBounds(area.withWidth(12).withX(6));
+    fader_.setBounds(area.withX(22).withWidth(32).expanded(0, 8));
+}
+
+MasterStrip::MasterStrip(Desk& desk)
+    : desk_{desk} {
+    setTitle("Master");
+    setUpFader(fader_, leastStripDb, 0.0, "Master gain");
+    fader_.setDoubleClickReturnValue(true, -12.0);
+    fader_.onValueChange = [this, held = false]() mutable {
+        const bool goesOn = held && fader_.isMouseButtonDown();
+        held = fader_.isMouseButtonDown();
+        desk_.change("Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, goesOn);
+    };
+    addAndMakeVisible(meter_);
+    addAndMakeVisible(fader_);
+    takeMix();
+}
+
+void MasterStrip::takeMix() {
+    if (!fader_.isMouseButtonDown()) fader_.setValue(desk_.mix().levelDb, juce::dontSendNotification);
+    repaint();
+}
+
+void MasterStrip::refresh(const DeskMoment& moment) {
+    meter_.set(moment.masterPeak, moment.masterPeak);
+    const float db = juce::Decibels::gainToDecibels(moment.meters.limiterGain);
+    if (std::abs(db - limiterDb_) < 0.05f) return;
+    limiterDb_ = db;
+    repaint();
+}
+
+void MasterStrip::paint(juce::Graphics& g) {
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.drawText("Master", getLocalBounds().withTrimmedTop(8).removeFromTop(20), juce::Justification::centred, false);
+    g.setFont(juce::Font{text::small});
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText(number(desk_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18), juce::Justification::centred, false);
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(limiterBar_.toFloat(), 3.0f);
+    const float reduction = juce::jlimit(0.0f, 1.0f, -limiterDb_ / 20.0f);
+    g.setColour(shade(*this, Shade::limit));
+    if (reduction > 0.004f) g.fillRoundedRectangle(limiterBar_.toFloat().withHeight(std::max(3.0f, reduction * static_cast<float>(limiterBar_.getHeight()))), 3.0f);
+    g.setColour(shade(*this, limiterDb_ < -0.05f ? Shade::limit : Shade::muted));
+    g.drawText("limiter " + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1), limiterText_, juce::Justification::centred, false);
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText("at most", ceilingName_, juce::Justification::centred, false);
+    double most = 0.0;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(desk_.mix().count()); ++j)
+        most = std::max(most, gOf(desk_, j, static_cast<float>(std::pow(10.0, desk_.mix().strips[j].ceilingDb / 20.0))));
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{text::small, juce::Font::bold});
+    g.drawText(number(most, 2) + " g", ceiling_, juce::Justification::centred, false);
+}
+
+void MasterStrip::resized() {
+    auto area = getLocalBounds().withTrimmedTop(metersTop);
+    ceiling_ = area.removeFromBottom(22);
+    ceilingName_ = area.removeFromBottom(22);
+    area.removeFromBottom(4);
+    limiterText_ = area.removeFromBottom(22);
+    area.removeFromBottom(32);
+    meter_.setBounds(area.withX(12).withWidth(14));
+    limiterBar_ = area.withX(33).withWidth(8);
+    fader_.setBounds(area.withX(52).withWidth(40).expanded(0, 8));
+}
+
+} // namespace physvib

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A channel strip: meter with held peak, fader, mute, solo, polarity, delay, the level in g, output, test.
+#pragma once
+#include "Mixer/Desk.h"
+#include "Mixer/Parts.h"
+
+namespace physvib {
+
+/// A bar from -60 dB to full scale with the peak of the last moments.
+class PeakMeter final : public juce::Component {
+public:
+    explicit PeakMeter(const juce::String& title);
+    void set(float peak, float hold);
+    void paint(juce::Graphics& g) override;
+    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
+        return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
+    }
+
+private:
+    float peak_ = 0.0f, hold_ = 0.0f; // as heights
+};
+
+class StripView final : public juce::Component {
+public:
+    static constexpr int width = 80;
+
+    StripView(Desk& desk, int strip);
+    void takeMix();
+    void refresh(const DeskMoment& moment);
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    const Strip& strip() const { return desk_.mix().strips[index_]; }
+    template <class Change>
+    void change(const juce::String& name, Change change, bool goesOn = false);
+    void fillOutputs();
+    void askDelay();
+
+    Desk& desk_;
+    const std::size_t index_;
+    PeakMeter meter_;
+    juce::Slider fader_;
+    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
+    juce::Label level_;
+    juce::ComboBox output_;
+    std::unique_ptr<juce::TextButton> test_;
+};
+
+/// All enchanters together: level, limiter, ceiling.
+class MasterStrip final : public juce::Component {
+public:
+    static constexpr int width = 96;
+
+    explicit MasterStrip(Desk& desk);
+    void takeMix();
+    void refresh(const DeskMoment& moment);
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    Desk& desk_;
+    PeakMeter meter_{"Master level"};
+    juce::Slider fader_;
+    float limiterDb_ = 0.0f;
+    juce::Rectangle<int> limiterBar_, limiterText_, ceilingName_, ceiling_;
+};
+
+} // namespace physvib

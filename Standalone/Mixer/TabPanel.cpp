@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Names with a line under the chosen one.
+#include "Mixer/TabPanel.h"
+
+namespace physvib {
+
+class TabPanel::Name final : public juce::Button {
+public:
+    explicit Name(const juce::String& name)
+        : juce::Button{name} {
+        setTitle(name);
+        setRadioGroupId(1);
+        setClickingTogglesState(true);
+    }
+    void paintButton(juce::Graphics& g, bool isOver, bool) override {
+        const bool isChosen = getToggleState();
+        g.setColour(shade(*this, isChosen || isOver ? Shade::text : Shade::muted));
+        g.setFont(juce::Font{text::medium, isChosen ? juce::Font::bold : juce::Font::plain});
+        g.drawText(getName(), getLocalBounds().withTrimmedBottom(4), juce::Justification::centred, false);
+        g.setColour(isChosen ? shade(*this, Shade::accent) : juce::Colours::transparentBlack);
+        g.fillRect(getLocalBounds().removeFromBottom(2));
+    }
+};
+
+TabPanel::TabPanel() { setTitle("Tabs"); }
+TabPanel::~TabPanel() = default;
+
+void TabPanel::add(const juce::String& name, std::unique_ptr<Tab> tab) {
+    auto button = std::make_unique<Name>(name);
+    button->onClick = [this, name] { choose(name); };
+    addAndMakeVisible(*button);
+    addChildComponent(*tab);
+    pages_.push_back({std::move(button), std::move(tab)});
+    if (pages_.size() == 1) choose(name);
+}
+
+void TabPanel::choose(const juce::String& name) {
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+        const bool isChosen = pages_[i].name->getName() == name;
+        if (isChosen) chosen_ = i;
+        pages_[i].name->setToggleState(isChosen, juce::dontSendNotification);
+        pages_[i].tab->setVisible(isChosen);
+    }
+    resized();
+}
+
+void TabPanel::takeMix() {
+    for (auto& page : pages_) page.tab->takeMix();
+}
+
+void TabPanel::refresh(const DeskMoment& moment) {
+    if (chosen_ < pages_.size()) pages_[chosen_].tab->refresh(moment);
+}
+
+void TabPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
+
+void TabPanel::resized() {
+    auto area = getLocalBounds().reduced(panelInset, 8);
+    auto names = area.removeFromTop(32);
+    if (pages_.empty()) return;
+    const int each = names.getWidth() / static_cast<int>(pages_.size());
+    for (auto& page : pages_) page.name->setBounds(names.removeFromLeft(each).reduced(8, 0));
+    area.removeFromTop(10);
+    for (auto& page : pages_) page.tab->setBounds(area);
+}
+
+} // namespace physvib

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What hands do in the world becomes inputs of the session.
+#include "Mixer/WorldPanel.h"
+#include "Physics/SceneCast.h"
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+constexpr double tellMs = 900.0; // a sentence stays at least so long, unless a stronger hit comes
+const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
+
+
+juce::String whereText(const Scene& scene, const CollisionEvent& hit) {
+    const double x = hit.x / scene.fieldWidthMetres, y = hit.y / scene.fieldHeightMetres;
+    const juce::String column = x < 0.15 ? "left" : x > 0.85 ? "right" : "", row = y < 0.15 ? "bottom" : y > 0.85 ? "top" : "";
+    if (column.isEmpty() && row.isEmpty()) return "in the middle";
+    return "at the " + (row + " " + column).trim();
+}
+
+} // namespace
+
+WorldPanel::WorldPanel(Desk& desk)
+    : desk_{desk} {
+    setTitle("World");
+    setWantsKeyboardFocus(true);
+    view_.onPull = [this](const std::string& body, Vector metres, Vector point) { pull(body, metres, point); };
+    view_.pullText = [this](double metres) { return "drag " + number(1e-3 * pull_ * metres, 1) + juce::String::fromUTF8(" kN\xc2\xb7s"); };
+    view_.onAttach = [this](FieldShare at) { desk_.attach(at.x, at.y); };
+    view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
+    view_.onMove = [this](int enchanter, FieldShare to) {
+        desk_.change("Move " + utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label), [&](Mix& mix) {
+            auto& layout = mix.layout.geometry;
+            layout.places[static_cast<std::size_t>(enchanter)] = {to.x * layout.extentWidthMetres, to.y * layout.extentHeightMetres};
+            mix.layout.name = "own";
+        }, true);
+    };
+    view_.onMenu = [this](const std::string& body, FieldShare at) { showMenu(body, at); };
+    sentence_.setTitle("Strongest hit");
+    sentence_.setFont(juce::Font{text::medium});
+    sentence_.setMinimumHorizontalScale(0.8f);
+    law_.setFont(juce::Font{text::small});
+    law_.setJustificationType(juce::Justification::centredRight);
+    tiltName_.setText("gravity", juce::dontSendNotification);
+    tiltName_.setFont(juce::Font{text::small});
+    tilt_.setTitle("Tilt");
+    tilt_.setTooltip("Tilt: which way gravity pulls; double click: down (arrow keys in the world)");
+    tilt_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
+    tilt_.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
+    tilt_.setRotaryParameters(0.0f, juce::MathConstants<float>::twoPi, false);
+    tilt_.setRange(-180.0, 180.0, 1.0);
+    tilt_.setValue(0.0, juce::dontSendNotification);
+    tilt_.setDoubleClickReturnValue(true, 0.0);
+    tilt_.onValueChange = [this] { desk_.act(TiltAction{juce::degreesToRadians(-tilt_.getValue())}); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &sentence_, &law_, &tilt_, &tiltName_}) addAndMakeVisible(c);
+    takeMix();
+}
+
+void WorldPanel::takeMix() {
+    const auto& mix = desk_.mix();
+    const auto& scene = desk_.sceneNow();
+    if (shown_ != mix.scene || shownInputs_ != scene.inputs.size()) view_.show(scene);
+    shown_ = mix.scene;
+    shownInputs_ = scene.inputs.size();
+    view_.show(mix.layout, mix.panner());
+    law_.setText(juce::String{panningLawNames[static_cast<std::size_t>(mix.law)].data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
+    law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    tiltName_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    sentence_.setColour(juce::Label::textColourId, shade(*this, Shade::now));
+}
+
+void WorldPanel::tilt(double degrees) {
+    while (degrees > 180.0) degrees -= 360.0;
+    while (degrees < -180.0) degrees += 360.0;
+    tilt_.setValue(degrees);
+}
+
+bool WorldPanel::keyPressed(const juce::KeyPress& key) {
+    if (key == juce::KeyPress::leftKey) return tilt(tiltDegrees() + 5.0), true;
+    if (key == juce::KeyPress::rightKey) return tilt(tiltDegrees() - 5.0), true;
+    if (key == juce::KeyPress::downKey) return tilt(0.0), true;
+    if (key == juce::KeyPress::upKey) return tilt(180.0), true;
+    return false;
+}
+
+void WorldPanel::pull(const std::string& body, Vector metres, Vector point) {
+    const double push = pull_;
+    const auto fault = desk_.act(ImpulseAction{body, {push * metres.x, push * metres.y}, point});
+    if (!fault.empty()) desk_.report(utf8(fault));
+}
+
+juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
+    const auto& scene = desk_.sceneNow();
+    juce::String what = "hit";
+    for (const auto& m : scene.materials)
+        if (m.frequencyHz == hit.frequencyHz && m.decayPerSecond == hit.decayPerSecond) what = utf8(m.name);
+    PhantomPanner::Gains gains{};
+    desk_.mix().panner().gainsAt(hit.x, hit.y, gains);
+    double strongest = 0.0;
+    for (int j = 0; j < desk_.mix().count(); ++j)
+        strongest = std::max(strongest, gains[static_cast<std::size_t>(j)] * desk_.mix().layout.enchanters[static_cast<std::size_t>(j)].fullScaleG);
+    const auto level = desk_.mix().levelDb <= leastStripDb ? 0.0 : std::pow(10.0, desk_.mix().levelDb / 20.0);
+    return what + dot + number(hit.frequencyHz, 0) + " Hz" + dot + juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
+           number(std::abs(hit.amplitude) * strongest * level, 2) + " g " + whereText(scene, hit);
+}
+
+void WorldPanel::refresh(const DeskMoment& moment) {
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    for (const auto& hit : moment.hits)
+        if (now - hitAtMs_ > tellMs || std::abs(hit.amplitude) > std::abs(told_.amplitude)) {
+            told_ = hit;
+            hitAtMs_ = now;
+            sentence_.setText(sentenceOn(hit), juce::dontSendNotification);
+        }
+    view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits, std::span{moment.meters.peaks}.first(static_cast<std::size_t>(desk_.mix().count()))});
+}
+
+void WorldPanel::showMenu(const std::string& body, FieldShare at) {
+    juce::PopupMenu menu, balls, boxes, materials;
+    const auto& scene = desk_.sceneNow();
+    for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
+        const auto name = utf8(scene.materials[static_cast<std::size_t>(i)].name);
+        balls.addItem(name, [this, at, i] { addBody(at, i, false); });
+        boxes.addItem(name, [this, at, i] { addBody(at, i, true); });
+        materials.addItem(name, [this, body, i] { if (const auto f = desk_.act(MaterialAction{body, everyFixture, i}); !f.empty()) desk_.report(utf8(f)); });
+    }
+    if (!body.empty()) {
+        menu.addSectionHeader(utf8(body));
+        menu.addSubMenu("Material", materials);
+        menu.addItem("Remove", [this, body] { if (const auto f = desk_.act(RemoveAction{body}); !f.empty()) desk_.report(utf8(f)); });
+        menu.addSeparator();
+    }
+    menu.addSubMenu("Add a ball", balls);
+    menu.addSubMenu("Add a box", boxes);
+    menu.addItem("Attach an enchanter here", desk_.mix().count() < limits::maxEnchanters, false, [this, at] { desk_.attach(at.x, at.y); });
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
+}
+
+void WorldPanel::addBody(FieldShare at, int material, bool isBox) {
+    const auto& scene = desk_.sceneNow();
+    const double size = 0.06 * scene.fieldHeightMetres;
+    BodyDescription body;
+    body.name = "added " + std::to_string(++added_);
+    body.positionMetres = {at.x * scene.fieldWidthMetres, at.y * scene.fieldHeightMetres};
+    FixtureDescription fixture;
+    fixture.material = material;
+    if (isBox) fixture.shape = BoxShape{2.2 * size, 1.6 * size};
+    else fixture.shape = CircleShape{size};
+    body.fixtures.push_back(fixture);
+    if (const auto fault = desk_.act(SpawnAction{body, {}}); !fault.empty()) desk_.report(utf8(fault));
+}
+
+void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
+
+void WorldPanel::resized() {
+    auto area = getLocalBounds().reduced(panelInset, 10);
+    auto row = area.removeFromBottom(38);
+    const int middle = 110;
+    auto left = row.removeFromLeft((row.getWidth() - middle) / 2 + 40);
+    sentence_.setBounds(left);
+    tilt_.setBounds(row.removeFromLeft(38));
+    tiltName_.setBounds(row.removeFromLeft(64));
+    law_.setBounds(row);
+    view_.setBounds(area);
+}
+
+} // namespace physvib

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The world with what belongs to it: one sentence on the strongest hit, the way down, how hits are spread.
+#pragma once
+#include "Host/Views/WorldView.h"
+#include "Mixer/Desk.h"
+#include "Mixer/Parts.h"
+
+namespace physvib {
+
+class WorldPanel final : public juce::Component {
+public:
+    explicit WorldPanel(Desk& desk);
+
+    void refresh(const DeskMoment& moment);
+    void takeMix();
+    WorldView& view() noexcept { return view_; }
+    void tilt(double degrees); ///< turns gravity to that angle
+    double tiltDegrees() const { return tilt_.getValue(); }
+
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+    static constexpr double thesisPull = 32'000.0; ///< newton seconds per metre that is dragged
+
+private:
+    void pull(const std::string& body, Vector metres, Vector point);
+    void showMenu(const std::string& body, FieldShare at);
+    void addBody(FieldShare at, int material, bool isBox);
+    juce::String sentenceOn(const CollisionEvent& hit) const;
+
+    Desk& desk_;
+    WorldView view_;
+    juce::Label sentence_, law_, tiltName_;
+    juce::Slider tilt_;
+    double pull_ = thesisPull, hitAtMs_ = 0.0;
+    int added_ = 0;
+    CollisionEvent told_;
+    std::shared_ptr<const Scene> shown_;
+    std::size_t shownInputs_ = 0;
+};
+
+} // namespace physvib
