@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The built-in scenes, materials and protocols where the Projucer embeds them (CMake does by Source/Files/embed.cmake).
+// The built-in scenes, materials, actuators and protocols where the Projucer embeds them (CMake does by Source/Files/embed.cmake).
 #include "BinaryData.h"
 #include "Files/Embedded.h"
 
@@ -28,6 +28,11 @@ const std::vector<EmbeddedFile>& embeddedScenes() {
 
 const std::vector<EmbeddedFile>& embeddedMaterials() {
     static const auto files = embedded("\"physvib_materials\"");
+    return files;
+}
+
+const std::vector<EmbeddedFile>& embeddedActuators() {
+    static const auto files = embedded("\"physvib_actuator\"");
     return files;
 }
 

@@ -20,4 +20,7 @@ const std::vector<EmbeddedFile>& embeddedMaterials();
 /// Source/Files/Protocols/*.json.
 const std::vector<EmbeddedFile>& embeddedProtocols();
 
+/// Source/Files/Actuators/*.json.
+const std::vector<EmbeddedFile>& embeddedActuators();
+
 } // namespace physvib

@@ -102,6 +102,10 @@ std::size_t JsonField::oneOf(std::span<const std::string_view> names) const {
     fail("expected one of " + list + ", found " + inQuotes(word));
 }
 
+bool JsonField::isNull() const {
+    return value_.is_null();
+}
+
 bool JsonField::is(std::string_view word) const {
     return value_ == word;
 }

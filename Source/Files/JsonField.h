@@ -39,6 +39,7 @@ public:
     std::string text() const;
     /// Index of the word it is among `names`.
     std::size_t oneOf(std::span<const std::string_view> names) const;
+    bool isNull() const;
     bool is(std::string_view word) const;
 
 private:

@@ -62,9 +62,9 @@ file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/Source/*.cpp ${ROOT}/Plugin/*
 collect(listed_sources "<FILE [^>]*compile=\"1\"[^>]*file=\"([^\"]+\\.cpp)\"" "${jucer}")
 compare(sources listed_sources)
 
-# The built-in scenes, materials and protocols, in the order of their listing.
+# The built-in scenes, materials, actuators and protocols, in the order of their listing.
 set(embedded "")
-foreach(kind Scenes Materials Protocols)
+foreach(kind Scenes Materials Actuators Protocols)
     string(TOLOWER ${kind} list)
     string(REGEX MATCH "set\\(${list} ([^)]*)\\)" ignored "${rooms}")
     string(REPLACE " " ";" names "${CMAKE_MATCH_1}")

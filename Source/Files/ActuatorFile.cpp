@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Every field of an actuator profile, checked when read and in a fixed order when written.
+#include "Files/ActuatorFile.h"
+#include "Files/Embedded.h"
+#include "Files/FileLimits.h"
+#include "Files/JsonField.h"
+#include "Files/JsonVersion.h"
+#include "Files/JsonWriter.h"
+#include "Files/ReadFile.h"
+#include "Files/SceneCatalogue.h"
+#include <array>
+#include <stdexcept>
+
+namespace physvib {
+namespace {
+
+constexpr const char* versionField = "physvib_actuator";
+constexpr std::array<std::string_view, 2> kindNames{"linear", "rotating"};
+constexpr double lowestHz = 1.0, highestHz = 20000.0;
+
+/// One figure of a profile: its field, where it goes, and what is believed of it.
+struct Figure {
+    const char* field;
+    std::optional<double> ActuatorProfile::*member;
+    double least, most;
+};
+constexpr Figure resonance{"resonance_hz", &ActuatorProfile::resonanceHz, lowestHz, highestHz};
+constexpr Figure quality{"q", &ActuatorProfile::q, 0.05, 1000.0};
+constexpr std::array<Figure, 4> others{{{"drive_limit_v", &ActuatorProfile::driveLimitVolts, 0.001, 1000.0},
+                                        {"rise_time_s", &ActuatorProfile::riseSeconds, 1e-5, 10.0},
+                                        {"full_scale_g", &ActuatorProfile::fullScaleG, 1e-4, 1000.0},
+                                        {"delay_s", &ActuatorProfile::delaySeconds, 0.0, 10.0}}};
+
+double numberWithin(const JsonField& json, double least, double most) {
+    const double found = json.number();
+    if (!(found >= least && found <= most)) json.fail("expected " + numberText(least) + " to " + numberText(most) + ", found " + numberText(found));
+    return found;
+}
+
+void readFigure(const JsonField& root, const Figure& figure, ActuatorProfile& profile) {
+    const JsonField json = root[figure.field];
+    if (!json.isNull()) profile.*figure.member = numberWithin(json, figure.least, figure.most);
+}
+
+std::optional<FrequencyBand> readBand(const JsonField& json) {
+    if (json.isNull()) return std::nullopt;
+    if (const std::size_t size = json.arraySize(); size != 2) json.fail("expected [lowest, highest] or null, found " + std::to_string(size) + " items");
+    const FrequencyBand band{numberWithin(json.item(0), lowestHz, highestHz), numberWithin(json.item(1), lowestHz, highestHz)};
+    if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
+    return band;
+}
+
+ActuatorProfile readRoot(const JsonField& root) {
+    checkVersion(root, versionField, actuatorFormatVersion);
+    root.expectObject({versionField, "name", "description", "source", "kind", resonance.field, quality.field, "band_hz", others[0].field, others[1].field,
+                       others[2].field, others[3].field});
+    ActuatorProfile profile;
+    profile.name = root["name"].text();
+    if (profile.name.empty()) root["name"].fail("expected a name, found an empty string");
+    profile.description = root["description"].text();
+    profile.source = root["source"].text();
+    profile.kind = static_cast<ActuatorKind>(root["kind"].oneOf(kindNames));
+    readFigure(root, resonance, profile);
+    readFigure(root, quality, profile);
+    profile.band = readBand(root["band_hz"]);
+    for (const Figure& figure : others) readFigure(root, figure, profile);
+    return profile;
+}
+
+OrderedJson orNull(const std::optional<double>& figure) { return figure ? OrderedJson(*figure) : OrderedJson(); }
+
+std::vector<ActuatorProfile> readAll() {
+    std::vector<ActuatorProfile> profiles;
+    for (const EmbeddedFile& file : embeddedActuators()) {
+        Result<ActuatorProfile> profile = readActuator(file.text, file.name);
+        if (!profile) throw std::logic_error(profile.error); // a test reads them all
+        profiles.push_back(std::move(profile.value));
+    }
+    return profiles;
+}
+
+} // namespace
+
+std::string equaliserFault(const ActuatorProfile& profile) {
+    const std::string measure = " is not known (measure it with physvib calibrate)";
+    if (profile.kind == ActuatorKind::rotating) return "a rotating mass has the frequency of its speed: nothing can be equalised";
+    if (!profile.resonanceHz) return resonance.field + measure;
+    if (!profile.q) return quality.field + measure;
+    return profile.band ? std::string{} : "band_hz" + measure;
+}
+
+Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name) {
+    try {
+        const Json root = parseStrictly(text);
+        return readRoot(JsonField(root, {}));
+    } catch (const JsonError& error) {
+        return Failure{std::string(name) + ": " + error.what()};
+    }
+}
+
+Result<ActuatorProfile> loadActuator(const std::filesystem::path& path) {
+    const Result<std::string> text = readFile(path, limits::maxActuatorFileBytes);
+    if (!text) return Failure{text.error};
+    return readActuator(text.value, path.string());
+}
+
+std::string actuatorJson(const ActuatorProfile& profile) {
+    OrderedJson root{{versionField, actuatorFormatVersion}, {"name", profile.name}, {"description", profile.description}, {"source", profile.source},
+                     {"kind", kindNames[static_cast<std::size_t>(profile.kind)]}};
+    root[resonance.field] = orNull(profile.resonanceHz);
+    root[quality.field] = orNull(profile.q);
+    root["band_hz"] = profile.band ? OrderedJson{profile.band->lowHz, profile.band->highHz} : OrderedJson();
+    for (const Figure& figure : others) root[figure.field] = orNull(profile.*figure.member);
+    return jsonLines(root);
+}
+
+const std::vector<ActuatorProfile>& builtInActuators() {
+    static const std::vector<ActuatorProfile> profiles = readAll();
+    return profiles;
+}
+
+Result<ActuatorProfile> findActuator(const std::string& nameOrPath) {
+    if (isScenePath(nameOrPath)) return loadActuator(nameOrPath);
+    for (const ActuatorProfile& profile : builtInActuators())
+        if (profile.name == nameOrPath) return profile;
+    return Failure{"no actuator " + inQuotes(nameOrPath) + " (see physvib actuators)"};
+}
+
+} // namespace physvib
