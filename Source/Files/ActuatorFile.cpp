@@ -6,6 +6,7 @@
 #include "Files/JsonField.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
+#include "Files/NumberText.h"
 #include "Files/ReadFile.h"
 #include "Files/SceneCatalogue.h"
 #include <array>

@@ -107,7 +107,7 @@ bool JsonField::isNull() const {
 }
 
 bool JsonField::is(std::string_view word) const {
-    return value_ == word;
+    return value_.is_string() && value_.get_ref<const std::string&>() == word;
 }
 
 } // namespace physvib

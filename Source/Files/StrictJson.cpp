@@ -13,6 +13,12 @@ template class nlohmann::basic_json<>;
 namespace physvib {
 namespace {
 
+std::string toldPath(const std::string& path) {
+    constexpr std::size_t end = 60;
+    if (path.size() <= 2 * end + 3) return path;
+    return path.substr(0, end) + "..." + path.substr(path.size() - end);
+}
+
 /// Follows the parser from value to value, and throws JsonError at a repeated field or too deep a nesting.
 class JsonGuard {
 public:
@@ -76,6 +82,9 @@ std::string detailOf(const std::exception& error) {
 }
 
 } // namespace
+
+JsonError::JsonError(const std::string& path, const std::string& message)
+    : std::runtime_error(path.empty() ? message : toldPath(path) + ": " + message) {}
 
 Json parseStrictly(std::string_view text) {
     JsonGuard guard;

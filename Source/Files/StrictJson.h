@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 
 /// What is wrong with a JSON text, and where. Never leaves the room Files.
 struct JsonError : std::runtime_error {
-    JsonError(const std::string& path, const std::string& message)
-        : std::runtime_error(path.empty() ? message : path + ": " + message) {}
+    /// Of a long path the ends are told: the names in it are the file's.
+    JsonError(const std::string& path, const std::string& message);
 };
 
 /// The value that `text` spells. Throws JsonError.

@@ -242,6 +242,9 @@ TEST(LayoutFile, RepeatedFieldsAreNamedByTheirPath) {
     EXPECT_EQ(errorOf("{\"a\\n\": {\"b\": 1, \"b\": 2}}"), "my.json: a\\x0a: field \"b\" appears twice");
     EXPECT_EQ(errorOf("{\"" + std::string(5000, 'k') + "\": {\"b\": 1, \"b\": 2}}"),
               "my.json: " + std::string(40, 'k') + "...: field \"b\" appears twice");
+    std::string nested = R"({"b": 1, "b": 2})";
+    for (int depth = 0; depth < 14; ++depth) nested = "{\"" + std::string(40, static_cast<char>('a' + depth)) + "\": " + nested + "}";
+    EXPECT_LT(errorOf(nested).size(), 200u) << errorOf(nested); // however long the names
 }
 
 TEST(LayoutFile, NoMutationCrashesOrHalfLoads) {
