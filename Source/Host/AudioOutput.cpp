@@ -112,6 +112,7 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     else if (rate != rate_ || block != block_) session_.resume(rate, block);
     if (auto* recorder = recorder_.load(std::memory_order_relaxed); recorder && recorder->sampleRateHz() != rate) recorder_ = nullptr;
     rate_ = rate;
+    latencyNs_ = std::int64_t{1'000'000'000} * device->getOutputLatencyInSamples() / rate;
     prepareBuffers(block);
     map_.place(device->getActiveOutputChannels());
     master_.prepare(rate, fadeInSeconds, 0.0f);
@@ -134,10 +135,12 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     for (int k = 0; k < outputs; ++k) juce::FloatVectorOperations::clear(out[k], frames);
     if (frames < 1 || !running_.load(std::memory_order_relaxed)) return;
     const auto start = juce::Time::getHighResolutionTicks();
+    const FeltMoment felt{session_.nextFeltNs(), std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count() + latencyNs_};
     if (frames > largestBlock_.load(std::memory_order_relaxed)) largestBlock_.store(frames, std::memory_order_relaxed);
     if (silent_.load(std::memory_order_relaxed)) master_.moveTo(0.0f, frames);
     else master_.moveTo(level_.load(std::memory_order_relaxed));
     for (int done = 0; done < frames; done += block_) renderPart(out, outputs, done, std::min(block_, frames - done));
+    if (session_.nextFeltNs() != felt.sessionNs) felt_.write(felt); // else nobody steps the world: session time stands still
     measure(start, frames);
 }
 

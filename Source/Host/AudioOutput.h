@@ -74,6 +74,8 @@ public:
 
     /// Silent within a block, back in a ramp. Any thread, wait-free.
     void setSilent(bool silent) noexcept { silent_.store(silent, std::memory_order_relaxed); }
+    bool isSilent() const noexcept { return silent_.load(std::memory_order_relaxed); }
+    float level() const noexcept { return level_.load(std::memory_order_relaxed); }
     void setLevel(float level) noexcept { level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed); }
 
     /// From now on `recorder` takes all that is played, until the output is closed, or comes back at another rate: a
@@ -86,6 +88,9 @@ public:
 
     /// The device that is wanted, as type:name once it was found; empty: none. M.
     const std::string& device() const noexcept { return settings_.device; }
+
+    /// Of the newest block that the session went on with. One reader; {0, 0}: none yet.
+    FeltMoment felt() noexcept { return felt_.read(); }
 
     /// M.
     AudioOutputStatus status();
@@ -126,6 +131,7 @@ private:
     std::atomic<PlayedRecorder*> recorder_{nullptr};
     SignalTap* tap_ = nullptr;
     LatestValue<Load> load_;
+    LatestValue<FeltMoment> felt_;
 
     // M
     int losses_ = 0;
@@ -134,6 +140,7 @@ private:
 
     // R, set while the device is stopped
     int rate_ = 0, block_ = 0;
+    std::int64_t latencyNs_ = 0; // of the device
     OutputMap map_;
     std::vector<std::vector<float>> scratch_;
     std::vector<float*> scratchAt_;

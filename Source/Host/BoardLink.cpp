@@ -9,7 +9,7 @@ namespace physvib {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
-constexpr std::int64_t helloEvery = 250 * ms, telemetryEvery = second, searchEvery = second / 2;
+constexpr std::int64_t helloEvery = 250 * ms, telemetryEvery = second, gainsEvery = second, searchEvery = second / 2;
 constexpr std::int64_t givenUpAfter = 3 * second / 2;   // a silent line is opened again
 constexpr std::int64_t tooOld = 50 * ms;                // a strike this late is not worth the line
 constexpr std::int64_t lineAhead = 4 * ms;              // in the system's buffers at most: the rest can still be thinned
@@ -39,6 +39,11 @@ void BoardLink::setGains(const std::array<double, limits::board::channels>& gain
     order([&](Orders& o) { o.gains = message; });
 }
 
+void BoardLink::follow(BoardSource* source) {
+    const std::scoped_lock lock{sourceMutex_};
+    source_ = source;
+}
+
 BoardLinkStatus BoardLink::status() const {
     const std::scoped_lock lock{mutex_};
     return published_;
@@ -50,13 +55,19 @@ void BoardLink::run() {
         else receive();
         if (line_ && now_.state == State::greeting) greet();
         else if (line_) {
-            keepInTouch();
             obey();
+            if (line_) keepInTouch();
         }
+        askSource();
         sendStrikes();
         publish();
     }
     if (line_ && now_.state != State::greeting) send(wire::StopAll{});
+}
+
+void BoardLink::askSource() {
+    const std::scoped_lock lock{sourceMutex_};
+    if (source_ != nullptr) source_->feed();
 }
 
 // Tries the next port, and gives it time to answer.
@@ -108,6 +119,7 @@ void BoardLink::handle(std::span<const std::uint8_t> payload) {
     if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting) { // the first of several
         now_.board = hello;
         now_.trouble.clear();
+        nextGainsNs_ = 0; // it may have been without power, and plays at its own again
         now_.state = State::synchronising;
         sequence_ = 0xFF;
         ++now_.connections;
@@ -140,6 +152,10 @@ void BoardLink::keepInTouch() {
         nextTelemetryNs_ = now + telemetryEvery;
         send(wire::TelemetryRequest{});
     }
+    if (line_ && gains_ && now >= nextGainsNs_) {
+        nextGainsNs_ = now + gainsEvery;
+        send(*gains_);
+    }
 }
 
 void BoardLink::obey() {
@@ -153,7 +169,7 @@ void BoardLink::obey() {
         for (BoardStrike waiting; strikes_.pop(waiting);) {}
         if (line_) send(wire::StopAll{});
     }
-    if (orders.gains && line_) send(*orders.gains);
+    if (orders.gains) gains_ = orders.gains, nextGainsNs_ = 0;
     if (orders.selfTest && line_) {
         now_.selfTest.reset();
         send(wire::SelfTest{});

@@ -33,6 +33,14 @@ struct BoardLinkStatus {
     std::uint64_t connections = 0, badFrames = 0;
 };
 
+/// Somebody whom the link asks for strikes and orders, about once a millisecond.
+class BoardSource {
+public:
+    virtual ~BoardSource() = default;
+    /// L; may push and order. Quick.
+    virtual void feed() = 0;
+};
+
 class BoardLink {
 public:
     static constexpr std::int64_t sendAheadMs = 80; // the board holds 64 strikes, the line brings 58 in this time
@@ -49,9 +57,12 @@ public:
     /// False if the queue is full; the queue counts it. One producer, wait-free.
     bool push(const BoardStrike& strike) noexcept { return strikes_.push(strike); }
 
+    /// From now on L asks this one, or nobody (null), and nobody else pushes. When it returns, L is not in the one before. M.
+    void follow(BoardSource* source);
+
     void stopAll() { order([](Orders& o) { o.stopAll = true; }); }
     void requestSelfTest() { order([](Orders& o) { o.selfTest = true; }); }
-    /// Negative gains turn the polarity; -8 to 8.
+    /// Negative gains turn the polarity; -8 to 8. Repeated, since a line may lose them and a board its power.
     void setGains(const std::array<double, limits::board::channels>& gains);
 
     BoardLinkStatus status() const;
@@ -68,6 +79,7 @@ private:
         change(orders_);
     }
     void run();
+    void askSource();
     void search();
     void disconnect(const std::string& why);
     void receive();
@@ -84,6 +96,8 @@ private:
 
     const std::string wanted_;
     EventQueue<BoardStrike, 1024> strikes_;
+    std::mutex sourceMutex_; // guards source_, taken first
+    BoardSource* source_ = nullptr;
     mutable std::mutex mutex_; // guards orders_ and published_
     Orders orders_;
     BoardLinkStatus published_;
@@ -95,8 +109,9 @@ private:
     LinkClock clock_;
     StrikeBacklog backlog_;
     BoardLinkStatus now_;
+    std::optional<wire::Gains> gains_;
     std::array<std::int64_t, 256> pingSentNs_{};
-    std::int64_t heardNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
+    std::int64_t heardNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0, nextGainsNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
     std::size_t searched_ = 0; // ports tried so far
     std::uint8_t pingId_ = 0, sequence_ = 0xFF;
     std::thread thread_;

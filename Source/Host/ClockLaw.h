@@ -3,6 +3,7 @@
 #pragma once
 #include "Core/FrameClock.h"
 #include "Core/Limits.h"
+#include <algorithm>
 #include <cstdint>
 
 namespace physvib {
@@ -14,12 +15,13 @@ struct ClockLaw {
     int stepsPerSecond = 100;
     double longestGapSeconds = 0.0;    ///< between two calls of the driver that are still in time
     int limiterFrames = 0;             ///< the renderer's own latency, part of L
+    double boardSeconds = 0.0;         ///< how long before it is felt a board beside the renderer has to know an event
 
     /// L in frames: a block (which is rendered at its beginning) + the longest gap + two steps (the one that may not
-    /// have begun, and the one that events wait to be sorted) + the limiter.
+    /// have begun, and the one that events wait to be sorted) + the limiter or the board, whichever takes longer.
     std::int64_t playOutFrames() const noexcept {
         const double seconds = longestGapSeconds + 2.0 / stepsPerSecond;
-        return blockFrames + static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999) + limiterFrames;
+        return blockFrames + framesUp(seconds) + std::max<std::int64_t>(limiterFrames, framesUp(boardSeconds));
     }
     /// How far behind session time the world may be so that whatever it makes until it has caught up comes in time, even
     /// at the very end of a block: the longest gap and the step that may not have begun.
@@ -32,6 +34,7 @@ struct ClockLaw {
         return safeLagNs() + static_cast<std::int64_t>(1e9 * blockFrames / sampleRateHz);
     }
     double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; }
+    std::int64_t framesUp(double seconds) const noexcept { return static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999); }
 };
 
 /// How long a driver may be silent and still be in time, as measured: a JUCE timer of 10 ms under load waits up to

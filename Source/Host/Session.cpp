@@ -39,6 +39,7 @@ struct Session::OfflineSource {
 Session::Session(const SessionSetup& setup)
     : setup_{setup}
     , renderer_{std::make_unique<HapticRenderer<DesktopProfile>>()}
+    , told_{setup.boardSeconds > 0.0 ? std::make_unique<ToldEvents>() : nullptr}
     , state_{std::make_shared<const Scene>(setup.scene), setup.seed}
     , world_{setup.run()} {
     made_.reserve(4096);
@@ -72,7 +73,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
 
 void Session::setLaw(int sampleRateHz, int maxBlockFrames) {
     law_ = {sampleRateHz, maxBlockFrames, setup_.stepsPerSecond, setup_.longestGapSeconds,
-            HapticRenderer<DesktopProfile>::latencyFramesAt(sampleRateHz)};
+            HapticRenderer<DesktopProfile>::latencyFramesAt(sampleRateHz), setup_.boardSeconds};
 }
 
 void Session::resume(int sampleRateHz, int maxBlockFrames) {
@@ -146,7 +147,8 @@ void Session::takeUp() {
 
 // Queues what has been made; true if nothing is left. The world mutex is held.
 bool Session::handOver() {
-    while (handed_ < made_.size() && queue_.push(made_[handed_])) ++handed_;
+    for (; handed_ < made_.size() && queue_.push(made_[handed_]); ++handed_)
+        if (told_) told_->events.push(made_[handed_]); // a full queue counts what nobody takes
     if (handed_ < made_.size()) return false;
     made_.clear();
     handed_ = 0;
@@ -156,6 +158,8 @@ bool Session::handOver() {
 std::int64_t Session::sessionNs(std::int64_t frames) const noexcept {
     return frames / law_.sampleRateHz * 1'000'000'000 + frames % law_.sampleRateHz * 1'000'000'000 / law_.sampleRateHz;
 }
+
+std::int64_t Session::nextFeltNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_relaxed) - playOutFrames()); }
 
 std::int64_t Session::nowNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_acquire)); }
 

@@ -36,6 +36,7 @@
 #include "Files/SessionLog.h"
 #include "Host/SessionSetup.h"
 #include "Host/SessionWorld.h"
+#include "Host/ToldEvents.h"
 #include "Physics/InputCheck.h"
 #include <algorithm>
 #include <array>
@@ -118,6 +119,13 @@ public:
     /// What has been played, in the renderer's frames (session frame - L). One reader.
     HapticRenderer<DesktopProfile>::PlayedQueue& played() noexcept { return renderer_->played(); }
 
+    /// What the world makes and what is posted, once more: for the one reader of another output. Null unless the setup
+    /// has a board. What is born in the render call is not told.
+    ToldEvents* told() noexcept { return told_.get(); }
+
+    /// The session time that is rendered first in the next block, to be felt when that leaves the device. R.
+    std::int64_t nextFeltNs() const noexcept;
+
     /// Time that was given up after stalls. Any thread.
     std::int64_t slippedNs() const noexcept { return slippedNs_.load(std::memory_order_relaxed); }
 
@@ -159,6 +167,7 @@ private:
     OwnStrikes ownStrikes_;
     OwnControls ownControls_;
     OwnInputs ownInputs_;
+    const std::unique_ptr<ToldEvents> told_;
     std::atomic<std::int64_t> sessionFrames_{0};
     std::atomic<std::int64_t> restartFrame_{-1}; // -1: not wanted
     std::atomic<bool> offline_{false};

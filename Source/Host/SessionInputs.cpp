@@ -52,6 +52,7 @@ std::int64_t Session::post(RenderControl control) {
     const std::lock_guard lock{inputMutex_};
     control.timeNs = nowNs();
     if (!controls_.push(control)) return -1;
+    if (told_) told_->controls.push(control);
     if (control.kind == RenderControl::Kind::panner)
         controlLog_.panners.push_back({control.timeNs, control.panner});
     else

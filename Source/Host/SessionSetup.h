@@ -33,6 +33,7 @@ struct SessionSetup {
     bool limiterEnabled = true;
     std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel, > 0
     double longestGapSeconds = messageTimerGapSeconds;
+    double boardSeconds = 0.0; ///< of ClockLaw; above 0 the session tells what it makes (Session::told) for a BoardOutput
     std::vector<std::vector<Action>> groups; ///< what notes do; valid inputs of the scene
 
     SceneRun run() const noexcept { return {seed, stepsPerSecond, timing, location}; }

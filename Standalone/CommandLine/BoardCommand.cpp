@@ -1,64 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A board link for the length of a call.
 #include "CommandLine/BoardCommand.h"
+#include "CommandLine/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/RenderJob.h"
 #include "Files/EventsCsv.h"
-#include "Host/BoardLink.h"
 #include "Physics/Simulation.h"
 #include "Wire/SelfTest.h"
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <csignal>
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <thread>
 
 namespace physvib {
 namespace {
 
-using State = BoardLinkStatus::State;
 constexpr std::int64_t ms = 1'000'000;
 
-volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) { interrupted = 1; }
-
 void nap(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
-
-/// False if it does not come true in time or the user interrupts.
-template <class Condition>
-bool waitFor(Condition isTrue, int milliseconds) {
-    for (const std::int64_t end = BoardLink::nowNs() + milliseconds * ms; !isTrue(); nap(5))
-        if (interrupted || BoardLink::nowNs() > end) return false;
-    return true;
-}
-
-int refuse(const BoardLinkStatus& status, const std::string& otherwise) { return leave(exitFailed, status.trouble.empty() ? otherwise : status.trouble); }
-
-void printInfo(const BoardLinkStatus& s) {
-    const auto& b = s.board;
-    const auto& t = s.telemetry;
-    std::cout << s.port << ": " << int(b.channels) << " channels at " << b.sampleRateHz << " Hz, " << b.maxModes << " modes, protocol " << int(b.version) << ", clock "
-              << (b.crystal ? "72 MHz from the crystal" : "64 MHz, internal") << ", " << int(b.resets) << " restarts by the watchdog\n"
-              << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call at the earliest; drift " << s.driftPpm << " ppm\n"
-              << t.played << " strikes played, " << t.late << " late, " << t.dropped << " dropped, " << t.stolen << " modes stolen; link: " << t.good << " good, " << t.bad
-              << " bad, " << t.lost << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; " << t.stackFree << " bytes of stack never used\n";
-}
-
-/// Ready and told how it does. A port that could never be opened is not waited for long, a board that starts is.
-bool connect(const BoardLink& link) {
-    const std::int64_t patience = BoardLink::nowNs() + 2'000 * ms;
-    bool isReady = false;
-    waitFor(
-        [&] {
-            const BoardLinkStatus s = link.status();
-            isReady = s.state == State::ready && s.telemetry.good > 0;
-            return isReady || (s.port.empty() && !s.trouble.empty() && BoardLink::nowNs() > patience);
-        },
-        20'000);
-    return isReady;
-}
 
 /// Each channel alone, a quarter of a second of 205 Hz at a quarter of full scale.
 void playScale(BoardLink& link) {
@@ -78,7 +37,7 @@ void playScale(BoardLink& link) {
 
 int test(BoardLink& link) {
     link.requestSelfTest();
-    if (!waitFor([&] { return link.status().selfTest.has_value(); }, 3000)) return refuse(link.status(), "no answer to the self-test");
+    if (!waitFor([&] { return link.status().selfTest.has_value(); }, 3000)) return leave(exitFailed, link.status().port + ": no answer to the self-test");
     const auto reply = *link.status().selfTest;
     const auto here = std::make_unique<BoardRenderer>();
     const bool isEqual = reply.hash == wire::expectedSelfTest(*here).hash;
@@ -105,12 +64,8 @@ std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events,
 }
 
 int finish(const BoardLink& link, const wire::Telemetry& before) {
-    waitFor([&, seen = link.status().telemetry.frame] { return link.status().telemetry.frame != seen; }, 1500);
-    const auto s = link.status();
-    std::cout << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call; " << s.sent << " strikes sent, " << s.thinned << " thinned, " << s.refused
-              << " refused; the board played " << s.telemetry.played - before.played << ", " << s.telemetry.late - before.late << " late, " << s.telemetry.dropped - before.dropped
-              << " dropped, " << s.telemetry.lost << " lost\n";
-    return s.state == State::ready ? exitDone : refuse(s, "the board is gone");
+    const std::string trouble = reportBoard(link, before);
+    return trouble.empty() ? exitDone : leave(exitFailed, trouble);
 }
 
 int play(BoardLink& link, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
@@ -167,22 +122,19 @@ int runBoard(const BoardOptions& o) {
         if (geometry.count > limits::board::channels) return leave(exitUsage, "--layout: the board has four channels, this layout " + std::to_string(geometry.count));
         panner = {geometry, PanningLaw::linear, 1.0, geometry.extentWidthMetres, geometry.extentHeightMetres};
     }
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
-    BoardLink link{o.port == "auto" ? "" : o.port};
-    if (!connect(link)) return refuse(link.status(), "no board answers");
-    if (o.action == "info") return printInfo(link.status()), exitDone;
+    heedInterrupts();
+    BoardLink link{boardPort(o.port)};
+    if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
+    if (o.action == "info") return printBoardInfo(link.status()), exitDone;
     return o.action == "test" ? test(link) : play(link, events, panner);
 }
 
 int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelDb) {
-    if (job.channels() > limits::board::channels) return leave(exitUsage, "--board: the board has four channels, this layout " + std::to_string(job.channels()));
     const SceneRun run = job.run();
     Simulation world(*job.scene, run.seed, run.stepsPerSecond, run.timing, run.location);
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
-    BoardLink link{port == "auto" ? "" : port};
-    if (!connect(link)) return refuse(link.status(), "no board answers");
+    heedInterrupts();
+    BoardLink link{boardPort(port)};
+    if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
     const double level = std::pow(10.0, levelDb / 20.0);
     link.setGains({level, level, level, level});
     const auto before = link.status().telemetry;

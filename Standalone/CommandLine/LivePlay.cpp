@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Session, driver, device, recorder, journal and listener for the length of a call.
+// Session, driver, device, board, recorder, journal and listener for the length of a call.
 #include "CommandLine/LivePlay.h"
+#include "CommandLine/BoardStatus.h"
 #include "CommandLine/InputListener.h"
 #include "Files/AtomicFile.h"
+#include "Host/BoardOutput.h"
 #include "Host/PlayedRecorder.h"
 #include "Host/SessionJournal.h"
 #include "Host/SimulationDriver.h"
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <iomanip>
 #include <iostream>
@@ -20,14 +21,11 @@ namespace physvib {
 
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) { interrupted = 1; }
-
 // What the message thread does while the session plays: empties the queues, keeps device and journal, ends the call.
 class Watch final : private juce::Timer {
 public:
-    Watch(Session& session, AudioOutput& output, PlayedRecorder* recorder, SessionJournal* journal, double seconds)
-        : session_{session}, output_{output}, recorder_{recorder}, journal_{journal}, endNs_{std::llround(seconds * 1e9)} {
+    Watch(Session& session, AudioOutput& output, const BoardLink* board, PlayedRecorder* recorder, SessionJournal* journal, double seconds)
+        : session_{session}, output_{output}, board_{board}, recorder_{recorder}, journal_{journal}, endNs_{std::llround(seconds * 1e9)} {
         startTimer(milliseconds);
     }
     ~Watch() override {
@@ -55,6 +53,7 @@ private:
 
     void everySecond(const SessionStatus& status) {
         std::string trouble = output_.maintain();
+        if (board_ && trouble.empty()) trouble = board_->status().trouble;
         if (journal_) {
             journal_->keep(status.sessionNs);
             if (trouble.empty()) trouble = journal_->error();
@@ -81,6 +80,7 @@ private:
 
     Session& session_;
     AudioOutput& output_;
+    const BoardLink* board_;
     PlayedRecorder* recorder_;
     SessionJournal* journal_;
     std::int64_t endNs_;
@@ -123,8 +123,16 @@ struct Recording {
 
 } // namespace
 
-std::string playLive(const LivePlay& wanted) {
+std::string playLive(LivePlay wanted) {
     const juce::ScopedJuceInitialiser_GUI juce; // the message loop
+    heedInterrupts();
+    std::optional<BoardLink> board;
+    if (!wanted.board.empty()) {
+        board.emplace(boardPort(wanted.board));
+        if (auto error = connectBoard(*board); !error.empty()) return error;
+        wanted.setup.boardSeconds = board->status().playOutMs * 1e-3;
+    }
+    const wire::Telemetry before = board ? board->status().telemetry : wire::Telemetry{};
     Session session{wanted.setup};
     std::optional<Recording> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
@@ -140,22 +148,24 @@ std::string playLive(const LivePlay& wanted) {
         journal.emplace(wanted.savePath, session, wanted.setup, provenance);
         if (!journal->error().empty()) return journal->error();
     }
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
     std::uint64_t played = 0;
     {
+        std::optional<BoardOutput> onBoard;
+        if (board) onBoard.emplace(session, output, *board, wanted.setup.panner);
         const auto driver = makeDriver(wanted, session);
         std::optional<InputListener> listener;
         if (wanted.listens) listener.emplace(session, output);
-        Watch watch{session, output, recording ? &recording->recorder : nullptr, journal ? &*journal : nullptr, wanted.seconds};
+        Watch watch{session, output, board ? &*board : nullptr, recording ? &recording->recorder : nullptr, journal ? &*journal : nullptr, wanted.seconds};
         juce::MessageManager::getInstance()->runDispatchLoop();
         played = watch.played();
     }
     summarise(session, output, played);
     if (recording && !output.isRecording()) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
     output.close();
+    const std::string trouble = board ? reportBoard(*board, before) : "";
     if (journal && !journal->error().empty()) return journal->error();
-    return recording ? recording->finish() : std::string{};
+    const std::string error = recording ? recording->finish() : "";
+    return error.empty() ? trouble : error;
 }
 
 } // namespace physvib

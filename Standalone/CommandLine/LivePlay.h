@@ -10,6 +10,7 @@ namespace physvib {
 struct LivePlay {
     SessionSetup setup;
     AudioOutputSettings output;
+    std::string board;      ///< as of --board, to be felt together with the device; empty: none
     bool ownThread = false; ///< steps the world; else the message thread's timer
     double seconds = 10.0;
     std::string recordPath; ///< WAV; empty: none
@@ -18,6 +19,6 @@ struct LivePlay {
 };
 
 /// Empty, or one line with the reason. M.
-std::string playLive(const LivePlay& wanted);
+std::string playLive(LivePlay wanted);
 
 } // namespace physvib

@@ -57,7 +57,7 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
 void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     declareSceneOptions(command, o.scene);
     command.add_option("--device", o.device, "output device (see physvib devices)");
-    command.add_option("--board", o.board, "four-channel board: serial port, or auto; instead of a device")->type_name("PORT");
+    command.add_option("--board", o.board, "four-channel board: serial port, or auto; alone, or together with a device")->type_name("PORT");
     command.add_option("--map", o.map, "device outputs of the enchanters, from 1")->type_name("1,2,3,4");
     command.add_option("--driver", o.driver, "who steps the world: message or thread")->check(CLI::IsMember({"message", "thread"}))->capture_default_str();
     command.add_option("--level", o.levelDb, "master level in dB")->check(CLI::Range(-90.0, 0.0))->capture_default_str();
@@ -70,7 +70,7 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
 }
 
 int runPlay(PlayOptions& o) {
-    if (o.device.empty() == o.board.empty()) return leave(exitUsage, "play: expected --device or --board; both at once: not yet");
+    if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.renderingMethod.fixesNothing()) return leave(exitUsage, "--method " + o.scene.method + ": not yet in play (only AV-FV-DRV); render has it");
     RenderJob job{o.scene, {}, {}, {}, {}};
@@ -79,7 +79,9 @@ int runPlay(PlayOptions& o) {
     auto layout = layoutNamed(o.scene.layout);
     if (!layout) return leave(exitFailed, layout.error);
     job.layout = std::move(layout.value);
-    if (!o.board.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
+    if (!o.board.empty() && job.channels() > limits::board::channels)
+        return leave(exitUsage, "--board: the board has four channels, this layout " + std::to_string(job.channels()));
+    if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
         return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
@@ -88,7 +90,7 @@ int runPlay(PlayOptions& o) {
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
         return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (" + std::to_string(setup.channels) + "), found \"" +
                                     o.ceilings + "\"");
-    const std::string error = playLive({setup, settings, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens});
+    const std::string error = playLive({setup, settings, o.board, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens});
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 

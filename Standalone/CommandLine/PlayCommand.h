@@ -11,7 +11,7 @@ namespace physvib {
 struct PlayOptions {
     RenderOptions scene;
     std::string device;
-    std::string board;              ///< serial port of a four-channel board, instead of a device
+    std::string board;              ///< serial port of a four-channel board, alone or beside a device
     std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
     std::string driver = "message"; ///< or "thread"
     std::string recordPath;         ///< WAV of what was played; empty: not wanted

@@ -96,9 +96,11 @@ TEST_F(BoardLinkTest, ABoardThatSaysNothingIsConnectedAnew) {
     expectEachStrikeIsCounted();
 }
 
-TEST_F(BoardLinkTest, ABoardThatLostItsPowerIsGreetedAgain) {
+TEST_F(BoardLinkTest, ABoardThatLostItsPowerIsGreetedAgainAndIsNoLouderThanBefore) {
     ASSERT_TRUE(test::comesTrue([this] { return isReady(); }));
     strikeFor(0.3);
+    EXPECT_TRUE(test::comesTrue([this] { return board.last("sound") > 0; }));
+    link.setGains({0, 0, 0, 0});
     board.stop();
     ASSERT_TRUE(test::comesTrue([this] { return link.status().state == State::searching; }));
     board.start();
@@ -108,6 +110,7 @@ TEST_F(BoardLinkTest, ABoardThatLostItsPowerIsGreetedAgain) {
     const auto after = telemetry();
     EXPECT_EQ(after.played, struck - before);
     EXPECT_EQ(after.late + after.lost, 0u);
+    EXPECT_EQ(board.last("sound"), 0) << "its log is a new one";
     expectEachStrikeIsCounted();
 }
 

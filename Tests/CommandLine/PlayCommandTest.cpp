@@ -11,6 +11,15 @@ TEST_F(PlayCommand, ADeviceThatIsNotThereIsAFailureAndNothingElseIsPlayedOn) {
     refuses("play drop --device Nowhere --record a.wav", 1, "Nowhere: no such device (see physvib devices); nothing else is played on");
 }
 
+TEST_F(PlayCommand, ThereHasToBeSomethingToPlayOn) {
+    refuses("play drop", 2, "play: expected --device, --board, or both");
+    refuses("play drop --device Nowhere --board /dev/nowhere", 1, "/dev/nowhere: no such serial port");
+    std::string five = R"({"name": "five", "extent_m": [1, 1], "enchanters": [)";
+    for (int j = 0; j < 5; ++j) five += std::string{j > 0 ? ", " : ""} + R"({"label": ")" + std::string(1, static_cast<char>('A' + j)) + R"(", "x_m": 0.)" + std::to_string(j) + R"(, "y_m": 0})";
+    write("five.json", five + "]}");
+    refuses("play drop --device Nowhere --board /dev/nowhere --layout five.json", 2, "--board: the board has four channels, this layout 5", 1);
+}
+
 TEST_F(PlayCommand, CeilingsAreOneForAllOrOneForEach) {
     const std::string found = "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (4), found ";
     for (const char* ceilings : {"3", "-61", "-6,-6,-6", "-6,-6,-6,-6,-6", "-6,,-6,-6", "-6dB", "-6,-6,-6,", "nan", "-inf"})

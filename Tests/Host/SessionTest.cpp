@@ -36,6 +36,29 @@ TEST(Session, LiveIsTheRenderedFileLLaterToTheBit) {
     EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 20 * rate));
 }
 
+TEST(Session, ABoardBesideItIsToldTheSameEventsAndLCoversIt) {
+    auto s = shakeTheBoxSetup(0.02);
+    Session alone{s};
+    alone.prepare(rate, 512);
+    EXPECT_EQ(alone.told(), nullptr);
+    s.boardSeconds = 0.030;
+    Session session{s};
+    std::vector<CollisionEvent> played, told;
+    const auto signal = playLive(session, 5 * rate, 512, 0.02, 9, played);
+    EXPECT_EQ(session.playOutFrames() - alone.playOutFrames(), 0.030 * rate - HapticRenderer<DesktopProfile>::latencyFramesAt(rate));
+    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 5 * rate));
+    for (CollisionEvent e; session.told()->events.pop(e);) told.push_back(e);
+    ASSERT_GT(played.size(), 50u);
+    ASSERT_GE(told.size(), played.size()) << "those of the last L are not played yet";
+    told.resize(played.size());
+    EXPECT_TRUE(told == played);
+    const auto at = session.post({.kind = RenderControl::Kind::mute, .channel = 2, .value = 1.0f});
+    RenderControl control;
+    ASSERT_TRUE(session.told()->controls.pop(control));
+    EXPECT_EQ(control.timeNs, at);
+    EXPECT_EQ(control.channel, 2);
+}
+
 TEST(Session, AThousandStepsPerSecondAndSmallBlocksStayBelowSixMilliseconds) {
     const auto s = shakeTheBoxSetup(driverThreadGapSeconds, 1000);
     Session session{s};

@@ -5,7 +5,7 @@
 #include "Host/AudioOutput.h"
 #include "Host/SimulationDriver.h"
 #include "MeterClient.h"
-#include "Physics/SceneRun.h"
+#include "Host/WallsScene.h"
 #include <cstdio>
 #include <random>
 #include <thread>
@@ -14,44 +14,13 @@ using namespace physvib;
 
 namespace {
 
-SessionSetup setupOfWalls() {
-    SessionSetup s;
-    s.scene.name = "walls";
-    s.scene.fieldWidthMetres = s.scene.fieldHeightMetres = 4.0;
-    s.scene.normalisation = {0.02, 1.0};
-    s.scene.materials = {{"felt", 10.0, 0.0, 0.0, 200.0, 60.0}};
-    const auto wall = [&](const char* name, double x) {
-        BodyDescription body;
-        body.name = name;
-        body.type = BodyType::staticBody;
-        body.fixtures = {{BoxShape{1.0, 2.0}, {}, 0.0, 0, true}};
-        body.positionMetres = {x, 2.0};
-        body.massKg = 10.0;
-        s.scene.bodies.push_back(body);
-    };
-    wall("left", 1.298);
-    wall("right", 2.702);
-    BodyDescription ball;
-    ball.name = "ball";
-    ball.fixtures = {{CircleShape{0.2}, {}, 0.0, 0}};
-    ball.positionMetres = {2.0, 2.0};
-    s.scene.bodies.push_back(ball);
-    s.seed = 0;
-    s.stepsPerSecond = 1000;
-    s.longestGapSeconds = driverThreadGapSeconds;
-    EnchanterLayout layout;
-    layoutPreset("phone4", layout);
-    s.panner = {layout, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
-    return s;
-}
-
 std::vector<std::int64_t> push(Session& session, const test::MeterClient& client, int times) {
     std::mt19937 random{1};
     std::vector<std::int64_t> frames;
     for (int i = 0; i < times; ++i) {
         std::this_thread::sleep_for(std::chrono::microseconds{80'000 + random() % 40'000});
         frames.push_back(client.sessionFrame);
-        if (const auto fault = session.act(VelocityAction{"ball", {i % 2 == 0 ? 20.0 : -20.0, 0.0}, 0.0}); !fault.empty()) std::puts(fault.c_str());
+        if (const auto fault = session.act(test::pushOfBall(i)); !fault.empty()) std::puts(fault.c_str());
     }
     return frames;
 }
@@ -62,7 +31,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return 2;
     const int pushes = std::atoi(argv[1]);
     const juce::ScopedJuceInitialiser_GUI juce;
-    const SessionSetup setup = setupOfWalls();
+    const SessionSetup setup = test::setupOfWalls();
     Session session{setup};
     AudioOutput output{session};
     if (const auto error = output.open({"JACK:system", {}, 0, 0, 1.0f}); !error.empty()) return std::puts(error.c_str()), 1;

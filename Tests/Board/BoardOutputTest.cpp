@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One session on a device and a board: each hit leaves the device and the board's converters at the same moment.
+#include "Host/BoardOutput.h"
+#include "Host/FakeAudioDevice.h"
+#include "Host/SimulationDriver.h"
+#include "Host/WallsScene.h"
+#include "VirtualBoard.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <iostream>
+#include <random>
+
+namespace physvib {
+namespace {
+
+using State = BoardLinkStatus::State;
+constexpr std::int64_t ms = 1'000'000;
+
+/// Plays on a fake interface in real time and notes when its hands begin to feel something. Its crystal is 200 ppm fast; it
+/// calls up to 3 ms late.
+class Hands {
+public:
+    explicit Hands(test::FakeInterface& thing) : thing_{thing}, thread_{[this] { run(); }} {}
+    ~Hands() {
+        stop_ = true;
+        thread_.join();
+    }
+    /// After the end of all calls, or nearly so.
+    std::vector<std::int64_t> onsets() const {
+        const std::scoped_lock lock{mutex_};
+        return onsets_;
+    }
+
+private:
+    void run() {
+        std::mt19937 random{5};
+        const double nsPerFrame = 1e9 / (thing_.rate * (1.0 + 200e-6));
+        const std::int64_t began = BoardLink::nowNs();
+        for (std::int64_t done = 0; !stop_; done += thing_.block) {
+            const auto due = began + static_cast<std::int64_t>(static_cast<double>(done) * nsPerFrame);
+            if (const auto wait = due + random() % (3 * ms) - BoardLink::nowNs(); wait > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(wait));
+            const auto out = thing_.play(thing_.block);
+            for (int n = 0; !out.empty() && n < thing_.block; ++n) take(out, n, due + static_cast<std::int64_t>((n + thing_.block) * nsPerFrame)); // the latency it tells
+        }
+    }
+    void take(const std::vector<std::vector<float>>& out, int n, std::int64_t at) {
+        float most = 0;
+        for (std::size_t j = 0; j < 4; ++j) most = std::max(most, std::abs(out[j][static_cast<std::size_t>(n)]));
+        if (most > audible && quiet_ > thing_.rate / 50) {
+            const std::scoped_lock lock{mutex_};
+            onsets_.push_back(at);
+        }
+        quiet_ = most > audible ? 0 : quiet_ + 1;
+    }
+
+    static constexpr float audible = 0.5f / 127; // as the first step of the board's converters
+    test::FakeInterface& thing_;
+    mutable std::mutex mutex_;
+    std::vector<std::int64_t> onsets_;
+    double quiet_ = 0;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+TEST(BoardOutput, ADeviceAndABoardAreFeltAtTheSameMoment) {
+    constexpr int pushes = 30;
+    test::VirtualBoard board;
+    BoardLink link{board.port()};
+    ASSERT_TRUE(test::comesTrue([&] { return link.status().state == State::ready && link.status().playOutMs > 0; }));
+    auto setup = test::setupOfWalls();
+    setup.boardSeconds = link.status().playOutMs * 1e-3;
+    Session session{setup};
+    test::FakeInterface interface;
+    interface.block = 512; // which it is felt late by: 10.7 ms
+    AudioOutput device{session, test::fakeTypes({&interface})};
+    ASSERT_EQ(device.open({"hands", {}, 0, 0, 0.5f}), "");
+    const std::size_t loudBefore = board.log().size();
+    std::vector<std::int64_t> felt;
+    {
+        BoardOutput output{session, device, link, setup.panner};
+        Hands hands{interface};
+        ThreadDriver driver{session, setup.stepsPerSecond};
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        for (int i = 0; i < pushes; ++i) {
+            EXPECT_EQ(session.act(test::pushOfBall(i)), "");
+            std::this_thread::sleep_for(std::chrono::milliseconds(170 + 13 * (i % 5)));
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        felt = hands.onsets();
+        EXPECT_EQ(output.untold(), 0u);
+    }
+    std::vector<std::int64_t> onBoard;
+    const auto log = board.log();
+    for (std::size_t i = loudBefore; i < log.size(); ++i)
+        if (log[i].what == "sound") onBoard.push_back(log[i].steadyNs);
+
+    ASSERT_EQ(felt.size(), static_cast<std::size_t>(pushes));
+    ASSERT_EQ(onBoard.size(), felt.size());
+    double worst = 0, sum = 0;
+    for (std::size_t i = 0; i < felt.size(); ++i) {
+        const double apart = static_cast<double>(onBoard[i] - felt[i]) / ms;
+        worst = std::max(worst, std::abs(apart));
+        sum += apart;
+    }
+    const auto t = link.status().telemetry;
+    std::cout << felt.size() << " hits, L " << 1e3 * static_cast<double>(session.playOutFrames()) / interface.rate << " ms: the board " << sum / pushes
+              << " ms after the device on average, at most " << worst << " ms apart\n";
+    EXPECT_LT(worst, 2.0);
+    EXPECT_EQ(t.late + t.dropped + t.lost, 0u);
+    EXPECT_EQ(session.status().render.late, 0u);
+}
+
+} // namespace
+} // namespace physvib
