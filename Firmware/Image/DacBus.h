@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The two TLC7528 dual converters on port C: eight data lines, one latch select, one write line, two chip selects.
 //
-// Times of the TLC7528 at 5 V (TI SLAS062): chip and latch select 50 ns before the write, data 25 ns before its end,
-// write pulse 50 ns, data and select held 10 ns after it. One cycle at 72 MHz is 13.9 ns. The latches are transparent
-// while the write line is low: a select that still moves would put the code into the other channel.
+// Times assumed of the TLC7528 at 5 V (unverified: Docs/board.md): chip and latch select 50 ns before the write, data
+// 25 ns before its end, write pulse 50 ns, data and select held 10 ns after it. One cycle at 72 MHz is 13.9 ns. The latches
+// are transparent while the write line is low: a select that still moves would put the code into the other channel.
 #pragma once
 #include "Registers.h"
 #include <array>

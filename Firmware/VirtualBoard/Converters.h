@@ -8,7 +8,7 @@
 
 namespace physvib::virtualboard {
 
-/// Times in nanoseconds; TI SLAS062, supply 5 V.
+/// Times in nanoseconds, assumed for a supply of 5 V: what of TI SLAS062B could be verified stands in Docs/board.md.
 struct ConverterTimes {
     double selectSetUp = 50, dataSetUp = 25, writePulse = 50, hold = 10;
 };

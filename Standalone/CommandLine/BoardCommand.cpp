@@ -19,6 +19,11 @@ constexpr std::int64_t ms = 1'000'000;
 
 void nap(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
 
+void setLevel(BoardLink& link, double levelDb) {
+    const double level = std::pow(10.0, levelDb / 20.0);
+    link.setGains({level, level, level, level});
+}
+
 /// Each channel alone, a quarter of a second of 205 Hz at a quarter of full scale.
 void playScale(BoardLink& link) {
     const std::int64_t start = BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 50 * ms;
@@ -106,6 +111,7 @@ void declareBoardOptions(CLI::App& command, BoardOptions& o) {
     command.add_option("action", o.action, "info, play or test")->required()->check(CLI::IsMember({"info", "play", "test"}));
     command.add_option("events", o.eventsPath, "event list to play")->type_name("EVENTS.csv");
     command.add_option("--layout", o.layout, "layout of at most four enchanters: preset or file")->capture_default_str();
+    command.add_option("--level", o.levelDb, "master level of play in dB")->check(CLI::Range(-90.0, 0.0))->capture_default_str();
 }
 
 int runBoard(const BoardOptions& o) {
@@ -126,6 +132,7 @@ int runBoard(const BoardOptions& o) {
     BoardLink link{boardPort(o.port)};
     if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
     if (o.action == "info") return printBoardInfo(link.status()), exitDone;
+    setLevel(link, o.action == "test" ? 0.0 : o.levelDb);
     return o.action == "test" ? test(link) : play(link, events, panner);
 }
 
@@ -135,8 +142,7 @@ int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelD
     heedInterrupts();
     BoardLink link{boardPort(port)};
     if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
-    const double level = std::pow(10.0, levelDb / 20.0);
-    link.setGains({level, level, level, level});
+    setLevel(link, levelDb);
     const auto before = link.status().telemetry;
     const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms; // a contact is known two steps later
     const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + spare;

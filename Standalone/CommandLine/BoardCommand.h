@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib board`: what a four-channel board is, how it does, and an event list on it.
 #pragma once
+#include "Host/AudioOutput.h"
 #include <string>
 
 namespace CLI {
@@ -14,6 +15,7 @@ struct BoardOptions {
     std::string action;            ///< info, play or test
     std::string eventsPath;        ///< for play
     std::string layout = "phone4"; ///< of at most four enchanters: the board's channels in their order
+    double levelDb = safeStartDecibels; ///< master level of play
 };
 
 void declareBoardOptions(CLI::App& command, BoardOptions& options);
