@@ -4,10 +4,10 @@
 #include "Files/Embedded.h"
 #include "Files/FileLimits.h"
 #include "Files/JsonField.h"
+#include "Files/JsonFile.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
 #include "Files/NumberText.h"
-#include "Files/ReadFile.h"
 #include "Files/SceneCatalogue.h"
 #include <array>
 #include <stdexcept>
@@ -91,18 +91,11 @@ std::string equaliserFault(const ActuatorProfile& profile) {
 }
 
 Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name) {
-    try {
-        const Json root = parseStrictly(text);
-        return readRoot(JsonField(root, {}));
-    } catch (const JsonError& error) {
-        return Failure{std::string(name) + ": " + error.what()};
-    }
+    return readJson(text, name, limits::maxActuatorFileBytes, [](const Json& root) { return readRoot(JsonField(root, {})); });
 }
 
 Result<ActuatorProfile> loadActuator(const std::filesystem::path& path) {
-    const Result<std::string> text = readFile(path, limits::maxActuatorFileBytes);
-    if (!text) return Failure{text.error};
-    return readActuator(text.value, path.string());
+    return loadText(path, limits::maxActuatorFileBytes, readActuator);
 }
 
 std::string actuatorJson(const ActuatorProfile& profile) {

@@ -3,10 +3,10 @@
 #include "Files/LayoutFile.h"
 #include "Files/FileLimits.h"
 #include "Files/JsonField.h"
+#include "Files/JsonFile.h"
 #include "Files/JsonLines.h"
 #include "Files/LayoutJson.h"
 #include "Files/NumberText.h"
-#include "Files/ReadFile.h"
 #include "Files/StrictJson.h"
 
 namespace physvib {
@@ -106,18 +106,11 @@ LayoutDescription describeLayout(std::string name, const EnchanterLayout& geomet
 }
 
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name) {
-    try {
-        const Json root = parseStrictly(text);
-        return readLayoutFields(JsonField(root, {}));
-    } catch (const JsonError& error) {
-        return Failure{std::string(name) + ": " + error.what()};
-    }
+    return readJson(text, name, limits::maxLayoutFileBytes, [](const Json& root) { return readLayoutFields(JsonField(root, {})); });
 }
 
 Result<LayoutDescription> loadLayout(const std::filesystem::path& path) {
-    const Result<std::string> text = readFile(path, limits::maxLayoutFileBytes);
-    if (!text) return Failure{text.error};
-    return readLayout(text.value, path.string());
+    return loadText(path, limits::maxLayoutFileBytes, readLayout);
 }
 
 std::string layoutJson(const LayoutDescription& layout) {

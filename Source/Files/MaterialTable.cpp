@@ -3,10 +3,10 @@
 #include "Files/MaterialTable.h"
 #include "Files/Embedded.h"
 #include "Files/FileLimits.h"
+#include "Files/JsonFile.h"
 #include "Files/JsonReader.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
-#include "Files/ReadFile.h"
 #include "Physics/SceneValidation.h"
 #include <stdexcept>
 
@@ -38,18 +38,11 @@ MaterialTable readRoot(Json& root) {
 } // namespace
 
 Result<MaterialTable> readMaterials(std::string_view text, std::string_view name) {
-    try {
-        Json root = parseStrictly(text);
-        return readRoot(root);
-    } catch (const JsonError& error) {
-        return Failure{std::string(name) + ": " + error.what()};
-    }
+    return readJson(text, name, limits::maxMaterialsFileBytes, readRoot);
 }
 
 Result<MaterialTable> loadMaterials(const std::filesystem::path& path) {
-    const Result<std::string> text = readFile(path, limits::maxMaterialsFileBytes);
-    if (!text) return Failure{text.error};
-    return readMaterials(text.value, path.string());
+    return loadText(path, limits::maxMaterialsFileBytes, readMaterials);
 }
 
 std::string materialsJson(const MaterialTable& table) {

@@ -3,6 +3,7 @@
 #include "Files/PluginState.h"
 #include "Files/FileLimits.h"
 #include "Files/JsonField.h"
+#include "Files/JsonFile.h"
 #include "Files/JsonLines.h"
 #include "Files/JsonVersion.h"
 #include "Files/NumberText.h"
@@ -147,12 +148,7 @@ OrderedJson noteJson(const NoteRule& rule, const Scene& scene) {
 } // namespace
 
 Result<PluginState> readPluginState(std::string_view text, std::string_view name) {
-    try {
-        if (text.size() > limits::maxSceneFileBytes) throw JsonError({}, "expected at most " + std::to_string(limits::maxSceneFileBytes) + " bytes, found more");
-        return readRoot(parseStrictly(text));
-    } catch (const JsonError& error) {
-        return Failure{std::string(name) + ": " + error.what()};
-    }
+    return readJson(text, name, limits::maxSceneFileBytes, readRoot);
 }
 
 std::string pluginStateJson(const PluginState& state) {

@@ -3,12 +3,12 @@
 #include "Files/ProtocolFile.h"
 #include "Files/Embedded.h"
 #include "Files/FileLimits.h"
+#include "Files/JsonFile.h"
 #include "Files/JsonReader.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
 #include "Files/NumberText.h"
 #include "Files/ProtocolFields.h"
-#include "Files/ReadFile.h"
 #include "Files/TrialColumns.h"
 #include "Physics/SceneRanges.h"
 #include <cstdint>
@@ -35,18 +35,11 @@ Protocol readRoot(Json& root) {
 } // namespace
 
 Result<Protocol> readProtocol(std::string_view text, std::string_view name) {
-    try {
-        Json root = parseStrictly(text);
-        return readRoot(root);
-    } catch (const JsonError& error) {
-        return Failure{std::string(name) + ": " + error.what()};
-    }
+    return readJson(text, name, limits::maxProtocolFileBytes, readRoot);
 }
 
 Result<Protocol> loadProtocol(const std::filesystem::path& path) {
-    const Result<std::string> text = readFile(path, limits::maxProtocolFileBytes);
-    if (!text) return Failure{text.error};
-    return readProtocol(text.value, path.string());
+    return loadText(path, limits::maxProtocolFileBytes, readProtocol);
 }
 
 std::string protocolJson(const Protocol& protocol) {

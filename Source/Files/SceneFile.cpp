@@ -2,11 +2,11 @@
 // The outer shape of a scene file; its fields are read and written after the table in SceneFields.h.
 #include "Files/SceneFile.h"
 #include "Files/FileLimits.h"
+#include "Files/JsonFile.h"
 #include "Files/JsonReader.h"
 #include "Files/JsonVariables.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
-#include "Files/ReadFile.h"
 #include "Physics/SceneValidation.h"
 
 namespace physvib {
@@ -27,21 +27,12 @@ Scene readRoot(Json& root, const SceneSettings& settings) {
 } // namespace
 
 Result<Scene> readScene(std::string_view text, std::string_view name, const SceneSettings& settings) {
-    try {
-        if (text.size() > limits::maxSceneFileBytes)
-            throw JsonError({}, "expected at most " + std::to_string(limits::maxSceneFileBytes) +
-                                    " bytes, found more");
-        Json root = parseStrictly(text);
-        return readRoot(root, settings);
-    } catch (const JsonError& error) {
-        return Failure{std::string(name) + ": " + error.what()};
-    }
+    return readJson(text, name, limits::maxSceneFileBytes, [&](Json& root) { return readRoot(root, settings); });
 }
 
 Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& settings) {
-    const Result<std::string> text = readFile(path, limits::maxSceneFileBytes);
-    if (!text) return Failure{text.error};
-    return readScene(text.value, path.string(), settings);
+    return loadText(path, limits::maxSceneFileBytes,
+                    [&](std::string_view text, std::string_view name) { return readScene(text, name, settings); });
 }
 
 std::string sceneJson(const Scene& scene) {

@@ -3,10 +3,10 @@
 #include "Files/SessionFile.h"
 #include "Files/ControlJson.h"
 #include "Files/FileLimits.h"
+#include "Files/JsonFile.h"
 #include "Files/JsonReader.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
-#include "Files/ReadFile.h"
 #include "Physics/SceneValidation.h"
 #include "Physics/Simulation.h"
 #include <cmath>
@@ -109,20 +109,11 @@ OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
 } // namespace
 
 Result<SavedSession> readSession(std::string_view text, std::string_view name) {
-    try {
-        if (text.size() > limits::maxSessionFileBytes)
-            throw JsonError({}, "expected at most " + std::to_string(limits::maxSessionFileBytes) + " bytes, found more");
-        const Json root = parseStrictly(text);
-        return readRoot(JsonField(root, {}));
-    } catch (const JsonError& error) {
-        return Failure{std::string(name) + ": " + error.what()};
-    }
+    return readJson(text, name, limits::maxSessionFileBytes, [](const Json& root) { return readRoot(JsonField(root, {})); });
 }
 
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
-    const Result<std::string> text = readFile(path, limits::maxSessionFileBytes);
-    if (!text) return Failure{text.error};
-    return readSession(text.value, path.string());
+    return loadText(path, limits::maxSessionFileBytes, readSession);
 }
 
 // It is the first thing that sessionJson writes, so there is no need to read more.
