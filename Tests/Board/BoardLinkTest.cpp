@@ -14,14 +14,14 @@ class BoardLinkTest : public testing::Test {
 protected:
     bool isReady() const { return link.status().state == State::ready; }
 
-    /// A tone `seconds` long, to be felt as soon as a board can.
+    /// A tone `seconds` long, to be felt in 75 ms: a board needs 20, programs beside this one may hold it up.
     void strike(double seconds) {
         CollisionEvent tone;
         tone.frequencyHz = 205;
         tone.decayPerSecond = 1;
         tone.amplitude = 0.5;
         tone.durationNs = static_cast<std::int64_t>(seconds * 1e9);
-        EXPECT_TRUE(link.push({BoardLink::nowNs() + 40 * ms, boardEventOf(tone, {1, 0.5, 0.5, 0.25})}));
+        EXPECT_TRUE(link.push({BoardLink::nowNs() + 75 * ms, boardEventOf(tone, {1, 0.5, 0.5, 0.25})}));
         ++struck;
     }
     void strikeFor(double seconds) {
@@ -32,7 +32,7 @@ protected:
     }
     /// As the board told after all that was sent before.
     wire::Telemetry telemetry() const {
-        std::this_thread::sleep_for(std::chrono::milliseconds(300)); // what is struck last is heard 40 ms later
+        std::this_thread::sleep_for(std::chrono::milliseconds(300)); // what is struck last is felt 75 ms later
         const auto seen = link.status().telemetry.frame;
         EXPECT_TRUE(test::comesTrue([&] { return link.status().telemetry.frame != seen; }));
         return link.status().telemetry;
