@@ -8,6 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>
+#include <optional>
 #include <random>
 
 namespace physvib {
@@ -62,52 +63,92 @@ private:
     std::thread thread_;
 };
 
-TEST(BoardOutput, ADeviceAndABoardAreFeltAtTheSameMoment) {
-    constexpr int pushes = 30;
-    test::VirtualBoard board;
-    BoardLink link{board.port()};
-    ASSERT_TRUE(test::comesTrue([&] { return link.status().state == State::ready && link.status().playOutMs > 0; }));
-    auto setup = test::setupOfWalls();
-    setup.boardSeconds = link.status().playOutMs * 1e-3 + 0.06; // more, as programs beside this one may hold it up
-    Session session{setup};
-    test::FakeInterface interface;
-    interface.block = 512; // which it is felt late by: 10.7 ms
-    AudioOutput device{session, test::fakeTypes({&interface})};
-    ASSERT_EQ(device.open({"hands", {}, 0, 0, 0.5f}), "");
-    const std::size_t loudBefore = board.log().size();
-    std::vector<std::int64_t> felt;
-    {
-        BoardOutput output{session, device, link, setup.panner};
-        Hands hands{interface};
-        ThreadDriver driver{session, setup.stepsPerSecond};
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        for (int i = 0; i < pushes; ++i) {
-            EXPECT_EQ(session.act(test::pushOfBall(i)), "");
+/// A ball between walls, felt on a fake device and the virtual board.
+class BoardOutputTest : public testing::Test {
+protected:
+    SessionSetup wallsBesideABoard() const {
+        EXPECT_TRUE(test::comesTrue([this] { return link.status().state == State::ready && link.status().playOutMs > 0; }));
+        auto walls = test::setupOfWalls();
+        walls.boardSeconds = link.status().playOutMs * 1e-3 + 0.06; // more, as programs beside this one may hold it up
+        return walls;
+    }
+    void SetUp() override {
+        interface.block = 512; // which it is felt late by: 10.7 ms
+        ASSERT_EQ(device.open({"hands", {}, 0, 0, 0.5f}), "");
+        output.emplace(session, device, link, setup.panner);
+        hands.emplace(interface);
+        driver.emplace(session, setup.stepsPerSecond);
+        rest();
+    }
+    void rest() const { std::this_thread::sleep_for(std::chrono::milliseconds(300)); }
+    void push(int times) {
+        for (int i = 0; i < times; ++i, ++pushes) {
+            EXPECT_EQ(session.act(test::pushOfBall(pushes)), "");
             std::this_thread::sleep_for(std::chrono::milliseconds(170 + 13 * (i % 5)));
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        felt = hands.onsets();
-        EXPECT_EQ(output.untold(), 0u);
+        rest();
     }
-    std::vector<std::int64_t> onBoard;
-    const auto log = board.log();
-    for (std::size_t i = loudBefore; i < log.size(); ++i)
-        if (log[i].what == "sound") onBoard.push_back(log[i].steadyNs);
+    std::vector<std::int64_t> onBoard() const {
+        std::vector<std::int64_t> onsets;
+        for (const auto& moment : board.log())
+            if (moment.what == "sound") onsets.push_back(moment.steadyNs);
+        return onsets;
+    }
 
-    ASSERT_EQ(felt.size(), static_cast<std::size_t>(pushes));
-    ASSERT_EQ(onBoard.size(), felt.size());
+    test::VirtualBoard board;
+    BoardLink link{board.port()};
+    SessionSetup setup = wallsBesideABoard();
+    Session session{setup};
+    test::FakeInterface interface;
+    AudioOutput device{session, test::fakeTypes({&interface})};
+    std::optional<BoardOutput> output;
+    std::optional<Hands> hands;
+    std::optional<ThreadDriver> driver;
+    int pushes = 0;
+};
+
+TEST_F(BoardOutputTest, ADeviceAndABoardAreFeltAtTheSameMoment) {
+    push(30);
+    const auto felt = hands->onsets(), played = onBoard();
+    ASSERT_EQ(felt.size(), 30u);
+    ASSERT_EQ(played.size(), felt.size());
     double worst = 0, sum = 0;
     for (std::size_t i = 0; i < felt.size(); ++i) {
-        const double apart = static_cast<double>(onBoard[i] - felt[i]) / ms;
+        const double apart = static_cast<double>(played[i] - felt[i]) / ms;
         worst = std::max(worst, std::abs(apart));
         sum += apart;
     }
     const auto t = link.status().telemetry;
-    std::cout << felt.size() << " hits, L " << 1e3 * static_cast<double>(session.playOutFrames()) / interface.rate << " ms: the board " << sum / pushes
+    std::cout << felt.size() << " hits, L " << 1e3 * static_cast<double>(session.playOutFrames()) / interface.rate << " ms: the board " << sum / 30
               << " ms after the device on average, at most " << worst << " ms apart\n";
     EXPECT_LT(worst, 2.0);
     EXPECT_EQ(t.late + t.dropped + t.lost, 0u);
     EXPECT_EQ(session.status().render.late, 0u);
+    EXPECT_EQ(output->untold(), 0u);
+}
+
+TEST_F(BoardOutputTest, SilenceAndMutesHoldForBoth) {
+    const auto muteAll = [this](float value) {
+        for (int j = 0; j < 4; ++j) EXPECT_GE(session.post({.kind = RenderControl::Kind::mute, .channel = j, .value = value, .panner = {}}), 0);
+        rest();
+    };
+    const auto expectHits = [this](std::size_t count) {
+        EXPECT_EQ(hands->onsets().size(), count);
+        EXPECT_EQ(onBoard().size(), count);
+    };
+    push(3);
+    expectHits(3);
+    device.setSilent(true);
+    rest();
+    push(3);
+    expectHits(3);
+    device.setSilent(false);
+    muteAll(1);
+    push(3);
+    expectHits(3);
+    muteAll(0);
+    push(3);
+    expectHits(6);
 }
 
 } // namespace
