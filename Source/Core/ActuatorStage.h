@@ -7,13 +7,15 @@
 
 namespace physvib {
 
-/// Per channel: out = gain * in, every change in a ramp of limits::channelRampSeconds. R only, but for prepare: M.
+/// Per channel: out = gain * in, every change in a ramp of limits::channelRampSeconds; before the first frame there is
+/// nothing to ramp from. R only, but for prepare: M.
 template <class Profile>
 class ActuatorStage {
 public:
     /// All gains 1, nothing muted. M, not while rendering.
     void prepare(int sampleRateHz, int channels) noexcept {
         channels_ = channels;
+        hasBegun_ = false;
         for (auto& ramp : ramps_) ramp.prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
         gains_.fill(1.0f);
         muted_.fill(false);
@@ -38,6 +40,7 @@ public:
 
     /// In place. `isSilent`: all of it is 0, and stays so.
     void process(float* const* io, int frames, bool isSilent) noexcept {
+        hasBegun_ = true;
         for (int j = 0; j < channels_; ++j)
             if (isSilent) ramps_[index(j)].pass(frames);
             else ramps_[index(j)].apply(io + j, 1, frames);
@@ -46,10 +49,14 @@ public:
 private:
     static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
     float aimOf(int channel) const noexcept { return muted_[index(channel)] ? 0.0f : gains_[index(channel)]; }
-    void aim(int channel) noexcept { ramps_[index(channel)].moveTo(aimOf(channel)); }
+    void aim(int channel) noexcept {
+        if (hasBegun_) ramps_[index(channel)].moveTo(aimOf(channel));
+        else ramps_[index(channel)].jumpTo(aimOf(channel));
+    }
 
     static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
     int channels_ = 0;
+    bool hasBegun_ = false;
     std::array<GainRamp, width> ramps_{};
     std::array<float, width> gains_{};
     std::array<bool, width> muted_{};

@@ -25,6 +25,8 @@ public:
         target_ = gain;
         pace_ = std::max(step_, 1.001f * std::abs(gain - now_) / static_cast<float>(frames)); // rounding must not cost a frame more
     }
+    /// At once: for what nobody hears yet.
+    void jumpTo(float gain) noexcept { now_ = target_ = gain; }
     bool isResting() const noexcept { return now_ == target_; }
 
     /// As apply, on silence.
