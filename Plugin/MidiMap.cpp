@@ -83,7 +83,6 @@ MidiTable::MidiTable(const PluginState& state)
         strikes_[static_cast<std::size_t>(note)] = strikeBy(defaultRule(note, materials), state.scene);
     groups_.fill(-1);
     materials_ = static_cast<int>(state.scene.materials.size());
-    gravity_ = state.scene.gravityMetresPerSecond2;
     for (int group = materials_ + 1; const auto& rule : state.notes) {
         const auto note = static_cast<std::size_t>(rule.note & 127);
         if (rule.kind == NoteKind::strike) strikes_[note] = strikeBy(rule, state.scene);

@@ -30,7 +30,6 @@ public:
     int groupOfMaterial(int choice) const noexcept { return choice <= materials_ ? choice : -1; }
     /// -1: none.
     int parameterOf(int controller) const noexcept { return parameters_[static_cast<std::size_t>(controller & 127)]; }
-    Vector gravityMetresPerSecond2() const noexcept { return gravity_; }
     double fieldWidthMetres() const noexcept { return width_; }
     double fieldHeightMetres() const noexcept { return height_; }
 
@@ -38,7 +37,6 @@ private:
     std::array<CollisionEvent, 128> strikes_{};
     std::array<int, 128> parameters_{}, groups_{};
     int materials_ = 0;
-    Vector gravity_;
     double width_ = 1.0, height_ = 1.0;
 };
 

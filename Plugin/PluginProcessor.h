@@ -71,7 +71,7 @@ private:
     bool hasChanged(Parameter which) noexcept;
     void sendControls(int frame) noexcept;
     void sendPanner(Session& session, int frame) noexcept;
-    void sendGravity(Session& session, int frame) noexcept;
+    void sendHold(Session& session, int frame) noexcept;
     void receive(const juce::MidiMessageMetadata& message, int frame) noexcept;
     void strike(int channel, int note, int velocity, int frame) noexcept;
     void control(int channel, int controller, int value, int frame) noexcept;

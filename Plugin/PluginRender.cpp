@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The render role's part: transport, controls, MIDI, samples. Nothing here allocates, locks or waits.
 #include "PluginProcessor.h"
-#include "Physics/SceneLimits.h"
-#include <cmath>
+#include <limits>
 
 namespace physvib {
 
@@ -94,7 +93,7 @@ void PluginProcessor::sendControls(int frame) noexcept {
     const bool lawChanged = hasChanged(Parameter::law), exponentChanged = hasChanged(Parameter::exponent);
     if (lawChanged || exponentChanged) sendPanner(*session, frame);
     const bool gravityChanged = hasChanged(Parameter::gravity), tiltChanged = hasChanged(Parameter::tilt);
-    if (gravityChanged || tiltChanged) sendGravity(*session, frame);
+    if (gravityChanged || tiltChanged) sendHold(*session, frame);
     if (hasChanged(Parameter::material)) {
         RenderInput input;
         input.group = renderSettings_.read().midi.groupOfMaterial(juce::roundToInt(value(Parameter::material)));
@@ -111,13 +110,9 @@ void PluginProcessor::sendPanner(Session& session, int frame) noexcept {
     session.control(control, frame);
 }
 
-void PluginProcessor::sendGravity(Session& session, int frame) noexcept {
-    const Vector scene = renderSettings_.read().midi.gravityMetresPerSecond2();
-    const double factor = value(Parameter::gravity), angle = juce::degreesToRadians(value(Parameter::tilt));
-    constexpr double most = sceneLimits::maxAccelerationMetresPerSecond2;
+void PluginProcessor::sendHold(Session& session, int frame) noexcept {
     RenderInput input;
-    input.gravityMetresPerSecond2 = {std::clamp(factor * (std::cos(angle) * scene.x - std::sin(angle) * scene.y), -most, most),
-                                     std::clamp(factor * (std::sin(angle) * scene.x + std::cos(angle) * scene.y), -most, most)};
+    input.hold = {value(Parameter::gravity), juce::degreesToRadians(value(Parameter::tilt))};
     session.perform(input, frame);
 }
 

@@ -25,7 +25,7 @@ std::string Session::act(Action action) {
 // The world mutex is held.
 void Session::takeOwnInputs() {
     for (RenderInput input; ownInputs_.pop(input);) {
-        if (input.group == RenderInput::gravity) world_.addInput(input.timeNs, GravityAction{input.gravityMetresPerSecond2});
+        if (input.group == RenderInput::device) world_.addInput(input.timeNs, input.hold);
         if (input.group < 0 || input.group >= static_cast<int>(setup_.groups.size())) continue;
         for (Action action : setup_.groups[static_cast<std::size_t>(input.group)]) {
             const auto scale = [&input](Vector& v) { v = {v.x * input.scale, v.y * input.scale}; };

@@ -12,13 +12,13 @@
 
 namespace physvib {
 
-/// What the render call may do to the world: set its gravity, or perform a group of actions that was prepared for it.
+/// What the render call may do to the world: hold the device another way, or perform a group of actions that was prepared.
 struct RenderInput {
-    static constexpr int gravity = -1;
-    int group = gravity;            ///< index into SessionSetup::groups
-    double scale = 1.0;             ///< of the group's impulses, and of the velocities of what it spawns
-    Vector gravityMetresPerSecond2; ///< if `group` is gravity
-    std::int64_t timeNs = 0;        ///< given by the session
+    static constexpr int device = -1;
+    int group = device;      ///< index into SessionSetup::groups
+    double scale = 1.0;      ///< of the group's impulses, and of the velocities of what it spawns
+    HoldAction hold;         ///< if `group` is device
+    std::int64_t timeNs = 0; ///< given by the session
 };
 
 /// What a session plays, and on what.

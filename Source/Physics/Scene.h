@@ -200,8 +200,15 @@ struct SoundAction {
     double decayPerSecond = 0.0;
     bool operator==(const SoundAction&) const = default;
 };
-using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAction, SpawnAction,
-                            RemoveAction, MotorAction, CameraAction, MaterialAction, SoundAction>;
+/// Whoever holds the device turns it counter-clockwise and makes it heavier or lighter, on top of what gravity and tilt say
+/// before and after.
+struct HoldAction {
+    double factor = 1.0;
+    double angleRadians = 0.0;
+    bool operator==(const HoldAction&) const = default;
+};
+using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAction, SpawnAction, RemoveAction,
+                            MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction>;
 
 /// What happens at `timeSeconds`, and `times` - 1 times more, `everySeconds` apart.
 struct ScriptInput {

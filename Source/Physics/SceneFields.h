@@ -287,8 +287,17 @@ struct FieldsOf<SoundAction> {
     }
 };
 
-inline constexpr std::array<std::string_view, 10> actionNames{
-    "gravity", "tilt", "impulse", "velocity", "spawn", "remove", "motor", "camera", "material", "sound"};
+template <>
+struct FieldsOf<HoldAction> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("factor", &HoldAction::factor, upTo(sceneLimits::maxGravityFactor), Need::required);
+        v.field("angle_rad", &HoldAction::angleRadians, angleBounds, Need::required);
+    }
+};
+
+inline constexpr std::array<std::string_view, 11> actionNames{
+    "gravity", "tilt", "impulse", "velocity", "spawn", "remove", "motor", "camera", "material", "sound", "hold"};
 
 template <>
 struct FieldsOf<ScriptInput> {

@@ -18,6 +18,7 @@ constexpr double maxSpeedMetresPerSecond = 1000.0; // Box2D moves nothing by mor
 constexpr double maxSpinRadiansPerSecond = 1000.0;
 constexpr double maxDampingPerSecond = 1000.0;
 constexpr double maxAccelerationMetresPerSecond2 = 1000.0;
+constexpr double maxGravityFactor = 10.0;
 constexpr double maxImpulseNewtonSeconds = 1.0e9;
 constexpr double maxTorqueNewtonMetres = 1.0e9;
 constexpr double maxSpringHz = 1000.0;

@@ -69,6 +69,7 @@ private:
 
     std::string checkAction(const GravityAction&, const std::string&) const { return {}; }
     std::string checkAction(const TiltAction&, const std::string&) const { return {}; }
+    std::string checkAction(const HoldAction&, const std::string&) const { return {}; }
     std::string checkAction(const SpawnAction&, const std::string&) const { return {}; }
     std::string checkAction(const SoundAction&, const std::string&) const { return {}; }
     std::string checkAction(const MotorAction& action, const std::string& path) const {

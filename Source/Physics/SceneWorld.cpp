@@ -10,12 +10,22 @@
 
 namespace physvib {
 
+namespace {
+
+Vector turnedBy(const Vector& v, double angleRadians) {
+    const double c = std::cos(angleRadians), s = std::sin(angleRadians);
+    return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+} // namespace
+
 SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& clock)
     : scene_(scene)
     , clock_(clock)
     , jitters_(seed != 0)
     , random_(seed)
     , script_(scene_, clock)
+    , gravity_(scene.gravityMetresPerSecond2)
     , world_(box2dVector(scene.gravityMetresPerSecond2))
     , materials_(scene.materials) {
     build();
@@ -66,7 +76,14 @@ void SceneWorld::startHalfAStepBehind(b2Body& body) const {
     body.SetLinearVelocity(body.GetLinearVelocity() + halfStep);
 }
 
-void SceneWorld::setGravity(const b2Vec2& gravity) {
+void SceneWorld::setGravity(const Vector& beforeHold) {
+    gravity_ = beforeHold;
+    holdDevice();
+}
+
+void SceneWorld::holdDevice() {
+    const Vector turned = turnedBy(gravity_, hold_.angleRadians);
+    const b2Vec2 gravity = box2dVector({hold_.factor * turned.x, hold_.factor * turned.y});
     if (gravity == world_.GetGravity()) return;
     world_.SetGravity(gravity);
     for (b2Body* body : bodies_) body->SetAwake(true); // sleeping bodies would not notice
@@ -144,14 +161,18 @@ bool SceneWorld::spawn(const BodyDescription& body) {
 }
 
 bool SceneWorld::act(const GravityAction& action) {
-    setGravity(box2dVector(action.metresPerSecond2));
+    setGravity(action.metresPerSecond2);
     return false;
 }
 
 bool SceneWorld::act(const TiltAction& action) {
-    const double c = std::cos(action.angleRadians), s = std::sin(action.angleRadians);
-    const Vector& g = scene_.gravityMetresPerSecond2;
-    setGravity(box2dVector({c * g.x - s * g.y, s * g.x + c * g.y}));
+    setGravity(turnedBy(scene_.gravityMetresPerSecond2, action.angleRadians));
+    return false;
+}
+
+bool SceneWorld::act(const HoldAction& action) {
+    hold_ = action;
+    holdDevice();
     return false;
 }
 

@@ -70,7 +70,8 @@ private:
     bool spawn(const BodyDescription& body);
     BodyStart startOf(const BodyDescription& body);
     void startHalfAStepBehind(b2Body& body) const;
-    void setGravity(const b2Vec2& gravity);
+    void setGravity(const Vector& beforeHold);
+    void holdDevice();
     b2Body* find(std::string_view name) const noexcept; // nullptr if none has it
     /// Calls `change` with the numbers of one fixture of a body, or of all.
     template <class Change>
@@ -80,6 +81,7 @@ private:
     bool act(const DueAction& due);
     bool act(const GravityAction& action);
     bool act(const TiltAction& action);
+    bool act(const HoldAction& action);
     bool act(const ImpulseAction& action) const;
     bool act(const VelocityAction& action) const;
     bool act(const SpawnAction& action, int repetition);
@@ -94,6 +96,8 @@ private:
     bool jitters_;
     std::mt19937 random_;
     SceneScript script_;
+    Vector gravity_;  // before hold_
+    HoldAction hold_;
     b2World world_;
     std::vector<BodyDescription> cast_; // as described
     std::vector<BodyDescription> now_;  // with the materials and cameras of now

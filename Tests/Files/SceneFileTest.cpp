@@ -243,7 +243,7 @@ TEST(SceneFile, NamesTheFieldByItsPath) {
         {"\"times\": 3", "\"times\": 1000000", "script[2].times: expected 1 to 100000, found 1e+06"},
         {"\"input\": \"tilt\"", "\"input\": \"roll\"",
          "script[1].input: expected one of gravity, tilt, impulse, velocity, spawn, remove, motor, camera, "
-         "material, sound, found \"roll\""},
+         "material, sound, hold, found \"roll\""},
         {"\"time_s\": 13", "\"time_s\": 12",
          "inputs[2].time_s: expected a time that is not before that of the input above"},
         {"\"body\": \"coin\"", "\"body\": \"coil\"",

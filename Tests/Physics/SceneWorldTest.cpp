@@ -357,6 +357,26 @@ TEST(SceneWorld, MaterialChangesSurfaceAndMass) {
     EXPECT_FLOAT_EQ(static_cast<float>(mass(world, 1)), 3.0F);
 }
 
+TEST(SceneWorld, AHeldDeviceIsTurnedAndHeavierOnTopOfTheScript) {
+    Scene scene = emptyScene();
+    scene.gravityMetresPerSecond2 = {0.0, -10.0};
+    scene.script = {at(0.1, HoldAction{2.0, 1.5707963267948966}), at(0.2, GravityAction{{1.0, 2.0}}),
+                    at(0.3, TiltAction{1.5707963267948966}), at(0.4, HoldAction{1.0, 0.0})};
+    World world(scene);
+    const auto expectGravity = [&](float x, float y) {
+        EXPECT_NEAR(world.inner.world().GetGravity().x, x, 1.0e-5);
+        EXPECT_NEAR(world.inner.world().GetGravity().y, y, 1.0e-5);
+    };
+    world.run(0.11);
+    expectGravity(20.0F, 0.0F);
+    world.run(0.1);
+    expectGravity(-4.0F, 2.0F);
+    world.run(0.1);
+    expectGravity(0.0F, 20.0F);
+    world.run(0.1);
+    expectGravity(10.0F, 0.0F);
+}
+
 TEST(SceneWorld, TellsWhenFixturesMayHaveChanged) {
     Scene scene = spawningScene();
     scene.script = {at(0.1, TiltAction{1.0}), at(0.2, CameraAction{"first", 0, true}),

@@ -67,6 +67,19 @@ TEST(WorldInput, GravityTiltAndMaterialAreFeltAndRepeat) {
     }
 }
 
+TEST(WorldInput, GravityAndTiltActOnWhatAScriptSets) {
+    auto scripted = newPluginState();
+    scripted.scene.script = {{1.5, 1, 0.0, GravityAction{{9.0, 9.0}}}};
+    scripted.scene.scriptPeriodSeconds = 0.0;
+    auto plain = scripted;
+    plain.scene.script.clear();
+    EXPECT_FALSE(after(nothing, 480, scripted) == after(nothing, 480, plain));
+    const auto without = set(Parameter::gravity, 0.0f); // nothing times whatever the script says
+    EXPECT_TRUE(after(without, 480, scripted) == after(without, 480, plain));
+    const auto turned = set(Parameter::tilt, 0.75f);
+    EXPECT_FALSE(after(turned, 480, scripted) == after(turned, 480, plain));
+}
+
 TEST(WorldInput, ThePresentGravityIsNoInput) {
     EXPECT_TRUE(after(set(Parameter::gravity, 0.25f)) == after(nothing));
 }
