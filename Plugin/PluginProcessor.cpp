@@ -158,12 +158,21 @@ void PluginProcessor::setStateInformation(const void* data, int size) {
         return;
     }
     if (!apply(read.value)) return;
-    for (auto* p : parameters_) p->setValueNotifyingHost(p->getDefaultValue());
-    for (const auto& [id, value] : read.value.parameters) {
-        auto& p = *parameters_[static_cast<std::size_t>(parameterOfId(id))];
-        p.setValueNotifyingHost(static_cast<float>(normalised(p.row(), value)));
-    }
+    takeParameters(read.value);
     program_ = programOf(read.value.scene);
+}
+
+// Those that the state does not name get their defaults. The host is told of what it does not know: each telling may mark
+// its session as changed.
+void PluginProcessor::takeParameters(const PluginState& state) {
+    std::array<float, parameterCount> normals;
+    for (std::size_t i = 0; i < parameterCount; ++i) normals[i] = parameters_[i]->getDefaultValue();
+    for (const auto& [id, value] : state.parameters) {
+        const auto which = static_cast<std::size_t>(parameterOfId(id));
+        normals[which] = static_cast<float>(normalised(parameters_[which]->row(), value));
+    }
+    for (std::size_t i = 0; i < parameterCount; ++i)
+        if (parameters_[i]->getValue() != normals[i]) parameters_[i]->setValueNotifyingHost(normals[i]);
 }
 
 } // namespace physvib

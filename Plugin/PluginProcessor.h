@@ -62,6 +62,7 @@ private:
     void timerCallback() override;
     bool refuse(const juce::String& why);
     void publish();
+    void takeParameters(const PluginState& state);
     double value(Parameter which) const noexcept { return parameters_[static_cast<std::size_t>(which)]->value(); }
 
     // R

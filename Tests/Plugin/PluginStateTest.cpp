@@ -116,9 +116,29 @@ TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenes) {
 
 struct Listener final : juce::AudioProcessorListener {
     void audioProcessorParameterChanged(juce::AudioProcessor*, int, float) override { ++parameters; }
-    void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& details) override { latencies += details.latencyChanged ? 1 : 0; }
-    std::atomic<int> parameters{0}, latencies{0};
+    void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& details) override {
+        latencies += details.latencyChanged ? 1 : 0;
+        edits += details.nonParameterStateChanged ? 1 : 0;
+    }
+    std::atomic<int> parameters{0}, latencies{0}, edits{0};
 };
+
+TEST(PluginChunk, AStateThatIsTakenIsNoEdit) {
+    TestHost host;
+    host.prepare(48000, 512);
+    const auto chunk = chunkOf(*host.plugin);
+    Listener listener;
+    host.plugin->addListener(&listener);
+    host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    runMessages(100);
+    EXPECT_EQ(listener.parameters, 0) << "what the host knows";
+    host.plugin->parameter(Parameter::tilt).setValue(0.75f);
+    host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    EXPECT_EQ(listener.parameters, 1) << "the one that it does not";
+    EXPECT_EQ(listener.edits, 0);
+    EXPECT_EQ(listener.latencies, 0);
+    host.plugin->removeListener(&listener);
+}
 
 TEST(PluginChunk, TheHostIsToldOfALatencyThatChanges) {
     TestHost host;
