@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Opens the editor in a window of a display, again and again, while the plug-in plays; fails if a window does not come or if
+// the memory in use grows from one opening to the next. Run by openings.sh.
+// Usage: physvib-editor-openings COUNT
+#include "PluginProcessor.h"
+#include <X11/Xlib.h>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <malloc.h>
+
+namespace juce {
+bool dispatchNextMessageOnSystemQueue(bool returnIfNoPendingMessages); // what a message loop is made of
+}
+
+namespace {
+
+using namespace physvib;
+
+constexpr int framesPerBlock = 512;
+constexpr double mostGrowthBytes = 1.0e6; // caches fill for some two hundred openings; 25 editors that are not freed hold 3 MB
+
+void runMessages(int milliseconds) {
+    const auto end = juce::Time::getMillisecondCounter() + static_cast<juce::uint32>(milliseconds);
+    while (juce::Time::getMillisecondCounter() < end)
+        if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
+}
+
+/// What a window manager would have named, and JUCE takes for granted; kept until the display is closed.
+Display* openDisplayWithNames() {
+    Display* const display = XOpenDisplay(nullptr);
+    if (display == nullptr) return nullptr;
+    for (const char* name : std::array{"WM_PROTOCOLS", "WM_TAKE_FOCUS", "WM_DELETE_WINDOW", "WM_CHANGE_STATE", "WM_STATE", "_NET_WM_PING", "_NET_WM_STATE",
+                                       "_NET_WM_STATE_HIDDEN", "_NET_WM_STATE_FULLSCREEN", "_NET_WM_WINDOW_TYPE", "_NET_WM_ALLOWED_ACTIONS", "_NET_FRAME_EXTENTS",
+                                       "_NET_WORKAREA", "_MOTIF_WM_HINTS"})
+        XInternAtom(display, name, 0);
+    XSync(display, 0);
+    return display;
+}
+
+double bytesInUse() {
+    const auto heap = mallinfo2();
+    return static_cast<double>(heap.uordblks + heap.hblkhd);
+}
+
+/// What the open editor holds; 0 if no window came.
+double openOnce(PluginProcessor& plugin, juce::AudioBuffer<float>& buffer) {
+    const double before = bytesInUse();
+    const std::unique_ptr<juce::AudioProcessorEditor> editor{plugin.createEditorIfNeeded()};
+    editor->addToDesktop(juce::ComponentPeer::windowHasTitleBar);
+    editor->setVisible(true);
+    juce::MidiBuffer midi;
+    for (int b = 0; b < 5; ++b) {
+        plugin.processBlock(buffer, midi);
+        runMessages(15);
+    }
+    return editor->getPeer() != nullptr && editor->isShowing() ? bytesInUse() - before : 0.0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const int count = argc == 2 ? std::atoi(argv[1]) : 0;
+    if (count < 2) return 2;
+    Display* const display = openDisplayWithNames();
+    if (display == nullptr) {
+        std::puts("there is no display");
+        return 1;
+    }
+    const juce::ScopedJuceInitialiser_GUI juce;
+    PluginProcessor plugin{"PhysVib", {}};
+    plugin.prepareToPlay(48000.0, framesPerBlock);
+    juce::AudioBuffer<float> buffer(plugin.getTotalNumOutputChannels(), framesPerBlock);
+    const int first = count / 2; // by then most caches are filled
+    double before = 0.0, held = 0.0;
+    for (int i = 0; i < count; ++i) {
+        if (i == first) before = bytesInUse();
+        held = openOnce(plugin, buffer);
+        if (held <= 0.0) {
+            std::printf("opening %d: no window\n", i + 1);
+            return 1;
+        }
+        runMessages(5);
+        plugin.takes().takeLog(); // which grows while the plug-in plays
+    }
+    const double growth = bytesInUse() - before;
+    std::printf("editor: %d openings; %.1f MB in use, and %.0f kB while it is open; %.0f bytes more per opening since number %d\n", count,
+                bytesInUse() / 1e6, held / 1e3, growth / (count - first), first);
+    XCloseDisplay(display);
+    return growth <= mostGrowthBytes ? 0 : 1;
+}
