@@ -1,29 +1,34 @@
 // SPDX-License-Identifier: MIT
-// What is done to each enchanter's channel on its own, before the linked limiter: gain, polarity, mute.
+// What is done to each enchanter's channel on its own, before the linked limiter: delay, gain, polarity, mute.
 #pragma once
+#include "Core/ChannelDelay.h"
 #include "Core/GainRamp.h"
 #include "Core/Limits.h"
 #include <array>
+#include <cmath>
 
 namespace physvib {
 
-/// Per channel: out = gain * in, every change in a ramp of limits::channelRampSeconds; before the first frame there is
-/// nothing to ramp from. R only, but for prepare: M.
+/// Per channel: out = gain * delayed in, every change in a ramp of limits::channelRampSeconds; before the first frame
+/// there is nothing to ramp from. R only, but for prepare: M.
 template <class Profile>
 class ActuatorStage {
 public:
-    /// All gains 1, nothing muted. M, not while rendering.
+    /// All gains 1, nothing muted or delayed. M, not while rendering.
     void prepare(int sampleRateHz, int channels) noexcept {
         channels_ = channels;
         hasBegun_ = false;
         for (auto& ramp : ramps_) ramp.prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
         gains_.fill(1.0f);
         muted_.fill(false);
+        delaySeconds_.fill(0.0f);
+        prepareDelays(sampleRateHz);
     }
 
-    /// Goes on at another rate, gains and mutes as they are. M, not while rendering.
+    /// Goes on at another rate, all as it is, but what was on its way through a delay. M, not while rendering.
     void changeRate(int sampleRateHz) noexcept {
         for (int j = 0; j < channels_; ++j) ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, aimOf(j));
+        prepareDelays(sampleRateHz);
     }
 
     /// Negative gains turn the polarity.
@@ -38,12 +43,23 @@ public:
         aim(channel);
     }
 
-    /// In place. `isSilent`: all of it is 0, and stays so.
-    void process(float* const* io, int frames, bool isSilent) noexcept {
+    /// 0 to limits::maxChannelDelaySeconds.
+    void setDelay(int channel, float seconds) noexcept {
+        delaySeconds_[index(channel)] = seconds;
+        delays_[index(channel)].moveTo(framesOf(channel));
+    }
+
+    /// In place. `isSilent`: all of it is 0. True if all of it is 0 afterwards.
+    bool process(float* const* io, int frames, bool isSilent) noexcept {
         hasBegun_ = true;
-        for (int j = 0; j < channels_; ++j)
-            if (isSilent) ramps_[index(j)].pass(frames);
+        bool allSilent = true;
+        for (int j = 0; j < channels_; ++j) {
+            const bool none = delays_[index(j)].process(io[j], frames, isSilent);
+            if (none) ramps_[index(j)].pass(frames);
             else ramps_[index(j)].apply(io + j, 1, frames);
+            allSilent = allSilent && none;
+        }
+        return allSilent;
     }
 
 private:
@@ -54,9 +70,18 @@ private:
         else ramps_[index(channel)].jumpTo(aimOf(channel));
     }
 
+    int framesOf(int channel) const noexcept { return static_cast<int>(std::lround(delaySeconds_[index(channel)] * static_cast<float>(sampleRateHz_))); }
+    void prepareDelays(int sampleRateHz) noexcept {
+        sampleRateHz_ = sampleRateHz;
+        for (int j = 0; j < channels_; ++j) delays_[index(j)].prepare(static_cast<int>(limits::channelRampSeconds * sampleRateHz), framesOf(j));
+    }
+
     static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
     int channels_ = 0;
     bool hasBegun_ = false;
+    int sampleRateHz_ = 48000;
+    std::array<ChannelDelay<Profile::maxDelayFrames>, width> delays_{};
+    std::array<float, width> delaySeconds_{};
     std::array<GainRamp, width> ramps_{};
     std::array<float, width> gains_{};
     std::array<bool, width> muted_{};

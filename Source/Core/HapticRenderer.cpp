@@ -60,6 +60,11 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
     if (control.kind == Kind::panner && control.panner.channels() <= channels_) panner_ = control.panner;
     if (control.kind == Kind::gain && isChannel) actuators_.setGain(control.channel, control.value);
     if (control.kind == Kind::mute && isChannel) actuators_.setMuted(control.channel, control.value != 0.0f);
+    if (control.kind == Kind::delay && isChannel) actuators_.setDelay(control.channel, control.value);
+    if (control.kind == Kind::ceiling && isChannel && control.value > 0.0f) {
+        settings_.ceilings[static_cast<std::size_t>(control.channel)] = control.value;
+        limiter_.setCeiling(control.channel, control.value);
+    }
     if (control.kind == Kind::stopAll) bank_.fadeAll(position_);
 }
 

@@ -3,7 +3,7 @@
 //
 // Order of one call: events enter the pending store; those that are due are panned and struck on their exact place
 // between two frames; the mode bank is summed; each channel goes through its actuator stage; the linked limiter has
-// the last word. Controls (layout, gains, stop) wait for their frame in the same way. Work is cut at the tiles of the
+// the last word. Controls (layout, gains, delays, ceilings, stop) wait for their frame in the same way. Work is cut at the tiles of the
 // absolute frame grid and at onsets, gate ends and controls, never at block borders: output does not depend on block size.
 #pragma once
 #include "Core/ActuatorStage.h"
@@ -54,7 +54,7 @@ struct RenderStatus {
     float limiterGain = 1.0f;
 };
 
-/// All memory is inside the object (26 MB for the desktop: keep it on the heap).
+/// All memory is inside the object (29 MB for the desktop: keep it on the heap).
 template <class Profile>
 class HapticRenderer {
 public:
@@ -150,17 +150,14 @@ void HapticRenderer<Profile>::render(Source& source, float* const* out, int fram
     const DenormalGuard guard;
     Channels at{};
     std::copy_n(out, channels_, at.begin());
-    bool allSilent = true;
     for (int done = 0; done < frames;) {
         const int part = strikeAndReach(source, frames - done);
-        const bool isSilent = !bank_.render(at.data(), position_, part);
-        actuators_.process(at.data(), part, isSilent);
-        allSilent = allSilent && isSilent;
+        const bool isSilent = actuators_.process(at.data(), part, !bank_.render(at.data(), position_, part));
+        limiter_.process(at.data(), part, isSilent);
         position_ += part;
         done += part;
         for (int j = 0; j < channels_; ++j) at[static_cast<std::size_t>(j)] += part;
     }
-    limiter_.process(out, frames, allSilent);
 }
 
 extern template class HapticRenderer<DesktopProfile>;

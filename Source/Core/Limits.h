@@ -18,6 +18,7 @@ constexpr std::int64_t maxTimeNs = 1'000'000'000'000'000; // 11.6 days; frames a
 constexpr double retireDecibels = 140.0;   // a strike is over when it has fallen by this much (24-bit floor)
 constexpr double stealFadePerSecond = 1000.0; // a stolen mode falls by 60 dB in 7 ms: no click, soon gone
 constexpr double channelRampSeconds = 0.01; // gains, mutes, detached channels: no click, still at once to a hand
+constexpr double maxChannelDelaySeconds = 0.05; // aligns hands and sound; longer, a hand takes it for another hit
 constexpr double limiterLookAheadSeconds = 0.001; // attack of the limiter = its constant latency
 constexpr double limiterReleaseSeconds = 0.2;     // silence to full gain: slower than any tactile period (20 Hz)
 
@@ -45,6 +46,7 @@ struct DesktopProfile {
     static constexpr int maxGates = 4096;    // strikes with a duration that are open at once
     static constexpr int maxPending = 8192;  // events ahead of their time: 80 ms at 10^5 strikes per second
     static constexpr int maxLookAheadFrames = 192; // 1 ms at 192 kHz
+    static constexpr int maxDelayFrames = 9600;    // maxChannelDelaySeconds at 192 kHz
     static constexpr int maxControls = 256;  // edits ahead of their time: a hand makes tens a second
     static constexpr int playedQueueSize = 4096; // 40 ms at 10^5 strikes per second until somebody reads
     static constexpr bool hasTiles = true;   // vector kernels on whole tiles (Core/ModeTiles.h)
@@ -60,6 +62,7 @@ struct BoardProfile {
     static constexpr int maxGates = 16;
     static constexpr int maxPending = 32;
     static constexpr int maxLookAheadFrames = 16;
+    static constexpr int maxDelayFrames = 0; // no room
     static constexpr int maxControls = 2;
     static constexpr int playedQueueSize = 16;
     static constexpr bool hasTiles = false;  // 8 frames on 12 KB: the scalar kernel alone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whatever else is audible travels with a time, as strikes do: layout and law, gains, mutes, stop.
+// Whatever else is audible travels with a time, as strikes do: layout and law, gains, mutes, delays, ceilings, stop.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -13,7 +13,9 @@ struct RenderControl {
         panner,  ///< later strikes are panned by `panner`; what rings, rings out where it is
         gain,    ///< of `channel`, to `value`
         mute,    ///< of `channel`: value not 0
-        stopAll  ///< whatever rings fades out; later events are played
+        stopAll, ///< whatever rings fades out; later events are played
+        delay,   ///< of `channel`: `value` seconds, 0 to limits::maxChannelDelaySeconds
+        ceiling  ///< of `channel`: largest sample while the limiter is on, `value` > 0
     };
     std::int64_t timeNs = 0;
     Kind kind = Kind::stopAll;

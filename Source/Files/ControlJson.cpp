@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> lawNames{"linear", "log", "log-outer", "energy"}; // as PanningLaw
 constexpr double least = 1e-3, mostExponent = 100.0, largestField = 1e6;
-constexpr double largestGain = 1000.0;
+constexpr double largestGain = 1000.0, leastCeiling = 1e-6;
 
 double readNumber(const JsonField& field, double lower, double upper) {
     const double found = field.number();
@@ -67,6 +67,16 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
         control.channel = readChannel(json["channel"], channels);
         control.value = json["on"].truth() ? 1.0f : 0.0f;
         break;
+    case Kind::delay:
+        expectFields(json, {"channel", "seconds"}, otherField);
+        control.channel = readChannel(json["channel"], channels);
+        control.value = static_cast<float>(readNumber(json["seconds"], 0.0, limits::maxChannelDelaySeconds));
+        break;
+    case Kind::ceiling:
+        expectFields(json, {"channel", "value"}, otherField);
+        control.channel = readChannel(json["channel"], channels);
+        control.value = static_cast<float>(readNumber(json["value"], leastCeiling, 1.0));
+        break;
     case Kind::stopAll: expectFields(json, {}, otherField);
     }
     return control;
@@ -83,8 +93,9 @@ OrderedJson controlJson(const RenderControl& control) {
     using Kind = RenderControl::Kind;
     OrderedJson json{{"control", controlNames[static_cast<std::size_t>(control.kind)]}};
     if (control.kind == Kind::panner) json["panning"] = pannerJson(control.panner);
-    if (control.kind == Kind::gain || control.kind == Kind::mute) json["channel"] = control.channel + 1;
-    if (control.kind == Kind::gain) json["value"] = static_cast<double>(control.value);
+    if (control.kind != Kind::panner && control.kind != Kind::stopAll) json["channel"] = control.channel + 1;
+    if (control.kind == Kind::delay) json["seconds"] = static_cast<double>(control.value);
+    if (control.kind == Kind::gain || control.kind == Kind::ceiling) json["value"] = static_cast<double>(control.value);
     if (control.kind == Kind::mute) json["on"] = control.value != 0.0f;
     return json;
 }

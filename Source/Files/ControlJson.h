@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-inline constexpr std::array<std::string_view, 4> controlNames{"layout", "gain", "mute", "stop"}; // as Kind
+inline constexpr std::array<std::string_view, 6> controlNames{"layout", "gain", "mute", "stop", "delay", "ceiling"}; // as Kind
 
 /// Layout, law, exponent and field; at most `channels` enchanters. Throws JsonError.
 PhantomPanner readPanner(const JsonField& json, int channels);

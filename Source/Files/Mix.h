@@ -36,6 +36,24 @@ struct Mix {
     int count() const noexcept { return layout.geometry.count; }
     PhantomPanner panner() const noexcept { return {layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres}; }
 
+    /// As many strips as there are enchanters; new ones play on outputs that no other has.
+    void resizeStrips() {
+        const auto before = strips.size();
+        strips.resize(static_cast<std::size_t>(count()));
+        for (std::size_t j = before; j < strips.size(); ++j) {
+            strips[j].output = -1;
+            strips[j].output = freeOutput();
+        }
+    }
+    /// The first output that no strip has.
+    int freeOutput() const noexcept {
+        for (int k = 0;; ++k) {
+            bool isFree = true;
+            for (const Strip& s : strips) isFree = isFree && s.output != k;
+            if (isFree) return k;
+        }
+    }
+
     /// True if the strip is not to be felt: it is muted, or others are solo.
     bool isSilent(int strip) const noexcept {
         bool anySolo = false;

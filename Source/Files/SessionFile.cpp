@@ -7,6 +7,8 @@
 #include "Files/JsonReader.h"
 #include "Files/JsonVersion.h"
 #include "Files/JsonWriter.h"
+#include "Files/MixJson.h"
+#include "Physics/SceneEdits.h"
 #include "Physics/SceneValidation.h"
 #include "Physics/Simulation.h"
 #include <cmath>
@@ -50,9 +52,9 @@ SceneTake readTake(const JsonField& json, const SceneTake* before) {
         detail::readValue(json["inputs"], take.inputs, items(0, sceneLimits::maxLiveInputs), take.scene->materials);
     for (std::size_t i = 0, count = json.has("stalls") ? json["stalls"].arraySize() : 0; i < count; ++i) {
         const JsonField stall = json["stalls"].item(i);
-        stall.expectObject({"time_s", "seconds"});
+        stall.expectObject({"time_s", "seconds", "steps"});
         const std::int64_t last = take.stalls.empty() ? 0 : take.stalls.back().worldNs;
-        take.stalls.push_back({readNextTime(stall, last), readTime(stall["seconds"])});
+        take.stalls.push_back({readNextTime(stall, last), readTime(stall["seconds"]), stall.has("steps") ? readWhole(stall["steps"], 1, 1'000'000'000) : 1});
     }
     if (const std::string fault = validate(take.whole()); !fault.empty()) json.fail(fault);
     return take;
@@ -76,9 +78,23 @@ void readCeilings(const JsonField& list, SavedSession& session) {
     }
 }
 
+CollisionEvent readStrike(const JsonField& json) {
+    json.expectObject({"time_s", "frequency_hz", "decay_per_s", "amplitude", "x_m", "y_m", "duration_s"});
+    CollisionEvent strike;
+    strike.timeNs = readTime(json["time_s"]);
+    strike.frequencyHz = json["frequency_hz"].positiveNumber();
+    strike.decayPerSecond = json["decay_per_s"].number();
+    strike.amplitude = json["amplitude"].number();
+    strike.x = json["x_m"].number();
+    strike.y = json["y_m"].number();
+    if (json.has("duration_s")) strike.durationNs = readTime(json["duration_s"]);
+    if (!isPlayable(strike)) json.fail("expected a strike that can be played: within the ranges of an event list, with a decay or a duration");
+    return strike;
+}
+
 SavedSession readRoot(const JsonField& root) {
     checkVersion(root, versionField, sessionFormatVersion);
-    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "channels", "panning", "takes", "controls"});
+    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "channels", "panning", "takes", "controls", "strikes", "desk"});
     SavedSession session;
     session.lengthNs = readTime(root["seconds"]);
     session.run.stepsPerSecond = readWhole(root["steps_per_second"], Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond);
@@ -94,7 +110,21 @@ SavedSession readRoot(const JsonField& root) {
         session.log.takes.push_back(readTake(takes.item(i), session.log.takes.empty() ? nullptr : &session.log.takes.back()));
     for (std::size_t i = 0, count = root.has("controls") ? root["controls"].arraySize() : 0; i < count; ++i)
         readTimedControl(root["controls"].item(i), session);
+    for (std::size_t i = 0, count = root.has("strikes") ? root["strikes"].arraySize() : 0; i < count; ++i)
+        session.log.strikes.push_back(readStrike(root["strikes"].item(i)));
+    if (root.has("desk")) {
+        session.mix = readMix(root["desk"]);
+        session.mix->scene = std::make_shared<const Scene>(sceneAsLeft(session.log.takes.back()));
+        session.mix->seed = session.log.takes.back().seed;
+    }
     return session;
+}
+
+OrderedJson strikeJson(const CollisionEvent& strike) {
+    OrderedJson json{{"time_s", seconds(strike.timeNs)}, {"frequency_hz", strike.frequencyHz}, {"decay_per_s", strike.decayPerSecond},
+                     {"amplitude", strike.amplitude}, {"x_m", strike.x}, {"y_m", strike.y}};
+    if (strike.durationNs > 0) json["duration_s"] = seconds(strike.durationNs);
+    return json;
 }
 
 OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
@@ -102,7 +132,10 @@ OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
     const bool isSame = before != nullptr && (before->scene == take.scene || *before->scene == *take.scene);
     if (!isSame) json["scene"] = detail::fieldsJson(*take.scene, take.scene->materials);
     for (const LiveInput& input : take.inputs) json["inputs"].push_back(detail::fieldsJson(input, take.scene->materials));
-    for (const WorldStall& stall : take.stalls) json["stalls"].push_back({{"time_s", seconds(stall.worldNs)}, {"seconds", seconds(stall.lengthNs)}});
+    for (const WorldStall& stall : take.stalls) {
+        json["stalls"].push_back({{"time_s", seconds(stall.worldNs)}, {"seconds", seconds(stall.lengthNs)}});
+        if (stall.steps > 1) json["stalls"].back()["steps"] = stall.steps;
+    }
     return json;
 }
 
@@ -145,7 +178,31 @@ std::string sessionJson(const SavedSession& session) {
         timed.update(controlJson(control));
         root["controls"].push_back(std::move(timed));
     }
+    for (const CollisionEvent& strike : session.log.strikes) root["strikes"].push_back(strikeJson(strike));
+    if (session.mix) root["desk"] = mixJson(*session.mix);
     return jsonLines(root);
+}
+
+Mix mixOf(const SavedSession& session) {
+    if (session.mix) return *session.mix;
+    Mix mix;
+    mix.scene = std::make_shared<const Scene>(sceneAsLeft(session.log.takes.back()));
+    mix.seed = session.log.takes.back().seed;
+    const PhantomPanner& panner = session.log.panners.empty() ? session.panner : session.log.panners.back().panner;
+    mix.layout = describeLayout("own", panner.layout());
+    mix.law = panner.law();
+    mix.exponent = panner.exponent();
+    mix.strips.resize(static_cast<std::size_t>(mix.count()));
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) mix.strips[j].output = static_cast<int>(j);
+    for (const ChannelChange& change : session.log.channels) {
+        if (change.channel >= mix.count()) continue;
+        Strip& strip = mix.strips[static_cast<std::size_t>(change.channel)];
+        if (change.kind == RenderControl::Kind::mute) strip.isMuted = change.value != 0.0f;
+        if (change.kind != RenderControl::Kind::gain) continue;
+        strip.isInverted = change.value < 0.0f;
+        strip.gainDb = change.value == 0.0f ? leastStripDb : std::clamp(20.0 * std::log10(std::abs(change.value)), leastStripDb, mostStripDb);
+    }
+    return mix;
 }
 
 std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels) {

@@ -2,17 +2,19 @@
 // Live sessions as JSON: scenes, seeds, inputs and controls with their times; rendering them again gives what was felt.
 #pragma once
 #include "Core/HapticRenderer.h"
+#include "Files/Mix.h"
 #include "Files/Result.h"
 #include "Files/SessionLog.h"
 #include "Physics/SceneRun.h"
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace physvib {
 
 /// The version of the format that is written, and the newest that is read.
-constexpr int sessionFormatVersion = 1;
+constexpr int sessionFormatVersion = 2; // 2: desk, strikes, slow motion
 
 /// A session as it was played.
 struct SavedSession {
@@ -23,6 +25,7 @@ struct SavedSession {
     std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel
     std::int64_t lengthNs = 0;
     SessionLog log; ///< at least one take
+    std::optional<Mix> mix{}; ///< the desk as it was left, if the session was played on one
 };
 
 /// The session that `text` describes; or, of the first thing that is wrong, one line `name: takes[0].scene.bodies[1]...`.
@@ -34,6 +37,9 @@ Result<SavedSession> loadSession(const std::filesystem::path& path);
 
 /// True if the JSON file at `path` says that it is a session. M only.
 bool isSessionFile(const std::filesystem::path& path);
+
+/// The desk as the session left it: its own, or one made of its last scene, layout, gains and mutes. Any thread.
+Mix mixOf(const SavedSession& session);
 
 /// `session` as JSON; a take of the same scene as the one before does not repeat it. readSession gives all of it back
 /// bit for bit, but labels of enchanters. Any thread.

@@ -146,7 +146,7 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
 
 void AudioOutput::renderPart(float* const* out, int outputs, int first, int frames) noexcept {
     session_.render(scratchAt_.data(), frames, RenderMode::realtime);
-    if (auto* recorder = recorder_.load(std::memory_order_acquire)) recorder->take(scratchAt_.data(), frames);
+    if (auto* recorder = recorder_.load(std::memory_order_acquire)) recorder->take(scratchAt_.data(), frames, session_.framesRendered() - frames);
     if (tap_ != nullptr) tap_->take(scratchAt_.data(), frames);
     for (int j = 0; j < session_.channels(); ++j) { // the limiter, if on, leaves nothing to cut
         float* at = scratchAt_[static_cast<std::size_t>(j)];

@@ -79,7 +79,8 @@ public:
     void setLevel(float level) noexcept { level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed); }
 
     /// From now on `recorder` takes all that is played, until the output is closed, or comes back at another rate: a
-    /// file has one rate, so it ends there. M, once.
+    /// file has one rate, so it ends there. Null ends it: R has let go of the old one when a further block has come, or
+    /// the output does not run. M.
     void record(PlayedRecorder* recorder) noexcept { recorder_.store(recorder, std::memory_order_release); }
     bool isRecording() const noexcept { return recorder_.load(std::memory_order_relaxed) != nullptr; }
 

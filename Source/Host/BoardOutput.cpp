@@ -43,7 +43,7 @@ void BoardOutput::apply(const RenderControl& control) {
     if (control.kind == RenderControl::Kind::stopAll) return link_.stopAll();
     if (channel >= gains_.size()) return;
     if (control.kind == RenderControl::Kind::gain) gains_[channel] = control.value;
-    else muted_[channel] = control.value != 0.0f;
+    if (control.kind == RenderControl::Kind::mute) muted_[channel] = control.value != 0.0f;
 }
 
 void BoardOutput::setGains() {

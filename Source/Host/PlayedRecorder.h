@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a live session plays, to a WAV file: the render role fills a ring, the message thread empties it to disk.
 #pragma once
-#include "Core/Nonblocking.h"
+#include "Host/SignalTap.h"
 #include "Host/WavSink.h"
 #include <atomic>
 #include <cstdint>
-#include <juce_core/juce_core.h>
 #include <string>
-#include <vector>
 
 namespace physvib {
 
-/// Every channel of the session, in its own level (before the output's master gain).
+/// Every channel of the session, or the first ones, in their own level (before the output's master gain).
 class PlayedRecorder {
 public:
     /// Room for `seconds` until drain() is called. M.
-    PlayedRecorder(const std::string& path, int channels, int sampleRateHz, double seconds = 4.0);
+    PlayedRecorder(const std::string& path, int channels, int sampleRateHz, double seconds = 4.0)
+        : sampleRateHz_{sampleRateHz}
+        , wav_{path, channels, sampleRateHz}
+        , tap_{channels, static_cast<int>(seconds * sampleRateHz)} {}
 
     int sampleRateHz() const noexcept { return sampleRateHz_; }
 
-    /// R, wait-free. Samples that find no room are lost and counted.
-    void take(const float* const* channels, int frames) noexcept PHYSVIB_NONBLOCKING;
+    /// `sessionFrame`: that of the first one. R, wait-free. Frames that find no room are lost and counted.
+    void take(const float* const* channels, int frames, std::int64_t sessionFrame) noexcept PHYSVIB_NONBLOCKING {
+        if (firstFrame_.load(std::memory_order_relaxed) < 0) firstFrame_.store(sessionFrame, std::memory_order_relaxed);
+        tap_.take(channels, frames);
+    }
 
     /// Writes what has come. M, often enough.
     void drain();
@@ -28,14 +32,16 @@ public:
     /// The last samples, the header, and the file is complete; empty or one line with the reason. M, after R stopped.
     std::string finish();
 
-    std::uint64_t framesLost() const noexcept { return lost_.load(std::memory_order_relaxed); }
+    std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); } ///< of the session; -1: nothing yet
+    std::int64_t frames() const noexcept { return written_; }                                       ///< in the file. M
+    std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
 
 private:
     int sampleRateHz_;
     WavSink wav_;
-    std::vector<std::vector<float>> ring_;
-    juce::AbstractFifo fifo_;
-    std::atomic<std::uint64_t> lost_{0};
+    SignalTap tap_;
+    std::atomic<std::int64_t> firstFrame_{-1};
+    std::int64_t written_ = 0;
 };
 
 } // namespace physvib

@@ -43,6 +43,7 @@ Session::Session(const SessionSetup& setup)
     , state_{std::make_shared<const Scene>(setup.scene), setup.seed}
     , world_{setup.run()} {
     made_.reserve(4096);
+    std::ranges::copy(setup.ceilings, ceilings_.begin());
     world_.start(0, state_.scene, state_.seed);
 }
 

@@ -68,8 +68,11 @@ public:
 
     int channels() const noexcept { return setup_.channels; }
 
-    /// Largest sample of that channel while the limiter is on. Any thread.
-    float ceiling(int channel) const noexcept { return setup_.ceilings[static_cast<std::size_t>(channel)]; }
+    /// The largest that a sample of that channel has been allowed to be while the limiter is on. Any thread.
+    float ceiling(int channel) const noexcept { return ceilings_[static_cast<std::size_t>(channel)].load(std::memory_order_relaxed); }
+
+    /// Session time in frames, with the block that is being rendered. Any thread.
+    std::int64_t framesRendered() const noexcept { return sessionFrames_.load(std::memory_order_relaxed); }
 
     /// Steps the world up to session time; the number of steps made. D.
     int advance();
@@ -173,6 +176,7 @@ private:
     std::atomic<bool> offline_{false};
     std::atomic<bool> isDriven_{false}; // somebody has begun to step the world
     std::atomic<std::int64_t> slippedNs_{0};
+    std::array<std::atomic<float>, limits::maxEnchanters> ceilings_;
     std::atomic<int> slowness_{1}, stepsWanted_{0};
     LatestValue<SessionStatus> status_;
     std::int64_t leastMarginFrames_ = noMargin; // R

@@ -53,6 +53,10 @@ std::int64_t Session::post(RenderControl control) {
     control.timeNs = nowNs();
     if (!controls_.push(control)) return -1;
     if (told_) told_->controls.push(control);
+    if (control.kind == RenderControl::Kind::ceiling && control.channel >= 0 && control.channel < setup_.channels) {
+        auto& most = ceilings_[static_cast<std::size_t>(control.channel)];
+        most = std::max(most.load(), control.value);
+    }
     if (control.kind == RenderControl::Kind::panner)
         controlLog_.panners.push_back({control.timeNs, control.panner});
     else

@@ -6,6 +6,7 @@
 #include "CommandLine/RenderOutputs.h"
 #include "Files/NumberText.h"
 #include "Host/OfflineRender.h"
+#include "Host/SessionRender.h"
 #include <algorithm>
 #include <iostream>
 #include <sstream>
@@ -78,7 +79,7 @@ OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl
 }
 
 SceneEvents eventsOf(const RenderJob& job) {
-    return job.session ? runTakes(job.session->log.takes, job.run(), job.endNs()) : runScene(*job.scene, job.run(), job.endNs());
+    return job.session ? sessionEvents(*job.session, job.endNs()) : runScene(*job.scene, job.run(), job.endNs());
 }
 
 std::string render(RenderJob& job) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The events of takes and strikes merged, then the offline renderer into a file.
+#include "Host/SessionRender.h"
+#include "Files/AtomicFile.h"
+#include "Host/OfflineRender.h"
+#include "Host/WavSink.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs) {
+    SceneEvents all = runTakes(session.log.takes, session.run, endNs);
+    for (const CollisionEvent& strike : session.log.strikes)
+        if (strike.timeNs < endNs) all.events.push_back(strike);
+    std::ranges::stable_sort(all.events, {}, &CollisionEvent::timeNs);
+    return all;
+}
+
+std::string renderSession(const SavedSession& session, const std::string& path, int sampleRateHz, double seconds, const std::string& comment,
+                          const std::function<bool(double)>& progress) {
+    AtomicFile file{path};
+    if (!file.error().empty()) return file.error();
+    WavSink wav{file.temporaryPath().string(), session.channels, sampleRateHz, comment, path};
+    if (!progress(0.0)) return "cancelled";
+    const auto events = sessionEvents(session, std::llround(seconds * 1e9)).events;
+    const auto controls = controlsOf(session.log, true, session.channels);
+    const std::int64_t frames = std::llround(seconds * sampleRateHz);
+    std::int64_t done = 0;
+    bool goesOn = true;
+    renderOffline(events, {{sampleRateHz, session.channels, session.panner, session.limiterEnabled, session.ceilings}, frames, 1024, controls},
+                  [&](const float* const* block, int n) {
+                      done += n;
+                      return wav.write(block, n) && (goesOn = progress(static_cast<double>(done) / static_cast<double>(frames)));
+                  });
+    if (!goesOn) return "cancelled";
+    const auto error = wav.finish();
+    return error.empty() ? file.commit() : error;
+}
+
+} // namespace physvib
