@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the mix to the session's controls, and from what was played to what is shown.
 #include "Mixer/Desk.h"
+#include "Files/ActuatorFile.h"
 #include "Files/SceneCatalogue.h"
+#include "Physics/InputCheck.h"
+#include "Physics/SceneCast.h"
+#include "Physics/SceneEdits.h"
 #include <algorithm>
 #include <cmath>
 
@@ -11,25 +15,24 @@ namespace {
 
 constexpr int stepsPerSecond = 100;
 constexpr double gapSeconds = 0.005; // the driver's thread shares the machine with painting
+constexpr double boardSeconds = 0.05; // the link needs 20 to 40 ms; more than that is told as trouble
 constexpr double holdMs = 1500.0, maintainMs = 1000.0;
 constexpr double newStripDb = -12.0; // hands are attached
 
+juce::String utf8Text(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
 double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
 
-Mix firstMix() {
+Mix shakeTheBox() {
     Mix mix;
     mix.scene = std::make_shared<const Scene>(*findBuiltInScene("shake-the-box"));
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
     mix.layout = describeLayout("phone4", layout);
-    for (int j = 0; j < layout.count; ++j) {
-        mix.strips.emplace_back();
-        mix.strips.back().output = j;
-    }
+    mix.resizeStrips();
     return mix;
 }
 
-SessionSetup setupOf(const Mix& mix) {
+SessionSetup setupOf(const Mix& mix, bool hasBoard) {
     SessionSetup setup;
     setup.scene = *mix.scene;
     setup.seed = mix.seed;
@@ -37,6 +40,7 @@ SessionSetup setupOf(const Mix& mix) {
     setup.channels = Desk::channels;
     setup.panner = mix.panner();
     setup.longestGapSeconds = gapSeconds;
+    if (hasBoard) setup.boardSeconds = boardSeconds;
     return setup;
 }
 
@@ -50,12 +54,9 @@ bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
            a.layout().extentHeightMetres == b.layout().extentHeightMetres && std::ranges::equal(places(a), places(b), equal);
 }
 
-int firstFreeOutput(const Mix& mix) {
-    for (int k = 0;; ++k)
-        if (std::ranges::none_of(mix.strips, [k](const Strip& s) { return s.output == k; })) return k;
-}
-
 } // namespace
+
+Mix Desk::firstMix() { return shakeTheBox(); }
 
 juce::String titleOf(const std::string& name) {
     const auto words = juce::String::fromUTF8(name.c_str()).replaceCharacter('-', ' ');
@@ -82,23 +83,56 @@ private:
     Mix before_, after_;
 };
 
-Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device)
+/// Does something to the world, and the opposite; a body that comes back has another name.
+class Desk::WorldEdit final : public juce::UndoableAction {
+public:
+    WorldEdit(Desk& desk, Action action)
+        : desk_{desk}
+        , forth_{{std::move(action)}} {}
+    bool perform() override { return run(forth_, back_); }
+    bool undo() override { return run(back_, forth_); }
+
+private:
+    bool run(const std::vector<Action>& actions, std::vector<Action>& opposite) {
+        opposite.clear();
+        for (const Action& wanted : actions) {
+            const Action action = desk_.renamed(wanted);
+            const auto back = desk_.undoOf(action);
+            if (!desk_.act(action).empty()) return false;
+            opposite.insert(opposite.begin(), back.begin(), back.end());
+        }
+        return true;
+    }
+    Desk& desk_;
+    std::vector<Action> forth_, back_;
+};
+
+Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     : types_{std::move(types)}
-    , mix_{firstMix()}
-    , session_{setupOf(mix_)}
+    , mix_{std::move(mix)}
+    , session_{setupOf(mix_, !device.board.empty())}
     , tap_{channels, 1 << 14}
     , output_{session_, types_}
     , undo_{1000, 30}
     , sceneNow_{*mix_.scene} {
+    saved_.run = setupOf(mix_, false).run();
+    saved_.panner = mix_.panner();
+    mostEnchanters_ = mix_.count();
     tap_.hear(mix_.count());
     output_.listen(&tap_);
     open(device);
     postDifferences(mix_, true);
+    edits_ = 0;
+    if (!device.board.empty()) {
+        link_ = std::make_unique<BoardLink>(device.board == anyBoard ? std::string{} : device.board);
+        onBoard_ = std::make_unique<BoardOutput>(session_, output_, *link_, mix_.panner());
+    }
     driver_ = std::make_unique<ThreadDriver>(session_, stepsPerSecond);
 }
 
 Desk::~Desk() {
     driver_.reset();
+    onBoard_.reset();
     output_.close();
 }
 
@@ -109,14 +143,16 @@ void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
 
 void Desk::apply(const Mix& next) {
     const Mix before = std::exchange(mix_, next);
+    ++edits_;
+    mostEnchanters_ = std::max(mostEnchanters_, mix_.count());
     if (mix_.scene != before.scene || mix_.seed != before.seed) {
-        if (const auto fault = session_.setState({mix_.scene, mix_.seed}); !fault.empty()) report(juce::String::fromUTF8(fault.c_str()));
+        if (const auto fault = session_.setState({mix_.scene, mix_.seed}); !fault.empty()) report(utf8Text(fault));
         sceneNow_ = *mix_.scene;
     }
     tap_.hear(mix_.count());
     postDifferences(before, false);
     if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output)))
-        if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(juce::String::fromUTF8(error.c_str()));
+        if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8Text(error));
     output_.setLevel(levelOf(mix_));
     sendChangeMessage();
 }
@@ -133,6 +169,8 @@ void Desk::postDifferences(const Mix& before, bool all) {
         const Strip strip = mix_.strips[i], old = !all && i < before.strips.size() ? before.strips[i] : Strip{};
         const bool isSilent = mix_.isSilent(j), wasSilent = !all && i < before.strips.size() && before.isSilent(j);
         if (channelGain(strip) != channelGain(old)) session_.post({0, Kind::gain, j, channelGain(strip), {}});
+        if (strip.delayMs != old.delayMs) session_.post({0, Kind::delay, j, static_cast<float>(1e-3 * strip.delayMs), {}});
+        if (strip.ceilingDb != old.ceilingDb) session_.post({0, Kind::ceiling, j, static_cast<float>(std::pow(10.0, strip.ceilingDb / 20.0)), {}});
         if (isSilent != wasSilent) session_.post({0, Kind::mute, j, isSilent ? 1.0f : 0.0f, {}});
     }
 }
@@ -155,7 +193,7 @@ bool Desk::attach(double shareX, double shareY) {
         layout.geometry.places[static_cast<std::size_t>(layout.geometry.count++)] = {shareX * layout.geometry.extentWidthMetres, shareY * layout.geometry.extentHeightMetres};
         Strip strip;
         strip.gainDb = newStripDb;
-        strip.output = firstFreeOutput(mix);
+        strip.output = mix.freeOutput();
         mix.strips.push_back(strip);
     });
     return true;
@@ -177,16 +215,119 @@ void Desk::detach(int enchanter) {
 std::string Desk::act(const Action& action) {
     const auto fault = session_.act(action);
     if (!fault.empty()) return fault;
-    if (std::holds_alternative<SpawnAction>(action)) {
-        sceneNow_.inputs.push_back({0.0, action});
-        sendChangeMessage();
+    ++edits_;
+    showEdit(action);
+    return {};
+}
+
+void Desk::showEdit(const Action& action) {
+    if (std::holds_alternative<SpawnAction>(action)) sceneNow_.inputs.push_back({0.0, action});
+    else if (std::holds_alternative<MaterialAction>(action) || std::holds_alternative<SoundAction>(action) || std::holds_alternative<CameraAction>(action))
+        describeEdit(sceneNow_, action);
+    else return;
+    ++worldEdits_;
+    sendChangeMessage();
+}
+
+// A name is given once.
+Action Desk::renamed(const Action& action) {
+    Action named = action;
+    if (auto* spawn = std::get_if<SpawnAction>(&named)) spawn->body.name = "added " + std::to_string(++added_);
+    return named;
+}
+
+std::vector<Action> Desk::undoOf(const Action& action) const {
+    const auto cast = sceneCast(sceneNow_);
+    const auto body = [&cast](const std::string& name) { return std::ranges::find(cast, name, &BodyDescription::name); };
+    if (const auto* spawn = std::get_if<SpawnAction>(&action)) return {RemoveAction{spawn->body.name}};
+    if (const auto* removal = std::get_if<RemoveAction>(&action)) {
+        const auto found = body(removal->body);
+        std::vector<BodyPose> poses;
+        session_.readPoses(poses);
+        const auto index = static_cast<std::size_t>(found - cast.begin());
+        if (found == cast.end() || index >= poses.size()) return {};
+        BodyDescription back = *found;
+        back.positionMetres = {poses[index].xMetres, poses[index].yMetres};
+        back.angleRadians = poses[index].angleRadians;
+        return {SpawnAction{back, {}}};
+    }
+    if (const auto* material = std::get_if<MaterialAction>(&action)) {
+        const auto found = body(material->body);
+        std::vector<Action> back;
+        for (std::size_t i = 0; found != cast.end() && i < found->fixtures.size(); ++i) back.push_back(MaterialAction{material->body, static_cast<int>(i), found->fixtures[i].material});
+        return back;
+    }
+    if (const auto* sound = std::get_if<SoundAction>(&action)) {
+        const auto& old = sceneNow_.materials[static_cast<std::size_t>(sound->material)];
+        return {SoundAction{sound->material, old.frequencyHz, old.decayPerSecond}};
     }
     return {};
+}
+
+std::string Desk::editWorld(const juce::String& name, const Action& action) {
+    Action trial = action;
+    if (auto* spawn = std::get_if<SpawnAction>(&trial)) spawn->body.name = "added " + std::to_string(added_ + 1);
+    Scene scene = sceneNow_;
+    if (auto fault = InputCheck{scene}.take(trial); !fault.empty()) return fault;
+    undo_.beginNewTransaction(name);
+    undo_.perform(new WorldEdit{*this, action});
+    return {};
+}
+
+const SavedSession& Desk::saved() {
+    saved_.channels = mostEnchanters_;
+    saved_.lengthNs = session_.status().sessionNs;
+    session_.readLog(saved_.log);
+    saved_.mix = mix_;
+    return saved_;
+}
+
+std::string Desk::startRecording(const juce::File& file) {
+    if (recording_) return {};
+    if (output_.sampleRateHz() == 0) return "nothing to record: no device runs";
+    auto recording = std::make_unique<Recording>(file.getFullPathName().toStdString(), mix_.count(), output_.sampleRateHz());
+    if (!recording->error().empty()) return recording->error();
+    recording_ = std::move(recording);
+    recordingFile_ = file;
+    isEnding_ = false;
+    output_.record(&recording_->recorder());
+    sendChangeMessage();
+    return {};
+}
+
+void Desk::stopRecording() {
+    if (!isRecording()) return;
+    output_.record(nullptr);
+    isEnding_ = true;
+    endsAfterBlock_ = output_.status().blocks + 1;
+    sendChangeMessage();
+}
+
+double Desk::recordedSeconds() const noexcept {
+    return recording_ ? static_cast<double>(recording_->recorder().frames()) / recording_->recorder().sampleRateHz() : 0.0;
+}
+
+// R has let go of it when a block has come since; events of the last frames have been played by then.
+void Desk::finishRecording() {
+    recording_->drain();
+    if (!isEnding_ && output_.isRecording()) return;
+    if (isEnding_ && now_.device.isRunning && now_.device.blocks <= endsAfterBlock_) return;
+    const Provenance provenance{PHYSVIB_VERSION, {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
+    recordedFrom_ = recording_->recorder().firstFrame();
+    const auto lost = recording_->recorder().framesLost();
+    auto error = utf8Text(recording_->finish(session_.playOutFrames(), provenance));
+    if (error.isEmpty() && lost > 0) error = "frames missing in the recording: " + juce::String{static_cast<juce::int64>(lost)};
+    if (error.isEmpty() && !isEnding_) error = "the recording ends where the device changed its rate";
+    recording_.reset();
+    if (onRecorded) onRecorded(recordingFile_, error);
+    sendChangeMessage();
 }
 
 void Desk::restart(std::uint32_t seed) {
     if (seed != mix_.seed) return change("Seed", [seed](Mix& mix) { mix.seed = seed; });
     sceneNow_ = *mix_.scene;
+    ++edits_;
+    ++worldEdits_;
     session_.restart();
     sendChangeMessage();
 }
@@ -203,12 +344,14 @@ void Desk::strike(int enchanter, std::vector<CollisionEvent> strikes) {
         s.x = place.xMetres / layout.extentWidthMetres * mix_.scene->fieldWidthMetres;
         s.y = place.yMetres / layout.extentHeightMetres * mix_.scene->fieldHeightMetres;
     }
+    ++edits_;
     session_.play(strikes);
 }
 
 void Desk::testPulse(int enchanter) {
     CollisionEvent pulse;
-    pulse.frequencyHz = 205.0; // where the thesis' actuators are strongest
+    const auto profile = findActuator(mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].actuator);
+    pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0; // where the thesis' actuators are strongest
     pulse.decayPerSecond = 30.0;
     pulse.amplitude = 0.5;
     strike(enchanter, {pulse});
@@ -232,7 +375,7 @@ std::string Desk::open(const DeviceChoice& device) {
     AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, levelOf(mix_), mix_.count(), true};
     const auto error = output_.open(settings);
     device_ = device;
-    report(deviceTrouble_ = juce::String::fromUTF8(error.c_str()));
+    report(deviceTrouble_ = utf8Text(error));
     scope_.setRate(output_.sampleRateHz());
     return error;
 }
@@ -248,8 +391,15 @@ double Desk::playOutSeconds() const noexcept {
 }
 
 void Desk::report(const juce::String& trouble) {
-    if (trouble == trouble_) return;
+    if (trouble == trouble_ && !isNews_) return;
     trouble_ = trouble;
+    isNews_ = false;
+    sendChangeMessage();
+}
+
+void Desk::tell(const juce::String& news) {
+    trouble_ = news;
+    isNews_ = true;
     sendChangeMessage();
 }
 
@@ -270,10 +420,14 @@ DeskMoment Desk::look() {
     const auto fall = static_cast<float>(std::pow(10.0, -meterFallDbPerSecond * passed / 20'000.0));
     for (auto& peak : now_.meters.peaks) peak = peak * fall < 1e-4f ? 0.0f : peak * fall;
     tap_.read([this](const float* const* block, int frames) { measure(block, frames); });
-    now_.hits.clear();
-    for (PlayedEvent played; session_.played().pop(played);) now_.hits.push_back(played.event);
     now_.session = session_.status();
     now_.device = output_.status();
+    now_.hits.clear();
+    for (PlayedEvent played; session_.played().pop(played);) {
+        now_.hits.push_back(played.event);
+        if (recording_) recording_->take(played);
+    }
+    if (recording_) finishRecording();
     now_.meters.limiterGain = now_.session.render.limiterGain;
     now_.meters.enchanters = mix_.count();
     float loudest = 0.0f;
@@ -288,7 +442,7 @@ DeskMoment Desk::look() {
     now_.aheadNs = static_cast<std::int64_t>(1e9 * playOutSeconds());
     if (now - maintainedAtMs_ > maintainMs) {
         maintainedAtMs_ = now;
-        if (const auto trouble = juce::String::fromUTF8(output_.maintain().c_str()); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
+        if (const auto trouble = utf8Text(output_.maintain()); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
     }
     return now_;
 }

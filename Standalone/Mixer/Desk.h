@@ -5,10 +5,14 @@
 #include "Files/Mix.h"
 #include "Host/AudioOutput.h"
 #include "Host/ChannelMeters.h"
+#include "Host/Recording.h"
 #include "Host/SimulationDriver.h"
+#include "Files/SessionFile.h"
+#include "Host/BoardOutput.h"
 #include "Mixer/ScopeTrace.h"
 #include <juce_data_structures/juce_data_structures.h>
 #include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,7 +37,11 @@ struct DeviceChoice {
     std::string name;     ///< type:name
     int sampleRateHz = 0; ///< 0: as it stands
     int blockFrames = 0;
+    std::string board{};  ///< serial port of a four-channel board beside it, anyBoard; empty: none
 };
+
+/// The first board that answers.
+inline constexpr const char* anyBoard = "auto";
 
 /// M only. Listeners are told when the mix, the device or the trouble changes.
 class Desk final : public juce::ChangeBroadcaster {
@@ -41,8 +49,10 @@ public:
     /// Channels of the session: whatever is attached while it plays finds one.
     static constexpr int channels = limits::maxEnchanters;
 
-    /// Opens the first `device` of `types` that works; silence and trouble() if there is none.
-    explicit Desk(AudioDeviceTypes types, const DeviceChoice& device);
+    /// Plays `mix` on `device`, one of `types`; trouble() if it does not open. Its rate and block hold until another is opened.
+    Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix = firstMix());
+    /// *Shake the box* on PHONE4, at a safe level.
+    static Mix firstMix();
     ~Desk() override;
 
     // ---- the mix
@@ -60,10 +70,18 @@ public:
     /// Attaches an enchanter at a place of the field (shares of its width and height), quietly; false: no room.
     bool attach(double shareX, double shareY);
     void detach(int enchanter); ///< one always stays
+    /// Grows with every edit and every input: what a document has to be saved for.
+    std::uint64_t edits() const noexcept { return edits_; }
+    /// The session until now, to be saved: rendered again it is what was played.
+    const SavedSession& saved();
 
     // ---- the world
     const Scene& sceneNow() const noexcept { return sceneNow_; } ///< with what was spawned since it began
+    std::uint64_t worldEdits() const noexcept { return worldEdits_; } ///< grows when sceneNow() changes
     std::string act(const Action& action);                       ///< empty, or what is wrong with it
+    /// An edit of the world that can be undone: adds a body, takes one away, makes it of another material, changes a
+    /// sound. Empty, or what is wrong with it.
+    std::string editWorld(const juce::String& name, const Action& action);
     void restart(std::uint32_t seed);
     void setSlowness(int slowness);
     int slowness() const noexcept { return session_.slowness(); }
@@ -72,6 +90,15 @@ public:
     void testPulse(int enchanter);
     void testSweep(int enchanter);
     Session& session() noexcept { return session_; }
+
+    // ---- the recording
+    /// WAV of the enchanters that are attached now, and the events beside it; empty, or why not.
+    std::string startRecording(const juce::File& file);
+    void stopRecording(); ///< the files are in their places a moment later: recorded() says so
+    bool isRecording() const noexcept { return recording_ != nullptr && !isEnding_; }
+    double recordedSeconds() const noexcept;
+    std::int64_t recordedFrom() const noexcept { return recordedFrom_; } ///< session frame of the last recording's first one
+    std::function<void(const juce::File&, const juce::String& error)> onRecorded;
 
     // ---- the output
     std::string open(const DeviceChoice& device);
@@ -83,15 +110,28 @@ public:
     bool isSilent() const noexcept { return isSilent_; }
     double playOutSeconds() const noexcept;
 
+    /// What the four-channel board says, if one is wanted. It plays the first four enchanters.
+    std::optional<BoardLinkStatus> board() const { return link_ ? std::optional{link_->status()} : std::nullopt; }
+    /// The choice asks for a board, or for none: L is another then, so the session has to begin anew.
+    std::function<void(const DeviceChoice&)> onBoardWanted;
+
     // ---- looking
     /// What is new; at most about 30 times a second.
     DeskMoment look();
     const ScopeTrace& scope() const noexcept { return scope_; }
     const juce::String& trouble() const noexcept { return trouble_; } ///< one line; empty while all is well
     void report(const juce::String& trouble);
+    /// What went well, told in the same place.
+    void tell(const juce::String& news);
+    bool isNews() const noexcept { return isNews_; }
 
 private:
     class MixEdit;
+    class WorldEdit;
+    std::vector<Action> undoOf(const Action& action) const;
+    Action renamed(const Action& action);
+    void finishRecording();
+    void showEdit(const Action& action);
     void apply(const Mix& next);
     void postDifferences(const Mix& before, bool all);
     std::vector<int> outputMap() const;
@@ -103,12 +143,22 @@ private:
     Session session_;
     SignalTap tap_;
     AudioOutput output_;
+    std::unique_ptr<BoardLink> link_;
+    std::unique_ptr<BoardOutput> onBoard_;
     std::unique_ptr<SimulationDriver> driver_;
     juce::UndoManager undo_;
     Scene sceneNow_;
     DeviceChoice device_;
     juce::String trouble_, deviceTrouble_;
-    bool isSilent_ = false;
+    bool isSilent_ = false, isNews_ = false;
+    std::uint64_t edits_ = 0, worldEdits_ = 0;
+    SavedSession saved_;
+    int mostEnchanters_ = 0, added_ = 0;
+    std::unique_ptr<Recording> recording_;
+    juce::File recordingFile_;
+    bool isEnding_ = false;
+    std::int64_t recordedFrom_ = 0;
+    std::uint64_t endsAfterBlock_ = 0;
 
     ScopeTrace scope_;
     DeskMoment now_;

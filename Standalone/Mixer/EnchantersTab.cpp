@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of enchanters and the settings of the panner.
 #include "Mixer/EnchantersTab.h"
+#include "Files/ActuatorFile.h"
 
 namespace physvib {
 
@@ -89,23 +90,20 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     for (int id = 1; const auto name : panningLawNames) law_.addItem(juce::String{name.data()}, id++);
     law_.onChange = [this] { desk_.change("Panning law", [this](Mix& mix) { mix.law = static_cast<PanningLaw>(law_.getSelectedItemIndex()); }); };
     exponent_.setTitle("Exponent");
+    exponent_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack); // asked for when the box is made
     exponent_.setSliderStyle(juce::Slider::LinearHorizontal);
     exponent_.setTextBoxStyle(juce::Slider::TextBoxRight, false, 46, 24);
     exponent_.setRange(0.25, 4.0, 0.05);
     exponent_.setSkewFactorFromMidPoint(1.0);
     exponent_.setDoubleClickReturnValue(true, 1.0);
-    exponent_.onValueChange = [this, held = false]() mutable {
-        const bool goesOn = held && exponent_.isMouseButtonDown();
-        held = exponent_.isMouseButtonDown();
-        desk_.change("Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, goesOn);
-    };
-    list_.setTitle("Enchanters");
+    onSlide(exponent_, [this](bool goesOn) { desk_.change("Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, goesOn); });
+    list_.setTitle("List of enchanters");
     list_.setRowHeight(rowPixels);
     maps_.setTitle("Map of the chosen enchanter");
     maps_.onClick = [this] { visibilityChanged(); };
     detach_ = quietButton("Detach", "Detach the chosen enchanter (Delete)");
     detach_->onClick = [this] { if (chosen_ >= 0) desk_.detach(chosen_); };
-    edit_ = quietButton(juce::String::fromUTF8("Name, full scale\xe2\x80\xa6"), "Name and full scale of the chosen enchanter (Return)");
+    edit_ = quietButton(juce::String::fromUTF8("Name, actuator\xe2\x80\xa6"), "Name, actuator and full scale of the chosen enchanter (Return)");
     edit_->onClick = [this] { if (chosen_ >= 0) editRow(chosen_); };
     caption(presetName_, "Preset");
     caption(lawName_, "Law");
@@ -130,11 +128,21 @@ void EnchantersTab::editRow(int enchanter) {
     const auto& e = desk_.mix().layout.enchanters[i];
     auto* window = new juce::AlertWindow{"Enchanter " + utf8(e.label), {}, juce::MessageBoxIconType::NoIcon, this};
     window->addTextEditor("label", utf8(e.label), "Label");
+    juce::StringArray profiles{"none"};
+    for (const auto& profile : builtInActuators()) profiles.add(utf8(profile.name));
+    window->addComboBox("actuator", profiles, "Actuator");
+    auto* actuator = window->getComboBoxComponent("actuator");
+    actuator->setText(utf8(e.actuator), juce::dontSendNotification);
+    actuator->onChange = [window, actuator] {
+        const auto profile = findActuator(actuator->getText().toStdString());
+        if (profile && profile.value.fullScaleG) window->getTextEditor("g")->setText(juce::String{*profile.value.fullScaleG}, false);
+    };
     window->addTextEditor("g", juce::String{e.fullScaleG}, "Full scale in g");
     window->addButton("Take", 1, juce::KeyPress{juce::KeyPress::returnKey});
     window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
     window->enterModalState(true, juce::ModalCallbackFunction::create([this, i, window](int answer) {
         const auto label = window->getTextEditorContents("label").trim().toStdString();
+        const auto profile = window->getComboBoxComponent("actuator")->getText().toStdString();
         const double g = window->getTextEditorContents("g").getDoubleValue();
         const auto& all = desk_.mix().layout.enchanters;
         if (answer == 0 || i >= all.size()) return;
@@ -143,6 +151,7 @@ void EnchantersTab::editRow(int enchanter) {
         if (!(g > 0.0 && g <= 100.0)) return desk_.report("Full scale: expected a number of g above 0, at most 100");
         desk_.change("Enchanter " + utf8(label), [&](Mix& mix) {
             mix.layout.enchanters[i].label = label;
+            mix.layout.enchanters[i].actuator = profile;
             mix.layout.enchanters[i].fullScaleG = g;
         });
     }), true);
@@ -161,13 +170,7 @@ void EnchantersTab::takePreset() {
             described.enchanters[j].fullScaleG = mix.layout.enchanters[j].fullScaleG;
         }
         mix.layout = std::move(described);
-        const auto before = mix.strips.size();
-        mix.strips.resize(static_cast<std::size_t>(layout.count));
-        for (std::size_t j = before; j < mix.strips.size(); ++j) {
-            int output = 0;
-            while (std::ranges::any_of(std::span{mix.strips}.first(j), [output](const Strip& s) { return s.output == output; })) ++output;
-            mix.strips[j].output = output;
-        }
+        mix.resizeStrips();
     });
 }
 

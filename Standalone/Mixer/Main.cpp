@@ -52,18 +52,15 @@ public:
     void initialise(const juce::String&) override {
         const juce::ArgumentList arguments{"physvib-mixer", getCommandLineParameterArray()};
         const auto device = valueOf(arguments, "--device");
-        const auto none = std::string{noDeviceType} + ":" + noDeviceName;
-        desk_ = std::make_unique<Desk>(deviceTypes(), DeviceChoice{device.isEmpty() ? none : device.toStdString(), 0, 0});
-        window_ = std::make_unique<MixerWindow>(*desk_);
+        juce::File file;
+        for (int k = 0; k < arguments.size(); ++k)
+            if (!arguments[k].isOption() && (k == 0 || arguments[k - 1].text != "--device")) file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[k].text);
+        window_ = std::make_unique<MixerWindow>(deviceTypes(), device, file);
     }
-    void shutdown() override {
-        window_.reset();
-        desk_.reset();
-    }
-    void systemRequestedQuit() override { quit(); }
+    void shutdown() override { window_.reset(); }
+    void systemRequestedQuit() override { window_->requestQuit(); }
 
 private:
-    std::unique_ptr<Desk> desk_;
     std::unique_ptr<MixerWindow> window_;
 };
 

@@ -31,7 +31,9 @@ MixerView::MixerView(Desk& desk)
     for (juce::Component* c : std::initializer_list<juce::Component*>{&bar_, &world_, &tabs_, &scope_, &strips_}) addAndMakeVisible(c);
     addChildComponent(trouble_);
     addChildComponent(*dismiss_);
+    prepareControls(*this);
     desk_.addChangeListener(this);
+    addMouseListener(this, true);
     takeMix();
     setSize(1440, 900);
     startTimerHz(framesPerSecond);
@@ -58,7 +60,7 @@ void MixerView::takeMix() {
     const bool isTrouble = desk_.trouble().isNotEmpty();
     trouble_.setText(desk_.trouble(), juce::dontSendNotification);
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
-    if (isTrouble == trouble_.isVisible()) return;
+    if (isTrouble == trouble_.isVisible()) return repaint(trouble_.getBounds().getUnion(dismiss_->getBounds()));
     trouble_.setVisible(isTrouble);
     dismiss_->setVisible(isTrouble);
     resized();
@@ -66,21 +68,23 @@ void MixerView::takeMix() {
 }
 
 void MixerView::refresh() {
-    const auto moment = desk_.look();
-    bar_.refresh(moment);
-    world_.refresh(moment);
-    tabs_.refresh(moment);
+    latest_ = desk_.look();
+    bar_.refresh(latest_);
+    world_.refresh(latest_);
+    tabs_.refresh(latest_);
     scope_.refresh();
-    strips_.refresh(moment);
+    strips_.refresh(latest_);
 }
 
-void MixerView::setHint(const juce::String& hint) {
-    hint_ = hint;
-    repaint();
+void MixerView::setHint(bool isShown) {
+    if (isShown == isHintShown_) return;
+    isHintShown_ = isShown;
+    repaint(world_.getBounds());
 }
 
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
+    setHint(false);
     if (key == KeyPress::escapeKey) return bar_.toggleSilence(), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
     if (key == KeyPress{'.'}) return desk_.stepOnce(), true;
@@ -93,22 +97,23 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
 void MixerView::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::ground));
     if (!trouble_.isVisible()) return;
-    g.setColour(shade(*this, Shade::limit).withAlpha(0.22f));
+    g.setColour(shade(*this, desk_.isNews() ? Shade::accent : Shade::limit).withAlpha(0.22f));
     g.fillRoundedRectangle(trouble_.getBounds().getUnion(dismiss_->getBounds()).toFloat(), 6.0f);
 }
 
 void MixerView::paintOverChildren(juce::Graphics& g) {
-    if (hint_.isEmpty()) return;
-    const auto lines = juce::StringArray::fromLines(hint_);
+    if (!isHintShown_) return;
+    static const juce::StringArray lines{"Hold the enchanters: they start quietly, a quarter of full scale.", "Drag a ball to throw it. Drag + onto the field to attach another enchanter.",
+                                         "Esc silences everything. More is in the menu, at the top left."};
     const juce::Font font{text::medium};
-    const auto at = world_.getBounds().reduced(30).removeFromBottom(150).withSizeKeepingCentre(470, 30 + 24 * lines.size());
+    const auto at = world_.getBounds().withSizeKeepingCentre(590, 34 + 26 * lines.size());
     g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
     g.fillRoundedRectangle(at.toFloat(), 10.0f);
     g.setFont(font);
     auto area = at.reduced(20, 15);
     for (const auto& line : lines) {
         g.setColour(shade(*this, Shade::text));
-        g.drawText(line, area.removeFromTop(24), juce::Justification::centredLeft, true);
+        g.drawText(line, area.removeFromTop(26), juce::Justification::centredLeft, true);
     }
 }
 
@@ -122,10 +127,10 @@ void MixerView::resized() {
         trouble_.setBounds(row);
         area.removeFromTop(gap);
     }
-    const int lower = std::min(stripsHeight, area.getHeight() * 2 / 5);
+    const int lower = std::min(stripsHeight, area.getHeight() * 44 / 100);
     auto bottom = area.removeFromBottom(lower);
     area.removeFromBottom(gap);
-    const int right = juce::jlimit(400, 620, area.getWidth() * 37 / 100);
+    const int right = juce::jlimit(400, 640, area.getWidth() * 39 / 100);
     tabs_.setBounds(area.removeFromRight(right));
     area.removeFromRight(gap);
     world_.setBounds(area);

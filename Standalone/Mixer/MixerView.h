@@ -18,15 +18,17 @@ public:
 
     /// One picture of what is going on; the timer calls it.
     void refresh();
+    const DeskMoment& latest() const noexcept { return latest_; } ///< what it shows
     void setGround(Ground ground);
     Ground ground() const noexcept { return look_.ground(); }
 
     TopBar& topBar() noexcept { return bar_; }
     WorldPanel& world() noexcept { return world_; }
     TabPanel& tabs() noexcept { return tabs_; }
-    /// A line at the window's foot; empty hides it.
-    void setHint(const juce::String& hint);
+    /// Three lines for those who see the mixer for the first time; a click or a key takes them away.
+    void setHint(bool isShown);
 
+    void mouseDown(const juce::MouseEvent&) override { setHint(false); }
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void paintOverChildren(juce::Graphics& g) override;
@@ -46,7 +48,8 @@ private:
     StripsPanel strips_;
     juce::Label trouble_;
     std::unique_ptr<juce::TextButton> dismiss_;
-    juce::String hint_;
+    bool isHintShown_ = false;
+    DeskMoment latest_;
     juce::TooltipWindow tooltips_{this, 600};
 };
 

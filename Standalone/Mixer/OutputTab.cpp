@@ -2,6 +2,7 @@
 // Choices of a device, and what it says of itself.
 #include "Mixer/OutputTab.h"
 #include "Host/NoDevice.h"
+#include "Host/SerialLine.h"
 
 namespace physvib {
 
@@ -25,6 +26,9 @@ OutputTab::OutputTab(Desk& desk)
     caption(deviceName_, "Device");
     caption(rateName_, "Rate");
     caption(blockName_, "Block");
+    caption(boardName_, "Four-channel board");
+    board_.setTitle("Board");
+    board_.onChange = [this] { connectBoard(); };
     device_.setTitle("Device");
     rate_.setTitle("Rate");
     block_.setTitle("Block");
@@ -35,7 +39,7 @@ OutputTab::OutputTab(Desk& desk)
     scan_ = quietButton("Look again", "Look for devices again");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_}) addAndMakeVisible(c);
     takeMix();
 }
 
@@ -45,6 +49,17 @@ void OutputTab::visibilityChanged() {
 
 void OutputTab::scan() {
     found_ = listAudioDevices(desk_.deviceTypes());
+    ports_.clear();
+    board_.clear(juce::dontSendNotification);
+    board_.addItem("none", 1);
+    board_.addItem("the first that answers", 2);
+    for (const auto& port : listSerialPorts()) {
+        ports_.push_back(port.path);
+        board_.addItem(utf8(port.path) + "  " + utf8(port.description), static_cast<int>(ports_.size()) + 2);
+    }
+    const auto& wanted = desk_.device().board;
+    const auto at = std::ranges::find(ports_, wanted);
+    board_.setSelectedId(wanted.empty() ? 1 : at == ports_.end() ? 2 : static_cast<int>(at - ports_.begin()) + 3, juce::dontSendNotification);
     isScanned_ = true;
     takeMix();
 }
@@ -57,6 +72,27 @@ void OutputTab::open() {
     choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
     desk_.open(choice);
     takeMix();
+}
+
+void OutputTab::connectBoard() {
+    const int id = board_.getSelectedId();
+    DeviceChoice choice = desk_.device();
+    choice.board = id <= 1 ? std::string{} : id == 2 ? std::string{anyBoard} : ports_[static_cast<std::size_t>(id - 3)];
+    if (choice.board != desk_.device().board && desk_.onBoardWanted) desk_.onBoardWanted(choice);
+}
+
+juce::String OutputTab::boardState(Shade& state) const {
+    using State = BoardLinkStatus::State;
+    state = Shade::muted;
+    const auto status = desk_.board();
+    if (!status) return "none";
+    const auto& s = *status;
+    state = s.state == State::ready ? Shade::text : Shade::now;
+    if (s.state == State::ready)
+        return utf8(s.port) + ": ready, needs " + number(s.playOutMs, 0) + " ms, " + juce::String{static_cast<juce::int64>(s.sent)} + " sent, " +
+               juce::String{static_cast<juce::int64>(s.thinned)} + " thinned" + (desk_.mix().count() > limits::board::channels ? "; the first 4 enchanters" : "");
+    if (!s.trouble.empty()) return utf8(s.trouble);
+    return s.state == State::searching ? "looking for a board" : utf8(s.port) + ": connecting";
 }
 
 void OutputTab::takeMix() {
@@ -73,7 +109,7 @@ void OutputTab::takeMix() {
     if (chosen == 0) device_.setText(utf8(choice.name), juce::dontSendNotification);
     rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
-    for (auto* label : {&deviceName_, &rateName_, &blockName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
 void OutputTab::setFacts(std::vector<Fact> facts) {
@@ -91,6 +127,8 @@ void OutputTab::refresh(const DeskMoment& moment) {
     int connected = 0;
     for (const Strip& strip : desk_.mix().strips) connected += strip.output >= 0 && strip.output < desk_.outputs() ? 1 : 0;
     const int all = desk_.mix().count();
+    Shade boardShade = Shade::muted;
+    const auto board = boardState(boardShade);
     const double slipped = 1e-6 * static_cast<double>(desk_.session().slippedNs());
     setFacts({{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
                !moment.device.isRunning ? Shade::limit : isNone ? Shade::now : Shade::text},
@@ -101,7 +139,7 @@ void OutputTab::refresh(const DeskMoment& moment) {
               {"Late", juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls", r.late > 0 ? Shade::now : Shade::text},
               {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}},
               {"Opened again", juce::String{moment.device.losses} + " times"},
-              {"Board", "not connected", Shade::muted}});
+              {"Board", board, boardShade}});
 }
 
 void OutputTab::paint(juce::Graphics& g) {
@@ -133,7 +171,10 @@ void OutputTab::resized() {
     rate_.setBounds(row.removeFromLeft(half));
     row.removeFromLeft(gap);
     block_.setBounds(row);
-    area.removeFromTop(14);
+    area.removeFromTop(10);
+    boardName_.setBounds(area.removeFromTop(18));
+    board_.setBounds(area.removeFromTop(rowHeight));
+    area.removeFromTop(12);
     factsArea_ = area;
 }
 

@@ -24,12 +24,16 @@ private:
     void setFacts(std::vector<Fact> facts);
 
     Desk& desk_;
-    juce::ComboBox device_, rate_, block_;
-    juce::Label deviceName_, rateName_, blockName_;
+    void connectBoard();
+    juce::String boardState(Shade& shade) const;
+
+    juce::ComboBox device_, rate_, block_, board_;
+    juce::Label deviceName_, rateName_, blockName_, boardName_;
     std::unique_ptr<juce::TextButton> scan_;
     juce::Rectangle<int> factsArea_;
     std::vector<Fact> facts_;
     std::vector<AudioDeviceName> found_;
+    std::vector<std::string> ports_;
     bool isScanned_ = false;
 };
 

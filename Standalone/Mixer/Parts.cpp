@@ -88,6 +88,21 @@ std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const j
     return button;
 }
 
+void onSlide(juce::Slider& slider, std::function<void(bool)> use) {
+    const auto isFirst = std::make_shared<bool>(true);
+    slider.onDragStart = [isFirst] { *isFirst = true; };
+    slider.onValueChange = [&slider, isFirst, use = std::move(use)] { use(slider.isMouseButtonDown() && !std::exchange(*isFirst, false)); };
+}
+
+void prepareControls(juce::Component& root) {
+    auto* slider = dynamic_cast<juce::Slider*>(&root);
+    if (slider != nullptr) slider->setWantsKeyboardFocus(true);
+    const bool isControl = slider != nullptr || root.getWantsKeyboardFocus() || dynamic_cast<juce::Button*>(&root) != nullptr;
+    if (isControl && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
+    if (slider == nullptr && dynamic_cast<juce::ComboBox*>(&root) == nullptr) // their parts are theirs
+        for (auto* child : root.getChildren()) prepareControls(*child);
+}
+
 juce::String number(double value, int decimals) { return picture::number(value, decimals); }
 juce::String utf8(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
 

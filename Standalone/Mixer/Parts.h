@@ -41,6 +41,12 @@ constexpr int panelInset = 14, gap = 12, rowHeight = 30;
 /// A button that looks like a word in the accent's colour.
 std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name);
 
+/// Calls `use` with every new value of the slider; `goesOn` is true for all but the first while it is held.
+void onSlide(juce::Slider& slider, std::function<void(bool goesOn)> use);
+
+/// Every control under `root` can be reached by the keyboard, and is seen to be.
+void prepareControls(juce::Component& root);
+
 /// Fixed notation, with a true minus sign.
 juce::String number(double value, int decimals);
 juce::String utf8(const std::string& words);

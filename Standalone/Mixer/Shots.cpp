@@ -24,27 +24,43 @@ AudioDeviceTypes onlyNoDevice() {
     };
 }
 
+juce::Component* find(juce::Component& root, const juce::String& title) {
+    if (root.getTitle() == title) return &root;
+    for (auto* child : root.getChildren())
+        if (auto* found = find(*child, title)) return found;
+    return nullptr;
+}
+
 const std::vector<State>& states() {
     static const std::vector<State> all{
+        {"first-start", 1440, 900, 2.0, [](Desk&, MixerView& v) { v.setHint(true); }},
         {"four-enchanters", 1440, 900, 4.0, [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
         {"output", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }},
         {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
         {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},
         {"error", 1440, 900, 2.0, [](Desk& d, MixerView&) { d.report("session.json: takes[0].scene.bodies[4].fixtures[0].radius_m: expected 0.01 to 100, found 0"); }},
-        {"six-enchanters", 1440, 900, 3.0, [](Desk& d, MixerView&) {
+        {"six-enchanters", 1440, 900, 3.0, [](Desk& d, MixerView& v) {
              d.attach(0.5, 0.5);
              d.attach(0.5, 1.0);
+             d.change("Mute", [](Mix& m) { m.strips[2].isMuted = true, m.strips[3].isInverted = true, m.strips[1].delayMs = 5.0; });
+             d.dispatchPendingMessages();
+             if (auto* list = dynamic_cast<juce::ListBox*>(find(v, "List of enchanters"))) list->selectRow(4);
+             if (auto* maps = dynamic_cast<juce::Button*>(find(v, "Map of the chosen enchanter"))) maps->setToggleState(true, juce::sendNotificationSync);
          }},
     };
     return all;
 }
 
+// For so long, and then until something has been struck: a picture without a hit says little.
 void runFor(double seconds, MixerView& view) {
     const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds;
-    while (juce::Time::getMillisecondCounterHiRes() < end) {
-        juce::Thread::sleep(30);
+    bool isStruck = false;
+    while (juce::Time::getMillisecondCounterHiRes() < end || (!isStruck && juce::Time::getMillisecondCounterHiRes() < end + 10e3)) {
+        juce::Thread::sleep(33);
         view.refresh();
+        isStruck = std::ranges::any_of(view.latest().hits, [](const CollisionEvent& e) { return std::abs(e.amplitude) > 0.15; });
     }
+    for (int k = 0; k < 2; ++k) juce::Thread::sleep(33), view.refresh();
 }
 
 } // namespace

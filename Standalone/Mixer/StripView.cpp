@@ -66,11 +66,7 @@ StripView::StripView(Desk& desk, int strip)
     const auto label = utf8(desk.mix().layout.enchanters[index_].label);
     setTitle("Strip " + label);
     setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
-    fader_.onValueChange = [this, held = false]() mutable {
-        const bool goesOn = held && fader_.isMouseButtonDown();
-        held = fader_.isMouseButtonDown();
-        change("Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn);
-    };
+    onSlide(fader_, [this](bool goesOn) { change("Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn); });
     const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint, bool Strip::*what) {
         button.setTitle(name + " " + label);
         button.setTooltip(name);
@@ -117,7 +113,7 @@ void StripView::takeMix() {
     mute_.setToggleState(s.isMuted, juce::dontSendNotification);
     solo_.setToggleState(s.isSolo, juce::dontSendNotification);
     polarity_.setToggleState(s.isInverted, juce::dontSendNotification);
-    delay_.setButtonText(s.delayMs > 0.0 ? number(s.delayMs, s.delayMs < 10.0 ? 1 : 0) : juce::String{"ms"});
+    delay_.setButtonText(s.delayMs > 0.0 ? number(s.delayMs, s.delayMs < 1.0 ? 1 : 0) : juce::String{"ms"});
     delay_.setToggleState(s.delayMs > 0.0, juce::dontSendNotification);
     delay_.setTooltip("Delay: " + number(s.delayMs, 1) + " ms");
     fillOutputs();
@@ -176,11 +172,7 @@ MasterStrip::MasterStrip(Desk& desk)
     setTitle("Master");
     setUpFader(fader_, leastStripDb, 0.0, "Master gain");
     fader_.setDoubleClickReturnValue(true, -12.0);
-    fader_.onValueChange = [this, held = false]() mutable {
-        const bool goesOn = held && fader_.isMouseButtonDown();
-        held = fader_.isMouseButtonDown();
-        desk_.change("Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, goesOn);
-    };
+    onSlide(fader_, [this](bool goesOn) { desk_.change("Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, goesOn); });
     addAndMakeVisible(meter_);
     addAndMakeVisible(fader_);
     takeMix();
@@ -230,9 +222,9 @@ void MasterStrip::resized() {
     area.removeFromBottom(4);
     limiterText_ = area.removeFromBottom(22);
     area.removeFromBottom(32);
-    meter_.setBounds(area.withX(12).withWidth(14));
-    limiterBar_ = area.withX(33).withWidth(8);
-    fader_.setBounds(area.withX(52).withWidth(40).expanded(0, 8));
+    meter_.setBounds(area.withX(10).withWidth(14));
+    limiterBar_ = area.withX(31).withWidth(8);
+    fader_.setBounds(area.withX(46).withWidth(40).expanded(0, 8));
 }
 
 } // namespace physvib

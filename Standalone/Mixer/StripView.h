@@ -22,7 +22,7 @@ private:
 
 class StripView final : public juce::Component {
 public:
-    static constexpr int width = 80;
+    static constexpr int width = 78;
 
     StripView(Desk& desk, int strip);
     void takeMix();
@@ -50,7 +50,7 @@ private:
 /// All enchanters together: level, limiter, ceiling.
 class MasterStrip final : public juce::Component {
 public:
-    static constexpr int width = 96;
+    static constexpr int width = 90;
 
     explicit MasterStrip(Desk& desk);
     void takeMix();

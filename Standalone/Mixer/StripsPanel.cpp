@@ -57,6 +57,7 @@ void StripsPanel::takeMix() {
             row_.addAndMakeVisible(*strips_.back());
         }
         labels_ = labels;
+        for (auto& strip : strips_) prepareControls(*strip);
         attach_.toFront(false); // last in the order of the Tab key
         resized();
     } else {
@@ -69,6 +70,13 @@ void StripsPanel::takeMix() {
 void StripsPanel::refresh(const DeskMoment& moment) {
     for (auto& strip : strips_) strip->refresh(moment);
     master_.refresh(moment);
+}
+
+void StripsPanel::focusOfChildComponentChanged(FocusChangeType) {
+    auto* focused = getCurrentlyFocusedComponent();
+    if (focused == nullptr || !row_.isParentOf(focused)) return;
+    const auto at = row_.getLocalArea(focused, focused->getLocalBounds());
+    if (!viewport_.getViewArea().contains(at)) viewport_.setViewPosition(std::max(0, at.getCentreX() - viewport_.getViewWidth() / 2), 0);
 }
 
 void StripsPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }

@@ -12,6 +12,7 @@ public:
     void refresh(const DeskMoment& moment);
     void paint(juce::Graphics& g) override;
     void resized() override;
+    void focusOfChildComponentChanged(FocusChangeType) override; ///< what has the focus is seen
 
 private:
     /// The place where the next strip would be; pressed, it attaches an enchanter in the middle, dragged, where it is dropped.

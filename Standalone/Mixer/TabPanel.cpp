@@ -44,6 +44,12 @@ void TabPanel::choose(const juce::String& name) {
     resized();
 }
 
+juce::StringArray TabPanel::names() const {
+    juce::StringArray all;
+    for (const auto& page : pages_) all.add(page.name->getName());
+    return all;
+}
+
 void TabPanel::takeMix() {
     for (auto& page : pages_) page.tab->takeMix();
 }

@@ -18,6 +18,7 @@ public:
     TabPanel();
     void add(const juce::String& name, std::unique_ptr<Tab> tab);
     void choose(const juce::String& name);
+    juce::StringArray names() const;
     void takeMix();
     void refresh(const DeskMoment& moment);
     void paint(juce::Graphics& g) override;

@@ -8,6 +8,7 @@ namespace physvib {
 
 namespace {
 
+constexpr int looksPerTime = 3, looksPerNumbers = 12;
 constexpr std::array<int, 4> paces{1, 2, 4, 8};
 
 juce::String clock(std::int64_t ns) {
@@ -17,6 +18,7 @@ juce::String clock(std::int64_t ns) {
 
 juce::String count(std::uint64_t n, const char* what) { return number(static_cast<double>(n), 0) + " " + what; }
 
+const juce::String disc = juce::String::charToString(0x25cf) + " ";
 const juce::String dot = juce::String::charToString(0x00b7);
 juce::String dotted(const juce::StringArray& parts) { return parts.joinIntoString("  " + dot + "  "); }
 
@@ -28,6 +30,7 @@ TopBar::TopBar(Desk& desk)
     menu_.setTitle("Menu");
     menu_.setTooltip("Open, save, record, render (F10)");
     menu_.getProperties().set(quietProperty, true);
+    menu_.getProperties().set(titleProperty, true);
     menu_.onClick = [this] { if (onMenu) onMenu(menu_); };
     scene_.setTitle("Scene");
     for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(titleOf(scene.name), id++);
@@ -58,6 +61,7 @@ TopBar::TopBar(Desk& desk)
     };
     time_.setTitle("Time");
     time_.setFont(juce::Font{text::medium, juce::Font::bold});
+    record_.setTitle("Record");
     record_.setTooltip("Record what is played, and every event (Ctrl+R)");
     record_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::limit.getARGB()));
     record_.onClick = [this] { if (onRecord) onRecord(); };
@@ -67,6 +71,7 @@ TopBar::TopBar(Desk& desk)
     silence_.onClick = [this] { toggleSilence(); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{&menu_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_, &seed_, &time_, &record_, &device_, &board_, &load_, &silence_})
         addAndMakeVisible(c);
+    setRecording(false);
     takeMix();
 }
 
@@ -102,11 +107,13 @@ void TopBar::takeMix() {
 
 void TopBar::setRecording(bool isRecording) {
     record_.setToggleState(isRecording, juce::dontSendNotification);
-    record_.setButtonText(isRecording ? "Recording" : "Record");
+    record_.setButtonText(disc + (isRecording ? "Recording" : "Record"));
 }
 
 void TopBar::refresh(const DeskMoment& moment) {
-    time_.setText(clock(moment.session.sessionNs), juce::dontSendNotification);
+    const int turn = looks_++ % looksPerNumbers; // nobody reads thirty numbers a second
+    if (turn % looksPerTime == 0) time_.setText(clock(moment.session.sessionNs), juce::dontSendNotification);
+    if (turn != 0) return;
     const auto& output = desk_.output();
     const auto name = juce::String::fromUTF8(output.device().c_str());
     const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
@@ -119,7 +126,10 @@ void TopBar::refresh(const DeskMoment& moment) {
     const auto& r = moment.session.render;
     const auto lost = desk_.session().drops() + r.untold;
     load_.set("Load " + number(100.0 * moment.device.load, 1) + " %", dotted({count(r.late, "late"), count(lost, "dropped")}), r.late + lost > 0 ? Shade::now : Shade::text);
-    board_.set("Board: none", count(static_cast<std::uint64_t>(r.liveModes), "modes sound"), Shade::muted);
+    const auto board = desk_.board();
+    const bool isBoardReady = board && board->state == BoardLinkStatus::State::ready;
+    board_.set(!board ? "Board: none" : isBoardReady ? "Board: ready" : "Board: not there", count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
+               !board ? Shade::muted : isBoardReady ? Shade::accent : Shade::limit);
 }
 
 void TopBar::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::panel)); }
@@ -127,20 +137,21 @@ void TopBar::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::panel)); }
 void TopBar::resized() {
     auto area = getLocalBounds().reduced(gap, 9);
     const bool isWide = getWidth() > 1240;
+    const int between = isWide ? gap : 8;
     silence_.setBounds(area.removeFromRight(isWide ? 150 : 124));
-    area.removeFromRight(gap);
-    menu_.setBounds(area.removeFromLeft(92));
-    area.removeFromLeft(gap);
-    scene_.setBounds(area.removeFromLeft(isWide ? 176 : 136));
-    area.removeFromLeft(gap);
-    for (juce::Component* button : std::initializer_list<juce::Component*>{&pause_, &step_, &slow_, &restart_}) button->setBounds(area.removeFromLeft(36)), area.removeFromLeft(6);
-    area.removeFromLeft(6);
-    seedName_.setBounds(area.removeFromLeft(40));
-    seed_.setBounds(area.removeFromLeft(44));
-    time_.setBounds(area.removeFromLeft(86));
-    record_.setBounds(area.removeFromLeft(isWide ? 88 : 76));
-    area.removeFromLeft(18);
-    const int load = isWide ? 130 : 118, board = getWidth() > 1360 ? 116 : 0;
+    area.removeFromRight(between);
+    menu_.setBounds(area.removeFromLeft(94));
+    area.removeFromLeft(between);
+    scene_.setBounds(area.removeFromLeft(isWide ? 176 : 128));
+    area.removeFromLeft(between);
+    for (juce::Component* button : std::initializer_list<juce::Component*>{&pause_, &step_, &slow_, &restart_}) button->setBounds(area.removeFromLeft(isWide ? 36 : 32)), area.removeFromLeft(isWide ? 6 : 4);
+    area.removeFromLeft(isWide ? 6 : 0);
+    seedName_.setBounds(area.removeFromLeft(isWide ? 40 : 0));
+    seed_.setBounds(area.removeFromLeft(isWide ? 44 : 34));
+    time_.setBounds(area.removeFromLeft(isWide ? 86 : 78));
+    record_.setBounds(area.removeFromLeft(isWide ? 92 : 84));
+    area.removeFromLeft(isWide ? 18 : between);
+    const int load = isWide ? 130 : 112, board = getWidth() > 1360 ? 116 : 0;
     load_.setBounds(area.removeFromRight(load));
     board_.setBounds(area.removeFromRight(board));
     device_.setBounds(area.withTrimmedRight(8));

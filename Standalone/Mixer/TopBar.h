@@ -26,7 +26,8 @@ private:
     void chooseScene();
 
     Desk& desk_;
-    juce::TextButton menu_{"PhysVib"}, slow_, record_{"Record"}, silence_{"SILENCE  Esc"};
+    int looks_ = 0;
+    juce::TextButton menu_{"PhysVib"}, slow_, record_, silence_{"SILENCE  Esc"};
     juce::ComboBox scene_;
     SignButton pause_{Sign::pause, "Pause the world"}, step_{Sign::step, "One step of the world"}, restart_{Sign::restart, "Start the scene anew"};
     juce::Label seedName_, seed_, time_;

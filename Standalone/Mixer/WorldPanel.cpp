@@ -34,8 +34,9 @@ WorldPanel::WorldPanel(Desk& desk)
             auto& layout = mix.layout.geometry;
             layout.places[static_cast<std::size_t>(enchanter)] = {to.x * layout.extentWidthMetres, to.y * layout.extentHeightMetres};
             mix.layout.name = "own";
-        }, true);
+        }, std::exchange(isMoving_, true));
     };
+    view_.addMouseListener(this, false);
     view_.onMenu = [this](const std::string& body, FieldShare at) { showMenu(body, at); };
     sentence_.setTitle("Strongest hit");
     sentence_.setFont(juce::Font{text::medium});
@@ -53,6 +54,7 @@ WorldPanel::WorldPanel(Desk& desk)
     tilt_.setValue(0.0, juce::dontSendNotification);
     tilt_.setDoubleClickReturnValue(true, 0.0);
     tilt_.onValueChange = [this] { desk_.act(TiltAction{juce::degreesToRadians(-tilt_.getValue())}); };
+    view_.setFootRoom(44);
     for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &sentence_, &law_, &tilt_, &tiltName_}) addAndMakeVisible(c);
     takeMix();
 }
@@ -60,9 +62,9 @@ WorldPanel::WorldPanel(Desk& desk)
 void WorldPanel::takeMix() {
     const auto& mix = desk_.mix();
     const auto& scene = desk_.sceneNow();
-    if (shown_ != mix.scene || shownInputs_ != scene.inputs.size()) view_.show(scene);
+    if (shown_ != mix.scene || shownEdits_ != desk_.worldEdits()) view_.show(scene);
     shown_ = mix.scene;
-    shownInputs_ = scene.inputs.size();
+    shownEdits_ = desk_.worldEdits();
     view_.show(mix.layout, mix.panner());
     law_.setText(juce::String{panningLawNames[static_cast<std::size_t>(mix.law)].data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
     law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
@@ -123,12 +125,12 @@ void WorldPanel::showMenu(const std::string& body, FieldShare at) {
         const auto name = utf8(scene.materials[static_cast<std::size_t>(i)].name);
         balls.addItem(name, [this, at, i] { addBody(at, i, false); });
         boxes.addItem(name, [this, at, i] { addBody(at, i, true); });
-        materials.addItem(name, [this, body, i] { if (const auto f = desk_.act(MaterialAction{body, everyFixture, i}); !f.empty()) desk_.report(utf8(f)); });
+        materials.addItem(name, [this, body, i] { edit("Material of " + utf8(body), MaterialAction{body, everyFixture, i}); });
     }
     if (!body.empty()) {
         menu.addSectionHeader(utf8(body));
         menu.addSubMenu("Material", materials);
-        menu.addItem("Remove", [this, body] { if (const auto f = desk_.act(RemoveAction{body}); !f.empty()) desk_.report(utf8(f)); });
+        menu.addItem("Remove", [this, body] { edit("Remove " + utf8(body), RemoveAction{body}); });
         menu.addSeparator();
     }
     menu.addSubMenu("Add a ball", balls);
@@ -141,14 +143,17 @@ void WorldPanel::addBody(FieldShare at, int material, bool isBox) {
     const auto& scene = desk_.sceneNow();
     const double size = 0.06 * scene.fieldHeightMetres;
     BodyDescription body;
-    body.name = "added " + std::to_string(++added_);
     body.positionMetres = {at.x * scene.fieldWidthMetres, at.y * scene.fieldHeightMetres};
     FixtureDescription fixture;
     fixture.material = material;
     if (isBox) fixture.shape = BoxShape{2.2 * size, 1.6 * size};
     else fixture.shape = CircleShape{size};
     body.fixtures.push_back(fixture);
-    if (const auto fault = desk_.act(SpawnAction{body, {}}); !fault.empty()) desk_.report(utf8(fault));
+    edit("Add a body", SpawnAction{body, {}});
+}
+
+void WorldPanel::edit(const juce::String& name, const Action& action) {
+    if (const auto fault = desk_.editWorld(name, action); !fault.empty()) desk_.report(utf8(fault));
 }
 
 void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
@@ -162,7 +167,7 @@ void WorldPanel::resized() {
     tilt_.setBounds(row.removeFromLeft(38));
     tiltName_.setBounds(row.removeFromLeft(64));
     law_.setBounds(row);
-    view_.setBounds(area);
+    view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
 }
 
 } // namespace physvib

@@ -18,6 +18,7 @@ public:
     double tiltDegrees() const { return tilt_.getValue(); }
 
     bool keyPressed(const juce::KeyPress& key) override;
+    void mouseDown(const juce::MouseEvent&) override { isMoving_ = false; }
     void paint(juce::Graphics& g) override;
     void resized() override;
 
@@ -27,17 +28,18 @@ private:
     void pull(const std::string& body, Vector metres, Vector point);
     void showMenu(const std::string& body, FieldShare at);
     void addBody(FieldShare at, int material, bool isBox);
+    void edit(const juce::String& name, const Action& action);
     juce::String sentenceOn(const CollisionEvent& hit) const;
 
     Desk& desk_;
     WorldView view_;
     juce::Label sentence_, law_, tiltName_;
     juce::Slider tilt_;
+    bool isMoving_ = false; // a badge, since the mouse was pressed
     double pull_ = thesisPull, hitAtMs_ = 0.0;
-    int added_ = 0;
     CollisionEvent told_;
     std::shared_ptr<const Scene> shown_;
-    std::size_t shownInputs_ = 0;
+    std::uint64_t shownEdits_ = 0;
 };
 
 } // namespace physvib

@@ -21,7 +21,7 @@ const Shades& shadesOf(Ground ground) {
                              palette::muted,  palette::now,   palette::limit,                 palette::camera, palette::enchanter(0)};
     static const Shades light{juce::Colour{Argb{0xffe4e7ee}}, juce::Colour{Argb{0xfff6f7fa}}, juce::Colour{Argb{0xffdfe3eb}}, juce::Colour{Argb{0xffffffff}},
                               juce::Colour{Argb{0xffc3c9d6}}, juce::Colour{Argb{0xff1b1e27}}, juce::Colour{Argb{0xff545c6e}}, juce::Colour{Argb{0xff8a5a00}},
-                              juce::Colour{Argb{0xffc42b2b}}, juce::Colour{Argb{0xff8d7a45}}, juce::Colour{Argb{0xff0d756b}}};
+                              juce::Colour{Argb{0xffb62222}}, juce::Colour{Argb{0xff8d7a45}}, juce::Colour{Argb{0xff09665d}}};
     return ground == Ground::dark ? dark : light;
 }
 
@@ -98,6 +98,11 @@ void Look::setGround(Ground ground) {
     setColour(ProgressBar::foregroundColourId, s.accent);
 }
 
+juce::Font Look::getTextButtonFont(juce::TextButton& button, int) {
+    if (isTrue(button, titleProperty)) return juce::Font{text::large, juce::Font::bold};
+    return isTrue(button, stopProperty) ? juce::Font{text::medium, juce::Font::bold} : juce::Font{text::small};
+}
+
 void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver, bool isDown) {
     const auto area = button.getLocalBounds().toFloat().reduced(0.5f);
     const bool isQuiet = isTrue(button, quietProperty), stops = isTrue(button, stopProperty);
@@ -118,12 +123,10 @@ void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool, boo
     auto colour = shade(button, Shade::text);
     if (isTrue(button, stopProperty)) colour = juce::Colours::white;
     else if (button.getToggleState()) colour = readableOn(tintOf(button));
-    else if (isTrue(button, quietProperty)) colour = shade(button, Shade::accent);
+    else if (isTrue(button, quietProperty) && !isTrue(button, titleProperty)) colour = shade(button, Shade::accent);
     g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.4f));
-    auto font = getTextButtonFont(button, button.getHeight());
-    if (isTrue(button, stopProperty)) font = juce::Font{text::medium, juce::Font::bold};
-    g.setFont(font);
-    g.drawFittedText(button.getButtonText(), button.getLocalBounds().reduced(2, 0), juce::Justification::centred, 1, 0.9f);
+    g.setFont(getTextButtonFont(button, button.getHeight()));
+    g.drawFittedText(button.getButtonText(), button.getLocalBounds().reduced(1, 0), juce::Justification::centred, 1, 0.8f);
 }
 
 void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int, juce::ComboBox& box) {

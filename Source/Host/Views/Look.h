@@ -26,6 +26,8 @@ juce::Colour enchanterColour(const juce::Component& component, int index);
 inline const juce::Identifier stopProperty{"physvib-stop"};
 /// Buttons that look like a word.
 inline const juce::Identifier quietProperty{"physvib-quiet"};
+/// The name of the program, which opens its menu.
+inline const juce::Identifier titleProperty{"physvib-title"};
 /// Colour (ARGB as int64) of a button that is on.
 inline const juce::Identifier tintProperty{"physvib-tint"};
 /// Sliders that are drawn as a fader of a mixer.
@@ -39,7 +41,7 @@ public:
     void setGround(Ground ground);
     Ground ground() const noexcept { return ground_; }
 
-    juce::Font getTextButtonFont(juce::TextButton&, int) override { return juce::Font{text::small}; }
+    juce::Font getTextButtonFont(juce::TextButton& button, int) override;
     juce::Font getComboBoxFont(juce::ComboBox&) override { return juce::Font{text::medium}; }
     juce::Font getPopupMenuFont() override { return juce::Font{text::medium}; }
     juce::Font getLabelFont(juce::Label& label) override { return label.getFont(); }

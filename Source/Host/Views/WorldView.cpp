@@ -110,7 +110,7 @@ juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
 }
 
 WorldView::Map WorldView::map() const {
-    const auto room = getLocalBounds().reduced(margin, margin - 8).toFloat();
+    const auto room = getLocalBounds().withTrimmedBottom(footRoom_).reduced(margin, margin - 6).toFloat();
     const auto width = static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)), height = static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6));
     const float scale = std::min(room.getWidth() / width, room.getHeight() / height);
     return {room.withSizeKeepingCentre(width * scale, height * scale), scale};
@@ -164,9 +164,10 @@ void WorldView::drawGround(juce::Graphics& g, const Map& at) {
     g.setColour(shade(*this, Shade::well));
     g.fillRect(at.field);
     if (shownGains_ < 0 || shownGains_ >= layout_.geometry.count || panner_.channels() == 0) return;
-    if (gains_.isNull()) gains_ = gainImage(panner_, shownGains_, enchanterColour(*this, shownGains_), 96, 54);
-    g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality);
-    g.drawImage(gains_, at.field);
+    const auto field = at.field.toNearestInt();
+    if (gains_.isNull()) // smooth enough, and fast enough to follow a badge that is moved
+        gains_ = gainImage(panner_, shownGains_, enchanterColour(*this, shownGains_), 96, 54).rescaled(field.getWidth(), field.getHeight(), juce::Graphics::mediumResamplingQuality);
+    g.drawImageAt(gains_, field.getX(), field.getY());
 }
 
 void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
@@ -202,7 +203,7 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
 void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
     const auto amber = palette::now;
     for (const auto& hit : hits_) {
-        const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude), fade = (1.0f - age) * level;
+        const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude), fade = (1.0f - age) * std::sqrt(level);
         const auto centre = at.at(hit.event.x, hit.event.y);
         const float radius = 10.0f + 34.0f * level * (0.5f + 0.5f * age);
         glow(g, centre, radius, hit.colour.interpolatedWith(amber, 0.7f).withAlpha(0.85f * fade));
@@ -224,7 +225,7 @@ void WorldView::drawRays(juce::Graphics& g, const Map& at) const {
     for (int j = 0; j < layout_.geometry.count; ++j) {
         const auto gain = static_cast<float>(gains[static_cast<std::size_t>(j)]);
         if (gain < 0.02f) continue;
-        g.setColour(enchanterColour(*this, j).withAlpha(0.9f * gain * light(*strongest)));
+        g.setColour(enchanterColour(*this, j).withAlpha(std::min(1.0f, 1.3f * std::sqrt(gain) * light(*strongest))));
         g.drawLine({from, badgeOf(j, at).getCentre()}, 1.0f + 4.0f * gain);
     }
 }

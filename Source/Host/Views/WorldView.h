@@ -44,6 +44,8 @@ public:
     void update(WorldMoment moment);
     /// Behind the bodies: what that enchanter plays of a hit at each place; -1: nothing. M.
     void showGainsOf(int enchanter);
+    /// Room below the field for what is written over the view. M.
+    void setFootRoom(int pixels) { footRoom_ = pixels; }
     void select(int enchanter); ///< drawn with a ring; -1: none
 
     // What a hand does; what is not set cannot be done. M.
@@ -118,7 +120,7 @@ private:
     std::deque<Snapshot> ahead_; // not felt yet, but for the first
     std::deque<Hit> hits_;
     std::array<float, limits::maxEnchanters> peaks_{};
-    int shownGains_ = -1, selected_ = -1;
+    int shownGains_ = -1, selected_ = -1, footRoom_ = 0;
     juce::Image gains_;
     Grip grip_;
     std::optional<juce::Point<float>> dropAt_;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A thread of its own; the session it renders is a copy.
+#include "Mixer/RenderTask.h"
+
+namespace physvib {
+
+RenderTask::RenderTask(const SavedSession& session, const juce::File& file, int sampleRateHz, Done done, juce::Component& over)
+    : juce::ThreadWithProgressWindow{"Rendering " + file.getFileName(), true, true, 10'000, "Cancel", &over}
+    , session_{session}
+    , file_{file}
+    , sampleRateHz_{sampleRateHz}
+    , done_{std::move(done)} {
+    launchThread();
+}
+
+void RenderTask::run() {
+    const double seconds = 1e-9 * static_cast<double>(session_.lengthNs);
+    error_ = renderSession(session_, file_.getFullPathName().toStdString(), sampleRateHz_, seconds, "physvib " PHYSVIB_VERSION, [this](double share) {
+        setProgress(share);
+        return !threadShouldExit();
+    });
+}
+
+void RenderTask::threadComplete(bool userPressedCancel) {
+    if (userPressedCancel) return done_("Rendering cancelled; nothing was written", true);
+    done_(error_.empty() ? "Rendered " + file_.getFullPathName() : utf8(error_), error_.empty());
+}
+
+} // namespace physvib
