@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The desk without a window: what is set on it reaches the session, comes back by undo, and is in the saved session.
+#include "Host/FakeAudioDevice.h"
+#include "MixerTesting.h"
+#include "Files/SceneCatalogue.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using Kind = RenderControl::Kind;
+
+TEST(Desk, PlaysAtOnceAndQuietly) {
+    Desk desk{onlyNoDevice(), noDevice};
+    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+    EXPECT_EQ(desk.mix().scene->name, "shake-the-box");
+    EXPECT_LE(desk.mix().levelDb, -12.0) << "hands are attached";
+    EXPECT_TRUE(runUntil([&] { return desk.look().session.render.played > 5; }));
+    EXPECT_EQ(desk.look().session.render.late, 0u);
+}
+
+TEST(Desk, AFifthEnchanterIsAttachedWhileItPlaysStartsQuietlyAndCanBeTakenBack) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_TRUE(desk.attach(0.5, 0.25));
+    EXPECT_EQ(desk.mix().count(), 5);
+    EXPECT_EQ(desk.mix().layout.enchanters.back().label, "E");
+    EXPECT_LT(desk.mix().strips.back().gainDb, -6.0);
+    EXPECT_EQ(desk.mix().strips.back().output, 4);
+    EXPECT_EQ(desk.saved().log.panners.back().panner.channels(), 5);
+    EXPECT_EQ(desk.saved().channels, 5);
+    desk.undoManager().undo();
+    EXPECT_EQ(desk.mix().count(), 4);
+    EXPECT_EQ(desk.saved().log.panners.back().panner.channels(), 4);
+    EXPECT_EQ(desk.saved().channels, 5) << "it was there for a while";
+    desk.undoManager().redo();
+    desk.detach(1);
+    EXPECT_EQ(desk.mix().layout.enchanters[1].label, "C");
+    EXPECT_EQ(desk.mix().strips[1].output, 2) << "what plays it goes with it";
+}
+
+TEST(Desk, SoloMutesTheOthers) {
+    Desk desk{onlyNoDevice(), noDevice};
+    desk.change("Solo", [](Mix& mix) { mix.strips[2].isSolo = true; });
+    std::vector<int> muted;
+    for (const auto& c : desk.saved().log.channels)
+        if (c.kind == Kind::mute && c.value != 0.0f) muted.push_back(c.channel);
+    EXPECT_EQ(muted, (std::vector<int>{0, 1, 3}));
+}
+
+TEST(Desk, AHeldFaderIsOneThingToUndo) {
+    Desk desk{onlyNoDevice(), noDevice};
+    for (int k = 0; k < 20; ++k) desk.change("Gain of A", [k](Mix& mix) { mix.strips[0].gainDb = -0.5 * k; }, k > 0);
+    EXPECT_EQ(desk.mix().strips[0].gainDb, -9.5);
+    desk.undoManager().undo();
+    EXPECT_EQ(desk.mix().strips[0].gainDb, 0.0);
+    EXPECT_FALSE(desk.undoManager().canUndo());
+}
+
+TEST(Desk, BodiesComeGoAndChangeAndAllOfItCanBeUndone) {
+    Desk desk{onlyNoDevice(), noDevice};
+    BodyDescription ball;
+    ball.name = "?";
+    ball.positionMetres = {3.0, 2.0};
+    ball.fixtures.push_back({CircleShape{0.15}, {}, 0.0, 0, false, Voice::own});
+    EXPECT_EQ(desk.editWorld("Add", SpawnAction{ball, {}}), "");
+    ASSERT_EQ(desk.sceneNow().inputs.size(), 1u);
+    const auto added = std::get<SpawnAction>(desk.sceneNow().inputs[0].action).body.name;
+    EXPECT_EQ(desk.editWorld("Material", MaterialAction{added, everyFixture, 2}), "");
+    EXPECT_EQ(std::get<SpawnAction>(desk.sceneNow().inputs[0].action).body.fixtures[0].material, 2);
+    desk.undoManager().undo();
+    EXPECT_EQ(std::get<SpawnAction>(desk.sceneNow().inputs[0].action).body.fixtures[0].material, 0);
+    desk.undoManager().undo();
+    ASSERT_TRUE(runUntil([&] {
+        const auto moment = desk.look();
+        return !moment.poses.empty() && !moment.poses.back().isPresent;
+    }));
+    EXPECT_NE(desk.editWorld("Material", MaterialAction{"floor", everyFixture, 99}), "") << "what cannot be is told, not done";
+    EXPECT_FALSE(desk.undoManager().canUndo());
+}
+
+TEST(Desk, AThousandEditsLaterEverythingCanBeUndone) {
+    Desk desk{onlyNoDevice(), noDevice};
+    const Mix first = desk.mix();
+    for (int k = 0; k < 30; ++k) {
+        desk.attach(0.01 * k, 0.5);
+        desk.change("Law", [k](Mix& mix) { mix.law = static_cast<PanningLaw>(k % 4); });
+        desk.change("Mute", [k](Mix& mix) { mix.strips[static_cast<std::size_t>(k % 4)].isMuted = k % 2 == 0; });
+        desk.detach(k % desk.mix().count());
+    }
+    while (desk.undoManager().canUndo()) desk.undoManager().undo();
+    EXPECT_EQ(desk.mix().strips, first.strips);
+    EXPECT_EQ(desk.mix().layout.enchanters, first.layout.enchanters);
+}
+
+TEST(Desk, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
+    TestFolder folder;
+    Desk desk{onlyNoDevice(), noDevice};
+    bool isDone = false;
+    desk.onRecorded = [&](const juce::File&, const juce::String& error) {
+        isDone = true;
+        EXPECT_TRUE(error.isEmpty()) << error;
+    };
+    ASSERT_EQ(desk.startRecording(folder("take.wav")), "");
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.recordedSeconds() > 2.0; }));
+    desk.stopRecording();
+    EXPECT_TRUE(runUntil([&] { return desk.look(), isDone; }));
+    juce::AudioFormatManager formats;
+    formats.registerBasicFormats();
+    const std::unique_ptr<juce::AudioFormatReader> wav{formats.createReaderFor(folder("take.wav"))};
+    ASSERT_NE(wav, nullptr);
+    EXPECT_EQ(wav->numChannels, 4u);
+    EXPECT_GT(wav->lengthInSamples, 2 * 48000 - 4800);
+    const auto events = loadEventsCsv(folder("take.csv").getFullPathName().toStdString());
+    ASSERT_TRUE(events) << events.error;
+    ASSERT_FALSE(events.value.empty());
+    EXPECT_LT(events.value.back().timeNs, static_cast<std::int64_t>(1e9 * static_cast<double>(wav->lengthInSamples) / 48000.0));
+    EXPECT_NE(desk.startRecording(folder("no/such/folder/take.wav")), "");
+}
+
+TEST(Desk, ADeviceThatVanishesIsToldAndTakenUpAgain) {
+    FakeInterface hands;
+    Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}};
+    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+    hands.unplug(true);
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("no such device"); })) << desk.trouble();
+    EXPECT_FALSE(desk.look().device.isRunning);
+    hands.isPlugged = true;
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().isEmpty(); })) << desk.trouble();
+    EXPECT_TRUE(desk.look().device.isRunning);
+    EXPECT_NE(desk.open({"Fake:feet", 0, 0}), "");
+    EXPECT_TRUE(desk.trouble().contains("feet")) << "never a silent failure";
+}
+
+TEST(Desk, TwoHundredBodiesForAWhile) {
+    Scene crowd = *findBuiltInScene("shake-the-box");
+    for (int k = 0; k < 200; ++k) {
+        BodyDescription ball;
+        ball.name = "ball " + std::to_string(k);
+        ball.positionMetres = {0.3 + 0.29 * (k % 20), 0.2 + 0.3 * (k / 20)};
+        ball.fixtures.push_back({CircleShape{0.1}, {}, 0.0, k % 3, false, Voice::own});
+        crowd.bodies.push_back(ball);
+    }
+    Mix mix = Desk::firstMix();
+    mix.scene = std::make_shared<const Scene>(crowd);
+    Desk desk{onlyNoDevice(), noDevice, mix};
+    MixerView view{desk};
+    EXPECT_TRUE(runUntil([&] { return view.refresh(), desk.look().session.sessionNs > 3'000'000'000; }, 60.0));
+    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+    EXPECT_EQ(view.createComponentSnapshot(view.getLocalBounds()).getWidth(), view.getWidth());
+}
+
+} // namespace
+} // namespace physvib

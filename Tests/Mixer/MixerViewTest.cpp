@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The window's components without a display: names and the keyboard for every control, sizes, looks, and what clicks do.
+#include "MixerTesting.h"
+#include <set>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+bool isControl(const juce::Component& c) {
+    const auto* label = dynamic_cast<const juce::Label*>(&c);
+    return dynamic_cast<const juce::Button*>(&c) != nullptr || dynamic_cast<const juce::Slider*>(&c) != nullptr || dynamic_cast<const juce::ComboBox*>(&c) != nullptr ||
+           dynamic_cast<const juce::ListBox*>(&c) != nullptr || (label != nullptr && label->isEditable());
+}
+
+bool isPartOfControl(const juce::Component& c) {
+    for (const auto* p = c.getParentComponent(); p != nullptr; p = p->getParentComponent())
+        if (isControl(*p)) return true;
+    return dynamic_cast<const juce::ScrollBar*>(c.getParentComponent()) != nullptr;
+}
+
+void walk(juce::Component& root, const std::function<void(juce::Component&)>& visit) {
+    visit(root);
+    for (auto* child : root.getChildren())
+        if (child->isVisible()) walk(*child, visit);
+}
+
+TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    int controls = 0;
+    desk.setSlowness(0); // what is disabled cannot be reached
+    desk.dispatchPendingMessages();
+    for (const auto& tab : view.tabs().names()) {
+        view.tabs().choose(tab);
+        if (auto* list = dynamic_cast<juce::ListBox*>(find(view, "List of enchanters"))) list->selectRow(1);
+        std::multiset<juce::String> titles;
+        walk(view, [&](juce::Component& c) {
+            if (!isControl(c) || isPartOfControl(c)) return;
+            ++controls;
+            const auto title = c.getTitle().isNotEmpty() ? c.getTitle() : c.getName();
+            EXPECT_TRUE(title.isNotEmpty()) << typeid(c).name() << " in " << (c.getParentComponent() ? c.getParentComponent()->getTitle() : juce::String{}) << " of " << tab;
+            if (c.isEnabled()) EXPECT_TRUE(c.getWantsKeyboardFocus()) << title;
+            EXPECT_TRUE(c.hasFocusOutline()) << title << ": focus has to be seen";
+            EXPECT_TRUE(c.isAccessible()) << title;
+            titles.insert(title);
+        });
+        for (const auto& title : titles) EXPECT_EQ(titles.count(title), 1u) << title << " is the name of several controls of " << tab;
+    }
+    EXPECT_GT(controls, 60);
+}
+
+TEST(MixerView, TheTabKeyComesToEveryControl) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    std::set<juce::Component*> reached;
+    const auto traverser = view.createKeyboardFocusTraverser();
+    for (auto* c : traverser->getAllComponents(&view)) reached.insert(c);
+    walk(view, [&](juce::Component& c) {
+        if (isControl(c) && !isPartOfControl(c) && c.isEnabled() && c.isShowing()) EXPECT_EQ(reached.count(&c), 1u) << c.getTitle();
+    });
+}
+
+TEST(MixerView, EveryTextFitsAndEveryControlHasASizeAtTheSmallestWindow) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    for (const auto& [width, height] : {std::pair{MixerView::leastWidth, MixerView::leastHeight}, {1440, 900}, {3000, 1800}}) {
+        view.setSize(width, height);
+        for (const auto& tab : view.tabs().names()) {
+            view.tabs().choose(tab);
+            walk(view, [&](juce::Component& c) {
+                if (!isControl(c) || isPartOfControl(c)) return;
+                EXPECT_GE(c.getWidth(), 14) << c.getTitle() << " at " << width;
+                EXPECT_GE(c.getHeight(), 14) << c.getTitle() << " at " << width;
+            });
+        }
+    }
+}
+
+double contrast(juce::Colour a, juce::Colour b) {
+    const auto luminance = [](juce::Colour c) {
+        const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+        return 0.2126 * linear(c.getFloatRed()) + 0.7152 * linear(c.getFloatGreen()) + 0.0722 * linear(c.getFloatBlue());
+    };
+    const auto [low, high] = std::minmax({luminance(a), luminance(b)});
+    return (high + 0.05) / (low + 0.05);
+}
+
+TEST(MixerView, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 for text, 3 for what is large or drawn
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    for (const auto ground : {Ground::dark, Ground::light}) {
+        view.setGround(ground);
+        for (const auto on : {Shade::panel, Shade::ground, Shade::well, Shade::raised})
+            for (const auto what : {Shade::text, Shade::muted, Shade::now, Shade::limit, Shade::accent})
+                EXPECT_GE(contrast(shade(view, what), shade(view, on)), 4.5) << static_cast<int>(what) << " on " << static_cast<int>(on) << (ground == Ground::dark ? " dark" : " light");
+        for (int j = 0; j < 64; ++j) EXPECT_GE(contrast(enchanterColour(view, j), shade(view, Shade::panel)), 3.0) << j;
+    }
+}
+
+TEST(MixerView, ButtonsDoWhatTheySay) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    const auto press = [&](const juce::String& title) {
+        auto* button = dynamic_cast<juce::Button*>(find(view, title));
+        ASSERT_NE(button, nullptr) << title;
+        button->onClick();
+        desk.dispatchPendingMessages();
+    };
+    press("Mute B");
+    EXPECT_TRUE(desk.mix().strips[1].isMuted);
+    press("Polarity C");
+    EXPECT_TRUE(desk.mix().strips[2].isInverted);
+    press("Silence");
+    EXPECT_TRUE(desk.isSilent());
+    press("Silence");
+    EXPECT_FALSE(desk.isSilent());
+    press("Pause the world (Space)");
+    EXPECT_EQ(desk.slowness(), 0);
+    press("Attach an enchanter");
+    EXPECT_EQ(desk.mix().count(), 5);
+    EXPECT_NE(find(view, "Gain of E"), nullptr);
+    view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    EXPECT_TRUE(desk.isSilent());
+    view.keyPressed(juce::KeyPress{'z', juce::ModifierKeys::commandModifier, 0});
+    EXPECT_EQ(desk.mix().count(), 4);
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A person's way through the mixer in a real window: start, drag a ball, attach a fifth enchanter, mute, record, save,
+// open again; the recorded file has what the actions say.
+#include "../MixerTesting.h"
+#include "Host/OfflineRender.h"
+#include "Host/SessionRender.h"
+#include "Mixer/MixerWindow.h"
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// A hand with a mouse and a keyboard, on the window's peer.
+class Hand {
+public:
+    explicit Hand(MixerWindow& window)
+        : window_{window} {}
+    void press(juce::Point<float> at) { send(at, juce::ModifierKeys::leftButtonModifier); }
+    void move(juce::Point<float> at, int buttons) { send(at, buttons); }
+    void release(juce::Point<float> at) { send(at, 0); }
+    void click(juce::Component& c) {
+        const auto at = middleOf(c);
+        send(at, 0);
+        press(at);
+        release(at);
+    }
+    void drag(juce::Point<float> from, juce::Point<float> to) {
+        send(from, 0);
+        press(from);
+        for (int k = 1; k <= 10; ++k) move(from + (to - from) * (static_cast<float>(k) / 10.0f), juce::ModifierKeys::leftButtonModifier);
+        release(to);
+    }
+    void key(int code, int modifiers = 0) {
+        window_.getPeer()->handleKeyPress(juce::KeyPress{code, modifiers, 0});
+        runFor(0.05);
+    }
+    juce::Point<float> placeOf(juce::Component& c, juce::Point<float> inIt) { return window_.getLocalPoint(&c, inIt); }
+    juce::Point<float> middleOf(juce::Component& c) { return placeOf(c, c.getLocalBounds().toFloat().getCentre()); }
+
+private:
+    void send(juce::Point<float> at, int buttons) {
+        timeMs_ += 20;
+        window_.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at, juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
+        runFor(0.03);
+    }
+    MixerWindow& window_;
+    juce::int64 timeMs_ = juce::Time::currentTimeMillis();
+};
+
+juce::AudioBuffer<float> samplesOf(const juce::File& file) {
+    juce::AudioFormatManager formats;
+    formats.registerBasicFormats();
+    const std::unique_ptr<juce::AudioFormatReader> reader{formats.createReaderFor(file)};
+    if (!reader) return {};
+    juce::AudioBuffer<float> samples{static_cast<int>(reader->numChannels), static_cast<int>(reader->lengthInSamples)};
+    reader->read(&samples, 0, samples.getNumSamples(), 0, true, true);
+    return samples;
+}
+
+TEST(Window, APersonsWayThroughTheMixer) {
+    TestFolder folder;
+    juce::File wav;
+    std::int64_t from = 0, playOut = 0;
+    {
+        MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
+        ASSERT_NE(window.getPeer(), nullptr);
+        Hand hand{window};
+        auto& view = window.view().world().view();
+        ASSERT_TRUE(runUntil([&] { return window.desk().look().session.sessionNs > 500'000'000; }));
+        window.desk().setSlowness(0); // a ball that lies still is easier to grasp
+        runFor(0.3);
+        const auto ball = view.placeOfBody("large rubber ball");
+        ASSERT_TRUE(view.getLocalBounds().toFloat().contains(ball));
+        hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{60.0f, -40.0f}));
+        window.desk().setSlowness(1);
+        const auto& pulls = window.desk().saved().log.takes.back().inputs;
+        ASSERT_EQ(pulls.size(), 1u);
+        const auto& pull = std::get<ImpulseAction>(pulls[0].action);
+        EXPECT_EQ(pull.body, "large rubber ball");
+        EXPECT_GT(pull.newtonSeconds.x, 0.0);
+        EXPECT_GT(pull.newtonSeconds.y, 0.0);
+        EXPECT_TRUE(window.isChanged());
+
+        auto* place = find(window.view(), "Attach an enchanter");
+        ASSERT_NE(place, nullptr);
+        hand.drag(hand.middleOf(*place), hand.placeOf(view, view.getLocalBounds().toFloat().getCentre()));
+        ASSERT_EQ(window.desk().mix().count(), 5);
+        const auto& at = window.desk().mix().layout.geometry.places[4];
+        EXPECT_NEAR(at.xMetres / 0.12, 0.5, 0.05);
+        EXPECT_NEAR(at.yMetres / 0.06, 0.5, 0.08);
+
+        auto* mute = find(window.view(), "Mute B");
+        ASSERT_NE(mute, nullptr);
+        hand.click(*mute);
+        EXPECT_TRUE(window.desk().mix().strips[1].isMuted);
+        runFor(0.3);
+
+        hand.key('r', juce::ModifierKeys::commandModifier);
+        ASSERT_TRUE(window.desk().isRecording());
+        runUntil([&] { return window.desk().recordedSeconds() > 4.0; });
+        hand.key('r', juce::ModifierKeys::commandModifier);
+        ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
+        wav = window.lastRecording();
+        from = window.desk().recordedFrom();
+        playOut = window.desk().session().playOutFrames();
+        EXPECT_EQ(window.desk().look().session.render.late, 0u);
+        hand.key('s', juce::ModifierKeys::commandModifier);
+        EXPECT_FALSE(window.isChanged());
+    }
+    const auto saved = loadSession(folder("hands.json").getFullPathName().toStdString());
+    ASSERT_TRUE(saved) << saved.error;
+    const auto recorded = samplesOf(wav);
+    ASSERT_EQ(recorded.getNumChannels(), 5);
+    EXPECT_EQ(recorded.getMagnitude(1, 0, recorded.getNumSamples()), 0.0f) << "B was muted";
+    EXPECT_GT(recorded.getMagnitude(0, recorded.getNumSamples()), 0.0f);
+    const auto events = loadEventsCsv(wav.withFileExtension("csv").getFullPathName().toStdString());
+    ASSERT_TRUE(events) << events.error;
+    EXPECT_FALSE(events.value.empty());
+
+    const std::int64_t frames = from - playOut + recorded.getNumSamples(); // what was recorded is what the saved session renders, to the bit
+    int wrong = 0;
+    std::int64_t done = 0;
+    renderOffline(sessionEvents(saved.value, frames * 1'000'000'000 / 48000).events,
+                  {{48000, saved.value.channels, saved.value.panner, true, saved.value.ceilings}, frames, 512, controlsOf(saved.value.log, true, saved.value.channels)},
+                  [&](const float* const* block, int n) {
+                      for (int k = 0; k < n; ++k)
+                          if (const auto frame = done + k - (from - playOut); frame >= 0)
+                              for (int j = 0; j < 5; ++j) wrong += block[j][k] != recorded.getSample(j, static_cast<int>(frame)) ? 1 : 0;
+                      done += n;
+                      return true;
+                  });
+    EXPECT_EQ(wrong, 0) << "samples that are not as they were felt";
+
+    MixerWindow again{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
+    EXPECT_EQ(again.desk().mix().count(), 5);
+    EXPECT_TRUE(again.desk().mix().strips[1].isMuted);
+    EXPECT_TRUE(again.desk().trouble().isEmpty()) << again.desk().trouble();
+    EXPECT_FALSE(again.isChanged());
+}
+
+TEST(Window, ABrokenSessionIsNamedAndNothingIsLost) {
+    TestFolder folder;
+    folder("broken.json").replaceWithText(R"({"physvib_session": 2, "seconds": -1})");
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    window.desk().change("Law", [](Mix& mix) { mix.law = PanningLaw::energy; });
+    window.desk().undoManager().undo();
+    MixerWindow broken{onlyNoDevice(), "None:no device", folder("broken.json"), folder("config")};
+    EXPECT_TRUE(broken.desk().trouble().contains("broken.json: seconds: ")) << broken.desk().trouble();
+    EXPECT_EQ(broken.document(), juce::File{}) << "saving would replace the broken file";
+    EXPECT_TRUE(runUntil([&] { return broken.desk().look().session.render.played > 3; })) << "the mixer plays on";
+}
+
+TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
+    TestFolder folder;
+    const auto copies = [&] { return folder("config").findChildFiles(juce::File::findFiles, false, "recovery-*.json"); };
+    {
+        MixerWindow window{onlyNoDevice(), "None:no device", folder("kept.json"), folder("config")};
+        window.desk().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
+        ASSERT_TRUE(runUntil([&] { return !copies().isEmpty(); }));
+        const auto copy = loadSession(copies()[0].getFullPathName().toStdString());
+        ASSERT_TRUE(copy) << copy.error;
+        EXPECT_EQ(mixOf(copy.value).levelDb, -18.0);
+        window.save();
+        EXPECT_TRUE(copies().isEmpty());
+    }
+}
+
+} // namespace
+} // namespace physvib
+
+int main(int argc, char** argv) {
+    juce::JUCEApplicationBase::createInstance = [] { return static_cast<juce::JUCEApplicationBase*>(nullptr); }; // as in a program of its own, JUCE bears errors of X
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}
