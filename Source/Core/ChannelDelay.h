@@ -18,7 +18,8 @@ public:
         delay_ = before_ = std::clamp(frames, 0, Capacity);
         faded_ = fadeFrames_;
         next_ = none;
-        clear();
+        ring_.fill(0.0f);
+        silentFrames_ = Capacity;
     }
 
     void moveTo(int frames) noexcept {
@@ -28,7 +29,6 @@ public:
             return;
         }
         if (frames == delay_) return;
-        if (delay_ == 0) clear(); // nothing was kept while there was no delay
         before_ = delay_;
         delay_ = frames;
         faded_ = 0;
@@ -39,29 +39,31 @@ public:
 
     /// In place. `isSilent`: all of the input is 0. True if all of the output is.
     bool process(float* io, int frames, bool isSilent) noexcept {
-        if (isOut()) return isSilent;
         if (isSilent && silentFrames_ >= Capacity) {
             faded_ = std::min(fadeFrames_, faded_ + frames);
             goOn();
             return true;
         }
-        for (int n = 0; n < frames; ++n) io[n] = step(io[n]);
+        const bool passes = isOut(); // what passes is kept as well: a delay that is set later begins with it
+        for (int n = 0; n < frames; ++n) {
+            if (passes) keep(io[n]);
+            else io[n] = step(io[n]);
+        }
         silentFrames_ = isSilent ? std::min(Capacity, silentFrames_ + frames) : 0;
-        return false;
+        return passes && isSilent;
     }
 
 private:
     static constexpr int none = -1;
     static constexpr std::size_t size = static_cast<std::size_t>(Capacity) + 1;
 
-    void clear() noexcept {
-        ring_.fill(0.0f);
-        silentFrames_ = Capacity;
-    }
     float at(int delay) const noexcept { return ring_[(write_ + size - static_cast<std::size_t>(delay)) % size]; }
-    float step(float x) noexcept {
+    void keep(float x) noexcept {
         write_ = write_ + 1 == size ? 0 : write_ + 1;
         ring_[write_] = x;
+    }
+    float step(float x) noexcept {
+        keep(x);
         if (faded_ == fadeFrames_) return at(delay_);
         const float share = static_cast<float>(++faded_) / static_cast<float>(fadeFrames_);
         const float y = at(before_) + share * (at(delay_) - at(before_));
