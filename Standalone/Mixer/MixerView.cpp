@@ -25,6 +25,7 @@ MixerView::MixerView(Desk& desk)
     tabs_.add("Enchanters", std::make_unique<EnchantersTab>(desk, world_.view()));
     tabs_.add("Output", std::make_unique<OutputTab>(desk));
     trouble_.setTitle("Trouble");
+    trouble_.setBorderSize({0, panelInset, 0, panelInset});
     trouble_.setFont(juce::Font{text::medium});
     dismiss_ = quietButton("Dismiss", "Dismiss the message");
     dismiss_->onClick = [this] { desk_.report({}); };
@@ -52,6 +53,8 @@ void MixerView::setGround(Ground ground) {
 }
 
 void MixerView::takeMix() {
+    restedLooks_ = 0;
+    if (isTimerRunning() && getTimerInterval() > 1000 / framesPerSecond) startTimerHz(framesPerSecond);
     bar_.takeMix();
     world_.takeMix();
     tabs_.takeMix();
@@ -74,6 +77,16 @@ void MixerView::refresh() {
     tabs_.refresh(latest_);
     scope_.refresh();
     strips_.refresh(latest_);
+    keepPace();
+}
+
+// Where the world stands still and nothing is felt, there is little to look at.
+void MixerView::keepPace() {
+    const auto& peaks = latest_.meters.peaks;
+    const bool isAtRest = desk_.slowness() == 0 && latest_.hits.empty() && std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
+    restedLooks_ = isAtRest ? restedLooks_ + 1 : 0;
+    const int wanted = 1000 / (restedLooks_ > 2 * framesPerSecond ? restFramesPerSecond : framesPerSecond);
+    if (isTimerRunning() && getTimerInterval() != wanted) startTimer(wanted);
 }
 
 void MixerView::setHint(bool isShown) {

@@ -11,7 +11,7 @@ namespace physvib {
 
 class MixerView final : public juce::Component, public juce::DragAndDropContainer, private juce::ChangeListener, private juce::Timer {
 public:
-    static constexpr int framesPerSecond = 30, leastWidth = 1040, leastHeight = 640;
+    static constexpr int framesPerSecond = 30, restFramesPerSecond = 8, leastWidth = 1040, leastHeight = 640;
 
     explicit MixerView(Desk& desk);
     ~MixerView() override;
@@ -38,6 +38,7 @@ private:
     void changeListenerCallback(juce::ChangeBroadcaster*) override { takeMix(); }
     void timerCallback() override { refresh(); }
     void takeMix();
+    void keepPace();
 
     Desk& desk_;
     Look look_;
@@ -50,6 +51,7 @@ private:
     std::unique_ptr<juce::TextButton> dismiss_;
     bool isHintShown_ = false;
     DeskMoment latest_;
+    int restedLooks_ = 0;
     juce::TooltipWindow tooltips_{this, 600};
 };
 
