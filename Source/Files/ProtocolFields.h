@@ -122,6 +122,7 @@ struct FieldsOf<SessionPlan> {
         v.field("name", &S::name, anyText, Need::required);
         v.field("training", &S::isTraining, {}, Need::optional);
         v.choice("task", &S::task, taskNames);
+        v.field("question", &S::question, anyText, Need::optional);
         v.choice("order", &S::order, trialOrderNames);
         v.field("repetitions", &S::repetitions, Bounds{1.0, 1000.0}, Need::optional);
         v.field("fewest_touches", &S::fewestTouches, studyBounds::count, Need::optional);

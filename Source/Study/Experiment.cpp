@@ -62,6 +62,11 @@ bool Experiment::isSessionOver() const {
     return plan().fewestTouches > 0 ? inSession_ >= plan().fewestTouches : explored_.size() >= items_.size();
 }
 
+int Experiment::sessionTrials() const noexcept {
+    if (staircase_) return 0;
+    return plan().task == StudyTask::explore ? plan().fewestTouches : static_cast<int>(order_.size());
+}
+
 void Experiment::advance() {
     trial_.reset();
     while (isSessionOver()) {

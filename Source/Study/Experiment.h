@@ -29,6 +29,8 @@ public:
     /// Every part was felt, each for as long as the protocol asks.
     bool canAnswer() const noexcept;
     int plays() const noexcept;
+    int plays(std::size_t part) const noexcept { return parts_[part].plays; }
+    double seconds(std::size_t part) const noexcept { return parts_[part].seconds; } ///< spent with it
 
 private:
     struct Part {
@@ -61,6 +63,15 @@ public:
     std::string redo(const TrialRecord& record);
 
     int trialsTaken() const noexcept { return taken_; }
+
+    /// Trials of the session at hand; 0 where its length depends on the answers (a staircase, asking until all were felt).
+    int sessionTrials() const noexcept;
+
+    /// Which of all sessions (those of the first condition, of the second ...) it is, from 1, in this participant's order.
+    int sessionNumber() const noexcept { return static_cast<int>(conditionAt_ * protocol_.sessions.size() + sessionAt_) + 1; }
+
+    /// The stimuli that were asked for in the training at hand.
+    const std::set<std::string>& explored() const noexcept { return explored_; }
 
     /// The level that a session's adjustments gave for a stimulus: their mean; none if there was none. dB.
     std::optional<double> adjustedDb(std::size_t condition, const std::string& session, const std::string& stimulus) const;

@@ -102,6 +102,7 @@ struct SessionPlan {
     std::string name;
     bool isTraining = false; ///< not analysed
     StudyTask task = StudyTask::identify;
+    std::string question; ///< what a participant reads; empty: the words of the task
     Order order = Order::random;
     int repetitions = 1;
     int fewestTouches = 0;    ///< explore: so many; 0: every stimulus once

@@ -69,21 +69,24 @@ std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& recor
     return std::nullopt;
 }
 
-std::string callsOf(const Protocol& protocol, const TrialRecord& record) {
+std::vector<std::string> partCallsOf(const Protocol& protocol, const TrialRecord& record) {
     const ConditionPlan& condition = protocol.conditions[record.trial.condition];
     const CallMaker maker{condition, record};
     const SessionPlan& session = protocol.sessions[record.trial.session];
-    std::string words;
-    const auto add = [&](const Part& part) {
-        const std::string call = std::visit([&](const auto& set) { return maker.call(set, part); }, condition.stimuli);
-        words.append(words.empty() ? "" : " ; ").append(call);
-    };
+    std::vector<std::string> calls;
+    const auto add = [&](const Part& part) { calls.push_back(std::visit([&](const auto& set) { return maker.call(set, part); }, condition.stimuli)); };
     for (std::size_t i = 0; i < record.trial.parts.size(); ++i) {
         const std::string& name = record.trial.parts[i];
         const bool isAdjusted = session.adjustment && session.adjustment->alternative == name; // felt at the level that was answered
         add({name, isAdjusted ? record.answer.value : i < record.trial.partLevelsDb.size() ? record.trial.partLevelsDb[i] : 0.0});
     }
-    if (record.trial.parts.empty()) add({{}, 0.0});
+    if (calls.empty()) add({{}, 0.0});
+    return calls;
+}
+
+std::string callsOf(const Protocol& protocol, const TrialRecord& record) {
+    std::string words;
+    for (const std::string& call : partCallsOf(protocol, record)) words.append(words.empty() ? "" : " ; ").append(call);
     return words;
 }
 

@@ -49,7 +49,11 @@ std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& tr
 /// Whether the answer was right; none if the task knows no right. Any thread.
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record);
 
-/// The arguments of `physvib` that render what was felt, part by part, joined by " ; ". M only (allocates).
+/// The arguments of `physvib` that render what was felt, one call for each part; of a trial without parts one. What is felt
+/// while a trial is not answered yet: give the answer as it stands. M only (allocates).
+std::vector<std::string> partCallsOf(const Protocol& protocol, const TrialRecord& record);
+
+/// All of them, joined by " ; ". M only (allocates).
 std::string callsOf(const Protocol& protocol, const TrialRecord& record);
 
 } // namespace physvib

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Experiment, observer and trial file of every participant, one after the other.
+// Every participant, one after the other, answered by the observer.
 #include "CommandLine/StudyCommand.h"
-#include "CommandLine/LayoutNamed.h"
 #include "CommandLine/StudyOutput.h"
+#include "CommandLine/StudyRun.h"
 #include "Files/ProtocolFile.h"
-#include "Files/TrialLog.h"
-#include "Study/Experiment.h"
 #include "Study/SimulatedObserver.h"
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <thread>
 #include <unistd.h>
 
@@ -22,28 +18,10 @@ int list() {
     return exitDone;
 }
 
-bool isCode(const std::string& code) {
-    const auto isPlain = [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_'; };
-    return code.size() <= 32 && std::ranges::all_of(code, isPlain);
-}
-
 std::string codeOf(const StudyOptions& o, int number) {
     if (!o.participant.empty()) return o.participant;
     const std::string digits = std::to_string(number);
     return std::string("P").append(digits.size() < 2 ? "0" : "").append(digits);
-}
-
-/// What the protocol asks of layouts that only files can tell.
-std::string layoutFault(const Protocol& protocol, const std::string& name) {
-    for (const ConditionPlan& condition : protocol.conditions) {
-        const auto layout = layoutNamed(condition.layout);
-        if (!layout) return name + ": condition " + printable(condition.name) + ": " + layout.error;
-        const auto* patterns = std::get_if<PatternSet>(&condition.stimuli);
-        if (patterns && patterns->enchanters != layout.value.geometry.count)
-            return name + ": condition " + printable(condition.name) + ": expected as many enchanters as the layout has (" + std::to_string(layout.value.geometry.count) + "), found " +
-                   std::to_string(patterns->enchanters);
-    }
-    return {};
 }
 
 void showProgress(const Participant& participant, int trials) {
@@ -53,34 +31,29 @@ void showProgress(const Participant& participant, int trials) {
 
 /// One participant from the first trial without an answer to the last; the reason if it fails.
 std::string runParticipant(const Protocol& protocol, const Participant& participant, const ObserverSettings& settings, const StudyOptions& o) {
-    const std::filesystem::path path = std::filesystem::path{o.folder} / (protocol.name + "-" + participant.code + ".csv");
-    TrialLogFile log{path, protocol, participant, PHYSVIB_VERSION};
-    if (!log.error().empty()) return log.error();
-    Experiment experiment{protocol, participant};
+    StudyRun study{o.folder, protocol, participant};
+    if (!study.error().empty()) return study.error();
+    const Experiment& experiment = study.experiment();
     const SimulatedObserver observer{settings, protocol, participant};
-    for (const TrialRecord& record : log.records())
-        if (const std::string fault = experiment.redo(record); !fault.empty())
-            return path.string() + ": session " + printable(protocol.sessions[record.trial.session].name) + ", trial " + std::to_string(record.trial.number) + ": " + fault;
-    const int before = experiment.trialsTaken();
     while (!experiment.isDone()) {
         if (o.paceSeconds > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(o.paceSeconds));
-        if (!log.append(experiment.take(observer.answer(experiment)))) return log.error();
+        if (!study.take(observer.answer(experiment))) return study.error();
         showProgress(participant, experiment.trialsTaken());
     }
-    std::cout << path.string() << "  " << experiment.trialsTaken() << " trials" << (before > 0 ? ", " + std::to_string(before) + " of them there before" : std::string{}) << '\n';
+    const int before = study.trialsBefore();
+    std::cout << study.path().string() << "  " << experiment.trialsTaken() << " trials" << (before > 0 ? ", " + std::to_string(before) + " of them there before" : std::string{}) << '\n';
     return {};
 }
 
 int run(const StudyOptions& o) {
-    if (o.observer.empty()) return leave(exitUsage, "study run: --observer: expected simulated, simulated-PHONE or simulated-RING; a person answers in the mixer (not yet)");
+    if (o.observer.empty()) return leave(exitUsage, "study run: --observer: expected simulated, simulated-PHONE or simulated-RING; a person answers in the mixer");
     const auto settings = observerNamed(o.observer);
     if (!settings) return leave(exitUsage, "study run: --observer: expected simulated, simulated-PHONE or simulated-RING, found " + inQuotes(o.observer));
-    if (!isCode(o.participant)) return leave(exitUsage, "study run: --participant: expected at most 32 letters, digits, - and _, found " + inQuotes(o.participant));
+    if (!isStudyCode(o.participant)) return leave(exitUsage, "study run: --participant: expected at most 32 letters, digits, - and _, found " + inQuotes(o.participant));
     if (!o.participant.empty() && o.participants > 1) return leave(exitUsage, "study run: --participant: expected one participant with a code, found several");
     const auto protocol = findProtocol(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
-    if (!isCode(protocol.value.name)) return leave(exitFailed, o.protocol + ": name: expected letters, digits, - and _, as files are called after it");
-    if (auto fault = layoutFault(protocol.value, o.protocol); !fault.empty()) return leave(exitFailed, fault);
+    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return leave(exitFailed, fault);
     for (int number = o.number; number < o.number + o.participants; ++number) {
         const Participant participant{codeOf(o, number), number, o.observer};
         if (auto error = runParticipant(protocol.value, participant, *settings, o); !error.empty()) return leave(exitFailed, error);

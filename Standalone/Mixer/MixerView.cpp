@@ -3,6 +3,7 @@
 #include "Mixer/MixerView.h"
 #include "Mixer/EnchantersTab.h"
 #include "Mixer/OutputTab.h"
+#include "Mixer/StudiesTab.h"
 
 namespace physvib {
 
@@ -24,6 +25,7 @@ MixerView::MixerView(Desk& desk)
     setWantsKeyboardFocus(true);
     tabs_.add("Enchanters", std::make_unique<EnchantersTab>(desk, world_.view()));
     tabs_.add("Output", std::make_unique<OutputTab>(desk));
+    tabs_.add("Studies", std::make_unique<StudiesTab>(desk));
     trouble_.setTitle("Trouble");
     trouble_.setBorderSize({0, panelInset, 0, panelInset});
     trouble_.setFont(juce::Font{text::medium});

@@ -2,6 +2,7 @@
 // States are reached as a person would reach them, with a clock instead of a device.
 #include "Mixer/Shots.h"
 #include "Mixer/MixerView.h"
+#include "Mixer/StudyShots.h"
 #include "Host/NoDevice.h"
 #include <functional>
 
@@ -31,8 +32,8 @@ juce::Component* find(juce::Component& root, const juce::String& title) {
     return nullptr;
 }
 
-const std::vector<State>& states() {
-    static const std::vector<State> all{
+std::vector<State> mixerStates() {
+    return {
         {"first-start", 1440, 900, 2.0, [](Desk&, MixerView& v) { v.setHint(true); }},
         {"four-enchanters", 1440, 900, 4.0, [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
         {"output", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }},
@@ -48,6 +49,14 @@ const std::vector<State>& states() {
              if (auto* maps = dynamic_cast<juce::Button*>(find(v, "Map of the chosen enchanter"))) maps->setToggleState(true, juce::sendNotificationSync);
          }},
     };
+}
+
+const std::vector<State>& states() {
+    static const std::vector<State> all = [] {
+        auto states = mixerStates();
+        for (const StudyShot& shot : studyShots()) states.push_back({shot.name, 1440, 900, 0.2, shot.reach});
+        return states;
+    }();
     return all;
 }
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a call of the program renders, as events for a live session: a trial is felt by the words that its row keeps.
+#pragma once
+#include "Files/LayoutFile.h"
+#include "Files/Result.h"
+#include "Study/Stimulus.h"
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+struct CallStimulus {
+    Stimulus stimulus;            ///< times from 0
+    LayoutDescription layout;
+    std::vector<float> gains;     ///< of each enchanter: from the events' unit (g, or shares of full scale) to full scale
+};
+
+/// The stimulus of `render SCENE ...` or `stimulus ...`, without the name of the program; or one line with what is wrong.
+/// What `physvib stimulus` would refuse as too strong for the layout at `sampleRateHz` is refused here. Recordings are
+/// samples, which a session does not play. M only.
+Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz);
+
+} // namespace physvib

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A participant's way through a study with the file that keeps it: whoever answers, a person or an observer, does it here.
+#pragma once
+#include "Files/TrialLog.h"
+#include "Study/Experiment.h"
+#include <filesystem>
+#include <string>
+
+namespace physvib {
+
+/// Whether files may be called after it: at most 32 letters, digits, - and _. Any thread.
+bool isStudyCode(const std::string& code) noexcept;
+
+/// What the protocol asks of layouts and names that reading it could not tell; empty, or one line that begins with `name`. M.
+std::string protocolFault(const Protocol& protocol, const std::string& name);
+
+/// The file of that participant in `folder`. Any thread.
+std::filesystem::path trialFile(const std::filesystem::path& folder, const Protocol& protocol, const Participant& participant);
+
+/// From the first trial without an answer to the last. M only.
+class StudyRun {
+public:
+    /// Opens or makes the trial file and does again what was answered before; error() says what went wrong.
+    StudyRun(const std::filesystem::path& folder, Protocol protocol, Participant participant);
+    StudyRun(const StudyRun&) = delete;
+    StudyRun& operator=(const StudyRun&) = delete;
+
+    /// Empty, or one line; then nothing may be asked of the experiment.
+    const std::string& error() const noexcept { return error_; }
+
+    const Protocol& protocol() const noexcept { return protocol_; }
+    const Participant& participant() const noexcept { return participant_; }
+    const std::filesystem::path& path() const noexcept { return path_; }
+    const Experiment& experiment() const noexcept { return experiment_; }
+    int trialsBefore() const noexcept { return before_; } ///< that were in the file when it was opened
+
+    /// The answer to the experiment's trial: its row is in the file before this returns. False, and error(), if it is not an
+    /// answer, or cannot be written.
+    bool take(Answer answer);
+
+private:
+    Protocol protocol_;
+    Participant participant_;
+    std::filesystem::path path_;
+    TrialLogFile log_;
+    Experiment experiment_;
+    int before_ = 0;
+    std::string error_;
+};
+
+} // namespace physvib

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which study, who takes part, where the rows go; then the window is the participant's.
+#pragma once
+#include "Mixer/StudyScreen.h"
+#include "Mixer/TabPanel.h"
+
+namespace physvib {
+
+class StudiesTab final : public Tab {
+public:
+    explicit StudiesTab(Desk& desk);
+    ~StudiesTab() override;
+
+    /// A built-in protocol's name, or a file; empty, or what is wrong with it.
+    std::string chooseProtocol(const std::string& nameOrPath);
+    void setParticipant(const juce::String& code, int number);
+    void setFolder(const juce::File& folder);
+
+    /// Begins or goes on: the screen covers the window. Empty, or why not, which is shown as well.
+    std::string begin();
+    StudyScreen* screen() noexcept { return screen_.get(); }
+    void end();
+
+    void takeMix() override;
+    void refresh(const DeskMoment&) override {
+        if (screen_) screen_->refresh();
+    }
+    void visibilityChanged() override { takeMix(); }
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    void pickProtocol();
+    void browseProtocol();
+    void browseFolder();
+    void look();
+    void say(const juce::String& words, Shade shade);
+    Participant participant() const;
+
+    Desk& desk_;
+    std::optional<Protocol> protocol_;
+    juce::String protocolPath_, about_, words_, level_;
+    Shade wordsShade_ = Shade::muted;
+    juce::ComboBox choice_;
+    juce::Label choiceName_, codeName_, numberName_, folderName_;
+    juce::TextEditor code_, number_, folder_;
+    std::unique_ptr<juce::TextButton> browse_;
+    juce::TextButton begin_{"Begin"};
+    juce::Rectangle<int> aboutArea_, levelArea_, wordsArea_;
+    std::unique_ptr<juce::FileChooser> chooser_;
+    std::unique_ptr<StudyScreen> screen_;
+    std::vector<juce::Component::SafePointer<juce::Component>> hidden_; // while the screen covers them
+};
+
+} // namespace physvib

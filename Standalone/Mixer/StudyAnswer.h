@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a participant answers with: one component for each kind of task.
+#pragma once
+#include "Files/LayoutFile.h"
+#include "Study/Experiment.h"
+#include <functional>
+#include <juce_gui_basics/juce_gui_basics.h>
+#include <memory>
+#include <set>
+#include <string>
+
+namespace physvib {
+
+class StudyAnswer : public juce::Component {
+public:
+    StudyAnswer() { setFocusContainerType(FocusContainerType::keyboardFocusContainer); }
+
+    std::function<void()> onAnswer; ///< a click has answered
+    std::function<void()> onChange; ///< isComplete() may have changed
+
+    /// As it stands; what it does not ask for keeps its default.
+    virtual Answer answer() const = 0;
+    virtual bool isComplete() const = 0;
+    virtual bool needsNext() const { return false; }          ///< a button answers, and not the click
+    virtual bool isOpen() const { return false; }             ///< may be used before everything was felt
+    virtual bool takeKey(const juce::KeyPress&) { return false; } ///< keys that no part has wanted
+    virtual void mark(const std::set<std::string>&) {}        ///< the labels that were felt already
+    virtual juce::String keys() const = 0;                    ///< how the keyboard answers
+    virtual void begin() {                                    ///< it may be used from now on
+        for (auto* child : getChildren())
+            if (child->getWantsKeyboardFocus() && child->isEnabled()) return child->grabKeyboardFocus();
+    }
+};
+
+/// For the trial at hand. M.
+std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout);
+
+// The parts that it chooses from.
+std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout);
+std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDescription& layout);
+std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout);
+std::unique_ptr<StudyAnswer> makeLabelAnswer(const ConditionPlan& condition);
+std::unique_ptr<StudyAnswer> makeChoiceAnswer(const Trial& trial);
+std::unique_ptr<StudyAnswer> makeRatingAnswer(const SessionPlan& session);
+std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment);
+std::unique_ptr<StudyAnswer> makeNumberAnswer();
+
+} // namespace physvib

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A participant with a mouse and a keyboard at the mixer's window, and a folder for the rows.
+#pragma once
+#include "Host/NoDevice.h"
+#include "Mixer/MixerView.h"
+#include "Mixer/StudiesTab.h"
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <gtest/gtest.h>
+
+namespace juce {
+bool dispatchNextMessageOnSystemQueue(bool returnIfNoPendingMessages); // what a message loop is made of
+}
+
+namespace physvib::test {
+
+/// Runs the message loop until `isTrue`, at most `seconds`; whether it became true.
+inline bool runUntil(const std::function<bool()>& isTrue, double seconds = 10.0) {
+    for (const double end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds; juce::Time::getMillisecondCounterHiRes() < end;) {
+        if (isTrue()) return true;
+        if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
+    }
+    return isTrue();
+}
+
+inline AudioDeviceTypes onlyNoDevice() {
+    return [] {
+        std::vector<std::unique_ptr<juce::AudioIODeviceType>> types;
+        types.push_back(std::make_unique<NoDeviceType>());
+        return types;
+    };
+}
+
+/// The mixer in a window of its own.
+class Participant {
+public:
+    Participant() {
+        view.setSize(1440, 900);
+        view.addToDesktop(juce::ComponentPeer::windowHasTitleBar);
+        view.setVisible(true);
+        view.tabs().choose("Studies");
+        view.grabKeyboardFocus();
+        pump();
+    }
+    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128}};
+    MixerView view{desk};
+
+    /// Those on the screen only; null if there is none.
+    juce::Component* find(const juce::String& title) { return findIn(view, title); }
+    StudiesTab& tab() { return *dynamic_cast<StudiesTab*>(findIn(view, "Studies", false, [](juce::Component& c) { return dynamic_cast<StudiesTab*>(&c) != nullptr; })); }
+    StudyScreen* screen() { return tab().screen(); }
+    const Experiment& experiment() { return screen()->study().experiment(); }
+
+    /// A click in the middle of what has that title, once it may be clicked.
+    void click(const juce::String& title) {
+        ASSERT_TRUE(canUse(title)) << title;
+        auto* target = find(title);
+        clickAt(view.getLocalPoint(target, target->getLocalBounds().toFloat().getCentre()));
+    }
+    void clickAt(juce::Point<float> at) {
+        for (const int buttons : {0, int{juce::ModifierKeys::leftButtonModifier}, 0}) {
+            timeMs_ += 400; // never a double click
+            view.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at, juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
+        }
+        pump();
+    }
+    void key(int code, int modifiers = 0, juce::juce_wchar character = 0) {
+        view.getPeer()->handleKeyPress(juce::KeyPress{code, modifiers, character});
+        pump();
+    }
+    void type(const juce::String& words) {
+        for (const auto character : words) key(static_cast<int>(juce::CharacterFunctions::toUpperCase(character)), 0, character);
+    }
+    void space() { key(juce::KeyPress::spaceKey, 0, ' '); }
+    void enter() { key(juce::KeyPress::returnKey, 0, '\r'); }
+
+    bool canUse(const juce::String& title) {
+        return runUntil([&] {
+            auto* c = find(title);
+            return c != nullptr && c->isEnabled();
+        });
+    }
+    /// Feels the next part and waits for its end.
+    void feel() {
+        const int before = plays();
+        space();
+        EXPECT_TRUE(runUntil([&] { return plays() > before && !isFeeling(); })) << "nothing was felt";
+        pump(); // the answer unlocks with the next picture
+    }
+    bool isAnswerOpen(const juce::String& title) { return find(title) != nullptr && find(title)->isEnabled(); }
+    void pump() {
+        for (const double end = juce::Time::getMillisecondCounterHiRes() + 25.0; juce::Time::getMillisecondCounterHiRes() < end;)
+            if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
+        view.refresh();
+    }
+
+private:
+    int plays() { return screen() != nullptr ? screen()->plays() : 0; }
+    bool isFeeling() { return screen() != nullptr && screen()->isFeeling(); }
+    static juce::Component* findIn(juce::Component& root, const juce::String& title, bool mustShow = true, const std::function<bool(juce::Component&)>& fits = {}) {
+        if (root.getTitle() == title && (!mustShow || root.isShowing()) && (!fits || fits(root))) return &root;
+        for (auto* child : root.getChildren())
+            if (auto* found = findIn(*child, title, mustShow, fits)) return found;
+        return nullptr;
+    }
+    juce::int64 timeMs_ = juce::Time::currentTimeMillis();
+};
+
+} // namespace physvib::test

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A scripted participant completes a short study of each kind by mouse and keyboard; the rows are what the script answered,
+// and `physvib analyse` takes them.
+#include "Participant.h"
+#include "Files/CsvTable.h"
+#include "Files/ProtocolFile.h"
+#include <cstdlib>
+#include <iterator>
+
+namespace physvib {
+namespace {
+
+class ByAParticipant : public testing::Test {
+protected:
+    void SetUp() override {
+        folder.createDirectory();
+        p = std::make_unique<test::Participant>();
+        p->tab().setFolder(folder);
+    }
+    void TearDown() override {
+        p.reset();
+        folder.deleteRecursively();
+    }
+
+    /// Writes the protocol and begins with it.
+    void begin(const std::string& sessions, const std::string& stimuli, const std::string& more = {}) {
+        const auto file = folder.getChildFile("short.json");
+        file.replaceWithText(R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", )" + stimuli + "}], \"sessions\": [" + sessions + "]" + more + "}");
+        ASSERT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
+        goOn();
+    }
+    void goOn() {
+        ASSERT_EQ(p->tab().begin(), "");
+        p->pump();
+        ASSERT_NE(p->screen(), nullptr);
+    }
+    /// Past the page before a session, by mouse.
+    void passPage() {
+        ASSERT_EQ(p->screen()->page(), StudyScreen::Page::pause);
+        p->click("Next");
+        ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial);
+    }
+    void close() {
+        ASSERT_EQ(p->screen()->page(), StudyScreen::Page::done);
+        p->enter();
+        ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+        EXPECT_NE(p->find("Tabs"), nullptr) << "the mixer is back";
+    }
+    CsvTable rows() const {
+        std::ifstream file{folder.getChildFile("short-P01.csv").getFullPathName().toStdString()};
+        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+        auto table = readCsvTable(text, "short-P01.csv");
+        EXPECT_TRUE(table) << table.error;
+        return table.value;
+    }
+    /// A column of the rows of a task.
+    std::vector<std::string> column(const std::string& name, const std::string& task) const {
+        const auto table = rows();
+        std::vector<std::string> cells;
+        for (const auto& row : table.rows)
+            if (row.cells[*table.column("task")] == task) cells.push_back(row.cells[*table.column(name)]);
+        return cells;
+    }
+    void analyse(const std::string& kind) const {
+        const std::string call = "'" PHYSVIB_PROGRAM "' analyse " + kind + " '" + folder.getChildFile("short-P01.csv").getFullPathName().toStdString() + "' > /dev/null";
+        EXPECT_EQ(std::system(call.c_str()), 0) << call;
+    }
+
+    juce::File folder = juce::File::createTempFile("physvib-participant");
+    std::unique_ptr<test::Participant> p;
+};
+
+using Texts = std::vector<std::string>;
+
+TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
+    begin(R"({"name": "training", "training": true, "task": "explore"}, {"name": "main", "task": "identify", "most_plays": 2})",
+          R"("layout": "phone2", "stimuli": "patterns", "enchanters": 2, "pulse_s": [0.03], "gap_s": 0.01)");
+    const auto items = stimuliOf(p->screen()->study().protocol().conditions[0]);
+    const auto titleOf = [](const std::string& label) {
+        juce::StringArray words;
+        for (const char c : label.substr(0, label.find('-'))) words.add(juce::String::charToString(static_cast<juce::juce_wchar>(c)));
+        return words.joinIntoString(" then ") + ", 30 ms";
+    };
+    const auto firstOf = [](const std::string& label) { return "First pulse: " + juce::String::charToString(static_cast<juce::juce_wchar>(label[0])); };
+    passPage();
+    Texts felt;
+    for (const auto& item : items) {
+        p->click(firstOf(item.label));
+        p->click(titleOf(item.label));
+        felt.push_back(item.label);
+        ASSERT_TRUE(test::runUntil([&] { return p->screen()->study().experiment().trialsTaken() == static_cast<int>(felt.size()); })) << item.label;
+    }
+    EXPECT_EQ(column("response", "explore"), felt);
+    passPage();
+    Texts answers, plays;
+    for (std::size_t n = 0; n < items.size(); ++n) {
+        const std::string label = items[(5 * n + 3) % items.size()].label; // whatever it was
+        EXPECT_FALSE(p->isAnswerOpen(firstOf(label))) << "nothing was felt yet";
+        p->feel();
+        if (n == 4) {
+            p->feel();
+            p->space(); // a third time is one too many
+        }
+        if (n % 2 == 0) p->click(firstOf(label));
+        else p->type(label.substr(0, 1));
+        p->click(titleOf(label));
+        answers.push_back(label);
+        plays.push_back(n == 4 ? "2" : "1");
+    }
+    close();
+    EXPECT_EQ(column("response", "identify"), answers);
+    EXPECT_EQ(column("observer", "identify"), Texts(items.size(), "person"));
+    EXPECT_EQ(column("replays", "identify").size(), items.size());
+    analyse("confusion");
+}
+
+TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) {
+    begin(R"({"name": "main", "task": "identify", "repetitions": 2})", R"("layout": "phone4", "stimuli": "grid", "columns": 3, "rows": 2, "seconds": 0.05)");
+    Texts answers, asked;
+    for (int n = 0; n < 12; ++n) {
+        if (n == 0) passPage();
+        if (n == 7) { // the window goes, as in a crash; the rows are there
+            p = std::make_unique<test::Participant>();
+            p->tab().setFolder(folder);
+            ASSERT_EQ(p->tab().chooseProtocol(folder.getChildFile("short.json").getFullPathName().toStdString()), "");
+            goOn();
+            EXPECT_EQ(p->experiment().trialsTaken(), 7);
+            passPage();
+        }
+        asked.push_back(p->experiment().trial().stimulus);
+        p->feel();
+        const int row = 1 + n % 2, col = 1 + n % 3;
+        if (n != 5) {
+            p->click("Row " + juce::String{row} + ", column " + juce::String{col});
+            answers.push_back(std::to_string(row) + "," + std::to_string(col));
+        } else { // the arrows begin at the lower left of the middle
+            p->key(juce::KeyPress::rightKey);
+            p->enter();
+            ASSERT_TRUE(test::runUntil([&] { return p->experiment().trialsTaken() == 6; }));
+            answers.push_back("2,2");
+        }
+    }
+    close();
+    EXPECT_EQ(column("response", "identify"), answers);
+    EXPECT_EQ(column("stimulus", "identify"), asked);
+    analyse("confusion");
+}
+
+TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
+    begin(R"({"name": "training", "training": true, "task": "explore", "fewest_touches": 3}, {"name": "main", "task": "locate", "repetitions": 4})",
+          R"("layout": "phone4", "stimuli": "grid", "columns": 2, "rows": 2, "seconds": 0.05)");
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    std::vector<FieldPlace> touched;
+    const auto touch = [&](FieldPlace at) {
+        ASSERT_TRUE(p->canUse("Field"));
+        auto* field = p->find("Field");
+        p->clickAt(p->view.getLocalPoint(field, pointOn(fieldIn(field->getLocalBounds().toFloat().reduced(24.0f), layout), at)));
+        touched.push_back(at);
+    };
+    passPage();
+    for (int n = 1; n <= 3; ++n) {
+        touch({0.25 * n, 0.2 * n});
+        ASSERT_TRUE(test::runUntil([&] { return p->experiment().trialsTaken() == n; }));
+    }
+    passPage();
+    for (int n = 0; n < 16; ++n) {
+        p->feel();
+        if (n != 2) {
+            touch({0.05 + 0.05 * n, 0.1 + 0.2 * (n * n % 5)});
+        } else {
+            for (int k = 0; k < 11; ++k) { // from wherever it is to the upper left
+                p->key(juce::KeyPress::leftKey, juce::ModifierKeys::shiftModifier);
+                p->key(juce::KeyPress::upKey, juce::ModifierKeys::shiftModifier);
+            }
+            p->key(juce::KeyPress::rightKey, juce::ModifierKeys::shiftModifier);
+            p->key(juce::KeyPress::downKey);
+            touched.push_back({0.1, 0.01});
+            p->enter();
+        }
+    }
+    close();
+    auto x = column("x", "explore"), y = column("y", "explore");
+    for (const auto& cell : column("x", "locate")) x.push_back(cell);
+    for (const auto& cell : column("y", "locate")) y.push_back(cell);
+    ASSERT_EQ(x.size(), 19u);
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        EXPECT_NEAR(std::stod(x[n]), touched[n].x, 2e-3) << n; // a pixel
+        EXPECT_NEAR(std::stod(y[n]), touched[n].y, 2e-3) << n;
+    }
+    analyse("resolution");
+}
+
+TEST_F(ByAParticipant, MatchesLevelsAndChoosesAtTheMatchedOnes) {
+    begin(R"({"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "150"}, {"name": "250"}],
+              "adjustment": {"alternative": "250", "start_db": 3, "step_db": 1.5, "least_db": -20, "most_db": 10}},
+             {"name": "main", "task": "choose", "both_orders": true, "repetitions": 2, "alternatives": [{"name": "150"}, {"name": "250"}], "levels_from": "matching"})",
+          R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "n", "values": ["one"]}],
+             "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --seconds 0.05 --level-g 0.1 --frequency {alternative}")");
+    passPage();
+    p->feel();
+    EXPECT_FALSE(p->isAnswerOpen("Next")) << "the second was not felt";
+    p->feel();
+    p->click("Softer");
+    p->click("Softer");
+    p->key(juce::KeyPress::upKey);
+    p->feel();
+    p->click("Next");
+    passPage();
+    Texts choices;
+    for (int n = 0; n < 4; ++n) {
+        const auto parts = p->experiment().trial().parts;
+        EXPECT_EQ(p->experiment().trial().levelDb, 1.5) << "the matched one";
+        p->feel();
+        p->feel();
+        choices.push_back(parts[static_cast<std::size_t>(n / 2)]);
+        if (n % 2 == 0) p->type(n / 2 == 0 ? "1" : "2");
+        else p->click(n / 2 == 0 ? "Answer: the first" : "Answer: the second");
+    }
+    close();
+    EXPECT_EQ(column("value", "adjust"), Texts{"1.5"});
+    EXPECT_EQ(column("choice", "choose"), choices);
+    analyse("choices");
+    analyse("levels");
+}
+
+TEST_F(ByAParticipant, RatesOnlyWhatWasFeltForLongEnough) {
+    begin(R"({"name": "main", "task": "rate", "repetitions": 2, "least_s": 0.3, "break_every": 1, "break_s": 0.2, "scales": ["realism", "liking"], "objects": ["150", "200", "250"]})",
+          R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "n", "values": ["one"]}],
+             "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --seconds 0.2 --level-g 0.1 --frequency {object}")");
+    for (int n = 0; n < 2; ++n) {
+        passPage(); // also after the break
+        for (int k = 0; k < 5; ++k) {
+            p->feel();
+            EXPECT_FALSE(p->isAnswerOpen("Realism")) << "one of the three was felt for 0.2 s, asked for are 0.3";
+        }
+        p->feel();
+        ASSERT_TRUE(p->canUse("Realism"));
+        EXPECT_FALSE(p->isAnswerOpen("Next")) << "no scale is set";
+        dynamic_cast<juce::Slider*>(p->find("Realism"))->grabKeyboardFocus();
+        for (int k = 0; k <= n; ++k) p->key(juce::KeyPress::rightKey);
+        EXPECT_FALSE(p->isAnswerOpen("Next")) << "one scale is set";
+        auto* slider = p->find("Liking");
+        p->clickAt(p->view.getLocalPoint(slider, slider->getLocalBounds().toFloat().getCentre().withX(2.0f)));
+        p->click("Next");
+    }
+    close();
+    EXPECT_EQ(column("realism", "rate"), (Texts{"51", "52"}));
+    EXPECT_EQ(column("liking", "rate"), (Texts{"0", "0"}));
+    analyse("ratings");
+}
+
+TEST_F(ByAParticipant, GivesNumbers) {
+    begin(R"({"name": "main", "task": "estimate", "question": "How strong?"})",
+          R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1", "0.2"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
+    passPage();
+    const Texts numbers{"7", "12.5", "0.3"};
+    for (const auto& n : numbers) {
+        p->feel();
+        ASSERT_TRUE(p->canUse("Number"));
+        p->enter(); // nothing is typed yet
+        p->type(n);
+        p->enter();
+    }
+    close();
+    EXPECT_EQ(column("value", "estimate"), numbers);
+    analyse("levels");
+}
+
+TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
+    p->desk.change("Mute", [](Mix& mix) { mix.strips[1].isMuted = true; });
+    begin(R"({"name": "main", "task": "identify"})", R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
+    EXPECT_EQ(p->desk.slowness(), 0) << "the world stands still";
+    passPage();
+    p->key(juce::KeyPress::escapeKey);
+    EXPECT_TRUE(p->desk.isSilent());
+    p->space();
+    EXPECT_EQ(p->screen()->plays(), 0) << "silent: nothing is felt, nothing counts";
+    p->click("Silence");
+    EXPECT_FALSE(p->desk.isSilent());
+    p->feel();
+    p->click("Row 1, column 1");
+    p->click("Leave the study; what was answered is kept");
+    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    EXPECT_EQ(p->desk.slowness(), 1);
+    EXPECT_EQ(column("response", "identify"), Texts{"1,1"});
+}
+
+TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
+    const auto refusal = [&](const std::string& call) {
+        const auto file = folder.getChildFile("short.json");
+        file.replaceWithText(R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": ")" + call +
+                             R"("}], "sessions": [{"name": "main", "task": "estimate"}]})");
+        EXPECT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
+        return p->tab().begin();
+    };
+    EXPECT_NE(refusal("stimulus phantom --at 0.5,2").find("expected X,Y from 0 to 1"), std::string::npos);
+    EXPECT_NE(refusal("stimulus phantom --at 0.5,0.5 --level-g 40").find("expected at most its full scale of 1 g"), std::string::npos);
+    EXPECT_NE(refusal("render drop --method SV").find("not yet"), std::string::npos);
+    EXPECT_NE(refusal("devices").find("devices"), std::string::npos);
+    EXPECT_EQ(p->screen(), nullptr);
+    EXPECT_FALSE(folder.getChildFile("short-P01.csv").exists());
+}
+
+} // namespace
+} // namespace physvib
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    if (std::getenv("DISPLAY") == nullptr) return std::puts("skipped: a participant needs a display; run it by xvfb-run"), 77;
+    juce::JUCEApplicationBase::createInstance = []() -> juce::JUCEApplicationBase* { return nullptr; }; // a program of its own: JUCE outlives errors of X
+    const juce::ScopedJuceInitialiser_GUI juce;
+    return RUN_ALL_TESTS();
+}
