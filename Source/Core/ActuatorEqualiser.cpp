@@ -14,10 +14,11 @@ constexpr RootPair atTop{2.0, 1.0};   // half the rate twice, as the bilinear tr
 
 } // namespace
 
-ActuatorEqualiser::ActuatorEqualiser(const Resonator& resonator, const FrequencyBand& band, int sampleRateHz) noexcept
+ActuatorEqualiser::ActuatorEqualiser(const EqualisedActuator& actuator, int sampleRateHz) noexcept
     : sampleRateHz_{static_cast<double>(sampleRateHz)}
-    , band_{band} {
-    if (!resonator.isKnown() || !band.isKnown() || band.highHz >= 0.5 * sampleRateHz_) return;
+    , band_{actuator.band} {
+    const auto& [resonator, band] = actuator;
+    if (!actuator.isKnown() || band.highHz >= 0.5 * sampleRateHz_) return;
     const double lowHz = edgeRatio * band.lowHz, highHz = band.highHz / edgeRatio;
     const auto poles = [this](double hz, double q) { return RootPair::of(hz, q, sampleRateHz_); };
     section_[0] = {1.0, poles(resonator.resonanceHz, resonator.q), poles(lowHz, butterworthQ[0])};

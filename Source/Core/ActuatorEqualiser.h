@@ -6,10 +6,20 @@
 // not driven. All four sections have their zeros and poles in the unit circle (or at its ends): stable and minimal-phase.
 #pragma once
 #include "Core/Biquad.h"
+#include "Core/Limits.h"
 #include "Core/Resonator.h"
 #include <array>
 
 namespace physvib {
+
+/// What a channel is equalised for; without its figures: nothing.
+struct EqualisedActuator {
+    Resonator resonator;
+    FrequencyBand band;
+    bool isKnown() const noexcept { return resonator.isKnown() && band.isKnown(); }
+    bool operator==(const EqualisedActuator&) const = default;
+};
+using EqualisedActuators = std::array<EqualisedActuator, limits::maxEnchanters>;
 
 /// One channel. R only, but for prepare and the figures: any thread.
 class ActuatorEqualiser {
@@ -17,8 +27,8 @@ public:
     /// Passes everything unchanged.
     ActuatorEqualiser() = default;
 
-    /// `resonator` and `band` known; without either, or with a band that does not lie below half the rate, all passes.
-    ActuatorEqualiser(const Resonator& resonator, const FrequencyBand& band, int sampleRateHz) noexcept;
+    /// Without figures, or with a band that does not lie below half the rate, all passes.
+    ActuatorEqualiser(const EqualisedActuator& actuator, int sampleRateHz) noexcept;
 
     bool isOn() const noexcept { return sections_ > 0; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What is done to each enchanter's channel on its own, before the linked limiter: delay, gain, polarity, mute.
+// What is done to each enchanter's channel on its own, before the linked limiter: equaliser, delay, gain, polarity, mute.
 #pragma once
+#include "Core/ActuatorEqualiser.h"
 #include "Core/ChannelDelay.h"
 #include "Core/GainRamp.h"
 #include "Core/Limits.h"
@@ -9,15 +10,17 @@
 
 namespace physvib {
 
-/// Per channel: out = gain * delayed in, every change in a ramp of limits::channelRampSeconds; before the first frame
+/// Per channel: out = gain * delayed, equalised in, every change in a ramp of limits::channelRampSeconds; before the first frame
 /// there is nothing to ramp from. R only, but for prepare: M.
 template <class Profile>
 class ActuatorStage {
 public:
-    /// All gains 1, nothing muted or delayed. M, not while rendering.
-    void prepare(int sampleRateHz, int channels) noexcept {
+    /// All gains 1, nothing muted or delayed, equalisers at rest. M, not while rendering.
+    void prepare(int sampleRateHz, int channels, const EqualisedActuators& equalised = {}) noexcept {
         channels_ = channels;
         hasBegun_ = false;
+        actuators_ = equalised;
+        prepareEqualisers(sampleRateHz);
         for (auto& ramp : ramps_) ramp.prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
         gains_.fill(1.0f);
         muted_.fill(false);
@@ -25,8 +28,9 @@ public:
         prepareDelays(sampleRateHz);
     }
 
-    /// Goes on at another rate, all as it is, but what was on its way through a delay. M, not while rendering.
+    /// Goes on at another rate, all as it is, but what was on its way through an equaliser or a delay. M, not while rendering.
     void changeRate(int sampleRateHz) noexcept {
+        prepareEqualisers(sampleRateHz);
         for (int j = 0; j < channels_; ++j) ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, aimOf(j));
         prepareDelays(sampleRateHz);
     }
@@ -49,12 +53,12 @@ public:
         delays_[index(channel)].moveTo(framesOf(channel));
     }
 
-    /// In place. `isSilent`: all of it is 0. True if all of it is 0 afterwards.
+    /// In place. `isSilent`: all of it is 0. True if all of it is 0 afterwards: an equaliser rings out.
     bool process(float* const* io, int frames, bool isSilent) noexcept {
         hasBegun_ = true;
         bool allSilent = true;
         for (int j = 0; j < channels_; ++j) {
-            const bool none = delays_[index(j)].process(io[j], frames, isSilent);
+            const bool none = delays_[index(j)].process(io[j], frames, equalisers_[index(j)].process(io[j], frames, isSilent));
             if (none) ramps_[index(j)].pass(frames);
             else ramps_[index(j)].apply(io + j, 1, frames);
             allSilent = allSilent && none;
@@ -63,6 +67,9 @@ public:
     }
 
 private:
+    void prepareEqualisers(int sampleRateHz) noexcept {
+        for (int j = 0; j < channels_; ++j) equalisers_[index(j)] = {actuators_[index(j)], sampleRateHz};
+    }
     static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
     float aimOf(int channel) const noexcept { return muted_[index(channel)] ? 0.0f : gains_[index(channel)]; }
     void aim(int channel) noexcept {
@@ -82,6 +89,8 @@ private:
     int sampleRateHz_ = 48000;
     std::array<ChannelDelay<Profile::maxDelayFrames>, width> delays_{};
     std::array<float, width> delaySeconds_{};
+    EqualisedActuators actuators_{};
+    std::array<ActuatorEqualiser, width> equalisers_{};
     std::array<GainRamp, width> ramps_{};
     std::array<float, width> gains_{};
     std::array<bool, width> muted_{};

@@ -13,7 +13,7 @@ void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     panner_ = settings.panner;
     gains_.fill(0.0);
     bank_.prepare(settings.sampleRateHz, channels_, settings.instructions);
-    actuators_.prepare(settings.sampleRateHz, channels_);
+    actuators_.prepare(settings.sampleRateHz, channels_, settings.equalised);
     prepareLimiter();
     pending_.clear();
     controls_.clear();

@@ -30,6 +30,7 @@ struct RendererSettings {
     bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
     std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
     InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
+    EqualisedActuators equalised{}; ///< per channel; without figures it is played as it is
 
     int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
 

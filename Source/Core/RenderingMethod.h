@@ -2,6 +2,7 @@
 // What is rendered of a collision: the eight renderings of the thesis' study 2 (5.3).
 #pragma once
 #include "Core/CollisionEvent.h"
+#include <array>
 #include <string_view>
 
 namespace physvib {
@@ -45,6 +46,15 @@ constexpr bool renderingMethodNamed(std::string_view name, RenderingMethod& meth
     method.fixesFrequency = fixes[1];
     method.fixesDecay = fixes[2];
     return true;
+}
+
+/// Its name. Any thread.
+constexpr std::array<char, 9> nameOf(const RenderingMethod& method) noexcept {
+    std::array<char, 9> name{'A', 'V', '-', 'F', 'V', '-', 'D', 'R', 'V'};
+    if (method.fixesAmplitude) name[1] = 'F';
+    if (method.fixesFrequency) name[4] = 'F';
+    if (method.fixesDecay) name[8] = 'F';
+    return name;
 }
 
 } // namespace physvib

@@ -92,9 +92,37 @@ CollisionEvent readStrike(const JsonField& json) {
     return strike;
 }
 
+FrequencyBand readBand(const JsonField& json) {
+    if (json.arraySize() != 2) json.fail("expected [lowest, highest]");
+    const FrequencyBand band{json.item(0).positiveNumber(), json.item(1).numberUpTo(limits::maxFrequencyHz)};
+    if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
+    return band;
+}
+
+// One per channel, null for those that are played as they are; left out: all of them.
+void readEqualised(const JsonField& list, SavedSession& session) {
+    if (list.arraySize() != static_cast<std::size_t>(session.channels))
+        list.fail("expected " + std::to_string(session.channels) + " items, one per channel");
+    for (std::size_t j = 0; j < list.arraySize(); ++j) {
+        const JsonField item = list.item(j);
+        if (item.isNull()) continue;
+        item.expectObject({"resonance_hz", "q", "band_hz"});
+        session.equalised[j] = {{item["resonance_hz"].positiveNumber(), item["q"].positiveNumber()}, readBand(item["band_hz"])};
+    }
+}
+
+EventShaping readShaping(const JsonField& json) {
+    json.expectObject({"method", "fixed_amplitude", "remap_hz"});
+    EventShaping shaping;
+    if (json.has("method") && !renderingMethodNamed(json["method"].text(), shaping.method)) json["method"].fail("expected a name from AV-FV-DRV to AF-FF-DRF");
+    if (json.has("fixed_amplitude")) shaping.method.fixedAmplitude = json["fixed_amplitude"].numberUpTo(limits::maxAmplitude);
+    if (json.has("remap_hz")) shaping.remap.band = readBand(json["remap_hz"]);
+    return shaping;
+}
+
 SavedSession readRoot(const JsonField& root) {
     checkVersion(root, versionField, sessionFormatVersion);
-    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "channels", "panning", "takes", "controls", "strikes", "desk"});
+    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "equalised", "shaping", "channels", "panning", "takes", "controls", "strikes", "desk"});
     SavedSession session;
     session.lengthNs = readTime(root["seconds"]);
     session.run.stepsPerSecond = readWhole(root["steps_per_second"], Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond);
@@ -103,6 +131,8 @@ SavedSession readRoot(const JsonField& root) {
     session.limiterEnabled = root["limiter"].truth();
     session.channels = readWhole(root["channels"], 1, limits::maxEnchanters);
     if (root.has("ceilings")) readCeilings(root["ceilings"], session);
+    if (root.has("equalised")) readEqualised(root["equalised"], session);
+    if (root.has("shaping")) session.shaping = readShaping(root["shaping"]);
     session.panner = readPanner(root["panning"], session.channels);
     const JsonField takes = root["takes"];
     if (takes.arraySize() == 0) takes.fail("expected at least 1 take, found none");
@@ -139,6 +169,25 @@ OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
     return json;
 }
 
+OrderedJson bandJson(const FrequencyBand& band) { return {band.lowHz, band.highHz}; }
+
+OrderedJson equalisedJson(const SavedSession& session) {
+    OrderedJson list = OrderedJson::array();
+    for (std::size_t j = 0; j < static_cast<std::size_t>(session.channels); ++j) {
+        const auto& [resonator, band] = session.equalised[j];
+        if (!session.equalised[j].isKnown()) list.push_back(nullptr);
+        else list.push_back({{"resonance_hz", resonator.resonanceHz}, {"q", resonator.q}, {"band_hz", bandJson(band)}});
+    }
+    return list;
+}
+
+OrderedJson shapingJson(const EventShaping& shaping) {
+    const auto name = nameOf(shaping.method);
+    OrderedJson json{{"method", std::string(name.begin(), name.end())}, {"fixed_amplitude", shaping.method.fixedAmplitude}};
+    if (shaping.remap.band.isKnown()) json["remap_hz"] = bandJson(shaping.remap.band);
+    return json;
+}
+
 } // namespace
 
 Result<SavedSession> readSession(std::string_view text, std::string_view name) {
@@ -168,6 +217,8 @@ std::string sessionJson(const SavedSession& session) {
                      {"takes", OrderedJson::array()}};
     const std::vector<double> ceilings(session.ceilings.begin(), session.ceilings.begin() + session.channels);
     if (std::ranges::any_of(ceilings, [](double most) { return most != 1.0; })) root["ceilings"] = ceilings;
+    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) root["equalised"] = equalisedJson(session);
+    if (session.shaping != EventShaping{}) root["shaping"] = shapingJson(session.shaping);
     const SceneTake* before = nullptr;
     for (const SceneTake& take : session.log.takes) {
         root["takes"].push_back(takeJson(take, before));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Live sessions as JSON: scenes, seeds, inputs and controls with their times; rendering them again gives what was felt.
 #pragma once
+#include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"
 #include "Files/Mix.h"
 #include "Files/Result.h"
@@ -26,6 +27,8 @@ struct SavedSession {
     std::int64_t lengthNs = 0;
     SessionLog log; ///< at least one take
     std::optional<Mix> mix{}; ///< the desk as it was left, if the session was played on one
+    EqualisedActuators equalised{}; ///< per channel
+    EventShaping shaping{};         ///< of all collisions
 };
 
 /// The session that `text` describes; or, of the first thing that is wrong, one line `name: takes[0].scene.bodies[1]...`.

@@ -41,7 +41,7 @@ std::vector<AudioDeviceName> listAudioDevices(const AudioDeviceTypes& types) {
     return devices;
 }
 
-FoundDevice findAudioDevice(const AudioDeviceTypes& types, const std::string& wanted) {
+FoundDevice findAudioDevice(const AudioDeviceTypes& types, const std::string& wanted, bool withInputs) {
     auto all = types();
     const auto prefix = [](const auto& type) { return type->getTypeName().toStdString() + ":"; };
     const auto isNamed = [&](const auto& type) { return wanted.starts_with(prefix(type)); };
@@ -51,7 +51,7 @@ FoundDevice findAudioDevice(const AudioDeviceTypes& types, const std::string& wa
         type->scanForDevices();
         const auto name = juce::String::fromUTF8(wanted.c_str() + (hasType ? prefix(type).size() : 0));
         if (!type->getDeviceNames(false).contains(name)) continue;
-        std::unique_ptr<juce::AudioIODevice> device{type->createDevice(name, {})};
+        std::unique_ptr<juce::AudioIODevice> device{type->createDevice(name, withInputs && type->getDeviceNames(true).contains(name) ? name : juce::String{})};
         if (device) return {std::move(type), std::move(device)};
     }
     return {};

@@ -34,7 +34,8 @@ struct FoundDevice {
     std::string fullName() const { return type->getTypeName().toStdString() + ":" + device->getName().toStdString(); }
 };
 
-/// The device of that name, or type:name; empty if there is none. M; scans no more drivers than it must.
-FoundDevice findAudioDevice(const AudioDeviceTypes& types, const std::string& name);
+/// The device of that name, or type:name; empty if there is none. `withInputs`: its inputs as well, if it has any of the
+/// same name. M; scans no more drivers than it must.
+FoundDevice findAudioDevice(const AudioDeviceTypes& types, const std::string& name, bool withInputs = false);
 
 } // namespace physvib

@@ -4,6 +4,7 @@
 #include "Files/NumberText.h"
 #include "Host/HitExcerpt.h"
 #include "Host/HitFit.h"
+#include "Host/RecordingFaults.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,37 +22,12 @@ double power(std::span<const double> samples) {
     return samples.empty() ? 0.0 : sum / static_cast<double>(samples.size());
 }
 
-std::string place(std::size_t sample, double rateHz) { return " at " + fixedNumber(static_cast<double>(sample) / rateHz, 4) + " s"; }
-
-/// Three equal samples at the very peak between steep flanks. Rounding flattens peaks as well, but then the next
-/// sample is few steps lower; `step` is the smallest difference in the recording.
-std::string clipping(const std::vector<float>& x, double rateHz) {
-    float peak = 0.0f, step = HUGE_VALF;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        peak = std::max(peak, std::abs(x[i]));
-        if (i > 0 && x[i] != x[i - 1]) step = std::min(step, std::abs(x[i] - x[i - 1]));
-    }
-    for (std::size_t i = 0; i + 2 < x.size(); ++i) {
-        if (std::abs(x[i]) < peak || x[i + 1] != x[i] || x[i + 2] != x[i]) continue;
-        std::size_t after = i + 3;
-        while (after < x.size() && x[after] == x[i]) ++after;
-        const float before = i > 0 ? std::abs(x[i] - x[i - 1]) : 0.0f, behind = after < x.size() ? std::abs(x[i] - x[after]) : 0.0f;
-        if (std::max(before, behind) > 8.0f * step)
-            return "expected a recording that is not clipped, found " + std::to_string(after - i) + " equal samples at its peak" + place(i, rateHz);
-        i = after;
-    }
-    return {};
-}
-
 std::string faultOf(const std::vector<float>& x, double rateHz, ExtractionBand band) {
     if (!(rateHz > 0.0) || !(band.lowHz > 0.0) || !(band.highHz > band.lowHz)) return "expected a band of two rising frequencies";
     if (band.highHz > 0.5 * rateHz) return "expected a band below half the rate of " + fixedNumber(rateHz, 0) + " Hz, found " + numberText(band.highHz) + " Hz";
-    if (static_cast<double>(x.size()) < shortestSeconds * rateHz)
-        return "expected at least " + numberText(shortestSeconds) + " s, found " + std::to_string(x.size()) + (x.size() == 1 ? " sample" : " samples");
-    const auto bad = std::ranges::find_if(x, [](float s) { return !std::isfinite(s) || std::abs(s) > 1e6f; });
-    if (bad != x.end()) return "expected finite samples, found " + std::string(std::isnan(*bad) ? "NaN" : "infinity") + place(static_cast<std::size_t>(bad - x.begin()), rateHz);
-    if (std::ranges::all_of(x, [&](float s) { return s == x.front(); })) return "expected a hit, found silence";
-    return clipping(x, rateHz);
+    if (auto fault = recordingFault(x, rateHz, shortestSeconds); !fault.empty()) return fault;
+    if (isSilent(x)) return "expected a hit, found silence";
+    return clippingFault(x, rateHz);
 }
 
 std::string noneIn(ExtractionBand band) { return "expected a decaying sound from " + numberText(band.lowHz) + " to " + numberText(band.highHz) + " Hz, found none"; }
@@ -141,7 +117,7 @@ Result<ContactSound> extractMaterial(const std::vector<float>& samples, double r
     if (auto fault = faultOf(samples, rateHz, band); !fault.empty()) return Failure{std::move(fault)};
     const HitExcerpt hit = strongestHit(samples, rateHz);
     if (static_cast<double>(hit.end - hit.begin) < shortestSeconds * rateHz)
-        return Failure{"expected a hit and " + numberText(shortestSeconds) + " s after it, found its end" + place(hit.end, rateHz)};
+        return Failure{"expected a hit and " + numberText(shortestSeconds) + " s after it, found its end" + placeOf(hit.end, rateHz)};
     return rule == MaterialRule::fit ? byFit(samples, hit, rateHz, band) : byTwoPeaks(samples, hit, rateHz, band);
 }
 

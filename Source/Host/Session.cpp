@@ -41,7 +41,7 @@ Session::Session(const SessionSetup& setup)
     , renderer_{std::make_unique<HapticRenderer<DesktopProfile>>()}
     , told_{setup.boardSeconds > 0.0 ? std::make_unique<ToldEvents>() : nullptr}
     , state_{std::make_shared<const Scene>(setup.scene), setup.seed}
-    , world_{setup.run()} {
+    , world_{setup.run(), setup.shaping} {
     made_.reserve(4096);
     std::ranges::copy(setup.ceilings, ceilings_.begin());
     world_.start(0, state_.scene, state_.seed);
@@ -49,7 +49,12 @@ Session::Session(const SessionSetup& setup)
 
 void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     const std::scoped_lock lock{inputMutex_, worldMutex_};
-    renderer_->prepare({sampleRateHz, setup_.channels, setup_.panner, setup_.limiterEnabled, setup_.ceilings});
+    renderer_->prepare({.sampleRateHz = sampleRateHz,
+                        .channels = setup_.channels,
+                        .panner = setup_.panner,
+                        .limiterEnabled = setup_.limiterEnabled,
+                        .ceilings = setup_.ceilings,
+                        .equalised = setup_.equalised});
     setLaw(sampleRateHz, maxBlockFrames);
     sessionFrames_ = 0;
     restartFrame_ = -1;
@@ -87,6 +92,7 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
 }
 
 bool Session::strike(CollisionEvent event, int frame) noexcept {
+    event = setup_.shaping(event);
     event.timeNs = sessionNs(sessionFrames_.load(std::memory_order_relaxed) + frame);
     return ownStrikes_.push(event);
 }

@@ -71,7 +71,7 @@ bool Session::play(std::span<const CollisionEvent> strikes) {
     if (!std::ranges::all_of(strikes, isTimely)) return false;
     for (CollisionEvent strike : strikes) {
         strike.timeNs += now;
-        made_.push_back(strike);
+        made_.push_back(setup_.shaping(strike));
         controlLog_.strikes.push_back(strike);
     }
     handOver();

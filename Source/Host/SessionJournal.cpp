@@ -12,7 +12,7 @@ SessionJournal::SessionJournal(std::filesystem::path path, const Session& sessio
     : path_{std::move(path)}
     , eventsPath_{std::filesystem::path{path_}.replace_extension(".events.csv")}
     , session_{session}
-    , saved_{setup.run(), setup.panner, setup.channels, setup.limiterEnabled, setup.ceilings, 0, {}}
+    , saved_{setup.run(), setup.panner, setup.channels, setup.limiterEnabled, setup.ceilings, 0, {}, {}, setup.equalised, setup.shaping}
     , events_{std::fopen(eventsPath_.c_str(), "wb")} {
     if (!events_) {
         error_ = eventsPath_.string() + ": " + std::strerror(errno);

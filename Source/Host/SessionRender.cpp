@@ -23,12 +23,19 @@ std::string renderSession(const SavedSession& session, const std::string& path, 
     if (!file.error().empty()) return file.error();
     WavSink wav{file.temporaryPath().string(), session.channels, sampleRateHz, comment, path};
     if (!progress(0.0)) return "cancelled";
-    const auto events = sessionEvents(session, std::llround(seconds * 1e9)).events;
+    auto events = sessionEvents(session, std::llround(seconds * 1e9)).events;
+    std::ranges::transform(events, events.begin(), session.shaping);
     const auto controls = controlsOf(session.log, true, session.channels);
     const std::int64_t frames = std::llround(seconds * sampleRateHz);
     std::int64_t done = 0;
     bool goesOn = true;
-    renderOffline(events, {{sampleRateHz, session.channels, session.panner, session.limiterEnabled, session.ceilings}, frames, 1024, controls},
+    const RendererSettings renderer{.sampleRateHz = sampleRateHz,
+                                    .channels = session.channels,
+                                    .panner = session.panner,
+                                    .limiterEnabled = session.limiterEnabled,
+                                    .ceilings = session.ceilings,
+                                    .equalised = session.equalised};
+    renderOffline(events, {renderer, frames, 1024, controls},
                   [&](const float* const* block, int n) {
                       done += n;
                       return wav.write(block, n) && (goesOn = progress(static_cast<double>(done) / static_cast<double>(frames)));

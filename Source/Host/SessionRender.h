@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-/// All that was struck in the session before `endNs`, in time order: by its worlds, and apart from them. M only. Throws
+/// All that was struck in the session before `endNs`, in time order, not shaped yet: by its worlds, and apart from them. M only. Throws
 /// what Simulation throws.
 SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs);
 

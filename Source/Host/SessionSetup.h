@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a session is made of, what can be exchanged while it plays, and what it tells of itself.
 #pragma once
+#include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"
 #include "Host/ClockLaw.h"
 #include "Physics/SceneRun.h"
@@ -32,6 +33,8 @@ struct SessionSetup {
     PhantomPanner panner; ///< at most `channels` enchanters
     bool limiterEnabled = true;
     std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel, > 0
+    EqualisedActuators equalised{};
+    EventShaping shaping; ///< of all collisions, and of what is struck in the render call
     double longestGapSeconds = messageTimerGapSeconds;
     double boardSeconds = 0.0; ///< of ClockLaw; above 0 the session tells what it makes (Session::told) for a BoardOutput
     std::vector<std::vector<Action>> groups; ///< what notes do; valid inputs of the scene

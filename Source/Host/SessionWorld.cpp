@@ -32,7 +32,10 @@ void SessionWorld::step(std::vector<CollisionEvent>& made) {
     const std::size_t before = made.size();
     world_->step(made);
     ++steps_;
-    for (std::size_t i = before; i < made.size(); ++i) made[i].timeNs += originNs_;
+    for (std::size_t i = before; i < made.size(); ++i) {
+        made[i] = shaping_(made[i]);
+        made[i].timeNs += originNs_;
+    }
 }
 
 void SessionWorld::standStill(std::int64_t lengthNs) {

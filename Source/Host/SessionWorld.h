@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world of a session, in session time: one take after the other, with stalls and live inputs, and the log of them.
 #pragma once
+#include "Core/EventShaping.h"
 #include "Physics/SceneRun.h"
 #include "Physics/SceneTake.h"
 #include "Physics/Simulation.h"
@@ -15,8 +16,9 @@ namespace physvib {
 class SessionWorld {
 public:
     /// `run` gives step rate, timing and location; the seed is each take's own.
-    explicit SessionWorld(const SceneRun& run)
-        : run_{run} {}
+    explicit SessionWorld(const SceneRun& run, const EventShaping& shaping = {})
+        : run_{run}
+        , shaping_{shaping} {}
 
     /// A new take from `sessionNs` on. Throws what Simulation throws; then all stays as it was.
     void start(std::int64_t sessionNs, std::shared_ptr<const Scene> scene, std::uint32_t seed);
@@ -27,7 +29,7 @@ public:
     /// Session time up to which the world has been stepped.
     std::int64_t timeNs() const noexcept { return originNs_ + world_->timeNs(); }
 
-    /// One step; events are appended, in session time.
+    /// One step; events are appended, shaped and in session time.
     void step(std::vector<CollisionEvent>& made);
 
     /// The world is `lengthNs` later from now on.
@@ -50,6 +52,7 @@ private:
     std::span<const LiveInput> inputsOf(std::size_t take) const;
 
     SceneRun run_;
+    EventShaping shaping_;
     std::vector<SceneTake> takes_;
     std::unique_ptr<Simulation> world_;
     std::int64_t originNs_ = 0; // session time - world time

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The `physvib` program: its commands, and how a wrong call is told.
+#include "CommandLine/ActuatorChoice.h"
 #include "CommandLine/AnalyseCommand.h"
+#include "CommandLine/AttenuationCommand.h"
 #include "CommandLine/BoardCommand.h"
+#include "CommandLine/CalibrateCommand.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/MaterialCommand.h"
 #include "CommandLine/PlayCommand.h"
@@ -27,9 +30,6 @@ int listScenes() {
     }
     return exitDone;
 }
-
-// Commands that are promised and not built: they say so instead of being unknown words.
-constexpr const char* notYetCommands[] = {"calibrate"};
 
 int run(int argc, char** argv) {
     CLI::App app{"PhysVib: collisions one can feel, on every enchanter you attach."};
@@ -57,8 +57,14 @@ int run(int argc, char** argv) {
     MaterialOptions materialOptions;
     CLI::App* material = app.add_subcommand("material", "frequency and decay of a recorded contact");
     declareMaterial(*material, materialOptions);
+    AttenuationOptions attenuationOptions;
+    CLI::App* attenuation = app.add_subcommand("attenuation", "what an isolation layer holds back, from two recordings (thesis 3.2)");
+    declareAttenuation(*attenuation, attenuationOptions);
+    CLI::App* actuators = app.add_subcommand("actuators", "list the built-in actuator profiles; what is not known is empty");
     CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
-    for (const char* name : notYetCommands) app.add_subcommand(name, "not yet")->prefix_command()->group("Not yet");
+    CalibrateOptions calibrateOptions;
+    CLI::App* calibrate = app.add_subcommand("calibrate", "measure an actuator and write its profile");
+    declareCalibrate(*calibrate, calibrateOptions);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -68,6 +74,7 @@ int run(int argc, char** argv) {
         return leave(exitUsage, reason + " (see physvib --help)");
     }
     if (scenes->parsed()) return listScenes();
+    if (actuators->parsed()) return listActuators();
     if (devices->parsed()) return runDevices();
     if (analyse->parsed()) return runAnalyse(*analyse, analyseOptions);
     if (stimulus->parsed()) return runStimulus(*stimulus, stimulusOptions);
@@ -75,7 +82,8 @@ int run(int argc, char** argv) {
     if (material->parsed()) return runMaterial(materialOptions);
     if (play->parsed()) return runPlay(playOptions);
     if (board->parsed()) return runBoard(boardOptions);
-    if (!render->parsed()) return leave(exitUsage, app.get_subcommands().front()->get_name() + ": not yet");
+    if (attenuation->parsed()) return runAttenuation(attenuationOptions);
+    if (calibrate->parsed()) return runCalibrate(calibrateOptions);
     noteGiven(*render, options);
     const std::string refusal = checkRenderOptions(options);
     return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a file to two numbers, and how far they can be trusted.
 #include "CommandLine/MaterialCommand.h"
+#include "CommandLine/BandText.h"
 #include "CommandLine/ExitCode.h"
 #include "Files/MaterialTable.h"
 #include "Files/NumberText.h"
@@ -9,18 +10,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace physvib {
 namespace {
-
-std::optional<ExtractionBand> parseBand(std::string_view text) {
-    const std::size_t dash = text.find('-');
-    if (dash == std::string_view::npos) return std::nullopt;
-    const auto low = parseNumber<double>(text.substr(0, dash)), high = parseNumber<double>(text.substr(dash + 1));
-    if (!low || !high || !(*low > 0.0) || !(*high > *low)) return std::nullopt;
-    return ExtractionBand{*low, *high};
-}
 
 /// Of several microphones, the one that heard most.
 const std::vector<float>& loudestOf(const std::vector<std::vector<float>>& channels) {
@@ -68,7 +60,7 @@ int runMaterial(const MaterialOptions& o) {
     if (!band) return leave(exitUsage, "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band));
     const auto recording = readWav(o.path);
     if (!recording) return leave(exitFailed, recording.error);
-    const auto sound = extractMaterial(loudestOf(recording.value.channels), recording.value.sampleRateHz, *band,
+    const auto sound = extractMaterial(loudestOf(recording.value.channels), recording.value.sampleRateHz, {band->lowHz, band->highHz},
                                        o.rule == "fit" ? MaterialRule::fit : MaterialRule::twoPeaks);
     if (!sound) return leave(exitFailed, o.path + ": " + sound.error);
     std::cout << "frequency_hz,decay_per_s\n" << numberText(sound.value.frequencyHz) << ',' << numberText(sound.value.decayPerSecond) << '\n';

@@ -37,6 +37,18 @@ bool parseCeilings(const std::string& text, int channels, std::array<float, limi
     return true;
 }
 
+/// What its materials sound like: which of them meet, nobody knows yet.
+std::vector<CollisionEvent> soundsOf(const Scene& scene) {
+    std::vector<CollisionEvent> sounds;
+    for (const Material& m : scene.materials) {
+        CollisionEvent& sound = sounds.emplace_back();
+        sound.frequencyHz = m.frequencyHz;
+        sound.decayPerSecond = m.decayPerSecond;
+    }
+    std::erase_if(sounds, [](const CollisionEvent& sound) { return !(sound.frequencyHz > 0.0); });
+    return sounds;
+}
+
 SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     SessionSetup setup;
     setup.scene = *job.scene;
@@ -47,6 +59,8 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     setup.location = run.location;
     setup.channels = job.channels();
     setup.panner = job.panner();
+    setup.equalised = job.equalised();
+    setup.shaping = job.shaping();
     setup.limiterEnabled = o.scene.limiter == "on";
     setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
     return setup;
@@ -72,7 +86,8 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
 int runPlay(PlayOptions& o) {
     if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
-    if (!o.scene.renderingMethod.fixesNothing()) return leave(exitUsage, "--method " + o.scene.method + ": not yet in play (only AV-FV-DRV); render has it");
+    const bool isPlain = o.scene.renderingMethod.fixesNothing() && o.scene.actuator == "none";
+    if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method and --actuator; render --events, then board PORT play, has both");
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");
@@ -81,6 +96,12 @@ int runPlay(PlayOptions& o) {
     job.layout = std::move(layout.value);
     if (!o.board.empty() && job.channels() > limits::board::channels)
         return leave(exitUsage, "--board: the board has four channels, this layout " + std::to_string(job.channels()));
+    if (auto fault = fixedLevelFault(job); !fault.empty()) return leave(exitFailed, fault);
+    auto actuators = chooseActuators(o.scene, job.layout);
+    if (!actuators) return leave(exitFailed, actuators.error);
+    job.actuators = std::move(actuators.value);
+    for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) std::cerr << "physvib: warning: " << line << '\n';
+    for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) std::cerr << "physvib: " << line << '\n';
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
         return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");

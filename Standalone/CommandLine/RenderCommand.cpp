@@ -43,20 +43,6 @@ void warn(const RenderStatus& status, const RenderJob& job) {
     say(static_cast<std::uint64_t>(beyond), "events that begin after the end of the render (see --seconds)");
 }
 
-// An event has one amplitude: 1.5 g on every enchanter is one only if their full scales are one.
-std::string fixedLevelFault(const RenderJob& job) {
-    if (!job.method().fixesAmplitude) return {};
-    for (const auto& enchanter : job.layout.enchanters)
-        if (enchanter.fullScaleG != job.fullScaleG())
-            return job.options.layout + ": --method " + job.options.method + ": expected one full_scale_g for all enchanters, found " +
-                   numberText(job.fullScaleG()) + " and " + numberText(enchanter.fullScaleG);
-    if (job.method().fixedAmplitude > 1.0)
-        std::cerr << "physvib: warning: --method " << job.options.method << ": the fixed level of " << numberText(RenderingMethod::fixedLevelG)
-                  << " g is above the enchanters' full scale of " << numberText(job.fullScaleG()) << " g"
-                  << (job.isLimited() ? "; the limiter lowers it\n" : "\n");
-    return {};
-}
-
 std::string readInputs(RenderJob& job) {
     if (job.session && !job.options.given.contains("--layout")) {
         job.layout = describeLayout("session", job.session->panner.layout());
@@ -66,6 +52,9 @@ std::string readInputs(RenderJob& job) {
         job.layout = std::move(layout.value);
     }
     if (auto fault = fixedLevelFault(job); !fault.empty()) return fault;
+    auto actuators = chooseActuators(job.options, job.layout);
+    if (!actuators) return actuators.error;
+    job.actuators = std::move(actuators.value);
     if (job.scene) return {};
     auto events = loadEventsCsv(job.options.fromEvents);
     if (!events) return events.error;
@@ -75,7 +64,13 @@ std::string readInputs(RenderJob& job) {
 
 OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls) {
     const RenderOptions& o = job.options;
-    return {{o.sampleRateHz, job.channels(), job.panner(), job.isLimited(), job.ceilings()}, job.frames(), o.blockFrames, controls};
+    const RendererSettings renderer{.sampleRateHz = o.sampleRateHz,
+                                    .channels = job.channels(),
+                                    .panner = job.panner(),
+                                    .limiterEnabled = job.isLimited(),
+                                    .ceilings = job.ceilings(),
+                                    .equalised = job.equalised()};
+    return {renderer, job.frames(), o.blockFrames, controls};
 }
 
 SceneEvents eventsOf(const RenderJob& job) {
@@ -86,7 +81,8 @@ std::string render(RenderJob& job) {
     RenderOutputs outputs{job};
     if (auto error = outputs.open(); !error.empty()) return error;
     if (job.scene) job.made = eventsOf(job);
-    std::ranges::transform(job.made.events, job.made.events.begin(), job.method());
+    const auto warnings = remapWarnings(job.shaping().remap, job.made.events, job.layout, job.options);
+    std::ranges::transform(job.made.events, job.made.events.begin(), job.shaping());
     const auto& source = job.scene ? job.scene->name : job.options.fromEvents;
     if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, source); !error.empty()) return error;
     outputs.begin();
@@ -94,6 +90,8 @@ std::string render(RenderJob& job) {
     const auto take = [&](const float* const* channels, int frames) { return outputs.take(channels, frames); };
     const RenderStatus status = renderOffline(job.made.events, settingsOf(job, controls), take);
     if (auto error = outputs.finish(); !error.empty()) return error;
+    for (const std::string& line : warnings) std::cerr << "physvib: warning: " << line << '\n';
+    for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) std::cerr << "physvib: " << line << '\n';
     warn(status, job);
     outputs.summarise(std::cout);
     return {};

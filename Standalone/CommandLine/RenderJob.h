@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One render from its inputs to its events: what the renderer and the outputs need to know.
 #pragma once
+#include "CommandLine/ActuatorChoice.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/LayoutNamed.h"
 #include "CommandLine/RenderOptions.h"
 #include "Files/LayoutFile.h"
+#include "Files/NumberText.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SessionFile.h"
 #include "Physics/SceneRun.h"
@@ -23,6 +25,7 @@ struct RenderJob {
     LayoutDescription layout;
     std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
     SceneEvents made;
+    ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
 
     SceneRun run() const {
         if (session) return session->run;
@@ -43,6 +46,13 @@ struct RenderJob {
     std::array<float, limits::maxEnchanters> ceilings() const {
         return keepsLayouts() ? session->ceilings : RendererSettings::fullScale();
     }
+    /// Whether a session's actuators are kept, as its layouts.
+    bool keepsActuators() const {
+        constexpr const char* own[] = {"--actuator", "--equalise", "--remap", "--layout"};
+        return session && std::ranges::none_of(own, [&](const char* name) { return options.given.contains(name); });
+    }
+    EqualisedActuators equalised() const { return keepsActuators() ? session->equalised : actuators.equalised; }
+    EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap}; }
     bool isLimited() const { return session ? session->limiterEnabled : options.limiter == "on"; }
     std::int64_t frames() const { return std::llround(seconds() * options.sampleRateHz); }
     std::int64_t endNs() const { return std::llround(seconds() * 1e9); }
@@ -58,6 +68,7 @@ struct RenderJob {
     }
     /// The wanted method, its fixed level in shares of the enchanters' full scale.
     RenderingMethod method() const {
+        if (session && !options.given.contains("--method")) return session->shaping.method;
         RenderingMethod wanted = options.renderingMethod;
         wanted.fixedAmplitude = RenderingMethod::fixedLevelG / fullScaleG();
         return wanted;
@@ -69,6 +80,21 @@ struct RenderJob {
         return {layout.geometry, options.panningLaw, options.exponent, fieldWidthMetres(), fieldHeightMetres()};
     }
 };
+
+/// Why the method's fixed level cannot be had, or empty; a warning where it is high. An event has one amplitude: 1.5 g on every
+/// enchanter is one only if their full scales are one.
+inline std::string fixedLevelFault(const RenderJob& job) {
+    if (!job.method().fixesAmplitude) return {};
+    for (const auto& enchanter : job.layout.enchanters)
+        if (enchanter.fullScaleG != job.fullScaleG())
+            return job.options.layout + ": --method " + job.options.method + ": expected one full_scale_g for all enchanters, found " +
+                   numberText(job.fullScaleG()) + " and " + numberText(enchanter.fullScaleG);
+    if (job.method().fixedAmplitude > 1.0)
+        std::cerr << "physvib: warning: --method " << job.options.method << ": the fixed level of " << numberText(RenderingMethod::fixedLevelG)
+                  << " g is above the enchanters' full scale of " << numberText(job.fullScaleG()) << " g"
+                  << (job.isLimited() ? "; the limiter lowers it\n" : "\n");
+    return {};
+}
 
 /// Takes the saved session that the options name into `job`: exitDone, or the code to leave with after a line on stderr.
 inline int takeSession(RenderJob& job) {

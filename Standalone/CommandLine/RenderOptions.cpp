@@ -3,6 +3,7 @@
 #include "CommandLine/RenderOptions.h"
 #include "Physics/Simulation.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -68,7 +69,10 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)")
         ->check(CLI::IsMember({"onset", "release"}))->capture_default_str();
     command.add_option("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed")->capture_default_str();
-    command.add_option("--actuator", o.actuator, "actuator model: none (others: not yet)")->capture_default_str();
+    command.add_option("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file")->capture_default_str();
+    command.add_option("--equalise", o.equalise, "with an actuator: make it flat within its band (on or off)")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+    command.add_option("--remap", o.remap, "with an actuator: move all frequencies into its band, in their order (on or off)")
+        ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
 }
 
 void declareRenderOptions(CLI::App& command, RenderOptions& o) {
@@ -77,6 +81,10 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav");
     command.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");
     command.add_option("--picture", o.picturePath, "world, waveforms and event marks")->type_name("FILE.png");
+    command.add_option("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel")->type_name("FILE.csv");
+    command.add_option("--threshold", o.threshold, "of the pattern, in full scale")->check(between(0.0, 1.0, ""))->capture_default_str();
+    command.add_option("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
+        ->check(between(0.001, 1000.0, " V"));
     command.add_option("--rate", o.sampleRateHz, "sample rate")
         ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
     command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
@@ -94,17 +102,19 @@ std::string checkSceneOptions(RenderOptions& o) {
     if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
     if (o.method == "SV") return notYet("--method", o.method, "AV-FV-DRV to AF-FF-DRF");
     if (!renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, found \"" + o.method + "\"";
-    return notYet("--actuator", o.actuator, "none");
+    if (o.remap == "on" && o.actuator == "none") return "--remap: expected an --actuator, whose band is to be used";
+    return {};
 }
 
 std::string checkRenderOptions(RenderOptions& o) {
     if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
     if (!o.sets.empty() && o.scene.empty()) return "--set: only a scene has variables";
-    if (o.wavPath.empty() && o.eventsPath.empty() && o.picturePath.empty())
-        return "render: nothing to write; give --out, --events or --picture";
-    const auto same = [](const std::string& a, const std::string& b) { return !a.empty() && a == b; };
-    if (same(o.wavPath, o.eventsPath) || same(o.wavPath, o.picturePath) || same(o.eventsPath, o.picturePath))
-        return "render: two outputs in the same file";
+    std::vector<std::string> outputs{o.wavPath, o.eventsPath, o.picturePath, o.patternPath};
+    std::erase(outputs, "");
+    if (outputs.empty()) return "render: nothing to write; give --out, --events, --picture or --pattern";
+    std::ranges::sort(outputs);
+    if (std::ranges::adjacent_find(outputs) != outputs.end()) return "render: two outputs in the same file";
+    if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";
     return checkSceneOptions(o);
 }
 

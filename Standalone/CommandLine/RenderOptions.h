@@ -20,7 +20,9 @@ struct RenderOptions {
     std::string scene;      ///< a built-in scene's name or the path of a scene file; empty with fromEvents
     std::vector<std::string> sets; ///< "NAME=VALUE" of the scene's variables
     std::string fromEvents; ///< path of an event list
-    std::string wavPath, eventsPath, picturePath; ///< empty: not wanted
+    std::string wavPath, eventsPath, picturePath, patternPath; ///< empty: not wanted
+    double threshold = 0.1;      ///< of the pattern, in full scale
+    double interfaceVolts = 0.0; ///< what a sample of 1 in the WAV becomes; 0: no matter
     double seconds = 10.0;
     int sampleRateHz = 48000;
     int blockFrames = 256;
@@ -31,7 +33,9 @@ struct RenderOptions {
     std::string law = "linear";
     double exponent = 1.0;
     std::string limiter = "on";
-    std::string location = "contact", timing = "onset", method = "AV-FV-DRV", actuator = "none";
+    std::string location = "contact", timing = "onset", method = "AV-FV-DRV";
+    std::string actuator = "none"; ///< or "layout", a profile's name, a profile's path
+    std::string equalise = "on", remap = "off"; ///< with an actuator
 
     std::set<std::string> given; ///< names of the options that the call had, with their dashes
     SceneSettings settings; ///< from `sets` by checkRenderOptions

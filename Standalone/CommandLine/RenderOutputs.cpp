@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writing beside, then renaming; progress on a terminal only.
 #include "CommandLine/RenderOutputs.h"
+#include "CommandLine/LevelReport.h"
 #include "Host/RenderPicture.h"
 #include <cstdio>
 #include <iomanip>
@@ -19,17 +20,16 @@ std::string open(std::optional<AtomicFile>& file, const std::string& path) {
 
 std::string commit(std::optional<AtomicFile>& file) { return file ? file->commit() : std::string{}; }
 
-double decibels(double amplitude) { return 20.0 * std::log10(amplitude); }
-
 } // namespace
 
 RenderOutputs::RenderOutputs(const RenderJob& job)
     : job_{job}
+    , pattern_{job.channels(), job.options.sampleRateHz, job.options.threshold}
     , whole_{job.channels(), 0, job.frames()} {}
 
 std::string RenderOutputs::open() {
     const RenderOptions& o = job_.options;
-    for (const auto& [file, path] : {std::pair{&wavFile_, &o.wavPath}, {&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}})
+    for (const auto& [file, path] : {std::pair{&wavFile_, &o.wavPath}, {&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}})
         if (std::string error = physvib::open(*file, *path); !error.empty()) return error;
     if (wavFile_) wav_ = std::make_unique<WavSink>(wavFile_->temporaryPath().string(), job_.channels(), o.sampleRateHz, provenanceText(), o.wavPath);
     return {};
@@ -45,7 +45,21 @@ bool RenderOutputs::take(const float* const* channels, int frames) {
     whole_.add(channels, frames);
     zoom_->add(channels, frames);
     showProgress();
-    return !wav_ || wav_->write(channels, frames);
+    if (patternFile_) pattern_.convert(channels, frames);
+    return !wav_ || writeWav(channels, frames);
+}
+
+bool RenderOutputs::writeWav(const float* const* channels, int frames) {
+    if (!(job_.options.interfaceVolts > 0.0)) return wav_->write(channels, frames);
+    std::vector<const float*> at;
+    scaled_.resize(static_cast<std::size_t>(job_.channels()));
+    for (std::size_t j = 0; j < scaled_.size(); ++j) {
+        const auto scale = static_cast<float>(job_.actuators.voltageScale[j]);
+        scaled_[j].assign(channels[j], channels[j] + frames);
+        for (float& sample : scaled_[j]) sample *= scale;
+        at.push_back(scaled_[j].data());
+    }
+    return wav_->write(at.data(), frames);
 }
 
 std::string RenderOutputs::finish() {
@@ -53,7 +67,8 @@ std::string RenderOutputs::finish() {
     if (wav_) error = wav_->finish();
     if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
     if (error.empty() && pictureFile_) error = writePictureFile();
-    for (auto* file : {&wavFile_, &eventsFile_, &pictureFile_})
+    if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
+    for (auto* file : {&wavFile_, &eventsFile_, &pictureFile_, &patternFile_})
         if (error.empty()) error = commit(*file);
     return error;
 }
@@ -62,6 +77,10 @@ Provenance RenderOutputs::provenance() const {
     const RenderOptions& o = job_.options;
     Provenance p = inputProvenance();
     if (!job_.method().fixesNothing()) p.entries.emplace_back("method", o.method);
+    if (o.actuator != "none") p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());
+    if (o.actuator != "none" && o.equalise == "off") p.entries.emplace_back("equalise", "off");
+    if (o.interfaceVolts > 0.0) p.entries.emplace_back("interface_volts", numberText(o.interfaceVolts));
+    if (o.remap == "on") p.entries.emplace_back("remap", "on");
     return p;
 }
 
@@ -122,11 +141,10 @@ void RenderOutputs::summarise(std::ostream& out) const {
     out << std::fixed << std::setprecision(1);
     if (wavFile_) {
         out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ") << job_.seconds() << " s at "
-            << o.sampleRateHz << " Hz, ";
-        if (whole_.peak() > 0) out << "peak " << decibels(whole_.peak()) << " dBFS\n";
-        else out << "silent\n";
+            << o.sampleRateHz << " Hz, " << peakWords(job_, whole_) << '\n';
     }
-    if (eventsFile_) out << o.eventsPath << "  " << job_.made.events.size() << " collisions\n";
+    if (eventsFile_) out << o.eventsPath << "  " << collisionWords(job_) << '\n';
+    if (patternFile_) out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
     if (pictureFile_) out << o.picturePath << "  the world, every channel and every hit\n";
 }
 

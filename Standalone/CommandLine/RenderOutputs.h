@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files a render leaves: WAV, event list, picture. They appear together at the end, or not at all.
+// The files a render leaves: WAV, event list, picture, pattern. They appear together at the end, or not at all.
 #pragma once
+#include "CommandLine/OnOffPattern.h"
 #include "CommandLine/RenderJob.h"
 #include "Files/AtomicFile.h"
 #include "Files/EventsCsv.h"
@@ -39,10 +40,13 @@ private:
     std::string provenanceText() const;
     std::string writePictureFile();
     void showProgress();
+    bool writeWav(const float* const* channels, int frames);
 
     const RenderJob& job_;
-    std::optional<AtomicFile> wavFile_, eventsFile_, pictureFile_;
+    std::optional<AtomicFile> wavFile_, eventsFile_, pictureFile_, patternFile_;
     std::unique_ptr<WavSink> wav_;
+    std::vector<std::vector<float>> scaled_; // for the interface's voltage
+    OnOffPattern pattern_;
     WaveformEnvelope whole_;
     std::optional<WaveformEnvelope> zoom_;
     std::int64_t framesTaken_ = 0;

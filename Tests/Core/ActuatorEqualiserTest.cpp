@@ -9,11 +9,8 @@
 namespace physvib {
 namespace {
 
-/// The actuators of the profiles whose Q nobody printed, each with two that are likely, and bands to ask of them.
-struct Case {
-    Resonator resonator;
-    FrequencyBand band;
-};
+/// The actuators of the profiles, whose Q nobody printed, with some that are likely, and bands to ask of them.
+using Case = EqualisedActuator;
 constexpr Case cases[] = {{{205, 8}, {180, 230}}, {{205, 20}, {150, 300}}, {{230, 15}, {180, 300}}, {{110, 2}, {90, 1000}}, {{110, 3}, {60, 800}}, {{60, 0.3}, {40, 500}}};
 
 double decibels(double ratio) { return 20.0 * std::log10(ratio); }
@@ -52,7 +49,7 @@ TEST(SimulatedActuator, CutsItsDriveAtTheLimit) {
 TEST(ActuatorEqualiser, IsFlatInTheBandAtEveryRate) {
     for (const Case& c : cases)
         for (const int rate : {5000, 8000, 44100, 48000, 192000}) {
-            const ActuatorEqualiser equaliser{c.resonator, c.band, rate};
+            const ActuatorEqualiser equaliser{c, rate};
             ASSERT_TRUE(equaliser.isOn());
             alongBand(c.band, 200, [&](double hz) { ASSERT_NEAR(decibels(std::abs(equaliser.at(hz) * c.resonator.at(hz))), 0.0, 0.35) << hz << " at " << rate; });
         }
@@ -61,7 +58,7 @@ TEST(ActuatorEqualiser, IsFlatInTheBandAtEveryRate) {
 TEST(ActuatorEqualiser, TheSimulatedActuatorPlaysTheBandAtTheHighestLevelThatFits) {
     const int rate = 48000;
     for (const Case& c : cases) {
-        ActuatorEqualiser equaliser{c.resonator, c.band, rate};
+        ActuatorEqualiser equaliser{c, rate};
         const double level = equaliser.flatLevel();
         double worst = 0.0, unequalised = 0.0, peak = 0.0;
         alongBand(c.band, 12, [&](double exactHz) {
@@ -89,7 +86,7 @@ TEST(ActuatorEqualiser, TheSimulatedActuatorPlaysTheBandAtTheHighestLevelThatFit
 
 TEST(ActuatorEqualiser, DoesNotBoostWhatLiesBeyondTheBand) {
     for (const Case& c : cases) {
-        const ActuatorEqualiser equaliser{c.resonator, c.band, 48000};
+        const ActuatorEqualiser equaliser{c, 48000};
         const double most = 1.0 / equaliser.flatLevel();
         for (const double hz : {0.2 * c.band.lowHz, 0.01 * c.band.lowHz, 4.0 * c.band.highHz, 20000.0}) EXPECT_LT(std::abs(equaliser.at(hz)), most) << hz;
         EXPECT_LT(std::abs(equaliser.at(1e-3)), 1e-6);
@@ -101,7 +98,7 @@ TEST(ActuatorEqualiser, DoesNotDependOnBlocksAndComesToRest) {
     whole[10] = 0.7f;
     whole[40] = -0.2f;
     parts = whole;
-    ActuatorEqualiser a{{205, 8}, {180, 230}, 48000}, b = a;
+    ActuatorEqualiser a{{{205, 8}, {180, 230}}, 48000}, b = a;
     EXPECT_FALSE(a.process(whole.data(), 48000, false));
     for (int done = 0, block = 1; done < 48000; done += block, block = block % 97 + 1) {
         block = std::min(block, 48000 - done);
@@ -112,8 +109,8 @@ TEST(ActuatorEqualiser, DoesNotDependOnBlocksAndComesToRest) {
 }
 
 TEST(ActuatorEqualiser, WithoutFiguresItPassesEverything) {
-    for (ActuatorEqualiser off : {ActuatorEqualiser{}, ActuatorEqualiser{{205, 0}, {180, 230}, 48000}, ActuatorEqualiser{{205, 8}, {}, 48000},
-                                  ActuatorEqualiser{{205, 8}, {180, 2600}, 5000}}) {
+    for (ActuatorEqualiser off : {ActuatorEqualiser{}, ActuatorEqualiser{{{205, 0}, {180, 230}}, 48000}, ActuatorEqualiser{{{205, 8}, {}}, 48000},
+                                  ActuatorEqualiser{{{205, 8}, {180, 2600}}, 5000}}) {
         float x[] = {0.1f, -3.0f};
         EXPECT_FALSE(off.isOn());
         EXPECT_TRUE(off.process(x, 2, true));

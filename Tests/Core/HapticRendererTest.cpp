@@ -82,6 +82,38 @@ TEST(HapticRenderer, AnyBlockSizeGivesTheSameBits) {
         }
 }
 
+/// Two of four channels are equalised.
+RendererSettings equalisedSettings(bool limiter) {
+    auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, limiter);
+    settings.equalised[1] = {{205, 8}, {180, 230}};
+    settings.equalised[3] = {{110, 2}, {90, 1000}};
+    return settings;
+}
+
+TEST(HapticRenderer, EachChannelIsItsEqualisersWorkAndAnyBlockSizeGivesTheSameBits) {
+    const auto events = randomEvents(300, 0.4, 6);
+    const int frames = 30000;
+    auto expected = renderEvents(events, settingsFor(layoutOf(4), PanningLaw::linear, 48000), frames).channels;
+    for (const std::size_t j : {1u, 3u}) ActuatorEqualiser{equalisedSettings(false).equalised[j], 48000}.process(expected[j].data(), frames, false);
+    EXPECT_TRUE(renderEvents(events, equalisedSettings(false), frames).channels == expected);
+    for (const bool limiter : {false, true}) {
+        const auto reference = renderEvents(events, equalisedSettings(limiter), frames, {8192});
+        for (const auto& blocks : std::vector<std::vector<int>>{{1}, {17}, {64}, {3, 8192, 1, 500, 63}})
+            EXPECT_TRUE(renderEvents(events, equalisedSettings(limiter), frames, blocks).channels == reference.channels) << blocks[0];
+    }
+}
+
+TEST(HapticRenderer, AnEqualiserRingsOutAndThenComesToRest) {
+    CollisionEvent e;
+    e.frequencyHz = 205;
+    e.decayPerSecond = 1000;
+    e.amplitude = 0.5;
+    const auto rendered = renderEvents({e}, equalisedSettings(true), 10 * 48000);
+    EXPECT_NE(rendered.channels[1][4000], 0.0f); // the mode is over at 800
+    EXPECT_EQ(rendered.channels[1].back(), 0.0f);
+    EXPECT_EQ(rendered.status.liveModes, 0);
+}
+
 TEST(HapticRenderer, MoreEventsAtOneMomentThanThePendingStoreHoldsAreAllPlayed) {
     CollisionEvent e;
     e.timeNs = 1'000'003;

@@ -84,14 +84,15 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
 }
 
 SavedSession saved(const SessionSetup& setup, const SessionLog& log, std::int64_t frames) {
-    return {setup.run(), setup.panner, setup.channels, setup.limiterEnabled, setup.ceilings, frames * 1'000'000'000 / rate, log};
+    return {setup.run(), setup.panner, setup.channels, setup.limiterEnabled, setup.ceilings, frames * 1'000'000'000 / rate, log, {}, setup.equalised, setup.shaping};
 }
 
 Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, std::int64_t frames) {
-    const auto made = runTakes(session.log.takes, session.run, session.lengthNs);
+    auto made = runTakes(session.log.takes, session.run, session.lengthNs);
+    std::ranges::transform(made.events, made.events.begin(), session.shaping);
     const auto controls = controlsOf(session.log, true, channels);
     Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
-    renderOffline(made.events, {{rate, channels, session.panner, session.limiterEnabled, session.ceilings}, frames - delayFrames, 333, controls},
+    renderOffline(made.events, {{rate, channels, session.panner, session.limiterEnabled, session.ceilings, InstructionSet::best, session.equalised}, frames - delayFrames, 333, controls},
                   [&](const float* const* block, int n) { append(signal, block, n); return true; });
     return signal;
 }
@@ -99,6 +100,9 @@ Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames,
 TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
     auto setup = shakeTheBoxSetup(0.05);
     setup.ceilings = {0.2f, 0.1f, 0.3f, 1.0f};
+    setup.equalised[2] = {{205, 8}, {180, 230}};
+    ASSERT_TRUE(renderingMethodNamed("AV-FV-DRF", setup.shaping.method));
+    setup.shaping.remap.band = {150, 300};
     Session session{setup};
     const Felt felt = playEdited(session, setup, 60 * rate);
     const auto frames = static_cast<std::int64_t>(felt.signal.size()) / channels;

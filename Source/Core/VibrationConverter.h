@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The thesis' vibration converter (5.1.3): what is rendered becomes what an actuator understands. Write your own.
+#pragma once
+#include <cmath>
+
+namespace physvib {
+
+/// Takes a render block by block, from frame 0 on and without gaps. Whoever renders says on which thread: in an audio
+/// callback nothing may block or allocate.
+class VibrationConverter {
+public:
+    virtual ~VibrationConverter() = default;
+
+    /// channels[channel][0..frames), 1 = an enchanter's full scale. False stops the render.
+    virtual bool convert(const float* const* channels, int frames) = 0;
+};
+
+/// For a motor that is on or off (a phone's own, an ERM): on for each step in which a sample exceeds the threshold.
+/// A step, not a sample: a sine crosses any threshold hundreds of times a second, a motor takes tens of milliseconds.
+class OnOffSteps {
+public:
+    static constexpr long long stepsPerSecond = 100; ///< the thesis' rendering loop
+    static constexpr double thesisThreshold = 0.1;
+
+    OnOffSteps(int sampleRateHz, double threshold) noexcept : rate_{sampleRateHz}, threshold_{static_cast<float>(threshold)} {}
+
+    /// One frame of one channel. `change(stepIndex, isOn)` is called where a step differs from the one before.
+    template <class Change>
+    void take(float sample, Change change) {
+        isLoud_ = isLoud_ || std::abs(sample) > threshold_;
+        if (++frame_ < endOf(step_)) return;
+        if (isLoud_ != isOn_) change(step_, isLoud_);
+        isOn_ = isLoud_;
+        isLoud_ = false;
+        ++step_;
+    }
+    bool isOn() const noexcept { return isOn_; }
+    long long steps() const noexcept { return step_; } ///< complete ones
+
+private:
+    long long endOf(long long step) const noexcept { return (step + 1) * rate_ / stepsPerSecond; }
+    long long rate_, frame_ = 0, step_ = 0;
+    float threshold_;
+    bool isLoud_ = false, isOn_ = false;
+};
+
+} // namespace physvib

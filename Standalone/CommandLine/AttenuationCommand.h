@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib attenuation`: Eq. 3.1 and 3.2 of the thesis from two recordings.
+#pragma once
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace physvib {
+
+/// As given on the command line: one channel per axis of the accelerometer.
+struct AttenuationOptions {
+    std::string isolatedPath, referencePath;
+};
+
+void declareAttenuation(CLI::App& command, AttenuationOptions& options);
+
+/// A line of CSV per axis and one for all on stdout; the code to leave with.
+int runAttenuation(const AttenuationOptions& options);
+
+} // namespace physvib

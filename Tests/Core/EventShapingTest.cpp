@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Remapping keeps the order of frequencies, and nothing else of an event changes.
+#include "Core/EventShaping.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+TEST(FrequencyRemap, KeepsTheOrderAndFillsTheBand) {
+    const FrequencyRemap remap{{180, 230}};
+    double last = 0.0;
+    for (double hz = 20.0; hz <= 1000.0; hz *= 1.01) {
+        const double moved = remap(hz);
+        EXPECT_GT(moved, last);
+        EXPECT_GE(moved, 180.0 - 1e-9);
+        EXPECT_LE(moved, 230.0 + 1e-9);
+        last = moved;
+    }
+    EXPECT_NEAR(remap(20), 180, 1e-9);
+    EXPECT_NEAR(remap(1000), 230, 1e-9);
+    EXPECT_NEAR(remap(5), 180, 1e-9);
+    EXPECT_NEAR(remap(9000), 230, 1e-9);
+}
+
+TEST(FrequencyRemap, EqualIntervalsStayEqual) {
+    const FrequencyRemap remap{{90, 1000}};
+    EXPECT_NEAR(remap(80) / remap(40), remap(640) / remap(320), 1e-12);
+}
+
+TEST(FrequencyRemap, WithoutABandNothingMoves) { EXPECT_EQ(FrequencyRemap{}(349.0), 349.0); }
+
+TEST(EventShaping, MovesTheFrequencyOnlyAndAfterTheMethod) {
+    CollisionEvent e{.timeNs = 7, .frequencyHz = 349, .decayPerSecond = 107, .amplitude = 0.3, .x = 1, .y = 2, .durationNs = 0, .source = {1, 2, 3, 4}};
+    EventShaping shaping;
+    EXPECT_EQ(shaping(e), e);
+    shaping.remap.band = {180, 230};
+    CollisionEvent moved = shaping(e);
+    EXPECT_EQ(moved.frequencyHz, shaping.remap(349));
+    moved.frequencyHz = 349;
+    EXPECT_EQ(moved, e);
+    shaping.method.fixesFrequency = true;
+    EXPECT_EQ(shaping(e).frequencyHz, shaping.remap(RenderingMethod::fixedFrequencyHz));
+}
+
+} // namespace
+} // namespace physvib
