@@ -13,6 +13,7 @@ void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     panner_ = settings.panner;
     gains_.fill(0.0);
     bank_.prepare(settings.sampleRateHz, channels_, settings.instructions);
+    player_.prepare(settings.sampleRateHz, channels_);
     actuators_.prepare(settings.sampleRateHz, channels_, settings.equalised);
     prepareLimiter();
     pending_.clear();
@@ -32,6 +33,7 @@ void HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     bank_.moveTo(position_, sampleRateHz, frame);
     settings_.sampleRateHz = sampleRateHz;
     clock_ = FrameClock{sampleRateHz};
+    player_.prepare(sampleRateHz, channels_);
     actuators_.changeRate(sampleRateHz);
     prepareLimiter();
     position_ = frame;
@@ -65,7 +67,10 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
         settings_.ceilings[static_cast<std::size_t>(control.channel)] = control.value;
         limiter_.setCeiling(control.channel, control.value);
     }
-    if (control.kind == Kind::stopAll) bank_.fadeAll(position_);
+    if (control.kind == Kind::stopAll) {
+        bank_.fadeAll(position_);
+        player_.fadeAll(position_);
+    }
 }
 
 template <class P>
@@ -77,7 +82,7 @@ void HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset)
     panner_.gainsAt(event.x, event.y, gains_);
     std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
     const Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, end};
-    const bool taken = bank_.strike(s, gains_.data());
+    const bool taken = player_.isOn() ? player_.strike(s.frequencyHz, s.amplitude, onset.frame, end, gains_.data()) : bank_.strike(s, gains_.data());
     if (taken) playedQueue_.push({event, onset.frame, delay > 0});
     played_ += taken ? 1 : 0;
     late_ += taken && delay > 0 ? 1 : 0;

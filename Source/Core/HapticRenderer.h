@@ -16,6 +16,7 @@
 #include "Core/PendingEvents.h"
 #include "Core/PhantomPanner.h"
 #include "Core/RenderControl.h"
+#include "Core/SamplePlayer.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -64,6 +65,10 @@ public:
     /// Silence at frame 0. M, not while rendering.
     void prepare(const RendererSettings& settings) noexcept;
 
+    /// From now on events play these recordings instead of modes; none: modes. Both the list and its samples, at this rate,
+    /// outlive the renderer or the next call. prepare and moveTo forget them. M, not while rendering.
+    void setContacts(std::span<const RecordedContact> contacts) noexcept { player_.setContacts(contacts); }
+
     /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains stay; the
     /// limiter starts afresh. M, not while rendering.
     void moveTo(int sampleRateHz, std::int64_t frame) noexcept;
@@ -101,6 +106,7 @@ private:
     PhantomPanner panner_;
     PhantomPanner::Gains gains_{};
     ModeBank<Profile> bank_;
+    SamplePlayer<Profile> player_;
     ActuatorStage<Profile> actuators_;
     LinkedLimiter<Profile> limiter_;
     PendingEvents<Profile::maxPending> pending_;
@@ -153,7 +159,8 @@ void HapticRenderer<Profile>::render(Source& source, float* const* out, int fram
     std::copy_n(out, channels_, at.begin());
     for (int done = 0; done < frames;) {
         const int part = strikeAndReach(source, frames - done);
-        const bool isSilent = actuators_.process(at.data(), part, !bank_.render(at.data(), position_, part));
+        const bool modesSound = bank_.render(at.data(), position_, part), recordingsSound = player_.render(at.data(), position_, part);
+        const bool isSilent = actuators_.process(at.data(), part, !modesSound && !recordingsSound);
         limiter_.process(at.data(), part, isSilent);
         position_ += part;
         done += part;

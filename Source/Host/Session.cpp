@@ -56,6 +56,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
                         .ceilings = setup_.ceilings,
                         .equalised = setup_.equalised});
     setLaw(sampleRateHz, maxBlockFrames);
+    setContacts();
     sessionFrames_ = 0;
     restartFrame_ = -1;
     takeUp();
@@ -88,7 +89,14 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     const std::int64_t frames = FrameClock{sampleRateHz}.at(nowNs()).frame;
     setLaw(sampleRateHz, maxBlockFrames);
     renderer_->moveTo(sampleRateHz, std::max<std::int64_t>(0, frames - playOutFrames() + law_.limiterFrames));
+    setContacts();
     sessionFrames_ = frames;
+}
+
+// Recordings that sounded before a change of rate stop there.
+void Session::setContacts() {
+    contacts_ = {setup_.recordings, law_.sampleRateHz};
+    renderer_->setContacts(contacts_.contacts());
 }
 
 bool Session::strike(CollisionEvent event, int frame) noexcept {

@@ -150,6 +150,7 @@ private:
     using OwnControls = EventQueue<RenderControl, 128>;  // a gain for each enchanter, and more
     struct LiveSource;
     struct OfflineSource;
+    void setContacts();
     void setLaw(int sampleRateHz, int maxBlockFrames);
     void takeUp();
     void takeOwnInputs();
@@ -165,6 +166,7 @@ private:
     SessionSetup setup_;
     ClockLaw law_;
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
+    ContactSounds contacts_; // at the renderer's rate
     Queue queue_;
     Controls controls_;
     OwnStrikes ownStrikes_;

@@ -4,6 +4,7 @@
 #include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"
 #include "Host/ClockLaw.h"
+#include "Host/ContactSounds.h"
 #include "Physics/SceneRun.h"
 #include <array>
 #include <cstdint>
@@ -35,6 +36,7 @@ struct SessionSetup {
     std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel, > 0
     EqualisedActuators equalised{};
     EventShaping shaping; ///< of all collisions, and of what is struck in the render call
+    std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
     double longestGapSeconds = messageTimerGapSeconds;
     double boardSeconds = 0.0; ///< of ClockLaw; above 0 the session tells what it makes (Session::told) for a BoardOutput
     std::vector<std::vector<Action>> groups; ///< what notes do; valid inputs of the scene

@@ -61,6 +61,7 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     setup.panner = job.panner();
     setup.equalised = job.equalised();
     setup.shaping = job.shaping();
+    setup.recordings = job.recordings;
     setup.limiterEnabled = o.scene.limiter == "on";
     setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
     return setup;
@@ -86,7 +87,7 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
 int runPlay(PlayOptions& o) {
     if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
-    const bool isPlain = o.scene.renderingMethod.fixesNothing() && o.scene.actuator == "none";
+    const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none";
     if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method and --actuator; render --events, then board PORT play, has both");
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
@@ -101,6 +102,7 @@ int runPlay(PlayOptions& o) {
     if (!actuators) return leave(exitFailed, actuators.error);
     job.actuators = std::move(actuators.value);
     for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) std::cerr << "physvib: warning: " << line << '\n';
+    if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty()) return leave(exitFailed, fault);
     for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) std::cerr << "physvib: " << line << '\n';
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")

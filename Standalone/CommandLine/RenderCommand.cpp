@@ -62,7 +62,7 @@ std::string readInputs(RenderJob& job) {
     return {};
 }
 
-OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls) {
+OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls, const ContactSounds& sounds) {
     const RenderOptions& o = job.options;
     const RendererSettings renderer{.sampleRateHz = o.sampleRateHz,
                                     .channels = job.channels(),
@@ -70,7 +70,7 @@ OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl
                                     .limiterEnabled = job.isLimited(),
                                     .ceilings = job.ceilings(),
                                     .equalised = job.equalised()};
-    return {renderer, job.frames(), o.blockFrames, controls};
+    return {renderer, job.frames(), o.blockFrames, controls, sounds.contacts()};
 }
 
 SceneEvents eventsOf(const RenderJob& job) {
@@ -85,10 +85,12 @@ std::string render(RenderJob& job) {
     std::ranges::transform(job.made.events, job.made.events.begin(), job.shaping());
     const auto& source = job.scene ? job.scene->name : job.options.fromEvents;
     if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, source); !error.empty()) return error;
+    if (auto error = takeRecordings(job, job.made.events, source); !error.empty()) return error;
+    const ContactSounds sounds{job.recordings, job.options.sampleRateHz};
     outputs.begin();
     const auto controls = job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{};
     const auto take = [&](const float* const* channels, int frames) { return outputs.take(channels, frames); };
-    const RenderStatus status = renderOffline(job.made.events, settingsOf(job, controls), take);
+    const RenderStatus status = renderOffline(job.made.events, settingsOf(job, controls, sounds), take);
     if (auto error = outputs.finish(); !error.empty()) return error;
     for (const std::string& line : warnings) std::cerr << "physvib: warning: " << line << '\n';
     for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) std::cerr << "physvib: " << line << '\n';

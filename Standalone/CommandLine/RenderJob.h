@@ -5,6 +5,7 @@
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/LayoutNamed.h"
 #include "CommandLine/RenderOptions.h"
+#include "Host/ContactSounds.h"
 #include "Files/LayoutFile.h"
 #include "Files/NumberText.h"
 #include "Files/SceneCatalogue.h"
@@ -25,6 +26,7 @@ struct RenderJob {
     LayoutDescription layout;
     std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
     SceneEvents made;
+    std::vector<ContactRecording> recordings{}; ///< for SV
     ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
 
     SceneRun run() const {
@@ -93,6 +95,19 @@ inline std::string fixedLevelFault(const RenderJob& job) {
         std::cerr << "physvib: warning: --method " << job.options.method << ": the fixed level of " << numberText(RenderingMethod::fixedLevelG)
                   << " g is above the enchanters' full scale of " << numberText(job.fullScaleG()) << " g"
                   << (job.isLimited() ? "; the limiter lowers it\n" : "\n");
+    return {};
+}
+
+/// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty, or one line.
+inline std::string takeRecordings(RenderJob& job, const std::vector<CollisionEvent>& events, const std::string& source) {
+    for (const auto& [hz, path] : job.options.recordings) {
+        auto contact = loadContact(path, hz);
+        if (!contact) return contact.error;
+        job.recordings.push_back(std::move(contact.value));
+    }
+    for (const CollisionEvent& e : events)
+        if (job.options.playsRecordings() && std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) == job.recordings.end())
+            return source + ": expected a --sound for " + numberText(e.frequencyHz) + " Hz, found none";
     return {};
 }
 

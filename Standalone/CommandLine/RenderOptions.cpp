@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names, ranges and help texts of the options of `physvib render`.
 #include "CommandLine/RenderOptions.h"
+#include "Files/NumberText.h"
 #include "Physics/Simulation.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -44,10 +45,14 @@ bool parseSettings(RenderOptions& o) {
     return true;
 }
 
-// Options that are promised and not built: only their default is accepted.
-std::string notYet(const char* option, const std::string& value, const char* only) {
-    if (value == only) return {};
-    return std::string{option} + " " + value + ": not yet (only " + only + ")";
+bool parseSounds(RenderOptions& o) {
+    for (const std::string& text : o.sounds) {
+        const auto equals = text.find('=');
+        const auto hz = parseNumber<double>(std::string_view{text}.substr(0, equals));
+        if (equals == std::string::npos || !hz || !(*hz > 0.0) || equals + 1 == text.size()) return false;
+        o.recordings.emplace_back(*hz, text.substr(equals + 1));
+    }
+    return true;
 }
 
 } // namespace
@@ -68,7 +73,8 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
         ->check(CLI::IsMember({"contact", "fixture"}))->capture_default_str();
     command.add_option("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)")
         ->check(CLI::IsMember({"onset", "release"}))->capture_default_str();
-    command.add_option("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed")->capture_default_str();
+    command.add_option("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed; or SV, recorded contacts")->capture_default_str();
+    command.add_option("--sound", o.sounds, "for SV: the recorded contact of the material of that frequency; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
     command.add_option("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file")->capture_default_str();
     command.add_option("--equalise", o.equalise, "with an actuator: make it flat within its band (on or off)")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--remap", o.remap, "with an actuator: move all frequencies into its band, in their order (on or off)")
@@ -100,8 +106,10 @@ std::string checkSceneOptions(RenderOptions& o) {
     if (!parseSettings(o)) return "--set: expected NAME=VALUE";
     if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
     if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
-    if (o.method == "SV") return notYet("--method", o.method, "AV-FV-DRV to AF-FF-DRF");
-    if (!renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, found \"" + o.method + "\"";
+    if (!parseSounds(o)) return "--sound: expected HZ=FILE.wav, the frequency of a material and its recorded contact";
+    if (o.playsRecordings() == o.sounds.empty()) return "--method SV and --sound go together";
+    if (o.playsRecordings() && o.remap == "on") return "--remap: recordings have no frequency to be moved";
+    if (!o.playsRecordings() && !renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"" + o.method + "\"";
     if (o.remap == "on" && o.actuator == "none") return "--remap: expected an --actuator, whose band is to be used";
     return {};
 }

@@ -34,6 +34,7 @@ struct RenderOptions {
     double exponent = 1.0;
     std::string limiter = "on";
     std::string location = "contact", timing = "onset", method = "AV-FV-DRV";
+    std::vector<std::string> sounds; ///< "HZ=FILE.wav" for SV
     std::string actuator = "none"; ///< or "layout", a profile's name, a profile's path
     std::string equalise = "on", remap = "off"; ///< with an actuator
 
@@ -41,6 +42,8 @@ struct RenderOptions {
     SceneSettings settings; ///< from `sets` by checkRenderOptions
     double fieldWidthMetres = 0.0, fieldHeightMetres = 0.0; ///< from `field` by checkRenderOptions; 0: not given
     PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
+    bool playsRecordings() const { return method == "SV"; }
+    std::vector<std::pair<double, std::string>> recordings; ///< from `sounds`: of which frequency, in which file
     RenderingMethod renderingMethod;                        ///< from `method`; its amplitude needs the layout
 };
 

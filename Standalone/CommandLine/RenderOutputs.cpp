@@ -76,7 +76,7 @@ std::string RenderOutputs::finish() {
 Provenance RenderOutputs::provenance() const {
     const RenderOptions& o = job_.options;
     Provenance p = inputProvenance();
-    if (!job_.method().fixesNothing()) p.entries.emplace_back("method", o.method);
+    if (!job_.method().fixesNothing() || o.playsRecordings()) p.entries.emplace_back("method", o.method);
     if (o.actuator != "none") p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());
     if (o.actuator != "none" && o.equalise == "off") p.entries.emplace_back("equalise", "off");
     if (o.interfaceVolts > 0.0) p.entries.emplace_back("interface_volts", numberText(o.interfaceVolts));

@@ -196,10 +196,6 @@ TEST_F(Render, BadOptionsAreUsageErrors) {
     refuses("", 2, "");
 }
 
-TEST_F(Render, WhatIsPromisedAndNotBuiltSaysNotYet) {
-    refuses("render shake-the-box --out a.wav --method SV", 2, "not yet");
-}
-
 TEST_F(Render, MethodsFixWhatTheirNamesSay) {
     ASSERT_EQ(call("render drop --seconds 3 --out a.wav --events a.csv").exitCode, 0);
     ASSERT_EQ(call("render drop --seconds 3 --method AV-FV-DRV --out b.wav --events b.csv").exitCode, 0);

@@ -108,6 +108,7 @@ TEST(HapticRenderer, AnEqualiserRingsOutAndThenComesToRest) {
     e.frequencyHz = 205;
     e.decayPerSecond = 1000;
     e.amplitude = 0.5;
+    e.x = e.y = 1.0; // channel 1
     const auto rendered = renderEvents({e}, equalisedSettings(true), 10 * 48000);
     EXPECT_NE(rendered.channels[1][4000], 0.0f); // the mode is over at 800
     EXPECT_EQ(rendered.channels[1].back(), 0.0f);

@@ -46,6 +46,9 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
     setup.scene = *findBuiltInScene("shake-the-box");
     setup.channels = outputs;
     setup.panner = randomPanner(random);
+    setup.equalised[1] = {{205, 8}, {180, 230}};
+    setup.equalised[5] = {{110, 2}, {90, 1000}};
+    setup.shaping.remap.band = {90, 1000};
     Session session{setup};
     session.prepare(48000, 64);
     std::atomic<bool> stop{false};

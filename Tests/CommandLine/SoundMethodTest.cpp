@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `render --method SV`: recorded contacts in place of modes.
+#include "Calls.h"
+#include <cmath>
+#include <cstring>
+
+namespace physvib {
+namespace {
+
+class SoundMethod : public test::CommandLine {
+protected:
+    void SetUp() override {
+        CommandLine::SetUp();
+        write("one.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,349,40,0.8,0,0\n");
+        ASSERT_EQ(call("render --from-events one.csv --layout phone1 --seconds 1 --out knock.wav").exitCode, 0);
+        write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.2,349,40,0.4,0,0\n0.6,349,40,0.1,0,0\n");
+    }
+    std::vector<float> samplesOf(const std::string& name) const {
+        const std::string wav = read(name);
+        const std::size_t data = wav.find("data") + 8;
+        std::uint32_t bytes = 0;
+        std::memcpy(&bytes, wav.data() + data - 4, 4);
+        std::vector<float> samples(bytes / 4);
+        std::memcpy(samples.data(), wav.data() + data, bytes);
+        return samples;
+    }
+    static float peakOf(const std::vector<float>& samples, double from, double to, double rate) {
+        float most = 0.0f;
+        for (auto n = static_cast<std::size_t>(from * rate); n < static_cast<std::size_t>(to * rate); ++n) most = std::max(most, std::abs(samples[n]));
+        return most;
+    }
+};
+
+TEST_F(SoundMethod, TheRecordingPlaysAtEachHitWithTheHitsAmplitudeAsItsPeak) {
+    const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --limiter off --method SV --sound 349=knock.wav --out a.wav ";
+    const auto outcome = call(render);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto a = samplesOf("a.wav");
+    EXPECT_NEAR(peakOf(a, 0.2, 0.55, 48000), 0.4f, 1e-4f);
+    EXPECT_NEAR(peakOf(a, 0.6, 0.99, 48000), 0.1f, 1e-4f);
+    EXPECT_EQ(peakOf(a, 0.0, 0.199, 48000), 0.0f);
+    ASSERT_EQ(call(render + "--rate 44100").exitCode, 0); // resampled
+    EXPECT_NEAR(peakOf(samplesOf("a.wav"), 0.2, 0.55, 44100), 0.4f, 0.002f);
+}
+
+TEST_F(SoundMethod, WhatIsMissingOrNoHitIsToldInOneLine) {
+    const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav ";
+    refuses(render + "--method SV", 2, "--method SV and --sound go together", 3);
+    refuses(render + "--sound 349=knock.wav", 2, "--method SV and --sound go together", 3);
+    refuses(render + "--method SV --sound knock.wav", 2, "--sound: expected HZ=FILE.wav", 3);
+    refuses(render + "--method SV --sound 80=knock.wav", 1, "hits.csv: expected a --sound for 349 Hz, found none", 3);
+    refuses(render + "--method SV --sound 349=none.wav", 1, "none.wav: cannot be read", 3);
+    refuses(render + "--method SV --sound 349=hits.csv", 1, "hits.csv: expected a WAV file", 3);
+    write("silence.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,349,40,0,0,0\n");
+    ASSERT_EQ(call("render --from-events silence.csv --layout phone1 --seconds 1 --out silence.wav").exitCode, 0);
+    refuses(render + "--method SV --sound 349=silence.wav", 1, "silence.wav: expected a hit, found silence", 5);
+}
+
+} // namespace
+} // namespace physvib
