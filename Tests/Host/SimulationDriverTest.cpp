@@ -2,14 +2,11 @@
 // Drivers take over from each other at any moment, and from blocks that step the world themselves: nothing is missing.
 #include "Host/SimulationDriver.h"
 #include "FakeHost.h"
+#include "Host/MessageLoop.h"
 #include "Physics/SceneRun.h"
 #include <atomic>
 #include <gtest/gtest.h>
 #include <thread>
-
-namespace juce {
-bool dispatchNextMessageOnSystemQueue(bool returnIfNoPendingMessages); // what a message loop is made of
-}
 
 namespace physvib {
 namespace {
@@ -20,12 +17,6 @@ std::unique_ptr<SimulationDriver> make(int kind, Session& session) {
     if (kind == 0) return std::make_unique<MessageTimerDriver>(session);
     if (kind == 1) return std::make_unique<ThreadDriver>(session, 100);
     return nullptr; // the render call
-}
-
-void runMessages(int milliseconds) {
-    const auto end = juce::Time::getMillisecondCounter() + static_cast<juce::uint32>(milliseconds);
-    while (juce::Time::getMillisecondCounter() < end)
-        if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
 }
 
 TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
@@ -50,7 +41,7 @@ TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
         const int kind = random.below(3);
         offline = kind == 2;
         const auto driver = make(kind, session);
-        runMessages(20 + random.below(100));
+        runFor(0.001 * (20 + random.below(100)));
     }
     stop = true;
     device.join();

@@ -120,7 +120,7 @@ TEST(Midi, ControllersMoveParametersAndTheHostIsTold) {
     host.playOn(480);
     EXPECT_EQ(level.getValue(), 1.0f);
     EXPECT_EQ(told.told, -1.0f) << "not by the render call";
-    for (int i = 0; i < 100 && told.told < 0.0f; ++i) runMessages(50);
+    for (int i = 0; i < 100 && told.told < 0.0f; ++i) runFor(0.05);
     EXPECT_EQ(told.told, 1.0f);
     level.removeListener(&told);
 }

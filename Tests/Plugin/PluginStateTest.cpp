@@ -130,7 +130,7 @@ TEST(PluginChunk, AStateThatIsTakenIsNoEdit) {
     Listener listener;
     host.plugin->addListener(&listener);
     host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
-    runMessages(100);
+    runFor(0.1);
     EXPECT_EQ(listener.parameters, 0) << "what the host knows";
     host.plugin->parameter(Parameter::tilt).setValue(0.75f);
     host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));

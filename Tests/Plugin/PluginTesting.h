@@ -1,36 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A host for the processor without a plug-in format: blocks, MIDI and a transport, in virtual time.
 #pragma once
+#include "Host/MessageManagerForTests.h"
 #include "PluginProcessor.h"
 #include "Support/ClosedForm.h"
 #include <gtest/gtest.h>
-#include <optional>
 #include <thread>
 #include <vector>
 
-namespace juce {
-bool dispatchNextMessageOnSystemQueue(bool returnIfNoPendingMessages); // what a message loop is made of
-}
-
 namespace physvib::test {
-
-/// JUCE's message manager without a display, from before the first test until after the last one: its own statics do
-/// not outlive those of a program.
-class MessageManagerForTests final : public testing::Environment {
-public:
-    void SetUp() override { initialised_.emplace(); }
-    void TearDown() override { initialised_.reset(); }
-
-private:
-    std::optional<juce::ScopedJuceInitialiser_GUI> initialised_;
-};
-inline testing::Environment* const messageManagerForTests = testing::AddGlobalTestEnvironment(new MessageManagerForTests);
-
-inline void runMessages(int milliseconds) {
-    const auto end = juce::Time::getMillisecondCounter() + static_cast<juce::uint32>(milliseconds);
-    while (juce::Time::getMillisecondCounter() < end)
-        if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
-}
 
 struct TestPlayHead final : juce::AudioPlayHead {
     juce::Optional<PositionInfo> getPosition() const override {

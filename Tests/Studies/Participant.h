@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A participant with a mouse and a keyboard at the mixer's window, and a folder for the rows.
 #pragma once
+#include "Host/MessageLoop.h"
 #include "Host/NoDevice.h"
 #include "Mixer/MixerView.h"
 #include "Mixer/StudiesTab.h"
@@ -9,20 +10,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-namespace juce {
-bool dispatchNextMessageOnSystemQueue(bool returnIfNoPendingMessages); // what a message loop is made of
-}
-
 namespace physvib::test {
-
-/// Runs the message loop until `isTrue`, at most `seconds`; whether it became true.
-inline bool runUntil(const std::function<bool()>& isTrue, double seconds = 10.0) {
-    for (const double end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds; juce::Time::getMillisecondCounterHiRes() < end;) {
-        if (isTrue()) return true;
-        if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
-    }
-    return isTrue();
-}
 
 inline AudioDeviceTypes onlyNoDevice() {
     return [] {
@@ -90,8 +78,7 @@ public:
     }
     bool isAnswerOpen(const juce::String& title) { return find(title) != nullptr && find(title)->isEnabled(); }
     void pump() {
-        for (const double end = juce::Time::getMillisecondCounterHiRes() + 25.0; juce::Time::getMillisecondCounterHiRes() < end;)
-            if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
+        runFor(0.025);
         view.refresh();
     }
 

@@ -2,6 +2,7 @@
 // Opens the editor in a window of a display, again and again, while the plug-in plays; fails if a window does not come or if
 // the memory in use grows from one opening to the next. Run by openings.sh.
 // Usage: physvib-editor-openings COUNT
+#include "Host/MessageLoop.h"
 #include "PluginProcessor.h"
 #include <X11/Xlib.h>
 #include <array>
@@ -9,22 +10,12 @@
 #include <cstdlib>
 #include <malloc.h>
 
-namespace juce {
-bool dispatchNextMessageOnSystemQueue(bool returnIfNoPendingMessages); // what a message loop is made of
-}
-
 namespace {
 
 using namespace physvib;
 
 constexpr int framesPerBlock = 512;
 constexpr double mostGrowthBytes = 1.0e6; // caches fill for some two hundred openings; 25 editors that are not freed hold 3 MB
-
-void runMessages(int milliseconds) {
-    const auto end = juce::Time::getMillisecondCounter() + static_cast<juce::uint32>(milliseconds);
-    while (juce::Time::getMillisecondCounter() < end)
-        if (!juce::dispatchNextMessageOnSystemQueue(true)) juce::Thread::sleep(1);
-}
 
 /// What a window manager would have named, and JUCE takes for granted; kept until the display is closed.
 Display* openDisplayWithNames() {
@@ -52,7 +43,7 @@ double openOnce(PluginProcessor& plugin, juce::AudioBuffer<float>& buffer) {
     juce::MidiBuffer midi;
     for (int b = 0; b < 5; ++b) {
         plugin.processBlock(buffer, midi);
-        runMessages(15);
+        test::runFor(0.015);
     }
     return editor->getPeer() != nullptr && editor->isShowing() ? bytesInUse() - before : 0.0;
 }
@@ -80,7 +71,7 @@ int main(int argc, char** argv) {
             std::printf("opening %d: no window\n", i + 1);
             return 1;
         }
-        runMessages(5);
+        test::runFor(0.005);
         plugin.takes().takeLog(); // which grows while the plug-in plays
     }
     const double growth = bytesInUse() - before;

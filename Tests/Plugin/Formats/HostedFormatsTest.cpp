@@ -47,7 +47,7 @@ Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes) {
         plugin.processBlock(buffer, midi);
         for (std::size_t c = 0; c < signal.size(); ++c) signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)), buffer.getReadPointer(static_cast<int>(c)) + 512);
     }
-    runMessages(50); // this host hears of latencies by a message
+    runFor(0.05); // this host hears of latencies by a message
     EXPECT_EQ(plugin.getLatencySamples(), 1999) << "512 frames of a block, 10 ms of gap, two steps, the limiter";
     plugin.releaseResources();
     return signal;
