@@ -10,6 +10,8 @@ namespace physvib {
 namespace {
 
 Result<CallStimulus> ofScene(RenderOptions& o) {
+    if (o.playsRecordings()) return Failure{"--method SV is not yet felt here, only rendered"};
+    if (o.actuator != "none") return Failure{"--actuator is not yet felt here, only rendered"};
     if (auto fault = checkSceneOptions(o); !fault.empty()) return Failure{fault};
     if (o.scene.empty()) return Failure{"expected a scene"};
     RenderJob job{o, {}, {}, {}, {}};

@@ -229,7 +229,7 @@ TEST_F(Render, AFixedLevelIsInG) {
     EXPECT_EQ(events.value.front().amplitude, 0.5);
     refuses("render drop --method AF-FV-DRV --layout mixed.json --out b.wav", 1, "mixed.json: --method AF-FV-DRV: expected one full_scale_g for all enchanters, found 3 and 1", 3);
     EXPECT_EQ(call("render drop --seconds 1 --method AV-FF-DRF --layout mixed.json --events b.csv").exitCode, 0);
-    refuses("render drop --method AF --out b.wav", 2, "--method: expected a name from AV-FV-DRV to AF-FF-DRF, found \"AF\"", 4);
+    refuses("render drop --method AF --out b.wav", 2, "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"AF\"", 4);
     refuses("play drop --board /dev/none --method AF-FF-DRF", 2, "--board: not yet with --method", 4);
 }
 
