@@ -15,6 +15,6 @@ Projucer --set-global-search-path linux defaultJuceModulePath "$modules"
 Projucer --resave "$folder/PhysVib.jucer"
 cxx=g++
 command -v ccache >/dev/null && cxx="ccache g++"
-make -C "$folder/Builds/LinuxMakefile" -j"$jobs" CONFIG=Release CXX="$cxx" VST3 LV2_PLUGIN >"$folder/make.log" 2>&1 || { tail -n 40 "$folder/make.log"; exit 1; }
+make -C "$folder/Builds/LinuxMakefile" -j"$jobs" CONFIG=Release CXX="$cxx" VST3 LV2 >"$folder/make.log" 2>&1 || { tail -n 40 "$folder/make.log"; exit 1; }
 ls -l "$folder"/Builds/LinuxMakefile/build/PhysVib.*/
 PHYSVIB_PLUGINS_FOLDER="$folder/Builds/LinuxMakefile/build" "$build/bin/physvib-format-tests" --gtest_filter='RawVst3.WithoutAnyArrangement:RawVst3.TheFirstNSpeakers:RawVst3.StateComesBack*'
