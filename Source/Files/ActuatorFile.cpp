@@ -10,7 +10,6 @@
 #include "Files/NumberText.h"
 #include "Files/SceneCatalogue.h"
 #include <array>
-#include <stdexcept>
 
 namespace physvib {
 namespace {
@@ -70,16 +69,6 @@ ActuatorProfile readRoot(const JsonField& root) {
 
 OrderedJson orNull(const std::optional<double>& figure) { return figure ? OrderedJson(*figure) : OrderedJson(); }
 
-std::vector<ActuatorProfile> readAll() {
-    std::vector<ActuatorProfile> profiles;
-    for (const EmbeddedFile& file : embeddedActuators()) {
-        Result<ActuatorProfile> profile = readActuator(file.text, file.name);
-        if (!profile) throw std::logic_error(profile.error); // a test reads them all
-        profiles.push_back(std::move(profile.value));
-    }
-    return profiles;
-}
-
 } // namespace
 
 std::string equaliserFault(const ActuatorProfile& profile) {
@@ -109,7 +98,7 @@ std::string actuatorJson(const ActuatorProfile& profile) {
 }
 
 const std::vector<ActuatorProfile>& builtInActuators() {
-    static const std::vector<ActuatorProfile> profiles = readAll();
+    static const std::vector<ActuatorProfile> profiles = readEmbedded(embeddedActuators(), readActuator);
     return profiles;
 }
 

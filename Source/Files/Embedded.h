@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Files that stand in the library itself, so that no path is needed at run time.
 #pragma once
+#include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace physvib {
@@ -22,5 +24,18 @@ const std::vector<EmbeddedFile>& embeddedProtocols();
 
 /// Source/Files/Actuators/*.json.
 const std::vector<EmbeddedFile>& embeddedActuators();
+
+/// What `read` (text and name to a Result) makes of them all. Throws std::logic_error at one that cannot be read: a test
+/// reads them all. Any thread.
+template <class Read>
+auto readEmbedded(const std::vector<EmbeddedFile>& files, Read read) {
+    std::vector<decltype(read(files.front().text, files.front().name).value)> all;
+    for (const EmbeddedFile& file : files) {
+        auto found = read(file.text, file.name);
+        if (!found) throw std::logic_error(found.error);
+        all.push_back(std::move(found.value));
+    }
+    return all;
+}
 
 } // namespace physvib

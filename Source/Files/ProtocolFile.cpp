@@ -12,7 +12,6 @@
 #include "Files/TrialColumns.h"
 #include "Physics/SceneRanges.h"
 #include <cstdint>
-#include <stdexcept>
 
 namespace physvib {
 namespace {
@@ -58,15 +57,7 @@ std::string protocolHash(const Protocol& protocol) {
 }
 
 const std::vector<Protocol>& builtInProtocols() {
-    static const std::vector<Protocol> protocols = [] {
-        std::vector<Protocol> all;
-        for (const EmbeddedFile& file : embeddedProtocols()) {
-            Result<Protocol> read = readProtocol(file.text, file.name);
-            if (!read) throw std::logic_error(read.error); // a test reads them all
-            all.push_back(std::move(read.value));
-        }
-        return all;
-    }();
+    static const std::vector<Protocol> protocols = readEmbedded(embeddedProtocols(), readProtocol);
     return protocols;
 }
 

@@ -4,25 +4,12 @@
 #include "Files/Embedded.h"
 #include "Files/NumberText.h"
 #include <algorithm>
-#include <stdexcept>
 
 namespace physvib {
-namespace {
-
-std::vector<Scene> readAll() {
-    std::vector<Scene> scenes;
-    for (const EmbeddedFile& file : embeddedScenes()) {
-        Result<Scene> scene = readScene(file.text, file.name);
-        if (!scene) throw std::logic_error(scene.error); // a test reads them all
-        scenes.push_back(std::move(scene.value));
-    }
-    return scenes;
-}
-
-} // namespace
 
 const std::vector<Scene>& builtInScenes() {
-    static const std::vector<Scene> scenes = readAll();
+    static const std::vector<Scene> scenes =
+        readEmbedded(embeddedScenes(), [](std::string_view text, std::string_view name) { return readScene(text, name); });
     return scenes;
 }
 

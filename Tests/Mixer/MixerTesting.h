@@ -2,20 +2,13 @@
 // The desk and its window in tests: a clock instead of a device, and JUCE's message loop for a while.
 #pragma once
 #include "Host/MessageManagerForTests.h"
-#include "Host/NoDevice.h"
 #include "Mixer/MixerView.h"
+#include "Mixer/OnlyNoDevice.h"
 #include <gtest/gtest.h>
 #include <juce_audio_formats/juce_audio_formats.h>
 
 namespace physvib::test {
 
-inline AudioDeviceTypes onlyNoDevice() {
-    return [] {
-        std::vector<std::unique_ptr<juce::AudioIODeviceType>> types;
-        types.push_back(std::make_unique<NoDeviceType>());
-        return types;
-    };
-}
 inline const DeviceChoice noDevice{std::string{noDeviceType} + ":" + noDeviceName, 48000, 128};
 
 /// A folder that is gone afterwards.

@@ -2,8 +2,8 @@
 // A participant with a mouse and a keyboard at the mixer's window, and a folder for the rows.
 #pragma once
 #include "Host/MessageLoop.h"
-#include "Host/NoDevice.h"
 #include "Mixer/MixerView.h"
+#include "Mixer/OnlyNoDevice.h"
 #include "Mixer/StudiesTab.h"
 #include <filesystem>
 #include <fstream>
@@ -11,14 +11,6 @@
 #include <gtest/gtest.h>
 
 namespace physvib::test {
-
-inline AudioDeviceTypes onlyNoDevice() {
-    return [] {
-        std::vector<std::unique_ptr<juce::AudioIODeviceType>> types;
-        types.push_back(std::make_unique<NoDeviceType>());
-        return types;
-    };
-}
 
 /// The mixer in a window of its own.
 class Participant {
