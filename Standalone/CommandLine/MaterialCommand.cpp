@@ -5,23 +5,14 @@
 #include "CommandLine/ExitCode.h"
 #include "Files/MaterialTable.h"
 #include "Files/NumberText.h"
+#include "Host/LoudestChannel.h"
 #include "Host/MaterialExtractor.h"
 #include "Host/StimulusRender.h"
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 
 namespace physvib {
 namespace {
-
-/// Of several microphones, the one that heard most.
-const std::vector<float>& loudestOf(const std::vector<std::vector<float>>& channels) {
-    return *std::ranges::max_element(channels, {}, [](const auto& samples) {
-        float peak = 0.0f;
-        for (const float x : samples) peak = std::max(peak, std::isfinite(x) ? std::abs(x) : HUGE_VALF);
-        return peak;
-    });
-}
 
 int listMaterials() {
     const MaterialTable& table = builtInMaterials();

@@ -18,6 +18,7 @@ constexpr double gapSeconds = 0.005; // the driver's thread shares the machine w
 constexpr double boardSeconds = 0.05; // the link needs 20 to 40 ms; more than that is told as trouble
 constexpr double holdMs = 1500.0, maintainMs = 1000.0;
 constexpr double newStripDb = -12.0; // hands are attached
+constexpr double strikeAmplitude = 0.5; // of pulses and auditions, in front of strip, ceiling and master
 
 juce::String utf8Text(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
 double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
@@ -91,8 +92,20 @@ public:
         , forth_{{std::move(action)}} {}
     bool perform() override { return run(forth_, back_); }
     bool undo() override { return run(back_, forth_); }
+    int getSizeInUnits() override { return 1; }
+    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override { // a sound that is turned
+        const auto* other = dynamic_cast<WorldEdit*>(next);
+        const auto *here = soundOf(this), *there = soundOf(other);
+        if (here == nullptr || there == nullptr || here->material != there->material) return nullptr;
+        auto* both = new WorldEdit{desk_, *there};
+        both->back_ = back_;
+        return both;
+    }
 
 private:
+    static const SoundAction* soundOf(const WorldEdit* edit) {
+        return edit != nullptr && edit->forth_.size() == 1 ? std::get_if<SoundAction>(&edit->forth_.front()) : nullptr;
+    }
     bool run(const std::vector<Action>& actions, std::vector<Action>& opposite) {
         opposite.clear();
         for (const Action& wanted : actions) {
@@ -145,10 +158,7 @@ void Desk::apply(const Mix& next) {
     const Mix before = std::exchange(mix_, next);
     ++edits_;
     mostEnchanters_ = std::max(mostEnchanters_, mix_.count());
-    if (mix_.scene != before.scene || mix_.seed != before.seed) {
-        if (const auto fault = session_.setState({mix_.scene, mix_.seed}); !fault.empty()) report(utf8Text(fault));
-        sceneNow_ = *mix_.scene;
-    }
+    if (mix_.scene != before.scene || mix_.seed != before.seed) takeScene(mix_.scene == before.scene);
     tap_.hear(mix_.count());
     postDifferences(before, false);
     if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output)))
@@ -264,12 +274,12 @@ std::vector<Action> Desk::undoOf(const Action& action) const {
     return {};
 }
 
-std::string Desk::editWorld(const juce::String& name, const Action& action) {
+std::string Desk::editWorld(const juce::String& name, const Action& action, bool goesOn) {
     Action trial = action;
     if (auto* spawn = std::get_if<SpawnAction>(&trial)) spawn->body.name = "added " + std::to_string(added_ + 1);
     Scene scene = sceneNow_;
     if (auto fault = InputCheck{scene}.take(trial); !fault.empty()) return fault;
-    undo_.beginNewTransaction(name);
+    if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
     undo_.perform(new WorldEdit{*this, action});
     return {};
 }
@@ -325,11 +335,22 @@ void Desk::finishRecording() {
 
 void Desk::restart(std::uint32_t seed) {
     if (seed != mix_.seed) return change("Seed", [seed](Mix& mix) { mix.seed = seed; });
-    sceneNow_ = *mix_.scene;
     ++edits_;
-    ++worldEdits_;
-    session_.restart();
+    takeScene(true);
     sendChangeMessage();
+}
+
+// The world begins anew. What was measured or tuned stays, as the strips do.
+void Desk::takeScene(bool keepsSounds) {
+    auto scene = std::make_shared<Scene>(*mix_.scene);
+    for (std::size_t i = 0; keepsSounds && i < scene->materials.size(); ++i) {
+        scene->materials[i].frequencyHz = sceneNow_.materials[i].frequencyHz;
+        scene->materials[i].decayPerSecond = sceneNow_.materials[i].decayPerSecond;
+    }
+    sceneNow_ = *scene;
+    ++worldEdits_;
+    if (const SessionState state{std::move(scene), mix_.seed}; state == session_.state()) session_.restart();
+    else if (const auto fault = session_.setState(state); !fault.empty()) report(utf8Text(fault));
 }
 
 void Desk::setSlowness(int slowness) {
@@ -348,12 +369,26 @@ void Desk::strike(int enchanter, std::vector<CollisionEvent> strikes) {
     session_.play(strikes);
 }
 
+std::string Desk::audition(int material, double shareX, double shareY) {
+    const auto index = static_cast<std::size_t>(material);
+    if (index >= sceneNow_.materials.size() || sceneNow_.materials[index].frequencyHz <= 0.0) return "expected a material that sounds";
+    const Material& heard = sceneNow_.materials[index];
+    CollisionEvent hit;
+    hit.frequencyHz = heard.frequencyHz;
+    hit.decayPerSecond = heard.decayPerSecond;
+    hit.amplitude = strikeAmplitude;
+    hit.x = shareX * sceneNow_.fieldWidthMetres;
+    hit.y = shareY * sceneNow_.fieldHeightMetres;
+    ++edits_;
+    return session_.play({&hit, 1}) ? std::string{} : heard.name + ": cannot be played";
+}
+
 void Desk::testPulse(int enchanter) {
     CollisionEvent pulse;
     const auto profile = findActuator(mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].actuator);
     pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0; // where the thesis' actuators are strongest
     pulse.decayPerSecond = 30.0;
-    pulse.amplitude = 0.5;
+    pulse.amplitude = strikeAmplitude;
     strike(enchanter, {pulse});
 }
 

@@ -80,8 +80,10 @@ public:
     std::uint64_t worldEdits() const noexcept { return worldEdits_; } ///< grows when sceneNow() changes
     std::string act(const Action& action);                       ///< empty, or what is wrong with it
     /// An edit of the world that can be undone: adds a body, takes one away, makes it of another material, changes a
-    /// sound. Empty, or what is wrong with it.
-    std::string editWorld(const juce::String& name, const Action& action);
+    /// sound. `goesOn` as of edit(). Empty, or what is wrong with it.
+    std::string editWorld(const juce::String& name, const Action& action, bool goesOn = false);
+    /// A hit of that material of sceneNow() at a place of the field, as strong as a test pulse. Empty, or why not.
+    std::string audition(int material, double shareX, double shareY);
     void restart(std::uint32_t seed);
     void setSlowness(int slowness);
     int slowness() const noexcept { return session_.slowness(); }
@@ -132,6 +134,7 @@ private:
     Action renamed(const Action& action);
     void finishRecording();
     void showEdit(const Action& action);
+    void takeScene(bool keepsSounds);
     void apply(const Mix& next);
     void postDifferences(const Mix& before, bool all);
     std::vector<int> outputMap() const;

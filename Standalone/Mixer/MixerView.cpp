@@ -2,6 +2,7 @@
 // Places of the panels, keys, and 30 pictures a second.
 #include "Mixer/MixerView.h"
 #include "Mixer/EnchantersTab.h"
+#include "Mixer/MaterialsTab.h"
 #include "Mixer/OutputTab.h"
 #include "Mixer/StudiesTab.h"
 
@@ -24,6 +25,7 @@ MixerView::MixerView(Desk& desk)
     setTitle("PhysVib mixer");
     setWantsKeyboardFocus(true);
     tabs_.add("Enchanters", std::make_unique<EnchantersTab>(desk, world_.view()));
+    tabs_.add("Materials", std::make_unique<MaterialsTab>(desk, world_.view()));
     tabs_.add("Output", std::make_unique<OutputTab>(desk));
     tabs_.add("Studies", std::make_unique<StudiesTab>(desk));
     trouble_.setTitle("Trouble");

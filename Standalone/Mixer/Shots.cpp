@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // States are reached as a person would reach them, with a clock instead of a device.
 #include "Mixer/Shots.h"
+#include "Mixer/MaterialShots.h"
 #include "Mixer/MixerView.h"
 #include "Mixer/StudyShots.h"
 #include "Host/NoDevice.h"
@@ -36,6 +37,9 @@ std::vector<State> mixerStates() {
     return {
         {"first-start", 1440, 900, 2.0, [](Desk&, MixerView& v) { v.setHint(true); }},
         {"four-enchanters", 1440, 900, 4.0, [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
+        {"materials", 1440, 900, 0.2, showMaterials},
+        {"materials-light", 1440, 900, 0.2, [](Desk& d, MixerView& v) { v.setGround(Ground::light), showMaterials(d, v); }},
+        {"materials-small", MixerView::leastWidth, MixerView::leastHeight, 0.2, showMaterials},
         {"output", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }},
         {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
         {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},

@@ -50,6 +50,12 @@ juce::StringArray TabPanel::names() const {
     return all;
 }
 
+Tab* TabPanel::find(const juce::String& name) const {
+    for (const auto& page : pages_)
+        if (page.name->getName() == name) return page.tab.get();
+    return nullptr;
+}
+
 void TabPanel::takeMix() {
     for (auto& page : pages_) page.tab->takeMix();
 }

@@ -19,6 +19,7 @@ public:
     void add(const juce::String& name, std::unique_ptr<Tab> tab);
     void choose(const juce::String& name);
     juce::StringArray names() const;
+    Tab* find(const juce::String& name) const; ///< null: there is none
     void takeMix();
     void refresh(const DeskMoment& moment);
     void paint(juce::Graphics& g) override;

@@ -59,6 +59,7 @@ void WorldView::mouseUp(const juce::MouseEvent& e) {
     const Grip grip = std::exchange(grip_, {});
     repaint();
     if (grip.enchanter >= 0 && grip.isOutside && onDetach) return onDetach(grip.enchanter);
+    if (onSpot && grip.enchanter < 0 && !e.mods.isPopupMenu() && !e.mouseWasDraggedSinceMouseDown() && map().field.contains(e.position)) return onSpot(map().shareAt(e.position));
     if (grip.body < 0 || !onPull || !e.mouseWasDraggedSinceMouseDown()) return;
     const auto at = map();
     const auto pose = poseOf(static_cast<std::size_t>(grip.body));

@@ -86,6 +86,12 @@ void WorldView::select(int enchanter) {
     repaint();
 }
 
+void WorldView::showSpot(std::optional<FieldShare> spot) {
+    if (spot == spot_) return;
+    spot_ = spot;
+    repaint();
+}
+
 void WorldView::update(WorldMoment moment) {
     if (!ahead_.empty() && moment.sessionNs < ahead_.back().timeNs) ahead_.clear(); // a new take
     const auto before = ahead_.empty() ? std::vector<BodyPose>{} : ahead_.front().poses;
@@ -132,6 +138,8 @@ juce::Point<float> WorldView::placeOfEnchanter(int enchanter) const {
     return map().at(place.xMetres / layout.extentWidthMetres * scene_.fieldWidthMetres, place.yMetres / layout.extentHeightMetres * scene_.fieldHeightMetres);
 }
 
+juce::Point<float> WorldView::placeOfShare(FieldShare at) const { return map().at(at.x * scene_.fieldWidthMetres, at.y * scene_.fieldHeightMetres); }
+
 juce::Point<float> WorldView::placeOfBody(const std::string& name) const {
     for (std::size_t i = 0; i < cast_.size(); ++i)
         if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent) return map().at(pose.xMetres, pose.yMetres);
@@ -156,6 +164,7 @@ void WorldView::paint(juce::Graphics& g) {
     }
     drawRays(g, at);
     drawHits(g, at);
+    drawSpot(g);
     drawEnchanters(g, at);
     drawGrip(g, at);
 }
@@ -251,6 +260,14 @@ void WorldView::drawEnchanters(juce::Graphics& g, const Map& at) const {
         g.setFont(juce::Font{text::medium, juce::Font::bold});
         g.drawText(juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(j)].label.c_str()), badge, juce::Justification::centred, false);
     }
+}
+
+void WorldView::drawSpot(juce::Graphics& g) const {
+    if (!spot_) return;
+    const auto centre = placeOfShare(*spot_);
+    g.setColour(shade(*this, Shade::text));
+    g.drawEllipse(juce::Rectangle<float>{16.0f, 16.0f}.withCentre(centre), 1.5f);
+    for (const auto& way : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}}) g.drawLine({centre + way * 5.0f, centre + way * 13.0f}, 1.5f);
 }
 
 void WorldView::drawGrip(juce::Graphics& g, const Map& at) const {

@@ -27,6 +27,7 @@ struct WorldMoment {
 /// A place in the field, each coordinate 0 to 1 from its lower left corner.
 struct FieldShare {
     double x = 0.0, y = 0.0;
+    bool operator==(const FieldShare&) const = default;
 };
 
 class WorldView final : public juce::Component, public juce::DragAndDropTarget {
@@ -47,6 +48,8 @@ public:
     /// Room below the field for what is written over the view. M.
     void setFootRoom(int pixels) { footRoom_ = pixels; }
     void select(int enchanter); ///< drawn with a ring; -1: none
+    /// A cross in the field where something is to be felt; none: no cross. M.
+    void showSpot(std::optional<FieldShare> spot);
 
     // What a hand does; what is not set cannot be done. M.
     std::function<void(const std::string& body, Vector pullMetres, Vector pointMetres)> onPull; ///< in the field's axes; the point on the body
@@ -56,6 +59,7 @@ public:
     std::function<void(FieldShare at)> onAttach;
     std::function<void(int enchanter)> onSelect;
     std::function<void(const std::string& body, FieldShare at)> onMenu; ///< right click; body may be empty
+    std::function<void(FieldShare at)> onSpot;                          ///< a click that drags nothing
 
     void paint(juce::Graphics& g) override;
     void resized() override { gains_ = {}; }
@@ -69,6 +73,7 @@ public:
     void itemDropped(const SourceDetails& details) override;
 
     /// Where things are, in pixels of this component. M.
+    juce::Point<float> placeOfShare(FieldShare at) const;
     juce::Point<float> placeOfEnchanter(int enchanter) const;
     juce::Point<float> placeOfBody(const std::string& name) const; ///< outside the view if it is not there
 
@@ -111,6 +116,7 @@ private:
     void drawRays(juce::Graphics& g, const Map& at) const;
     void drawHalos(juce::Graphics& g, const Map& at) const;
     void drawEnchanters(juce::Graphics& g, const Map& at) const;
+    void drawSpot(juce::Graphics& g) const;
     void drawGrip(juce::Graphics& g, const Map& at) const;
 
     Scene scene_;
@@ -124,6 +130,7 @@ private:
     juce::Image gains_;
     Grip grip_;
     std::optional<juce::Point<float>> dropAt_;
+    std::optional<FieldShare> spot_;
 };
 
 /// What `enchanter` plays of a hit at each place of the field, as opacity of `colour`. M.

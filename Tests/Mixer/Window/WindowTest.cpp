@@ -4,6 +4,8 @@
 #include "../MixerTesting.h"
 #include "Host/OfflineRender.h"
 #include "Host/SessionRender.h"
+#include "Mixer/MaterialShots.h"
+#include "Mixer/MaterialsTab.h"
 #include "Mixer/MixerWindow.h"
 #include <cmath>
 
@@ -20,8 +22,9 @@ public:
     void press(juce::Point<float> at) { send(at, juce::ModifierKeys::leftButtonModifier); }
     void move(juce::Point<float> at, int buttons) { send(at, buttons); }
     void release(juce::Point<float> at) { send(at, 0); }
-    void click(juce::Component& c) {
-        const auto at = middleOf(c);
+    void click(juce::Component& c) { click(c, c.getLocalBounds().toFloat().getCentre()); }
+    void click(juce::Component& c, juce::Point<float> inIt) {
+        const auto at = placeOf(c, inIt);
         send(at, 0);
         press(at);
         release(at);
@@ -138,6 +141,43 @@ TEST(Window, APersonsWayThroughTheMixer) {
     EXPECT_TRUE(again.desk().mix().strips[1].isMuted);
     EXPECT_TRUE(again.desk().trouble().isEmpty()) << again.desk().trouble();
     EXPECT_FALSE(again.isChanged());
+}
+
+TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
+    TestFolder folder;
+    ASSERT_TRUE(writeKnock(folder("knock.wav")));
+    MixerWindow window{onlyNoDevice(), "None:no device", folder("materials.json"), folder("config")};
+    Hand hand{window};
+    hand.click(*find(window.view().tabs(), "Materials"));
+    auto& tab = dynamic_cast<MaterialsTab&>(*window.view().tabs().find("Materials"));
+    ASSERT_TRUE(tab.isShowing());
+    auto& plot = *find(tab, "Spectrum of the material");
+    const juce::ComponentPeer::DragInfo drop{{folder("knock.wav").getFullPathName()}, {}, hand.middleOf(plot).toInt()};
+    EXPECT_TRUE(window.getPeer()->handleDragMove(drop));
+    window.getPeer()->handleDragDrop(drop);
+    const auto& concrete = window.desk().sceneNow().materials[3]; // the first that sounds is chosen
+    ASSERT_TRUE(runUntil([&] { return concrete.frequencyHz != 80.0; })) << window.desk().trouble();
+    EXPECT_NEAR(concrete.frequencyHz, 352.0, 0.5);
+    EXPECT_NEAR(concrete.decayPerSecond, 98.0, 2.0);
+
+    auto& world = window.view().world().view();
+    hand.click(world, world.placeOfShare({0.25, 0.75}));
+    auto& feel = *find(tab, "Feel the material at the spot");
+    feel.grabKeyboardFocus();
+    hand.key(juce::KeyPress::returnKey);
+    const auto& strikes = window.desk().saved().log.strikes;
+    ASSERT_EQ(strikes.size(), 2u);
+    EXPECT_EQ(strikes[0].frequencyHz, concrete.frequencyHz);
+    EXPECT_NEAR(strikes[0].x / window.desk().sceneNow().fieldWidthMetres, 0.25, 0.01);
+    EXPECT_NEAR(strikes[0].y / window.desk().sceneNow().fieldHeightMetres, 0.75, 0.01);
+    EXPECT_EQ(strikes[1].x, strikes[0].x);
+    hand.key('z', juce::ModifierKeys::commandModifier);
+    EXPECT_EQ(concrete.frequencyHz, 80.0);
+    hand.key('z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
+
+    hand.key('s', juce::ModifierKeys::commandModifier);
+    MixerWindow again{onlyNoDevice(), "None:no device", folder("materials.json"), folder("config")};
+    EXPECT_EQ(again.desk().mix().scene->materials[3].frequencyHz, concrete.frequencyHz);
 }
 
 TEST(Window, ABrokenSessionIsNamedAndNothingIsLost) {

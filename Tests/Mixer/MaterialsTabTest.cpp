@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The materials: edited and taken back, measured from recordings, felt at a spot, saved and rendered again.
+#include "MixerTesting.h"
+#include "Files/SessionFile.h"
+#include "Host/SessionRender.h"
+#include "Host/WavSink.h"
+#include "Mixer/MaterialShots.h"
+#include "Mixer/MaterialsTab.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+constexpr int wood = 4; // of shake-the-box; others come before it and are silent there
+
+void write(const juce::File& file, const std::vector<float>& samples) {
+    WavSink sink{file.getFullPathName().toStdString(), 1, 48000};
+    const float* channels[]{samples.data()};
+    sink.write(channels, static_cast<int>(samples.size()));
+    ASSERT_EQ(sink.finish(), "");
+}
+
+struct Materials : testing::Test {
+    TestFolder folder;
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    MaterialsTab& tab = open();
+
+    MaterialsTab& open() {
+        view.tabs().choose("Materials");
+        auto& opened = dynamic_cast<MaterialsTab&>(*view.tabs().find("Materials"));
+        opened.choose(wood);
+        return opened;
+    }
+    const Material& now() const { return desk.sceneNow().materials[wood]; }
+    juce::Slider& slider(const juce::String& title) { return dynamic_cast<juce::Slider&>(*find(tab, title)); }
+    const std::vector<LiveInput>& inputs() { return desk.saved().log.takes.back().inputs; }
+};
+
+TEST_F(Materials, AreSetWhileTheyArePlayedAndTakenBack) {
+    slider("Frequency").setValue(205.0, juce::sendNotificationSync);
+    slider("Decay").setValue(30.0, juce::sendNotificationSync);
+    EXPECT_EQ(now().frequencyHz, 205.0);
+    EXPECT_EQ(now().decayPerSecond, 30.0);
+    ASSERT_EQ(inputs().size(), 2u);
+    EXPECT_EQ(std::get<SoundAction>(inputs()[1].action), (SoundAction{wood, 205.0, 30.0}));
+    EXPECT_TRUE(runUntil([&] {
+        const auto hits = desk.look().hits;
+        return std::ranges::any_of(hits, [](const CollisionEvent& e) { return e.frequencyHz == 205.0 && e.decayPerSecond == 30.0; });
+    })) << "hits of the world sound as it says";
+    desk.undoManager().undo();
+    EXPECT_EQ(now().decayPerSecond, 106.99);
+    desk.undoManager().undo();
+    EXPECT_EQ(now().frequencyHz, 349.0);
+    EXPECT_FALSE(desk.undoManager().canUndo());
+    desk.undoManager().redo();
+    EXPECT_EQ(now().frequencyHz, 205.0);
+}
+
+TEST_F(Materials, ASliderThatIsHeldIsOneThingToUndo) {
+    for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.editWorld("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
+    EXPECT_EQ(now().frequencyHz, 120.0);
+    desk.undoManager().undo();
+    EXPECT_EQ(now().frequencyHz, 349.0);
+    EXPECT_FALSE(desk.undoManager().canUndo());
+    desk.undoManager().redo();
+    EXPECT_EQ(now().frequencyHz, 120.0);
+}
+
+TEST_F(Materials, StayWhenTheSceneStartsAnewAndGoWithAnother) {
+    EXPECT_EQ(desk.editWorld("Frequency", SoundAction{wood, 205.0, 30.0}), "");
+    desk.restart(desk.mix().seed);
+    EXPECT_EQ(now().frequencyHz, 205.0);
+    desk.restart(7);
+    EXPECT_EQ(now().frequencyHz, 205.0);
+    EXPECT_TRUE(runUntil([&] { return desk.saved().log.takes.size() > 1 && desk.saved().log.takes.back().seed == 7; }));
+    EXPECT_EQ(desk.saved().log.takes.back().scene->materials[wood].frequencyHz, 205.0) << "it is so from the first hit on";
+    desk.change("Scene", [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*Desk::firstMix().scene); });
+    EXPECT_EQ(now().frequencyHz, 349.0);
+}
+
+TEST_F(Materials, ARecordingThatIsDroppedGivesBothNumbers) {
+    ASSERT_TRUE(writeKnock(folder("knock.wav")));
+    tab.filesDropped({folder("knock.wav").getFullPathName()}, 5, 400);
+    EXPECT_TRUE(tab.isMeasuring());
+    EXPECT_EQ(now().frequencyHz, 349.0) << "measured beside the message thread";
+    ASSERT_TRUE(runUntil([&] { return !tab.isMeasuring(); }));
+    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+    EXPECT_NEAR(now().frequencyHz, 352.0, 0.5);
+    EXPECT_NEAR(now().decayPerSecond, 98.0, 2.0);
+    const auto* recording = tab.recordingOf(wood);
+    ASSERT_NE(recording, nullptr);
+    EXPECT_EQ(recording->name, "knock.wav");
+    EXPECT_TRUE(recording->sound.isConfident());
+    const auto peak = std::ranges::max_element(recording->course.levels) - recording->course.levels.begin();
+    EXPECT_NEAR(FrequencyAxis::hzOf(static_cast<int>(peak)), 352.0, 10.0);
+    EXPECT_GT(recording->amplitude, 0.4);
+    EXPECT_LE(recording->amplitude, 1.0);
+    EXPECT_TRUE(find(tab, "Decay of the material")->getDescription().contains("confidence high"));
+    desk.undoManager().undo();
+    EXPECT_EQ(now().frequencyHz, 349.0);
+    desk.undoManager().redo();
+    EXPECT_NEAR(now().frequencyHz, 352.0, 0.5);
+}
+
+TEST_F(Materials, ARecordingThatIsDroppedOnARowIsOfThatMaterial) {
+    ASSERT_TRUE(writeKnock(folder("knock.wav")));
+    auto& list = dynamic_cast<juce::ListBox&>(*find(tab, "List of materials"));
+    tab.filesDropped({folder("knock.wav").getFullPathName()}, 20, list.getY() + list.getRowHeight() / 2);
+    tab.finishMeasuring();
+    EXPECT_NEAR(desk.sceneNow().materials[3].frequencyHz, 352.0, 0.5) << "concrete, the first that sounds";
+    EXPECT_EQ(now().frequencyHz, 349.0);
+}
+
+TEST_F(Materials, WhatIsNoHitIsToldInOneLineAndChangesNothing) {
+    const auto expect = [&](const juce::File& file, const juce::String& words) {
+        tab.measure(file);
+        tab.finishMeasuring();
+        EXPECT_TRUE(desk.trouble().contains(words)) << desk.trouble();
+        EXPECT_TRUE(desk.trouble().contains(file.getFileName())) << desk.trouble();
+        EXPECT_FALSE(desk.trouble().containsAnyOf("/\n")) << "the file by its name, in one line";
+        EXPECT_FALSE(desk.undoManager().canUndo());
+    };
+    expect(folder("none.wav"), "cannot be read");
+    folder("text.wav").replaceWithText("no sound at all");
+    expect(folder("text.wav"), "expected a");
+    ASSERT_TRUE(writeKnock(folder("knock.wav")));
+    juce::MemoryBlock bytes;
+    folder("knock.wav").loadFileAsData(bytes);
+    folder("cut.wav").replaceWithData(bytes.getData(), 60);
+    expect(folder("cut.wav"), "expected");
+    std::vector<float> samples(24'000, 0.0f);
+    write(folder("silent.wav"), samples);
+    expect(folder("silent.wav"), "found silence");
+    for (std::size_t i = 2400; i < samples.size(); ++i) samples[i] = std::clamp(3.0f * std::sin(0.02f * static_cast<float>(i)), -1.0f, 1.0f);
+    write(folder("clipped.wav"), samples);
+    expect(folder("clipped.wav"), "not clipped");
+    samples.resize(100);
+    write(folder("short.wav"), samples);
+    expect(folder("short.wav"), "expected at least");
+    tab.filesDropped({"a.wav", "b.wav"}, 0, 0);
+    EXPECT_TRUE(desk.trouble().contains("2 files"));
+    EXPECT_EQ(tab.recordingOf(wood), nullptr);
+    tab.choose(0);
+    tab.measure(folder("knock.wav"));
+    EXPECT_FALSE(tab.isMeasuring()) << "rubber is silent there";
+    EXPECT_TRUE(desk.trouble().contains("that sounds"));
+}
+
+TEST_F(Materials, AnAuditionIsAHitOfTheMaterialAtTheSpot) {
+    desk.setSlowness(0); // nothing else is to be felt
+    runFor(0.5);
+    desk.look();
+    tab.feelAt({0.25, 0.75});
+    const auto& strikes = desk.saved().log.strikes;
+    ASSERT_EQ(strikes.size(), 1u);
+    EXPECT_EQ(strikes[0].frequencyHz, 349.0);
+    EXPECT_EQ(strikes[0].decayPerSecond, 106.99);
+    EXPECT_LE(strikes[0].amplitude, 0.5) << "hands are attached";
+    EXPECT_EQ(strikes[0].x, 0.25 * desk.sceneNow().fieldWidthMetres);
+    EXPECT_EQ(strikes[0].y, 0.75 * desk.sceneNow().fieldHeightMetres);
+    EXPECT_TRUE(runUntil([&] { return std::ranges::any_of(desk.look().hits, [&](const CollisionEvent& e) { return e.frequencyHz == 349.0 && e.x == strikes[0].x; }); }));
+    slider("Spot from the left").setValue(100.0, juce::sendNotificationSync);
+    dynamic_cast<juce::Button&>(*find(tab, "Feel the material at the spot")).onClick();
+    EXPECT_EQ(desk.saved().log.strikes.back().x, desk.sceneNow().fieldWidthMetres);
+    tab.choose(0);
+    EXPECT_FALSE(find(tab, "Feel the material at the spot")->isEnabled());
+    EXPECT_NE(desk.audition(0, 0.5, 0.5), "") << "rubber is silent there";
+    EXPECT_NE(desk.audition(99, 0.5, 0.5), "");
+}
+
+TEST_F(Materials, AClickInTheWorldFeelsItThereWhileTheTabIsShown) {
+    auto& world = view.world().view();
+    ASSERT_TRUE(world.onSpot != nullptr);
+    world.onSpot({0.5, 0.5});
+    EXPECT_EQ(desk.saved().log.strikes.size(), 1u);
+    view.tabs().choose("Output");
+    EXPECT_TRUE(world.onSpot == nullptr);
+}
+
+TEST_F(Materials, ASavedSessionHasThemAndRendersTheSameBytes) {
+    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 300'000'000; }));
+    EXPECT_EQ(desk.editWorld("Sound", SoundAction{wood, 205.0, 30.0}), "");
+    tab.feelAt({0.25, 0.75});
+    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 1'500'000'000; }));
+    const auto& saved = desk.saved();
+    const auto read = readSession(sessionJson(saved), "again");
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(mixOf(read.value).scene->materials[wood].frequencyHz, 205.0);
+    for (const auto& [session, name] : {std::pair{&saved, "one.wav"}, {&read.value, "two.wav"}})
+        EXPECT_EQ(renderSession(*session, folder(name).getFullPathName().toStdString(), 48000, 1.5, "test", [](double) { return true; }), "");
+    juce::MemoryBlock one, two;
+    folder("one.wav").loadFileAsData(one);
+    folder("two.wav").loadFileAsData(two);
+    EXPECT_GT(one.getSize(), 100'000u);
+    EXPECT_TRUE(one == two);
+    const auto events = sessionEvents(read.value, 1'500'000'000).events;
+    EXPECT_TRUE(std::ranges::any_of(events, [](const CollisionEvent& e) { return e.frequencyHz == 205.0; }));
+}
+
+} // namespace
+} // namespace physvib
