@@ -82,7 +82,8 @@ void HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset)
     panner_.gainsAt(event.x, event.y, gains_);
     std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
     const Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, end};
-    const bool taken = player_.isOn() ? player_.strike(s.frequencyHz, s.amplitude, onset.frame, end, gains_.data()) : bank_.strike(s, gains_.data());
+    const bool isRecorded = player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz));
+    const bool taken = isRecorded ? player_.strike(s.frequencyHz, s.amplitude, onset.frame, end, gains_.data()) : bank_.strike(s, gains_.data());
     if (taken) playedQueue_.push({event, onset.frame, delay > 0});
     played_ += taken ? 1 : 0;
     late_ += taken && delay > 0 ? 1 : 0;

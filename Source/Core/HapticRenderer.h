@@ -65,9 +65,13 @@ public:
     /// Silence at frame 0. M, not while rendering.
     void prepare(const RendererSettings& settings) noexcept;
 
-    /// From now on events play these recordings instead of modes; none: modes. Both the list and its samples, at this rate,
-    /// outlive the renderer or the next call. prepare and moveTo forget them. M, not while rendering.
-    void setContacts(std::span<const RecordedContact> contacts) noexcept { player_.setContacts(contacts); }
+    /// From now on events play these recordings instead of modes; none: modes. Events without one are rejected, or, with
+    /// `othersAreModes`, play their mode. Both the list and its samples, at this rate, outlive the renderer or the next
+    /// call. prepare and moveTo forget them. M, not while rendering.
+    void setContacts(std::span<const RecordedContact> contacts, bool othersAreModes = false) noexcept {
+        player_.setContacts(contacts);
+        othersAreModes_ = othersAreModes;
+    }
 
     /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains stay; the
     /// limiter starts afresh. M, not while rendering.
@@ -114,6 +118,7 @@ private:
     PlayedQueue playedQueue_;
     RendererSettings settings_;
     int channels_ = 1;
+    bool othersAreModes_ = false; // events without a recording
     std::int64_t position_ = 0;
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
 };

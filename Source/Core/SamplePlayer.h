@@ -36,6 +36,7 @@ public:
     }
 
     bool isOn() const noexcept { return !contacts_.empty(); }
+    bool has(double frequencyHz) const noexcept { return std::ranges::find(contacts_, frequencyHz, &RecordedContact::frequencyHz) != contacts_.end(); }
 
     /// From frame `onset` on, cut at `closeFrame`. False if there is no such recording, or too many sound at once.
     bool strike(double frequencyHz, double amplitude, std::int64_t onset, std::int64_t closeFrame, const double* gains) noexcept {

@@ -150,6 +150,7 @@ struct FieldsOf<Protocol> {
         v.field("title", &P::title, anyText, Need::optional);
         v.field("seed", &P::seed, upTo(1e9), Need::optional);
         v.field("pink_noise", &P::hasPinkNoise, {}, Need::optional);
+        v.field("pink_noise_db", &P::pinkNoiseDb, Bounds{PinkNoise::leastDb, PinkNoise::mostDb}, Need::optional);
         v.choice("condition_order", &P::conditionOrder, conditionOrderNames);
         v.field("conditions", &P::conditions, items(1, 256), Need::required);
         v.field("sessions", &P::sessions, items(1, 64), Need::required);

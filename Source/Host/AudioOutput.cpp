@@ -2,12 +2,14 @@
 // Opening, keeping and feeding a device.
 #include "Host/AudioOutput.h"
 #include <algorithm>
+#include <cmath>
 
 namespace physvib {
 
 namespace {
 
 constexpr double fadeInSeconds = 0.005;
+constexpr double noiseFadeSeconds = 2.0; // to full scale; nobody shall start
 
 bool isRate(int hz) { return hz >= limits::minSampleRateHz && hz <= limits::maxSampleRateHz; }
 
@@ -21,26 +23,55 @@ AudioOutput::~AudioOutput() { close(); }
 
 std::string AudioOutput::open(const AudioOutputSettings& settings) {
     close();
-    if (auto error = map_.want(session_.channels(), settings.channelMap, settings.enchanters); !error.empty()) return error;
+    if (auto error = map_.want(session_.channels(), settings.channelMap, settings.enchanters, settings.listening.outputs()); !error.empty()) return error;
     settings_ = settings;
     setLevel(settings.level);
+    setHeardLevels();
     return openDevice();
 }
 
-std::string AudioOutput::assign(const std::vector<int>& channelMap, int enchanters) {
-    if (auto error = map_.want(session_.channels(), channelMap, enchanters); !error.empty()) return error;
+std::string AudioOutput::assign(const std::vector<int>& channelMap, int enchanters) { return remap(channelMap, enchanters, settings_.listening); }
+
+std::string AudioOutput::hear(const ListeningSettings& listening) { return remap(settings_.channelMap, settings_.enchanters, listening); }
+
+std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening) {
+    if (auto error = map_.want(session_.channels(), channelMap, enchanters, listening.outputs()); !error.empty()) return error;
+    const AudioOutputSettings before = settings_;
     settings_.channelMap = channelMap;
     settings_.enchanters = enchanters;
+    settings_.listening = listening;
+    if (auto error = listeningFault(); !error.empty()) {
+        settings_ = before;
+        map_.want(session_.channels(), before.channelMap, before.enchanters, before.listening.outputs());
+        return error;
+    }
+    setHeardLevels();
     if (!found_.device || !running_) return {};
     if (settings_.opensAll) map_.place(found_.device->getActiveOutputChannels());
     else stopDevice(), void(openDevice());
     return {};
 }
 
+// The noise's generator has a level of its own.
+void AudioOutput::setHeardLevels() {
+    const ListeningSettings& l = settings_.listening;
+    const auto gainOf = [](double db, double leastDb, double mostDb) { return std::pow(10.0, std::clamp(db, leastDb, mostDb) / 20.0); };
+    noiseGain_ = l.noise.empty() ? 0.0f : static_cast<float>(gainOf(l.noiseDb, PinkNoise::leastDb, PinkNoise::mostDb) / PinkNoise::rootMeanSquare);
+    contactGain_ = l.contacts.empty() ? 0.0f : static_cast<float>(gainOf(l.contactDb, leastContactDb, mostContactDb));
+}
+
+// Unlike an enchanter without an output, which is felt as missing, noise that is missing would go unnoticed.
+std::string AudioOutput::listeningFault() const {
+    if (!settings_.listening.contacts.empty() && !session_.hasContactSound()) return "expected a session that makes contact sounds, found none";
+    if (!found_.device || map_.highestHeard() < deviceOutputs()) return {};
+    return settings_.device + ": has " + std::to_string(deviceOutputs()) + " outputs; expected one of them to listen to, found output " + std::to_string(map_.highestHeard() + 1);
+}
+
 std::string AudioOutput::openDevice() {
     found_ = findAudioDevice(types_, settings_.device);
     if (!found_.device) return settings_.device + ": no such device (see physvib devices); nothing else is played on";
-    auto error = startDevice();
+    auto error = listeningFault();
+    if (error.empty()) error = startDevice();
     if (error.empty()) settings_.device = found_.fullName(); // this one from now on, also where another driver knows its name
     else stopDevice();
     return error;
@@ -116,12 +147,15 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     prepareBuffers(block);
     map_.place(device->getActiveOutputChannels());
     master_.prepare(rate, fadeInSeconds, 0.0f);
+    noiseRamp_.prepare(rate, noiseFadeSeconds, 0.0f);
+    contactRamp_.prepare(rate, fadeInSeconds, 0.0f);
     running_ = true;
 }
 
 void AudioOutput::prepareBuffers(int block) {
     block_ = block;
-    scratch_.assign(static_cast<std::size_t>(session_.channels()), std::vector<float>(static_cast<std::size_t>(block)));
+    noiseScratch_.assign(static_cast<std::size_t>(block), 0.0f);
+    scratch_.assign(static_cast<std::size_t>(session_.channels() + (session_.hasContactSound() ? 1 : 0)), std::vector<float>(static_cast<std::size_t>(block)));
     scratchAt_.clear();
     for (auto& channel : scratch_) scratchAt_.push_back(channel.data());
 }
@@ -137,8 +171,11 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     const auto start = juce::Time::getHighResolutionTicks();
     const FeltMoment felt{session_.nextFeltNs(), std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count() + latencyNs_};
     if (frames > largestBlock_.load(std::memory_order_relaxed)) largestBlock_.store(frames, std::memory_order_relaxed);
-    if (silent_.load(std::memory_order_relaxed)) master_.moveTo(0.0f, frames);
-    else master_.moveTo(level_.load(std::memory_order_relaxed));
+    const bool isSilent = silent_.load(std::memory_order_relaxed);
+    for (auto [ramp, gain] : {std::pair{&master_, &level_}, {&noiseRamp_, &noiseGain_}, {&contactRamp_, &contactGain_}}) {
+        if (isSilent) ramp->moveTo(0.0f, frames);
+        else ramp->moveTo(gain->load(std::memory_order_relaxed));
+    }
     for (int done = 0; done < frames; done += block_) renderPart(out, outputs, done, std::min(block_, frames - done));
     if (session_.nextFeltNs() != felt.sessionNs) felt_.write(felt); // else nobody steps the world: session time stands still
     measure(start, frames);
@@ -156,6 +193,29 @@ void AudioOutput::renderPart(float* const* out, int outputs, int first, int fram
     for (int j = 0; j < session_.channels(); ++j) {
         const int k = map_.at(j);
         if (k >= 0 && k < outputs) juce::FloatVectorOperations::copy(out[k] + first, scratchAt_[static_cast<std::size_t>(j)], frames);
+    }
+    renderHeard(out, outputs, first, frames);
+}
+
+void AudioOutput::renderHeard(float* const* out, int outputs, int first, int frames) noexcept {
+    if (noiseGain_.load(std::memory_order_relaxed) > 0.0f) {
+        float* noise = noiseScratch_.data();
+        std::generate_n(noise, frames, [this] { return noise_.next(); });
+        noiseRamp_.apply(&noise, 1, frames);
+        addTo(Heard::noise, noise, out, outputs, first, frames);
+    }
+    if (!session_.hasContactSound()) return;
+    contactRamp_.apply(&scratchAt_.back(), 1, frames);
+    addTo(Heard::contacts, scratchAt_.back(), out, outputs, first, frames);
+}
+
+// Nothing else plays on these outputs; together the two stay within full scale.
+void AudioOutput::addTo(Heard source, const float* samples, float* const* out, int outputs, int first, int frames) noexcept {
+    for (int i = 0; i < OutputMap::mostHeard; ++i) {
+        const int k = map_.heardAt(source, i);
+        if (k < 0 || k >= outputs) continue;
+        juce::FloatVectorOperations::add(out[k] + first, samples, frames);
+        juce::FloatVectorOperations::clip(out[k] + first, out[k] + first, -1.0f, 1.0f, frames);
     }
 }
 

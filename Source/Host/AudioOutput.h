@@ -13,6 +13,7 @@
 #include "Host/PlayedRecorder.h"
 #include "Host/Session.h"
 #include "Host/SignalTap.h"
+#include "Study/PinkNoise.h"
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -25,6 +26,19 @@ namespace physvib {
 constexpr double safeStartDecibels = -12.0;
 constexpr float safeStartLevel = 0.25118864f; // the same as a gain
 
+constexpr double leastContactDb = -90.0, safeContactDb = -20.0, mostContactDb = 0.0;
+
+/// What is heard on outputs of the same device that are no enchanter's, e.g. on headphones; apart from the master level, not
+/// from the silence button. Outputs from 0; empty: off.
+struct ListeningSettings {
+    std::vector<int> noise;         ///< pink noise that masks what actuators sound like
+    double noiseDb = PinkNoise::safeDb; ///< its root mean square in dB of full scale, within PinkNoise's
+    std::vector<int> contacts;      ///< the contact sound of each hit; of a session that makes one
+    double contactDb = safeContactDb; ///< no sample is larger: that of a hit at full scale, leastContactDb to mostContactDb
+
+    HeardOutputs outputs() const { return {noise, contacts}; }
+};
+
 /// What is wanted of a device.
 struct AudioOutputSettings {
     std::string device;          ///< name, or type:name where two drivers have the same name
@@ -34,6 +48,7 @@ struct AudioOutputSettings {
     float level = safeStartLevel; ///< master gain, 0 to 1, reached in a ramp
     int enchanters = 0;          ///< how many there are to be felt; 0: as many as the session has channels
     bool opensAll = false;       ///< every output of the device, so that assign() need not open it again
+    ListeningSettings listening{};
 };
 
 /// A moment of the output, for people.
@@ -64,6 +79,9 @@ public:
     /// Another map of outputs and number of enchanters, while it plays if the device's outputs are open; empty, or one
     /// line with the reason, and all is as before. M.
     std::string assign(const std::vector<int>& channelMap, int enchanters);
+
+    /// What is listened to, while it plays as assign(); empty, or one line with the reason, and all is as before. M.
+    std::string hear(const ListeningSettings& listening);
 
     /// Stops and closes; what is left of the session stays. M.
     void close();
@@ -107,6 +125,9 @@ private:
     void audioDeviceStopped() override { running_ = false; }
     void audioDeviceError(const juce::String&) override { running_ = false; }
 
+    std::string remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening);
+    void setHeardLevels();
+    std::string listeningFault() const;
     std::string openDevice();
     std::string startDevice();
     void stopDevice();
@@ -115,6 +136,8 @@ private:
     void prepareBuffers(int block);
     void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
     void renderPart(float* const* out, int outputs, int first, int frames) noexcept;
+    void renderHeard(float* const* out, int outputs, int first, int frames) noexcept;
+    void addTo(Heard source, const float* samples, float* const* out, int outputs, int first, int frames) noexcept;
     void measure(juce::int64 startTicks, int frames) noexcept;
 
     struct Load {
@@ -127,7 +150,7 @@ private:
     AudioOutputSettings settings_;
     FoundDevice found_;
     std::atomic<bool> running_{false}, silent_{false};
-    std::atomic<float> level_{0.0f};
+    std::atomic<float> level_{0.0f}, noiseGain_{0.0f}, contactGain_{0.0f};
     std::atomic<int> largestBlock_{0}; // that the device has asked for
     std::atomic<PlayedRecorder*> recorder_{nullptr};
     SignalTap* tap_ = nullptr;
@@ -145,7 +168,9 @@ private:
     OutputMap map_;
     std::vector<std::vector<float>> scratch_;
     std::vector<float*> scratchAt_;
-    GainRamp master_;
+    GainRamp master_, noiseRamp_, contactRamp_;
+    PinkNoise noise_;
+    std::vector<float> noiseScratch_;
     Load measured_;
 };
 

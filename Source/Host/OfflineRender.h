@@ -17,6 +17,7 @@ struct OfflineSettings {
     int blockFrames = 256; ///< 1 to limits::maxBlockFrames
     std::span<const RenderControl> controls{}; ///< in time order
     std::span<const RecordedContact> contacts{}; ///< played instead of modes, at the renderer's rate; none: modes
+    bool othersAreModes = false; ///< events without a recording
 };
 
 /// Takes channels[channel][0..frames), the next frames in order; false stops the render.

@@ -6,14 +6,31 @@
 
 namespace physvib {
 
-std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int felt) {
+namespace {
+
+// Noise in a motor would be felt; a motor's drive in headphones would be far too loud.
+std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) {
+    for (const auto& outputs : heard) {
+        if (outputs.size() > OutputMap::mostHeard) return "expected at most " + std::to_string(OutputMap::mostHeard) + " outputs to listen to, found " + std::to_string(outputs.size());
+        for (const int output : outputs)
+            if (output >= 0 && std::ranges::find(felt, output) != felt.end())
+                return "output " + std::to_string(output + 1) + " is an enchanter's; expected another one to listen to";
+    }
+    return {};
+}
+
+} // namespace
+
+std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int felt, const HeardOutputs& heard) {
     std::vector<int> outputs(static_cast<std::size_t>(enchanters), -1);
     if (wanted.empty()) std::iota(outputs.begin(), outputs.end(), 0);
     else std::copy_n(wanted.begin(), std::min(wanted.size(), outputs.size()), outputs.begin());
     for (const int output : outputs)
         if (output >= 0 && std::count(outputs.begin(), outputs.end(), output) > 1)
             return "output " + std::to_string(output + 1) + " is given to two enchanters; expected one each";
+    if (auto fault = heardFault(outputs, heard); !fault.empty()) return fault;
     wanted_ = std::move(outputs);
+    heard_ = heard;
     felt_ = felt > 0 ? std::min(felt, enchanters) : enchanters;
     return {};
 }
@@ -22,7 +39,17 @@ juce::BigInteger OutputMap::outputs(int offered) const {
     juce::BigInteger set;
     for (const int output : wanted_)
         if (output >= 0 && output < offered) set.setBit(output);
+    for (const auto& source : heard_)
+        for (const int output : source)
+            if (output < offered) set.setBit(output);
     return set;
+}
+
+int OutputMap::highestHeard() const noexcept {
+    int highest = -1;
+    for (const auto& source : heard_)
+        for (const int output : source) highest = std::max(highest, output);
+    return highest;
 }
 
 void OutputMap::place(const juce::BigInteger& active) {
@@ -33,6 +60,8 @@ void OutputMap::place(const juce::BigInteger& active) {
         return before;
     };
     for (std::size_t j = 0; j < wanted_.size(); ++j) at_[j].store(packed(wanted_[j]), std::memory_order_relaxed);
+    for (std::size_t s = 0; s < heard_.size(); ++s)
+        for (std::size_t i = 0; i < heardAt_[s].size(); ++i) heardAt_[s][i].store(i < heard_[s].size() ? packed(heard_[s][i]) : -1, std::memory_order_relaxed);
 }
 
 int OutputMap::unfelt() const noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which output of a device is which enchanter.
+// Which output of a device is which enchanter, and which ones somebody listens to.
 #pragma once
 #include "Core/Limits.h"
 #include <array>
@@ -10,21 +10,32 @@
 
 namespace physvib {
 
+/// What is heard, on outputs that are no enchanter's.
+enum class Heard { noise, contacts };
+
+/// Device outputs from 0, per Heard.
+using HeardOutputs = std::array<std::vector<int>, 2>;
+
 /// M, but for at(): any thread.
 class OutputMap {
 public:
     OutputMap() {
         for (auto& at : at_) at = -1;
+        for (auto& source : heardAt_)
+            for (auto& at : source) at = -1;
     }
 
     /// Enchanter j is wanted on device output wanted[j], from 0; with an empty list on j; those not in the list on none. `felt`
-    /// of them are to be felt (0: all). Refuses two enchanters on one
-    /// output, which would add up beyond its ceiling: empty, or one line with the reason, and all is as before. place()
-    /// makes it so.
-    std::string want(int enchanters, const std::vector<int>& wanted, int felt = 0);
+    /// of them are to be felt (0: all); `heard` is listened to. Refuses two enchanters on one output, which would add up
+    /// beyond its ceiling, and an enchanter on one that is listened to: empty, or one line with the reason, and all is as
+    /// before. place() makes it so.
+    std::string want(int enchanters, const std::vector<int>& wanted, int felt = 0, const HeardOutputs& heard = {});
 
     /// Those of the `offered` outputs that are wanted.
     juce::BigInteger outputs(int offered) const;
+
+    /// The highest output that is listened to; -1: none.
+    int highestHeard() const noexcept;
 
     /// A callback gets the `active` outputs only, packed together.
     void place(const juce::BigInteger& active);
@@ -32,13 +43,21 @@ public:
     /// Callback channel of an enchanter; -1: it has none.
     int at(int enchanter) const noexcept { return at_[static_cast<std::size_t>(enchanter)].load(std::memory_order_relaxed); }
 
+    /// Callback channel of the i-th output of `source`; -1: it has none, or there are no more.
+    int heardAt(Heard source, int i) const noexcept {
+        return heardAt_[static_cast<std::size_t>(source)][static_cast<std::size_t>(i)].load(std::memory_order_relaxed);
+    }
+    static constexpr int mostHeard = 8; ///< outputs per source: four pairs of headphones
+
     int enchanters() const noexcept { return felt_; } ///< that are to be felt
     int unfelt() const noexcept; ///< of these: without a callback channel
 
 private:
     std::vector<int> wanted_; // per enchanter; -1: nowhere
     int felt_ = 0;
+    HeardOutputs heard_;
     std::array<std::atomic<int>, limits::maxEnchanters> at_{};
+    std::array<std::array<std::atomic<int>, mostHeard>, 2> heardAt_{};
 };
 
 } // namespace physvib

@@ -12,20 +12,27 @@ struct Session::LiveSource {
     FrameClock clock;
     std::int64_t nextFrame; // of the renderer
     bool pop(CollisionEvent& event) noexcept {
-        if (session.ownStrikes_.pop(event)) return true;
-        if (!session.queue_.pop(event)) return false;
-        session.leastMarginFrames_ = std::min(session.leastMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
+        if (!session.ownStrikes_.pop(event)) {
+            if (!session.queue_.pop(event)) return false;
+            session.leastMarginFrames_ = std::min(session.leastMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
+        }
+        if (session.heard_) session.heard_->tell(event);
         return true;
     }
-    bool pop(RenderControl& control) noexcept { return session.ownControls_.pop(control) || session.controls_.pop(control); }
+    bool pop(RenderControl& control) noexcept { return session.popControl(control); }
 };
 
 // Non-realtime, the world is ours: step it whenever the queue runs dry, until `endNs`.
 struct Session::OfflineSource {
     Session& session;
     std::int64_t endNs;
-    bool pop(RenderControl& control) noexcept { return session.ownControls_.pop(control) || session.controls_.pop(control); }
+    bool pop(RenderControl& control) noexcept { return session.popControl(control); }
     bool pop(CollisionEvent& event) {
+        if (!take(event)) return false;
+        if (session.heard_) session.heard_->tell(event);
+        return true;
+    }
+    bool take(CollisionEvent& event) {
         if (session.ownStrikes_.pop(event)) return true;
         while (!session.queue_.pop(event)) {
             const bool hasMore = !session.handOver() || session.world_.timeNs() < endNs;
@@ -39,6 +46,7 @@ struct Session::OfflineSource {
 Session::Session(const SessionSetup& setup)
     : setup_{setup}
     , renderer_{std::make_unique<HapticRenderer<DesktopProfile>>()}
+    , heard_{setup.contactSound ? std::make_unique<HeardContacts>(*setup.contactSound) : nullptr}
     , told_{setup.boardSeconds > 0.0 ? std::make_unique<ToldEvents>() : nullptr}
     , state_{std::make_shared<const Scene>(setup.scene), setup.seed}
     , world_{setup.run(), setup.shaping} {
@@ -57,6 +65,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
                         .equalised = setup_.equalised});
     setLaw(sampleRateHz, maxBlockFrames);
     setContacts();
+    if (heard_) heard_->prepare(sampleRateHz);
     sessionFrames_ = 0;
     restartFrame_ = -1;
     takeUp();
@@ -88,7 +97,9 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     catchUp(); // what the old L allowed for, the new one may not
     const std::int64_t frames = FrameClock{sampleRateHz}.at(nowNs()).frame;
     setLaw(sampleRateHz, maxBlockFrames);
-    renderer_->moveTo(sampleRateHz, std::max<std::int64_t>(0, frames - playOutFrames() + law_.limiterFrames));
+    const auto rendered = std::max<std::int64_t>(0, frames - playOutFrames() + law_.limiterFrames);
+    renderer_->moveTo(sampleRateHz, rendered);
+    if (heard_) heard_->moveTo(sampleRateHz, rendered);
     setContacts();
     sessionFrames_ = frames;
 }
@@ -97,6 +108,12 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
 void Session::setContacts() {
     contacts_ = {setup_.recordings, law_.sampleRateHz};
     renderer_->setContacts(contacts_.contacts());
+}
+
+bool Session::popControl(RenderControl& control) noexcept {
+    if (!ownControls_.pop(control) && !controls_.pop(control)) return false;
+    if (heard_) heard_->tell(control);
+    return true;
 }
 
 bool Session::strike(CollisionEvent event, int frame) noexcept {
@@ -182,21 +199,21 @@ void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     if (mode == RenderMode::realtime) offline_.store(false, std::memory_order_release);
     else isDriven_.store(true, std::memory_order_release);
     if (!isDriven_.load(std::memory_order_acquire)) {
-        for (int j = 0; j < setup_.channels; ++j) std::fill_n(out[j], frames, 0.0f);
+        for (int j = 0; j < outputs(); ++j) std::fill_n(out[j], frames, 0.0f);
         return;
     }
     const std::int64_t done = sessionFrames_.load(std::memory_order_relaxed);
     sessionFrames_.store(done + frames, std::memory_order_release);
     renderBehind(out, done, frames, mode);
-    status_.write({renderer_->status(), sessionNs(done + frames), leastMarginFrames_, ownStrikes_.overflows() + ownControls_.overflows() + ownInputs_.overflows()});
+    status_.write({renderer_->status(), sessionNs(done + frames), leastMarginFrames_, ownStrikes_.overflows() + ownControls_.overflows() + ownInputs_.overflows() + (heard_ ? heard_->lost() : 0)});
 }
 
 // The renderer's own output lags by the limiter's frames, which are part of L: it starts that much earlier.
 void Session::renderBehind(float* const* out, std::int64_t done, int frames, RenderMode mode) noexcept {
     const std::int64_t start = playOutFrames() - renderer_->latencyFrames();
     const int silent = static_cast<int>(std::clamp<std::int64_t>(start - done, 0, frames));
-    std::array<float*, limits::maxEnchanters> rest{};
-    for (int j = 0; j < setup_.channels; ++j) {
+    std::array<float*, limits::maxEnchanters + 1> rest{};
+    for (int j = 0; j < outputs(); ++j) {
         std::fill_n(out[j], silent, 0.0f);
         rest[static_cast<std::size_t>(j)] = out[j] + silent;
     }
@@ -206,6 +223,7 @@ void Session::renderBehind(float* const* out, std::int64_t done, int frames, Ren
         LiveSource source{*this, FrameClock{law_.sampleRateHz}, done + silent - start};
         renderer_->render(source, rest.data(), frames - silent);
     }
+    if (heard_ && silent < frames) heard_->render(rest[static_cast<std::size_t>(setup_.channels)], frames - silent);
 }
 
 void Session::renderOwnWorld(float* const* out, int frames, std::int64_t endNs) {

@@ -33,6 +33,7 @@
 #include "Core/HapticRenderer.h"
 #include "Core/LatestValue.h"
 #include "Host/ClockLaw.h"
+#include "Host/HeardContacts.h"
 #include "Files/SessionLog.h"
 #include "Host/SessionSetup.h"
 #include "Host/SessionWorld.h"
@@ -68,6 +69,9 @@ public:
 
     int channels() const noexcept { return setup_.channels; }
 
+    /// Whether render also writes out[channels()], what is heard of each hit, in sync with the others.
+    bool hasContactSound() const noexcept { return heard_ != nullptr; }
+
     /// The largest that a sample of that channel has been allowed to be while the limiter is on. Any thread.
     float ceiling(int channel) const noexcept { return ceilings_[static_cast<std::size_t>(channel)].load(std::memory_order_relaxed); }
 
@@ -77,7 +81,7 @@ public:
     /// Steps the world up to session time; the number of steps made. D.
     int advance();
 
-    /// Writes out[channel][0..frames). R; wait-free if `mode` is realtime.
+    /// Writes out[channel][0..frames), and the contact sound's channel behind them if there is one. R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;
 
     /// Acts in the world at session time: it is felt L later, and logged. Empty, or what is wrong with it (see
@@ -151,6 +155,8 @@ private:
     struct LiveSource;
     struct OfflineSource;
     void setContacts();
+    bool popControl(RenderControl& control) noexcept;
+    int outputs() const noexcept { return setup_.channels + (heard_ ? 1 : 0); }
     void setLaw(int sampleRateHz, int maxBlockFrames);
     void takeUp();
     void takeOwnInputs();
@@ -167,6 +173,7 @@ private:
     ClockLaw law_;
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
     ContactSounds contacts_; // at the renderer's rate
+    const std::unique_ptr<HeardContacts> heard_;
     Queue queue_;
     Controls controls_;
     OwnStrikes ownStrikes_;

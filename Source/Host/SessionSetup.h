@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace physvib {
@@ -37,6 +38,8 @@ struct SessionSetup {
     EqualisedActuators equalised{};
     EventShaping shaping; ///< of all collisions, and of what is struck in the render call
     std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
+    /// Heard on a channel behind the enchanters' ones: by these recordings where there is one, else by modes; nullopt: not made.
+    std::optional<std::vector<ContactRecording>> contactSound{};
     double longestGapSeconds = messageTimerGapSeconds;
     double boardSeconds = 0.0; ///< of ClockLaw; above 0 the session tells what it makes (Session::told) for a BoardOutput
     std::vector<std::vector<Action>> groups; ///< what notes do; valid inputs of the scene
@@ -63,7 +66,7 @@ struct SessionStatus {
     RenderStatus render;
     std::int64_t sessionNs = 0;
     std::int64_t leastMarginFrames = noMargin; ///< by how much the tightest event of realtime blocks came in time; < 0: late
-    std::uint64_t refused = 0; ///< strikes, controls and inputs of the render call that found no room
+    std::uint64_t refused = 0; ///< strikes, controls and inputs of the render call, and contact sounds, that found no room
 };
 
 } // namespace physvib

@@ -3,6 +3,7 @@
 #pragma once
 #include "Core/PhantomPanner.h"
 #include "Study/PhantomGrid.h"
+#include "Study/PinkNoise.h"
 #include "Study/PulsePattern.h"
 #include "Study/Stimulus.h"
 #include <cstdint>
@@ -126,6 +127,7 @@ struct Protocol {
     std::string name, title;
     int seed = 1;
     bool hasPinkNoise = false; ///< on another output than the stimuli
+    double pinkNoiseDb = PinkNoise::safeDb; ///< its root mean square, in dB of full scale
     ConditionOrder conditionOrder = ConditionOrder::given;
     std::vector<ConditionPlan> conditions;
     std::vector<SessionPlan> sessions; ///< of every condition

@@ -61,7 +61,8 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     setup.panner = job.panner();
     setup.equalised = job.equalised();
     setup.shaping = job.shaping();
-    setup.recordings = job.recordings;
+    setup.recordings = job.feltRecordings();
+    if (!o.scene.contactSound.empty()) setup.contactSound = job.recordings;
     setup.limiterEnabled = o.scene.limiter == "on";
     setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
     return setup;
@@ -78,6 +79,9 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     command.add_option("--level", o.levelDb, "master level in dB")->check(CLI::Range(-90.0, 0.0))->capture_default_str();
     command.add_option("--ceiling", o.ceilings, "drive ceiling in dB of full scale, before the master level: one for all, or one per enchanter")
         ->type_name("DB[,DB...]")->capture_default_str();
+    command.add_option("--noise", o.noise, "other outputs of the device that play pink noise, from 1: masks what actuators sound like")->type_name("5,6");
+    command.add_option("--noise-db", o.noiseDb, "its root mean square, in dB of full scale")->check(CLI::Range(PinkNoise::leastDb, PinkNoise::mostDb))->capture_default_str();
+    command.add_option("--contact-sound", o.scene.contactSound, "other outputs of the device on which each hit is heard, from 1")->type_name("5,6");
     command.add_option("--block", o.blockFrames, "frames per block; 0: as the device stands")->check(CLI::Range(0, limits::maxBlockFrames));
     command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav");
     command.add_option("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv")->type_name("FILE.json");
@@ -104,11 +108,17 @@ int runPlay(PlayOptions& o) {
     for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) std::cerr << "physvib: warning: " << line << '\n';
     if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty()) return leave(exitFailed, fault);
     for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) std::cerr << "physvib: " << line << '\n';
+    if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty())) return leave(exitUsage, "--noise, --contact-sound: expected a --device that they are heard on");
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
         return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
     if (!parseMap(o.map, settings.channelMap)) return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
+    settings.listening.noiseDb = o.noiseDb;
+    settings.listening.contactDb = o.scene.contactSoundDb;
+    if (!parseMap(o.noise, settings.listening.noise)) return leave(exitUsage, "--noise: expected outputs like 5,6, found \"" + o.noise + "\"");
+    if (!parseMap(o.scene.contactSound, settings.listening.contacts))
+        return leave(exitUsage, "--contact-sound: expected outputs like 5,6, found \"" + o.scene.contactSound + "\"");
     SessionSetup setup = setupOf(o, job);
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
         return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (" + std::to_string(setup.channels) + "), found \"" +

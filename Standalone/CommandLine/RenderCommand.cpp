@@ -5,6 +5,7 @@
 #include "CommandLine/RenderJob.h"
 #include "CommandLine/RenderOutputs.h"
 #include "Files/NumberText.h"
+#include "Host/HeardContacts.h"
 #include "Host/OfflineRender.h"
 #include "Host/SessionRender.h"
 #include <algorithm>
@@ -77,6 +78,14 @@ SceneEvents eventsOf(const RenderJob& job) {
     return job.session ? sessionEvents(*job.session, job.endNs()) : runScene(*job.scene, job.run(), job.endNs());
 }
 
+/// The same events once more, in one channel; controls of the enchanters say nothing here, but that all shall stop.
+void renderContactSound(const RenderJob& job, std::vector<RenderControl> controls, RenderOutputs& outputs) {
+    const ContactSounds sounds{job.recordings, job.options.sampleRateHz};
+    std::erase_if(controls, [](const RenderControl& control) { return control.kind != RenderControl::Kind::stopAll; });
+    renderOffline(job.made.events, {HeardContacts::settingsAt(job.options.sampleRateHz), job.frames(), job.options.blockFrames, controls, sounds.contacts(), true},
+                  [&](const float* const* channels, int frames) { return outputs.takeContactSound(channels[0], frames); });
+}
+
 std::string render(RenderJob& job) {
     RenderOutputs outputs{job};
     if (auto error = outputs.open(); !error.empty()) return error;
@@ -86,11 +95,12 @@ std::string render(RenderJob& job) {
     const auto& source = job.scene ? job.scene->name : job.options.fromEvents;
     if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, source); !error.empty()) return error;
     if (auto error = takeRecordings(job, job.made.events, source); !error.empty()) return error;
-    const ContactSounds sounds{job.recordings, job.options.sampleRateHz};
+    const ContactSounds sounds{job.feltRecordings(), job.options.sampleRateHz};
     outputs.begin();
     const auto controls = job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{};
     const auto take = [&](const float* const* channels, int frames) { return outputs.take(channels, frames); };
     const RenderStatus status = renderOffline(job.made.events, settingsOf(job, controls, sounds), take);
+    if (!job.options.contactSound.empty()) renderContactSound(job, controls, outputs);
     if (auto error = outputs.finish(); !error.empty()) return error;
     for (const std::string& line : warnings) std::cerr << "physvib: warning: " << line << '\n';
     for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) std::cerr << "physvib: " << line << '\n';

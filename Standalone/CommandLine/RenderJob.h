@@ -26,8 +26,11 @@ struct RenderJob {
     LayoutDescription layout;
     std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
     SceneEvents made;
-    std::vector<ContactRecording> recordings{}; ///< for SV
+    std::vector<ContactRecording> recordings{}; ///< of --sound
     ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
+
+    /// Those that are played instead of modes.
+    std::vector<ContactRecording> feltRecordings() const { return options.playsRecordings() ? recordings : std::vector<ContactRecording>{}; }
 
     SceneRun run() const {
         if (session) return session->run;

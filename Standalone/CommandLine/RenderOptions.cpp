@@ -74,7 +74,9 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)")
         ->check(CLI::IsMember({"onset", "release"}))->capture_default_str();
     command.add_option("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed; or SV, recorded contacts")->capture_default_str();
-    command.add_option("--sound", o.sounds, "for SV: the recorded contact of the material of that frequency; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
+    command.add_option("--sound", o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
+    command.add_option("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
+        ->check(between(leastContactDb, mostContactDb, " dB"))->capture_default_str();
     command.add_option("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file")->capture_default_str();
     command.add_option("--equalise", o.equalise, "with an actuator: make it flat within its band (on or off)")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--remap", o.remap, "with an actuator: move all frequencies into its band, in their order (on or off)")
@@ -91,6 +93,7 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--threshold", o.threshold, "of the pattern, in full scale")->check(between(0.0, 1.0, ""))->capture_default_str();
     command.add_option("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
         ->check(between(0.001, 1000.0, " V"));
+    command.add_option("--contact-sound", o.contactSound, "what is heard of each hit, for headphones: one channel, in sync with --out")->type_name("FILE.wav");
     command.add_option("--rate", o.sampleRateHz, "sample rate")
         ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
     command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
@@ -107,9 +110,11 @@ std::string checkSceneOptions(RenderOptions& o) {
     if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
     if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
     if (!parseSounds(o)) return "--sound: expected HZ=FILE.wav, the frequency of a material and its recorded contact";
-    if (o.playsRecordings() == o.sounds.empty()) return "--method SV and --sound go together";
+    if (o.playsRecordings() && o.sounds.empty()) return "--method SV: expected a --sound for each material";
+    if (!o.playsRecordings() && !o.sounds.empty() && o.contactSound.empty()) return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
     if (o.playsRecordings() && o.remap == "on") return "--remap: recordings have no frequency to be moved";
     if (!o.playsRecordings() && !renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"" + o.method + "\"";
+    if (!o.sounds.empty() && (o.remap == "on" || o.renderingMethod.fixesFrequency)) return "--sound: expected hits at their material's own frequency, found " + (o.remap == "on" ? "--remap" : "--method " + o.method);
     if (o.remap == "on" && o.actuator == "none") return "--remap: expected an --actuator, whose band is to be used";
     return {};
 }
@@ -117,9 +122,9 @@ std::string checkSceneOptions(RenderOptions& o) {
 std::string checkRenderOptions(RenderOptions& o) {
     if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
     if (!o.sets.empty() && o.scene.empty()) return "--set: only a scene has variables";
-    std::vector<std::string> outputs{o.wavPath, o.eventsPath, o.picturePath, o.patternPath};
+    std::vector<std::string> outputs{o.wavPath, o.eventsPath, o.picturePath, o.patternPath, o.contactSound};
     std::erase(outputs, "");
-    if (outputs.empty()) return "render: nothing to write; give --out, --events, --picture or --pattern";
+    if (outputs.empty()) return "render: nothing to write; give --out, --events, --picture, --pattern or --contact-sound";
     std::ranges::sort(outputs);
     if (std::ranges::adjacent_find(outputs) != outputs.end()) return "render: two outputs in the same file";
     if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";

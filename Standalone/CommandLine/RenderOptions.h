@@ -4,6 +4,7 @@
 #include "Core/PhantomPanner.h"
 #include "Core/RenderingMethod.h"
 #include "Files/SceneFile.h"
+#include "Host/AudioOutput.h"
 #include <cstdint>
 #include <set>
 #include <string>
@@ -34,7 +35,9 @@ struct RenderOptions {
     double exponent = 1.0;
     std::string limiter = "on";
     std::string location = "contact", timing = "onset", method = "AV-FV-DRV";
-    std::vector<std::string> sounds; ///< "HZ=FILE.wav" for SV
+    std::vector<std::string> sounds; ///< "HZ=FILE.wav" for SV and the contact sound
+    std::string contactSound;        ///< where it is heard: a WAV of `render`, outputs of `play`; empty: not wanted
+    double contactSoundDb = safeContactDb; ///< of a hit at full scale
     std::string actuator = "none"; ///< or "layout", a profile's name, a profile's path
     std::string equalise = "on", remap = "off"; ///< with an actuator
 

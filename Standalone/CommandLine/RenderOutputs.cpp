@@ -3,6 +3,7 @@
 #include "CommandLine/RenderOutputs.h"
 #include "CommandLine/LevelReport.h"
 #include "Host/RenderPicture.h"
+#include <cmath>
 #include <cstdio>
 #include <iomanip>
 #include <ostream>
@@ -29,9 +30,10 @@ RenderOutputs::RenderOutputs(const RenderJob& job)
 
 std::string RenderOutputs::open() {
     const RenderOptions& o = job_.options;
-    for (const auto& [file, path] : {std::pair{&wavFile_, &o.wavPath}, {&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}})
+    for (const auto& [file, path] : {std::pair{&wavFile_, &o.wavPath}, {&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}, {&contactFile_, &o.contactSound}})
         if (std::string error = physvib::open(*file, *path); !error.empty()) return error;
     if (wavFile_) wav_ = std::make_unique<WavSink>(wavFile_->temporaryPath().string(), job_.channels(), o.sampleRateHz, provenanceText(), o.wavPath);
+    if (contactFile_) contactWav_ = std::make_unique<WavSink>(contactFile_->temporaryPath().string(), 1, o.sampleRateHz, provenanceText() + " heard=contact_sound", o.contactSound);
     return {};
 }
 
@@ -62,13 +64,22 @@ bool RenderOutputs::writeWav(const float* const* channels, int frames) {
     return wav_->write(at.data(), frames);
 }
 
+bool RenderOutputs::takeContactSound(const float* samples, int frames) {
+    const auto gain = static_cast<float>(std::pow(10.0, job_.options.contactSoundDb / 20.0));
+    heard_.assign(samples, samples + frames);
+    for (float& sample : heard_) sample *= gain;
+    const float* const at = heard_.data();
+    return contactWav_->write(&at, frames);
+}
+
 std::string RenderOutputs::finish() {
     std::string error;
     if (wav_) error = wav_->finish();
+    if (error.empty() && contactWav_) error = contactWav_->finish();
     if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
-    for (auto* file : {&wavFile_, &eventsFile_, &pictureFile_, &patternFile_})
+    for (auto* file : {&wavFile_, &eventsFile_, &pictureFile_, &patternFile_, &contactFile_})
         if (error.empty()) error = commit(*file);
     return error;
 }
@@ -145,6 +156,7 @@ void RenderOutputs::summarise(std::ostream& out) const {
     }
     if (eventsFile_) out << o.eventsPath << "  " << collisionWords(job_) << '\n';
     if (patternFile_) out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
+    if (contactFile_) out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale " << numberText(o.contactSoundDb) << " dBFS\n";
     if (pictureFile_) out << o.picturePath << "  the world, every channel and every hit\n";
 }
 

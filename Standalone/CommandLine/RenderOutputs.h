@@ -28,6 +28,9 @@ public:
     /// The next frames; false after an error.
     bool take(const float* const* channels, int frames);
 
+    /// The next frames of what is heard, if that is wanted; false after an error.
+    bool takeContactSound(const float* samples, int frames);
+
     /// Completes all files and puts them in place.
     std::string finish();
 
@@ -43,9 +46,10 @@ private:
     bool writeWav(const float* const* channels, int frames);
 
     const RenderJob& job_;
-    std::optional<AtomicFile> wavFile_, eventsFile_, pictureFile_, patternFile_;
-    std::unique_ptr<WavSink> wav_;
+    std::optional<AtomicFile> wavFile_, eventsFile_, pictureFile_, patternFile_, contactFile_;
+    std::unique_ptr<WavSink> wav_, contactWav_;
     std::vector<std::vector<float>> scaled_; // for the interface's voltage
+    std::vector<float> heard_;
     OnOffPattern pattern_;
     WaveformEnvelope whole_;
     std::optional<WaveformEnvelope> zoom_;

@@ -407,11 +407,17 @@ void Desk::testSweep(int enchanter) {
 }
 
 std::string Desk::open(const DeviceChoice& device) {
-    AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, levelOf(mix_), mix_.count(), true};
+    AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, levelOf(mix_), mix_.count(), true, listening_};
     const auto error = output_.open(settings);
     device_ = device;
     report(deviceTrouble_ = utf8Text(error));
     scope_.setRate(output_.sampleRateHz());
+    return error;
+}
+
+std::string Desk::hear(const ListeningSettings& listening) {
+    auto error = output_.hear(listening);
+    if (error.empty()) listening_ = listening;
     return error;
 }
 

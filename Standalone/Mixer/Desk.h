@@ -108,6 +108,9 @@ public:
     const AudioDeviceTypes& deviceTypes() const noexcept { return types_; }
     AudioOutput& output() noexcept { return output_; }
     int outputs() const { return output_.deviceOutputs(); } ///< that the device offers
+    /// On outputs that are no strip's, e.g. noise on headphones; empty, or why not, and all is as before.
+    std::string hear(const ListeningSettings& listening);
+    const ListeningSettings& listening() const noexcept { return listening_; }
     void setSilent(bool silent);
     bool isSilent() const noexcept { return isSilent_; }
     double playOutSeconds() const noexcept;
@@ -152,6 +155,7 @@ private:
     juce::UndoManager undo_;
     Scene sceneNow_;
     DeviceChoice device_;
+    ListeningSettings listening_;
     juce::String trouble_, deviceTrouble_;
     bool isSilent_ = false, isNews_ = false;
     std::uint64_t edits_ = 0, worldEdits_ = 0;

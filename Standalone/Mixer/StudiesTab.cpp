@@ -12,7 +12,8 @@ namespace physvib {
 
 namespace {
 
-constexpr int fileId = 1000;
+constexpr int fileId = 1000, noNoiseId = 1;
+constexpr std::array<int, 8> noiseLevels{-70, -60, -50, -45, -40, -35, -30, -25};
 
 void caption(juce::Label& label, const juce::String& words) {
     label.setText(words, juce::dontSendNotification);
@@ -28,7 +29,7 @@ juce::String aboutText(const Protocol& protocol) {
     juce::StringArray conditions, sessions;
     for (const auto& condition : protocol.conditions) conditions.add(utf8(condition.name));
     for (const auto& session : protocol.sessions) sessions.add(utf8(session.name));
-    const juce::String noise = protocol.hasPinkNoise ? "\nAsks for pink noise on headphones, which have to be fed by something else." : "";
+    const juce::String noise = protocol.hasPinkNoise ? "\nAsks for pink noise on headphones: choose their outputs." : "";
     const auto title = utf8(protocol.title);
     return title.substring(0, 1).toUpperCase() + title.substring(1) + ".\nConditions: " + conditions.joinIntoString(", ") + ".\nIn each: " + sessions.joinIntoString(", ") + "." + noise;
 }
@@ -42,6 +43,13 @@ StudiesTab::StudiesTab(Desk& desk)
     caption(codeName_, "Participant's code");
     caption(numberName_, "Number");
     caption(folderName_, "Folder of the trial files");
+    caption(noiseName_, "Pink noise on");
+    caption(noiseLevelName_, "At");
+    noise_.setTitle("Outputs of the pink noise");
+    noise_.setTooltip("Headphones on outputs of the same device; louder or softer by their own knob");
+    noiseLevel_.setTitle("Level of the pink noise");
+    noiseLevel_.setTooltip("Root mean square, in dB of full scale: start low");
+    for (const int db : noiseLevels) noiseLevel_.addItem(number(db, 0) + " dBFS", -db);
     choice_.setTitle("Protocol");
     for (int id = 1; const Protocol& protocol : builtInProtocols()) choice_.addItem(titleOf(protocol.name), id++);
     choice_.addSeparator();
@@ -63,7 +71,7 @@ StudiesTab::StudiesTab(Desk& desk)
         editor->setEscapeAndReturnKeysConsumed(false); // Esc silences, also from here
         editor->onTextChange = [this] { look(); };
     }
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_, browse_.get(), &begin_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_, browse_.get(), &noiseName_, &noise_, &noiseLevelName_, &noiseLevel_, &begin_})
         addAndMakeVisible(c);
     setFolder(juce::File::getSpecialLocation(juce::File::userDocumentsDirectory));
     setParticipant("P01", 1);
@@ -82,6 +90,8 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
     if (known != all.end()) choice_.setSelectedId(1 + static_cast<int>(known - all.begin()), juce::dontSendNotification);
     else choice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
     about_ = aboutText(*protocol_);
+    noiseLevel_.setSelectedId(-juce::roundToInt(protocol_->pinkNoiseDb), juce::dontSendNotification);
+    if (noiseLevel_.getSelectedId() == 0) noiseLevel_.setText(number(protocol_->pinkNoiseDb, 1) + " dBFS", juce::dontSendNotification);
     look();
     repaint();
     return {};
@@ -119,6 +129,43 @@ void StudiesTab::setFolder(const juce::File& folder) {
     look();
 }
 
+std::vector<std::vector<int>> StudiesTab::noiseChoices() const {
+    std::vector<int> free;
+    const auto& strips = desk_.mix().strips;
+    for (int k = 0; k < desk_.outputs(); ++k)
+        if (std::ranges::find(strips, k, &Strip::output) == strips.end()) free.push_back(k);
+    std::vector<std::vector<int>> all;
+    for (std::size_t i = 0; i + 1 < free.size(); ++i)
+        if (free[i] % 2 == 0 && free[i + 1] == free[i] + 1) all.push_back({free[i], free[i + 1]});
+    for (const int k : free) all.push_back({k});
+    return all;
+}
+
+void StudiesTab::listNoise() {
+    const auto chosen = listening().noise;
+    noiseOutputs_ = noiseChoices();
+    noise_.clear(juce::dontSendNotification);
+    noise_.addItem("no output", noNoiseId);
+    int id = noNoiseId;
+    for (const auto& outputs : noiseOutputs_)
+        noise_.addItem(outputs.size() > 1 ? "outputs " + juce::String{outputs[0] + 1} + " and " + juce::String{outputs[1] + 1} : "output " + juce::String{outputs[0] + 1}, ++id);
+    const auto at = std::ranges::find(noiseOutputs_, chosen);
+    noise_.setSelectedId(at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1, juce::dontSendNotification);
+}
+
+void StudiesTab::setNoise(const std::vector<int>& outputs, double db) {
+    const auto at = std::ranges::find(noiseOutputs_, outputs);
+    noise_.setSelectedId(at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1, juce::dontSendNotification);
+    noiseLevel_.setSelectedId(-juce::roundToInt(db), juce::dontSendNotification);
+}
+
+ListeningSettings StudiesTab::listening() const {
+    ListeningSettings l;
+    if (const int index = noise_.getSelectedId() - noNoiseId - 1; index >= 0 && index < static_cast<int>(noiseOutputs_.size())) l.noise = noiseOutputs_[static_cast<std::size_t>(index)];
+    l.noiseDb = noiseLevel_.getSelectedId() > 0 ? -noiseLevel_.getSelectedId() : protocol_ ? protocol_->pinkNoiseDb : PinkNoise::safeDb;
+    return l;
+}
+
 Participant StudiesTab::participant() const { return {code_.getText().toStdString(), std::clamp(number_.getText().getIntValue(), 1, 100000), "person"}; }
 
 /// Whether there is something to go on with.
@@ -150,6 +197,7 @@ std::string StudiesTab::begin() {
     if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
     auto study = std::make_unique<StudyRun>(pathOf(folder_.getText()), *protocol_, participant());
     if (!study->error().empty()) return refuse(study->error());
+    if (auto fault = desk_.hear(listening()); !fault.empty()) return refuse(fault);
     for (auto* child : view->getChildren())
         if (child->isVisible()) hidden_.emplace_back(child);
     screen_ = std::make_unique<StudyScreen>(desk_, std::move(study));
@@ -164,6 +212,7 @@ std::string StudiesTab::begin() {
 void StudiesTab::end() {
     if (!screen_) return;
     screen_.reset();
+    desk_.hear({});
     for (auto& child : hidden_)
         if (child) child->setVisible(true);
     hidden_.clear();
@@ -172,7 +221,8 @@ void StudiesTab::end() {
 }
 
 void StudiesTab::takeMix() {
-    for (auto* label : {&choiceName_, &codeName_, &numberName_, &folderName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (auto* label : {&choiceName_, &codeName_, &numberName_, &folderName_, &noiseName_, &noiseLevelName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
     const auto& mix = desk_.mix();
     const bool isFelt = !utf8(desk_.output().device()).startsWith(noDeviceType);
     level_ = mix.levelDb < 0.0 ? "The master level stays as it is: all is felt " + number(-mix.levelDb, 1) + " dB below the protocol's g. Set it to 0 dB if those are meant." : juce::String{};
@@ -196,7 +246,7 @@ void StudiesTab::resized() {
     caption(choiceName_);
     choice_.setBounds(area.removeFromTop(rowHeight));
     area.removeFromTop(8);
-    constexpr int controlsHeight = 214; // in a small window they stay, and the words go
+    constexpr int controlsHeight = 270; // in a small window they stay, and the words go
     aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - 42, 0, 98));
     auto names = area.removeFromTop(18), row = area.removeFromTop(rowHeight);
     const int wide = row.getWidth() * 3 / 5;
@@ -210,6 +260,14 @@ void StudiesTab::resized() {
     row = area.removeFromTop(rowHeight);
     browse_->setBounds(row.removeFromRight(80));
     folder_.setBounds(row.withTrimmedRight(gap));
+    area.removeFromTop(8);
+    names = area.removeFromTop(18);
+    row = area.removeFromTop(rowHeight);
+    noiseName_.setBounds(names.removeFromLeft(wide));
+    noise_.setBounds(row.removeFromLeft(wide - gap));
+    row.removeFromLeft(gap);
+    noiseLevelName_.setBounds(names);
+    noiseLevel_.setBounds(row);
     area.removeFromTop(10);
     levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - 44, 0, 42));
     row = area.removeFromTop(std::min(44, area.getHeight()));

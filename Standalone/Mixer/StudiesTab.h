@@ -15,6 +15,10 @@ public:
     std::string chooseProtocol(const std::string& nameOrPath);
     void setParticipant(const juce::String& code, int number);
     void setFolder(const juce::File& folder);
+    /// Outputs for headphones that are no enchanter's, by twos and one by one, from 0.
+    std::vector<std::vector<int>> noiseChoices() const;
+    /// Pink noise while the study goes on; no outputs: none.
+    void setNoise(const std::vector<int>& outputs, double db);
 
     /// Begins or goes on: the screen covers the window. Empty, or why not, which is shown as well.
     std::string begin();
@@ -34,6 +38,8 @@ private:
     void browseProtocol();
     void browseFolder();
     void look();
+    void listNoise();
+    ListeningSettings listening() const;
     void say(const juce::String& words, Shade shade);
     Participant participant() const;
 
@@ -41,8 +47,9 @@ private:
     std::optional<Protocol> protocol_;
     juce::String protocolPath_, about_, words_, level_;
     Shade wordsShade_ = Shade::muted;
-    juce::ComboBox choice_;
-    juce::Label choiceName_, codeName_, numberName_, folderName_;
+    juce::ComboBox choice_, noise_, noiseLevel_;
+    juce::Label choiceName_, codeName_, numberName_, folderName_, noiseName_, noiseLevelName_;
+    std::vector<std::vector<int>> noiseOutputs_; // as the box lists them
     juce::TextEditor code_, number_, folder_;
     std::unique_ptr<juce::TextButton> browse_;
     juce::TextButton begin_{"Begin"};

@@ -43,10 +43,26 @@ TEST_F(SoundMethod, TheRecordingPlaysAtEachHitWithTheHitsAmplitudeAsItsPeak) {
     EXPECT_NEAR(peakOf(samplesOf("a.wav"), 0.2, 0.55, 44100), 0.4f, 0.002f);
 }
 
+TEST_F(SoundMethod, TheContactSoundIsAFileOfItsOwnInSyncWithWhatIsFelt) {
+    const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav --contact-sound b.wav ";
+    auto outcome = call(render);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("b.wav  what is heard of each hit: 1 channel, at full scale -20 dBFS"), std::string::npos) << outcome.out;
+    const auto felt = samplesOf("a.wav"), heard = samplesOf("b.wav");
+    ASSERT_EQ(felt.size(), heard.size());
+    for (std::size_t n = 0; n < felt.size(); ++n) ASSERT_NEAR(heard[n], 0.1f * felt[n], 1e-6f) << n;
+    ASSERT_EQ(call(render + "--contact-sound-db -6 --sound 349=knock.wav").exitCode, 0);
+    const auto recorded = samplesOf("b.wav");
+    EXPECT_NEAR(peakOf(recorded, 0.2, 0.55, 48000), 0.4f * 0.5012f, 1e-4f);
+    EXPECT_EQ(peakOf(recorded, 0.0, 0.2, 48000), 0.0f);
+    EXPECT_EQ(samplesOf("a.wav"), felt) << "the hands feel the mode";
+}
+
 TEST_F(SoundMethod, WhatIsMissingOrNoHitIsToldInOneLine) {
     const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav ";
-    refuses(render + "--method SV", 2, "--method SV and --sound go together", 3);
-    refuses(render + "--sound 349=knock.wav", 2, "--method SV and --sound go together", 3);
+    refuses(render + "--method SV", 2, "--method SV: expected a --sound for each material", 3);
+    refuses(render + "--sound 349=knock.wav", 2, "--sound: expected --method SV, to feel it, or --contact-sound, to hear it", 3);
+    refuses(render + "--sound 349=knock.wav --contact-sound b.wav --method AV-FF-DRV", 2, "--sound: expected hits at their material's own frequency, found --method AV-FF-DRV", 3);
     refuses(render + "--method SV --sound knock.wav", 2, "--sound: expected HZ=FILE.wav", 3);
     refuses(render + "--method SV --sound 80=knock.wav", 1, "hits.csv: expected a --sound for 349 Hz, found none", 3);
     refuses(render + "--method SV --sound 349=none.wav", 1, "none.wav: cannot be read", 3);

@@ -49,6 +49,7 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
     setup.equalised[1] = {{205, 8}, {180, 230}};
     setup.equalised[5] = {{110, 2}, {90, 1000}};
     setup.shaping.remap.band = {90, 1000};
+    setup.contactSound = std::vector<ContactRecording>{{430.0, 48000, std::vector<float>(4800, 0.5f)}}; // heard as a recording; the others as modes
     Session session{setup};
     session.prepare(48000, 64);
     std::atomic<bool> stop{false};
@@ -63,10 +64,10 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
             std::this_thread::sleep_for(std::chrono::microseconds{50});
         }
     }};
-    std::vector<std::vector<float>> samples(outputs, std::vector<float>(64));
+    std::vector<std::vector<float>> samples(outputs + 1, std::vector<float>(64)); // the last is heard
     std::vector<float*> at;
     for (auto& channel : samples) at.push_back(channel.data());
-    float loudest = 0;
+    float loudest = 0, heard = 0;
     test::RealtimeGuard::forget();
     for (int block = 0; block < 1'000'000 || edits < 10'000 || played <= 1000; ++block) {
         if (block % 256 == 0) // this host is faster than time; the world must keep up
@@ -76,7 +77,7 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
             const test::RealtimeGuard guard;
             session.render(at.data(), frames, RenderMode::realtime);
         }
-        for (int n = 0; n < frames; ++n) loudest = std::max(loudest, std::abs(samples[0][static_cast<std::size_t>(n)]));
+        for (int n = 0; n < frames; ++n) loudest = std::max(loudest, std::abs(samples[0][static_cast<std::size_t>(n)])), heard = std::max(heard, std::abs(samples[outputs][static_cast<std::size_t>(n)]));
     }
     stop = true;
     message.join();
@@ -85,6 +86,7 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
     EXPECT_GE(edits, 10'000u);
     EXPECT_GT(played, 1000u);
     EXPECT_LE(loudest, 1.0f);
+    EXPECT_GT(heard, 0.0f);
 }
 
 } // namespace

@@ -286,6 +286,20 @@ TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
     EXPECT_EQ(column("response", "identify"), Texts{"1,1"});
 }
 
+TEST_F(ByAParticipant, HearsPinkNoiseOnTheChosenOutputsForAsLongAsTheStudyGoesOn) {
+    const auto choices = p->tab().noiseChoices();
+    ASSERT_FALSE(choices.empty());
+    EXPECT_EQ(choices.front(), (std::vector<int>{4, 5})) << "four enchanters have the first outputs";
+    p->tab().setNoise({6, 7}, -30.0);
+    begin(R"({"name": "main", "task": "identify"})", R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)", R"(, "pink_noise": true, "pink_noise_db": -35)");
+    EXPECT_EQ(p->desk.listening().noise, (std::vector<int>{6, 7}));
+    EXPECT_EQ(p->desk.listening().noiseDb, -35.0) << "the protocol's level, as it was chosen later";
+    EXPECT_EQ(p->desk.hear({{3}, -40.0, {}, 0.0}), "output 4 is an enchanter's; expected another one to listen to");
+    p->click("Leave the study; what was answered is kept");
+    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    EXPECT_TRUE(p->desk.listening().noise.empty());
+}
+
 TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
     const auto refusal = [&](const std::string& call) {
         const auto file = folder.getChildFile("short.json");

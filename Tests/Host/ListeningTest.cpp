@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is heard beside what is felt: on its outputs, at its level, in sync, and nowhere else.
+#include "FakeAudioDevice.h"
+#include "FakeHost.h"
+#include "Host/AudioOutput.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using Signals = std::vector<std::vector<float>>;
+
+constexpr int felt = 4, blockFrames = 64;
+
+SessionSetup setupOn(const std::string& layout, bool hasContactSound) {
+    auto s = shakeTheBoxSetup(0.02);
+    EnchanterLayout places;
+    layoutPreset(layout, places);
+    s.panner = {places, PanningLaw::linear, 1, s.scene.fieldWidthMetres, s.scene.fieldHeightMetres};
+    s.channels = places.count;
+    if (hasContactSound) s.contactSound.emplace();
+    return s;
+}
+
+struct Rig {
+    explicit Rig(const SessionSetup& setup)
+        : session{setup} {}
+    std::string open(const ListeningSettings& listening) {
+        AudioOutputSettings settings{"hands", {}, 0, 0, 1.0f};
+        settings.listening = listening;
+        return output.open(settings);
+    }
+    Signals play(double seconds) {
+        Signals all;
+        for (int left = static_cast<int>(seconds * interface.rate); left > 0; left -= blockFrames) {
+            session.advance();
+            const auto block = interface.play(blockFrames);
+            all.resize(block.size());
+            for (std::size_t k = 0; k < block.size(); ++k) all[k].insert(all[k].end(), block[k].begin(), block[k].end());
+            drain(session);
+        }
+        return all;
+    }
+    FakeInterface interface;
+    Session session;
+    AudioOutput output{session, fakeTypes({&interface})};
+};
+
+double rmsDb(const std::vector<float>& x, std::size_t from) {
+    double sum = 0.0;
+    for (std::size_t n = from; n < x.size(); ++n) sum += double{x[n]} * x[n];
+    return 10.0 * std::log10(sum / static_cast<double>(x.size() - from));
+}
+
+float peakOf(const std::vector<float>& x) {
+    float most = 0.0f;
+    for (const float s : x) most = std::max(most, std::abs(s));
+    return most;
+}
+
+ListeningSettings noiseOn(std::vector<int> outputs, double db) {
+    ListeningSettings l;
+    l.noise = std::move(outputs);
+    l.noiseDb = db;
+    return l;
+}
+
+ListeningSettings contactsOn(std::vector<int> outputs, double db) {
+    ListeningSettings l;
+    l.contacts = std::move(outputs);
+    l.contactDb = db;
+    return l;
+}
+
+TEST(Listening, NoiseIsThereAtItsLevelOnItsOutputsAndChangesNothingForTheHands) {
+    Rig rig{setupOn("phone4", false)}, quiet{setupOn("phone4", false)};
+    ASSERT_EQ(rig.open(noiseOn({5, 6}, -30.0)), "");
+    ASSERT_EQ(quiet.open({}), "");
+    const auto out = rig.play(8.0), hands = quiet.play(8.0);
+    ASSERT_EQ(out.size(), felt + 2u) << "packed: four enchanters and two of the headphones";
+    for (std::size_t j = 0; j < felt; ++j) EXPECT_EQ(out[j], hands[j]) << j;
+    EXPECT_GT(peakOf(hands[0]), 0.01f);
+    EXPECT_NEAR(rmsDb(out[felt], 48000), -30.0, 0.5);
+    EXPECT_EQ(out[felt], out[felt + 1]) << "both ears hear the same";
+    EXPECT_LT(std::abs(out[felt][10]), 0.001f) << "it fades in";
+}
+
+TEST(Listening, TheLoudestNoiseThatIsTakenStaysBelowFullScale) {
+    Rig rig{setupOn("phone4", false)};
+    ASSERT_EQ(rig.open(noiseOn({7}, 0.0)), ""); // held at the most
+    const auto out = rig.play(10.0);
+    EXPECT_NEAR(rmsDb(out[felt], 96000), PinkNoise::mostDb, 0.5);
+    EXPECT_LT(peakOf(out[felt]), 1.0f);
+}
+
+TEST(Listening, SilenceIsForTheEarsAsWellAndTheMasterLevelIsNot) {
+    Rig rig{setupOn("phone4", true)};
+    auto both = noiseOn({5}, -30.0);
+    both.contacts = {6};
+    ASSERT_EQ(rig.open(both), "");
+    rig.play(3.0);
+    rig.output.setLevel(0.0f);
+    rig.play(0.1);
+    auto out = rig.play(6.0);
+    EXPECT_EQ(peakOf(out[0]), 0.0f);
+    EXPECT_NEAR(rmsDb(out[felt], 0), -30.0, 0.5);
+    EXPECT_GT(peakOf(out[felt + 1]), 0.0f);
+    rig.output.setSilent(true);
+    rig.play(blockFrames / 48000.0); // within a block
+    out = rig.play(1.0);
+    for (const auto& channel : out) EXPECT_EQ(peakOf(channel), 0.0f);
+}
+
+TEST(Listening, ContactSoundsAreInSyncToTheSampleWithWhatIsFelt) {
+    Rig rig{setupOn("phone1", true)}; // one enchanter gets all of each hit: the same signal in both
+    ASSERT_EQ(rig.open(contactsOn({3, 4}, -20.0)), "");
+    const auto out = rig.play(8.0);
+    ASSERT_EQ(out.size(), 3u);
+    ASSERT_GT(peakOf(out[0]), 0.1f);
+    for (std::size_t n = 0; n < out[0].size(); ++n) ASSERT_NEAR(out[1][n], 0.1f * out[0][n], 1e-6f) << n;
+    EXPECT_EQ(out[1], out[2]);
+    EXPECT_EQ(rig.session.status().refused, 0u);
+}
+
+/// First frame that is not silent.
+std::size_t onsetOf(const std::vector<float>& x) {
+    return static_cast<std::size_t>(std::ranges::find_if(x, [](float s) { return std::abs(s) > 1e-7f; }) - x.begin());
+}
+
+TEST(Listening, ARecordingIsHeardWhereThereIsOneFromTheFrameOfTheEnchantersOnset) {
+    auto setup = setupOn("phone4", false);
+    setup.contactSound = std::vector<ContactRecording>{{349.0, 48000, std::vector<float>(480, 1.0f)}};
+    Rig rig{setup};
+    ASSERT_EQ(rig.open(contactsOn({4}, -20.0)), "");
+    rig.session.setSlowness(0);
+    rig.play(0.5);
+    CollisionEvent hit;
+    hit.frequencyHz = 349.0;
+    hit.decayPerSecond = 50.0;
+    hit.amplitude = 0.5;
+    hit.timeNs = 123'456'789;
+    ASSERT_TRUE(rig.session.play(std::array{hit}));
+    auto out = rig.play(1.0);
+    ASSERT_LT(onsetOf(out[2]), out[2].size()) << "lower left: enchanter C";
+    EXPECT_EQ(onsetOf(out[felt]), onsetOf(out[2]));
+    EXPECT_NEAR(peakOf(out[felt]), 0.05f, 1e-6f);
+    EXPECT_EQ(out[felt][onsetOf(out[felt]) + 479], out[felt][onsetOf(out[felt])]) << "the recording, not a sine";
+    hit.frequencyHz = 80.0;
+    ASSERT_TRUE(rig.session.play(std::array{hit}));
+    out = rig.play(1.0);
+    EXPECT_EQ(onsetOf(out[felt]), onsetOf(out[2])) << "without a recording: the mode";
+    for (std::size_t n = 0; n < out[2].size(); ++n) ASSERT_NEAR(out[felt][n], 0.1f * out[2][n], 1e-6f) << n;
+}
+
+TEST(Listening, StopsWithWhatIsFelt) {
+    Rig rig{setupOn("phone1", true)};
+    ASSERT_EQ(rig.open(contactsOn({3}, 0.0)), "");
+    rig.session.setSlowness(0);
+    rig.play(0.2);
+    CollisionEvent tone;
+    tone.frequencyHz = 200.0;
+    tone.amplitude = 0.5;
+    tone.durationNs = 5'000'000'000;
+    ASSERT_TRUE(rig.session.play(std::array{tone}));
+    rig.play(1.0);
+    ASSERT_GE(rig.session.post({0, RenderControl::Kind::stopAll, 0, 0.0f, {}}), 0);
+    rig.play(0.5);
+    EXPECT_LT(peakOf(rig.play(0.5)[1]), 1e-6f);
+}
+
+TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
+    Rig rig{setupOn("phone4", false)};
+    EXPECT_EQ(rig.open(noiseOn({3}, -40.0)), "output 4 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(rig.open(noiseOn({8}, -40.0)), "hands: has 8 outputs; expected one of them to listen to, found output 9");
+    EXPECT_EQ(rig.open(contactsOn({5}, -20.0)), "expected a session that makes contact sounds, found none");
+    EXPECT_EQ(rig.open(noiseOn({0, 1, 2, 3, 4, 5, 6, 7, 8}, -40.0)), "expected at most 8 outputs to listen to, found 9");
+    EXPECT_EQ(rig.interface.timesStarted, 0) << "nothing half-done";
+    ASSERT_EQ(rig.open(noiseOn({4}, -40.0)), "");
+    EXPECT_EQ(rig.output.assign({0, 1, 2, 4}, 4), "output 5 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(rig.output.hear(noiseOn({2}, -40.0)), "output 3 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(rig.output.hear(noiseOn({11}, -40.0)), "Fake:hands: has 8 outputs; expected one of them to listen to, found output 12");
+    rig.play(3.0);
+    EXPECT_NEAR(rmsDb(rig.play(6.0)[felt], 0), -40.0, 0.5) << "all is as before";
+}
+
+TEST(Listening, BeginsAndEndsWhileItPlays) {
+    Rig rig{setupOn("phone4", false)};
+    AudioOutputSettings all{"hands", {}, 0, 0, 1.0f};
+    all.opensAll = true;
+    ASSERT_EQ(rig.output.open(all), "");
+    rig.play(0.5);
+    ASSERT_EQ(rig.output.hear(noiseOn({6}, -30.0)), "");
+    EXPECT_EQ(rig.interface.timesOpened, 1) << "the hands notice nothing";
+    rig.play(3.0);
+    EXPECT_NEAR(rmsDb(rig.play(6.0)[6], 0), -30.0, 0.5);
+    ASSERT_EQ(rig.output.hear({}), "");
+    EXPECT_EQ(peakOf(rig.play(0.5)[6]), 0.0f);
+}
+
+} // namespace
+} // namespace physvib
