@@ -3,6 +3,7 @@
 #include "Host/AudioOutput.h"
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 namespace physvib {
 
@@ -100,7 +101,17 @@ void AudioOutput::stopDevice() {
     running_ = false;
 }
 
+// A device that calls no more is not waited for.
+void AudioOutput::fadeOut() {
+    if (!running_ || !found_.device) return;
+    ending_ = true;
+    const auto blocks = status().blocks + 2; // one may have begun before
+    const auto end = Clock::now() + std::chrono::milliseconds{10} + std::chrono::milliseconds{3000 * block_ / rate_};
+    while (running_ && status().blocks < blocks && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+}
+
 void AudioOutput::close() {
+    fadeOut();
     stopDevice();
     settings_.device.clear();
 }
@@ -146,6 +157,8 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     latencyNs_ = std::int64_t{1'000'000'000} * device->getOutputLatencyInSamples() / rate;
     prepareBuffers(block);
     map_.place(device->getActiveOutputChannels());
+    map_.settle(rate);
+    ending_ = false;
     master_.prepare(rate, fadeInSeconds, 0.0f);
     noiseRamp_.prepare(rate, noiseFadeSeconds, 0.0f);
     contactRamp_.prepare(rate, fadeInSeconds, 0.0f);
@@ -171,7 +184,7 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     const auto start = juce::Time::getHighResolutionTicks();
     const FeltMoment felt{session_.nextFeltNs(), std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count() + latencyNs_};
     if (frames > largestBlock_.load(std::memory_order_relaxed)) largestBlock_.store(frames, std::memory_order_relaxed);
-    const bool isSilent = silent_.load(std::memory_order_relaxed);
+    const bool isSilent = silent_.load(std::memory_order_relaxed) || ending_.load(std::memory_order_relaxed);
     for (auto [ramp, gain] : {std::pair{&master_, &level_}, {&noiseRamp_, &noiseGain_}, {&contactRamp_, &contactGain_}}) {
         if (isSilent) ramp->moveTo(0.0f, frames);
         else ramp->moveTo(gain->load(std::memory_order_relaxed));
@@ -191,8 +204,8 @@ void AudioOutput::renderPart(float* const* out, int outputs, int first, int fram
     }
     master_.apply(scratchAt_.data(), session_.channels(), frames);
     for (int j = 0; j < session_.channels(); ++j) {
-        const int k = map_.at(j);
-        if (k >= 0 && k < outputs) juce::FloatVectorOperations::copy(out[k] + first, scratchAt_[static_cast<std::size_t>(j)], frames);
+        float* at = scratchAt_[static_cast<std::size_t>(j)];
+        if (const int k = map_.play(j, at, frames); k >= 0 && k < outputs) juce::FloatVectorOperations::copy(out[k] + first, at, frames);
     }
     renderHeard(out, outputs, first, frames);
 }

@@ -83,7 +83,7 @@ public:
     /// What is listened to, while it plays as assign(); empty, or one line with the reason, and all is as before. M.
     std::string hear(const ListeningSettings& listening);
 
-    /// Stops and closes; what is left of the session stays. M.
+    /// Silent within two blocks, then stops and closes; what is left of the session stays. M.
     void close();
 
     /// Tries to get back a device that has gone, follows one that has changed its block; empty while all is well, else
@@ -130,6 +130,7 @@ private:
     std::string listeningFault() const;
     std::string openDevice();
     std::string startDevice();
+    void fadeOut();
     void stopDevice();
     bool hasGone(Clock::time_point now);
     std::string unfelt() const;
@@ -149,7 +150,7 @@ private:
     AudioDeviceTypes types_;
     AudioOutputSettings settings_;
     FoundDevice found_;
-    std::atomic<bool> running_{false}, silent_{false};
+    std::atomic<bool> running_{false}, silent_{false}, ending_{false};
     std::atomic<float> level_{0.0f}, noiseGain_{0.0f}, contactGain_{0.0f};
     std::atomic<int> largestBlock_{0}; // that the device has asked for
     std::atomic<PlayedRecorder*> recorder_{nullptr};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sets of outputs.
+// Sets of outputs, and the way from one to another.
 #include "Host/OutputMap.h"
 #include <algorithm>
 #include <numeric>
@@ -62,6 +62,25 @@ void OutputMap::place(const juce::BigInteger& active) {
     for (std::size_t j = 0; j < wanted_.size(); ++j) at_[j].store(packed(wanted_[j]), std::memory_order_relaxed);
     for (std::size_t s = 0; s < heard_.size(); ++s)
         for (std::size_t i = 0; i < heardAt_[s].size(); ++i) heardAt_[s][i].store(i < heard_[s].size() ? packed(heard_[s][i]) : -1, std::memory_order_relaxed);
+}
+
+void OutputMap::settle(int sampleRateHz) noexcept {
+    for (std::size_t j = 0; j < playing_.size(); ++j) {
+        playing_[j] = at_[j];
+        ramps_[j].prepare(sampleRateHz, limits::channelRampSeconds, playing_[j] < 0 ? 0.0f : 1.0f);
+    }
+}
+
+int OutputMap::play(int enchanter, float* samples, int frames) noexcept {
+    const auto j = static_cast<std::size_t>(enchanter);
+    const int wanted = at(enchanter);
+    if (playing_[j] < 0 && wanted >= 0 && std::find(playing_.begin(), playing_.end(), wanted) == playing_.end()) playing_[j] = wanted;
+    const int here = playing_[j];
+    if (here < 0) return -1;
+    ramps_[j].moveTo(here == wanted ? 1.0f : 0.0f);
+    ramps_[j].apply(&samples, 1, frames);
+    if (here != wanted && ramps_[j].isResting()) playing_[j] = -1;
+    return here;
 }
 
 int OutputMap::unfelt() const noexcept {

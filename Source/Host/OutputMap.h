@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which output of a device is which enchanter, and which ones somebody listens to.
 #pragma once
+#include "Core/GainRamp.h"
 #include "Core/Limits.h"
 #include <array>
 #include <atomic>
@@ -16,13 +17,14 @@ enum class Heard { noise, contacts };
 /// Device outputs from 0, per Heard.
 using HeardOutputs = std::array<std::vector<int>, 2>;
 
-/// M, but for at(): any thread.
+/// M, but for at(), any thread, and play(), R.
 class OutputMap {
 public:
     OutputMap() {
         for (auto& at : at_) at = -1;
         for (auto& source : heardAt_)
             for (auto& at : source) at = -1;
+        playing_.fill(-1);
     }
 
     /// Enchanter j is wanted on device output wanted[j], from 0; with an empty list on j; those not in the list on none. `felt`
@@ -39,6 +41,13 @@ public:
 
     /// A callback gets the `active` outputs only, packed together.
     void place(const juce::BigInteger& active);
+
+    /// All play where they are placed, at once. M, while R does not run.
+    void settle(int sampleRateHz) noexcept;
+
+    /// The next `frames` samples of an enchanter, in place: where it is placed elsewhere, it fades out (limits::channelRampSeconds) and then in
+    /// over there, once nobody else plays there. The callback channel they are for; -1: none. R, wait-free.
+    int play(int enchanter, float* samples, int frames) noexcept;
 
     /// Callback channel of an enchanter; -1: it has none.
     int at(int enchanter) const noexcept { return at_[static_cast<std::size_t>(enchanter)].load(std::memory_order_relaxed); }
@@ -58,6 +67,10 @@ private:
     HeardOutputs heard_;
     std::array<std::atomic<int>, limits::maxEnchanters> at_{};
     std::array<std::array<std::atomic<int>, mostHeard>, 2> heardAt_{};
+
+    // R, set while it does not run
+    std::array<int, limits::maxEnchanters> playing_; // as at_, behind it by the fades
+    std::array<GainRamp, limits::maxEnchanters> ramps_;
 };
 
 } // namespace physvib

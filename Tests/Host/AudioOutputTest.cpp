@@ -95,6 +95,39 @@ TEST(AudioOutput, AnotherDriverWithADeviceOfThatNameIsAnotherDevice) {
     EXPECT_EQ(theirs.timesOpened, 0);
 }
 
+TEST(AudioOutput, WhatRingsFadesBeforeADeviceIsClosedAndOneThatIsGoneIsNotWaitedFor) {
+    Rig rig;
+    ASSERT_EQ(rig.open(), "");
+    rig.play(0.1, 64);
+    constexpr std::size_t corner = 2; // at 0, 0
+    CollisionEvent tone;
+    tone.frequencyHz = 50;
+    tone.durationNs = 60'000'000'000;
+    tone.amplitude = 0.5;
+    ASSERT_TRUE(rig.session.play({&tone, 1}));
+    EXPECT_GT(loudest(rig.play(1.0, 64)[corner]), 0.01f);
+    std::vector<float> heard;
+    std::atomic<bool> stop{false};
+    std::thread interface{[&] {
+        while (!stop) {
+            rig.session.advance();
+            if (const auto block = rig.interface.play(64); !block.empty()) heard.insert(heard.end(), block[corner].begin(), block[corner].end());
+            std::this_thread::sleep_for(1ms);
+        }
+    }};
+    std::this_thread::sleep_for(30ms);
+    rig.output.close();
+    stop = true;
+    interface.join();
+    ASSERT_GT(heard.size(), 640u);
+    EXPECT_GT(loudest({heard.begin(), heard.end() - 192}), 0.01f);
+    EXPECT_EQ(heard.back(), 0.0f);
+
+    ASSERT_EQ(rig.open(), "");
+    rig.play(0.1, 64);
+    rig.output.close(); // comes back, although nobody calls
+}
+
 TEST(AudioOutput, ALostDeviceMeansSilenceAMessageAndNoOtherDeviceAndNothingMissingAfterwards) {
     for (const bool tells : {true, false}) {
         Rig rig;
