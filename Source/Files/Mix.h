@@ -4,6 +4,7 @@
 #include "Core/PhantomPanner.h"
 #include "Files/LayoutFile.h"
 #include "Physics/Scene.h"
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -22,7 +23,9 @@ struct Strip {
     bool operator==(const Strip&) const = default;
 };
 
-constexpr double leastStripDb = -60.0, mostStripDb = 6.0, leastCeilingDb = -40.0;
+constexpr double leastStripDb = -60.0, mostStripDb = 6.0;
+constexpr double leastCeilingDb = -60.0; // lower is a mute by another name
+constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0;
 
 struct Mix {
     std::shared_ptr<const Scene> scene; ///< never null
@@ -32,18 +35,23 @@ struct Mix {
     double exponent = 1.0;
     std::vector<Strip> strips; ///< one per enchanter
     double levelDb = -12.0;    ///< master; the least is silence
+    double dragNewtonSecondsPerMetre = thesisDrag; ///< that a drag in the world pushes with
 
     int count() const noexcept { return layout.geometry.count; }
     PhantomPanner panner() const noexcept { return {layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres}; }
 
-    /// As many strips as there are enchanters; new ones play on outputs that no other has.
+    /// As many strips as there are enchanters.
     void resizeStrips() {
-        const auto before = strips.size();
-        strips.resize(static_cast<std::size_t>(count()));
-        for (std::size_t j = before; j < strips.size(); ++j) {
-            strips[j].output = -1;
-            strips[j].output = freeOutput();
-        }
+        const auto wanted = static_cast<std::size_t>(count());
+        while (strips.size() < wanted) strips.push_back(nextStrip());
+        strips.resize(wanted);
+    }
+    /// For one enchanter more: on the first output that no other has, with the lowest ceiling of the others.
+    Strip nextStrip() const {
+        Strip next;
+        next.output = freeOutput();
+        for (const Strip& s : strips) next.ceilingDb = std::min(next.ceilingDb, s.ceilingDb);
+        return next;
     }
     /// The first output that no strip has.
     int freeOutput() const noexcept {
@@ -63,10 +71,20 @@ struct Mix {
     }
 };
 
+/// True if their enchanters sit at the same places of the same extent. Any thread.
+inline bool isSame(const EnchanterLayout& a, const EnchanterLayout& b) noexcept {
+    const auto equal = [](const EnchanterPlace& p, const EnchanterPlace& q) { return p.xMetres == q.xMetres && p.yMetres == q.yMetres; };
+    return a.extentWidthMetres == b.extentWidthMetres && a.extentHeightMetres == b.extentHeightMetres && a.count == b.count &&
+           std::equal(a.places.begin(), a.places.begin() + a.count, b.places.begin(), equal);
+}
+
 /// The gain of a channel: its level and polarity. Any thread.
 inline float channelGain(const Strip& strip) noexcept {
     const double gain = strip.gainDb <= leastStripDb ? 0.0 : std::pow(10.0, strip.gainDb / 20.0);
     return static_cast<float>(strip.isInverted ? -gain : gain);
 }
+
+/// The largest sample that a strip lets pass. Any thread.
+inline float ceilingOf(const Strip& strip) noexcept { return static_cast<float>(std::pow(10.0, strip.ceilingDb / 20.0)); }
 
 } // namespace physvib

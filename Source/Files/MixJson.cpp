@@ -32,12 +32,13 @@ Strip readStrip(const JsonField& json) {
 } // namespace
 
 Mix readMix(const JsonField& json) {
-    json.expectObject({"layout", "law", "exponent", "level_db", "strips"});
+    json.expectObject({"layout", "law", "exponent", "level_db", "drag_ns_per_m", "strips"});
     Mix mix;
     mix.layout = readLayoutFields(json["layout"]);
     mix.law = static_cast<PanningLaw>(json["law"].oneOf(panningLawNames));
     mix.exponent = numberWithin(json["exponent"], 1e-3, 100.0);
     mix.levelDb = numberWithin(json["level_db"], leastStripDb, 0.0);
+    if (json.has("drag_ns_per_m")) mix.dragNewtonSecondsPerMetre = numberWithin(json["drag_ns_per_m"], leastDrag, mostDrag);
     const JsonField strips = json["strips"];
     if (strips.arraySize() != static_cast<std::size_t>(mix.count())) strips.fail("expected one strip per enchanter, " + std::to_string(mix.count()));
     for (std::size_t j = 0; j < strips.arraySize(); ++j) mix.strips.push_back(readStrip(strips.item(j)));
@@ -49,6 +50,7 @@ OrderedJson mixJson(const Mix& mix) {
                      {"law", panningLawNames[static_cast<std::size_t>(mix.law)]},
                      {"exponent", mix.exponent},
                      {"level_db", mix.levelDb},
+                     {"drag_ns_per_m", mix.dragNewtonSecondsPerMetre},
                      {"strips", OrderedJson::array()}};
     for (const Strip& s : mix.strips)
         json["strips"].push_back({{"gain_db", s.gainDb}, {"mute", s.isMuted}, {"solo", s.isSolo}, {"invert", s.isInverted},

@@ -244,14 +244,19 @@ Mix mixOf(const SavedSession& session) {
     mix.law = panner.law();
     mix.exponent = panner.exponent();
     mix.strips.resize(static_cast<std::size_t>(mix.count()));
-    for (std::size_t j = 0; j < mix.strips.size(); ++j) mix.strips[j].output = static_cast<int>(j);
+    const auto decibels = [](float gain) { return 20.0 * std::log10(static_cast<double>(gain)); };
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) {
+        mix.strips[j].output = static_cast<int>(j);
+        mix.strips[j].ceilingDb = std::clamp(decibels(session.ceilings[j]), leastCeilingDb, 0.0);
+    }
     for (const ChannelChange& change : session.log.channels) {
         if (change.channel >= mix.count()) continue;
         Strip& strip = mix.strips[static_cast<std::size_t>(change.channel)];
         if (change.kind == RenderControl::Kind::mute) strip.isMuted = change.value != 0.0f;
+        if (change.kind == RenderControl::Kind::ceiling) strip.ceilingDb = std::clamp(decibels(change.value), leastCeilingDb, 0.0);
         if (change.kind != RenderControl::Kind::gain) continue;
         strip.isInverted = change.value < 0.0f;
-        strip.gainDb = change.value == 0.0f ? leastStripDb : std::clamp(20.0 * std::log10(std::abs(change.value)), leastStripDb, mostStripDb);
+        strip.gainDb = change.value == 0.0f ? leastStripDb : std::clamp(decibels(std::abs(change.value)), leastStripDb, mostStripDb);
     }
     return mix;
 }

@@ -14,8 +14,6 @@ namespace physvib {
 
 namespace {
 
-constexpr double lowestCeilingDecibels = -60.0; // lower is a mute by another name
-
 /// "1,2,3" to {0, 1, 2}; empty means an empty map. False if it is anything else.
 bool parseMap(const std::string& text, std::vector<int>& map) {
     if (text.empty()) return true;
@@ -31,7 +29,7 @@ bool parseCeilings(const std::string& text, int channels, std::array<float, limi
     std::vector<double> decibels;
     if (!parseNumbers(text, decibels)) return false;
     if (decibels.size() == 1) decibels.resize(static_cast<std::size_t>(channels), decibels[0]);
-    const auto isCeiling = [](double dB) { return dB >= lowestCeilingDecibels && dB <= 0.0; };
+    const auto isCeiling = [](double dB) { return dB >= leastCeilingDb && dB <= 0.0; };
     if (decibels.size() != static_cast<std::size_t>(channels) || !std::all_of(decibels.begin(), decibels.end(), isCeiling)) return false;
     std::transform(decibels.begin(), decibels.end(), ceilings.begin(), gainOf);
     return true;

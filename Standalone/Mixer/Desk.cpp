@@ -48,11 +48,8 @@ SessionSetup setupOf(const Mix& mix, bool hasBoard) {
 float levelOf(const Mix& mix) { return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(std::pow(10.0, mix.levelDb / 20.0)); }
 
 bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
-    const auto places = [](const PhantomPanner& p) { return std::span{p.layout().places}.first(static_cast<std::size_t>(p.channels())); };
-    const auto equal = [](const EnchanterPlace& p, const EnchanterPlace& q) { return p.xMetres == q.xMetres && p.yMetres == q.yMetres; };
-    return a.channels() == b.channels() && a.law() == b.law() && a.exponent() == b.exponent() && a.fieldWidthMetres() == b.fieldWidthMetres() &&
-           a.fieldHeightMetres() == b.fieldHeightMetres() && a.layout().extentWidthMetres == b.layout().extentWidthMetres &&
-           a.layout().extentHeightMetres == b.layout().extentHeightMetres && std::ranges::equal(places(a), places(b), equal);
+    return a.law() == b.law() && a.exponent() == b.exponent() && a.fieldWidthMetres() == b.fieldWidthMetres() && a.fieldHeightMetres() == b.fieldHeightMetres() &&
+           isSame(a.layout(), b.layout());
 }
 
 } // namespace
@@ -180,7 +177,7 @@ void Desk::postDifferences(const Mix& before, bool all) {
         const bool isSilent = mix_.isSilent(j), wasSilent = !all && i < before.strips.size() && before.isSilent(j);
         if (channelGain(strip) != channelGain(old)) session_.post({0, Kind::gain, j, channelGain(strip), {}});
         if (strip.delayMs != old.delayMs) session_.post({0, Kind::delay, j, static_cast<float>(1e-3 * strip.delayMs), {}});
-        if (strip.ceilingDb != old.ceilingDb) session_.post({0, Kind::ceiling, j, static_cast<float>(std::pow(10.0, strip.ceilingDb / 20.0)), {}});
+        if (strip.ceilingDb != old.ceilingDb) session_.post({0, Kind::ceiling, j, ceilingOf(strip), {}});
         if (isSilent != wasSilent) session_.post({0, Kind::mute, j, isSilent ? 1.0f : 0.0f, {}});
     }
 }
@@ -201,10 +198,8 @@ bool Desk::attach(double shareX, double shareY) {
         layout.name = "own";
         layout.enchanters.push_back({label(n), layout.enchanters.back().actuator, layout.enchanters.back().fullScaleG});
         layout.geometry.places[static_cast<std::size_t>(layout.geometry.count++)] = {shareX * layout.geometry.extentWidthMetres, shareY * layout.geometry.extentHeightMetres};
-        Strip strip;
-        strip.gainDb = newStripDb;
-        strip.output = mix.freeOutput();
-        mix.strips.push_back(strip);
+        mix.strips.push_back(mix.nextStrip());
+        mix.strips.back().gainDb = newStripDb;
     });
     return true;
 }

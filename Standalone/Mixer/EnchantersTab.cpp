@@ -16,6 +16,16 @@ juce::Label& caption(juce::Label& label, const juce::String& words) {
     return label;
 }
 
+// Whoever named it what; -1: a layout of its own.
+int presetOf(const EnchanterLayout& layout) {
+    const auto isThat = [&layout](std::string_view name) {
+        EnchanterLayout preset;
+        return layoutPreset(name, preset) && isSame(preset, layout);
+    };
+    const auto found = std::ranges::find_if(layoutPresetNames, isThat);
+    return found == layoutPresetNames.end() ? -1 : static_cast<int>(found - layoutPresetNames.begin());
+}
+
 } // namespace
 
 EnchantersTab::Module::Module()
@@ -176,8 +186,7 @@ void EnchantersTab::takePreset() {
 
 void EnchantersTab::takeMix() {
     const auto& mix = desk_.mix();
-    const auto found = std::ranges::find(layoutPresetNames, mix.layout.name);
-    preset_.setSelectedId(found == layoutPresetNames.end() ? 0 : static_cast<int>(found - layoutPresetNames.begin()) + 1, juce::dontSendNotification);
+    preset_.setSelectedItemIndex(presetOf(mix.layout.geometry), juce::dontSendNotification);
     law_.setSelectedItemIndex(static_cast<int>(mix.law), juce::dontSendNotification);
     if (!exponent_.isMouseButtonDown()) exponent_.setValue(mix.exponent, juce::dontSendNotification);
     list_.updateContent();

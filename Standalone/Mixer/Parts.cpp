@@ -29,6 +29,16 @@ juce::Path pathOf(Sign sign) {
     case Sign::plus:
         p.addRectangle(-6.0f, -1.0f, 12.0f, 2.0f);
         p.addRectangle(-1.0f, -6.0f, 2.0f, 12.0f);
+        break;
+    case Sign::sweep: { // waves that become shorter
+        juce::Path wave;
+        wave.startNewSubPath(-9.0f, 0.0f);
+        for (int k = 1; k <= 54; ++k) {
+            const float t = static_cast<float>(k) / 54.0f;
+            wave.lineTo(-9.0f + 18.0f * t, -4.5f * std::sin(juce::MathConstants<float>::twoPi * (0.7f * t + 2.0f * t * t)));
+        }
+        juce::PathStrokeType{1.6f}.createStrokedPath(p, wave);
+    }
     }
     return p;
 }
@@ -51,7 +61,8 @@ void SignButton::setSign(Sign sign, const juce::String& name) {
 
 void SignButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
     getLookAndFeel().drawButtonBackground(g, *this, {}, isOver, isDown);
-    g.setColour(shade(*this, getToggleState() ? Shade::well : Shade::text).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
+    const bool isQuiet = getProperties()[quietProperty];
+    g.setColour(shade(*this, getToggleState() ? Shade::well : isQuiet ? Shade::accent : Shade::text).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
     g.fillPath(pathOf(sign_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
 }
 

@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-enum class Sign { play, pause, step, restart, plus };
+enum class Sign { play, pause, step, restart, plus, sweep };
 
 /// A button with a sign that needs no font; `name` is what a screen reader and the tooltip say.
 class SignButton final : public juce::Button {

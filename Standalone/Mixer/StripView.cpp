@@ -23,10 +23,14 @@ void setUpFader(juce::Slider& fader, double least, double most, const juce::Stri
     fader.setWantsKeyboardFocus(true);
 }
 
+/// What that peak of a strip is felt as, behind the master.
 double gOf(const Desk& desk, std::size_t strip, float peak) {
     const double level = desk.mix().levelDb <= leastStripDb ? 0.0 : std::pow(10.0, desk.mix().levelDb / 20.0);
-    return desk.isSilent() ? 0.0 : peak * level * desk.mix().layout.enchanters[strip].fullScaleG;
+    return peak * level * desk.mix().layout.enchanters[strip].fullScaleG;
 }
+
+double mostG(const Desk& desk, std::size_t strip) { return gOf(desk, strip, ceilingOf(desk.mix().strips[strip])); }
+juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
 
 } // namespace
 
@@ -62,11 +66,17 @@ void PeakMeter::paint(juce::Graphics& g) {
 StripView::StripView(Desk& desk, int strip)
     : desk_{desk}
     , index_{static_cast<std::size_t>(strip)}
-    , meter_{"Level of " + utf8(desk.mix().layout.enchanters[index_].label)} {
+    , meter_{"Level of " + utf8(desk.mix().layout.enchanters[index_].label)}
+    , ceiling_{utf8(desk.mix().layout.enchanters[index_].label)}
+    , sweep_{Sign::sweep, "Sweep on " + utf8(desk.mix().layout.enchanters[index_].label)} {
     const auto label = utf8(desk.mix().layout.enchanters[index_].label);
     setTitle("Strip " + label);
     setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
     onSlide(fader_, [this](bool goesOn) { change("Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn); });
+    ceiling_.textFromValueFunction = [this](double db) {
+        return "at most " + number(db, 1) + " dB, " + inG(gOf(desk_, index_, static_cast<float>(std::pow(10.0, db / 20.0)))) + " g";
+    };
+    onSlide(ceiling_, [this](bool goesOn) { change("Ceiling", [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }, goesOn); });
     const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint, bool Strip::*what) {
         button.setTitle(name + " " + label);
         button.setTooltip(name);
@@ -80,17 +90,22 @@ StripView::StripView(Desk& desk, int strip)
     delay_.setTitle("Delay of " + label);
     delay_.onClick = [this] { askDelay(); };
     level_.setFont(juce::Font{text::small, juce::Font::bold});
-    level_.setJustificationType(juce::Justification::centred);
+    level_.setJustificationType(juce::Justification::centredRight);
     level_.setTitle("Level of " + label + " in g");
+    most_.setFont(juce::Font{text::small});
+    most_.setTitle("Ceiling of " + label + " in g");
+    level_.setBorderSize({0, 0, 0, 0});
+    most_.setBorderSize({0, 4, 0, 0});
     output_.setTitle("Output of " + label);
     output_.setJustificationType(juce::Justification::centred);
     output_.onChange = [this] { change("Output", [this](Strip& s) { s.output = output_.getSelectedId() - 2; }); };
-    test_ = quietButton(juce::String::fromUTF8("Test \xe2\x96\xb8"), "Test pulse on " + label + "; with Shift: a sweep from 40 to 400 Hz");
-    test_->onClick = [this] {
-        if (juce::ModifierKeys::currentModifiers.isShiftDown()) desk_.testSweep(static_cast<int>(index_));
-        else desk_.testPulse(static_cast<int>(index_));
-    };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&meter_, &fader_, &delay_, &level_, &output_, test_.get()}) addAndMakeVisible(c);
+    test_ = quietButton(juce::String::fromUTF8("Test \xe2\x96\xb8"), "Test pulse on " + label);
+    test_->setTooltip("A pulse at the actuator's resonance (T)");
+    test_->onClick = [this] { desk_.testPulse(static_cast<int>(index_)); };
+    sweep_.getProperties().set(quietProperty, true);
+    sweep_.setTooltip("A sweep from 40 to 400 Hz (Shift+T)");
+    sweep_.onClick = [this] { desk_.testSweep(static_cast<int>(index_)); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&meter_, &fader_, &ceiling_, &delay_, &level_, &most_, &output_, test_.get(), &sweep_}) addAndMakeVisible(c);
     takeMix();
 }
 
@@ -113,6 +128,10 @@ void StripView::takeMix() {
     mute_.setToggleState(s.isMuted, juce::dontSendNotification);
     solo_.setToggleState(s.isSolo, juce::dontSendNotification);
     polarity_.setToggleState(s.isInverted, juce::dontSendNotification);
+    if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(s.ceilingDb, juce::dontSendNotification);
+    most_.setText("/ " + inG(mostG(desk_, index_)) + " g", juce::dontSendNotification);
+    most_.setTooltip("Ceiling: " + number(s.ceilingDb, 1) + " dB of full scale");
+    most_.setColour(juce::Label::textColourId, shade(*this, s.ceilingDb < 0.0 ? Shade::text : Shade::muted));
     delay_.setButtonText(s.delayMs > 0.0 ? number(s.delayMs, s.delayMs < 1.0 ? 1 : 0) : juce::String{"ms"});
     delay_.setToggleState(s.delayMs > 0.0, juce::dontSendNotification);
     delay_.setTooltip("Delay: " + number(s.delayMs, 1) + " ms");
@@ -131,7 +150,13 @@ void StripView::askDelay() {
 
 void StripView::refresh(const DeskMoment& moment) {
     meter_.set(moment.meters.peaks[index_], moment.holds[index_]);
-    level_.setText(number(gOf(desk_, index_, moment.holds[index_]), 2) + " g", juce::dontSendNotification);
+    level_.setText(inG(desk_.isSilent() ? 0.0 : gOf(desk_, index_, moment.holds[index_])), juce::dontSendNotification);
+}
+
+bool StripView::keyPressed(const juce::KeyPress& key) {
+    if (key == juce::KeyPress{'t'}) return desk_.testPulse(static_cast<int>(index_)), true;
+    if (key == juce::KeyPress{'t', juce::ModifierKeys::shiftModifier, 0}) return desk_.testSweep(static_cast<int>(index_)), true;
+    return false;
 }
 
 void StripView::paint(juce::Graphics& g) {
@@ -156,15 +181,20 @@ void StripView::paint(juce::Graphics& g) {
 
 void StripView::resized() {
     auto area = getLocalBounds().withTrimmedTop(metersTop);
-    test_->setBounds(area.removeFromBottom(22).reduced(4, 0));
+    auto row = area.removeFromBottom(22).reduced(2, 0);
+    test_->setBounds(row.removeFromLeft(row.getWidth() * 6 / 10));
+    sweep_.setBounds(row);
     output_.setBounds(area.removeFromBottom(26).reduced(2, 1));
-    level_.setBounds(area.removeFromBottom(22));
-    auto row = area.removeFromBottom(24);
+    row = area.removeFromBottom(22);
+    level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
+    most_.setBounds(row);
+    row = area.removeFromBottom(24);
     const int each = row.getWidth() / 4;
     for (auto* button : {&mute_, &solo_, &polarity_, &delay_}) button->setBounds(row.removeFromLeft(each).reduced(1, 0));
     area.removeFromBottom(8);
-    meter_.setBounds(area.withWidth(12).withX(6));
-    fader_.setBounds(area.withX(22).withWidth(32).expanded(0, 8));
+    meter_.setBounds(area.withWidth(12).withX(10));
+    ceiling_.placeOver(meter_.getBounds());
+    fader_.setBounds(area.withX(24).withWidth(32).expanded(0, 8));
 }
 
 MasterStrip::MasterStrip(Desk& desk)
@@ -209,10 +239,10 @@ void MasterStrip::paint(juce::Graphics& g) {
     g.drawText("at most", ceilingName_, juce::Justification::centred, false);
     double most = 0.0;
     for (std::size_t j = 0; j < static_cast<std::size_t>(desk_.mix().count()); ++j)
-        most = std::max(most, gOf(desk_, j, static_cast<float>(std::pow(10.0, desk_.mix().strips[j].ceilingDb / 20.0))));
+        most = std::max(most, mostG(desk_, j));
     g.setColour(shade(*this, Shade::text));
     g.setFont(juce::Font{text::small, juce::Font::bold});
-    g.drawText(number(most, 2) + " g", ceiling_, juce::Justification::centred, false);
+    g.drawText(inG(most) + " g", ceiling_, juce::Justification::centred, false);
 }
 
 void MasterStrip::resized() {

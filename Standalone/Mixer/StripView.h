@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A channel strip: meter with held peak, fader, mute, solo, polarity, delay, the level in g, output, test.
+// A channel strip: meter with held peak and ceiling, fader, mute, solo, polarity, delay, the level in g, output, tests.
 #pragma once
+#include "Mixer/CeilingHandle.h"
 #include "Mixer/Desk.h"
 #include "Mixer/Parts.h"
 
@@ -27,6 +28,7 @@ public:
     StripView(Desk& desk, int strip);
     void takeMix();
     void refresh(const DeskMoment& moment);
+    bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
 
@@ -41,10 +43,12 @@ private:
     const std::size_t index_;
     PeakMeter meter_;
     juce::Slider fader_;
+    CeilingHandle ceiling_;
     juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
-    juce::Label level_;
+    juce::Label level_, most_;
     juce::ComboBox output_;
     std::unique_ptr<juce::TextButton> test_;
+    SignButton sweep_;
 };
 
 /// All enchanters together: level, limiter, ceiling.

@@ -9,8 +9,16 @@ namespace physvib {
 namespace {
 
 constexpr double tellMs = 900.0; // a sentence stays at least so long, unless a stronger hit comes
+constexpr int lawNeeds = 700; // pixels of the panel; else there is no room for what the tab says as well
 const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
+const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
 
+void setUpKnob(juce::Slider& knob, const juce::String& title, const juce::String& tip) {
+    knob.setTitle(title);
+    knob.setTooltip(tip);
+    knob.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
+    knob.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
+}
 
 juce::String whereText(const Scene& scene, const CollisionEvent& hit) {
     const double x = hit.x / scene.fieldWidthMetres, y = hit.y / scene.fieldHeightMetres;
@@ -26,7 +34,7 @@ WorldPanel::WorldPanel(Desk& desk)
     setTitle("World");
     setWantsKeyboardFocus(true);
     view_.onPull = [this](const std::string& body, Vector metres, Vector point) { pull(body, metres, point); };
-    view_.pullText = [this](double metres) { return "drag " + number(1e-3 * pull_ * metres, 1) + juce::String::fromUTF8(" kN\xc2\xb7s"); };
+    view_.pullText = [this](double metres) { return "drag " + number(1e-3 * desk_.mix().dragNewtonSecondsPerMetre * metres, 1) + " " + kiloNewtonSeconds; };
     view_.onAttach = [this](FieldShare at) { desk_.attach(at.x, at.y); };
     view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
     view_.onMove = [this](int enchanter, FieldShare to) {
@@ -44,18 +52,21 @@ WorldPanel::WorldPanel(Desk& desk)
     law_.setFont(juce::Font{text::small});
     law_.setJustificationType(juce::Justification::centredRight);
     tiltName_.setText("gravity", juce::dontSendNotification);
-    tiltName_.setFont(juce::Font{text::small});
-    tilt_.setTitle("Tilt");
-    tilt_.setTooltip("Tilt: which way gravity pulls; double click: down (arrow keys in the world)");
-    tilt_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
-    tilt_.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
+    setUpKnob(tilt_, "Tilt", "Tilt: which way gravity pulls; double click: down (arrow keys in the world)");
     tilt_.setRotaryParameters(0.0f, juce::MathConstants<float>::twoPi, false);
     tilt_.setRange(-180.0, 180.0, 1.0);
     tilt_.setValue(0.0, juce::dontSendNotification);
     tilt_.setDoubleClickReturnValue(true, 0.0);
     tilt_.onValueChange = [this] { desk_.act(TiltAction{juce::degreesToRadians(-tilt_.getValue())}); };
+    setUpKnob(drag_, "Drag strength", "Drag strength: how hard a body is pushed per metre that it is dragged; double click: as in the thesis");
+    drag_.setRange(leastDrag, mostDrag, 1'000.0);
+    drag_.setSkewFactorFromMidPoint(10'000.0);
+    drag_.setDoubleClickReturnValue(true, thesisDrag);
+    drag_.textFromValueFunction = [](double push) { return number(1e-3 * push, 0) + " " + kiloNewtonSeconds + "/m"; };
+    onSlide(drag_, [this](bool goesOn) { desk_.change("Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerMetre = drag_.getValue(); }, goesOn); });
+    for (auto* name : {&tiltName_, &dragName_}) name->setFont(juce::Font{text::small});
     view_.setFootRoom(44);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &sentence_, &law_, &tilt_, &tiltName_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_}) addAndMakeVisible(c);
     takeMix();
 }
 
@@ -68,7 +79,9 @@ void WorldPanel::takeMix() {
     view_.show(mix.layout, mix.panner());
     law_.setText(juce::String{panningLawNames[static_cast<std::size_t>(mix.law)].data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
     law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
-    tiltName_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    if (!drag_.isMouseButtonDown()) drag_.setValue(mix.dragNewtonSecondsPerMetre, juce::dontSendNotification);
+    dragName_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);
+    for (auto* name : {&tiltName_, &dragName_}) name->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     sentence_.setColour(juce::Label::textColourId, shade(*this, Shade::now));
 }
 
@@ -87,7 +100,7 @@ bool WorldPanel::keyPressed(const juce::KeyPress& key) {
 }
 
 void WorldPanel::pull(const std::string& body, Vector metres, Vector point) {
-    const double push = pull_;
+    const double push = desk_.mix().dragNewtonSecondsPerMetre;
     const auto fault = desk_.act(ImpulseAction{body, {push * metres.x, push * metres.y}, point});
     if (!fault.empty()) desk_.report(utf8(fault));
 }
@@ -161,12 +174,13 @@ void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
 void WorldPanel::resized() {
     auto area = getLocalBounds().reduced(panelInset, 10);
     auto row = area.removeFromBottom(38);
-    const int middle = 110;
-    auto left = row.removeFromLeft((row.getWidth() - middle) / 2 + 40);
-    sentence_.setBounds(left);
-    tilt_.setBounds(row.removeFromLeft(38));
-    tiltName_.setBounds(row.removeFromLeft(64));
-    law_.setBounds(row);
+    law_.setVisible(getWidth() >= lawNeeds);
+    if (law_.isVisible()) law_.setBounds(row.removeFromRight(174));
+    dragName_.setBounds(row.removeFromRight(104));
+    drag_.setBounds(row.removeFromRight(38));
+    tiltName_.setBounds(row.removeFromRight(58));
+    tilt_.setBounds(row.removeFromRight(38));
+    sentence_.setBounds(row);
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
 }
 

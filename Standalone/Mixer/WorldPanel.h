@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world with what belongs to it: one sentence on the strongest hit, the way down, how hits are spread.
+// The world with what belongs to it: one sentence on the strongest hit, the way down, how hard a drag pushes, how hits are
+// spread.
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Desk.h"
@@ -22,8 +23,6 @@ public:
     void paint(juce::Graphics& g) override;
     void resized() override;
 
-    static constexpr double thesisPull = 32'000.0; ///< newton seconds per metre that is dragged
-
 private:
     void pull(const std::string& body, Vector metres, Vector point);
     void showMenu(const std::string& body, FieldShare at);
@@ -33,10 +32,10 @@ private:
 
     Desk& desk_;
     WorldView view_;
-    juce::Label sentence_, law_, tiltName_;
-    juce::Slider tilt_;
+    juce::Label sentence_, law_, tiltName_, dragName_;
+    juce::Slider tilt_, drag_;
     bool isMoving_ = false; // a badge, since the mouse was pressed
-    double pull_ = thesisPull, hitAtMs_ = 0.0;
+    double hitAtMs_ = 0.0;
     CollisionEvent told_;
     std::shared_ptr<const Scene> shown_;
     std::uint64_t shownEdits_ = 0;

@@ -160,6 +160,7 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     mix.strips[2] = {-7.5, true, false, true, 12.5, -3.0, 6};
     mix.law = PanningLaw::energy;
     mix.levelDb = -20.0;
+    mix.dragNewtonSecondsPerMetre = 12'000.0;
     saved.mix = mix;
     const auto again = readSession(sessionJson(saved), "s.json");
     ASSERT_TRUE(again) << again.error;
@@ -167,15 +168,19 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     EXPECT_EQ(read.strips, mix.strips);
     EXPECT_EQ(read.layout.enchanters, mix.layout.enchanters);
     EXPECT_EQ(read.levelDb, -20.0);
+    EXPECT_EQ(read.dragNewtonSecondsPerMetre, 12'000.0);
     EXPECT_EQ(*read.scene, setup.scene);
     saved.mix->strips[1].delayMs = 70.0;
     EXPECT_EQ(readSession(sessionJson(saved), "s.json").error, "s.json: desk.strips[1].delay_ms: expected 0 to 50, found 70");
     saved.mix.reset(); // as `physvib play` saves
-    saved.log.channels = {{0, Kind::gain, 1, -0.5f}, {0, Kind::mute, 3, 1.0f}};
+    saved.log.channels = {{0, Kind::gain, 1, -0.5f}, {0, Kind::mute, 3, 1.0f}, {0, Kind::ceiling, 0, 0.25f}};
+    saved.ceilings[2] = 0.1f;
     const Mix made = mixOf(saved);
     EXPECT_TRUE(made.strips[1].isInverted);
     EXPECT_NEAR(made.strips[1].gainDb, -6.02, 0.01);
     EXPECT_TRUE(made.strips[3].isMuted);
+    EXPECT_NEAR(made.strips[0].ceilingDb, -12.04, 0.01);
+    EXPECT_NEAR(made.strips[2].ceilingDb, -20.0, 0.01) << "a bound that hands rely on";
 }
 
 TEST(SessionDesk, BodiesThatCameAndWentAreInTheSceneAsItWasLeft) {

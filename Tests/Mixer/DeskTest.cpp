@@ -47,6 +47,31 @@ TEST(Desk, SoloMutesTheOthers) {
     EXPECT_EQ(muted, (std::vector<int>{0, 1, 3}));
 }
 
+TEST(Desk, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
+    Desk desk{onlyNoDevice(), noDevice};
+    desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+    desk.change("Ceiling of A", [](Mix& mix) { mix.strips[0].ceilingDb = -30.0; });
+    for (int k = 0; k < 4; ++k) desk.testPulse(0); // 2 of full scale together
+    float highest = 0.0f;
+    ASSERT_TRUE(runUntil([&] {
+        highest = std::max(highest, desk.look().holds[0]);
+        return highest > 0.9f * ceilingOf(desk.mix().strips[0]);
+    }));
+    EXPECT_LE(highest, ceilingOf(desk.mix().strips[0]) * 1.0001f);
+    const auto ceilings = [&] {
+        std::vector<float> all;
+        for (const auto& c : desk.saved().log.channels)
+            if (c.kind == Kind::ceiling) all.push_back(c.value);
+        return all;
+    };
+    EXPECT_EQ(ceilings(), (std::vector<float>{ceilingOf({.ceilingDb = -30.0})}));
+    desk.attach(0.5, 0.5);
+    EXPECT_EQ(desk.mix().strips.back().ceilingDb, -30.0) << "not above what the others are held to";
+    desk.undoManager().undo();
+    desk.undoManager().undo();
+    EXPECT_EQ(ceilings().back(), 1.0f);
+}
+
 TEST(Desk, AHeldFaderIsOneThingToUndo) {
     Desk desk{onlyNoDevice(), noDevice};
     for (int k = 0; k < 20; ++k) desk.change("Gain of A", [k](Mix& mix) { mix.strips[0].gainDb = -0.5 * k; }, k > 0);

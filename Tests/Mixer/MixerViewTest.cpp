@@ -26,6 +26,11 @@ void walk(juce::Component& root, const std::function<void(juce::Component&)>& vi
         if (child->isVisible()) walk(*child, visit);
 }
 
+juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at) {
+    const auto now = juce::Time::getCurrentTime();
+    return {juce::Desktop::getInstance().getMainMouseSource(), at, juce::ModifierKeys::leftButtonModifier, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, &c, &c, now, at, now, 1, false};
+}
+
 TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
     Desk desk{onlyNoDevice(), noDevice};
     MixerView view{desk};
@@ -125,6 +130,74 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     EXPECT_TRUE(desk.isSilent());
     view.keyPressed(juce::KeyPress{'z', juce::ModifierKeys::commandModifier, 0});
     EXPECT_EQ(desk.mix().count(), 4);
+}
+
+TEST(MixerView, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    auto* ceiling = dynamic_cast<juce::Slider*>(find(view, "Ceiling of B"));
+    ASSERT_NE(ceiling, nullptr);
+    ceiling->setValue(-20.0, juce::sendNotificationSync);
+    desk.dispatchPendingMessages();
+    EXPECT_EQ(desk.mix().strips[1].ceilingDb, -20.0);
+    EXPECT_EQ(ceiling->getTextFromValue(-20.0), "at most " + number(-20.0, 1) + " dB, 0.03 g") << "behind a master at -12 dB";
+    const auto* shown = dynamic_cast<juce::Label*>(find(view, "Ceiling of B in g"));
+    ASSERT_NE(shown, nullptr);
+    EXPECT_EQ(shown->getText(), "/ 0.03 g");
+    EXPECT_FALSE(ceiling->isDoubleClickReturnEnabled());
+    ceiling->mouseWheelMove(mouseAt(*ceiling, {15.0f, 15.0f}), {0.0f, 1.0f, false, false, false});
+    EXPECT_EQ(desk.mix().strips[1].ceilingDb, -20.0);
+    EXPECT_TRUE(ceiling->keyPressed(juce::KeyPress{juce::KeyPress::downKey}));
+    EXPECT_LT(desk.mix().strips[1].ceilingDb, -20.0);
+    desk.undoManager().undo();
+    EXPECT_EQ(desk.mix().strips[1].ceilingDb, -20.0);
+}
+
+TEST(MixerView, ADragPushesByItsStrength) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    auto* strength = dynamic_cast<juce::Slider*>(find(view, "Drag strength"));
+    ASSERT_NE(strength, nullptr);
+    EXPECT_EQ(strength->getValue(), 32'000.0);
+    strength->setValue(8'000.0, juce::sendNotificationSync);
+    desk.dispatchPendingMessages();
+    auto& world = view.world().view();
+    EXPECT_EQ(world.pullText(0.5), "drag 4.0 " + juce::String::fromUTF8("kN\xc2\xb7s"));
+    world.onPull("large rubber ball", {0.5, 0.0}, {});
+    const auto& inputs = desk.saved().log.takes.back().inputs;
+    ASSERT_EQ(inputs.size(), 1u);
+    EXPECT_EQ(std::get<ImpulseAction>(inputs[0].action).newtonSeconds.x, 4'000.0);
+    desk.undoManager().undo();
+    desk.dispatchPendingMessages();
+    EXPECT_EQ(strength->getValue(), 32'000.0);
+}
+
+TEST(MixerView, AStripIsTestedAndSweptByButtonAndByKey) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    const auto strikes = [&] { return desk.saved().log.strikes.size(); };
+    auto *strip = find(view, "Strip C"), *sweep = find(view, "Sweep on C");
+    ASSERT_TRUE(strip != nullptr && sweep != nullptr);
+    ASSERT_TRUE(strip->keyPressed(juce::KeyPress{'t'}));
+    EXPECT_EQ(strikes(), 1u);
+    ASSERT_TRUE(strip->keyPressed(juce::KeyPress{'t', juce::ModifierKeys::shiftModifier, 0}));
+    EXPECT_EQ(strikes(), 41u);
+    dynamic_cast<juce::Button&>(*sweep).onClick();
+    EXPECT_EQ(strikes(), 81u);
+    EXPECT_NEAR(desk.saved().log.strikes.back().frequencyHz, 400.0, 1e-6);
+}
+
+TEST(MixerView, APresetIsKnownByItsPlaces) {
+    Mix mix = Desk::firstMix();
+    mix.layout.name = "own"; // as a session that `physvib play` saved
+    Desk desk{onlyNoDevice(), noDevice, mix};
+    MixerView view{desk};
+    const auto* preset = dynamic_cast<juce::ComboBox*>(find(view, "Preset"));
+    ASSERT_NE(preset, nullptr);
+    EXPECT_EQ(preset->getText(), "PHONE4");
+    desk.change("Move A", [](Mix& m) { m.layout.geometry.places[0].xMetres = 0.01, m.layout.name = "phone4"; });
+    desk.dispatchPendingMessages();
+    EXPECT_EQ(preset->getSelectedItemIndex(), -1);
 }
 
 } // namespace

@@ -94,6 +94,17 @@ TEST(Window, APersonsWayThroughTheMixer) {
         EXPECT_NEAR(at.xMetres / 0.12, 0.5, 0.05);
         EXPECT_NEAR(at.yMetres / 0.06, 0.5, 0.08);
 
+        auto* ceiling = dynamic_cast<juce::Slider*>(find(window.view(), "Ceiling of A"));
+        ASSERT_NE(ceiling, nullptr);
+        const auto mark = hand.placeOf(*ceiling, {14.0f, 9.0f});
+        hand.drag(mark, mark.translated(0.0f, 40.0f));
+        EXPECT_LT(window.desk().mix().strips[0].ceilingDb, -15.0);
+        EXPECT_GT(window.desk().mix().strips[0].ceilingDb, -40.0);
+        const double dragged = window.desk().mix().strips[0].ceilingDb;
+        hand.click(*ceiling);
+        hand.click(*ceiling);
+        EXPECT_EQ(window.desk().mix().strips[0].ceilingDb, dragged) << "a click moves nothing";
+
         auto* mute = find(window.view(), "Mute B");
         ASSERT_NE(mute, nullptr);
         hand.click(*mute);
@@ -118,6 +129,7 @@ TEST(Window, APersonsWayThroughTheMixer) {
     ASSERT_EQ(recorded.getNumChannels(), 5);
     EXPECT_EQ(recorded.getMagnitude(1, 0, recorded.getNumSamples()), 0.0f) << "B was muted";
     EXPECT_GT(recorded.getMagnitude(0, recorded.getNumSamples()), 0.0f);
+    EXPECT_LE(recorded.getMagnitude(0, 0, recorded.getNumSamples()), ceilingOf(saved.value.mix->strips[0]));
     const auto events = loadEventsCsv(wav.withFileExtension("csv").getFullPathName().toStdString());
     ASSERT_TRUE(events) << events.error;
     EXPECT_FALSE(events.value.empty());
