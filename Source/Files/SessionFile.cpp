@@ -12,7 +12,6 @@
 #include "Physics/SceneValidation.h"
 #include "Physics/Simulation.h"
 #include <cmath>
-#include <fstream>
 
 namespace physvib {
 namespace {
@@ -196,13 +195,6 @@ Result<SavedSession> readSession(std::string_view text, std::string_view name) {
 
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
     return loadText(path, limits::maxSessionFileBytes, readSession);
-}
-
-// It is the first thing that sessionJson writes, so there is no need to read more.
-bool isSessionFile(const std::filesystem::path& path) {
-    std::string head(64, '\0');
-    std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
-    return head.find(versionField) != std::string::npos;
 }
 
 std::string sessionJson(const SavedSession& session) {

@@ -38,9 +38,6 @@ Result<SavedSession> readSession(std::string_view text, std::string_view name);
 /// The same of a file. M only.
 Result<SavedSession> loadSession(const std::filesystem::path& path);
 
-/// True if the JSON file at `path` says that it is a session. M only.
-bool isSessionFile(const std::filesystem::path& path);
-
 /// The desk as the session left it: its own, or one made of its last scene, layout, gains and mutes. Any thread.
 Mix mixOf(const SavedSession& session);
 

@@ -9,8 +9,8 @@
 
 namespace physvib {
 
-SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs) {
-    SceneEvents all = runTakes(session.log.takes, session.run, endNs);
+SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& goesOn) {
+    SceneEvents all = runTakes(session.log.takes, session.run, endNs, goesOn);
     for (const CollisionEvent& strike : session.log.strikes)
         if (strike.timeNs < endNs) all.events.push_back(strike);
     std::ranges::stable_sort(all.events, {}, &CollisionEvent::timeNs);
@@ -23,12 +23,14 @@ std::string renderSession(const SavedSession& session, const std::string& path, 
     if (!file.error().empty()) return file.error();
     WavSink wav{file.temporaryPath().string(), session.channels, sampleRateHz, comment, path};
     if (!progress(0.0)) return "cancelled";
-    auto events = sessionEvents(session, std::llround(seconds * 1e9)).events;
+    const std::int64_t endNs = std::llround(seconds * 1e9);
+    bool goesOn = true;
+    auto events = sessionEvents(session, endNs, [&](std::int64_t timeNs) { return goesOn = progress(0.5 * static_cast<double>(timeNs) / static_cast<double>(endNs)); }).events;
+    if (!goesOn) return "cancelled";
     std::ranges::transform(events, events.begin(), session.shaping);
     const auto controls = controlsOf(session.log, true, session.channels);
     const std::int64_t frames = std::llround(seconds * sampleRateHz);
     std::int64_t done = 0;
-    bool goesOn = true;
     const RendererSettings renderer{.sampleRateHz = sampleRateHz,
                                     .channels = session.channels,
                                     .panner = session.panner,
@@ -38,7 +40,7 @@ std::string renderSession(const SavedSession& session, const std::string& path, 
     renderOffline(events, {renderer, frames, 1024, controls},
                   [&](const float* const* block, int n) {
                       done += n;
-                      return wav.write(block, n) && (goesOn = progress(static_cast<double>(done) / static_cast<double>(frames)));
+                      return wav.write(block, n) && (goesOn = progress(0.5 + 0.5 * static_cast<double>(done) / static_cast<double>(frames)));
                   });
     if (!goesOn) return "cancelled";
     const auto error = wav.finish();

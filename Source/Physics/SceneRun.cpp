@@ -11,7 +11,7 @@ SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs
     return runTakes({&take, 1}, run, endNs);
 }
 
-SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs) {
+SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn) {
     SceneEvents all;
     for (const SceneTake& take : takes) {
         Simulation world{take.whole(), take.seed, run.stepsPerSecond, run.timing, run.location};
@@ -23,6 +23,7 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
             const std::size_t before = all.events.size();
             world.step(all.events);
             for (std::size_t i = before; i < all.events.size(); ++i) all.events[i].timeNs += originNs;
+            if (goesOn && !goesOn(originNs + world.timeNs())) return all;
         }
         all.drops += world.drops();
     }

@@ -6,6 +6,7 @@
 #include "Physics/SceneTake.h"
 #include "Physics/Simulation.h"
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,12 +27,15 @@ struct SceneEvents {
     std::uint64_t drops = 0;
 };
 
+/// Asked after each step, with the session time that is reached; false: what has been made so far is enough.
+using StepWatch = std::function<bool(std::int64_t timeNs)>;
+
 /// M only. Throws what Simulation throws.
 SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs);
 
 /// The events of a session, again, in session time: of each take up to its end, of the last one all before
 /// `endNs`. `run` gives the step rate; seeds are the takes' own. M only. Throws what Simulation throws.
-SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs);
+SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn = {});
 
 /// Poses of all bodies at the last step not after `timeNs`. M only; simulates from the start.
 std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);

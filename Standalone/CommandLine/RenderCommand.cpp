@@ -4,6 +4,7 @@
 #include "CommandLine/RenderCommand.h"
 #include "CommandLine/RenderJob.h"
 #include "CommandLine/RenderOutputs.h"
+#include "Files/FileKind.h"
 #include "Files/NumberText.h"
 #include "Host/HeardContacts.h"
 #include "Host/OfflineRender.h"
@@ -114,7 +115,7 @@ std::string render(RenderJob& job) {
 int runRender(const RenderOptions& options) {
     RenderJob job{options, {}, {}, {}, {}};
     if (!options.scene.empty()) {
-        const bool isSession = isScenePath(options.scene) && isSessionFile(options.scene);
+        const bool isSession = isScenePath(options.scene) && fileKind(options.scene) == FileKind::session;
         if (const int code = isSession ? takeSession(job) : takeScene(job); code != exitDone) return code;
     }
     if (const std::string error = readInputs(job); !error.empty()) return leave(exitFailed, error);

@@ -99,6 +99,11 @@ void MixerView::setHint(bool isShown) {
     repaint(world_.getBounds());
 }
 
+void MixerView::setDropShown(bool isShown) {
+    isDropShown_ = isShown;
+    repaint();
+}
+
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     setHint(false);
@@ -119,6 +124,10 @@ void MixerView::paint(juce::Graphics& g) {
 }
 
 void MixerView::paintOverChildren(juce::Graphics& g) {
+    if (isDropShown_) {
+        g.setColour(shade(*this, Shade::accent));
+        g.drawRect(getLocalBounds(), 3);
+    }
     if (!isHintShown_) return;
     static const juce::StringArray lines{"Hold the enchanters: they start quietly, a quarter of full scale.", "Drag a ball to throw it. Drag + onto the field to attach another enchanter.",
                                          "Esc silences everything. More is in the menu, at the top left."};

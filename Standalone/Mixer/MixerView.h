@@ -27,6 +27,8 @@ public:
     TabPanel& tabs() noexcept { return tabs_; }
     /// Three lines for those who see the mixer for the first time; a click or a key takes them away.
     void setHint(bool isShown);
+    /// A file that is dragged over the window may be dropped here.
+    void setDropShown(bool isShown);
 
     void mouseDown(const juce::MouseEvent&) override { setHint(false); }
     bool keyPressed(const juce::KeyPress& key) override;
@@ -49,7 +51,7 @@ private:
     StripsPanel strips_;
     juce::Label trouble_;
     std::unique_ptr<juce::TextButton> dismiss_;
-    bool isHintShown_ = false;
+    bool isHintShown_ = false, isDropShown_ = false;
     DeskMoment latest_;
     int restedLooks_ = 0;
     juce::TooltipWindow tooltips_{this, 600};

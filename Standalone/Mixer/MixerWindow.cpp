@@ -2,6 +2,7 @@
 // Documents, keys and menu.
 #include "Mixer/MixerWindow.h"
 #include "Files/AtomicFile.h"
+#include "Files/FileKind.h"
 #include "Files/SceneFile.h"
 #include "Host/NoDevice.h"
 #include "Mixer/RenderTask.h"
@@ -11,10 +12,27 @@ namespace physvib {
 namespace {
 
 constexpr const char* sessionPattern = "*.json";
+constexpr double longestRender = 86'400.0; // as `physvib render` makes at most
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
 const juce::String dots = juce::String::charToString(0x2026);
 
 std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
+
+/// `mix` with the scene or the layout of that file.
+Result<Mix> mixWith(Mix mix, const juce::File& file) {
+    const FileKind kind = fileKind(pathOf(file));
+    if (kind == FileKind::scene) {
+        const auto scene = loadScene(pathOf(file));
+        if (!scene) return Failure{scene.error};
+        mix.scene = std::make_shared<const Scene>(scene.value);
+    } else if (kind == FileKind::layout) {
+        const auto layout = loadLayout(pathOf(file));
+        if (!layout) return Failure{layout.error};
+        mix.layout = layout.value;
+        mix.resizeStrips();
+    } else return Failure{pathOf(file) + ": expected a session, a scene or a layout"};
+    return mix;
+}
 
 } // namespace
 
@@ -26,8 +44,7 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     device_ = {device.isNotEmpty() ? device.toStdString() : settings.getValue("device", juce::String{noDeviceType} + ":" + noDeviceName).toStdString(),
                settings.getIntValue("rate"), settings.getIntValue("block"), settings.getValue("board").toStdString()};
     setUsingNativeTitleBar(true);
-    if (file.existsAsFile()) load(file, file);
-    else play(Desk::firstMix(), file);
+    start(file);
     setResizable(true, false);
     setResizeLimits(MixerView::leastWidth, MixerView::leastHeight, 7680, 4320);
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
@@ -51,6 +68,15 @@ MixerWindow::~MixerWindow() {
     desk_.reset();
 }
 
+// What the command line names is not an edit: there is nothing to save yet.
+void MixerWindow::start(const juce::File& file) {
+    if (!file.existsAsFile()) return play(Desk::firstMix(), file);
+    if (fileKind(pathOf(file)) == FileKind::session) return void(load(file, file));
+    const auto mix = mixWith(Desk::firstMix(), file);
+    play(mix ? mix.value : Desk::firstMix(), {});
+    if (!mix) say(utf8(mix.error));
+}
+
 // Another document is another desk: its session begins at 0, with nothing to undo.
 void MixerWindow::play(Mix mix, const juce::File& document) {
     clearContentComponent();
@@ -68,7 +94,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
             if (safe != nullptr) safe->useBoard(choice);
         });
     };
-    view_->topBar().onOpenScene = [this] { importScene(); };
+    view_->topBar().onOpenScene = [this] { import("Scene"); };
     desk_->onRecorded = [this](const juce::File& file, const juce::String& error) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
@@ -145,7 +171,24 @@ void MixerWindow::newDocument() {
 }
 
 void MixerWindow::openDocument() {
-    chooseFile("Open a session", sessionPattern, false, [this](const juce::File& file) { openDocument(file); });
+    chooseFile("Open a session, a scene or a layout", sessionPattern, false, [this](const juce::File& file) { openFile(file); });
+}
+
+void MixerWindow::openFile(const juce::File& file) {
+    if (fileKind(pathOf(file)) == FileKind::session) return openDocument(file);
+    const auto mix = mixWith(desk_->mix(), file);
+    if (!mix) return say(utf8(mix.error));
+    desk_->edit(file.getFileName(), mix.value);
+}
+
+// Not while a study covers the desk: its stimuli are felt through it.
+bool MixerWindow::isInterestedInFileDrag(const juce::StringArray& files) {
+    return files.size() == 1 && juce::File{files[0]}.hasFileExtension("json") && view_->world().isVisible();
+}
+
+void MixerWindow::filesDropped(const juce::StringArray& files, int, int) {
+    view_->setDropShown(false);
+    openFile(juce::File{files[0]});
 }
 
 void MixerWindow::openDocument(const juce::File& file) {
@@ -185,20 +228,23 @@ void MixerWindow::record() {
 }
 
 void MixerWindow::renderOffline() {
-    chooseFile("Render the session to", "*.wav", true, [this](const juce::File& file) {
-        rendering_ = std::make_unique<RenderTask>(desk_->saved(), file.withFileExtension("wav"), std::max(8000, desk_->output().sampleRateHz()), [this](const juce::String& words, bool isGood) { isGood ? desk_->tell(words) : say(words); }, *view_);
-    });
+    const double played = 1e-9 * static_cast<double>(desk_->saved().lengthNs);
+    auto* window = new juce::AlertWindow{"Render the session", "It was played for " + number(played, 1) + " s. Beyond that its last scene goes on by itself.", juce::MessageBoxIconType::NoIcon, view_.get()};
+    window->addTextEditor("seconds", number(std::ceil(10.0 * played) / 10.0, 1), "Seconds");
+    window->getTextEditor("seconds")->setInputRestrictions(8, "0123456789.");
+    window->addButton("Choose a file" + dots, 1, juce::KeyPress{juce::KeyPress::returnKey});
+    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
+    window->enterModalState(true, juce::ModalCallbackFunction::create([this, window](int answer) {
+        const double seconds = window->getTextEditorContents("seconds").getDoubleValue();
+        if (answer == 0) return;
+        if (!(seconds >= 0.1 && seconds <= longestRender)) return say("Seconds to render: expected 0.1 to " + number(longestRender, 0));
+        chooseFile("Render the session to", "*.wav", true, [this, seconds](const juce::File& file) { renderTo(file.withFileExtension("wav"), seconds); });
+    }), true);
 }
 
-void MixerWindow::importLayout() {
-    chooseFile("Layout of enchanters", sessionPattern, false, [this](const juce::File& file) {
-        const auto layout = loadLayout(pathOf(file));
-        if (!layout) return say(utf8(layout.error));
-        desk_->change("Layout", [&](Mix& mix) {
-            mix.layout = layout.value;
-            mix.resizeStrips();
-        });
-    });
+void MixerWindow::renderTo(const juce::File& file, double seconds) {
+    rendering_ = std::make_unique<RenderTask>(desk_->saved(), seconds, file, std::max(8000, desk_->output().sampleRateHz()),
+                                              [this](const juce::String& words, bool isGood) { isGood ? desk_->tell(words) : say(words); }, *view_);
 }
 
 void MixerWindow::exportLayout() {
@@ -207,12 +253,8 @@ void MixerWindow::exportLayout() {
     });
 }
 
-void MixerWindow::importScene() {
-    chooseFile("Scene", sessionPattern, false, [this](const juce::File& file) {
-        const auto scene = loadScene(pathOf(file));
-        if (!scene) return say(utf8(scene.error));
-        desk_->change("Scene", [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene.value); });
-    });
+void MixerWindow::import(const juce::String& title) {
+    chooseFile(title, sessionPattern, false, [this](const juce::File& file) { openFile(file); });
 }
 
 void MixerWindow::requestQuit() {
@@ -276,8 +318,8 @@ void MixerWindow::showMenu(juce::Component& from) {
     item(undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z", [&undo] { undo.undo(); }, undo.canUndo());
     item(undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z", [&undo] { undo.redo(); }, undo.canRedo());
     menu.addSeparator();
-    item("Scene" + dots, {}, [this] { importScene(); });
-    item("Layout" + dots, {}, [this] { importLayout(); });
+    item("Scene" + dots, {}, [this] { import("Scene"); });
+    item("Layout" + dots, {}, [this] { import("Layout of enchanters"); });
     item("Save the layout" + dots, {}, [this] { exportLayout(); });
     menu.addSeparator();
     item(desk_->isRecording() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });

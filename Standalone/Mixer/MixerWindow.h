@@ -6,9 +6,9 @@
 
 namespace physvib {
 
-class MixerWindow final : public juce::DocumentWindow, private juce::Timer {
+class MixerWindow final : public juce::DocumentWindow, public juce::FileDragAndDropTarget, private juce::Timer {
 public:
-    /// `file` is opened, or will be made when it is saved; none: a new session. A device that is named replaces the one
+    /// `file` is opened (see openFile), or will be made when it is saved; none: a new session. A device that is named replaces the one
     /// of the settings.
     MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file, const juce::File& folder = mixerFolder());
     ~MixerWindow() override;
@@ -17,13 +17,15 @@ public:
     void newDocument();
     void openDocument();
     void openDocument(const juce::File& file); ///< asks first if something would be lost
+    /// A session is opened, a scene or layout taken over; what is neither is told.
+    void openFile(const juce::File& file);
     void save();
     void saveAs();
     void record(); ///< starts or ends
-    void renderOffline();
-    void importLayout();
+    void renderOffline();            ///< asks for the length and the file
+    void renderTo(const juce::File& file, double seconds);
+    void import(const juce::String& title); ///< a scene or a layout
     void exportLayout();
-    void importScene();
     /// Asks if something would be lost, then quits.
     void requestQuit();
 
@@ -35,9 +37,14 @@ public:
 
     void closeButtonPressed() override { requestQuit(); }
     bool keyPressed(const juce::KeyPress& key) override;
+    bool isInterestedInFileDrag(const juce::StringArray& files) override;
+    void fileDragEnter(const juce::StringArray&, int, int) override { view_->setDropShown(true); }
+    void fileDragExit(const juce::StringArray&) override { view_->setDropShown(false); }
+    void filesDropped(const juce::StringArray& files, int, int) override;
 
 private:
     void timerCallback() override;
+    void start(const juce::File& file);
     void play(Mix mix, const juce::File& document);
     bool load(const juce::File& file, const juce::File& document);
     void useBoard(const DeviceChoice& choice);

@@ -4,9 +4,10 @@
 
 namespace physvib {
 
-RenderTask::RenderTask(const SavedSession& session, const juce::File& file, int sampleRateHz, Done done, juce::Component& over)
+RenderTask::RenderTask(const SavedSession& session, double seconds, const juce::File& file, int sampleRateHz, Done done, juce::Component& over)
     : juce::ThreadWithProgressWindow{"Rendering " + file.getFileName(), true, true, 10'000, "Cancel", &over}
     , session_{session}
+    , seconds_{seconds}
     , file_{file}
     , sampleRateHz_{sampleRateHz}
     , done_{std::move(done)} {
@@ -14,8 +15,7 @@ RenderTask::RenderTask(const SavedSession& session, const juce::File& file, int 
 }
 
 void RenderTask::run() {
-    const double seconds = 1e-9 * static_cast<double>(session_.lengthNs);
-    error_ = renderSession(session_, file_.getFullPathName().toStdString(), sampleRateHz_, seconds, "physvib " PHYSVIB_VERSION, [this](double share) {
+    error_ = renderSession(session_, file_.getFullPathName().toStdString(), sampleRateHz_, seconds_, "physvib " PHYSVIB_VERSION, [this](double share) {
         setProgress(share);
         return !threadShouldExit();
     });

@@ -11,15 +11,16 @@ class RenderTask final : public juce::ThreadWithProgressWindow {
 public:
     using Done = std::function<void(const juce::String& words, bool isGood)>;
 
-    RenderTask(const SavedSession& session, const juce::File& file, int sampleRateHz, Done done, juce::Component& over);
+    /// `seconds` of it: beyond what was played the last scene goes on by itself.
+    RenderTask(const SavedSession& session, double seconds, const juce::File& file, int sampleRateHz, Done done, juce::Component& over);
     ~RenderTask() override { stopThread(-1); }
 
-    /// Renders the session as long as it was played.
     void run() override;
     void threadComplete(bool userPressedCancel) override;
 
 private:
     const SavedSession session_;
+    const double seconds_;
     const juce::File file_;
     const int sampleRateHz_;
     const Done done_;

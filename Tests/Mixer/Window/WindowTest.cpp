@@ -2,6 +2,8 @@
 // A person's way through the mixer in a real window: start, drag a ball, attach a fifth enchanter, mute, record, save,
 // open again; the recorded file has what the actions say.
 #include "../MixerTesting.h"
+#include "Files/SceneCatalogue.h"
+#include "Files/SceneFile.h"
 #include "Host/OfflineRender.h"
 #include "Host/SessionRender.h"
 #include "Mixer/MaterialShots.h"
@@ -60,6 +62,12 @@ juce::AudioBuffer<float> samplesOf(const juce::File& file) {
     juce::AudioBuffer<float> samples{static_cast<int>(reader->numChannels), static_cast<int>(reader->lengthInSamples)};
     reader->read(&samples, 0, samples.getNumSamples(), 0, true, true);
     return samples;
+}
+
+EnchanterLayout presetOf(std::string_view name) {
+    EnchanterLayout layout;
+    EXPECT_TRUE(layoutPreset(name, layout));
+    return layout;
 }
 
 TEST(Window, APersonsWayThroughTheMixer) {
@@ -202,6 +210,77 @@ TEST(Window, ABrokenSessionIsNamedAndNothingIsLost) {
     EXPECT_TRUE(broken.desk().trouble().contains("broken.json: seconds: ")) << broken.desk().trouble();
     EXPECT_EQ(broken.document(), juce::File{}) << "saving would replace the broken file";
     EXPECT_TRUE(runUntil([&] { return broken.desk().look().session.render.played > 3; })) << "the mixer plays on";
+}
+
+TEST(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
+    TestFolder folder;
+    Scene scene = *findBuiltInScene("drop");
+    scene.name = "mine";
+    folder("scene.json").replaceWithText(sceneJson(scene));
+    folder("layout.json").replaceWithText(layoutJson(describeLayout("three", presetOf("ring3"))));
+    folder("other.json").replaceWithText("{}");
+    const auto start = [&](const char* name) { return std::make_unique<MixerWindow>(onlyNoDevice(), "None:no device", folder(name), folder("config")); };
+    auto window = start("scene.json");
+    EXPECT_EQ(window->desk().mix().scene->name, "mine");
+    EXPECT_EQ(window->document(), juce::File{}) << "saving would replace the scene";
+    EXPECT_FALSE(window->isChanged());
+    window = start("layout.json");
+    EXPECT_EQ(window->desk().mix().count(), 3);
+    EXPECT_EQ(window->desk().mix().strips.size(), 3u);
+    window = start("other.json");
+    EXPECT_TRUE(window->desk().trouble().endsWith("other.json: expected a session, a scene or a layout")) << window->desk().trouble();
+    window->desk().report({});
+
+    const auto drop = [&](const char* name) {
+        const juce::StringArray files{folder(name).getFullPathName()};
+        EXPECT_TRUE(window->isInterestedInFileDrag(files));
+        window->fileDragEnter(files, 100, 100);
+        window->filesDropped(files, 100, 100);
+    };
+    EXPECT_FALSE(window->isInterestedInFileDrag({folder("take.wav").getFullPathName()})) << "recordings are for others";
+    drop("other.json");
+    EXPECT_TRUE(window->desk().trouble().contains("other.json"));
+    drop("scene.json");
+    EXPECT_EQ(window->desk().mix().scene->name, "mine");
+    drop("layout.json");
+    EXPECT_EQ(window->desk().mix().count(), 3);
+    window->desk().undoManager().undo();
+    window->desk().undoManager().undo();
+    EXPECT_EQ(window->desk().mix().scene->name, "shake-the-box");
+    EXPECT_EQ(window->desk().mix().count(), 4);
+
+    window->desk().change("Level", [](Mix& mix) { mix.levelDb = -30.0; });
+    folder("session.json").replaceWithText(sessionJson(window->desk().saved()));
+    window = start("session.json");
+    EXPECT_EQ(window->desk().mix().levelDb, -30.0);
+    EXPECT_EQ(window->document(), folder("session.json"));
+}
+
+TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesNothing) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    auto& desk = window.desk();
+    ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 500'000'000; }));
+    const auto before = desk.look().session.sessionNs;
+    window.renderTo(folder("long.wav"), 20.0);
+    ASSERT_TRUE(runUntil([&] { return desk.isNews() && desk.trouble().contains("long.wav"); }, 60.0)) << desk.trouble();
+    EXPECT_GT(desk.look().session.sessionNs, before);
+    const auto samples = samplesOf(folder("long.wav"));
+    EXPECT_EQ(samples.getNumSamples(), 20 * 48000);
+    EXPECT_GT(samples.getMagnitude(18 * 48000, 2 * 48000), 0.0f) << "the box is shaken on";
+
+    window.renderTo(folder("cancelled.wav"), 86'400.0);
+    juce::Button* cancel = nullptr;
+    ASSERT_TRUE(runUntil([&] {
+        auto* shown = juce::Component::getCurrentlyModalComponent();
+        for (int k = 0; shown != nullptr && k < shown->getNumChildComponents(); ++k)
+            if (auto* button = dynamic_cast<juce::Button*>(shown->getChildComponent(k))) cancel = button;
+        return cancel != nullptr;
+    }));
+    runFor(0.3);
+    cancel->triggerClick();
+    EXPECT_TRUE(runUntil([&] { return desk.trouble().contains("cancelled"); })) << desk.trouble();
+    EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "*cancelled*"), 0);
 }
 
 TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
