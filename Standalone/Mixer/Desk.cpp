@@ -16,7 +16,7 @@ namespace {
 constexpr int stepsPerSecond = 100;
 constexpr double gapSeconds = 0.005; // the driver's thread shares the machine with painting
 constexpr double boardSeconds = 0.05; // the link needs 20 to 40 ms; more than that is told as trouble
-constexpr double holdMs = 1500.0, maintainMs = 1000.0;
+constexpr double holdMs = 1500.0, maintainMs = 1000.0, boardPatienceMs = 2000.0; // greeting and clock take half a second
 constexpr double newStripDb = -12.0; // hands are attached
 constexpr double strikeAmplitude = 0.5; // of pulses and auditions, in front of strip, ceiling and master
 
@@ -136,6 +136,7 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     if (!device.board.empty()) {
         link_ = std::make_unique<BoardLink>(device.board == anyBoard ? std::string{} : device.board);
         onBoard_ = std::make_unique<BoardOutput>(session_, output_, *link_, mix_.panner());
+        boardReadyAtMs_ = nowMs();
     }
     driver_ = std::make_unique<ThreadDriver>(session_, stepsPerSecond);
 }
@@ -416,6 +417,25 @@ std::string Desk::hear(const ListeningSettings& listening) {
     return error;
 }
 
+juce::String Desk::outputTrouble() {
+    const auto device = utf8Text(output_.maintain()), board = boardTrouble();
+    return device.isEmpty() || board.isEmpty() ? device + board : device + "; " + board;
+}
+
+// Without a port of its own the link tries one after the other: what it says of each would only flicker.
+juce::String Desk::boardTrouble() {
+    const auto status = board();
+    if (!status) return {};
+    if (status->state == BoardLinkStatus::State::ready) {
+        boardReadyAtMs_ = nowMs();
+        if (status->playOutMs <= 1e3 * boardSeconds) return {};
+        return "The board needs its strikes " + juce::String{status->playOutMs, 0} + " ms before they are felt; the session allows for " + juce::String{1e3 * boardSeconds, 0};
+    }
+    if (nowMs() - boardReadyAtMs_ < boardPatienceMs && status->connections == 0) return {};
+    if (device_.board == anyBoard) return status->connections > 0 ? "The board is gone; it is looked for on every serial port" : "No board answers on any serial port";
+    return "The board at " + utf8Text(device_.board) + (status->connections > 0 ? " is gone" : " does not answer") + "; it is looked for twice a second";
+}
+
 void Desk::setSilent(bool silent) {
     isSilent_ = silent;
     output_.setSilent(silent);
@@ -478,7 +498,7 @@ DeskMoment Desk::look() {
     now_.aheadNs = static_cast<std::int64_t>(1e9 * playOutSeconds());
     if (now - maintainedAtMs_ > maintainMs) {
         maintainedAtMs_ = now;
-        if (const auto trouble = utf8Text(output_.maintain()); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
+        if (const auto trouble = outputTrouble(); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
     }
     return now_;
 }

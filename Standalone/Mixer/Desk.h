@@ -135,6 +135,8 @@ private:
     class WorldEdit;
     std::vector<Action> undoOf(const Action& action) const;
     Action renamed(const Action& action);
+    juce::String outputTrouble();
+    juce::String boardTrouble();
     void finishRecording();
     void showEdit(const Action& action);
     void takeScene(bool keepsSounds);
@@ -170,7 +172,7 @@ private:
     ScopeTrace scope_;
     DeskMoment now_;
     std::array<double, limits::maxEnchanters> heldAtMs_{};
-    double lookedAtMs_ = 0.0, maintainedAtMs_ = 0.0;
+    double lookedAtMs_ = 0.0, maintainedAtMs_ = 0.0, boardReadyAtMs_ = 0.0;
 };
 
 /// Names of built-in scenes as people write them: "shake-the-box" as "Shake the box".

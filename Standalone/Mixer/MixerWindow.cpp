@@ -111,6 +111,7 @@ void MixerWindow::useBoard(const DeviceChoice& choice) {
         device_ = choice;
         files_.settings().setValue("board", utf8(choice.board));
         play(Mix{desk_->mix()}, document_);
+        view_->tabs().choose("Output"); // where it was chosen
     });
 }
 

@@ -11,6 +11,7 @@ namespace {
 constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr int factRow = 26;
+constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
 
 void caption(juce::Label& label, const juce::String& words) {
     label.setText(words, juce::dontSendNotification);
@@ -49,19 +50,27 @@ void OutputTab::visibilityChanged() {
 
 void OutputTab::scan() {
     found_ = listAudioDevices(desk_.deviceTypes());
-    ports_.clear();
-    board_.clear(juce::dontSendNotification);
-    board_.addItem("none", 1);
-    board_.addItem("the first that answers", 2);
-    for (const auto& port : listSerialPorts()) {
-        ports_.push_back(port.path);
-        board_.addItem(utf8(port.path) + "  " + utf8(port.description), static_cast<int>(ports_.size()) + 2);
-    }
-    const auto& wanted = desk_.device().board;
-    const auto at = std::ranges::find(ports_, wanted);
-    board_.setSelectedId(wanted.empty() ? 1 : at == ports_.end() ? 2 : static_cast<int>(at - ports_.begin()) + 3, juce::dontSendNotification);
+    listPorts();
     isScanned_ = true;
     takeMix();
+}
+
+// The one that is wanted stands there even if it does not.
+void OutputTab::listPorts() {
+    const auto& wanted = desk_.device().board;
+    ports_.clear();
+    board_.clear(juce::dontSendNotification);
+    board_.addItem("none", noBoardId);
+    board_.addItem("the first that answers", anyBoardId);
+    const auto add = [this](const std::string& path, const std::string& about) {
+        board_.addItem(utf8(path) + "  " + utf8(about), firstPortId + static_cast<int>(ports_.size()));
+        ports_.push_back(path);
+    };
+    for (const auto& port : listSerialPorts()) add(port.path, port.description);
+    if (!wanted.empty() && wanted != anyBoard && std::ranges::find(ports_, wanted) == ports_.end()) add(wanted, "");
+    board_.addItem("another port" + juce::String::charToString(0x2026), otherPortId);
+    const auto at = std::ranges::find(ports_, wanted);
+    board_.setSelectedId(wanted.empty() ? noBoardId : wanted == anyBoard ? anyBoardId : firstPortId + static_cast<int>(at - ports_.begin()), juce::dontSendNotification);
 }
 
 void OutputTab::open() {
@@ -76,8 +85,25 @@ void OutputTab::open() {
 
 void OutputTab::connectBoard() {
     const int id = board_.getSelectedId();
+    if (id == otherPortId) return askPort();
+    useBoard(id == anyBoardId ? std::string{anyBoard} : id >= firstPortId ? ports_[static_cast<std::size_t>(id - firstPortId)] : std::string{});
+}
+
+void OutputTab::askPort() {
+    listPorts(); // shows what is still so
+    auto* window = new juce::AlertWindow{"Four-channel board", {}, juce::MessageBoxIconType::NoIcon, this};
+    window->addTextEditor("port", utf8(desk_.device().board), "Serial port");
+    window->addButton("Connect", 1, juce::KeyPress{juce::KeyPress::returnKey});
+    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
+    window->enterModalState(true, juce::ModalCallbackFunction::create([safe = juce::Component::SafePointer<OutputTab>{this}, window](int answer) {
+        const auto port = window->getTextEditorContents("port").trim().toStdString();
+        if (answer == 1 && safe != nullptr && !port.empty()) safe->useBoard(port);
+    }), true);
+}
+
+void OutputTab::useBoard(const std::string& port) {
     DeviceChoice choice = desk_.device();
-    choice.board = id <= 1 ? std::string{} : id == 2 ? std::string{anyBoard} : ports_[static_cast<std::size_t>(id - 3)];
+    choice.board = port;
     if (choice.board != desk_.device().board && desk_.onBoardWanted) desk_.onBoardWanted(choice);
 }
 

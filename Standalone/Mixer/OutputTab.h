@@ -25,6 +25,9 @@ private:
 
     Desk& desk_;
     void connectBoard();
+    void askPort();
+    void useBoard(const std::string& port);
+    void listPorts();
     juce::String boardState(Shade& shade) const;
 
     juce::ComboBox device_, rate_, block_, board_;

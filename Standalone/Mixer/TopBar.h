@@ -31,7 +31,7 @@ private:
     juce::ComboBox scene_;
     SignButton pause_{Sign::pause, "Pause the world"}, step_{Sign::step, "One step of the world"}, restart_{Sign::restart, "Start the scene anew"};
     juce::Label seedName_, seed_, time_;
-    TwoLines device_{"Device"}, board_{"Board"}, load_{"Load"};
+    TwoLines device_{"Device state"}, board_{"Board state"}, load_{"Load"};
 };
 
 } // namespace physvib
