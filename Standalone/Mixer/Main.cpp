@@ -10,7 +10,8 @@ namespace physvib {
 namespace {
 
 constexpr int exitFailed = 1, exitUsage = 2;
-constexpr const char* usage = R"(physvib-mixer [SESSION.json] [--device TYPE:NAME]
+constexpr const char* usage = R"(physvib-mixer [SESSION.json | SCENE.json | LAYOUT.json] [--device TYPE:NAME] [--summary]
+    --summary: at the end, what the last session played, late and dropped
 physvib-mixer --shot FILE.png [--state NAME]   a picture of the window, without a display
 physvib-mixer --states | --help | --version
 )";
@@ -43,6 +44,14 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     return std::cerr << "physvib-mixer: " << error << '\n', error.startsWith("--") ? exitUsage : exitFailed;
 }
 
+void summarise(Desk& desk) {
+    const auto moment = desk.look();
+    const auto& r = moment.session.render;
+    std::cout << "session of " << number(1e-9 * static_cast<double>(moment.session.sessionNs), 1) << " s: " << r.played << " collisions played, " << r.late << " late, "
+              << desk.session().drops() + r.untold << " dropped, " << number(1e-6 * static_cast<double>(desk.session().slippedNs()), 0) << " ms of stalls; worst load "
+              << number(100.0 * moment.device.worstLoad, 1) << " %" << std::endl;
+}
+
 class MixerApplication final : public juce::JUCEApplication {
 public:
     const juce::String getApplicationName() override { return "PhysVib mixer"; }
@@ -52,16 +61,21 @@ public:
     void initialise(const juce::String&) override {
         const juce::ArgumentList arguments{"physvib-mixer", getCommandLineParameterArray()};
         const auto device = valueOf(arguments, "--device");
+        hasSummary_ = arguments.containsOption("--summary");
         juce::File file;
         for (int k = 0; k < arguments.size(); ++k)
             if (!arguments[k].isOption() && (k == 0 || arguments[k - 1].text != "--device")) file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[k].text);
         window_ = std::make_unique<MixerWindow>(deviceTypes(), device, file);
     }
-    void shutdown() override { window_.reset(); }
+    void shutdown() override {
+        if (hasSummary_) summarise(window_->desk());
+        window_.reset();
+    }
     void systemRequestedQuit() override { window_->requestQuit(); }
 
 private:
     std::unique_ptr<MixerWindow> window_;
+    bool hasSummary_ = false;
 };
 
 juce::JUCEApplicationBase* makeApplication() { return new MixerApplication; }
