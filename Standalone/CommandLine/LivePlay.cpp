@@ -3,9 +3,8 @@
 #include "CommandLine/LivePlay.h"
 #include "CommandLine/BoardStatus.h"
 #include "CommandLine/InputListener.h"
-#include "Files/AtomicFile.h"
 #include "Host/BoardOutput.h"
-#include "Host/PlayedRecorder.h"
+#include "Host/Recording.h"
 #include "Host/SessionJournal.h"
 #include "Host/SimulationDriver.h"
 #include <cmath>
@@ -107,20 +106,6 @@ std::unique_ptr<SimulationDriver> makeDriver(const LivePlay& wanted, Session& se
     return std::make_unique<MessageTimerDriver>(session);
 }
 
-// The recording, from an opened device to a file in its place.
-struct Recording {
-    AtomicFile file;
-    PlayedRecorder recorder;
-    Recording(const std::string& path, int channels, int rateHz)
-        : file{path}
-        , recorder{file.error().empty() ? file.temporaryPath().string() : "", channels, rateHz} {}
-    std::string finish() {
-        if (recorder.framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recorder.framesLost() << '\n';
-        const std::string error = recorder.finish();
-        return error.empty() ? file.commit() : error;
-    }
-};
-
 } // namespace
 
 std::string playLive(LivePlay wanted) {
@@ -134,14 +119,14 @@ std::string playLive(LivePlay wanted) {
     }
     const wire::Telemetry before = board ? board->status().telemetry : wire::Telemetry{};
     Session session{wanted.setup};
-    std::optional<Recording> recording; // outlives the output, whose callback fills it
+    std::optional<WavRecording> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
     AudioOutput output{session};
     if (auto error = output.open(wanted.output); !error.empty()) return error;
     if (!wanted.recordPath.empty()) {
         recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
-        if (!recording->file.error().empty()) return recording->file.error();
-        output.record(&recording->recorder);
+        if (!recording->error().empty()) return recording->error();
+        output.record(&recording->recorder());
     }
     if (!wanted.savePath.empty()) {
         const Provenance provenance{PHYSVIB_VERSION, {{"scene", wanted.setup.scene.name}, {"session", wanted.savePath}}};
@@ -155,7 +140,7 @@ std::string playLive(LivePlay wanted) {
         const auto driver = makeDriver(wanted, session);
         std::optional<InputListener> listener;
         if (wanted.listens) listener.emplace(session, output);
-        Watch watch{session, output, board ? &*board : nullptr, recording ? &recording->recorder : nullptr, journal ? &*journal : nullptr, wanted.seconds};
+        Watch watch{session, output, board ? &*board : nullptr, recording ? &recording->recorder() : nullptr, journal ? &*journal : nullptr, wanted.seconds};
         juce::MessageManager::getInstance()->runDispatchLoop();
         played = watch.played();
     }
@@ -164,6 +149,7 @@ std::string playLive(LivePlay wanted) {
     output.close();
     const std::string trouble = board ? reportBoard(*board, before) : "";
     if (journal && !journal->error().empty()) return journal->error();
+    if (recording && recording->recorder().framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recording->recorder().framesLost() << '\n';
     const std::string error = recording ? recording->finish() : "";
     return error.empty() ? trouble : error;
 }
