@@ -408,6 +408,7 @@ std::string Desk::open(const DeviceChoice& device) {
     device_ = device;
     report(deviceTrouble_ = utf8Text(error));
     scope_.setRate(output_.sampleRateHz());
+    spectrum_.setRate(output_.sampleRateHz());
     return error;
 }
 
@@ -462,6 +463,7 @@ void Desk::tell(const juce::String& news) {
 void Desk::measure(const float* const* block, int frames) {
     const int heard = mix_.count();
     scope_.add(block, heard, frames);
+    spectrum_.add(block, heard, frames);
     for (int j = 0; j < heard; ++j) {
         const auto range = juce::FloatVectorOperations::findMinAndMax(block[j], frames);
         const float peak = std::max(-range.getStart(), range.getEnd());
@@ -481,8 +483,10 @@ DeskMoment Desk::look() {
     now_.hits.clear();
     for (PlayedEvent played; session_.played().pop(played);) {
         now_.hits.push_back(played.event);
+        recent_.push_front(played.event);
         if (recording_) recording_->take(played);
     }
+    if (recent_.size() > mostRecent) recent_.resize(mostRecent);
     if (recording_) finishRecording();
     now_.meters.limiterGain = now_.session.render.limiterGain;
     now_.meters.enchanters = mix_.count();

@@ -10,7 +10,9 @@
 #include "Files/SessionFile.h"
 #include "Host/BoardOutput.h"
 #include "Mixer/ScopeTrace.h"
+#include "Mixer/SpectrumTrace.h"
 #include <juce_data_structures/juce_data_structures.h>
+#include <deque>
 #include <memory>
 #include <functional>
 #include <optional>
@@ -92,6 +94,7 @@ public:
     void testPulse(int enchanter);
     void testSweep(int enchanter);
     Session& session() noexcept { return session_; }
+    const Session& session() const noexcept { return session_; }
 
     // ---- the recording
     /// WAV of the enchanters that are attached now, and the events beside it; empty, or why not.
@@ -107,6 +110,7 @@ public:
     const DeviceChoice& device() const noexcept { return device_; }
     const AudioDeviceTypes& deviceTypes() const noexcept { return types_; }
     AudioOutput& output() noexcept { return output_; }
+    const AudioOutput& output() const noexcept { return output_; }
     int outputs() const { return output_.deviceOutputs(); } ///< that the device offers
     /// On outputs that are no strip's, e.g. noise on headphones; empty, or why not, and all is as before.
     std::string hear(const ListeningSettings& listening);
@@ -124,6 +128,11 @@ public:
     /// What is new; at most about 30 times a second.
     DeskMoment look();
     const ScopeTrace& scope() const noexcept { return scope_; }
+    const SpectrumTrace& spectrum() const noexcept { return spectrum_; }
+    /// The last that were played, the newest first.
+    static constexpr std::size_t mostRecent = 100;
+    const std::deque<CollisionEvent>& recent() const noexcept { return recent_; }
+    std::uint64_t scopeFramesLost() const noexcept { return tap_.framesLost(); }
     const juce::String& trouble() const noexcept { return trouble_; } ///< one line; empty while all is well
     void report(const juce::String& trouble);
     /// What went well, told in the same place.
@@ -170,6 +179,8 @@ private:
     std::uint64_t endsAfterBlock_ = 0;
 
     ScopeTrace scope_;
+    SpectrumTrace spectrum_;
+    std::deque<CollisionEvent> recent_;
     DeskMoment now_;
     std::array<double, limits::maxEnchanters> heldAtMs_{};
     double lookedAtMs_ = 0.0, maintainedAtMs_ = 0.0, boardReadyAtMs_ = 0.0;

@@ -15,13 +15,12 @@ SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, 
     const double half = 0.5 / (FrequencyAxis::points - 1), last = static_cast<double>(magnitudes.size()) - 1.0;
     for (int k = 0; k < FrequencyAxis::points; ++k) {
         const double share = static_cast<double>(k) / (FrequencyAxis::points - 1);
-        const double from = std::min(last, FrequencyAxis::hzAt(share - half) / binHz), to = std::min(last, FrequencyAxis::hzAt(share + half) / binHz);
-        double highest = 0.0;
+        const double from = FrequencyAxis::hzAt(share - half) / binHz, to = std::min(last, FrequencyAxis::hzAt(share + half) / binHz);
         const auto between = [&](double bin) { // low points are finer than bins
             const auto i = static_cast<std::size_t>(bin);
             return i + 1 < magnitudes.size() ? std::lerp(magnitudes[i], magnitudes[i + 1], bin - static_cast<double>(i)) : 0.0;
         };
-        highest = std::max(between(from), between(to));
+        double highest = std::max(between(from), between(to));
         for (auto i = static_cast<std::size_t>(std::ceil(from)); i <= static_cast<std::size_t>(to); ++i) highest = std::max(highest, magnitudes[i]);
         const double db = 20.0 * std::log10(std::max(highest / fullScale, 1e-9));
         levels[static_cast<std::size_t>(k)] = std::max(FrequencyAxis::floorDb, static_cast<float>(db));

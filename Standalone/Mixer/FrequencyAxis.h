@@ -11,7 +11,7 @@ namespace physvib {
 struct FrequencyAxis {
     static constexpr double lowHz = 20.0, highHz = 1000.0;
     static constexpr int points = 160;
-    static constexpr float floorDb = -60.0f; ///< what is lower is not shown
+    static constexpr float floorDb = -80.0f; ///< what is lower is not shown
 
     /// 0 to 1 from the left; outside for what is not felt.
     static double shareOf(double hz);

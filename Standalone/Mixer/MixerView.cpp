@@ -2,9 +2,12 @@
 // Places of the panels, keys, and 30 pictures a second.
 #include "Mixer/MixerView.h"
 #include "Mixer/EnchantersTab.h"
+#include "Mixer/EventsTab.h"
 #include "Mixer/MaterialsTab.h"
 #include "Mixer/OutputTab.h"
+#include "Mixer/ScopeView.h"
 #include "Mixer/StudiesTab.h"
+#include "Mixer/TelemetryTab.h"
 
 namespace physvib {
 
@@ -18,7 +21,6 @@ MixerView::MixerView(Desk& desk)
     : desk_{desk}
     , bar_{desk}
     , world_{desk}
-    , scope_{desk}
     , strips_{desk} {
     setLookAndFeel(&look_);
     setOpaque(true);
@@ -28,6 +30,9 @@ MixerView::MixerView(Desk& desk)
     tabs_.add("Materials", std::make_unique<MaterialsTab>(desk, world_.view()));
     tabs_.add("Output", std::make_unique<OutputTab>(desk));
     tabs_.add("Studies", std::make_unique<StudiesTab>(desk));
+    scope_.add("Played now", std::make_unique<ScopeView>(desk));
+    scope_.add("Events", std::make_unique<EventsTab>(desk));
+    scope_.add("Telemetry", std::make_unique<TelemetryTab>(desk));
     trouble_.setTitle("Trouble");
     trouble_.setBorderSize({0, panelInset, 0, panelInset});
     trouble_.setFont(juce::Font{text::medium});
@@ -63,7 +68,7 @@ void MixerView::takeMix() {
     world_.takeMix();
     tabs_.takeMix();
     strips_.takeMix();
-    scope_.repaint();
+    scope_.takeMix();
     const bool isTrouble = desk_.trouble().isNotEmpty();
     trouble_.setText(desk_.trouble(), juce::dontSendNotification);
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
@@ -79,7 +84,7 @@ void MixerView::refresh() {
     bar_.refresh(latest_);
     world_.refresh(latest_);
     tabs_.refresh(latest_);
-    scope_.refresh();
+    scope_.refresh(latest_);
     strips_.refresh(latest_);
     keepPace();
 }

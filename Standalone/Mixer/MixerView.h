@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All of the mixer's window: the bar, the world, the tabs, the scope and the strips.
 #pragma once
-#include "Mixer/ScopeView.h"
 #include "Mixer/StripsPanel.h"
 #include "Mixer/TabPanel.h"
 #include "Mixer/TopBar.h"
@@ -25,6 +24,7 @@ public:
     TopBar& topBar() noexcept { return bar_; }
     WorldPanel& world() noexcept { return world_; }
     TabPanel& tabs() noexcept { return tabs_; }
+    TabPanel& scope() noexcept { return scope_; }
     /// Three lines for those who see the mixer for the first time; a click or a key takes them away.
     void setHint(bool isShown);
     /// A file that is dragged over the window may be dropped here.
@@ -46,8 +46,7 @@ private:
     Look look_;
     TopBar bar_;
     WorldPanel world_;
-    TabPanel tabs_;
-    ScopeView scope_;
+    TabPanel tabs_{"Tabs"}, scope_{"Scope"};
     StripsPanel strips_;
     juce::Label trouble_;
     std::unique_ptr<juce::TextButton> dismiss_;

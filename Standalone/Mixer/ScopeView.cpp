@@ -7,14 +7,16 @@ namespace physvib {
 
 namespace {
 
-constexpr int headHeight = 22, mostLanes = 8, labelWidth = 26;
+constexpr int footHeight = 16, mostLanes = SpectrumView::mostCurves, labelWidth = 26, between = 6;
 
 float shownLevel(float sample) { return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample); }
 
 } // namespace
 
 ScopeView::ScopeView(Desk& desk)
-    : desk_{desk} {
+    : desk_{desk}
+    , spectrum_{desk} {
+    addAndMakeVisible(spectrum_);
     setTitle("Played now");
     setDescription("Waveforms of the last second, one lane per enchanter");
 }
@@ -28,13 +30,14 @@ bool ScopeView::isQuiet() const {
     return true;
 }
 
-void ScopeView::refresh() {
+void ScopeView::refresh(const DeskMoment&) {
+    spectrum_.refresh();
     if (desk_.scope().columnsBegun() == shown_) return;
     shown_ = desk_.scope().columnsBegun();
     const bool quiet = isQuiet();
     if (quiet && wasQuiet_) return; // a line stays a line
     wasQuiet_ = quiet;
-    repaint();
+    repaint(lanes_);
 }
 
 void ScopeView::drawLane(juce::Graphics& g, juce::Rectangle<int> lane, int channel) const {
@@ -53,24 +56,30 @@ void ScopeView::drawLane(juce::Graphics& g, juce::Rectangle<int> lane, int chann
 }
 
 void ScopeView::paint(juce::Graphics& g) {
-    drawPanel(g, *this);
-    auto area = getLocalBounds().reduced(panelInset, 8);
-    auto head = area.removeFromTop(headHeight);
-    g.setFont(juce::Font{text::small, juce::Font::bold});
-    g.setColour(shade(*this, Shade::muted));
-    g.drawText("PLAYED NOW", head, juce::Justification::centredLeft, false);
     const auto& mix = desk_.mix();
+    auto area = lanes_;
     const int lanes = std::min(mix.count(), mostLanes);
+    const auto foot = area.removeFromBottom(footHeight).withTrimmedLeft(labelWidth);
     g.setFont(juce::Font{text::small});
-    g.drawText(mix.count() > lanes ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()} + ", 1 s" : juce::String{"1 s"}, head, juce::Justification::centredRight, false);
-    const int height = (area.getHeight() + 6) / lanes;
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText(mix.count() > lanes ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()} : juce::String{juce::CharPointer_UTF8{"\xe2\x88\x92" "1 s"}}, foot, juce::Justification::centredLeft, false);
+    g.drawText("now", foot, juce::Justification::centredRight, false);
+    area.removeFromBottom(2);
+    const int height = (area.getHeight() + between) / lanes;
     for (int j = 0; j < lanes; ++j) {
-        auto lane = area.removeFromTop(height).withTrimmedBottom(6);
+        auto lane = area.removeFromTop(height).withTrimmedBottom(j + 1 < lanes ? between : 0);
         g.setColour(enchanterColour(*this, j));
         g.setFont(juce::Font{text::medium, juce::Font::bold});
         g.drawText(utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label), lane.removeFromLeft(labelWidth), juce::Justification::centredLeft, false);
         drawLane(g, lane, j);
     }
+}
+
+void ScopeView::resized() {
+    auto area = getLocalBounds();
+    spectrum_.setBounds(area.removeFromRight(std::max(220, area.getWidth() * 36 / 100)));
+    area.removeFromRight(gap);
+    lanes_ = area;
 }
 
 } // namespace physvib

@@ -4,6 +4,14 @@
 
 namespace physvib {
 
+namespace {
+
+constexpr int widestRest = 60; // beside a name
+
+int widthOf(const juce::String& name) { return juce::Font{text::medium, juce::Font::bold}.getStringWidth(name) + 6; }
+
+} // namespace
+
 class TabPanel::Name final : public juce::Button {
 public:
     explicit Name(const juce::String& name)
@@ -22,7 +30,7 @@ public:
     }
 };
 
-TabPanel::TabPanel() { setTitle("Tabs"); }
+TabPanel::TabPanel(const juce::String& title) { setTitle(title); }
 TabPanel::~TabPanel() = default;
 
 void TabPanel::add(const juce::String& name, std::unique_ptr<Tab> tab) {
@@ -70,8 +78,10 @@ void TabPanel::resized() {
     auto area = getLocalBounds().reduced(panelInset, 8);
     auto names = area.removeFromTop(32);
     if (pages_.empty()) return;
-    const int each = names.getWidth() / static_cast<int>(pages_.size());
-    for (auto& page : pages_) page.name->setBounds(names.removeFromLeft(each).reduced(8, 0));
+    int rest = names.getWidth();
+    for (auto& page : pages_) rest -= widthOf(page.name->getName());
+    rest = juce::jlimit(0, widestRest, rest / static_cast<int>(pages_.size()));
+    for (auto& page : pages_) page.name->setBounds(names.removeFromLeft(widthOf(page.name->getName()) + rest).withTrimmedRight(rest / 3));
     area.removeFromTop(10);
     for (auto& page : pages_) page.tab->setBounds(area);
 }

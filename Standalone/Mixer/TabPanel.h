@@ -15,7 +15,8 @@ public:
 
 class TabPanel final : public juce::Component {
 public:
-    TabPanel();
+    /// `title` for screen readers.
+    explicit TabPanel(const juce::String& title);
     void add(const juce::String& name, std::unique_ptr<Tab> tab);
     void choose(const juce::String& name);
     juce::StringArray names() const;

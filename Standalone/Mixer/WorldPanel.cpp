@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/WorldPanel.h"
+#include "Mixer/HitWords.h"
 #include "Physics/SceneCast.h"
-#include <cmath>
 
 namespace physvib {
 
@@ -18,13 +18,6 @@ void setUpKnob(juce::Slider& knob, const juce::String& title, const juce::String
     knob.setTooltip(tip);
     knob.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
     knob.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
-}
-
-juce::String whereText(const Scene& scene, const CollisionEvent& hit) {
-    const double x = hit.x / scene.fieldWidthMetres, y = hit.y / scene.fieldHeightMetres;
-    const juce::String column = x < 0.15 ? "left" : x > 0.85 ? "right" : "", row = y < 0.15 ? "bottom" : y > 0.85 ? "top" : "";
-    if (column.isEmpty() && row.isEmpty()) return "in the middle";
-    return "at the " + (row + " " + column).trim();
 }
 
 } // namespace
@@ -107,17 +100,8 @@ void WorldPanel::pull(const std::string& body, Vector metres, Vector point) {
 
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = desk_.sceneNow();
-    juce::String what = "hit";
-    for (const auto& m : scene.materials)
-        if (m.frequencyHz == hit.frequencyHz && m.decayPerSecond == hit.decayPerSecond) what = utf8(m.name);
-    PhantomPanner::Gains gains{};
-    desk_.mix().panner().gainsAt(hit.x, hit.y, gains);
-    double strongest = 0.0;
-    for (int j = 0; j < desk_.mix().count(); ++j)
-        strongest = std::max(strongest, gains[static_cast<std::size_t>(j)] * desk_.mix().layout.enchanters[static_cast<std::size_t>(j)].fullScaleG);
-    const auto level = desk_.mix().levelDb <= leastStripDb ? 0.0 : std::pow(10.0, desk_.mix().levelDb / 20.0);
-    return what + dot + number(hit.frequencyHz, 0) + " Hz" + dot + juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
-           number(std::abs(hit.amplitude) * strongest * level, 2) + " g " + whereText(scene, hit);
+    return materialName(scene, hit) + dot + number(hit.frequencyHz, 0) + " Hz" + dot + juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
+           number(feltMost(desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
 void WorldPanel::refresh(const DeskMoment& moment) {

@@ -37,8 +37,9 @@ TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
     int controls = 0;
     desk.setSlowness(0); // what is disabled cannot be reached
     desk.dispatchPendingMessages();
-    for (const auto& tab : view.tabs().names()) {
+    for (int k = 0; const auto& tab : view.tabs().names()) {
         view.tabs().choose(tab);
+        view.scope().choose(view.scope().names()[k++ % view.scope().names().size()]);
         if (auto* list = dynamic_cast<juce::ListBox*>(find(view, "List of enchanters"))) list->selectRow(1);
         std::multiset<juce::String> titles;
         walk(view, [&](juce::Component& c) {
@@ -72,8 +73,9 @@ TEST(MixerView, EveryTextFitsAndEveryControlHasASizeAtTheSmallestWindow) {
     MixerView view{desk};
     for (const auto& [width, height] : {std::pair{MixerView::leastWidth, MixerView::leastHeight}, {1440, 900}, {3000, 1800}}) {
         view.setSize(width, height);
-        for (const auto& tab : view.tabs().names()) {
+        for (int k = 0; const auto& tab : view.tabs().names()) {
             view.tabs().choose(tab);
+            view.scope().choose(view.scope().names()[k++ % view.scope().names().size()]);
             walk(view, [&](juce::Component& c) {
                 if (!isControl(c) || isPartOfControl(c)) return;
                 EXPECT_GE(c.getWidth(), 14) << c.getTitle() << " at " << width;

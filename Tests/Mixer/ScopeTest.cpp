@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Spectra, events and telemetry: what is played is what they show.
+#include "MixerTesting.h"
+#include "Host/FakeAudioDevice.h"
+#include "Mixer/SpectrumView.h"
+#include "Mixer/TelemetryTab.h"
+#include <cmath>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+double peakHz(const SpectrumLevels& levels) { return FrequencyAxis::hzOf(static_cast<int>(std::ranges::max_element(levels) - levels.begin())); }
+
+float highestOf(const SpectrumLevels& levels) { return *std::ranges::max_element(levels); }
+
+TEST(SpectrumTrace, ASineIsAPeakOfItsLevelInItsChannelAlone) {
+    for (const int rate : {8000, 44100, 48000, 192000})
+        for (const double hz : {40.0, 205.0, 430.0, 900.0}) {
+            SpectrumTrace trace;
+            trace.setRate(rate);
+            std::vector<float> sine(static_cast<std::size_t>(rate) / 2), silence(sine.size());
+            for (std::size_t i = 0; i < sine.size(); ++i) sine[i] = static_cast<float>(0.5 * std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / rate));
+            for (int done = 0, frames = static_cast<int>(sine.size()); done < frames; done += 130) {
+                const float* channels[]{silence.data() + done, sine.data() + done};
+                trace.add(channels, 2, std::min(130, frames - done));
+            }
+            EXPECT_NEAR(peakHz(trace.levels(1)), hz, 0.03 * hz) << rate;
+            EXPECT_NEAR(highestOf(trace.levels(1)), -6.0, 0.5) << rate << " Hz, " << hz;
+            EXPECT_LT(trace.levels(1)[static_cast<std::size_t>(hz < 300.0 ? 150 : 40)], -60.0f) << "far from it there is nothing";
+            EXPECT_EQ(highestOf(trace.levels(0)), FrequencyAxis::floorDb);
+        }
+}
+
+TEST(SpectrumTrace, AxisAndLevelsMeetAtItsEnds) {
+    EXPECT_DOUBLE_EQ(FrequencyAxis::hzOf(0), 20.0);
+    EXPECT_NEAR(FrequencyAxis::hzOf(FrequencyAxis::points - 1), 1000.0, 1e-9);
+    EXPECT_NEAR(FrequencyAxis::shareOf(FrequencyAxis::hzAt(0.3)), 0.3, 1e-12);
+    const std::vector<double> short_(3, 1.0); // the axis goes beyond what there is
+    EXPECT_EQ(spectrumLevels(short_, 10.0, 1.0).back(), FrequencyAxis::floorDb);
+}
+
+struct Scope : testing::Test {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+};
+
+TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
+    desk.setSlowness(0);
+    runFor(0.5);
+    auto& spectrum = dynamic_cast<SpectrumView&>(*find(view, "Spectra"));
+    desk.testPulse(2);
+    double seenHz = 0.0;
+    float highest = FrequencyAxis::floorDb;
+    ASSERT_TRUE(runUntil([&] {
+        view.refresh();
+        const float level = highestOf(spectrum.shown(2));
+        if (level > highest) highest = level, seenHz = peakHz(spectrum.shown(2));
+        return highest > -50.0f && level < highest - 6.0f;
+    }));
+    EXPECT_NEAR(seenHz, 205.0, 10.0);
+    EXPECT_EQ(highestOf(spectrum.shown(0)), FrequencyAxis::floorDb) << "a pulse is one enchanter's";
+}
+
+TEST_F(Scope, PlayedEventsAreListedTheNewestFirst) {
+    view.scope().choose("Events");
+    auto& list = dynamic_cast<juce::ListBox&>(*find(view, "List of played events"));
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.recent().size() >= 5; }));
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), list.getModel()->getNumRows() >= 5; }));
+    EXPECT_TRUE(std::ranges::is_sorted(desk.recent(), std::greater{}, &CollisionEvent::timeNs));
+    EXPECT_TRUE(list.getModel()->getNameForRow(0).contains("wall at ")) << list.getModel()->getNameForRow(0);
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.look().session.render.played > Desk::mostRecent + 20; }, 60.0));
+    EXPECT_EQ(desk.recent().size(), Desk::mostRecent);
+}
+
+juce::String valueOf(const std::vector<Fact>& facts, const juce::String& name) {
+    const auto found = std::ranges::find(facts, name, &Fact::name);
+    return found == facts.end() ? juce::String{"?"} : found->value;
+}
+
+TEST_F(Scope, TelemetrySaysWhatTheSessionCounts) {
+    view.scope().choose("Telemetry");
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().session.render.played > 5; }));
+    runFor(0.6);
+    view.refresh();
+    auto& shown = dynamic_cast<FactList&>(*find(*view.scope().find("Telemetry")->getChildComponent(0), "Telemetry"));
+    EXPECT_TRUE(valueOf(shown.facts(), "Clock").contains("48000 Hz"));
+    EXPECT_TRUE(shown.getDescription().contains("Late: 0 hits")) << shown.getDescription();
+
+    DeskMoment moment = view.latest();
+    moment.session.render.late = 3;
+    moment.session.render.liveModes = 7;
+    moment.session.refused = 2;
+    moment.session.leastMarginFrames = -48;
+    moment.device.worstLoad = 1.25f;
+    moment.device.deviceXruns = 4;
+    const auto facts = telemetryFacts(desk, moment, 0.125f);
+    EXPECT_EQ(valueOf(facts, "Late"), "3 hits");
+    EXPECT_TRUE(valueOf(facts, "Modes").startsWith("7 ringing"));
+    EXPECT_TRUE(valueOf(facts, "Refused").startsWith("2 without room"));
+    EXPECT_EQ(valueOf(facts, "Margin"), number(-1.0, 1) + " ms at least");
+    EXPECT_EQ(valueOf(facts, "Render call"), "median 12.5 %, worst 125.0 %");
+    EXPECT_EQ(valueOf(facts, "Xruns"), "4");
+    EXPECT_EQ(valueOf(facts, "Board"), "none");
+    for (const auto* name : {"Late", "Refused", "Margin", "Render call", "Xruns"}) EXPECT_EQ(std::ranges::find(facts, juce::String{name}, &Fact::name)->shade, Shade::now) << name;
+}
+
+TEST(Telemetry, ADeviceThatHasGoneIsNoClock) {
+    FakeInterface hands;
+    Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}};
+    EXPECT_TRUE(valueOf(telemetryFacts(desk, desk.look(), 0.0f), "Clock").startsWith("Fake:hands"));
+    hands.unplug(true);
+    ASSERT_TRUE(runUntil([&] { return !desk.look().device.isRunning; }));
+    EXPECT_TRUE(valueOf(telemetryFacts(desk, desk.look(), 0.0f), "Clock").startsWith("none runs"));
+}
+
+} // namespace
+} // namespace physvib
