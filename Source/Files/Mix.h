@@ -84,6 +84,9 @@ inline float channelGain(const Strip& strip) noexcept {
     return static_cast<float>(strip.isInverted ? -gain : gain);
 }
 
+/// What all enchanters are multiplied by at last. Any thread.
+inline float masterGain(const Mix& mix) noexcept { return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(std::pow(10.0, mix.levelDb / 20.0)); }
+
 /// The largest sample that a strip lets pass. Any thread.
 inline float ceilingOf(const Strip& strip) noexcept { return static_cast<float>(std::pow(10.0, strip.ceilingDb / 20.0)); }
 

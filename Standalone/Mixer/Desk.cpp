@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the mix to the session's controls, and from what was played to what is shown.
+// From the mix to the session's controls; the output.
 #include "Mixer/Desk.h"
-#include "Files/ActuatorFile.h"
 #include "Files/SceneCatalogue.h"
-#include "Physics/InputCheck.h"
-#include "Physics/SceneCast.h"
-#include "Physics/SceneEdits.h"
+#include "Mixer/Parts.h"
 #include <algorithm>
 #include <cmath>
 
@@ -16,11 +13,9 @@ namespace {
 constexpr int stepsPerSecond = 100;
 constexpr double gapSeconds = 0.005; // the driver's thread shares the machine with painting
 constexpr double boardSeconds = 0.05; // the link needs 20 to 40 ms; more than that is told as trouble
-constexpr double holdMs = 1500.0, maintainMs = 1000.0, boardPatienceMs = 2000.0; // greeting and clock take half a second
+constexpr double boardPatienceMs = 2000.0; // greeting and clock take half a second
 constexpr double newStripDb = -12.0; // hands are attached
-constexpr double strikeAmplitude = 0.5; // of pulses and auditions, in front of strip, ceiling and master
 
-juce::String utf8Text(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
 double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
 
 Mix shakeTheBox() {
@@ -44,8 +39,6 @@ SessionSetup setupOf(const Mix& mix, bool hasBoard) {
     if (hasBoard) setup.boardSeconds = boardSeconds;
     return setup;
 }
-
-float levelOf(const Mix& mix) { return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(std::pow(10.0, mix.levelDb / 20.0)); }
 
 bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
     return a.law() == b.law() && a.exponent() == b.exponent() && a.fieldWidthMetres() == b.fieldWidthMetres() && a.fieldHeightMetres() == b.fieldHeightMetres() &&
@@ -79,42 +72,6 @@ public:
 private:
     Desk& desk_;
     Mix before_, after_;
-};
-
-/// Does something to the world, and the opposite; a body that comes back has another name.
-class Desk::WorldEdit final : public juce::UndoableAction {
-public:
-    WorldEdit(Desk& desk, Action action)
-        : desk_{desk}
-        , forth_{{std::move(action)}} {}
-    bool perform() override { return run(forth_, back_); }
-    bool undo() override { return run(back_, forth_); }
-    int getSizeInUnits() override { return 1; }
-    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override { // a sound that is turned
-        const auto* other = dynamic_cast<WorldEdit*>(next);
-        const auto *here = soundOf(this), *there = soundOf(other);
-        if (here == nullptr || there == nullptr || here->material != there->material) return nullptr;
-        auto* both = new WorldEdit{desk_, *there};
-        both->back_ = back_;
-        return both;
-    }
-
-private:
-    static const SoundAction* soundOf(const WorldEdit* edit) {
-        return edit != nullptr && edit->forth_.size() == 1 ? std::get_if<SoundAction>(&edit->forth_.front()) : nullptr;
-    }
-    bool run(const std::vector<Action>& actions, std::vector<Action>& opposite) {
-        opposite.clear();
-        for (const Action& wanted : actions) {
-            const Action action = desk_.renamed(wanted);
-            const auto back = desk_.undoOf(action);
-            if (!desk_.act(action).empty()) return false;
-            opposite.insert(opposite.begin(), back.begin(), back.end());
-        }
-        return true;
-    }
-    Desk& desk_;
-    std::vector<Action> forth_, back_;
 };
 
 Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
@@ -160,8 +117,8 @@ void Desk::apply(const Mix& next) {
     tap_.hear(mix_.count());
     postDifferences(before, false);
     if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output)))
-        if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8Text(error));
-    output_.setLevel(levelOf(mix_));
+        if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8(error));
+    output_.setLevel(masterGain(mix_));
     sendChangeMessage();
 }
 
@@ -218,68 +175,6 @@ void Desk::detach(int enchanter) {
     });
 }
 
-std::string Desk::act(const Action& action) {
-    const auto fault = session_.act(action);
-    if (!fault.empty()) return fault;
-    ++edits_;
-    showEdit(action);
-    return {};
-}
-
-void Desk::showEdit(const Action& action) {
-    if (std::holds_alternative<SpawnAction>(action)) sceneNow_.inputs.push_back({0.0, action});
-    else if (std::holds_alternative<MaterialAction>(action) || std::holds_alternative<SoundAction>(action) || std::holds_alternative<CameraAction>(action))
-        describeEdit(sceneNow_, action);
-    else return;
-    ++worldEdits_;
-    sendChangeMessage();
-}
-
-// A name is given once.
-Action Desk::renamed(const Action& action) {
-    Action named = action;
-    if (auto* spawn = std::get_if<SpawnAction>(&named)) spawn->body.name = "added " + std::to_string(++added_);
-    return named;
-}
-
-std::vector<Action> Desk::undoOf(const Action& action) const {
-    const auto cast = sceneCast(sceneNow_);
-    const auto body = [&cast](const std::string& name) { return std::ranges::find(cast, name, &BodyDescription::name); };
-    if (const auto* spawn = std::get_if<SpawnAction>(&action)) return {RemoveAction{spawn->body.name}};
-    if (const auto* removal = std::get_if<RemoveAction>(&action)) {
-        const auto found = body(removal->body);
-        std::vector<BodyPose> poses;
-        session_.readPoses(poses);
-        const auto index = static_cast<std::size_t>(found - cast.begin());
-        if (found == cast.end() || index >= poses.size()) return {};
-        BodyDescription back = *found;
-        back.positionMetres = {poses[index].xMetres, poses[index].yMetres};
-        back.angleRadians = poses[index].angleRadians;
-        return {SpawnAction{back, {}}};
-    }
-    if (const auto* material = std::get_if<MaterialAction>(&action)) {
-        const auto found = body(material->body);
-        std::vector<Action> back;
-        for (std::size_t i = 0; found != cast.end() && i < found->fixtures.size(); ++i) back.push_back(MaterialAction{material->body, static_cast<int>(i), found->fixtures[i].material});
-        return back;
-    }
-    if (const auto* sound = std::get_if<SoundAction>(&action)) {
-        const auto& old = sceneNow_.materials[static_cast<std::size_t>(sound->material)];
-        return {SoundAction{sound->material, old.frequencyHz, old.decayPerSecond}};
-    }
-    return {};
-}
-
-std::string Desk::editWorld(const juce::String& name, const Action& action, bool goesOn) {
-    Action trial = action;
-    if (auto* spawn = std::get_if<SpawnAction>(&trial)) spawn->body.name = "added " + std::to_string(added_ + 1);
-    Scene scene = sceneNow_;
-    if (auto fault = InputCheck{scene}.take(trial); !fault.empty()) return fault;
-    if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
-    undo_.perform(new WorldEdit{*this, action});
-    return {};
-}
-
 const SavedSession& Desk::saved() {
     saved_.channels = mostEnchanters_;
     saved_.lengthNs = session_.status().sessionNs;
@@ -288,125 +183,11 @@ const SavedSession& Desk::saved() {
     return saved_;
 }
 
-std::string Desk::startRecording(const juce::File& file) {
-    if (recording_) return {};
-    if (output_.sampleRateHz() == 0) return "nothing to record: no device runs";
-    auto recording = std::make_unique<Recording>(file.getFullPathName().toStdString(), mix_.count(), output_.sampleRateHz());
-    if (!recording->error().empty()) return recording->error();
-    recording_ = std::move(recording);
-    recordingFile_ = file;
-    isEnding_ = false;
-    output_.record(&recording_->recorder());
-    sendChangeMessage();
-    return {};
-}
-
-void Desk::stopRecording() {
-    if (!isRecording()) return;
-    output_.record(nullptr);
-    isEnding_ = true;
-    endsAfterBlock_ = output_.status().blocks + 1;
-    sendChangeMessage();
-}
-
-double Desk::recordedSeconds() const noexcept {
-    return recording_ ? static_cast<double>(recording_->recorder().frames()) / recording_->recorder().sampleRateHz() : 0.0;
-}
-
-// R has let go of it when a block has come since; events of the last frames have been played by then.
-void Desk::finishRecording() {
-    recording_->drain();
-    if (!isEnding_ && output_.isRecording()) return;
-    if (isEnding_ && now_.device.isRunning && now_.device.blocks <= endsAfterBlock_) return;
-    const Provenance provenance{PHYSVIB_VERSION, {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
-    recordedFrom_ = recording_->recorder().firstFrame();
-    const auto lost = recording_->recorder().framesLost();
-    auto error = utf8Text(recording_->finish(session_.playOutFrames(), provenance));
-    if (error.isEmpty() && lost > 0) error = "frames missing in the recording: " + juce::String{static_cast<juce::int64>(lost)};
-    if (error.isEmpty() && !isEnding_) error = "the recording ends where the device changed its rate";
-    recording_.reset();
-    if (onRecorded) onRecorded(recordingFile_, error);
-    sendChangeMessage();
-}
-
-void Desk::restart(std::uint32_t seed) {
-    if (seed != mix_.seed) return change("Seed", [seed](Mix& mix) { mix.seed = seed; });
-    ++edits_;
-    takeScene(true);
-    sendChangeMessage();
-}
-
-// The world begins anew. What was measured or tuned stays, as the strips do.
-void Desk::takeScene(bool keepsSounds) {
-    auto scene = std::make_shared<Scene>(*mix_.scene);
-    for (std::size_t i = 0; keepsSounds && i < scene->materials.size(); ++i) {
-        scene->materials[i].frequencyHz = sceneNow_.materials[i].frequencyHz;
-        scene->materials[i].decayPerSecond = sceneNow_.materials[i].decayPerSecond;
-    }
-    sceneNow_ = *scene;
-    ++worldEdits_;
-    if (const SessionState state{std::move(scene), mix_.seed}; state == session_.state()) session_.restart();
-    else if (const auto fault = session_.setState(state); !fault.empty()) report(utf8Text(fault));
-}
-
-void Desk::setSlowness(int slowness) {
-    session_.setSlowness(slowness);
-    sendChangeMessage();
-}
-
-void Desk::strike(int enchanter, std::vector<CollisionEvent> strikes) {
-    const auto& layout = mix_.layout.geometry;
-    const auto& place = layout.places[static_cast<std::size_t>(enchanter)]; // there it is alone
-    for (auto& s : strikes) {
-        s.x = place.xMetres / layout.extentWidthMetres * mix_.scene->fieldWidthMetres;
-        s.y = place.yMetres / layout.extentHeightMetres * mix_.scene->fieldHeightMetres;
-    }
-    ++edits_;
-    session_.play(strikes);
-}
-
-std::string Desk::audition(int material, double shareX, double shareY) {
-    const auto index = static_cast<std::size_t>(material);
-    if (index >= sceneNow_.materials.size() || sceneNow_.materials[index].frequencyHz <= 0.0) return "expected a material that sounds";
-    const Material& heard = sceneNow_.materials[index];
-    CollisionEvent hit;
-    hit.frequencyHz = heard.frequencyHz;
-    hit.decayPerSecond = heard.decayPerSecond;
-    hit.amplitude = strikeAmplitude;
-    hit.x = shareX * sceneNow_.fieldWidthMetres;
-    hit.y = shareY * sceneNow_.fieldHeightMetres;
-    ++edits_;
-    return session_.play({&hit, 1}) ? std::string{} : heard.name + ": cannot be played";
-}
-
-void Desk::testPulse(int enchanter) {
-    CollisionEvent pulse;
-    const auto profile = findActuator(mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].actuator);
-    pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0; // where the thesis' actuators are strongest
-    pulse.decayPerSecond = 30.0;
-    pulse.amplitude = strikeAmplitude;
-    strike(enchanter, {pulse});
-}
-
-void Desk::testSweep(int enchanter) {
-    std::vector<CollisionEvent> tones;
-    constexpr int count = 40;
-    for (int k = 0; k < count; ++k) {
-        CollisionEvent tone;
-        tone.timeNs = k * std::int64_t{60'000'000};
-        tone.durationNs = 60'000'000;
-        tone.frequencyHz = 40.0 * std::pow(10.0, static_cast<double>(k) / (count - 1)); // 40 to 400 Hz: what is felt
-        tone.amplitude = 0.3;
-        tones.push_back(tone);
-    }
-    strike(enchanter, std::move(tones));
-}
-
 std::string Desk::open(const DeviceChoice& device) {
-    AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, levelOf(mix_), mix_.count(), true, listening_};
+    AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, masterGain(mix_), mix_.count(), true, listening_};
     const auto error = output_.open(settings);
     device_ = device;
-    report(deviceTrouble_ = utf8Text(error));
+    report(deviceTrouble_ = utf8(error));
     scope_.setRate(output_.sampleRateHz());
     spectrum_.setRate(output_.sampleRateHz());
     return error;
@@ -419,7 +200,7 @@ std::string Desk::hear(const ListeningSettings& listening) {
 }
 
 juce::String Desk::outputTrouble() {
-    const auto device = utf8Text(output_.maintain()), board = boardTrouble();
+    const auto device = utf8(output_.maintain()), board = boardTrouble();
     return device.isEmpty() || board.isEmpty() ? device + board : device + "; " + board;
 }
 
@@ -434,7 +215,7 @@ juce::String Desk::boardTrouble() {
     }
     if (nowMs() - boardReadyAtMs_ < boardPatienceMs && status->connections == 0) return {};
     if (device_.board == anyBoard) return status->connections > 0 ? "The board is gone; it is looked for on every serial port" : "No board answers on any serial port";
-    return "The board at " + utf8Text(device_.board) + (status->connections > 0 ? " is gone" : " does not answer") + "; it is looked for twice a second";
+    return "The board at " + utf8(device_.board) + (status->connections > 0 ? " is gone" : " does not answer") + "; it is looked for twice a second";
 }
 
 void Desk::setSilent(bool silent) {
@@ -458,53 +239,6 @@ void Desk::tell(const juce::String& news) {
     trouble_ = news;
     isNews_ = true;
     sendChangeMessage();
-}
-
-void Desk::measure(const float* const* block, int frames) {
-    const int heard = mix_.count();
-    scope_.add(block, heard, frames);
-    spectrum_.add(block, heard, frames);
-    for (int j = 0; j < heard; ++j) {
-        const auto range = juce::FloatVectorOperations::findMinAndMax(block[j], frames);
-        const float peak = std::max(-range.getStart(), range.getEnd());
-        auto& shown = now_.meters.peaks[static_cast<std::size_t>(j)];
-        shown = std::max(shown, peak);
-    }
-}
-
-DeskMoment Desk::look() {
-    const double now = nowMs(), passed = std::min(1000.0, now - lookedAtMs_);
-    lookedAtMs_ = now;
-    const auto fall = static_cast<float>(std::pow(10.0, -meterFallDbPerSecond * passed / 20'000.0));
-    for (auto& peak : now_.meters.peaks) peak = peak * fall < 1e-4f ? 0.0f : peak * fall;
-    tap_.read([this](const float* const* block, int frames) { measure(block, frames); });
-    now_.session = session_.status();
-    now_.device = output_.status();
-    now_.hits.clear();
-    for (PlayedEvent played; session_.played().pop(played);) {
-        now_.hits.push_back(played.event);
-        recent_.push_front(played.event);
-        if (recording_) recording_->take(played);
-    }
-    if (recent_.size() > mostRecent) recent_.resize(mostRecent);
-    if (recording_) finishRecording();
-    now_.meters.limiterGain = now_.session.render.limiterGain;
-    now_.meters.enchanters = mix_.count();
-    float loudest = 0.0f;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(mix_.count()); ++j) {
-        const float peak = now_.meters.peaks[j];
-        now_.meters.isConnected[j] = mix_.strips[j].output >= 0;
-        if (peak >= now_.holds[j] || now - heldAtMs_[j] > holdMs) now_.holds[j] = peak, heldAtMs_[j] = now;
-        loudest = std::max(loudest, peak);
-    }
-    now_.masterPeak = isSilent_ ? 0.0f : loudest * levelOf(mix_);
-    now_.sessionNs = session_.readPoses(now_.poses);
-    now_.aheadNs = static_cast<std::int64_t>(1e9 * playOutSeconds());
-    if (now - maintainedAtMs_ > maintainMs) {
-        maintainedAtMs_ = now;
-        if (const auto trouble = outputTrouble(); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
-    }
-    return now_;
 }
 
 } // namespace physvib

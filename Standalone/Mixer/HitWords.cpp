@@ -19,11 +19,10 @@ juce::String materialName(const Scene& scene, const CollisionEvent& hit) {
 FeltMost feltMost(const Mix& mix, const CollisionEvent& hit) {
     PhantomPanner::Gains gains{};
     mix.panner().gainsAt(hit.x, hit.y, gains);
-    const double level = mix.levelDb <= leastStripDb ? 0.0 : std::pow(10.0, mix.levelDb / 20.0);
     FeltMost most;
     for (int j = 0; j < mix.count(); ++j) {
         const auto i = static_cast<std::size_t>(j);
-        const double g = std::abs(hit.amplitude) * gains[i] * mix.layout.enchanters[i].fullScaleG * level;
+        const double g = std::abs(hit.amplitude) * gains[i] * mix.layout.enchanters[i].fullScaleG * masterGain(mix);
         if (g > most.levelG) most = {j, g};
     }
     return most;

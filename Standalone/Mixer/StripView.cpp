@@ -24,10 +24,7 @@ void setUpFader(juce::Slider& fader, double least, double most, const juce::Stri
 }
 
 /// What that peak of a strip is felt as, behind the master.
-double gOf(const Desk& desk, std::size_t strip, float peak) {
-    const double level = desk.mix().levelDb <= leastStripDb ? 0.0 : std::pow(10.0, desk.mix().levelDb / 20.0);
-    return peak * level * desk.mix().layout.enchanters[strip].fullScaleG;
-}
+double gOf(const Desk& desk, std::size_t strip, float peak) { return peak * masterGain(desk.mix()) * desk.mix().layout.enchanters[strip].fullScaleG; }
 
 double mostG(const Desk& desk, std::size_t strip) { return gOf(desk, strip, ceilingOf(desk.mix().strips[strip])); }
 juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
