@@ -93,7 +93,7 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     if (!device.board.empty()) {
         link_ = std::make_unique<BoardLink>(device.board == anyBoard ? std::string{} : device.board);
         onBoard_ = std::make_unique<BoardOutput>(session_, output_, *link_, mix_.panner());
-        boardReadyAtMs_ = nowMs();
+        boardWantedAtMs_ = nowMs();
     }
     driver_ = std::make_unique<ThreadDriver>(session_, stepsPerSecond);
 }
@@ -209,13 +209,13 @@ juce::String Desk::boardTrouble() {
     const auto status = board();
     if (!status) return {};
     if (status->state == BoardLinkStatus::State::ready) {
-        boardReadyAtMs_ = nowMs();
+        wasBoardReady_ = true;
         if (status->playOutMs <= 1e3 * boardSeconds) return {};
         return "The board needs its strikes " + juce::String{status->playOutMs, 0} + " ms before they are felt; the session allows for " + juce::String{1e3 * boardSeconds, 0};
     }
-    if (nowMs() - boardReadyAtMs_ < boardPatienceMs && status->connections == 0) return {};
-    if (device_.board == anyBoard) return status->connections > 0 ? "The board is gone; it is looked for on every serial port" : "No board answers on any serial port";
-    return "The board at " + utf8(device_.board) + (status->connections > 0 ? " is gone" : " does not answer") + "; it is looked for twice a second";
+    if (!wasBoardReady_ && nowMs() - boardWantedAtMs_ < boardPatienceMs) return {};
+    if (device_.board == anyBoard) return wasBoardReady_ ? "The board is gone; it is looked for on every serial port" : "No board answers on any serial port";
+    return "The board at " + utf8(device_.board) + (wasBoardReady_ ? " is gone" : " does not answer") + "; it is looked for twice a second";
 }
 
 void Desk::setSilent(bool silent) {

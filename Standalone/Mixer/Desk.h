@@ -168,7 +168,7 @@ private:
     DeviceChoice device_;
     ListeningSettings listening_;
     juce::String trouble_, deviceTrouble_;
-    bool isSilent_ = false, isNews_ = false;
+    bool isSilent_ = false, isNews_ = false, wasBoardReady_ = false;
     std::uint64_t edits_ = 0, worldEdits_ = 0;
     SavedSession saved_;
     int mostEnchanters_ = 0, added_ = 0;
@@ -183,7 +183,7 @@ private:
     std::deque<CollisionEvent> recent_;
     DeskMoment now_;
     std::array<double, limits::maxEnchanters> heldAtMs_{};
-    double lookedAtMs_ = 0.0, maintainedAtMs_ = 0.0, boardReadyAtMs_ = 0.0;
+    double lookedAtMs_ = 0.0, maintainedAtMs_ = 0.0, boardWantedAtMs_ = 0.0;
 };
 
 /// Names of built-in scenes as people write them: "shake-the-box" as "Shake the box".
