@@ -7,7 +7,7 @@ namespace physvib {
 
 namespace {
 
-constexpr int highestRow = 26, nameWidth = 92;
+constexpr int lowestRow = 18, highestRow = 26, afterName = 14;
 
 } // namespace
 
@@ -27,9 +27,12 @@ void FactList::set(std::vector<Fact> facts) {
 
 void FactList::paint(juce::Graphics& g) {
     if (facts_.empty()) return;
-    const int rows = (static_cast<int>(facts_.size()) + columns_ - 1) / columns_, height = std::min(highestRow, getHeight() / rows);
+    const int rows = (static_cast<int>(facts_.size()) + columns_ - 1) / columns_, height = juce::jlimit(lowestRow, highestRow, getHeight() / rows);
     const int width = (getWidth() - (columns_ - 1) * gap) / columns_;
-    g.setFont(juce::Font{text::medium});
+    const juce::Font font{text::medium};
+    int nameWidth = 0;
+    for (const auto& fact : facts_) nameWidth = std::max(nameWidth, font.getStringWidth(fact.name) + afterName);
+    g.setFont(font);
     for (int i = 0; i < static_cast<int>(facts_.size()); ++i) {
         const auto& fact = facts_[static_cast<std::size_t>(i)];
         juce::Rectangle<int> row{i / rows * (width + gap), i % rows * height, width, height};

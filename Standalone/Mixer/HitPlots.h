@@ -11,6 +11,7 @@ struct ShownHit {
     double frequencyHz = 0.0, decayPerSecond = 0.0; ///< 0 Hz: nothing
     juce::Colour colour;
     const RecordedHit* recording = nullptr; ///< outlives the plots' next show()
+    bool operator==(const ShownHit&) const = default;
 };
 
 class SpectrumPlot final : public juce::Component, public juce::SettableTooltipClient {

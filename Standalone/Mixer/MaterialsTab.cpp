@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list, two numbers, a spot, and a thread that measures.
 #include "Mixer/MaterialsTab.h"
+#include "Mixer/MaterialColumns.h"
 #include "Physics/SceneLimits.h"
 #include <cmath>
 
@@ -8,23 +9,8 @@ namespace physvib {
 
 namespace {
 
-constexpr int rowPixels = 28, headPixels = 20, signPixels = 34;
+constexpr int rowPixels = 28, headPixels = 20;
 constexpr double arrowRatio = 1.01;
-constexpr double decibelsOfDecay = 60.0;
-
-struct Columns {
-    juce::Rectangle<int> dot, name, frequency, decay, length, sign;
-    explicit Columns(juce::Rectangle<int> row) {
-        row.reduce(10, 0);
-        dot = row.removeFromLeft(22);
-        sign = row.removeFromRight(signPixels);
-        const int number = std::min(92, row.getWidth() * 22 / 100);
-        length = row.removeFromRight(number);
-        decay = row.removeFromRight(number);
-        frequency = row.removeFromRight(number);
-        name = row;
-    }
-};
 
 /// The middle nine tenths of the slider are what is felt; the rest of what can be played is at its ends.
 juce::NormalisableRange<double> rangeOf(double least, double low, double high, double most) {
@@ -35,9 +21,6 @@ juce::NormalisableRange<double> rangeOf(double least, double low, double high, d
             [=](double, double, double s) { return s < end ? part(least, low, s / end) : s > 1.0 - end ? part(high, most, (s - 1.0 + end) / end) : part(low, high, (s - end) / (1.0 - 2.0 * end)); },
             [=](double, double, double v) { return v < low ? end * shareOf(least, low, v) : v > high ? 1.0 - end + end * shareOf(high, most, v) : end + (1.0 - 2.0 * end) * shareOf(low, high, v); }};
 }
-
-juce::String frequencyText(double hz) { return number(hz, 1); }
-juce::String decayText(double perSecond) { return number(perSecond, 2); }
 
 void caption(juce::Label& label, const juce::String& words) {
     label.setText(words, juce::dontSendNotification);
@@ -156,6 +139,7 @@ void MaterialsTab::takeMix() {
     if (scene_ != desk_.mix().scene) {
         scene_ = desk_.mix().scene;
         recordings_.clear();
+        shown_.reset();
         order_.resize(materials.size());
         for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<int>(i);
         std::ranges::stable_partition(order_, [&](int i) { return materials[static_cast<std::size_t>(i)].frequencyHz > 0.0; });
@@ -178,6 +162,8 @@ void MaterialsTab::showChosen() {
     ShownHit shown;
     const auto* recording = recordingOf(chosenIndex());
     if (sounds) shown = {material->frequencyHz, material->decayPerSecond, palette::material(chosenIndex()), recording};
+    if (shown == shown_) return;
+    shown_ = shown;
     const auto course = recording ? recording->course : sounds ? courseOf(material->frequencyHz, material->decayPerSecond) : HitCourse{};
     spectrum_.show(shown, course);
     course_.show(shown, course);
@@ -258,6 +244,7 @@ void MaterialsTab::take(const Job& job, const Result<RecordedHit>& hit) {
     if (const auto fault = desk_.editWorld("Recording of " + name, SoundAction{job.material, sound.frequencyHz, sound.decayPerSecond}); !fault.empty())
         return desk_.report(job.file.getFileName() + ": " + utf8(fault));
     recordings_.insert_or_assign(job.material, hit.value);
+    shown_.reset();
     showChosen();
 }
 
@@ -279,44 +266,8 @@ void MaterialsTab::filesDropped(const juce::StringArray& files, int x, int y) {
     measure(juce::File{files[0]});
 }
 
-juce::String MaterialsTab::Rows::getNameForRow(int row) {
-    if (row < 0 || row >= getNumRows()) return {};
-    const auto& m = tab_.desk_.sceneNow().materials[static_cast<std::size_t>(tab_.order_[static_cast<std::size_t>(row)])];
-    return utf8(m.name) + (m.frequencyHz > 0.0 ? ", " + frequencyText(m.frequencyHz) + " hertz, decays by " + decayText(m.decayPerSecond) + " per second" : juce::String{", silent"});
-}
-
-void MaterialsTab::Rows::listBoxItemClicked(int, const juce::MouseEvent& e) {
-    if (e.mods.isPopupMenu() || !tab_.feel_.isEnabled()) return;
-    if (Columns{e.eventComponent->getLocalBounds()}.sign.contains(e.getPosition())) tab_.feelAt(tab_.spot_);
-}
-
-void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
-    if (row >= getNumRows()) return;
-    const int index = tab_.order_[static_cast<std::size_t>(row)];
-    const auto& m = tab_.desk_.sceneNow().materials[static_cast<std::size_t>(index)];
-    if (isSelected) {
-        g.setColour(shade(tab_, Shade::accent).withAlpha(0.16f));
-        g.fillRect(0, 0, width, height);
-    }
-    const Columns at{{width, height}};
-    const bool sounds = m.frequencyHz > 0.0;
-    g.setColour(palette::material(index).withMultipliedAlpha(sounds ? 1.0f : 0.5f));
-    g.fillEllipse(at.dot.withWidth(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
-    g.setFont(juce::Font{text::medium});
-    g.setColour(shade(tab_, sounds ? Shade::text : Shade::muted));
-    g.drawText(utf8(m.name), at.name, juce::Justification::centredLeft, true);
-    if (!sounds) return g.drawText("silent here", at.frequency.getUnion(at.length), juce::Justification::centredRight, true);
-    g.drawText(frequencyText(m.frequencyHz), at.frequency, juce::Justification::centredRight, true);
-    g.drawText(decayText(m.decayPerSecond), at.decay, juce::Justification::centredRight, true);
-    g.drawText(number(1e3 * decibelsOfDecay / 20.0 * std::log(10.0) / m.decayPerSecond, 0) + " ms", at.length, juce::Justification::centredRight, true);
-    juce::Path sign;
-    sign.addTriangle(-4.0f, -5.5f, -4.0f, 5.5f, 5.5f, 0.0f);
-    g.setColour(shade(tab_, isSelected ? Shade::accent : Shade::muted));
-    g.fillPath(sign, juce::AffineTransform::translation(at.sign.toFloat().getCentre().translated(6.0f, 0.0f)));
-}
-
 void MaterialsTab::paint(juce::Graphics& g) {
-    const Columns at{headArea_.withWidth(list_.getVisibleRowWidth())};
+    const MaterialColumns at{headArea_.withWidth(list_.getVisibleRowWidth())};
     g.setFont(juce::Font{text::small});
     g.setColour(shade(*this, Shade::muted));
     g.drawText("Material", at.name, juce::Justification::centredLeft, false);

@@ -94,6 +94,7 @@ private:
     juce::Label frequencyName_, decayName_, spotXName_, spotYName_;
     juce::TextButton feel_{juce::String::fromUTF8("Feel it \xe2\x96\xb8")};
     std::unique_ptr<juce::TextButton> browse_;
+    std::optional<ShownHit> shown_;
     SpectrumPlot spectrum_;
     CoursePlot course_;
     juce::Rectangle<int> headArea_;

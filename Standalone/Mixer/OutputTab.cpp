@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
-constexpr int factRow = 26;
 constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
 
 void caption(juce::Label& label, const juce::String& words) {
@@ -40,7 +39,7 @@ OutputTab::OutputTab(Desk& desk)
     scan_ = quietButton("Look again", "Look for devices again");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &facts_}) addAndMakeVisible(c);
     takeMix();
 }
 
@@ -138,13 +137,6 @@ void OutputTab::takeMix() {
     for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
-void OutputTab::setFacts(std::vector<Fact> facts) {
-    const auto same = [](const Fact& a, const Fact& b) { return a.name == b.name && a.value == b.value && a.shade == b.shade; };
-    if (std::ranges::equal(facts, facts_, same)) return;
-    facts_ = std::move(facts);
-    repaint(factsArea_);
-}
-
 void OutputTab::refresh(const DeskMoment& moment) {
     const auto& output = desk_.output();
     const double rate = std::max(1, output.sampleRateHz());
@@ -156,7 +148,7 @@ void OutputTab::refresh(const DeskMoment& moment) {
     Shade boardShade = Shade::muted;
     const auto board = boardState(boardShade);
     const double slipped = 1e-6 * static_cast<double>(desk_.session().slippedNs());
-    setFacts({{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
+    facts_.set({{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
                !moment.device.isRunning ? Shade::limit : isNone ? Shade::now : Shade::text},
               {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" + number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
               {"Felt", number(1e3 * desk_.playOutSeconds(), 1) + " ms after the contact, and the device's own " + number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
@@ -166,18 +158,6 @@ void OutputTab::refresh(const DeskMoment& moment) {
               {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}},
               {"Opened again", juce::String{moment.device.losses} + " times"},
               {"Board", board, boardShade}});
-}
-
-void OutputTab::paint(juce::Graphics& g) {
-    auto area = factsArea_;
-    for (const auto& fact : facts_) {
-        auto row = area.removeFromTop(factRow);
-        g.setFont(juce::Font{text::medium});
-        g.setColour(shade(*this, Shade::muted));
-        g.drawText(fact.name, row.removeFromLeft(116), juce::Justification::centredLeft, false);
-        g.setColour(shade(*this, fact.shade));
-        g.drawText(fact.value, row, juce::Justification::centredLeft, true);
-    }
 }
 
 void OutputTab::resized() {
@@ -201,7 +181,7 @@ void OutputTab::resized() {
     boardName_.setBounds(area.removeFromTop(18));
     board_.setBounds(area.removeFromTop(rowHeight));
     area.removeFromTop(12);
-    factsArea_ = area;
+    facts_.setBounds(area);
 }
 
 } // namespace physvib

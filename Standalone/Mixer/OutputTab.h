@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the enchanters are fed from: device, rate, block and the delay that follows from them; the board.
 #pragma once
+#include "Mixer/FactList.h"
 #include "Mixer/TabPanel.h"
 
 namespace physvib {
@@ -10,18 +11,12 @@ public:
     explicit OutputTab(Desk& desk);
     void takeMix() override;
     void refresh(const DeskMoment& moment) override;
-    void paint(juce::Graphics& g) override;
     void resized() override;
     void visibilityChanged() override;
 
 private:
-    struct Fact {
-        juce::String name, value;
-        Shade shade = Shade::text;
-    };
     void scan();
     void open();
-    void setFacts(std::vector<Fact> facts);
 
     Desk& desk_;
     void connectBoard();
@@ -33,8 +28,7 @@ private:
     juce::ComboBox device_, rate_, block_, board_;
     juce::Label deviceName_, rateName_, blockName_, boardName_;
     std::unique_ptr<juce::TextButton> scan_;
-    juce::Rectangle<int> factsArea_;
-    std::vector<Fact> facts_;
+    FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;
     std::vector<std::string> ports_;
     bool isScanned_ = false;
