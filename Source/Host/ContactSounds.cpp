@@ -38,7 +38,7 @@ std::vector<float> resampled(const ContactRecording& recording, int rateHz) {
 
 Result<ContactRecording> loadContact(const std::string& path, double frequencyHz) {
     constexpr double shortestSeconds = 0.001;
-    const auto read = readWav(path);
+    const auto read = readRecording(path);
     if (!read) return Failure{read.error};
     const std::vector<float>& heard = *std::ranges::max_element(read.value.channels, {}, peakOf);
     const double rateHz = read.value.sampleRateHz;

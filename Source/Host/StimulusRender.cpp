@@ -49,14 +49,15 @@ Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescr
     return sound;
 }
 
-Result<StimulusSound> readWav(const std::filesystem::path& path) {
+Result<StimulusSound> readRecording(const std::filesystem::path& path) {
     const auto unreadable = [&](const std::string& why) { return Failure{path.string() + ": " + why}; };
     const juce::File file = juce::File::getCurrentWorkingDirectory().getChildFile(juce::String::fromUTF8(path.string().c_str()));
     auto stream = file.createInputStream();
     if (!stream) return unreadable("cannot be read: No such file or directory");
-    juce::WavAudioFormat format;
-    const std::unique_ptr<juce::AudioFormatReader> reader(format.createReaderFor(stream.release(), true));
-    if (!reader || reader->numChannels < 1) return unreadable("expected a WAV file");
+    juce::AudioFormatManager formats;
+    formats.registerBasicFormats();
+    const std::unique_ptr<juce::AudioFormatReader> reader{formats.createReaderFor(std::move(stream))}; // by what is in it
+    if (!reader || reader->numChannels < 1) return unreadable("expected a WAV, FLAC or Ogg Vorbis file");
     if (reader->lengthInSamples < 1) return unreadable("expected samples, found none");
     if (static_cast<double>(reader->lengthInSamples) > longestRecordingSeconds * reader->sampleRate)
         return unreadable("expected at most " + fixedNumber(longestRecordingSeconds, 0) + " s");

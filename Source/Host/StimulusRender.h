@@ -19,8 +19,8 @@ struct StimulusSound {
 /// channel would leave its full scale. `layout` has as many enchanters as the stimulus. M only.
 Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescription& layout, int sampleRateHz);
 
-/// A recording, as it is: its rate and channels. M only.
-Result<StimulusSound> readWav(const std::filesystem::path& path);
+/// A recording (WAV, FLAC, Ogg Vorbis), as it is: its rate and channels. Any thread but R.
+Result<StimulusSound> readRecording(const std::filesystem::path& path);
 
 /// A recording of one channel as a phantom at `place`: its peak becomes `levelG`, spread by `panner`. As above. M only.
 Result<StimulusSound> placeRecording(const StimulusSound& recording, const FieldPlace& place, double levelG, const PhantomPanner& panner, const LayoutDescription& layout);

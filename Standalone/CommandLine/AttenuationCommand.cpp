@@ -22,7 +22,7 @@ double levelOf(const std::vector<float>& x) {
 
 Result<std::vector<double>> levelsOf(const std::string& path) {
     constexpr double shortestSeconds = 0.1; // five periods of 50 Hz, the thesis' lowest
-    const auto recording = readWav(path);
+    const auto recording = readRecording(path);
     if (!recording) return Failure{recording.error};
     std::vector<double> levels;
     for (const auto& axis : recording.value.channels) {

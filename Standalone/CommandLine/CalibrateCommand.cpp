@@ -23,9 +23,9 @@ SweepSettings sweepSettings(const CalibrateOptions& o) { return {.seconds = o.se
 
 /// Channel 1 of each file.
 Result<RecordedSweep> readPair(const CalibrateOptions& o) {
-    auto played = readWav(o.playedPath);
+    auto played = readRecording(o.playedPath);
     if (!played) return Failure{played.error};
-    auto recorded = readWav(o.recordedPath);
+    auto recorded = readRecording(o.recordedPath);
     if (!recorded) return Failure{recorded.error};
     if (played.value.sampleRateHz != recorded.value.sampleRateHz)
         return Failure{o.recordedPath + ": expected the rate of " + o.playedPath + ", " + std::to_string(played.value.sampleRateHz) + " Hz, found " +

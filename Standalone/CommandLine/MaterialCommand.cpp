@@ -49,7 +49,7 @@ int runMaterial(const MaterialOptions& o) {
     if (o.lists) return listMaterials();
     const auto band = parseBand(o.band);
     if (!band) return leave(exitUsage, "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band));
-    const auto recording = readWav(o.path);
+    const auto recording = readRecording(o.path);
     if (!recording) return leave(exitFailed, recording.error);
     const auto sound = extractMaterial(loudestOf(recording.value.channels), recording.value.sampleRateHz, {band->lowHz, band->highHz},
                                        o.rule == "fit" ? MaterialRule::fit : MaterialRule::twoPeaks);

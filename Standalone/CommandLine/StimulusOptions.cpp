@@ -60,7 +60,7 @@ std::string makePhantom(const StimulusOptions& o, const LayoutDescription& layou
     if (o.recording.empty()) return {};
     made.title = std::filesystem::path{o.recording}.filename().string();
     made.stimulus.events.clear();
-    const auto recording = readWav(o.recording);
+    const auto recording = readRecording(o.recording);
     if (!recording) {
         made.error = recording.error;
     } else if (recording.value.channels.size() != 1) {

@@ -32,7 +32,7 @@ HitCourse courseFrom(std::vector<float> samples, double rateHz) {
 
 Result<RecordedHit> measureHit(const std::filesystem::path& path) {
     const auto name = path.filename().string();
-    const auto recording = readWav(path);
+    const auto recording = readRecording(path);
     if (!recording) return Failure{recording.error.starts_with(path.string()) ? name + recording.error.substr(path.string().size()) : recording.error};
     const auto& samples = loudestOf(recording.value.channels);
     const double rate = recording.value.sampleRateHz;

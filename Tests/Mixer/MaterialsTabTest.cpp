@@ -113,6 +113,35 @@ TEST_F(Materials, ARecordingThatIsDroppedOnARowIsOfThatMaterial) {
     EXPECT_EQ(now().frequencyHz, 349.0);
 }
 
+TEST_F(Materials, FlacAndOggAreReadAsWell) {
+    ASSERT_TRUE(writeKnock(folder("knock.wav")));
+    juce::AudioFormatManager formats;
+    formats.registerBasicFormats();
+    for (const auto* ending : {"flac", "ogg"}) {
+        const auto file = folder("knock").withFileExtension(ending);
+        auto* format = formats.findFormatForFileExtension(ending);
+        ASSERT_NE(format, nullptr) << ending;
+        const std::unique_ptr<juce::AudioFormatReader> wav{formats.createReaderFor(folder("knock.wav"))};
+        std::unique_ptr<juce::AudioFormatWriter> writer{format->createWriterFor(new juce::FileOutputStream{file}, 48000.0, 1, 16, {}, format->getQualityOptions().size() - 1)};
+        ASSERT_NE(writer, nullptr) << ending;
+        writer->writeFromAudioReader(*wav, 0, wav->lengthInSamples);
+        writer.reset();
+        tab.measure(file);
+        tab.finishMeasuring();
+        EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+        EXPECT_EQ(tab.recordingOf(wood)->name, file.getFileName().toStdString());
+        EXPECT_NEAR(now().frequencyHz, 352.0, 1.0) << ending;
+        EXPECT_NEAR(now().decayPerSecond, 98.0, 4.0) << ending;
+        juce::MemoryBlock bytes;
+        file.loadFileAsData(bytes);
+        file.replaceWithData(bytes.getData(), 40);
+        tab.measure(file);
+        tab.finishMeasuring();
+        EXPECT_TRUE(desk.trouble().startsWith(file.getFileName() + ": expected")) << desk.trouble();
+        desk.report({});
+    }
+}
+
 TEST_F(Materials, WhatIsNoHitIsToldInOneLineAndChangesNothing) {
     const auto expect = [&](const juce::File& file, const juce::String& words) {
         tab.measure(file);
