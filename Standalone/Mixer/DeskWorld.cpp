@@ -149,6 +149,7 @@ void Desk::strike(int enchanter, std::vector<CollisionEvent> strikes) {
     }
     ++edits_;
     session_.play(strikes);
+    sendChangeMessage(); // who rests looks again
 }
 
 std::string Desk::audition(int material, double shareX, double shareY) {
@@ -162,6 +163,7 @@ std::string Desk::audition(int material, double shareX, double shareY) {
     hit.x = shareX * sceneNow_.fieldWidthMetres;
     hit.y = shareY * sceneNow_.fieldHeightMetres;
     ++edits_;
+    sendChangeMessage(); // who rests looks again
     return session_.play({&hit, 1}) ? std::string{} : heard.name + ": cannot be played";
 }
 

@@ -10,7 +10,7 @@ namespace physvib {
 
 class MixerView final : public juce::Component, public juce::DragAndDropContainer, private juce::ChangeListener, private juce::Timer {
 public:
-    static constexpr int framesPerSecond = 30, restFramesPerSecond = 8, leastWidth = 1040, leastHeight = 640;
+    static constexpr int framesPerSecond = 30, restFramesPerSecond = 5, leastWidth = 1040, leastHeight = 640;
 
     explicit MixerView(Desk& desk);
     ~MixerView() override;
