@@ -13,7 +13,7 @@ namespace {
 constexpr int stepsPerSecond = 100;
 constexpr double gapSeconds = 0.005; // the driver's thread shares the machine with painting
 constexpr double boardSeconds = 0.05; // the link needs 20 to 40 ms; more than that is told as trouble
-constexpr double boardPatienceMs = 2000.0; // greeting and clock take half a second
+constexpr double maintainMs = 1000.0, boardPatienceMs = 3000.0; // greeting and clock take half a second
 constexpr double newStripDb = -12.0; // hands are attached
 
 double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
@@ -187,7 +187,7 @@ std::string Desk::open(const DeviceChoice& device) {
     AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, masterGain(mix_), mix_.count(), true, listening_};
     const auto error = output_.open(settings);
     device_ = device;
-    report(deviceTrouble_ = utf8(error));
+    report(outputTrouble_ = deviceTrouble_ = utf8(error));
     scope_.setRate(output_.sampleRateHz());
     spectrum_.setRate(output_.sampleRateHz());
     return error;
@@ -199,9 +199,13 @@ std::string Desk::hear(const ListeningSettings& listening) {
     return error;
 }
 
-juce::String Desk::outputTrouble() {
-    const auto device = utf8(output_.maintain()), board = boardTrouble();
-    return device.isEmpty() || board.isEmpty() ? device + board : device + "; " + board;
+void Desk::watchOutput() {
+    if (const double now = nowMs(); now - maintainedAtMs_ > maintainMs) {
+        maintainedAtMs_ = now;
+        deviceTrouble_ = utf8(output_.maintain());
+    }
+    const auto board = boardTrouble(), both = deviceTrouble_.isEmpty() || board.isEmpty() ? deviceTrouble_ + board : deviceTrouble_ + "; " + board;
+    if (both != outputTrouble_) report(outputTrouble_ = both);
 }
 
 // Without a port of its own the link tries one after the other: what it says of each would only flicker.
@@ -211,7 +215,7 @@ juce::String Desk::boardTrouble() {
     if (status->state == BoardLinkStatus::State::ready) {
         wasBoardReady_ = true;
         if (status->playOutMs <= 1e3 * boardSeconds) return {};
-        return "The board needs its strikes " + juce::String{status->playOutMs, 0} + " ms before they are felt; the session allows for " + juce::String{1e3 * boardSeconds, 0};
+        return "The board needs its strikes more than " + juce::String{1e3 * boardSeconds, 0} + " ms before they are felt: some come late there";
     }
     if (!wasBoardReady_ && nowMs() - boardWantedAtMs_ < boardPatienceMs) return {};
     if (device_.board == anyBoard) return wasBoardReady_ ? "The board is gone; it is looked for on every serial port" : "No board answers on any serial port";

@@ -144,7 +144,7 @@ private:
     class WorldEdit;
     std::vector<Action> undoOf(const Action& action) const;
     Action renamed(const Action& action);
-    juce::String outputTrouble();
+    void watchOutput();
     juce::String boardTrouble();
     void finishRecording();
     void showEdit(const Action& action);
@@ -167,7 +167,7 @@ private:
     Scene sceneNow_;
     DeviceChoice device_;
     ListeningSettings listening_;
-    juce::String trouble_, deviceTrouble_;
+    juce::String trouble_, deviceTrouble_, outputTrouble_; // shown; of the device; with the board's
     bool isSilent_ = false, isNews_ = false, wasBoardReady_ = false;
     std::uint64_t edits_ = 0, worldEdits_ = 0;
     SavedSession saved_;

@@ -9,7 +9,7 @@ namespace physvib {
 
 namespace {
 
-constexpr double holdMs = 1500.0, maintainMs = 1000.0;
+constexpr double holdMs = 1500.0;
 
 double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
 
@@ -55,10 +55,7 @@ DeskMoment Desk::look() {
     now_.masterPeak = isSilent_ ? 0.0f : loudest * masterGain(mix_);
     now_.sessionNs = session_.readPoses(now_.poses);
     now_.aheadNs = static_cast<std::int64_t>(1e9 * playOutSeconds());
-    if (now - maintainedAtMs_ > maintainMs) {
-        maintainedAtMs_ = now;
-        if (const auto trouble = outputTrouble(); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
-    }
+    watchOutput();
     return now_;
 }
 

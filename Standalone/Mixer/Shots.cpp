@@ -16,6 +16,7 @@ struct State {
     int width, height;
     double seconds; // until the picture is taken
     std::function<void(Desk&, MixerView&)> reach;
+    std::string board{}; // serial port of one that is wanted
 };
 
 AudioDeviceTypes onlyNoDevice() {
@@ -42,6 +43,7 @@ std::vector<State> mixerStates() {
         {"events", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Events"); }},
         {"telemetry", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Telemetry"); }},
         {"output", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }},
+        {"board", 1440, 900, 4.5, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }, "/dev/ttyACM0"},
         {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
         {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},
         {"error", 1440, 900, 2.0, [](Desk& d, MixerView&) { d.report("session.json: takes[0].scene.bodies[4].fixtures[0].radius_m: expected 0.01 to 100, found 0"); }},
@@ -88,12 +90,13 @@ juce::StringArray shotStates() {
 juce::String takeShot(const juce::File& file, const juce::String& name) {
     const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
     if (state == states().end()) return "--state: expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
-    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128}};
+    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->board}};
     MixerView view{desk};
     view.setSize(state->width, state->height);
     state->reach(desk, view);
     desk.dispatchPendingMessages();
     runFor(state->seconds, view);
+    desk.dispatchPendingMessages(); // what has been told meanwhile
     const auto image = view.createComponentSnapshot(view.getLocalBounds(), true, 1.0f);
     juce::TemporaryFile temporary{file};
     if (auto out = temporary.getFile().createOutputStream(); !out || !juce::PNGImageFormat{}.writeImageToStream(image, *out)) return file.getFullPathName() + ": cannot be written";

@@ -36,7 +36,7 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     ASSERT_TRUE(runUntil([&] { return state() == State::ready; }));
     ASSERT_TRUE(runUntil([&] { return window.desk().board()->sent > 5 && board.last("sound") > 0; }));
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
-    EXPECT_TRUE(window.desk().trouble().isEmpty()) << window.desk().trouble();
+    ASSERT_TRUE(runUntil([&] { return window.desk().trouble().isEmpty(); })) << window.desk().trouble();
 
     board.stop();
     ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains(board.port()) && window.desk().trouble().contains("is gone"); })) << window.desk().trouble();
