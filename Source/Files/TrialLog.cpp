@@ -106,6 +106,25 @@ std::string_view withoutVersion(std::string_view header) {
     return header.substr(std::min(header.find(" protocol="), header.size()));
 }
 
+/// The value of `key` in a line of provenance.
+std::string_view valueOf(std::string_view line, std::string_view key) {
+    const auto at = line.find(" " + std::string(key) + "=");
+    if (at == std::string_view::npos) return {};
+    const auto rest = line.substr(at + key.size() + 2);
+    return rest.substr(0, rest.find_first_of(" \n"));
+}
+
+/// What of the head is another, first things first.
+std::string headFault(std::string_view found, std::string_view expected) {
+    found = found.substr(0, found.find('\n'));
+    expected = expected.substr(0, expected.find('\n'));
+    for (const std::string_view key : {"protocol", "participant", "number", "observer", "seed"})
+        if (valueOf(found, key) != valueOf(expected, key))
+            return "expected trials of " + std::string(key) + " " + printable(std::string(valueOf(expected, key))) + ", found " + printable(std::string(valueOf(found, key)));
+    return "was begun with another version of the protocol " + std::string(valueOf(expected, "protocol")) + " (hash " + printable(std::string(valueOf(found, "hash"))) + ", now " +
+           std::string(valueOf(expected, "hash")) + "), so it does not go on: keep it, and begin anew in another folder";
+}
+
 } // namespace
 
 std::string trialHeader(const Protocol& protocol, const Participant& participant, std::string_view version) {
@@ -144,7 +163,7 @@ Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, cons
     const bool isOurs = text.starts_with(ours) || ours.starts_with(text);
     if (isOurs && std::ranges::count(whole, '\n') < 2) return log; // not even a header: nothing to go on from
     if (!isOurs || !withoutVersion(whole).starts_with(withoutVersion(header)))
-        return Failure{std::string(name) + ":1: expected trials of this protocol, seed, participant, number and observer, found others"};
+        return Failure{std::string(name) + ":1: " + (isOurs ? headFault(whole, header) : "expected a trial file of physvib, found something else")};
     log.wholeBytes = whole.size();
     if (withoutVersion(whole) == withoutVersion(header)) return log;
     try {

@@ -32,6 +32,26 @@ public:
     }
 };
 
+/// One of several: the click answers.
+class ChosenAnswer : public StudyAnswer {
+public:
+    Answer answer() const override {
+        Answer answer;
+        answer.response = response_;
+        return answer;
+    }
+    bool isComplete() const override { return !response_.empty(); }
+
+protected:
+    void choose(std::string response) {
+        response_ = std::move(response);
+        if (onAnswer) onAnswer();
+    }
+
+private:
+    std::string response_;
+};
+
 /// For the trial at hand. M.
 std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout);
 

@@ -27,7 +27,7 @@ public:
     }
 };
 
-class CellAnswer final : public StudyAnswer {
+class CellAnswer final : public ChosenAnswer {
 public:
     CellAnswer(const GridSet& grid, const LayoutDescription& layout)
         : grid_{grid.grid()}
@@ -35,19 +35,10 @@ public:
         setTitle("Grid");
         for (const GridCell& cell : grid_.cells()) {
             auto& button = cells_.emplace_back(std::make_unique<Cell>(cell));
-            button->onClick = [this, cell] {
-                response_ = gridLabel(cell);
-                if (onAnswer) onAnswer();
-            };
+            button->onClick = [this, cell] { choose(gridLabel(cell)); };
             addAndMakeVisible(*button);
         }
     }
-    Answer answer() const override {
-        Answer answer;
-        answer.response = response_;
-        return answer;
-    }
-    bool isComplete() const override { return !response_.empty(); }
     juce::String keys() const override { return "Arrows and Enter: place."; }
     bool takeKey(const juce::KeyPress& key) override { return moveFocus(*this, key); }
     void begin() override { cells_[cells_.size() / 2]->grabKeyboardFocus(); }
@@ -67,7 +58,6 @@ private:
     PhantomGrid grid_;
     const LayoutDescription layout_;
     std::vector<std::unique_ptr<Cell>> cells_;
-    std::string response_;
 };
 
 /// The mark follows the mouse and the arrows; a click or Enter answers.

@@ -63,7 +63,7 @@ private:
     const LayoutDescription& layout_;
 };
 
-class PatternAnswer final : public StudyAnswer {
+class PatternAnswer final : public ChosenAnswer {
 public:
     PatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout)
         : layout_{layout} {
@@ -78,12 +78,6 @@ public:
         }
         chooseFirst(-1);
     }
-    Answer answer() const override {
-        Answer answer;
-        answer.response = response_;
-        return answer;
-    }
-    bool isComplete() const override { return !response_.empty(); }
     juce::String keys() const override { return "Letter: first pulse.  Arrows and Enter: pattern."; }
     bool takeKey(const juce::KeyPress& key) override {
         const auto typed = juce::String::charToString(juce::CharacterFunctions::toUpperCase(key.getTextCharacter()));
@@ -139,10 +133,7 @@ public:
 private:
     void addIcon(const PulsePattern& pattern) {
         auto& icon = icons_.emplace_back(std::make_unique<PatternIcon>(pattern, layout_));
-        icon->onClick = [this, at = icon.get()] {
-            response_ = patternLabel(at->pattern);
-            if (onAnswer) onAnswer();
-        };
+        icon->onClick = [this, at = icon.get()] { choose(patternLabel(at->pattern)); };
         addChildComponent(*icon);
     }
 
@@ -189,7 +180,6 @@ private:
     juce::Rectangle<float> field_;
     std::vector<std::pair<int, juce::Rectangle<int>>> rows_; // ms, caption
     int first_ = -1;
-    std::string response_;
 };
 
 } // namespace

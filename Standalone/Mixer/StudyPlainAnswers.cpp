@@ -17,26 +17,17 @@ juce::Rectangle<int> column(juce::Rectangle<int> area, int width, int height) {
 }
 
 /// A button for each label.
-class LabelAnswer final : public StudyAnswer {
+class LabelAnswer final : public ChosenAnswer {
 public:
     explicit LabelAnswer(const ConditionPlan& condition) {
         setTitle("Stimuli");
         for (const StimulusItem& item : stimuliOf(condition)) {
             auto& button = buttons_.emplace_back(std::make_unique<BigButton>(utf8(item.label), utf8(item.label)));
             labels_.push_back(item.label);
-            button->onClick = [this, label = item.label] {
-                response_ = label;
-                if (onAnswer) onAnswer();
-            };
+            button->onClick = [this, label = item.label] { choose(label); };
             addAndMakeVisible(*button);
         }
     }
-    Answer answer() const override {
-        Answer answer;
-        answer.response = response_;
-        return answer;
-    }
-    bool isComplete() const override { return !response_.empty(); }
     juce::String keys() const override { return "Arrows and Enter: answer."; }
     bool takeKey(const juce::KeyPress& key) override { return moveFocus(*this, key); }
     void mark(const std::set<std::string>& felt) override {
@@ -55,11 +46,10 @@ public:
 private:
     std::vector<std::unique_ptr<BigButton>> buttons_;
     std::vector<std::string> labels_;
-    std::string response_;
 };
 
 /// One of the parts, by its number: what they are called stays unsaid.
-class ChoiceAnswer final : public StudyAnswer {
+class ChoiceAnswer final : public ChosenAnswer {
 public:
     explicit ChoiceAnswer(const Trial& trial)
         : parts_{trial.parts} {
@@ -68,7 +58,7 @@ public:
             const auto words = "The " + ordinal(i);
             auto& button = buttons_.emplace_back(std::make_unique<BigButton>(words, "Answer: " + words.toLowerCase()));
             button->setWords(words, "key " + juce::String{i + 1});
-            button->onClick = [this, i] { choose(i); };
+            button->onClick = [this, i] { choosePart(i); };
             addAndMakeVisible(*button);
         }
     }
@@ -76,16 +66,10 @@ public:
         static const juce::StringArray names{"first", "second", "third", "fourth", "fifth", "sixth"};
         return i < names.size() ? names[i] : juce::String{i + 1} + "th";
     }
-    Answer answer() const override {
-        Answer answer;
-        answer.response = response_;
-        return answer;
-    }
-    bool isComplete() const override { return !response_.empty(); }
     juce::String keys() const override { return "1, 2: answer."; }
     bool takeKey(const juce::KeyPress& key) override {
         const int i = static_cast<int>(key.getTextCharacter() - '1');
-        if (isEnabled() && i >= 0 && i < static_cast<int>(parts_.size())) return choose(i), true;
+        if (isEnabled() && i >= 0 && i < static_cast<int>(parts_.size())) return choosePart(i), true;
         return moveFocus(*this, key);
     }
     void resized() override {
@@ -96,13 +80,9 @@ public:
     }
 
 private:
-    void choose(int i) {
-        response_ = parts_[static_cast<std::size_t>(i)];
-        if (onAnswer) onAnswer();
-    }
+    void choosePart(int i) { choose(parts_[static_cast<std::size_t>(i)]); }
     const std::vector<std::string> parts_;
     std::vector<std::unique_ptr<BigButton>> buttons_;
-    std::string response_;
 };
 
 /// A slider for each scale; one that was not moved has not answered.

@@ -58,15 +58,25 @@ TEST(TrialLog, FilesOfOthersAreRefused) {
     const Protocol p = findProtocol("level-steps").value;
     const std::string text = wholeFile(p);
     const auto refusal = [&](const Protocol& protocol, const Participant& who) { return readTrialLog(text, "t.csv", protocol, who).error; };
-    const std::string others = "t.csv:1: expected trials of this protocol, seed, participant, number and observer, found others";
     EXPECT_EQ(refusal(p, participant), "");
-    EXPECT_EQ(refusal(p, {"P02", 1, "simulated"}), others);
-    EXPECT_EQ(refusal(p, {"P01", 2, "simulated"}), others);
-    EXPECT_EQ(refusal(p, {"P01", 1, "person"}), others);
+    EXPECT_EQ(refusal(p, {"P02", 1, "simulated"}), "t.csv:1: expected trials of participant P02, found P01");
+    EXPECT_EQ(refusal(p, {"P01", 2, "simulated"}), "t.csv:1: expected trials of number 2, found 1");
+    EXPECT_EQ(refusal(p, {"P01", 1, "person"}), "t.csv:1: expected trials of observer person, found simulated");
+    EXPECT_EQ(refusal(findProtocol("magnitudes").value, participant), "t.csv:1: expected trials of protocol magnitudes, found level-steps");
     Protocol changed = p;
     changed.seed = 9;
-    EXPECT_EQ(refusal(changed, participant), others);
-    EXPECT_EQ(readTrialLog("my diary", "t.csv", p, participant).error, others) << "even a single line without an end";
+    EXPECT_EQ(refusal(changed, participant), "t.csv:1: expected trials of seed 9, found 1");
+    EXPECT_EQ(readTrialLog("my diary", "t.csv", p, participant).error, "t.csv:1: expected a trial file of physvib, found something else") << "even a single line without an end";
+}
+
+TEST(TrialLog, AProtocolThatHasChangedSinceIsToldAsThat) {
+    const Protocol p = findProtocol("level-steps").value;
+    const std::string text = wholeFile(p);
+    Protocol changed = p;
+    changed.sessions.front().question = "Which one is stronger now?";
+    EXPECT_EQ(readTrialLog(text, "t.csv", changed, participant).error,
+              "t.csv:1: was begun with another version of the protocol level-steps (hash " + protocolHash(p) + ", now " + protocolHash(changed) +
+                  "), so it does not go on: keep it, and begin anew in another folder");
 }
 
 TEST(TrialLog, BadRowsAreNamed) {
