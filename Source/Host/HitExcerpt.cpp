@@ -26,6 +26,13 @@ double noisePower(const std::vector<double>& samples, std::size_t frame) {
     return *low;
 }
 
+/// The mean; 0 if noise alone would make such a one, since taking that away would only add to the noise.
+double offsetOf(std::span<const double> samples) {
+    double mean = 0.0;
+    for (const double x : samples) mean += x / static_cast<double>(samples.size());
+    return mean * mean > 9.0 * power(samples) / static_cast<double>(samples.size()) ? mean : 0.0;
+}
+
 std::size_t loudest(const std::vector<double>& samples) {
     return static_cast<std::size_t>(std::ranges::max_element(samples, {}, [](double s) { return std::abs(s); }) - samples.begin());
 }
@@ -58,10 +65,8 @@ HitExcerpt strongestHit(const std::vector<float>& samples, double rateHz) {
     std::vector<double> x(samples.begin(), samples.end());
     const std::size_t peak = loudest(x), quiet = peak - std::min(peak, samplesIn(onsetReachSeconds, rateHz));
     HitExcerpt hit;
-    if (quiet >= samplesIn(leastBeforeSeconds, rateHz)) {
-        for (std::size_t i = 0; i < quiet; ++i) hit.offset += x[i] / static_cast<double>(quiet);
-        for (double& s : x) s -= hit.offset;
-    }
+    if (quiet >= samplesIn(leastBeforeSeconds, rateHz)) hit.offset = offsetOf(std::span(x).first(quiet));
+    for (double& s : x) s -= hit.offset;
     const double noise = noisePower(x, samplesIn(0.4 * frameSeconds, rateHz));
     hit.begin = firstLoud(x, loudest(x), noise, rateHz);
     hit.end = endOf(x, hit.begin, noise, rateHz);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One partial more per round; a round that is not worth its numbers is undone.
+// One partial more per round; a round that is not worth its numbers is undone. Then other starts, and Eq. 5.1.
 #include "Host/HitFit.h"
 #include "Host/HitExcerpt.h"
+#include "Host/LinearPrediction.h"
 #include <algorithm>
 
 namespace physvib {
 namespace {
 
 constexpr std::size_t mostPartials = 6;
-constexpr double cleanShare = 1e-9; // of the energy: below it, what is left is rounding
-constexpr double penalty = 6.0;     // in units of ln N, for four numbers and the search for them (Schwarz 1978)
+constexpr double cleanShare = 1e-11; // of the energy: below it, what is left is rounding
+constexpr double shortHit = 8.0;     // omega / tau
+constexpr double penalty = 1.5;      // per number, in units of ln N: the number, and the search for it (Schwarz 1978)
 
 double energyOf(std::span<const double> samples) {
     double sum = 0.0;
@@ -25,24 +27,73 @@ HitFit::HitFit(std::vector<double> samples, std::size_t guess, double rateHz)
     , rateHz_{rateHz}
     , energy_{energyOf(samples_)}
     , fit_{rest(), rateHz} {
-    run();
+    addPartials();
+    if (fit_.partials().empty()) return;
+    cost_ = costOf(unexplainedEnergy(), 4 * fit_.partials().size());
+    tryStruck(fit_.partials());
+    tryOtherStarts();
 }
 
-double HitFit::unexplainedEnergy() const { return energyOf(std::span(samples_).first(onset_)) + fit_.residualEnergy(); }
+double HitFit::energyBeforeOnset() const { return energyOf(std::span(samples_).first(onset_)); }
 
-void HitFit::run() {
-    const double count = static_cast<double>(samples_.size()), worth = std::exp(-penalty * std::log(count) / count);
-    double unexplained = energy_;
-    while (fit_.partials().size() < mostPartials && unexplained > cleanShare * energy_) {
+double HitFit::costOf(double unexplained, std::size_t numbers) const {
+    const double count = static_cast<double>(samples_.size());
+    return count * std::log(std::max(unexplained, cleanShare * energy_)) + penalty * static_cast<double>(numbers) * std::log(count);
+}
+
+void HitFit::addPartials() {
+    const auto cost = [this] { return costOf(unexplainedEnergy(), 4 * fit_.partials().size()); };
+    double least = cost();
+    while (fit_.partials().size() < mostPartials && unexplainedEnergy() > cleanShare * energy_) {
         const std::size_t onset = onset_;
         const std::vector<Partial> partials = fit_.partials();
         fit_.addHighest();
         fit_.refine();
         if (moveOnset()) fit_.refine();
-        const double now = unexplainedEnergy();
-        if (!(now < worth * unexplained)) return restart(onset, partials);
-        unexplained = now;
+        const double now = cost();
+        if (!(now < least)) return restart(onset, partials);
+        least = now;
     }
+}
+
+void HitFit::tryFree(const std::vector<Partial>& starts) {
+    PartialFit fit{rest(), rateHz_};
+    for (const Partial& p : starts) fit.add(p);
+    fit.solveLinear();
+    fit.refine();
+    const double cost = costOf(energyBeforeOnset() + fit.residualEnergy(), 4 * starts.size());
+    if (!(cost < cost_)) return;
+    cost_ = cost;
+    fit_ = fit;
+    struck_.reset();
+}
+
+void HitFit::tryStruck(const std::vector<Partial>& starts) {
+    StruckFit fit{samples_, rateHz_, onset_, starts};
+    fit.refine();
+    const double cost = costOf(fit.residualEnergy(), 3 * starts.size());
+    if (!(cost < cost_)) return;
+    cost_ = cost;
+    struck_ = std::move(fit);
+}
+
+// What is over within two periods lies under one broad peak with its neighbours, where the search above goes astray.
+void HitFit::tryOtherStarts() {
+    const std::vector<Partial> found = fit_.partials();
+    const auto longest = std::ranges::min(found, {}, &Partial::tau);
+    const auto strongest = std::ranges::max(found, {}, [this](const Partial& p) { return p.spectralPeak(seconds()); });
+    if (strongest.omega > shortHit * strongest.tau) return;
+    for (const double lives : {2.0, 4.0})
+        for (const std::size_t blocks : {16u, 48u})
+            for (std::size_t count = 1; count <= 4; ++count) {
+                if (unexplainedEnergy() < cleanShare * energy_ && count >= partials().size()) break;
+                const auto length = std::min(rest().size(), samplesIn(lives / longest.tau, rateHz_));
+                std::vector<Partial> starts;
+                for (const PredictedPartial& p : predictPartials(rest().first(length), rateHz_, count, blocks)) starts.push_back({p.omega, p.tau, 0.0, 1.0});
+                if (starts.empty()) continue;
+                tryStruck(starts);
+                tryFree(starts);
+            }
 }
 
 // A sample x that the model covers with m takes 2 x m - m^2 from what is unexplained.

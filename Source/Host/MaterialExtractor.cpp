@@ -41,7 +41,7 @@ std::vector<double> cut(const std::vector<float>& samples, std::size_t begin, st
 Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& hit, double rateHz, ExtractionBand band) {
     const std::size_t begin = hit.begin - std::min(hit.begin, samplesIn(onsetReachSeconds, rateHz));
     const HitFit hitFit{cut(samples, begin, hit.end, hit.offset), hit.begin - begin, rateHz};
-    const auto& partials = hitFit.fit().partials();
+    const std::vector<Partial> partials = hitFit.partials();
     std::size_t best = partials.size();
     for (std::size_t k = 0; k < partials.size(); ++k) {
         const double hz = partials[k].omega / (2.0 * std::numbers::pi);
@@ -50,7 +50,7 @@ Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& 
         if (isWanted && (best == partials.size() || height(k) > height(best))) best = k;
     }
     if (best == partials.size()) return Failure{noneIn(band)};
-    const PartialError error = hitFit.fit().errorOf(best);
+    const PartialError error = hitFit.errorOf(best);
     const Partial& p = partials[best];
     ContactSound sound;
     sound.frequencyHz = p.omega / (2.0 * std::numbers::pi);
@@ -62,7 +62,7 @@ Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& 
     double own = 0.0;
     for (double t = 0.0; t < hitFit.seconds(); t += 1.0 / rateHz) own += p.at(t) * p.at(t);
     sound.ownShare = own / hitFit.energy();
-    sound.beginSeconds = static_cast<double>(begin + hitFit.onset()) / rateHz;
+    sound.beginSeconds = static_cast<double>(begin) / rateHz + hitFit.onsetSeconds();
     sound.lengthSeconds = hitFit.seconds();
     return sound;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Least squares of a sum of decaying sinusoids to samples, partials found one by one and refined together.
 #pragma once
+#include "Host/LeastSquares.h"
 #include <cmath>
 #include <span>
 #include <vector>
@@ -40,20 +41,22 @@ public:
     /// Takes a partial as a start.
     void add(const Partial& partial) { partials_.push_back(partial); }
 
-    /// The amplitudes alone of a single partial, at its frequency and decay.
+    /// The amplitudes alone, at the frequencies and decays as they are.
     void solveLinear();
 
-    /// Levenberg and Marquardt on all partials together. False if there was nothing to solve.
+    /// All numbers of all partials together. False if there was nothing to gain.
     bool refine();
 
     const std::vector<Partial>& partials() const noexcept { return partials_; }
-    double residualEnergy() const;
+    double residualEnergy() const { return energyWith(partials_); }
     PartialError errorOf(std::size_t partial) const;
 
+    static double allowedOmega(double omega, double rateHz) noexcept; ///< the nearest that a fit may take
+    static double allowedTau(double tau) noexcept;
+
 private:
-    struct Normal; // normal equations
-    Normal normalEquations() const;
-    std::vector<double> residual() const;
+    NormalEquations equationsOf(const std::vector<Partial>& partials) const;
+    std::vector<double> residualOf(const std::vector<Partial>& partials) const;
     double energyWith(const std::vector<Partial>& partials) const;
 
     std::span<const double> samples_;

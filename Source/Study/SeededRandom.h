@@ -17,6 +17,7 @@ public:
     /// Different seeds and names give unrelated streams (FNV-1a over the name).
     explicit SeededRandom(std::uint64_t seed, std::string_view name = {}) noexcept
         : state_{seed * 0x9E3779B97F4A7C15u + 0xCBF29CE484222325u} {
+        if (name.empty()) state_ = next(); // a seed one higher is this stream one step further on
         for (const char c : name) state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
         next();
     }

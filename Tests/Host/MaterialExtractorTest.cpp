@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // MaterialExtractor: what was put into synthetic hits comes out again; what is no hit is told.
+#include "Host/HitBound.h"
 #include "Host/MaterialExtractor.h"
 #include "Study/SeededRandom.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -13,13 +15,11 @@ namespace {
 
 constexpr double rate = 48000.0;
 
-struct Tone {
-    double frequencyHz, decayPerSecond, amplitude = 1.0;
-};
+using Tone = test::HitTone;
 
 /// Eq. 5.1 from a moment between samples on; noise is white, its power so many dB under that of the first tone's start.
 std::vector<float> hit(const std::vector<Tone>& tones, double noiseDecibels, std::uint64_t seed, double seconds = 0.8) {
-    SeededRandom random{seed};
+    SeededRandom random{seed, "hit"};
     const double onset = 0.05 + 0.01 * random.uniform(), noise = std::pow(10.0, noiseDecibels / 20.0) / std::numbers::sqrt2;
     std::vector<float> samples(static_cast<std::size_t>(seconds * rate));
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -39,30 +39,95 @@ std::vector<Tone> threePartials(double frequencyHz, double decayPerSecond) {
     return {{frequencyHz, decayPerSecond}, {1.59 * frequencyHz, 1.7 * decayPerSecond, 0.6}, {2.14 * frequencyHz, 2.3 * decayPerSecond, 0.5}};
 }
 
-void expectFound(const std::vector<Tone>& tones, double noise, double frequencyBar, double decayBar, std::uint64_t seed = 1) {
-    const auto found = extractMaterial(hit(tones, noise, seed), rate);
-    ASSERT_TRUE(found) << found.error;
-    const Tone& wanted = tones.front();
-    const auto where = testing::Message() << wanted.frequencyHz << " Hz, " << wanted.decayPerSecond << " /s, " << tones.size() << " partials";
-    EXPECT_NEAR(found.value.frequencyHz / wanted.frequencyHz, 1.0, frequencyBar) << where;
-    EXPECT_NEAR(found.value.decayPerSecond / wanted.decayPerSecond, 1.0, decayBar) << where;
+struct Errors {
+    double frequency, decay; ///< shares
+};
+
+Errors errorsOf(const std::vector<Tone>& tones, double noiseDecibels, std::uint64_t seed) {
+    const auto found = extractMaterial(hit(tones, noiseDecibels, seed), rate);
+    if (!found) return {HUGE_VAL, HUGE_VAL};
+    return {std::abs(found.value.frequencyHz / tones.front().frequencyHz - 1.0), std::abs(found.value.decayPerSecond / tones.front().decayPerSecond - 1.0)};
 }
+
+void expectFound(const std::vector<Tone>& tones, double noise, double frequencyBar, double decayBar, std::uint64_t seed = 1) {
+    const Errors errors = errorsOf(tones, noise, seed);
+    const auto where = testing::Message() << tones.front().frequencyHz << " Hz, " << tones.front().decayPerSecond << " /s, " << tones.size() << " partials, seed " << seed;
+    EXPECT_LE(errors.frequency, frequencyBar) << where;
+    EXPECT_LE(errors.decay, decayBar) << where;
+}
+
+test::HitBound boundIn20Decibels(const std::vector<Tone>& tones) { return test::boundOf(tones, 0.1 / std::numbers::sqrt2, rate, 0.7); }
+
+/// All hits of the ranges; `shortest` are over within two periods.
+const std::vector<std::pair<double, double>> hits{{40, 5}, {40, 34}, {80, 12}, {80, 34.13}, {205, 5}, {205, 107}, {205, 150}, {349, 106.99}, {430, 11.97}, {900, 5}, {900, 150}};
+const std::vector<std::pair<double, double>> shortest{{40, 107}, {40, 150}, {80, 107}, {80, 150}};
 
 TEST(MaterialExtractor, CleanHitsWithinATwentiethOfAPercentAndHalfAPercent) {
-    for (const Tone& tone : {Tone{40, 5}, {40, 150}, {80, 34.13}, {349, 106.99}, {430, 11.97}, {900, 150}}) expectFound({tone}, clean, 0.0005, 0.005);
-    for (const auto& [f, tau] : {std::pair{40.0, 12.0}, {205.0, 34.0}, {430.0, 150.0}}) expectFound(threePartials(f, tau), clean, 0.0005, 0.005);
+    for (const auto& [f, tau] : hits) {
+        expectFound({{f, tau}}, clean, 0.0005, 0.005);
+        expectFound(threePartials(f, tau), clean, 0.0005, 0.005);
+    }
 }
 
-TEST(MaterialExtractor, NoisyHitsWithinHalfAPercentAndFivePercent) {
-    for (const Tone& tone : {Tone{40, 5}, {40, 34}, {80, 34.13}, {205, 150}, {349, 106.99}, {430, 11.97}, {900, 150}})
+TEST(MaterialExtractor, CleanHitsThatAreOverWithinTwoPeriodsTheSame) {
+    for (const auto& [f, tau] : shortest)
         for (const std::uint64_t seed : {1u, 2u}) {
-            expectFound({tone}, noisy, 0.005, 0.05, seed);
-            expectFound(threePartials(tone.frequencyHz, tone.decayPerSecond), noisy, 0.005, 0.05, seed);
+            expectFound({{f, tau}}, clean, 0.0005, 0.005, seed);
+            expectFound(threePartials(f, tau), clean, 0.0005, 0.005, seed);
         }
 }
 
-// 40 Hz that falls by 150 /s is over within a period: no estimator that does not know the phase beats the bound.
-TEST(MaterialExtractor, WhereNoiseLeavesTooLittleTheBoundIsKeptAndTold) {
+TEST(MaterialExtractor, NoisyHitsWithinHalfAPercentAndFivePercent) {
+    for (const auto& [f, tau] : hits)
+        for (const std::uint64_t seed : {1u, 2u})
+            for (const auto& tones : {std::vector<Tone>{{f, tau}}, threePartials(f, tau)}) {
+                const test::HitBound bound = boundIn20Decibels(tones);
+                EXPECT_LT(3.0 * bound.frequency, 0.0055) << "the bar asks for what noise allows";
+                EXPECT_LT(3.0 * bound.decay, 0.06);
+                expectFound(tones, noisy, 0.005, 0.05, seed);
+            }
+}
+
+// Where three standard deviations of the bound exceed the bar, nobody can stay within it; one partial keeps to the bound.
+TEST(MaterialExtractor, WhereNoiseLeavesTooLittleOnePartialKeepsToTheBound) {
+    for (const auto& [f, tau] : shortest) {
+        const test::HitBound bound = boundIn20Decibels({{f, tau}});
+        EXPECT_GT(3.0 * bound.frequency, 0.005) << f << ' ' << tau;
+        double frequency = 0.0, decay = 0.0;
+        constexpr std::uint64_t seeds = 12;
+        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+            const Errors errors = errorsOf({{f, tau}}, noisy, seed);
+            frequency += errors.frequency * errors.frequency / seeds;
+            decay += errors.decay * errors.decay / seeds;
+        }
+        EXPECT_LT(std::sqrt(frequency), 1.6 * bound.frequency) << f << ' ' << tau << ": a ratio of 1 scatters by a fifth with twelve seeds";
+        EXPECT_LT(std::sqrt(decay), 1.6 * bound.decay) << f << ' ' << tau;
+    }
+}
+
+// Docs/materials.md: --gtest_also_run_disabled_tests --gtest_filter=*TableOfErrorsAndBounds
+TEST(MaterialExtractor, DISABLED_TableOfErrorsAndBounds) {
+    constexpr std::uint64_t seeds = 40;
+    std::puts("partials,frequency_hz,decay_per_s,bound_f_percent,rms_f_percent,bound_tau_percent,rms_tau_percent,within_bars");
+    for (const double f : {40.0, 80.0, 205.0, 430.0, 900.0})
+        for (const double tau : {5.0, 12.0, 34.0, 107.0, 150.0})
+            for (const auto& tones : {std::vector<Tone>{{f, tau}}, threePartials(f, tau)}) {
+                const test::HitBound bound = boundIn20Decibels(tones);
+                double frequency = 0.0, decay = 0.0;
+                int within = 0;
+                for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+                    const Errors e = errorsOf(tones, noisy, seed);
+                    frequency += e.frequency * e.frequency / seeds;
+                    decay += e.decay * e.decay / seeds;
+                    within += e.frequency <= 0.005 && e.decay <= 0.05;
+                }
+                std::printf("%zu,%g,%g,%.3f,%.3f,%.2f,%.2f,%d/%d\n", tones.size(), f, tau, 100.0 * bound.frequency, 100.0 * std::sqrt(frequency), 100.0 * bound.decay, 100.0 * std::sqrt(decay),
+                            within, static_cast<int>(seeds));
+                std::fflush(stdout);
+            }
+}
+
+TEST(MaterialExtractor, LittleConfidenceIsTold) {
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
         const auto found = extractMaterial(hit({{40, 150}}, noisy, seed), rate);
         ASSERT_TRUE(found) << found.error;

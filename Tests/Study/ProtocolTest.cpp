@@ -120,6 +120,9 @@ TEST(SeededRandom, IsTheSameOnEveryMachineAndFairEnough) {
     SeededRandom random{1, "name"};
     EXPECT_EQ(random.next(), SeededRandom(1, "name").next());
     EXPECT_NE(SeededRandom(1, "name").next(), SeededRandom(2, "name").next());
+    SeededRandom one{1};
+    one.next();
+    EXPECT_NE(one.next(), SeededRandom(2).next()) << "neighbouring seeds are no shifted copies";
     EXPECT_NE(SeededRandom(1, "name").next(), SeededRandom(1, "other").next());
     std::array<int, 6> dice{};
     double sum = 0.0, squares = 0.0;
