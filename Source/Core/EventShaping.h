@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What becomes of a collision before it is rendered: the method, then the frequencies that the actuators can play.
+// What becomes of a collision before it is rendered: the method, then the frequencies that the actuators can play, then the level.
 #pragma once
 #include "Core/RenderingMethod.h"
 #include "Core/Resonator.h"
@@ -26,10 +26,12 @@ struct FrequencyRemap {
 struct EventShaping {
     RenderingMethod method;
     FrequencyRemap remap;
+    double gain = 1.0; ///< of all events, also of a fixed level
 
     CollisionEvent operator()(const CollisionEvent& collision) const noexcept {
         CollisionEvent event = method(collision);
         event.frequencyHz = remap(event.frequencyHz);
+        event.amplitude *= gain;
         return event;
     }
     bool operator==(const EventShaping&) const = default;

@@ -67,6 +67,7 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
         settings_.ceilings[static_cast<std::size_t>(control.channel)] = control.value;
         limiter_.setCeiling(control.channel, control.value);
     }
+    if (control.kind == Kind::recordings) player_.setContacts(control.recordings);
     if (control.kind == Kind::stopAll) {
         bank_.fadeAll(position_);
         player_.fadeAll(position_);

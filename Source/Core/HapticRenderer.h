@@ -69,7 +69,7 @@ public:
     /// `othersAreModes`, play their mode. Both the list and its samples, at this rate, outlive the renderer or the next
     /// call. prepare and moveTo forget them. M, not while rendering.
     void setContacts(std::span<const RecordedContact> contacts, bool othersAreModes = false) noexcept {
-        player_.setContacts(contacts);
+        player_.setContacts(contacts); // as a control can
         othersAreModes_ = othersAreModes;
     }
 

@@ -14,6 +14,7 @@ constexpr int maxBlockFrames = 8192;       // the largest block a host is known 
 constexpr double maxFrequencyHz = 20000.0; // far above touch (about 1 kHz); SV sounds are rendered otherwise
 constexpr double maxDecayPerSecond = 2000.0; // 0.5 ms: shorter is a click; keeps p^tile inside a float at 5 kHz
 constexpr double maxAmplitude = 1.0e6;     // keeps sums of thousands of strikes finite in a float
+constexpr double maxLevelDb = 80.0;        // up or down, of what is rendered: beyond it nothing is felt, or nothing else
 constexpr std::int64_t maxTimeNs = 1'000'000'000'000'000; // 11.6 days; frames and their phases stay in 64 bits
 constexpr double retireDecibels = 140.0;   // a strike is over when it has fallen by this much (24-bit floor)
 constexpr double stealFadePerSecond = 1000.0; // a stolen mode falls by 60 dB in 7 ms: no click, soon gone

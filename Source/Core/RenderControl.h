@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Whatever else is audible travels with a time, as strikes do: layout and law, gains, mutes, delays, ceilings, stop.
+// Whatever else is audible travels with a time, as strikes do: layout and law, gains, mutes, delays, ceilings, recordings, stop.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
+#include "Core/RecordedContact.h"
 #include <cstdint>
 
 namespace physvib {
@@ -15,13 +16,15 @@ struct RenderControl {
         mute,    ///< of `channel`: value not 0
         stopAll, ///< whatever rings fades out; later events are played
         delay,   ///< of `channel`: `value` seconds, 0 to limits::maxChannelDelaySeconds
-        ceiling  ///< of `channel`: largest sample while the limiter is on, `value` > 0
+        ceiling,  ///< of `channel`: largest sample while the limiter is on, `value` > 0
+        recordings ///< from now on `recordings` are played instead of modes; what they sound stops
     };
     std::int64_t timeNs = 0;
     Kind kind = Kind::stopAll;
     int channel = 0;
     float value = 0.0f;
     PhantomPanner panner;
+    std::span<const RecordedContact> recordings{}; ///< at the renderer's rate; empty: modes
 };
 
 /// What was really played, and when: the way back from the renderer to log, view and board.

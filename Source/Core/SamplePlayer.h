@@ -2,6 +2,7 @@
 // Recorded contacts instead of modes: the thesis' SV rendering (5.2), in which the event's amplitude scales the recording.
 #pragma once
 #include "Core/Limits.h"
+#include "Core/RecordedContact.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,13 +10,6 @@
 #include <span>
 
 namespace physvib {
-
-/// The recording of one material's contact, which is known by the frequency its events have. The samples belong to
-/// somebody else and outlive whoever plays them; they are at the renderer's rate.
-struct RecordedContact {
-    double frequencyHz = 0.0;
-    std::span<const float> samples; ///< peak 1: an event has the same peak as its mode's envelope would
-};
 
 /// Adds recordings to what the modes made, from their exact frames on. R only, but for prepare and setContacts: M.
 template <class Profile>
@@ -29,7 +23,7 @@ public:
         voiceCount_ = 0;
     }
 
-    /// What sounds stops. M, not while rendering.
+    /// What sounds stops. M, not while rendering, or R.
     void setContacts(std::span<const RecordedContact> contacts) noexcept {
         contacts_ = contacts;
         voiceCount_ = 0;

@@ -103,7 +103,7 @@ const std::vector<ActuatorProfile>& builtInActuators() {
 }
 
 Result<ActuatorProfile> findActuator(const std::string& nameOrPath) {
-    if (isScenePath(nameOrPath)) return loadActuator(nameOrPath);
+    if (isJsonPath(nameOrPath)) return loadActuator(nameOrPath);
     for (const ActuatorProfile& profile : builtInActuators())
         if (profile.name == nameOrPath) return profile;
     return Failure{"no actuator " + inQuotes(nameOrPath) + " (see physvib actuators)"};

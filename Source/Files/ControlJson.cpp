@@ -77,6 +77,7 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
         control.channel = readChannel(json["channel"], channels);
         control.value = static_cast<float>(readNumber(json["value"], leastCeiling, 1.0));
         break;
+    case Kind::recordings: // not among the names: a session's file lists them apart
     case Kind::stopAll: expectFields(json, {}, otherField);
     }
     return control;

@@ -8,6 +8,9 @@
 
 namespace physvib {
 
+/// Whether a scene, a protocol or a profile is meant by its file and not by its name: NAME.json, or with a folder. Any thread.
+inline bool isJsonPath(std::string_view name) noexcept { return name.ends_with(".json") || name.find('/') != std::string_view::npos; }
+
 struct EmbeddedFile {
     std::string_view name; ///< "shake-the-box.json"
     std::string_view text;

@@ -13,7 +13,7 @@ inline constexpr std::array<std::string_view, 3> stimulusSetNames{"patterns", "g
 inline constexpr std::array<std::string_view, 2> gridPointNames{"corners", "middles"};
 
 namespace studyBounds {
-inline constexpr Bounds levelDb = within(80.0);       // beyond it one of the two is not felt
+inline constexpr Bounds levelDb = within(limits::maxLevelDb);
 inline constexpr Bounds rest = upTo(86400.0);         // a day
 inline constexpr Bounds count = upTo(100000.0);       // trials of a week
 inline constexpr Bounds names{{}, {}, 0, 64};         // alternatives, objects, scales: what fits on a screen
@@ -62,6 +62,15 @@ struct FieldsOf<CallSet> {
 };
 
 template <>
+struct FieldsOf<StudySoundFile> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("frequency_hz", &StudySoundFile::frequencyHz, Bounds{1.0, limits::maxFrequencyHz}, Need::required);
+        v.field("file", &StudySoundFile::file, anyText, Need::required);
+    }
+};
+
+template <>
 struct FieldsOf<ConditionPlan> {
     template <class V>
     static void visit(V& v) {
@@ -70,6 +79,7 @@ struct FieldsOf<ConditionPlan> {
         v.field("group", &C::group, anyText, Need::optional);
         v.field("layout", &C::layout, anyText, Need::optional);
         v.field("frequency_hz", &C::frequencyHz, Bounds{1.0, limits::maxFrequencyHz}, Need::optional);
+        v.field("at_resonance", &C::isAtResonance, {}, Need::optional);
         v.field("level_g", &C::levelG, Bounds{1e-6, 1000.0}, Need::optional);
         v.variant("stimuli", &C::stimuli, stimulusSetNames);
     }
@@ -151,6 +161,7 @@ struct FieldsOf<Protocol> {
         v.field("seed", &P::seed, upTo(1e9), Need::optional);
         v.field("pink_noise", &P::hasPinkNoise, {}, Need::optional);
         v.field("pink_noise_db", &P::pinkNoiseDb, Bounds{PinkNoise::leastDb, PinkNoise::mostDb}, Need::optional);
+        v.field("sounds", &P::sounds, items(0, 64), Need::optional);
         v.choice("condition_order", &P::conditionOrder, conditionOrderNames);
         v.field("conditions", &P::conditions, items(1, 256), Need::required);
         v.field("sessions", &P::sessions, items(1, 64), Need::required);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The outer shape of a protocol file; its fields are read and written after the table in ProtocolFields.h.
 #include "Files/ProtocolFile.h"
+#include "Files/ContentHash.h"
 #include "Files/Embedded.h"
 #include "Files/FileLimits.h"
 #include "Files/JsonFile.h"
@@ -11,14 +12,11 @@
 #include "Files/ProtocolFields.h"
 #include "Files/TrialColumns.h"
 #include "Physics/SceneRanges.h"
-#include <cstdint>
 
 namespace physvib {
 namespace {
 
 constexpr const char* versionField = "physvib_protocol";
-
-bool isPath(std::string_view name) noexcept { return name.ends_with(".json") || name.find('/') != std::string_view::npos; }
 
 Protocol readRoot(Json& root) {
     checkVersion(JsonField(root, {}), versionField, protocolFormatVersion);
@@ -47,14 +45,7 @@ std::string protocolJson(const Protocol& protocol) {
     return jsonLines(root);
 }
 
-std::string protocolHash(const Protocol& protocol) {
-    std::uint64_t hash = 0xCBF29CE484222325u; // FNV-1a
-    for (const char c : protocolJson(protocol)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::string text;
-    for (int shift = 60; shift >= 0; shift -= 4) text += digits[hash >> shift & 15];
-    return text;
-}
+std::string protocolHash(const Protocol& protocol) { return contentHash(protocolJson(protocol)); }
 
 const std::vector<Protocol>& builtInProtocols() {
     static const std::vector<Protocol> protocols = readEmbedded(embeddedProtocols(), readProtocol);
@@ -62,7 +53,7 @@ const std::vector<Protocol>& builtInProtocols() {
 }
 
 Result<Protocol> findProtocol(const std::string& nameOrPath) {
-    if (isPath(nameOrPath)) return loadProtocol(nameOrPath);
+    if (isJsonPath(nameOrPath)) return loadProtocol(nameOrPath);
     for (const Protocol& protocol : builtInProtocols())
         if (protocol.name == nameOrPath) return protocol;
     return Failure{"no protocol " + inQuotes(nameOrPath) + " (see physvib study list)"};

@@ -19,12 +19,8 @@ const Scene* findBuiltInScene(std::string_view name) {
     return found == scenes.end() ? nullptr : &*found;
 }
 
-bool isScenePath(std::string_view name) noexcept {
-    return name.ends_with(".json") || name.find('/') != std::string_view::npos;
-}
-
 Result<Scene> findScene(const std::string& nameOrPath, const SceneSettings& settings) {
-    if (isScenePath(nameOrPath)) return loadScene(nameOrPath, settings);
+    if (isJsonPath(nameOrPath)) return loadScene(nameOrPath, settings);
     for (const EmbeddedFile& file : embeddedScenes())
         if (file.name == nameOrPath + ".json") return readScene(file.text, nameOrPath, settings);
     return Failure{"no scene " + inQuotes(nameOrPath) + " (see physvib scenes)"};

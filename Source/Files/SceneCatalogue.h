@@ -15,9 +15,6 @@ const std::vector<Scene>& builtInScenes();
 /// The built-in scene of that name, with its defaults; nullptr if there is none. Any thread.
 const Scene* findBuiltInScene(std::string_view name);
 
-/// True for what is meant as a scene file rather than a built-in scene's name: a path, or NAME.json.
-bool isScenePath(std::string_view name) noexcept;
-
 /// A built-in scene by its name, else the scene of the file. M only.
 Result<Scene> findScene(const std::string& nameOrPath, const SceneSettings& settings = {});
 

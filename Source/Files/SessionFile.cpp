@@ -110,18 +110,38 @@ void readEqualised(const JsonField& list, SavedSession& session) {
     }
 }
 
+RecordingFile readRecordingFile(const JsonField& json) {
+    json.expectObject({"frequency_hz", "file", "hash", "decay_per_s", "matched"});
+    RecordingFile file{json["frequency_hz"].positiveNumber(), json["file"].text()};
+    if (json.has("hash")) file.hash = json["hash"].text();
+    if (json.has("decay_per_s")) file.decayPerSecond = json["decay_per_s"].positiveNumber();
+    if (json.has("matched")) file.isMatched = json["matched"].truth();
+    return file;
+}
+
+void readRecordings(const JsonField& list, SessionLog& log) {
+    for (std::size_t i = 0; i < list.arraySize(); ++i) {
+        const JsonField item = list.item(i);
+        item.expectObject({"time_s", "files"});
+        RecordingsChange change{readNextTime(item, log.recordings.empty() ? 0 : log.recordings.back().timeNs), {}};
+        for (std::size_t k = 0; k < item["files"].arraySize(); ++k) change.files.push_back(readRecordingFile(item["files"].item(k)));
+        log.recordings.push_back(std::move(change));
+    }
+}
+
 EventShaping readShaping(const JsonField& json) {
-    json.expectObject({"method", "fixed_amplitude", "remap_hz"});
+    json.expectObject({"method", "fixed_amplitude", "remap_hz", "gain"});
     EventShaping shaping;
     if (json.has("method") && !renderingMethodNamed(json["method"].text(), shaping.method)) json["method"].fail("expected a name from AV-FV-DRV to AF-FF-DRF");
     if (json.has("fixed_amplitude")) shaping.method.fixedAmplitude = json["fixed_amplitude"].numberUpTo(limits::maxAmplitude);
+    if (json.has("gain")) shaping.gain = json["gain"].numberUpTo(limits::maxAmplitude);
     if (json.has("remap_hz")) shaping.remap.band = readBand(json["remap_hz"]);
     return shaping;
 }
 
 SavedSession readRoot(const JsonField& root) {
     checkVersion(root, versionField, sessionFormatVersion);
-    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "equalised", "shaping", "channels", "panning", "takes", "controls", "strikes", "desk"});
+    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "equalised", "shaping", "channels", "panning", "takes", "controls", "recordings", "strikes", "desk"});
     SavedSession session;
     session.lengthNs = readTime(root["seconds"]);
     session.run.stepsPerSecond = readWhole(root["steps_per_second"], Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond);
@@ -139,6 +159,7 @@ SavedSession readRoot(const JsonField& root) {
         session.log.takes.push_back(readTake(takes.item(i), session.log.takes.empty() ? nullptr : &session.log.takes.back()));
     for (std::size_t i = 0, count = root.has("controls") ? root["controls"].arraySize() : 0; i < count; ++i)
         readTimedControl(root["controls"].item(i), session);
+    if (root.has("recordings")) readRecordings(root["recordings"], session.log);
     for (std::size_t i = 0, count = root.has("strikes") ? root["strikes"].arraySize() : 0; i < count; ++i)
         session.log.strikes.push_back(readStrike(root["strikes"].item(i)));
     if (root.has("desk")) {
@@ -184,6 +205,25 @@ OrderedJson shapingJson(const EventShaping& shaping) {
     const auto name = nameOf(shaping.method);
     OrderedJson json{{"method", std::string(name.begin(), name.end())}, {"fixed_amplitude", shaping.method.fixedAmplitude}};
     if (shaping.remap.band.isKnown()) json["remap_hz"] = bandJson(shaping.remap.band);
+    if (shaping.gain != 1.0) json["gain"] = shaping.gain;
+    return json;
+}
+
+std::string besides(const std::filesystem::path& folder, const std::string& path) {
+    if (folder.empty() || syntheticSeed(path)) return path;
+    const auto whole = std::filesystem::absolute(path).lexically_normal();
+    return whole.lexically_proximate(std::filesystem::absolute(folder).lexically_normal()).string();
+}
+
+OrderedJson recordingsJson(const RecordingsChange& change, const std::filesystem::path& folder) {
+    OrderedJson json{{"time_s", seconds(change.timeNs)}, {"files", OrderedJson::array()}};
+    for (const RecordingFile& file : change.files) {
+        OrderedJson one{{"frequency_hz", file.frequencyHz}, {"file", besides(folder, file.path)}};
+        if (!file.hash.empty()) one["hash"] = file.hash;
+        if (file.decayPerSecond > 0.0) one["decay_per_s"] = file.decayPerSecond;
+        if (file.isMatched) one["matched"] = true;
+        json["files"].push_back(std::move(one));
+    }
     return json;
 }
 
@@ -194,10 +234,14 @@ Result<SavedSession> readSession(std::string_view text, std::string_view name) {
 }
 
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
-    return loadText(path, limits::maxSessionFileBytes, readSession);
+    auto session = loadText(path, limits::maxSessionFileBytes, readSession);
+    for (RecordingsChange& change : session.value.log.recordings)
+        for (RecordingFile& file : change.files)
+            if (!syntheticSeed(file.path)) file.path = (path.parent_path() / file.path).lexically_normal().string();
+    return session;
 }
 
-std::string sessionJson(const SavedSession& session) {
+std::string sessionJson(const SavedSession& session, const std::filesystem::path& folder) {
     OrderedJson root{{versionField, sessionFormatVersion},
                      {"seconds", seconds(session.lengthNs)},
                      {"steps_per_second", session.run.stepsPerSecond},
@@ -221,6 +265,7 @@ std::string sessionJson(const SavedSession& session) {
         timed.update(controlJson(control));
         root["controls"].push_back(std::move(timed));
     }
+    for (const RecordingsChange& change : session.log.recordings) root["recordings"].push_back(recordingsJson(change, folder));
     for (const CollisionEvent& strike : session.log.strikes) root["strikes"].push_back(strikeJson(strike));
     if (session.mix) root["desk"] = mixJson(*session.mix);
     return jsonLines(root);

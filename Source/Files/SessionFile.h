@@ -15,7 +15,7 @@
 namespace physvib {
 
 /// The version of the format that is written, and the newest that is read.
-constexpr int sessionFormatVersion = 2; // 2: desk, strikes, slow motion
+constexpr int sessionFormatVersion = 3; // 2: desk, strikes, slow motion; 3: recordings, gain
 
 /// A session as it was played.
 struct SavedSession {
@@ -35,14 +35,15 @@ struct SavedSession {
 /// Unknown and repeated fields are errors. Any thread.
 Result<SavedSession> readSession(std::string_view text, std::string_view name);
 
-/// The same of a file. M only.
+/// The same of a file, beside which its recordings are looked for. M only.
 Result<SavedSession> loadSession(const std::filesystem::path& path);
 
 /// The desk as the session left it: its own, or one made of its last scene, layout, gains and mutes. Any thread.
 Mix mixOf(const SavedSession& session);
 
 /// `session` as JSON; a take of the same scene as the one before does not repeat it. readSession gives all of it back
-/// bit for bit, but labels of enchanters. Any thread.
-std::string sessionJson(const SavedSession& session);
+/// bit for bit, but labels of enchanters. Paths of recordings become relative to `folder`, in which the file is to stand;
+/// empty: they stay as they are. Any thread.
+std::string sessionJson(const SavedSession& session, const std::filesystem::path& folder = {});
 
 } // namespace physvib

@@ -2,6 +2,7 @@
 // Everything that was done in a session: what it takes to render it again.
 #pragma once
 #include "Core/RenderControl.h"
+#include "Files/RecordingFile.h"
 #include "Physics/SceneTake.h"
 #include <algorithm>
 #include <cstdint>
@@ -23,10 +24,18 @@ struct ChannelChange {
     float value = 0.0f;
 };
 
+/// Other recordings in place of modes; none: modes.
+struct RecordingsChange {
+    std::int64_t timeNs = 0;
+    std::vector<RecordingFile> files;
+    bool operator==(const RecordingsChange&) const = default;
+};
+
 struct SessionLog {
     std::vector<SceneTake> takes; ///< one after the other; the last goes on
     std::vector<PannerChange> panners;   ///< in time order
     std::vector<ChannelChange> channels; ///< in time order
+    std::vector<RecordingsChange> recordings; ///< in time order; without one there are none
     std::vector<CollisionEvent> strikes; ///< apart from the world, in the order in which they were asked for
 
     std::int64_t lastControlNs() const noexcept {
@@ -34,7 +43,7 @@ struct SessionLog {
     }
 };
 
-/// The controls in time order, as a renderer takes them; `keepLayouts` false leaves layouts out, and channels from
+/// The controls in time order, as a renderer takes them, without recordings; `keepLayouts` false leaves layouts out, and channels from
 /// `channels` on. Any thread.
 std::vector<RenderControl> controlsOf(const SessionLog& log, bool keepLayouts, int channels);
 

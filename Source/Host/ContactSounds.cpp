@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cut, normalised, resampled.
 #include "Host/ContactSounds.h"
+#include "Files/ReadFile.h"
 #include "Host/HitExcerpt.h"
 #include "Host/RecordingFaults.h"
 #include "Host/StimulusRender.h"
+#include "Host/SyntheticContact.h"
+#include <algorithm>
+#include <cmath>
 #include <juce_audio_basics/juce_audio_basics.h>
+#include <limits>
+#include <numbers>
 
 namespace physvib {
 namespace {
@@ -30,14 +36,21 @@ std::vector<float> resampled(const ContactRecording& recording, int rateHz) {
     out.resize(out.size() + late);
     interpolator.process(ratio, in.data(), out.data(), static_cast<int>(out.size()), static_cast<int>(in.size()), 0);
     out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(late));
-    if (peakOf(out) > 0.0f) normalise(out);
+    if (const float before = peakOf(recording.samples), after = peakOf(out); after > 0.0f)
+        for (float& x : out) x *= before / after;
     return out;
 }
 
-} // namespace
+constexpr int syntheticRateHz = 48000;
+constexpr double assumedDecayPerSecond = 40.0; // of what is synthetic, where no material says
 
-Result<ContactRecording> loadContact(const std::string& path, double frequencyHz) {
+Result<ContactRecording> readContact(const RecordingFile& file) {
     constexpr double shortestSeconds = 0.001;
+    const std::string& path = file.path;
+    if (const auto seed = syntheticSeed(path)) {
+        const double decay = file.decayPerSecond > 0.0 ? file.decayPerSecond : assumedDecayPerSecond;
+        return ContactRecording{file.frequencyHz, syntheticRateHz, syntheticContact(file.frequencyHz, decay, *seed, syntheticRateHz), file};
+    }
     const auto read = readRecording(path);
     if (!read) return Failure{read.error};
     const std::vector<float>& heard = *std::ranges::max_element(read.value.channels, {}, peakOf);
@@ -47,11 +60,57 @@ Result<ContactRecording> loadContact(const std::string& path, double frequencyHz
     if (fault.empty()) fault = clippingFault(heard, rateHz);
     if (!fault.empty()) return Failure{path + ": " + fault};
     const HitExcerpt hit = strongestHit(heard, rateHz);
-    ContactRecording contact{frequencyHz, read.value.sampleRateHz, {heard.begin() + static_cast<std::ptrdiff_t>(hit.begin), heard.begin() + static_cast<std::ptrdiff_t>(hit.end)}};
+    ContactRecording contact{file.frequencyHz, read.value.sampleRateHz, {heard.begin() + static_cast<std::ptrdiff_t>(hit.begin), heard.begin() + static_cast<std::ptrdiff_t>(hit.end)}, file};
     for (float& x : contact.samples) x -= static_cast<float>(hit.offset);
     if (!(peakOf(contact.samples) > 0.0f)) return Failure{path + ": expected a hit, found silence"};
-    normalise(contact.samples);
     return contact;
+}
+
+/// Empty, or that the file is not what it was.
+std::string takeHash(RecordingFile& file) {
+    if (syntheticSeed(file.path)) return {};
+    const auto bytes = readFile(file.path, std::numeric_limits<std::size_t>::max()); // readRecording has said how long it may be
+    if (!bytes) return bytes.error;
+    const std::string hash = contentHash(bytes.value);
+    if (!file.hash.empty() && file.hash != hash) return file.path + ": expected the recording with the hash " + file.hash + ", found " + hash + ": it has changed since";
+    file.hash = hash;
+    return {};
+}
+
+double energyOf(const std::vector<float>& samples, int rateHz) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < std::min(samples.size(), static_cast<std::size_t>(matchedSeconds * rateHz)); ++n) sum += double{samples[n]} * samples[n];
+    return sum / rateHz;
+}
+
+/// Of the mode whose envelope begins at 1.
+double energyOfMode(double frequencyHz, double decayPerSecond, int rateHz) {
+    std::vector<float> mode(static_cast<std::size_t>(matchedSeconds * rateHz));
+    for (std::size_t n = 0; n < mode.size(); ++n) {
+        const double t = static_cast<double>(n) / rateHz;
+        mode[n] = static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * t) * std::exp(-decayPerSecond * t));
+    }
+    return energyOf(mode, rateHz);
+}
+
+} // namespace
+
+Result<ContactRecording> loadContact(const RecordingFile& file) {
+    auto contact = readContact(file);
+    if (!contact) return contact;
+    if (auto fault = takeHash(contact.value.file); !fault.empty()) return Failure{fault};
+    auto& [frequencyHz, rateHz, samples, source] = contact.value;
+    normalise(samples);
+    if (!file.isMatched || !(file.decayPerSecond > 0.0)) return contact;
+    const auto gain = static_cast<float>(std::sqrt(energyOfMode(frequencyHz, file.decayPerSecond, rateHz) / energyOf(samples, rateHz)));
+    for (float& x : samples) x *= gain;
+    return contact;
+}
+
+std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordings) {
+    std::vector<RecordingFile> files;
+    for (const ContactRecording& recording : recordings) files.push_back(recording.file);
+    return files;
 }
 
 ContactSounds::ContactSounds(const std::vector<ContactRecording>& recordings, int sampleRateHz) {

@@ -79,6 +79,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     for (RenderControl undone; controls_.pop(undone) || ownControls_.pop(undone);) {}
     check_.reset();
     controlLog_ = {};
+    if (!setup_.recordings.empty()) controlLog_.recordings.push_back({0, filesOf(setup_.recordings)});
     slippedNs_ = 0;
     leastMarginFrames_ = noMargin;
     offline_ = false;
@@ -106,8 +107,13 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
 
 // Recordings that sounded before a change of rate stop there.
 void Session::setContacts() {
-    contacts_ = {setup_.recordings, law_.sampleRateHz};
-    renderer_->setContacts(contacts_.contacts());
+    renderer_->setContacts(recordingSet(setup_.recordings).sounds.contacts());
+}
+
+const Session::RecordingSet& Session::recordingSet(const std::vector<ContactRecording>& recordings) {
+    const auto known = std::ranges::find_if(recordingSets_, [&](const RecordingSet& set) { return set.sampleRateHz == law_.sampleRateHz && set.recordings == recordings; });
+    if (known != recordingSets_.end()) return *known;
+    return recordingSets_.emplace_back(RecordingSet{recordings, law_.sampleRateHz, {recordings, law_.sampleRateHz}});
 }
 
 bool Session::popControl(RenderControl& control) noexcept {

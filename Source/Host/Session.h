@@ -43,6 +43,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -92,6 +93,10 @@ public:
     /// logged, and an offline render with the same controls is the same to the bit. The time it was given; -1 if the
     /// queue is full. Any thread but R.
     std::int64_t post(RenderControl control);
+
+    /// From session time on, events play these recordings instead of modes; none: modes. What recordings sound stops. Felt
+    /// and logged as a control; the time it was given, -1 if the queue is full. M.
+    std::int64_t useRecordings(std::vector<ContactRecording> recordings);
 
     /// Plays another scene, as a new take, from the next step on; a state equal to state() changes nothing. Empty, or
     /// what is wrong with the scene, and nothing is done. Any thread but R.
@@ -172,7 +177,13 @@ private:
     SessionSetup setup_;
     ClockLaw law_;
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
-    ContactSounds contacts_; // at the renderer's rate
+    struct RecordingSet {
+        std::vector<ContactRecording> recordings;
+        int sampleRateHz;
+        ContactSounds sounds; // at that rate
+    };
+    const RecordingSet& recordingSet(const std::vector<ContactRecording>& recordings);
+    std::deque<RecordingSet> recordingSets_; // all there were: R may still know any
     const std::unique_ptr<HeardContacts> heard_;
     Queue queue_;
     Controls controls_;

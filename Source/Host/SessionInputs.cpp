@@ -64,6 +64,20 @@ std::int64_t Session::post(RenderControl control) {
     return control.timeNs;
 }
 
+std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
+    const std::lock_guard lock{inputMutex_};
+    const std::int64_t now = nowNs();
+    if (recordings == setup_.recordings) return now;
+    RenderControl control;
+    control.timeNs = now;
+    control.kind = RenderControl::Kind::recordings;
+    control.recordings = recordingSet(recordings).sounds.contacts();
+    if (!controls_.push(control)) return -1;
+    controlLog_.recordings.push_back({now, filesOf(recordings)});
+    setup_.recordings = std::move(recordings);
+    return now;
+}
+
 bool Session::play(std::span<const CollisionEvent> strikes) {
     const std::scoped_lock lock{inputMutex_, worldMutex_};
     const std::int64_t now = nowNs();
@@ -103,6 +117,7 @@ void Session::readLog(SessionLog& log) const {
     };
     append(controlLog_.panners, log.panners);
     append(controlLog_.channels, log.channels);
+    append(controlLog_.recordings, log.recordings);
     append(controlLog_.strikes, log.strikes);
     const std::lock_guard lock{worldMutex_};
     world_.bringUpToDate(log.takes);

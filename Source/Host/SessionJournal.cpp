@@ -33,7 +33,7 @@ void SessionJournal::keep(std::int64_t sessionNs) {
     if (!error_.empty()) return;
     session_.readLog(saved_.log);
     saved_.lengthNs = sessionNs;
-    error_ = writeFile(path_, sessionJson(saved_));
+    error_ = writeFile(path_, sessionJson(saved_, std::filesystem::absolute(path_).parent_path()));
     const bool isWritten = std::fwrite(rows_.data(), 1, rows_.size(), events_.get()) == rows_.size() && std::fflush(events_.get()) == 0;
     if (!isWritten && error_.empty()) error_ = eventsPath_.string() + ": " + std::strerror(errno);
     rows_.clear();

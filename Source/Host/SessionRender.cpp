@@ -3,6 +3,7 @@
 #include "Host/SessionRender.h"
 #include "Files/AtomicFile.h"
 #include "Host/OfflineRender.h"
+#include "Host/SessionRecordings.h"
 #include "Host/WavSink.h"
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,9 @@ SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const
 
 std::string renderSession(const SavedSession& session, const std::string& path, int sampleRateHz, double seconds, const std::string& comment,
                           const std::function<bool(double)>& progress) {
+    const auto loaded = loadRecordings(session.log);
+    if (!loaded) return loaded.error;
+    const SessionRecordings recordings{session.log, loaded.value, sampleRateHz};
     AtomicFile file{path};
     if (!file.error().empty()) return file.error();
     WavSink wav{file.temporaryPath().string(), session.channels, sampleRateHz, comment, path};
@@ -28,7 +32,7 @@ std::string renderSession(const SavedSession& session, const std::string& path, 
     auto events = sessionEvents(session, endNs, [&](std::int64_t timeNs) { return goesOn = progress(0.5 * static_cast<double>(timeNs) / static_cast<double>(endNs)); }).events;
     if (!goesOn) return "cancelled";
     std::ranges::transform(events, events.begin(), session.shaping);
-    const auto controls = controlsOf(session.log, true, session.channels);
+    const auto controls = recordings.with(controlsOf(session.log, true, session.channels));
     const std::int64_t frames = std::llround(seconds * sampleRateHz);
     std::int64_t done = 0;
     const RendererSettings renderer{.sampleRateHz = sampleRateHz,

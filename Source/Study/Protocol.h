@@ -60,12 +60,20 @@ struct CallSet {
 
 using StimulusSet = std::variant<PatternSet, GridSet, CallSet>;
 
+/// The recorded contact of the material of that frequency, for calls that play recordings.
+struct StudySoundFile {
+    double frequencyHz = 0.0;
+    std::string file; ///< a WAV file, or synthetic-SEED
+    bool operator==(const StudySoundFile&) const = default;
+};
+
 struct ConditionPlan {
     std::string name;
     std::string group; ///< conditions of a group stay together, e.g. those of one day
     std::string layout = "phone4";
     double frequencyHz = 205.0, levelG = 1.0;
     StimulusSet stimuli;
+    bool isAtResonance = false; ///< of the layout's actuators, instead of frequencyHz
     bool operator==(const ConditionPlan&) const = default;
 };
 
@@ -128,6 +136,7 @@ struct Protocol {
     int seed = 1;
     bool hasPinkNoise = false; ///< on another output than the stimuli
     double pinkNoiseDb = PinkNoise::safeDb; ///< its root mean square, in dB of full scale
+    std::vector<StudySoundFile> sounds; ///< what calls with --method SV get
     ConditionOrder conditionOrder = ConditionOrder::given;
     std::vector<ConditionPlan> conditions;
     std::vector<SessionPlan> sessions; ///< of every condition

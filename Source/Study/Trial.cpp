@@ -25,12 +25,24 @@ struct Part {
     double levelDb = 0.0;
 };
 
+/// " --sound 80=ball.wav" and so on for a call that plays recordings; a path with spaces in quotes.
+std::string soundWords(const Protocol& protocol, const std::string& call) {
+    std::string words;
+    if (call.find("--method SV") == std::string::npos) return words;
+    for (const StudySoundFile& sound : protocol.sounds) {
+        const std::string quote = sound.file.find(' ') == std::string::npos ? "" : "\"";
+        words += " --sound " + quote + text(sound.frequencyHz) + "=" + sound.file + quote;
+    }
+    return words;
+}
+
 struct CallMaker {
+    const Protocol& protocol;
     const ConditionPlan& condition;
     const TrialRecord& record;
 
     std::string common(double db) const {
-        return " --layout " + condition.layout + " --frequency " + text(condition.frequencyHz) + " --level-g " + text(raised(condition.levelG, db));
+        return " --layout " + condition.layout + " --frequency " + (condition.isAtResonance ? "resonance" : text(condition.frequencyHz)) + " --level-g " + text(raised(condition.levelG, db));
     }
     const std::string& label() const { return record.trial.stimulus.empty() ? record.answer.response : record.trial.stimulus; }
 
@@ -52,7 +64,7 @@ struct CallMaker {
         replaceAll(words, "{alternative}", part.name);
         replaceAll(words, "{object}", part.name);
         replaceAll(words, "{level_db}", text(part.levelDb));
-        return words;
+        return words + soundWords(protocol, words);
     }
 };
 
@@ -71,7 +83,7 @@ std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& recor
 
 std::vector<std::string> partCallsOf(const Protocol& protocol, const TrialRecord& record) {
     const ConditionPlan& condition = protocol.conditions[record.trial.condition];
-    const CallMaker maker{condition, record};
+    const CallMaker maker{protocol, condition, record};
     const SessionPlan& session = protocol.sessions[record.trial.session];
     std::vector<std::string> calls;
     const auto add = [&](const Part& part) { calls.push_back(std::visit([&](const auto& set) { return maker.call(set, part); }, condition.stimuli)); };

@@ -10,7 +10,6 @@ namespace physvib {
 namespace {
 
 Result<CallStimulus> ofScene(RenderOptions& o) {
-    if (o.playsRecordings()) return Failure{"--method SV is not yet felt here, only rendered"};
     if (o.actuator != "none") return Failure{"--actuator is not yet felt here, only rendered"};
     if (auto fault = checkSceneOptions(o); !fault.empty()) return Failure{fault};
     if (o.scene.empty()) return Failure{"expected a scene"};
@@ -22,8 +21,9 @@ Result<CallStimulus> ofScene(RenderOptions& o) {
     if (!scene) return Failure{scene.error};
     job.scene = std::move(scene.value);
     job.made = runScene(*job.scene, job.run(), job.endNs());
-    std::ranges::transform(job.made.events, job.made.events.begin(), job.method());
-    return CallStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f)};
+    std::ranges::transform(job.made.events, job.made.events.begin(), job.shaping());
+    if (auto fault = takeRecordings(job, job.made.events, o.scene); !fault.empty()) return Failure{fault};
+    return CallStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f), job.feltRecordings()};
 }
 
 Result<CallStimulus> ofStimulus(const CLI::App& command, const StimulusOptions& o, int sampleRateHz) {
@@ -34,7 +34,7 @@ Result<CallStimulus> ofStimulus(const CLI::App& command, const StimulusOptions& 
     if (!made.error.empty()) return Failure{made.error};
     if (!o.recording.empty()) return Failure{"a recording is rendered to a file; a live session plays events"};
     if (const auto sound = renderStimulus(made.stimulus, layout.value, sampleRateHz); !sound) return Failure{sound.error};
-    CallStimulus call{std::move(made.stimulus), layout.value, {}};
+    CallStimulus call{std::move(made.stimulus), layout.value, {}, {}};
     for (const auto& enchanter : layout.value.enchanters) call.gains.push_back(static_cast<float>(1.0 / enchanter.fullScaleG));
     return call;
 }

@@ -3,6 +3,7 @@
 #pragma once
 #include "Files/LayoutFile.h"
 #include "Files/Result.h"
+#include "Host/ContactSounds.h"
 #include "Study/Stimulus.h"
 #include <string>
 #include <vector>
@@ -13,11 +14,12 @@ struct CallStimulus {
     Stimulus stimulus;            ///< times from 0
     LayoutDescription layout;
     std::vector<float> gains;     ///< of each enchanter: from the events' unit (g, or shares of full scale) to full scale
+    std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
 };
 
 /// The stimulus of `render SCENE ...` or `stimulus ...`, without the name of the program; or one line with what is wrong.
-/// What `physvib stimulus` would refuse as too strong for the layout at `sampleRateHz` is refused here. Recordings are
-/// samples, which a session does not play. M only.
+/// What `physvib stimulus` would refuse as too strong for the layout at `sampleRateHz` is refused here, and so is `stimulus
+/// wav`, which is samples and no events. M only.
 Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz);
 
 } // namespace physvib

@@ -89,8 +89,8 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
 int runPlay(PlayOptions& o) {
     if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
-    const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none";
-    if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method and --actuator; render --events, then board PORT play, has both");
+    const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0;
+    if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db and --actuator; render --events, then board PORT play, has both");
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");

@@ -98,7 +98,8 @@ std::string render(RenderJob& job) {
     if (auto error = takeRecordings(job, job.made.events, source); !error.empty()) return error;
     const ContactSounds sounds{job.feltRecordings(), job.options.sampleRateHz};
     outputs.begin();
-    const auto controls = job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{};
+    const SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings, job.options.sampleRateHz};
+    const auto controls = again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{});
     const auto take = [&](const float* const* channels, int frames) { return outputs.take(channels, frames); };
     const RenderStatus status = renderOffline(job.made.events, settingsOf(job, controls, sounds), take);
     if (!job.options.contactSound.empty()) renderContactSound(job, controls, outputs);
@@ -115,7 +116,7 @@ std::string render(RenderJob& job) {
 int runRender(const RenderOptions& options) {
     RenderJob job{options, {}, {}, {}, {}};
     if (!options.scene.empty()) {
-        const bool isSession = isScenePath(options.scene) && fileKind(options.scene) == FileKind::session;
+        const bool isSession = isJsonPath(options.scene) && fileKind(options.scene) == FileKind::session;
         if (const int code = isSession ? takeSession(job) : takeScene(job); code != exitDone) return code;
     }
     if (const std::string error = readInputs(job); !error.empty()) return leave(exitFailed, error);

@@ -5,7 +5,8 @@
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/LayoutNamed.h"
 #include "CommandLine/RenderOptions.h"
-#include "Host/ContactSounds.h"
+#include "Host/SessionRecordings.h"
+#include "Files/Embedded.h"
 #include "Files/LayoutFile.h"
 #include "Files/NumberText.h"
 #include "Files/SceneCatalogue.h"
@@ -27,6 +28,7 @@ struct RenderJob {
     std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
     SceneEvents made;
     std::vector<ContactRecording> recordings{}; ///< of --sound
+    std::vector<std::vector<ContactRecording>> sessionRecordings{}; ///< of a session, per change
     ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
 
     /// Those that are played instead of modes.
@@ -57,7 +59,10 @@ struct RenderJob {
         return session && std::ranges::none_of(own, [&](const char* name) { return options.given.contains(name); });
     }
     EqualisedActuators equalised() const { return keepsActuators() ? session->equalised : actuators.equalised; }
-    EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap}; }
+    EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain()}; }
+    double gain() const { return session && !options.given.contains("--level-db") ? session->shaping.gain : std::pow(10.0, options.levelDb / 20.0); }
+    /// Whether what a session played of recordings is kept: its own method.
+    bool keepsRecordings() const { return session && !options.given.contains("--method"); }
     bool isLimited() const { return session ? session->limiterEnabled : options.limiter == "on"; }
     std::int64_t frames() const { return std::llround(seconds() * options.sampleRateHz); }
     std::int64_t endNs() const { return std::llround(seconds() * 1e9); }
@@ -104,7 +109,8 @@ inline std::string fixedLevelFault(const RenderJob& job) {
 /// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty, or one line.
 inline std::string takeRecordings(RenderJob& job, const std::vector<CollisionEvent>& events, const std::string& source) {
     for (const auto& [hz, path] : job.options.recordings) {
-        auto contact = loadContact(path, hz);
+        const auto struck = std::ranges::find(events, hz, &CollisionEvent::frequencyHz);
+        auto contact = loadContact({hz, path, struck != events.end() ? struck->decayPerSecond : 0.0, job.options.soundMatch == "rms"});
         if (!contact) return contact.error;
         job.recordings.push_back(std::move(contact.value));
     }
@@ -122,6 +128,11 @@ inline int takeSession(RenderJob& job) {
     if (!session) return leave(exitFailed, session.error);
     job.session = std::move(session.value);
     job.scene = job.session->log.takes.front().whole();
+    if (!job.keepsRecordings() || job.session->log.recordings.empty()) return exitDone;
+    if (job.options.remap == "on") return leave(exitUsage, std::string{recordingsHaveNoFrequency});
+    auto recordings = loadRecordings(job.session->log);
+    if (!recordings) return leave(exitFailed, job.options.scene + ": " + recordings.error);
+    job.sessionRecordings = std::move(recordings.value);
     return exitDone;
 }
 
@@ -130,7 +141,7 @@ inline int takeSession(RenderJob& job) {
 inline int takeScene(RenderJob& job) {
     const std::string& name = job.options.scene;
     auto scene = findScene(name, job.options.settings);
-    if (!scene) return leave(isScenePath(name) ? exitFailed : exitUsage, scene.error);
+    if (!scene) return leave(isJsonPath(name) ? exitFailed : exitUsage, scene.error);
     job.scene = std::move(scene.value);
     for (const std::string& warning : sceneWarnings(*job.scene))
         std::cerr << "physvib: warning: " << name << ": " << warning << '\n';

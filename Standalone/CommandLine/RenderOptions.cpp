@@ -45,17 +45,17 @@ bool parseSettings(RenderOptions& o) {
     return true;
 }
 
-bool parseSounds(RenderOptions& o) {
-    for (const std::string& text : o.sounds) {
+} // namespace
+
+bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<double, std::string>>& recordings) {
+    for (const std::string& text : sounds) {
         const auto equals = text.find('=');
         const auto hz = parseNumber<double>(std::string_view{text}.substr(0, equals));
         if (equals == std::string::npos || !hz || !(*hz > 0.0) || equals + 1 == text.size()) return false;
-        o.recordings.emplace_back(*hz, text.substr(equals + 1));
+        recordings.emplace_back(*hz, text.substr(equals + 1));
     }
     return true;
 }
-
-} // namespace
 
 void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or a saved SESSION.json (render)");
@@ -74,7 +74,10 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)")
         ->check(CLI::IsMember({"onset", "release"}))->capture_default_str();
     command.add_option("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed; or SV, recorded contacts")->capture_default_str();
-    command.add_option("--sound", o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
+    command.add_option("--sound", o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency, or synthetic-SEED; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
+    command.add_option("--sound-match", o.soundMatch, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)")
+        ->check(CLI::IsMember({"peak", "rms"}))->capture_default_str();
+    command.add_option("--level-db", o.levelDb, "all hits so much stronger or weaker")->check(between(-limits::maxLevelDb, limits::maxLevelDb, " dB"))->capture_default_str();
     command.add_option("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
         ->check(between(leastContactDb, mostContactDb, " dB"))->capture_default_str();
     command.add_option("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file")->capture_default_str();
@@ -109,10 +112,10 @@ std::string checkSceneOptions(RenderOptions& o) {
     if (!parseSettings(o)) return "--set: expected NAME=VALUE";
     if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
     if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
-    if (!parseSounds(o)) return "--sound: expected HZ=FILE.wav, the frequency of a material and its recorded contact";
+    if (!parseSounds(o.sounds, o.recordings)) return std::string{soundExpectation};
     if (o.playsRecordings() && o.sounds.empty()) return "--method SV: expected a --sound for each material";
     if (!o.playsRecordings() && !o.sounds.empty() && o.contactSound.empty()) return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
-    if (o.playsRecordings() && o.remap == "on") return "--remap: recordings have no frequency to be moved";
+    if (o.playsRecordings() && o.remap == "on") return std::string{recordingsHaveNoFrequency};
     if (!o.playsRecordings() && !renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"" + o.method + "\"";
     if (!o.sounds.empty() && (o.remap == "on" || o.renderingMethod.fixesFrequency)) return "--sound: expected hits at their material's own frequency, found " + (o.remap == "on" ? "--remap" : "--method " + o.method);
     if (o.remap == "on" && o.actuator == "none") return "--remap: expected an --actuator, whose band is to be used";

@@ -35,6 +35,8 @@ struct RenderOptions {
     double exponent = 1.0;
     std::string limiter = "on";
     std::string location = "contact", timing = "onset", method = "AV-FV-DRV";
+    double levelDb = 0.0;            ///< of all hits
+    std::string soundMatch = "peak"; ///< of recordings: as high as the mode, or ("rms") as strong
     std::vector<std::string> sounds; ///< "HZ=FILE.wav" for SV and the contact sound
     std::string contactSound;        ///< where it is heard: a WAV of `render`, outputs of `play`; empty: not wanted
     double contactSoundDb = safeContactDb; ///< of a hit at full scale
@@ -49,6 +51,12 @@ struct RenderOptions {
     std::vector<std::pair<double, std::string>> recordings; ///< from `sounds`: of which frequency, in which file
     RenderingMethod renderingMethod;                        ///< from `method`; its amplitude needs the layout
 };
+
+inline constexpr std::string_view recordingsHaveNoFrequency = "--remap: recordings have no frequency to be moved";
+inline constexpr std::string_view soundExpectation = "--sound: expected HZ=FILE.wav, the frequency of a material and its recorded contact";
+
+/// Appends what --sound says, "HZ=FILE.wav"; false if one is anything else.
+bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<double, std::string>>& recordings);
 
 /// Declares what says which scene is spread how (shared with `play`); `command` fills `options` while it parses.
 void declareSceneOptions(CLI::App& command, RenderOptions& options);

@@ -88,6 +88,9 @@ Provenance RenderOutputs::provenance() const {
     const RenderOptions& o = job_.options;
     Provenance p = inputProvenance();
     if (!job_.method().fixesNothing() || o.playsRecordings()) p.entries.emplace_back("method", o.method);
+    if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
+    for (const auto& [hz, path] : o.recordings)
+        p.entries.emplace_back("sound", numberText(hz) + '=' + std::filesystem::path{path}.filename().string() + (o.soundMatch == "rms" ? ":rms" : ""));
     if (o.actuator != "none") p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());
     if (o.actuator != "none" && o.equalise == "off") p.entries.emplace_back("equalise", "off");
     if (o.interfaceVolts > 0.0) p.entries.emplace_back("interface_volts", numberText(o.interfaceVolts));

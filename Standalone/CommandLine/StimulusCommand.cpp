@@ -79,7 +79,7 @@ int runStimulus(const CLI::App& command, const StimulusOptions& o) {
     MadeStimulus made = makeStimulus(command, o, layout.value);
     if (!made.usage.empty()) return leave(exitUsage, "stimulus: " + made.usage);
     if (o.wavPath.empty() && o.picturePath.empty()) return leave(exitUsage, "stimulus: nothing to write; give --out or --picture");
-    if (o.recording.empty()) {
+    if (o.recording.empty() && made.error.empty()) {
         auto sound = renderStimulus(made.stimulus, layout.value, o.sampleRateHz);
         made.error = sound.error;
         made.sound = std::move(sound.value);

@@ -2,11 +2,13 @@
 // The options of `physvib stimulus`, from words to a stimulus.
 #include "CommandLine/StimulusOptions.h"
 #include "Core/Limits.h"
+#include "Files/ActuatorFile.h"
 #include "Files/NumberText.h"
 #include "Study/PercentCounts.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 namespace physvib {
 namespace {
@@ -37,6 +39,33 @@ std::string findPlace(const StimulusOptions& o, FieldPlace& place) {
     return {};
 }
 
+/// The one resonance of all enchanters: a phantom is one vibration.
+Result<double> resonanceOf(const LayoutDescription& layout) {
+    std::optional<double> found;
+    for (const auto& enchanter : layout.enchanters) {
+        const auto fail = [&](const std::string& why) { return Failure{"--frequency resonance: enchanter " + enchanter.label + ": " + why}; };
+        if (enchanter.actuator == "none") return fail("expected an actuator, found none");
+        const auto profile = findActuator(enchanter.actuator);
+        if (!profile) return fail(profile.error);
+        if (!profile.value.resonanceHz) return fail(profile.value.name + ": resonance_hz is not known (measure it with physvib calibrate)");
+        if (found && *found != *profile.value.resonanceHz) return fail("expected the resonance of the others, " + numberText(*found) + " Hz, found " + numberText(*profile.value.resonanceHz) + " Hz");
+        found = profile.value.resonanceHz;
+    }
+    return *found;
+}
+
+std::string findFrequency(const StimulusOptions& o, const LayoutDescription& layout, MadeStimulus& made, double& frequencyHz) {
+    if (o.frequency == "resonance") {
+        const auto resonance = resonanceOf(layout);
+        made.error = resonance.error;
+        frequencyHz = resonance.value;
+        return {};
+    }
+    frequencyHz = parseNumber<double>(o.frequency).value_or(0.0);
+    const bool isInRange = frequencyHz >= 1.0 && frequencyHz <= limits::maxFrequencyHz;
+    return isInRange ? "" : "--frequency: expected 1 to " + numberText(limits::maxFrequencyHz) + " Hz, or resonance, found " + inQuotes(o.frequency);
+}
+
 std::string makePattern(const StimulusOptions& o, const LayoutDescription& layout, MadeStimulus& made) {
     const auto pattern = parsePatternLabel(o.pattern);
     const int enchanters = layout.geometry.count;
@@ -44,7 +73,9 @@ std::string makePattern(const StimulusOptions& o, const LayoutDescription& layou
     for (int k = 0; k < pattern->count; ++k)
         if (pattern->enchanters[static_cast<std::size_t>(k)] >= enchanters)
             return "expected enchanters among the " + std::to_string(enchanters) + " of the layout, found " + inQuotes(o.pattern);
-    made.stimulus = patternStimulus(*pattern, enchanters, {o.frequencyHz, o.levelG}, o.gapSeconds);
+    double frequencyHz = 0.0;
+    if (auto refusal = findFrequency(o, layout, made, frequencyHz); !refusal.empty() || !made.error.empty()) return refusal;
+    made.stimulus = patternStimulus(*pattern, enchanters, {frequencyHz, o.levelG}, o.gapSeconds);
     made.title = o.pattern;
     return {};
 }
@@ -56,7 +87,9 @@ std::string makePhantom(const StimulusOptions& o, const LayoutDescription& layou
     if (!panningLawNamed(o.law, law)) return "--law: expected linear, log, log-outer or energy, found " + inQuotes(o.law);
     const PhantomPanner panner{layout.geometry, law, o.exponent, layout.geometry.extentWidthMetres, layout.geometry.extentHeightMetres};
     made.title = o.cell.empty() ? "phantom at " + o.at : "phantom " + o.cell + " of " + o.grid;
-    made.stimulus = phantomStimulus(place, layout.geometry, law, o.exponent, {o.frequencyHz, o.levelG}, o.seconds);
+    double frequencyHz = 0.0;
+    if (auto refusal = findFrequency(o, layout, made, frequencyHz); !refusal.empty() || !made.error.empty()) return refusal;
+    made.stimulus = phantomStimulus(place, layout.geometry, law, o.exponent, {frequencyHz, o.levelG}, o.seconds);
     if (o.recording.empty()) return {};
     made.title = std::filesystem::path{o.recording}.filename().string();
     made.stimulus.events.clear();
@@ -84,7 +117,7 @@ void declarePlace(CLI::App& command, StimulusOptions& o) {
 }
 
 void declareCarrier(CLI::App& command, StimulusOptions& o) {
-    command.add_option("--frequency", o.frequencyHz, "Hz")->check(CLI::Range(1.0, limits::maxFrequencyHz))->capture_default_str();
+    command.add_option("--frequency", o.frequency, "Hz, or resonance: that of the layout's actuators")->capture_default_str();
     command.add_option("--rate", o.sampleRateHz, "sample rate")->check(CLI::Range(limits::minSampleRateHz, limits::maxSampleRateHz))->capture_default_str();
 }
 

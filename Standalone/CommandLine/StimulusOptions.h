@@ -19,7 +19,8 @@ struct StimulusOptions {
     std::string layout = "phone4";
     std::string law = "linear";
     double exponent = 1.0;
-    double frequencyHz = 205.0, levelG = 1.0, seconds = 1.0, gapSeconds = 0.1;
+    std::string frequency = "205"; ///< Hz, or "resonance": that of the layout's actuators
+    double levelG = 1.0, seconds = 1.0, gapSeconds = 0.1;
     int sampleRateHz = 48000;
     int enchanters = 4;            ///< of `stimulus list`
     std::string wavPath, picturePath;

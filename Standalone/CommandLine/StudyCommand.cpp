@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every participant, one after the other, answered by the observer.
 #include "CommandLine/StudyCommand.h"
+#include "CommandLine/RenderOptions.h"
 #include "CommandLine/StudyOutput.h"
 #include "CommandLine/StudyRun.h"
 #include "Files/ProtocolFile.h"
+#include "Host/ContactSounds.h"
 #include "Study/SimulatedObserver.h"
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -45,14 +47,28 @@ std::string runParticipant(const Protocol& protocol, const Participant& particip
     return {};
 }
 
+/// The protocol with the sounds of the call; one line if one of either is no recording.
+std::string takeSounds(const std::vector<std::string>& sounds, Protocol& protocol) {
+    std::vector<std::pair<double, std::string>> recordings;
+    if (!parseSounds(sounds, recordings)) return std::string{soundExpectation};
+    for (const auto& [hz, path] : recordings) {
+        std::erase_if(protocol.sounds, [hz = hz](const StudySoundFile& sound) { return sound.frequencyHz == hz; });
+        protocol.sounds.push_back({hz, path});
+    }
+    for (const StudySoundFile& sound : protocol.sounds)
+        if (auto contact = loadContact({sound.frequencyHz, sound.file}); !contact) return contact.error;
+    return {};
+}
+
 int run(const StudyOptions& o) {
     if (o.observer.empty()) return leave(exitUsage, "study run: --observer: expected simulated, simulated-PHONE or simulated-RING; a person answers in the mixer");
     const auto settings = observerNamed(o.observer);
     if (!settings) return leave(exitUsage, "study run: --observer: expected simulated, simulated-PHONE or simulated-RING, found " + inQuotes(o.observer));
     if (!isStudyCode(o.participant)) return leave(exitUsage, "study run: --participant: expected at most 32 letters, digits, - and _, found " + inQuotes(o.participant));
     if (!o.participant.empty() && o.participants > 1) return leave(exitUsage, "study run: --participant: expected one participant with a code, found several");
-    const auto protocol = findProtocol(o.protocol);
+    auto protocol = findProtocol(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
+    if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
     if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return leave(exitFailed, fault);
     for (int number = o.number; number < o.number + o.participants; ++number) {
         const Participant participant{codeOf(o, number), number, o.observer};
@@ -74,6 +90,7 @@ void declareStudy(CLI::App& command, StudyOptions& o) {
     run->add_option("--participant", o.participant, "code of the participant; no other personal data is kept")->type_name("CODE");
     run->add_option("--number", o.number, "number of the (first) participant: decides orders")->check(CLI::Range(1, 100000))->capture_default_str();
     run->add_option("--participants", o.participants, "how many, one after the other")->check(CLI::Range(1, 1000))->capture_default_str();
+    run->add_option("--sound", o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
     run->add_option("--out", o.folder, "folder of the trial files, NAME-CODE.csv")->type_name("FOLDER")->capture_default_str();
     run->add_option("--pace", o.paceSeconds, "seconds per trial of a simulated observer")->check(CLI::Range(0.0, 60.0))->capture_default_str();
 }

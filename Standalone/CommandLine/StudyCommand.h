@@ -2,6 +2,7 @@
 // `physvib study`: protocols, and studies run without a window.
 #pragma once
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -17,6 +18,7 @@ struct StudyOptions {
     int number = 1;          ///< of the first participant: the row of the Latin squares
     int participants = 1;
     std::string folder = ".";
+    std::vector<std::string> sounds; ///< "HZ=FILE.wav", instead of the protocol's of that frequency
     double paceSeconds = 0.0; ///< per trial, to watch it or to interrupt it
 };
 

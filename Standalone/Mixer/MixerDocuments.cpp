@@ -113,7 +113,7 @@ void MixerWindow::saveAs() {
 
 void MixerWindow::saveTo(const juce::File& file) {
     const auto edits = desk_->edits();
-    if (const auto error = writeFile(pathOf(file), sessionJson(desk_->saved())); !error.empty()) return say(utf8(error));
+    if (const auto error = writeFile(pathOf(file), sessionJson(desk_->saved(), std::filesystem::path{pathOf(file)}.parent_path())); !error.empty()) return say(utf8(error));
     document_ = file;
     savedEdits_ = edits;
     files_.forget();

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <unistd.h>
 
 namespace physvib {
@@ -63,7 +64,7 @@ std::string MixerFiles::keep(Desk& desk, bool isChanged) {
     if (!isChanged || passed < (desk.edits() != keptEdits_ ? keepMs : longestKeepMs)) return {};
     keptAtMs_ = now;
     keptEdits_ = desk.edits();
-    return writeFile(copy_.getFullPathName().toStdString(), sessionJson(desk.saved()));
+    return writeFile(copy_.getFullPathName().toStdString(), sessionJson(desk.saved(), std::filesystem::path{folder_.getFullPathName().toStdString()}));
 }
 
 void MixerFiles::forget() { copy_.deleteFile(); }

@@ -10,6 +10,8 @@ namespace {
 using Kind = RenderControl::Kind;
 constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may come behind a strike; gains are ramped
 
+constexpr const char* noControls = "The session took no more controls: expected a device that plays";
+
 double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
 
 } // namespace
@@ -26,6 +28,7 @@ StudySound::~StudySound() {
     const Mix& mix = desk_.mix();
     if (isPlaying()) post(Kind::stopAll, 0, 0.0f);
     post(Kind::panner, 0, 0.0f, mix.panner());
+    useRecordings({});
     for (int j = 0; j < mix.count(); ++j) {
         post(Kind::gain, j, channelGain(mix.strips[static_cast<std::size_t>(j)]));
         post(Kind::mute, j, mix.isSilent(j) ? 1.0f : 0.0f);
@@ -39,7 +42,11 @@ void StudySound::post(Kind kind, int channel, float value, const PhantomPanner& 
     control.channel = channel;
     control.value = value;
     control.panner = panner;
-    if (desk_.session().post(control) < 0) desk_.report("The session took no more controls: expected a device that plays");
+    if (desk_.session().post(control) < 0) desk_.report(noControls);
+}
+
+void StudySound::useRecordings(const std::vector<ContactRecording>& recordings) {
+    if (desk_.session().useRecordings(recordings) < 0) desk_.report(noControls);
 }
 
 Result<CallStimulus> StudySound::make(Desk& desk, const std::string& call) {
@@ -51,6 +58,7 @@ Result<CallStimulus> StudySound::make(Desk& desk, const std::string& call) {
 
 std::string StudySound::refusal(const Desk& desk, const CallStimulus& stimulus) {
     const int wanted = stimulus.layout.geometry.count, there = desk.mix().count();
+    if (!stimulus.recordings.empty() && desk.board()) return "--method SV: expected a mixer without the board, which plays no recordings";
     if (wanted <= there) return {};
     return stimulus.layout.name + ": expected " + std::to_string(wanted) + " enchanters in the mixer, found " + std::to_string(there);
 }
@@ -60,6 +68,7 @@ std::string StudySound::play(const CallStimulus& stimulus) {
     const auto& strips = desk_.mix().strips;
     gains_.resize(strips.size());
     post(Kind::panner, 0, 0.0f, stimulus.stimulus.panner);
+    useRecordings(stimulus.recordings);
     for (std::size_t j = 0; j < stimulus.gains.size(); ++j) {
         const float gain = strips[j].isInverted ? -stimulus.gains[j] : stimulus.gains[j];
         if (gain != std::exchange(gains_[j], gain)) post(Kind::gain, static_cast<int>(j), gain);

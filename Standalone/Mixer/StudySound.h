@@ -28,6 +28,7 @@ public:
     void stop();
 
 private:
+    void useRecordings(const std::vector<ContactRecording>& recordings);
     void post(RenderControl::Kind kind, int channel, float value, const PhantomPanner& panner = {});
 
     Desk& desk_;

@@ -58,6 +58,26 @@ TEST_F(SoundMethod, TheContactSoundIsAFileOfItsOwnInSyncWithWhatIsFelt) {
     EXPECT_EQ(samplesOf("a.wav"), felt) << "the hands feel the mode";
 }
 
+TEST_F(SoundMethod, LevelsMoveAllHitsAndRecordingsCanBeAsStrongAsTheMode) {
+    const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --limiter off --out a.wav ";
+    ASSERT_EQ(call(render).exitCode, 0);
+    const auto plain = samplesOf("a.wav");
+    ASSERT_EQ(call(render + "--level-db -6.0206").exitCode, 0);
+    const auto half = samplesOf("a.wav");
+    for (std::size_t n = 0; n < plain.size(); ++n) ASSERT_NEAR(half[n], 0.5f * plain[n], 1e-6f) << n;
+    ASSERT_EQ(call(render + "--method SV --sound 349=synthetic-7 --level-db -6.0206").exitCode, 0);
+    EXPECT_NEAR(peakOf(samplesOf("a.wav"), 0.2, 0.55, 48000), 0.2f, 1e-4f);
+    EXPECT_NE(read("a.wav").find("sound=349=synthetic-7"), std::string::npos) << "what is synthetic says so";
+    ASSERT_EQ(call(render + "--method SV --sound 349=synthetic-7 --sound-match rms").exitCode, 0);
+    const auto energy = [&](const std::vector<float>& x) {
+        double sum = 0.0;
+        for (std::size_t n = 9600; n < 9600 + 12000; ++n) sum += double{x[n]} * x[n];
+        return sum;
+    };
+    EXPECT_NEAR(energy(samplesOf("a.wav")) / energy(plain), 1.0, 0.01);
+    refuses(render + "--level-db 90", 2, "--level-db: expected -80 to 80 dB, found \"90\"", 4);
+}
+
 TEST_F(SoundMethod, WhatIsMissingOrNoHitIsToldInOneLine) {
     const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav ";
     refuses(render + "--method SV", 2, "--method SV: expected a --sound for each material", 3);

@@ -32,6 +32,21 @@ TEST_F(StimulusCommand, PatternsAndPhantomsBecomeFilesAndTheSameOnesAgain) {
     EXPECT_NE(call("stimulus pattern ABA-250 --out a.wav").out.find("0.950 s"), std::string::npos);
 }
 
+TEST_F(StimulusCommand, TheResonanceIsThatOfTheLayoutsActuators) {
+    const auto layout = [](const std::string& a, const std::string& b) {
+        return R"({"extent_m":[1,1],"enchanters":[{"label":"L","x_m":0,"y_m":0.5,"actuator":")" + a + R"("},{"label":"R","x_m":1,"y_m":0.5,"actuator":")" + b + R"("}]})";
+    };
+    write("same.json", layout("piezo-230", "piezo-230"));
+    write("two.json", layout("lra-205", "piezo-230"));
+    write("none.json", layout("none", "none"));
+    ASSERT_EQ(call("stimulus pattern AB-100 --layout same.json --frequency resonance --out a.wav").exitCode, 0);
+    ASSERT_EQ(call("stimulus pattern AB-100 --layout same.json --frequency 230 --out b.wav").exitCode, 0);
+    EXPECT_EQ(read("a.wav"), read("b.wav"));
+    refuses("stimulus pattern AB-100 --layout two.json --frequency resonance --out c.wav", 1, "enchanter R: expected the resonance of the others, 205 Hz, found 230 Hz", 5);
+    refuses("stimulus phantom --at 0,0 --layout none.json --frequency resonance --out c.wav", 1, "enchanter L: expected an actuator, found none", 5);
+    refuses("stimulus phantom --at 0,0 --frequency loud --out c.wav", 2, "--frequency: expected 1 to 20000 Hz, or resonance, found \"loud\"", 5);
+}
+
 TEST_F(StimulusCommand, EveryPatternIsListed) {
     for (const auto& [enchanters, count] : {std::pair{2, 28}, {3, 78}, {4, 168}}) {
         const auto outcome = call("stimulus list --enchanters " + std::to_string(enchanters));

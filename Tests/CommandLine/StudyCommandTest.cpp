@@ -53,6 +53,26 @@ TEST_F(Study, ModelOrSoundWhole) {
     EXPECT_NE(out.find("\nsize=small: "), std::string::npos) << out;
 }
 
+TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
+    ASSERT_EQ(call("render drop --layout phone1 --set pair=wood-wood --seconds 2 --out wood.wav").exitCode, 0);
+    ASSERT_EQ(call("study run model-or-sound --observer simulated --sound 349=wood.wav").exitCode, 0);
+    const auto table = readCsvTable(read("model-or-sound-P01.csv"), "rows").value;
+    std::string last;
+    for (const auto& row : table.rows) {
+        const std::string& calls = row.cells[*table.column("render")];
+        const auto sv = calls.find("--method SV --sound-match rms --level-db 0 --sound 80=synthetic-1 --sound 430=synthetic-1 --sound 349=wood.wav");
+        ASSERT_NE(sv, std::string::npos) << calls;
+        const auto model = calls.find("--method AV-FV-DRV --sound-match rms --level-db ");
+        ASSERT_NE(model, std::string::npos) << calls;
+        last = calls.substr(std::min(model, sv) == model ? 0 : calls.find(" ; ") + 3);
+        last = last.substr(0, last.find(" ; "));
+    }
+    const auto outcome = call(last + " --out again.wav"); // the model at its matched level
+    EXPECT_EQ(outcome.exitCode, 0) << last << outcome.err;
+    refuses("study run model-or-sound --observer simulated --out other --sound 349=gone.wav", 1, "gone.wav: cannot be read", 3);
+    refuses("study run model-or-sound --observer simulated --out other --sound gone.wav", 1, "--sound: expected HZ=FILE.wav", 3);
+}
+
 TEST_F(Study, EightMethodsWhole) {
     const std::string out = analyse("ratings", run("eight-methods", 2));
     EXPECT_NE(out.find("AV-FV-DRV: 20 trials, realism "), std::string::npos) << out;

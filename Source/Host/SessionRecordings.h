@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The recordings of a saved session, loaded again for a renderer.
+#pragma once
+#include "Core/RenderControl.h"
+#include "Files/SessionLog.h"
+#include "Host/ContactSounds.h"
+#include <vector>
+
+namespace physvib {
+
+/// One item per change in `log.recordings`; or one line: a file is missing, has changed, or is no hit. M only.
+Result<std::vector<std::vector<ContactRecording>>> loadRecordings(const SessionLog& log);
+
+/// They at one rate, and the controls that exchange them; lives as long as whoever renders. M only.
+class SessionRecordings {
+public:
+    SessionRecordings(const SessionLog& log, const std::vector<std::vector<ContactRecording>>& loaded, int sampleRateHz);
+
+    /// `controls`, in time order, and these; both stay in order.
+    std::vector<RenderControl> with(std::vector<RenderControl> controls) const;
+
+private:
+    std::vector<std::int64_t> times_;
+    std::vector<ContactSounds> sounds_;
+};
+
+} // namespace physvib

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Recorded contacts: at a level that is known, in a live session, and in the session that is rendered again from its file.
+#include "FakeHost.h"
+#include "Host/SessionJournal.h"
+#include "Host/SessionRecordings.h"
+#include "Host/SessionRender.h"
+#include "Host/StimulusRender.h"
+#include "Host/WavSink.h"
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+class Recordings : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string pattern = (std::filesystem::temp_directory_path() / "physvib-test-XXXXXX").string();
+        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+        folder = pattern;
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+    std::string writeHit(const std::string& name, std::uint32_t seed, float level) const {
+        auto samples = std::vector<float>(2400);
+        for (const float x : loadContact({300.0, "synthetic-" + std::to_string(seed), 30.0}).value.samples) samples.push_back(level * x);
+        const float* at = samples.data();
+        WavSink sink{(folder / name).string(), 1, 48000};
+        for (std::size_t done = 0; done < samples.size(); done += 4800) {
+            sink.write(&at, static_cast<int>(std::min<std::size_t>(4800, samples.size() - done)));
+            at += 4800;
+        }
+        EXPECT_EQ(sink.finish(), "");
+        return (folder / name).string();
+    }
+    std::filesystem::path folder;
+};
+
+double rms(const std::vector<float>& x, double rate) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < std::min(x.size(), static_cast<std::size_t>(matchedSeconds * rate)); ++n) sum += double{x[n]} * x[n];
+    return std::sqrt(sum / (matchedSeconds * rate));
+}
+
+TEST_F(Recordings, AreAsHighAsTheModeOrAsStrong) {
+    const std::string path = writeHit("hit.wav", 3, 0.2f);
+    for (const double decay : {12.0, 35.0, 107.0}) {
+        const auto high = loadContact({349.0, path, decay, false}), strong = loadContact({349.0, path, decay, true});
+        ASSERT_TRUE(high) << high.error;
+        float peak = 0.0f;
+        for (const float x : high.value.samples) peak = std::max(peak, std::abs(x));
+        EXPECT_EQ(peak, 1.0f);
+        // of e^(-decay t) sin(2 pi f t): half the envelope's energy, but for the little that the sine's phase leaves
+        const double expected = std::sqrt((1.0 - std::exp(-2.0 * decay * matchedSeconds)) / (4.0 * decay) / matchedSeconds);
+        EXPECT_NEAR(rms(strong.value.samples, 48000) / expected, 1.0, 0.02) << decay;
+    }
+}
+
+TEST_F(Recordings, WhatIsSyntheticIsTheSameForTheSameSeedOnly) {
+    const auto a = loadContact({80.0, "synthetic-1", 34.0}), again = loadContact({80.0, "synthetic-1", 34.0}), b = loadContact({80.0, "synthetic-2", 34.0});
+    ASSERT_TRUE(a && again && b);
+    EXPECT_EQ(a.value.samples, again.value.samples);
+    EXPECT_NE(a.value.samples, b.value.samples);
+    EXPECT_NE(loadContact({80.0, "synthetic-x", 34.0}).error, "") << "a file's name";
+}
+
+/// Two seconds of it, with other recordings in the middle and modes at the end.
+Interleaved playExchanging(Session& session, const std::vector<ContactRecording>& others, std::int64_t frames) {
+    Block block;
+    Interleaved signal;
+    session.prepare(hostRate, 256);
+    for (std::int64_t done = 0; done < frames; done += 250) {
+        if (done == frames / 4) { EXPECT_GE(session.useRecordings(others), 0); }
+        if (done == frames * 3 / 4) { EXPECT_GE(session.useRecordings({}), 0); }
+        session.advance();
+        session.render(block.at.data(), 250, RenderMode::realtime);
+        append(signal, block.at.data(), 250);
+        drain(session);
+    }
+    return signal;
+}
+
+TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
+    auto setup = shakeTheBoxSetup(0.02);
+    const std::string first = writeHit("first.wav", 1, 0.5f), second = writeHit("second.wav", 2, 0.5f);
+    const auto load = [&](const std::string& path) {
+        std::vector<ContactRecording> all;
+        for (const Material& m : setup.scene.materials)
+            if (m.frequencyHz > 0.0) all.push_back(loadContact({m.frequencyHz, path, m.decayPerSecond, true}).value);
+        return all;
+    };
+    setup.recordings = load(first);
+    setup.shaping.gain = 0.5;
+    Session session{setup};
+    const std::int64_t frames = 8 * hostRate;
+    const auto felt = playExchanging(session, load(second), frames);
+    const auto file = folder / "monday.json";
+    {
+        SessionJournal journal{file, session, setup, {}};
+        journal.keep(session.status().sessionNs);
+        ASSERT_EQ(journal.error(), "");
+    }
+    std::ifstream text{file};
+    const std::string json{std::istreambuf_iterator<char>{text}, {}};
+    EXPECT_NE(json.find("\"file\": \"first.wav\""), std::string::npos) << "beside the session: the folder may move";
+
+    std::filesystem::create_directory(folder / "moved");
+    for (const char* name : {"first.wav", "second.wav", "monday.json"}) std::filesystem::rename(folder / name, folder / "moved" / name);
+    const auto saved = loadSession(folder / "moved" / "monday.json");
+    ASSERT_TRUE(saved) << saved.error;
+    ASSERT_EQ(saved.value.log.recordings.size(), 3u);
+    const std::string wav = (folder / "again.wav").string();
+    const std::int64_t rendered = frames - session.playOutFrames();
+    ASSERT_EQ(renderSession(saved.value, wav, hostRate, static_cast<double>(rendered) / hostRate, "", [](double) { return true; }), "");
+    const auto again = readRecording(wav);
+    ASSERT_TRUE(again) << again.error;
+    float loudest = 0.0f;
+    for (std::int64_t n = 0; n < rendered; ++n)
+        for (std::size_t j = 0; j < hostChannels; ++j) {
+            const float now = felt[static_cast<std::size_t>((n + session.playOutFrames()) * hostChannels) + j];
+            loudest = std::max(loudest, std::abs(now));
+            ASSERT_EQ(again.value.channels[j][static_cast<std::size_t>(n)], now) << "frame " << n << " of channel " << j;
+        }
+    EXPECT_GT(loudest, 0.01f);
+
+    writeHit("moved/second.wav", 9, 0.5f);
+    const auto changed = loadRecordings(saved.value.log);
+    EXPECT_NE(changed.error.find("second.wav: expected the recording with the hash "), std::string::npos) << changed.error;
+    EXPECT_NE(renderSession(saved.value, wav, hostRate, 1.0, "", [](double) { return true; }).find("it has changed since"), std::string::npos);
+    std::filesystem::remove(folder / "moved" / "second.wav");
+    EXPECT_NE(loadRecordings(saved.value.log).error.find("second.wav: cannot be read"), std::string::npos);
+}
+
+} // namespace
+} // namespace physvib
