@@ -4,16 +4,19 @@
 #include "CommandLine/AnalyseGrids.h"
 #include "CommandLine/AnalyseLabels.h"
 #include "CommandLine/AnalyseVotes.h"
-#include "CommandLine/ExitCode.h"
+#include "CommandLine/StudyOutput.h"
+#include "Files/TrialColumns.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <set>
 
 namespace physvib {
 namespace {
 
 struct Analysis {
-    const char* name;
+    std::string_view name;
     const char* purpose;
-    int (*run)(const AnalyseOptions&);
+    AnalysisReport (*run)(const AnalyseOptions&);
 };
 
 constexpr Analysis analyses[] = {
@@ -45,7 +48,7 @@ void declareOwn(CLI::App& command, std::string_view name, AnalyseOptions& o) {
 void declareAnalyse(CLI::App& command, AnalyseOptions& o) {
     command.require_subcommand(1);
     for (const Analysis& analysis : analyses) {
-        CLI::App* const own = command.add_subcommand(analysis.name, analysis.purpose);
+        CLI::App* const own = command.add_subcommand(std::string{analysis.name}, analysis.purpose);
         own->add_option("files", o.files, "trials, or what the analysis is about; several are taken together")->required()->type_name("FILE.csv");
         own->add_option("--picture", o.picturePath, "the result to look at")->type_name("FILE.png");
         own->add_option("--export", o.exportPath, "the result as a table for a statistics package")->type_name("FILE.csv");
@@ -53,10 +56,47 @@ void declareAnalyse(CLI::App& command, AnalyseOptions& o) {
     }
 }
 
-int runAnalyse(const CLI::App& command, const AnalyseOptions& options) {
+std::vector<std::string> analysesFor(const CsvTable& table) {
+    std::set<std::string> found;
+    const auto has = [&](std::string_view column) { return table.column(column).has_value(); };
+    if (const auto task = table.column(trialColumns::task)) {
+        const auto phase = table.column(trialColumns::phase), correct = table.column("correct");
+        for (const CsvRow& row : table.rows) {
+            const std::string& did = row.cells[*task];
+            const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
+            if (did == "adjust" || did == "estimate" || (did == "choose" && correct && !row.cells[*correct].empty())) found.insert("levels");
+            else if (isTraining) continue;
+            else if (did == "identify") found.insert("confusion");
+            else if (did == "locate") found.insert("resolution");
+            else if (did == "choose") found.insert("choices");
+            else if (did == "rate") found.insert("ratings");
+        }
+    } else {
+        if (has("stimulus") && has("response")) found.insert("confusion");
+        if (has("target_column") && has("x")) found.insert("resolution");
+        if (has("c1")) found.insert("percent-counts");
+        if (has("choice")) found.insert("choices");
+    }
+    std::vector<std::string> names;
     for (const Analysis& analysis : analyses)
-        if (command.got_subcommand(analysis.name)) return analysis.run(options);
-    return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
+        if (found.contains(std::string{analysis.name})) names.emplace_back(analysis.name);
+    return names;
+}
+
+AnalysisReport analyse(const std::string& name, const AnalyseOptions& options) {
+    const auto found = std::ranges::find(analyses, name, &Analysis::name);
+    return found != std::end(analyses) ? found->run(options) : AnalysisReport{"no analysis " + inQuotes(name)};
+}
+
+int runAnalyse(const CLI::App& command, const AnalyseOptions& o) {
+    const auto asked = std::ranges::find_if(analyses, [&](const Analysis& a) { return command.got_subcommand(std::string{a.name}); });
+    if (asked == std::end(analyses)) return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
+    const AnalysisReport report = asked->run(o);
+    for (const auto& words : report.warnings) warn(words);
+    if (report.error.empty() || !report.words.empty()) tellIfSimulated(report.isSimulated);
+    std::cout << report.words;
+    if (!report.error.empty()) return leave(exitFailed, report.error);
+    return writeStudyFiles({{o.exportPath, report.table}, {o.countsPath, report.counts}, {o.picturePath, report.picture}});
 }
 
 } // namespace physvib

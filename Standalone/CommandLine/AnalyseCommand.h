@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib analyse`: what the trials of a study say.
 #pragma once
+#include "Files/CsvTable.h"
 #include "Study/PercentCounts.h"
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,22 @@ struct AnalyseOptions {
     std::size_t meanings = 8;                            ///< icons
     std::string picturePath, exportPath, countsPath;     ///< empty: not wanted
 };
+
+/// What an analysis has found.
+struct AnalysisReport {
+    std::string error;                    ///< one line; then only `words` may hold something
+    bool isSimulated = false;             ///< a simulated observer answered, not a person
+    std::vector<std::string> warnings{};  ///< a line each
+    std::string words{};                  ///< its figures, in lines
+    std::function<std::string()> picture{}; ///< PNG bytes, watermarked if simulated; M, while JUCE is initialised
+    std::string table{}, counts{};        ///< CSV
+};
+
+/// The analyses that fit a table, by their names: of a trial file by the tasks in it, else by its columns. Any thread.
+std::vector<std::string> analysesFor(const CsvTable& table);
+
+/// The analysis of that name, one of analysesFor's. M only.
+AnalysisReport analyse(const std::string& name, const AnalyseOptions& options);
 
 /// Declares the analyses as subcommands of `command`.
 void declareAnalyse(CLI::App& command, AnalyseOptions& options);

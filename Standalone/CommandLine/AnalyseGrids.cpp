@@ -5,6 +5,7 @@
 #include "CommandLine/StudyOutput.h"
 #include "Host/StudyPictures.h"
 #include <cmath>
+#include <sstream>
 
 namespace physvib {
 namespace {
@@ -26,17 +27,17 @@ std::string sizeWords(const GridMerge& merge) { return std::to_string(merge.colu
 
 std::string mergeWords(const GridMerge& merge) { return "columns " + groupWords(merge.columnGroups) + "; rows " + groupWords(merge.rowGroups); }
 
-void tell(const PercentCounts& counts, const PerceptualResolution& resolution, double threshold) {
-    std::cout << printable(counts.condition) << ": ";
+void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolution& resolution, double threshold) {
+    out << printable(counts.condition) << ": ";
     if (resolution.ties.empty()) {
-        std::cout << "0 x 0\n  even the whole field does not reach " << numberText(threshold) << " %\n";
+        out << "0 x 0\n  even the whole field does not reach " << numberText(threshold) << " %\n";
         return;
     }
-    std::cout << sizeWords(resolution.ties.front()) << "\n  merge: " << mergeWords(resolution.ties.front()) << '\n';
+    out << sizeWords(resolution.ties.front()) << "\n  merge: " << mergeWords(resolution.ties.front()) << '\n';
     for (std::size_t i = 1; i < std::min(resolution.ties.size(), mostTiesTold); ++i)
-        std::cout << "  tie: " << sizeWords(resolution.ties[i]) << ", " << mergeWords(resolution.ties[i]) << '\n';
-    if (resolution.ties.size() > mostTiesTold) std::cout << "  and " << resolution.ties.size() - mostTiesTold << " more ties\n";
-    std::cout << "  sum " << fixedNumber(counts.sum(), 2) << " %, standard deviation " << fixedNumber(counts.standardDeviation(), 2) << '\n';
+        out << "  tie: " << sizeWords(resolution.ties[i]) << ", " << mergeWords(resolution.ties[i]) << '\n';
+    if (resolution.ties.size() > mostTiesTold) out << "  and " << resolution.ties.size() - mostTiesTold << " more ties\n";
+    out << "  sum " << fixedNumber(counts.sum(), 2) << " %, standard deviation " << fixedNumber(counts.standardDeviation(), 2) << '\n';
 }
 
 void exportMerged(ExportTable& table, const PercentCounts& counts, const PerceptualResolution& resolution) {
@@ -60,17 +61,19 @@ void exportNormals(ExportTable& table, const ConditionResolution& made) {
     }
 }
 
-void warnOfSum(const PercentCounts& counts) {
+void warnOfSum(const PercentCounts& counts, std::vector<std::string>& warnings) {
     const double printed = 0.005 * static_cast<double>(counts.percent.size()); // each rounded to two decimals
     if (std::abs(counts.sum() - 100.0) > printed + 1e-9)
-        warn(printable(counts.condition) + ": percent counts sum to " + fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));
+        warnings.push_back(printable(counts.condition) + ": percent counts sum to " + fixedNumber(counts.sum(), 2) + ", expected 100 within " + fixedNumber(printed, 2));
 }
 
 } // namespace
 
-int analyseResolution(const AnalyseOptions& o) {
+AnalysisReport analyseResolution(const AnalyseOptions& o) {
     const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readLocations(files); });
-    if (!data) return leave(exitFailed, data.error);
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated};
+    std::ostringstream out;
     std::vector<ConditionResolution> made;
     std::vector<PercentCounts> counts;
     ExportTable table{"resolution", data.value.isSimulated,
@@ -78,34 +81,39 @@ int analyseResolution(const AnalyseOptions& o) {
     for (const auto& condition : data.value.conditions) {
         made.push_back(resolveCondition(condition.name.empty() ? "all trials" : condition.name, condition.trials, o.thresholdPercent));
         const auto& one = made.back();
-        for (const auto& words : one.normals.warnings) warn(printable(one.condition) + ": " + words);
-        if (!one.normals.fault.empty()) return leave(exitFailed, o.files.front() + ": " + printable(one.condition) + ": " + one.normals.fault);
+        for (const auto& words : one.normals.warnings) report.warnings.push_back(printable(one.condition) + ": " + words);
+        if (!one.normals.fault.empty()) return {o.files.front() + ": " + printable(one.condition) + ": " + one.normals.fault};
         counts.push_back(one.counts);
         exportNormals(table, one);
     }
-    tellIfSimulated(data.value.isSimulated);
-    for (const auto& one : made) tell(one.counts, one.resolution, o.thresholdPercent);
+    for (const auto& one : made) tell(out, one.counts, one.resolution, o.thresholdPercent);
     Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
     if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
-    return writeStudyFiles({{o.exportPath, table.text()},
-                            {o.countsPath, percentCountsCsv(counts, provenance)},
-                            {o.picturePath, [&] { return resolutionPicture(made, pictureWords(o.files, data.value.isSimulated)); }}});
+    report.words = out.str();
+    report.table = table.text();
+    report.counts = percentCountsCsv(counts, provenance);
+    report.picture = [made, words = pictureWords(o.files, data.value.isSimulated)] { return resolutionPicture(made, words); };
+    return report;
 }
 
-int analysePercentCounts(const AnalyseOptions& o) {
+AnalysisReport analysePercentCounts(const AnalyseOptions& o) {
     const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readPercentCounts(files); });
-    if (!data) return leave(exitFailed, data.error);
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated};
+    std::ostringstream out;
     ExportTable table{"percent-counts", data.value.isSimulated, "condition,row,column,percent"};
     std::vector<ConditionResolution> made;
-    tellIfSimulated(data.value.isSimulated);
     for (const auto& condition : data.value.conditions) {
         const PercentCounts& counts = condition.trials.front();
-        warnOfSum(counts);
+        warnOfSum(counts, report.warnings);
         made.push_back({counts.condition, {}, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
-        tell(counts, made.back().resolution, o.thresholdPercent);
+        tell(out, counts, made.back().resolution, o.thresholdPercent);
         exportMerged(table, counts, made.back().resolution);
     }
-    return writeStudyFiles({{o.exportPath, table.text()}, {o.picturePath, [&] { return resolutionPicture(made, pictureWords(o.files, data.value.isSimulated)); }}});
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [made, words = pictureWords(o.files, data.value.isSimulated)] { return resolutionPicture(made, words); };
+    return report;
 }
 
 } // namespace physvib

@@ -5,8 +5,9 @@
 namespace physvib {
 
 struct AnalyseOptions;
+struct AnalysisReport;
 
-int analyseResolution(const AnalyseOptions& options);
-int analysePercentCounts(const AnalyseOptions& options);
+AnalysisReport analyseResolution(const AnalyseOptions& options);
+AnalysisReport analysePercentCounts(const AnalyseOptions& options);
 
 } // namespace physvib

@@ -10,6 +10,7 @@
 #include "Study/TactileIcons.h"
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace physvib {
 namespace {
@@ -50,14 +51,14 @@ std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const Inf
     return words;
 }
 
-void tell(const std::string& indent, const ConfusionMatrix& matrix, const InformationTransfer& it) {
+void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& matrix, const InformationTransfer& it) {
     const Proportion correct = proportion(matrix.correct(), matrix.trials());
-    std::cout << indent << "trials: " << matrix.trials() << " (" << matrix.stimuli() << " stimuli)\n"
+    out << indent << "trials: " << matrix.trials() << " (" << matrix.stimuli() << " stimuli)\n"
               << indent << "percent correct: " << percent(correct.share) << " (95 % interval " << percent(correct.least) << " to " << percent(correct.most) << ")\n"
               << indent << "IT: " << bits(it.bits) << " of " << bits(it.mostBits) << '\n';
-    if (it.canBeCorrected()) std::cout << indent << "corrected IT: " << bits(it.correctedBits()) << '\n';
-    else std::cout << indent << "IT bound: at least " << bits(it.leastBits) << " (Fano)\n";
-    std::cout << indent << "2^IT: " << fixedNumber(std::exp2(it.bestBits()), 1) << '\n';
+    if (it.canBeCorrected()) out << indent << "corrected IT: " << bits(it.correctedBits()) << '\n';
+    else out << indent << "IT bound: at least " << bits(it.leastBits) << " (Fano)\n";
+    out << indent << "2^IT: " << fixedNumber(std::exp2(it.bestBits()), 1) << '\n';
 }
 
 void exportMatrix(ExportTable& table, const std::string& condition, const ConfusionMatrix& matrix) {
@@ -82,31 +83,35 @@ std::string nameOr(const std::string& name, const char* other) { return name.emp
 
 } // namespace
 
-int analyseConfusion(const AnalyseOptions& o) {
+AnalysisReport analyseConfusion(const AnalyseOptions& o) {
     const auto data = readTrials(o);
-    if (!data) return leave(exitFailed, data.error);
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
     ExportTable table{"confusion", data.value.isSimulated, "condition,stimulus,response,count"};
     std::vector<ConfusionPanel> panels;
-    for (const auto& words : data.value.warnings) warn(words);
-    tellIfSimulated(data.value.isSimulated);
     for (const auto& condition : data.value.conditions) {
         const ConfusionMatrix matrix{condition.trials};
         const InformationTransfer it = informationTransfer(matrix);
         const std::string prefix = condition.name.empty() ? "" : printable(condition.name) + ": ";
-        for (const auto& words : matrixWarnings(matrix, it)) warn(prefix + words);
-        if (!condition.name.empty()) std::cout << printable(condition.name) << '\n';
-        tell(condition.name.empty() ? "" : "  ", matrix, it);
+        for (const auto& words : matrixWarnings(matrix, it)) report.warnings.push_back(prefix + words);
+        if (!condition.name.empty()) out << printable(condition.name) << '\n';
+        tell(out, condition.name.empty() ? "" : "  ", matrix, it);
         exportMatrix(table, condition.name, matrix);
         panels.push_back({nameOr(condition.name, "all trials"), matrix, it});
     }
-    return writeStudyFiles({{o.exportPath, table.text()}, {o.picturePath, [&] { return confusionPicture(panels, pictureWords(o.files, data.value.isSimulated)); }}});
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [panels, words = pictureWords(o.files, data.value.isSimulated)] { return confusionPicture(panels, words); };
+    return report;
 }
 
-int analyseIcons(const AnalyseOptions& o) {
+AnalysisReport analyseIcons(const AnalyseOptions& o) {
     const auto data = readTrials(o);
-    if (!data) return leave(exitFailed, data.error);
-    tellIfSimulated(data.value.isSimulated);
-    std::cout << o.meanings << " meanings need " << bits(bitsFor(o.meanings)) << '\n';
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated};
+    std::ostringstream out;
+    out << o.meanings << " meanings need " << bits(bitsFor(o.meanings)) << '\n';
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
     for (const auto& condition : data.value.conditions) matrices.emplace_back(condition.name, ConfusionMatrix{condition.trials});
     std::ranges::stable_sort(matrices, {}, [](const auto& m) { return m.second.stimuli(); });
@@ -115,19 +120,22 @@ int analyseIcons(const AnalyseOptions& o) {
     for (const auto& [name, matrix] : matrices) {
         const InformationTransfer it = informationTransfer(matrix);
         const bool isEnough = it.bestBits() >= bitsFor(o.meanings);
-        std::cout << printable(nameOr(name, "all trials")) << ": " << patternsOf(matrix) << ", " << bits(it.bestBits()) << ": " << (isEnough ? "enough" : "too little") << '\n';
+        out << printable(nameOr(name, "all trials")) << ": " << patternsOf(matrix) << ", " << bits(it.bestBits()) << ": " << (isEnough ? "enough" : "too little") << '\n';
         if (!isEnough || !panels.empty()) continue;
         panels.push_back({nameOr(name, "all trials"), {}});
         for (const std::size_t i : leastConfused(matrix, o.meanings)) {
             const double share = shareCorrect(matrix, i);
-            std::cout << "  " << printable(matrix.label(i)) << "  " << percent(share) << " % correct\n";
+            out << "  " << printable(matrix.label(i)) << "  " << percent(share) << " % correct\n";
             table.cell(name).cell(matrix.label(i)).cell(100.0 * share);
             table.endRow();
             panels.back().icons.push_back({matrix.label(i), share});
         }
     }
-    if (panels.empty()) return leave(exitFailed, o.files.front() + ": expected a condition that transfers " + bits(bitsFor(o.meanings)) + ", found none");
-    return writeStudyFiles({{o.exportPath, table.text()}, {o.picturePath, [&] { return iconPicture(panels, pictureWords(o.files, data.value.isSimulated)); }}});
+    if (panels.empty()) report.error = o.files.front() + ": expected a condition that transfers " + bits(bitsFor(o.meanings)) + ", found none";
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [panels, words = pictureWords(o.files, data.value.isSimulated)] { return iconPicture(panels, words); };
+    return report;
 }
 
 } // namespace physvib

@@ -5,8 +5,9 @@
 namespace physvib {
 
 struct AnalyseOptions;
+struct AnalysisReport;
 
-int analyseConfusion(const AnalyseOptions& options);
-int analyseIcons(const AnalyseOptions& options);
+AnalysisReport analyseConfusion(const AnalyseOptions& options);
+AnalysisReport analyseIcons(const AnalyseOptions& options);
 
 } // namespace physvib

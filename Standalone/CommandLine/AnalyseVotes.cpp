@@ -4,6 +4,7 @@
 #include "CommandLine/AnalyseCommand.h"
 #include "CommandLine/StudyOutput.h"
 #include "Host/StudyPictures.h"
+#include <sstream>
 
 namespace physvib {
 namespace {
@@ -12,14 +13,14 @@ std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
 
 std::string chance(double p) { return p < 0.001 ? "p < 0.001" : "p = " + fixedNumber(p, 3); }
 
-void tell(const ChoiceSummary& summary) {
-    std::cout << printable(summary.condition) << ':';
+void tell(std::ostream& out, const ChoiceSummary& summary) {
+    out << printable(summary.condition) << ':';
     for (const ChoiceShare& share : summary.shares)
-        std::cout << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' ' << percent(share.votes.share) << " % ("
+        out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' ' << percent(share.votes.share) << " % ("
                   << percent(share.votes.least) << " to " << percent(share.votes.most) << ')';
-    std::cout << " of " << summary.shares.front().votes.trials << " trials";
-    if (summary.shares.size() == 2) std::cout << ", " << chance(summary.pByChance);
-    std::cout << '\n';
+    out << " of " << summary.shares.front().votes.trials << " trials";
+    if (summary.shares.size() == 2) out << ", " << chance(summary.pByChance);
+    out << '\n';
 }
 
 const char* kindWord(LevelTrial::Kind kind) {
@@ -27,27 +28,28 @@ const char* kindWord(LevelTrial::Kind kind) {
     return kind == LevelTrial::Kind::adjustment ? "matched at" : "magnitude";
 }
 
-void tell(const LevelSummary& s) {
+void tell(std::ostream& out, const LevelSummary& s) {
     const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
-    std::cout << printable(s.condition) << (s.stimulus.empty() ? "" : ", " + printable(s.stimulus)) << ": " << kindWord(s.kind) << ' ' << fixedNumber(s.estimate, isMagnitude ? 2 : 1)
+    out << printable(s.condition) << (s.stimulus.empty() ? "" : ", " + printable(s.stimulus)) << ": " << kindWord(s.kind) << ' ' << fixedNumber(s.estimate, isMagnitude ? 2 : 1)
               << (isMagnitude ? "" : " dB");
-    if (s.deviation > 0.0) std::cout << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10)" : " dB)");
-    std::cout << ", " << s.trials << (s.trials == 1 ? " trial of " : " trials of ") << s.participants << (s.participants == 1 ? " participant" : " participants");
-    if (s.kind == LevelTrial::Kind::staircase) std::cout << ", " << s.reversals << " reversals";
-    std::cout << '\n';
+    if (s.deviation > 0.0) out << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10)" : " dB)");
+    out << ", " << s.trials << (s.trials == 1 ? " trial of " : " trials of ") << s.participants << (s.participants == 1 ? " participant" : " participants");
+    if (s.kind == LevelTrial::Kind::staircase) out << ", " << s.reversals << " reversals";
+    out << '\n';
 }
 
 } // namespace
 
-int analyseChoices(const AnalyseOptions& o) {
+AnalysisReport analyseChoices(const AnalyseOptions& o) {
     const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readChoices(files); });
-    if (!data) return leave(exitFailed, data.error);
+    if (!data) return {data.error};
     const auto summaries = summariseChoices(data.value.conditions.front().trials);
     ExportTable table{"choices", data.value.isSimulated, "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,participants_median_percent,p_sign_test"};
-    tellIfSimulated(data.value.isSimulated);
-    if (summaries.front().shares.size() == 1) warn("every choice is " + printable(summaries.front().shares.front().alternative) + ": nothing to compare");
+    AnalysisReport report{{}, data.value.isSimulated};
+    std::ostringstream out;
+    if (summaries.front().shares.size() == 1) report.warnings.push_back("every choice is " + printable(summaries.front().shares.front().alternative) + ": nothing to compare");
     for (const auto& summary : summaries) {
-        tell(summary);
+        tell(out, summary);
         for (const auto& share : summary.shares) {
             table.cell(summary.condition).cell(share.alternative).cell(std::size_t{share.votes.hits}).cell(std::size_t{share.votes.trials});
             for (const double part : {share.votes.share, share.votes.least, share.votes.most}) table.cell(100.0 * part);
@@ -55,42 +57,53 @@ int analyseChoices(const AnalyseOptions& o) {
             table.endRow();
         }
     }
-    return writeStudyFiles({{o.exportPath, table.text()}, {o.picturePath, [&] { return choicePicture(summaries, pictureWords(o.files, data.value.isSimulated)); }}});
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [summaries, words = pictureWords(o.files, data.value.isSimulated)] { return choicePicture(summaries, words); };
+    return report;
 }
 
-int analyseRatings(const AnalyseOptions& o) {
+AnalysisReport analyseRatings(const AnalyseOptions& o) {
     const auto ratings = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readRatings(files); });
-    if (!ratings) return leave(exitFailed, ratings.error);
+    if (!ratings) return {ratings.error};
     const auto& [scales, data] = ratings.value;
     const auto summaries = summariseRatings(data.conditions.front().trials);
     ExportTable table{"ratings", data.isSimulated, "condition,scale,trials,participants,mean,standard_deviation,half_interval"};
-    tellIfSimulated(data.isSimulated);
+    AnalysisReport report{{}, data.isSimulated};
+    std::ostringstream out;
     for (const auto& summary : summaries) {
-        std::cout << printable(summary.condition) << ": " << summary.trials << (summary.trials == 1 ? " trial" : " trials");
+        out << printable(summary.condition) << ": " << summary.trials << (summary.trials == 1 ? " trial" : " trials");
         for (std::size_t s = 0; s < scales.size(); ++s) {
-            std::cout << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
-            if (summary.halfIntervals[s] > 0.0) std::cout << " +- " << fixedNumber(summary.halfIntervals[s], 1);
+            out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
+            if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
             table.cell(summary.condition).cell(scales[s]).cell(summary.trials).cell(summary.participants);
             for (const double number : {summary.means[s], summary.deviations[s], summary.halfIntervals[s]}) table.cell(number);
             table.endRow();
         }
-        std::cout << '\n';
+        out << '\n';
     }
-    return writeStudyFiles({{o.exportPath, table.text()}, {o.picturePath, [&] { return ratingPicture(scales, summaries, pictureWords(o.files, data.isSimulated)); }}});
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [scales = scales, summaries, words = pictureWords(o.files, data.isSimulated)] { return ratingPicture(scales, summaries, words); };
+    return report;
 }
 
-int analyseLevels(const AnalyseOptions& o) {
+AnalysisReport analyseLevels(const AnalyseOptions& o) {
     const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readLevels(files); });
-    if (!data) return leave(exitFailed, data.error);
+    if (!data) return {data.error};
     const auto summaries = summariseLevels(data.value.conditions.front().trials);
     ExportTable table{"levels", data.value.isSimulated, "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation"};
-    tellIfSimulated(data.value.isSimulated);
+    AnalysisReport report{{}, data.value.isSimulated};
+    std::ostringstream out;
     for (const LevelSummary& s : summaries) {
-        tell(s);
+        tell(out, s);
         table.cell(kindWord(s.kind)).cell(s.condition).cell(s.stimulus).cell(s.trials).cell(s.participants).cell(s.reversals).cell(s.estimate).cell(s.deviation);
         table.endRow();
     }
-    return writeStudyFiles({{o.exportPath, table.text()}, {o.picturePath, [&] { return levelPicture(summaries, pictureWords(o.files, data.value.isSimulated)); }}});
+    report.words = out.str();
+    report.table = table.text();
+    report.picture = [summaries, words = pictureWords(o.files, data.value.isSimulated)] { return levelPicture(summaries, words); };
+    return report;
 }
 
 } // namespace physvib

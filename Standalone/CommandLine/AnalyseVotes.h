@@ -5,9 +5,10 @@
 namespace physvib {
 
 struct AnalyseOptions;
+struct AnalysisReport;
 
-int analyseChoices(const AnalyseOptions& options);
-int analyseRatings(const AnalyseOptions& options);
-int analyseLevels(const AnalyseOptions& options);
+AnalysisReport analyseChoices(const AnalyseOptions& options);
+AnalysisReport analyseRatings(const AnalyseOptions& options);
+AnalysisReport analyseLevels(const AnalyseOptions& options);
 
 } // namespace physvib

@@ -64,6 +64,8 @@ StudiesTab::StudiesTab(Desk& desk)
     folder_.setTitle("Folder of the trial files");
     browse_ = quietButton("Choose", "Choose the folder of the trial files");
     browse_->onClick = [this] { browseFolder(); };
+    analyse_ = quietButton("Analyse", "Analyse the participant's trials, or other files");
+    analyse_->onClick = [this] { analyse(); };
     begin_.setTitle("Begin the study");
     begin_.onClick = [this] { begin(); };
     for (auto* editor : {&code_, &number_, &folder_}) {
@@ -71,7 +73,7 @@ StudiesTab::StudiesTab(Desk& desk)
         editor->setEscapeAndReturnKeysConsumed(false); // Esc silences, also from here
         editor->onTextChange = [this] { look(); };
     }
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_, browse_.get(), &noiseName_, &noise_, &noiseLevelName_, &noiseLevel_, &begin_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_, browse_.get(), &noiseName_, &noise_, &noiseLevelName_, &noiseLevel_, &begin_, analyse_.get()})
         addAndMakeVisible(c);
     setFolder(juce::File::getSpecialLocation(juce::File::userDocumentsDirectory));
     setParticipant("P01", 1);
@@ -192,26 +194,40 @@ void StudiesTab::say(const juce::String& words, Shade shade) {
 std::string StudiesTab::begin() {
     const auto refuse = [this](const std::string& why) { return say(utf8(why), Shade::limit), why; };
     auto* view = findParentComponentOfClass<MixerView>();
-    if (screen_ || !protocol_ || view == nullptr) return "expected a mixer without a study";
+    if (screen_ || analysis_ || !protocol_ || view == nullptr) return "expected a mixer without a study";
     if (code_.isEmpty()) return refuse("expected a participant's code");
     if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
     auto study = std::make_unique<StudyRun>(pathOf(folder_.getText()), *protocol_, participant());
     if (!study->error().empty()) return refuse(study->error());
     if (auto fault = desk_.hear(listening()); !fault.empty()) return refuse(fault);
-    for (auto* child : view->getChildren())
-        if (child->isVisible()) hidden_.emplace_back(child);
     screen_ = std::make_unique<StudyScreen>(desk_, std::move(study));
     screen_->onClose = [this] { end(); };
-    screen_->setBounds(view->getLocalBounds());
-    view->addAndMakeVisible(*screen_);
-    for (auto& child : hidden_) child->setVisible(false);
-    if (screen_->isShowing()) screen_->grabKeyboardFocus();
+    cover(*view, *screen_);
     return {};
 }
 
+void StudiesTab::cover(MixerView& view, juce::Component& screen) {
+    for (auto* child : view.getChildren())
+        if (child->isVisible()) hidden_.emplace_back(child);
+    screen.setBounds(view.getLocalBounds());
+    view.addAndMakeVisible(screen);
+    for (auto& child : hidden_) child->setVisible(false);
+    if (screen.isShowing()) screen.grabKeyboardFocus();
+}
+
+void StudiesTab::analyse(std::vector<juce::File> files) {
+    auto* view = findParentComponentOfClass<MixerView>();
+    if (screen_ || analysis_ || !protocol_ || view == nullptr) return;
+    if (files.empty()) files.emplace_back(trialFile(pathOf(folder_.getText()), *protocol_, participant()).string());
+    analysis_ = std::make_unique<AnalysisScreen>(desk_, files);
+    analysis_->onClose = [this] { end(); };
+    cover(*view, *analysis_);
+}
+
 void StudiesTab::end() {
-    if (!screen_) return;
+    if (!screen_ && !analysis_) return;
     screen_.reset();
+    analysis_.reset();
     desk_.hear({});
     for (auto& child : hidden_)
         if (child) child->setVisible(true);
@@ -272,6 +288,7 @@ void StudiesTab::resized() {
     levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - 44, 0, 42));
     row = area.removeFromTop(std::min(44, area.getHeight()));
     begin_.setBounds(row.removeFromLeft(140));
+    analyse_->setBounds(row.removeFromRight(80));
     wordsArea_ = row.withTrimmedLeft(gap);
 }
 

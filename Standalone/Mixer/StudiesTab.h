@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which study, who takes part, where the rows go; then the window is the participant's.
 #pragma once
+#include "Mixer/AnalysisScreen.h"
 #include "Mixer/StudyScreen.h"
 #include "Mixer/TabPanel.h"
 
 namespace physvib {
+
+class MixerView;
 
 class StudiesTab final : public Tab {
 public:
@@ -22,12 +25,16 @@ public:
 
     /// Begins or goes on: the screen covers the window. Empty, or why not, which is shown as well.
     std::string begin();
+    /// What these files say covers the window; without any, the participant's own.
+    void analyse(std::vector<juce::File> files = {});
+    AnalysisScreen* analysis() noexcept { return analysis_.get(); }
     StudyScreen* screen() noexcept { return screen_.get(); }
     void end();
 
     void takeMix() override;
     void refresh(const DeskMoment&) override {
         if (screen_) screen_->refresh();
+        if (analysis_) analysis_->refresh();
     }
     void visibilityChanged() override { takeMix(); }
     void paint(juce::Graphics& g) override;
@@ -37,6 +44,7 @@ private:
     void pickProtocol();
     void browseProtocol();
     void browseFolder();
+    void cover(MixerView& view, juce::Component& screen);
     void look();
     void listNoise();
     ListeningSettings listening() const;
@@ -51,11 +59,12 @@ private:
     juce::Label choiceName_, codeName_, numberName_, folderName_, noiseName_, noiseLevelName_;
     std::vector<std::vector<int>> noiseOutputs_; // as the box lists them
     juce::TextEditor code_, number_, folder_;
-    std::unique_ptr<juce::TextButton> browse_;
+    std::unique_ptr<juce::TextButton> browse_, analyse_;
     juce::TextButton begin_{"Begin"};
     juce::Rectangle<int> aboutArea_, levelArea_, wordsArea_;
     std::unique_ptr<juce::FileChooser> chooser_;
     std::unique_ptr<StudyScreen> screen_;
+    std::unique_ptr<AnalysisScreen> analysis_;
     std::vector<juce::Component::SafePointer<juce::Component>> hidden_; // while the screen covers them
 };
 

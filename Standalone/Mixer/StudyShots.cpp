@@ -62,6 +62,20 @@ StudyScreen* show(MixerView& view, const std::string& protocol, StudyTask task, 
     return tab.screen();
 }
 
+/// Whole files of the simulated observer.
+std::vector<juce::File> simulatedTrials(const std::string& name, int participants) {
+    const auto protocol = findProtocol(name).value;
+    std::vector<juce::File> files;
+    for (int number = 1; number <= participants; ++number) {
+        const Participant participant{"S0" + std::to_string(number), number, "simulated-RING"};
+        StudyRun study{folder().getFullPathName().toStdString(), protocol, participant};
+        const SimulatedObserver observer{*observerNamed(participant.observer), protocol, participant};
+        while (!study.experiment().isDone() && study.take(observer.answer(study.experiment()))) {}
+        files.emplace_back(study.path().string());
+    }
+    return files;
+}
+
 void feel(MixerView& view, StudyScreen* screen, double seconds) {
     if (screen == nullptr) return;
     screen->keyPressed(juce::KeyPress{juce::KeyPress::spaceKey});
@@ -125,6 +139,7 @@ const std::vector<StudyShot>& studyShots() {
              feel(v, screen, 4.0);
          }},
         {"studies-number", [](Desk&, MixerView& v) { feel(v, show(v, "magnitudes", StudyTask::estimate, 7), 1.2); }},
+        {"studies-analysis", [](Desk&, MixerView& v) { studies(v).analyse(simulatedTrials("phantom-places", 2)); }},
         {"studies-break", [](Desk&, MixerView& v) { show(v, "eight-methods", StudyTask::rate, 9, true); }},
     };
     return shots;

@@ -224,6 +224,37 @@ TEST_F(ByAParticipant, MatchesLevelsAndChoosesAtTheMatchedOnes) {
     analyse("levels");
 }
 
+TEST_F(ByAParticipant, FeelsRecordingsAgainstTheModelAtTheLevelThatWasMatched) {
+    begin(R"({"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV"}],
+              "adjustment": {"alternative": "AV-FV-DRV", "step_db": 2, "least_db": -30, "most_db": 10}},
+             {"name": "main", "task": "choose", "both_orders": true, "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV"}], "levels_from": "matching"})",
+          R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "pair", "values": ["wood-wood"]}],
+             "call": "render drop --set pair={pair} --seconds 1 --layout phone1 --method {alternative} --sound-match rms --level-db {level_db}")",
+          R"(, "sounds": [{"frequency_hz": 349, "file": "synthetic-5"}])");
+    passPage();
+    p->feel();
+    p->feel();
+    p->click("Softer");
+    p->feel();
+    p->click("Next");
+    passPage();
+    for (int n = 0; n < 2; ++n) {
+        p->feel();
+        p->feel();
+        p->type("1");
+    }
+    close();
+    const auto log = p->desk.saved().log;
+    ASSERT_GE(log.recordings.size(), 4u);
+    for (std::size_t i = 0; i < log.recordings.size(); ++i)
+        EXPECT_EQ(log.recordings[i].files.size(), (i + 1) % 2) << "the recording and the model in turn, at last the desk's own modes";
+    EXPECT_EQ(log.recordings.front().files.front().path, "synthetic-5");
+    for (const auto& calls : column("render", "choose")) {
+        EXPECT_NE(calls.find("--method AV-FV-DRV --sound-match rms --level-db -2"), std::string::npos) << calls;
+        EXPECT_NE(calls.find("--method SV --sound-match rms --level-db 0 --sound 349=synthetic-5"), std::string::npos) << calls;
+    }
+}
+
 TEST_F(ByAParticipant, RatesOnlyWhatWasFeltForLongEnough) {
     begin(R"({"name": "main", "task": "rate", "repetitions": 2, "least_s": 0.3, "break_every": 1, "break_s": 0.2, "scales": ["realism", "liking"], "objects": ["150", "200", "250"]})",
           R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "n", "values": ["one"]}],
@@ -264,7 +295,40 @@ TEST_F(ByAParticipant, GivesNumbers) {
     }
     close();
     EXPECT_EQ(column("value", "estimate"), numbers);
+    p->click("Analyse the participant's trials, or other files");
+    ASSERT_NE(p->tab().analysis(), nullptr);
+    const auto& report = p->tab().analysis()->report();
+    EXPECT_EQ(report.error, "");
+    EXPECT_FALSE(report.isSimulated);
+    EXPECT_NE(report.words.find("magnitude 7.00, 1 trial of 1 participant"), std::string::npos) << report.words;
+    EXPECT_GT(p->tab().analysis()->picture().getWidth(), 100);
+    p->click("Close the analysis");
+    ASSERT_TRUE(test::runUntil([&] { return p->tab().analysis() == nullptr; }));
+    EXPECT_NE(p->find("Tabs"), nullptr) << "the mixer is back";
     analyse("levels");
+}
+
+TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
+    const auto call = [&](const std::string& words) {
+        return std::system(("cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " + words).c_str());
+    };
+    ASSERT_EQ(call("study run phantom-grids --observer simulated-RING > /dev/null && '" PHYSVIB_PROGRAM "' analyse confusion phantom-grids-P01.csv > told.txt 2> warned.txt"), 0);
+    p->tab().analyse({folder.getChildFile("phantom-grids-P01.csv")});
+    ASSERT_NE(p->tab().analysis(), nullptr);
+    const auto& report = p->tab().analysis()->report();
+    EXPECT_TRUE(report.isSimulated);
+    EXPECT_EQ("SIMULATED: a simulated observer answered, not a person\n" + report.words, folder.getChildFile("told.txt").loadFileAsString().toStdString());
+    const auto warned = folder.getChildFile("warned.txt").loadFileAsString();
+    for (const auto& warning : report.warnings) EXPECT_TRUE(warned.contains(juce::String::fromUTF8(warning.c_str()))) << warning;
+    EXPECT_FALSE(p->tab().analysis()->picture().isNull());
+    p->key(juce::KeyPress::escapeKey);
+    EXPECT_TRUE(p->desk.isSilent()) << "the world goes on behind it";
+    p->click("Silence");
+    EXPECT_FALSE(p->desk.isSilent());
+    folder.getChildFile("diary.csv").replaceWithText("dear,diary\n1,2\n");
+    p->tab().analysis()->analyse({folder.getChildFile("diary.csv")});
+    EXPECT_NE(p->tab().analysis()->report().error.find("diary.csv: expected trials of a study"), std::string::npos);
+    EXPECT_TRUE(p->tab().analysis()->picture().isNull());
 }
 
 TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
@@ -310,7 +374,9 @@ TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
     };
     EXPECT_NE(refusal("stimulus phantom --at 0.5,2").find("expected X,Y from 0 to 1"), std::string::npos);
     EXPECT_NE(refusal("stimulus phantom --at 0.5,0.5 --level-g 40").find("expected at most its full scale of 1 g"), std::string::npos);
-    EXPECT_NE(refusal("render drop --method SV").find("not yet"), std::string::npos);
+    EXPECT_NE(refusal("render drop --method SV").find("--method SV: expected a --sound for each material"), std::string::npos);
+    EXPECT_NE(refusal("render drop --method SV --sound 80=gone.wav").find("gone.wav: cannot be read"), std::string::npos);
+    EXPECT_NE(refusal("render drop --method SV --sound 81=synthetic-1").find("expected a --sound for 80 Hz"), std::string::npos);
     EXPECT_NE(refusal("devices").find("devices"), std::string::npos);
     EXPECT_EQ(p->screen(), nullptr);
     EXPECT_FALSE(folder.getChildFile("short-P01.csv").exists());
