@@ -16,7 +16,7 @@ sits() {
     [ "$status" -eq 137 ] || { echo "expected a mixer that is killed, it ended with $status"; exit 1; }
 }
 # trials FILE: what was asked and answered, without how long it took
-trials() { sed '/^#/d' "$1" | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) name[$i] = i; next } { print $name["trial"], $name["stimulus"], $name["response"] }'; }
+trials() { sed -E '/^#/d; s/"([^",]*),([^",]*)"/\1;\2/g' "$1" | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) name[$i] = i; next } { print $name["trial"], $name["stimulus"], $name["response"] }'; }
 
 sits 5
 [ "$(trials "$rows" | wc -l)" -eq 5 ] || { echo "expected the 5 answers that were given"; cat "$rows"; exit 1; }
