@@ -57,7 +57,7 @@ void StripsPanel::takeMix() {
             row_.addAndMakeVisible(*strips_.back());
         }
         labels_ = labels;
-        for (auto& strip : strips_) prepareControls(*strip);
+        for (auto& strip : strips_) prepareControls(*strip), strip->takeMix(); // the shades are those of where it stands
         attach_.toFront(false); // last in the order of the Tab key
         resized();
     } else {

@@ -69,6 +69,7 @@ TEST(Desk, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
     EXPECT_EQ(desk.mix().strips.back().ceilingDb, -30.0) << "not above what the others are held to";
     desk.undoManager().undo();
     desk.undoManager().undo();
+    ASSERT_FALSE(ceilings().empty());
     EXPECT_EQ(ceilings().back(), 1.0f);
 }
 

@@ -153,6 +153,11 @@ TEST(MixerView, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
     EXPECT_LT(desk.mix().strips[1].ceilingDb, -20.0);
     desk.undoManager().undo();
     EXPECT_EQ(desk.mix().strips[1].ceilingDb, -20.0);
+    desk.attach(0.5, 0.5);
+    desk.dispatchPendingMessages();
+    const auto* next = find(view, "Ceiling of E in g");
+    ASSERT_NE(next, nullptr);
+    EXPECT_EQ(next->findColour(juce::Label::textColourId), shade(view, Shade::text)) << "as its neighbours";
 }
 
 TEST(MixerView, ADragPushesByItsStrength) {
