@@ -12,6 +12,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     fuzz::demand(isValid(session.value.panner.layout()), "not valid");
-    fuzz::demandRoundTrip(sessionJson(session.value), read, sessionJson);
+    fuzz::demandRoundTrip(sessionJson(session.value), read, [](const SavedSession& again) { return sessionJson(again); });
     return 0;
 }
