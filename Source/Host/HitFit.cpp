@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One partial more per round; a round that is not worth its numbers is undone. Then other starts, and Eq. 5.1.
 #include "Host/HitFit.h"
+#include "Host/DecayingPhasor.h"
 #include "Host/HitExcerpt.h"
 #include "Host/LinearPrediction.h"
+#include "Host/Spectrum.h"
 #include <algorithm>
+#include <array>
 
 namespace physvib {
 namespace {
@@ -32,6 +35,33 @@ HitFit::HitFit(std::vector<double> samples, std::size_t guess, double rateHz)
     cost_ = costOf(unexplainedEnergy(), 4 * fit_.partials().size());
     tryStruck(fit_.partials());
     tryOtherStarts();
+}
+
+PartialError HitFit::errorOf(std::size_t partial) const {
+    const PartialError white = struck_ ? struck_->errorOf(partial) : fit_.errorOf(partial);
+    const double more = std::sqrt(std::max(1.0, noiseAbout(partials()[partial])));
+    return {more * white.omega, more * white.tau};
+}
+
+// Power density of what is left, seen through the partial's own decay, over that of white noise of its power. The fit leaves
+// nothing at the partial itself, so beside it.
+double HitFit::noiseAbout(const Partial& partial) const {
+    std::vector<double> left = samples_;
+    double weight = 0.0, density = 0.0;
+    const double onset = onsetSeconds();
+    const auto first = static_cast<std::size_t>(std::ceil(onset * rateHz_));
+    for (const Partial& p : partials()) {
+        DecayingPhasor phasor{p.omega, p.tau, rateHz_, static_cast<double>(first) / rateHz_ - onset};
+        for (std::size_t i = first; i < left.size(); ++i, phasor.next()) left[i] -= p.cosine * phasor.cosine() + p.sine * phasor.sine();
+    }
+    const auto rest = std::span<const double>(left).subspan(first);
+    for (std::size_t i = 0; i < rest.size(); ++i) weight += std::exp(-2.0 * partial.tau * static_cast<double>(i) / rateHz_);
+    constexpr std::array<double, 10> besides{-6, -5, -4, -3, -2, 2, 3, 4, 5, 6}; // decays: where the partial's own line has sunk
+    for (const double by : besides) {
+        const auto point = pointOfSpectrum(rest, rateHz_, std::abs(partial.omega + by * partial.tau), partial.tau);
+        density += (point.re * point.re + point.im * point.im) / besides.size();
+    }
+    return density / weight * static_cast<double>(left.size()) / energyOf(left);
 }
 
 double HitFit::energyBeforeOnset() const { return energyOf(std::span(samples_).first(onset_)); }

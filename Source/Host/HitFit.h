@@ -20,7 +20,7 @@ public:
     HitFit& operator=(const HitFit&) = delete;
 
     std::vector<Partial> partials() const { return struck_ ? struck_->partials() : fit_.partials(); } ///< time 0 is the onset
-    PartialError errorOf(std::size_t partial) const { return struck_ ? struck_->errorOf(partial) : fit_.errorOf(partial); }
+    PartialError errorOf(std::size_t partial) const; ///< Cramer-Rao bound in noise of the residual's density about the partial
     double onsetSeconds() const noexcept { return struck_ ? struck_->onsetSeconds() : static_cast<double>(onset_) / rateHz_; }
     double seconds() const noexcept { return static_cast<double>(samples_.size()) / rateHz_ - onsetSeconds(); } ///< after the onset
     double energy() const noexcept { return energy_; }
@@ -34,6 +34,7 @@ private:
     bool moveOnset();
     void restart(std::size_t onset, const std::vector<Partial>& partials);
     double energyBeforeOnset() const;
+    double noiseAbout(const Partial& partial) const;
     double costOf(double unexplained, std::size_t numbers) const;
     std::span<const double> rest() const { return std::span(samples_).subspan(onset_); }
 

@@ -150,6 +150,27 @@ TEST(MaterialExtractor, LittleConfidenceIsTold) {
     EXPECT_TRUE(extractMaterial(hit({{430, 12}}, noisy, 1), rate).value.isConfident());
 }
 
+// Rumble has most of its power where the hit is: white noise of that power would make a fifth of the errors.
+TEST(MaterialExtractor, ErrorsInColouredNoiseAreTold) {
+    double frequency = 0.0, decay = 0.0;
+    constexpr std::uint64_t seeds = 6;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        SeededRandom random{seed, "coloured"};
+        auto samples = hit({{100, 30}}, clean, seed);
+        double rumble = 0.0;
+        for (float& x : samples) {
+            rumble += 0.03 * (random.normal() - rumble); // 230 Hz
+            x += static_cast<float>(0.2 * rumble);
+        }
+        const auto found = extractMaterial(samples, rate);
+        ASSERT_TRUE(found) << found.error;
+        frequency = std::hypot(frequency, (found.value.frequencyHz - 100) / found.value.frequencyErrorHz / std::sqrt(static_cast<double>(seeds)));
+        decay = std::hypot(decay, (found.value.decayPerSecond - 30) / found.value.decayErrorPerSecond / std::sqrt(static_cast<double>(seeds)));
+    }
+    EXPECT_LT(frequency, 2.0);
+    EXPECT_LT(decay, 2.0);
+}
+
 TEST(MaterialExtractor, TheBandSaysWhichPartialIsTaken) {
     const auto samples = hit({{150, 30}, {700, 40, 0.8}}, noisy, 1);
     EXPECT_NEAR(extractMaterial(samples, rate, {90, 300}).value.frequencyHz, 150, 0.75);
