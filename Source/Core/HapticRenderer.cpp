@@ -84,11 +84,24 @@ void HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset)
     std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
     const Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, end};
     const bool isRecorded = player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz));
-    const bool taken = isRecorded ? player_.strike(s.frequencyHz, s.amplitude, onset.frame, end, gains_.data()) : bank_.strike(s, gains_.data());
+    const bool taken = isRecorded     ? player_.strike(s.frequencyHz, s.amplitude, onset.frame, end, gains_.data())
+                       : isCoupled() ? strikeCoupled(s)
+                                     : bank_.strike(s, gains_.data());
     if (taken) playedQueue_.push({event, onset.frame, delay > 0});
     played_ += taken ? 1 : 0;
     late_ += taken && delay > 0 ? 1 : 0;
     rejected_ += taken ? 0 : 1;
+}
+
+// A complex drive is two strikes of one mode, a quarter turn apart: they merge, so it costs no mode. Both or none.
+template <class P>
+bool HapticRenderer<P>::strikeCoupled(Strike strike) noexcept {
+    if (strike.closeFrame != Strike::never && bank_.freeGates() < 2) return false;
+    std::array<double, static_cast<std::size_t>(P::maxChannels)> inPhase{}, ahead{};
+    settings_.drives.apply(strike.frequencyHz, gains_.data(), inPhase.data(), ahead.data());
+    bank_.strike(strike, inPhase.data());
+    strike.phase = std::uint64_t{1} << 62;
+    return bank_.strike(strike, ahead.data());
 }
 
 // The end of the tile, the next gate or the next control; `most` frames away at the latest.

@@ -8,6 +8,7 @@
 #pragma once
 #include "Core/ActuatorStage.h"
 #include "Core/DenormalGuard.h"
+#include "Core/DriveMatrices.h"
 #include "Core/EventQueue.h"
 #include "Core/FrameClock.h"
 #include "Core/LinkedLimiter.h"
@@ -32,6 +33,7 @@ struct RendererSettings {
     std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
     InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
     EqualisedActuators equalised{}; ///< per channel; without figures it is played as it is
+    DriveMatrices drives{}; ///< of the panner's enchanters, against their coupling; empty: none. They outlive the renderer
 
     int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
 
@@ -104,6 +106,8 @@ private:
     void apply(const RenderControl& control) noexcept;
     void prepareLimiter() noexcept;
     void strike(const CollisionEvent& event, FramePosition onset) noexcept;
+    bool strikeCoupled(Strike strike) noexcept;
+    bool isCoupled() const noexcept { return settings_.drives.isOn() && settings_.drives.channels == static_cast<std::size_t>(panner_.channels()); }
     std::int64_t nextChange(int most) const noexcept;
 
     FrameClock clock_;

@@ -82,7 +82,7 @@ bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
     }
     Mode& struck = mode(slot);
     rebase(slot);
-    const auto phasor = onsetPhasor(struck, strike.onset);
+    const auto phasor = onsetPhasor(struck, strike.onset, strike.phase);
     std::array<Real, width> scaled;
     for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) {
         scaled[j] = static_cast<Real>(strike.amplitude * gains[j]);
@@ -325,7 +325,7 @@ bool ModeBank<P>::openGate(int slot, const Strike& strike, const double* gains) 
     for (int j = 0; j < channels_; ++j)
         gateGains_[static_cast<std::size_t>(entry * channels_ + j)] = static_cast<Real>(strike.amplitude * gains[j]);
     ++mode(slot).openGates;
-    return gates_.push(strike.closeFrame, {slot, mode(slot).life, entry, strike.onset});
+    return gates_.push(strike.closeFrame, {slot, mode(slot).life, entry, strike.onset, strike.phase});
 }
 
 template <class P>
@@ -338,7 +338,7 @@ void ModeBank<P>::closeNextGate() noexcept {
     Mode& m = mode(gate.slot);
     if (m.life != gate.life) return;
     rebase(gate.slot);
-    const auto phasor = onsetPhasor(m, gate.onset);
+    const auto phasor = onsetPhasor(m, gate.onset, gate.phase);
     --m.openGates;
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(gate.slot) + static_cast<std::size_t>(j)];
@@ -351,7 +351,7 @@ void ModeBank<P>::closeNextGate() noexcept {
 }
 
 template <class P>
-Complex<typename ModeBank<P>::Real> ModeBank<P>::onsetPhasor(const Mode& m, FramePosition onset) const noexcept {
+Complex<typename ModeBank<P>::Real> ModeBank<P>::onsetPhasor(const Mode& m, FramePosition onset, std::uint64_t phase) const noexcept {
     const auto leadPhase = static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
     const auto leadDecay = static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
     // A gate may close long after its own strike has died away inside a mode that others keep alive.
@@ -359,7 +359,7 @@ Complex<typename ModeBank<P>::Real> ModeBank<P>::onsetPhasor(const Mode& m, Fram
     const std::int64_t age = m.referenceFrame - onset.frame;
     const bool hasDied = m.decayIncrement > 0 && age > inaudible / m.decayIncrement;
     const std::int64_t decay = hasDied ? inaudible : m.decayIncrement * age + leadDecay;
-    return unitPhasor<Real>(leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame)) *
+    return unitPhasor<Real>(phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame)) *
            decayFactor<Real>(decay);
 }
 

@@ -26,6 +26,7 @@ struct Strike {
     double amplitude = 0.0;
     FramePosition onset;
     std::int64_t closeFrame = never; ///< first frame that is silent again; `never`: when it has decayed
+    std::uint64_t phase = 0;         ///< at the onset, in turns / 2^64: 0 is a sine
     static constexpr std::int64_t never = INT64_MAX;
 };
 
@@ -52,6 +53,9 @@ public:
     /// takesStrikesAhead(), a later one of the same tile, with no gate to be closed before it.
     /// False if too many strikes with a duration are open: then nothing has changed.
     bool strike(const Strike& strike, const double* gains) noexcept;
+
+    /// How many strikes with a duration find room now.
+    int freeGates() const noexcept { return freeGateCount_; }
 
     bool takesStrikesAhead() const noexcept { return tiles_.isOn(); }
 
@@ -95,6 +99,7 @@ private:
         std::uint32_t life = 0;
         int entry = 0; // where its gains stand
         FramePosition onset;
+        std::uint64_t phase = 0;
     };
 
     Mode modeFor(const Strike& strike) const noexcept;
@@ -116,7 +121,7 @@ private:
     void enterTile(std::int64_t frame) noexcept;
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<Real> carrier(const Mode& mode) const noexcept;
-    Complex<Real> onsetPhasor(const Mode& mode, FramePosition onset) const noexcept;
+    Complex<Real> onsetPhasor(const Mode& mode, FramePosition onset, std::uint64_t phase) const noexcept;
     std::int64_t lifeFrames(std::int64_t decayIncrement) const noexcept;
     Mode& mode(int slot) noexcept { return modes_[static_cast<std::size_t>(slot)]; }
     const Mode& mode(int slot) const noexcept { return modes_[static_cast<std::size_t>(slot)]; }

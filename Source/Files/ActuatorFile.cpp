@@ -31,21 +31,15 @@ constexpr std::array<Figure, 4> others{{{"drive_limit_v", &ActuatorProfile::driv
                                         {"full_scale_g", &ActuatorProfile::fullScaleG, 1e-4, 1000.0},
                                         {"delay_s", &ActuatorProfile::delaySeconds, 0.0, 10.0}}};
 
-double numberWithin(const JsonField& json, double least, double most) {
-    const double found = json.number();
-    if (!(found >= least && found <= most)) json.fail("expected " + numberText(least) + " to " + numberText(most) + ", found " + numberText(found));
-    return found;
-}
-
 void readFigure(const JsonField& root, const Figure& figure, ActuatorProfile& profile) {
     const JsonField json = root[figure.field];
-    if (!json.isNull()) profile.*figure.member = numberWithin(json, figure.least, figure.most);
+    if (!json.isNull()) profile.*figure.member = json.numberWithin(figure.least, figure.most);
 }
 
 std::optional<FrequencyBand> readBand(const JsonField& json) {
     if (json.isNull()) return std::nullopt;
     if (const std::size_t size = json.arraySize(); size != 2) json.fail("expected [lowest, highest] or null, found " + std::to_string(size) + " items");
-    const FrequencyBand band{numberWithin(json.item(0), lowestHz, highestHz), numberWithin(json.item(1), lowestHz, highestHz)};
+    const FrequencyBand band{json.item(0).numberWithin(lowestHz, highestHz), json.item(1).numberWithin(lowestHz, highestHz)};
     if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
     return band;
 }

@@ -13,6 +13,7 @@ constexpr std::size_t maxSessionFileBytes = 64'000'000;   // 100,000 inputs of a
 constexpr std::size_t maxMaterialsFileBytes = 1'000'000;  // 256 materials fill about 40 kB
 constexpr std::size_t maxProtocolFileBytes = 1'000'000;   // a study of many conditions fills a few kB
 constexpr std::size_t maxActuatorFileBytes = 100'000;    // a profile fills less than 1 kB
+constexpr std::size_t maxCouplingFileBytes = 4'000'000; // four enchanters fill 1 kB per frequency, 64 fill 100 kB
 constexpr std::size_t maxTableRows = 1'000'000;           // a thousand participants of a thousand trials
 constexpr std::size_t maxTableBytes = 400'000'000;        // that many rows of a study, usually of 200 bytes
 constexpr std::size_t maxTableColumns = 256;              // a trial has twenty; an exported matrix one per response

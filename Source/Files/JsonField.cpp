@@ -70,6 +70,12 @@ double JsonField::numberUpTo(double most) const {
     return found;
 }
 
+double JsonField::numberWithin(double least, double most) const {
+    const double found = number();
+    if (!(found >= least && found <= most)) fail("expected " + numberText(least) + " to " + numberText(most) + ", found " + numberText(found));
+    return found;
+}
+
 int JsonField::wholeNumber() const {
     const double found = number();
     if (!(std::abs(found) <= 1.0e9) || found != std::floor(found))

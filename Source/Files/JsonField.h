@@ -33,6 +33,7 @@ public:
     double number() const;
     double positiveNumber() const;
     double numberUpTo(double most) const;
+    double numberWithin(double least, double most) const;
     int wholeNumber() const;
     bool truth() const;
     /// One line of at most limits::maxNameBytes.

@@ -11,6 +11,7 @@ namespace {
 
 Result<CallStimulus> ofScene(RenderOptions& o) {
     if (o.actuator != "none") return Failure{"--actuator is not yet felt here, only rendered"};
+    if (!o.coupling.empty()) return Failure{"--coupling is not yet felt here, only rendered"};
     if (auto fault = checkSceneOptions(o); !fault.empty()) return Failure{fault};
     if (o.scene.empty()) return Failure{"expected a scene"};
     RenderJob job{o, {}, {}, {}, {}};

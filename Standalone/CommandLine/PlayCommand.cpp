@@ -89,6 +89,7 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
 int runPlay(PlayOptions& o) {
     if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
+    if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
     const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0;
     if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db and --actuator; render --events, then board PORT play, has both");
     RenderJob job{o.scene, {}, {}, {}, {}};

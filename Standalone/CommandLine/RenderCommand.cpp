@@ -57,6 +57,12 @@ std::string readInputs(RenderJob& job) {
     auto actuators = chooseActuators(job.options, job.layout);
     if (!actuators) return actuators.error;
     job.actuators = std::move(actuators.value);
+    if (!job.options.coupling.empty()) {
+        if (job.keepsLayouts()) return "--coupling: a saved session has layouts of its own, which may change: expected a --layout";
+        auto coupling = chooseCoupling(job.options.coupling, job.layout);
+        if (!coupling) return coupling.error;
+        job.coupling = std::move(coupling.value);
+    }
     if (job.scene) return {};
     auto events = loadEventsCsv(job.options.fromEvents);
     if (!events) return events.error;
@@ -71,7 +77,8 @@ OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl
                                     .panner = job.panner(),
                                     .limiterEnabled = job.isLimited(),
                                     .ceilings = job.ceilings(),
-                                    .equalised = job.equalised()};
+                                    .equalised = job.equalised(),
+                                    .drives = job.coupling.drives.view()};
     return {renderer, job.frames(), o.blockFrames, controls, sounds.contacts()};
 }
 
@@ -106,6 +113,7 @@ std::string render(RenderJob& job) {
     if (auto error = outputs.finish(); !error.empty()) return error;
     for (const std::string& line : warnings) std::cerr << "physvib: warning: " << line << '\n';
     for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) std::cerr << "physvib: " << line << '\n';
+    if (!job.coupling.note.empty()) std::cerr << "physvib: " << job.coupling.note << '\n';
     warn(status, job);
     outputs.summarise(std::cout);
     return {};

@@ -2,6 +2,7 @@
 // One render from its inputs to its events: what the renderer and the outputs need to know.
 #pragma once
 #include "CommandLine/ActuatorChoice.h"
+#include "CommandLine/CouplingChoice.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/LayoutNamed.h"
 #include "CommandLine/RenderOptions.h"
@@ -30,6 +31,7 @@ struct RenderJob {
     std::vector<ContactRecording> recordings{}; ///< of --sound
     std::vector<std::vector<ContactRecording>> sessionRecordings{}; ///< of a session, per change
     ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
+    CouplingChoice coupling{};  ///< by the options
 
     /// Those that are played instead of modes.
     std::vector<ContactRecording> feltRecordings() const { return options.playsRecordings() ? recordings : std::vector<ContactRecording>{}; }

@@ -84,6 +84,7 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--equalise", o.equalise, "with an actuator: make it flat within its band (on or off)")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--remap", o.remap, "with an actuator: move all frequencies into its band, in their order (on or off)")
         ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+    command.add_option("--coupling", o.coupling, "measured coupling of the layout's enchanters, made up for with at most 3 dB more drive (render)")->type_name("FILE.json");
 }
 
 void declareRenderOptions(CLI::App& command, RenderOptions& o) {
@@ -131,6 +132,7 @@ std::string checkRenderOptions(RenderOptions& o) {
     std::ranges::sort(outputs);
     if (std::ranges::adjacent_find(outputs) != outputs.end()) return "render: two outputs in the same file";
     if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";
+    if (!o.coupling.empty() && o.playsRecordings()) return "--coupling: expected a --method of modes; a recording has no one frequency";
     return checkSceneOptions(o);
 }
 

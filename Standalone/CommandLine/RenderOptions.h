@@ -42,6 +42,7 @@ struct RenderOptions {
     double contactSoundDb = safeContactDb; ///< of a hit at full scale
     std::string actuator = "none"; ///< or "layout", a profile's name, a profile's path
     std::string equalise = "on", remap = "off"; ///< with an actuator
+    std::string coupling; ///< path of a measured coupling that drives shall make up for; empty: none
 
     std::set<std::string> given; ///< names of the options that the call had, with their dashes
     SceneSettings settings; ///< from `sets` by checkRenderOptions

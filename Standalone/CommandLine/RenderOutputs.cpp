@@ -95,6 +95,7 @@ Provenance RenderOutputs::provenance() const {
     if (o.actuator != "none" && o.equalise == "off") p.entries.emplace_back("equalise", "off");
     if (o.interfaceVolts > 0.0) p.entries.emplace_back("interface_volts", numberText(o.interfaceVolts));
     if (o.remap == "on") p.entries.emplace_back("remap", "on");
+    if (!o.coupling.empty()) p.entries.emplace_back("coupling", std::filesystem::path{o.coupling}.filename().string());
     return p;
 }
 

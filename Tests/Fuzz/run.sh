@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 inputs=${1:-100000}
 build=${PHYSVIB_FUZZ_BUILD:-build/fuzz}
 mkdir -p "$build/findings"
-for name in actuator events input layout materials protocol scene session state study wire; do
+for name in actuator coupling events input layout materials protocol scene session state study wire; do
     mkdir -p "$build/corpus/$name" # what libFuzzer finds worth keeping; the first folder is the one it writes to
     echo "fuzz: $name, $inputs inputs"
     "$build/bin/physvib-fuzz-$name" -runs="$inputs" -max_len=8192 -timeout=20 -rss_limit_mb=4096 -verbosity=0 -dict=Tests/Fuzz/words.dict -print_final_stats=1 \
