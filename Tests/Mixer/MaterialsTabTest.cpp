@@ -62,6 +62,7 @@ TEST_F(Materials, ASliderThatIsHeldIsOneThingToUndo) {
     for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.editWorld("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
     EXPECT_EQ(now().frequencyHz, 120.0);
     desk.undoManager().undo();
+    EXPECT_EQ(inputs().size(), 21u) << "one more, not the twenty in turn";
     EXPECT_EQ(now().frequencyHz, 349.0);
     EXPECT_FALSE(desk.undoManager().canUndo());
     desk.undoManager().redo();
@@ -129,6 +130,7 @@ TEST_F(Materials, FlacAndOggAreReadAsWell) {
         tab.measure(file);
         tab.finishMeasuring();
         EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+        ASSERT_NE(tab.recordingOf(wood), nullptr) << ending;
         EXPECT_EQ(tab.recordingOf(wood)->name, file.getFileName().toStdString());
         EXPECT_NEAR(now().frequencyHz, 352.0, 1.0) << ending;
         EXPECT_NEAR(now().decayPerSecond, 98.0, 4.0) << ending;

@@ -106,6 +106,24 @@ TEST(MixerView, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 for 
     }
 }
 
+TEST(MixerView, WhatComesLaterCanBeReadAsWell) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    desk.attach(0.5, 0.5);
+    desk.dispatchPendingMessages();
+    int labels = 0;
+    for (const auto& tab : view.tabs().names()) {
+        view.tabs().choose(tab);
+        walk(view, [&](juce::Component& c) {
+            const auto* label = dynamic_cast<juce::Label*>(&c);
+            if (label == nullptr || label->getText().isEmpty()) return;
+            ++labels;
+            EXPECT_GE(contrast(label->findColour(juce::Label::textColourId), shade(view, Shade::panel)), 3.0) << label->getText() << " of " << tab;
+        });
+    }
+    EXPECT_GT(labels, 20);
+}
+
 TEST(MixerView, ButtonsDoWhatTheySay) {
     Desk desk{onlyNoDevice(), noDevice};
     MixerView view{desk};
