@@ -43,8 +43,8 @@ PartialError HitFit::errorOf(std::size_t partial) const {
     return {more * white.omega, more * white.tau};
 }
 
-// Power density of what is left, seen through the partial's own decay, over that of white noise of its power. The fit leaves
-// nothing at the partial itself, so beside it.
+// Noise that is not white counts by its density about the frequency (Whittle 1953): that of what is left, seen through the
+// partial's own decay, over the density of white noise of its power. The fit leaves nothing at the partial itself, so beside it.
 double HitFit::noiseAbout(const Partial& partial) const {
     std::vector<double> left = samples_;
     double weight = 0.0, density = 0.0;

@@ -90,8 +90,7 @@ std::vector<std::vector<Tone>> grid() {
 bool hasRoom(const test::HitBound& bound) { return 3.0 * bound.frequency < 0.005 && 3.0 * bound.decay < 0.05; }
 
 TEST(MaterialExtractor, CleanHitsWithinATwentiethOfAPercentAndHalfAPercent) {
-    for (const auto& tones : grid())
-        for (const std::uint64_t seed : {1u, 2u}) expectFound(tones, clean, 0.0005, 0.005, seed);
+    for (const auto& tones : grid()) expectFound(tones, clean, 0.0005, 0.005);
 }
 
 TEST(MaterialExtractor, NoisyHitsWithinHalfAPercentAndFivePercent) {
