@@ -15,9 +15,8 @@ run_tests() {
 
 build release all
 run_tests release
-build fuzz all
+build asan all
 Tests/Fuzz/run.sh 20000 >build/fuzz.log 2>&1 || { cat build/fuzz.log >&2; exit 1; }
-for preset in asan tsan; do
-    build "$preset" all
-    run_tests "$preset"
-done
+run_tests asan
+build tsan all
+run_tests tsan

@@ -2,6 +2,7 @@
 // Every field of an actuator profile, checked when read and in a fixed order when written.
 #include "Files/ActuatorFile.h"
 #include "Files/Embedded.h"
+#include "Core/Limits.h"
 #include "Files/FileLimits.h"
 #include "Files/JsonField.h"
 #include "Files/JsonFile.h"
@@ -14,9 +15,8 @@
 namespace physvib {
 namespace {
 
-constexpr const char* versionField = "physvib_actuator";
+constexpr const char* actuatorVersionField = "physvib_actuator";
 constexpr std::array<std::string_view, 2> kindNames{"linear", "rotating"};
-constexpr double lowestHz = 1.0, highestHz = 20000.0;
 
 /// One figure of a profile: its field, where it goes, and what is believed of it.
 struct Figure {
@@ -24,7 +24,7 @@ struct Figure {
     std::optional<double> ActuatorProfile::*member;
     double least, most;
 };
-constexpr Figure resonance{"resonance_hz", &ActuatorProfile::resonanceHz, lowestHz, highestHz};
+constexpr Figure resonance{"resonance_hz", &ActuatorProfile::resonanceHz, limits::leastMeasuredHz, limits::maxFrequencyHz};
 constexpr Figure quality{"q", &ActuatorProfile::q, 0.05, 1000.0};
 constexpr std::array<Figure, 4> others{{{"drive_limit_v", &ActuatorProfile::driveLimitVolts, 0.001, 1000.0},
                                         {"rise_time_s", &ActuatorProfile::riseSeconds, 1e-5, 10.0},
@@ -36,17 +36,17 @@ void readFigure(const JsonField& root, const Figure& figure, ActuatorProfile& pr
     if (!json.isNull()) profile.*figure.member = json.numberWithin(figure.least, figure.most);
 }
 
-std::optional<FrequencyBand> readBand(const JsonField& json) {
+std::optional<FrequencyBand> readOptionalBand(const JsonField& json) {
     if (json.isNull()) return std::nullopt;
     if (const std::size_t size = json.arraySize(); size != 2) json.fail("expected [lowest, highest] or null, found " + std::to_string(size) + " items");
-    const FrequencyBand band{json.item(0).numberWithin(lowestHz, highestHz), json.item(1).numberWithin(lowestHz, highestHz)};
+    const FrequencyBand band{json.item(0).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz), json.item(1).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz)};
     if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
     return band;
 }
 
-ActuatorProfile readRoot(const JsonField& root) {
-    checkVersion(root, versionField, actuatorFormatVersion);
-    root.expectObject({versionField, "name", "description", "source", "kind", resonance.field, quality.field, "band_hz", others[0].field, others[1].field,
+ActuatorProfile readActuatorRoot(const JsonField& root) {
+    checkVersion(root, actuatorVersionField, actuatorFormatVersion);
+    root.expectObject({actuatorVersionField, "name", "description", "source", "kind", resonance.field, quality.field, "band_hz", others[0].field, others[1].field,
                        others[2].field, others[3].field});
     ActuatorProfile profile;
     profile.name = root["name"].text();
@@ -56,7 +56,7 @@ ActuatorProfile readRoot(const JsonField& root) {
     profile.kind = static_cast<ActuatorKind>(root["kind"].oneOf(kindNames));
     readFigure(root, resonance, profile);
     readFigure(root, quality, profile);
-    profile.band = readBand(root["band_hz"]);
+    profile.band = readOptionalBand(root["band_hz"]);
     for (const Figure& figure : others) readFigure(root, figure, profile);
     return profile;
 }
@@ -74,7 +74,7 @@ std::string equaliserFault(const ActuatorProfile& profile) {
 }
 
 Result<ActuatorProfile> readActuator(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxActuatorFileBytes, [](const Json& root) { return readRoot(JsonField(root, {})); });
+    return readJson(text, name, limits::maxActuatorFileBytes, [](const Json& root) { return readActuatorRoot(JsonField(root, {})); });
 }
 
 Result<ActuatorProfile> loadActuator(const std::filesystem::path& path) {
@@ -82,7 +82,7 @@ Result<ActuatorProfile> loadActuator(const std::filesystem::path& path) {
 }
 
 std::string actuatorJson(const ActuatorProfile& profile) {
-    OrderedJson root{{versionField, actuatorFormatVersion}, {"name", profile.name}, {"description", profile.description}, {"source", profile.source},
+    OrderedJson root{{actuatorVersionField, actuatorFormatVersion}, {"name", profile.name}, {"description", profile.description}, {"source", profile.source},
                      {"kind", kindNames[static_cast<std::size_t>(profile.kind)]}};
     root[resonance.field] = orNull(profile.resonanceHz);
     root[quality.field] = orNull(profile.q);

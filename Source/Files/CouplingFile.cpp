@@ -14,8 +14,7 @@
 namespace physvib {
 namespace {
 
-constexpr const char* versionField = "physvib_coupling";
-constexpr double lowestHz = 1.0, highestHz = 20000.0;
+constexpr const char* couplingVersionField = "physvib_coupling";
 constexpr double mostShare = 4.0; // of its own full scale: more is a mistake of units
 constexpr std::size_t mostFrequencies = 256;
 
@@ -48,9 +47,9 @@ CouplingMatrix readMatrix(const JsonField& json) {
     return matrix;
 }
 
-MeasuredCoupling readRoot(const JsonField& root) {
-    checkVersion(root, versionField, couplingFormatVersion);
-    root.expectObject({versionField, "name", "source", "measured"});
+MeasuredCoupling readCouplingRoot(const JsonField& root) {
+    checkVersion(root, couplingVersionField, couplingFormatVersion);
+    root.expectObject({couplingVersionField, "name", "source", "measured"});
     root["name"].text();
     root["source"].text();
     const JsonField measured = root["measured"];
@@ -58,7 +57,7 @@ MeasuredCoupling readRoot(const JsonField& root) {
     for (std::size_t k = 0, count = sizeOf(measured, 1, mostFrequencies); k < count; ++k) {
         const JsonField json = measured.item(k);
         json.expectObject({"frequency_hz", "magnitude", "phase_deg"});
-        const double hz = json["frequency_hz"].numberWithin(lowestHz, highestHz);
+        const double hz = json["frequency_hz"].numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz);
         if (k > 0 && !(hz > coupling.frequenciesHz.back())) json["frequency_hz"].fail("expected frequencies that rise, found " + numberText(hz) + " after " + numberText(coupling.frequenciesHz.back()));
         coupling.frequenciesHz.push_back(hz);
         coupling.matrices.push_back(readMatrix(json));
@@ -71,7 +70,7 @@ MeasuredCoupling readRoot(const JsonField& root) {
 } // namespace
 
 Result<MeasuredCoupling> readCoupling(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxCouplingFileBytes, [](const Json& root) { return readRoot(JsonField(root, {})); });
+    return readJson(text, name, limits::maxCouplingFileBytes, [](const Json& root) { return readCouplingRoot(JsonField(root, {})); });
 }
 
 Result<MeasuredCoupling> loadCoupling(const std::filesystem::path& path) { return loadText(path, limits::maxCouplingFileBytes, readCoupling); }

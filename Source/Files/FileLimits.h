@@ -21,6 +21,7 @@ constexpr std::size_t maxCellBytes = 2000;                // the longest cell is
 constexpr std::size_t maxVariables = 16;                  // of a scene; a study has three
 constexpr std::size_t maxChoices = 64;                    // of a variable
 constexpr std::size_t maxNameBytes = 200;                 // names and labels: one line on a screen
+constexpr double leastMeasuredHz = 1.0;                   // of actuators and of what is measured on them; the most is Core's
 constexpr std::size_t maxJsonDepth = 16;                  // our formats need fourteen levels
 
 } // namespace physvib::limits

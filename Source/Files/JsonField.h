@@ -32,7 +32,7 @@ public:
 
     double number() const;
     double positiveNumber() const;
-    double numberUpTo(double most) const;
+    double numberUpTo(double most) const; ///< from 0 on
     double numberWithin(double least, double most) const;
     int wholeNumber() const;
     bool truth() const;

@@ -24,11 +24,11 @@ struct FieldsOf<MaterialTable> {
 
 namespace {
 
-constexpr const char* versionField = "physvib_materials";
+constexpr const char* materialsVersionField = "physvib_materials";
 
-MaterialTable readRoot(Json& root) {
-    checkVersion(JsonField(root, {}), versionField, materialsFormatVersion);
-    root.erase(versionField);
+MaterialTable readMaterialsRoot(Json& root) {
+    checkVersion(JsonField(root, {}), materialsVersionField, materialsFormatVersion);
+    root.erase(materialsVersionField);
     auto table = readFields<MaterialTable>(JsonField(root, {}));
     if (const std::string fault = validateMaterials(table.materials); !fault.empty())
         throw JsonError({}, fault);
@@ -38,7 +38,7 @@ MaterialTable readRoot(Json& root) {
 } // namespace
 
 Result<MaterialTable> readMaterials(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxMaterialsFileBytes, readRoot);
+    return readJson(text, name, limits::maxMaterialsFileBytes, readMaterialsRoot);
 }
 
 Result<MaterialTable> loadMaterials(const std::filesystem::path& path) {
@@ -46,7 +46,7 @@ Result<MaterialTable> loadMaterials(const std::filesystem::path& path) {
 }
 
 std::string materialsJson(const MaterialTable& table) {
-    OrderedJson root = {{versionField, materialsFormatVersion}};
+    OrderedJson root = {{materialsVersionField, materialsFormatVersion}};
     root.update(detail::fieldsJson(table, table.materials));
     return jsonLines(root);
 }

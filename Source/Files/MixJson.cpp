@@ -10,22 +10,16 @@ namespace {
 
 constexpr int mostOutputs = 1024;
 
-double numberWithin(const JsonField& field, double least, double most) {
-    const double found = field.number();
-    if (!(found >= least && found <= most)) field.fail("expected " + plainNumber(least) + " to " + plainNumber(most) + ", found " + plainNumber(found));
-    return found;
-}
-
 Strip readStrip(const JsonField& json) {
     json.expectObject({"gain_db", "mute", "solo", "invert", "delay_ms", "ceiling_db", "output"});
     Strip strip;
-    strip.gainDb = numberWithin(json["gain_db"], leastStripDb, mostStripDb);
+    strip.gainDb = json["gain_db"].numberWithin(leastStripDb, mostStripDb);
     strip.isMuted = json["mute"].truth();
     strip.isSolo = json["solo"].truth();
     strip.isInverted = json["invert"].truth();
-    strip.delayMs = numberWithin(json["delay_ms"], 0.0, 1e3 * limits::maxChannelDelaySeconds);
-    strip.ceilingDb = numberWithin(json["ceiling_db"], leastCeilingDb, 0.0);
-    strip.output = static_cast<int>(numberWithin(json["output"], 0, mostOutputs)) - 1; // people count from 1; 0: none
+    strip.delayMs = json["delay_ms"].numberWithin(0.0, 1e3 * limits::maxChannelDelaySeconds);
+    strip.ceilingDb = json["ceiling_db"].numberWithin(leastCeilingDb, 0.0);
+    strip.output = static_cast<int>(json["output"].numberWithin(0, mostOutputs)) - 1; // people count from 1; 0: none
     return strip;
 }
 
@@ -36,9 +30,9 @@ Mix readMix(const JsonField& json) {
     Mix mix;
     mix.layout = readLayoutFields(json["layout"]);
     mix.law = static_cast<PanningLaw>(json["law"].oneOf(panningLawNames));
-    mix.exponent = numberWithin(json["exponent"], 1e-3, 100.0);
-    mix.levelDb = numberWithin(json["level_db"], leastStripDb, 0.0);
-    if (json.has("drag_ns_per_m")) mix.dragNewtonSecondsPerMetre = numberWithin(json["drag_ns_per_m"], leastDrag, mostDrag);
+    mix.exponent = json["exponent"].numberWithin(1e-3, 100.0);
+    mix.levelDb = json["level_db"].numberWithin(leastStripDb, 0.0);
+    if (json.has("drag_ns_per_m")) mix.dragNewtonSecondsPerMetre = json["drag_ns_per_m"].numberWithin(leastDrag, mostDrag);
     const JsonField strips = json["strips"];
     if (strips.arraySize() != static_cast<std::size_t>(mix.count())) strips.fail("expected one strip per enchanter, " + std::to_string(mix.count()));
     for (std::size_t j = 0; j < strips.arraySize(); ++j) mix.strips.push_back(readStrip(strips.item(j)));

@@ -17,7 +17,7 @@
 namespace physvib {
 namespace {
 
-constexpr const char* versionField = "physvib_plugin_state";
+constexpr const char* stateVersionField = "physvib_plugin_state";
 constexpr std::array<std::string_view, 2> transportNames{"free", "restart-on-play"}; // as TransportMode
 constexpr std::array<std::string_view, 3> noteKindNames{"strike", "push", "spawn"};   // as NoteKind
 constexpr std::size_t mostNotes = 128, mostControllers = 120, mostParameters = 1000;
@@ -108,10 +108,10 @@ ControllerRule readController(const JsonField& field) {
     return {wholeNumberUpTo(field["controller"], 119), field["parameter"].text()};
 }
 
-PluginState readRoot(const Json& json) {
+PluginState readStateRoot(const Json& json) {
     const JsonField root{json, {}};
-    checkVersion(root, versionField, pluginStateVersion);
-    root.expectObject({versionField, "scene", "seed", "steps_per_second", "layout", "limiter", "transport", "notes", "controllers", "parameters"});
+    checkVersion(root, stateVersionField, pluginStateVersion);
+    root.expectObject({stateVersionField, "scene", "seed", "steps_per_second", "layout", "limiter", "transport", "notes", "controllers", "parameters"});
     PluginState state;
     state.scene = readPart<Scene>(json, "scene", [](const std::string& text, const char* name) { return readScene(text, name); });
     state.layout = readPart<LayoutDescription>(json, "layout", readLayout);
@@ -148,11 +148,11 @@ OrderedJson noteJson(const NoteRule& rule, const Scene& scene) {
 } // namespace
 
 Result<PluginState> readPluginState(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxSceneFileBytes, readRoot);
+    return readJson(text, name, limits::maxSceneFileBytes, readStateRoot);
 }
 
 std::string pluginStateJson(const PluginState& state) {
-    OrderedJson root = {{versionField, pluginStateVersion}};
+    OrderedJson root = {{stateVersionField, pluginStateVersion}};
     root["scene"] = OrderedJson::parse(sceneJson(state.scene));
     root["seed"] = state.seed;
     root["steps_per_second"] = state.stepsPerSecond;

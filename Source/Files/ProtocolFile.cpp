@@ -16,11 +16,11 @@
 namespace physvib {
 namespace {
 
-constexpr const char* versionField = "physvib_protocol";
+constexpr const char* protocolVersionField = "physvib_protocol";
 
-Protocol readRoot(Json& root) {
-    checkVersion(JsonField(root, {}), versionField, protocolFormatVersion);
-    root.erase(versionField);
+Protocol readProtocolRoot(Json& root) {
+    checkVersion(JsonField(root, {}), protocolVersionField, protocolFormatVersion);
+    root.erase(protocolVersionField);
     auto protocol = readFields<Protocol>(JsonField(root, {}));
     if (const std::string fault = detail::checkFields("", protocol, 0); !fault.empty()) throw JsonError({}, fault);
     if (const std::string fault = validate(protocol); !fault.empty()) throw JsonError({}, fault);
@@ -32,7 +32,7 @@ Protocol readRoot(Json& root) {
 } // namespace
 
 Result<Protocol> readProtocol(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxProtocolFileBytes, readRoot);
+    return readJson(text, name, limits::maxProtocolFileBytes, readProtocolRoot);
 }
 
 Result<Protocol> loadProtocol(const std::filesystem::path& path) {
@@ -40,7 +40,7 @@ Result<Protocol> loadProtocol(const std::filesystem::path& path) {
 }
 
 std::string protocolJson(const Protocol& protocol) {
-    OrderedJson root = {{versionField, protocolFormatVersion}};
+    OrderedJson root = {{protocolVersionField, protocolFormatVersion}};
     root.update(detail::fieldsJson(protocol, {}));
     return jsonLines(root);
 }

@@ -12,11 +12,11 @@
 namespace physvib {
 namespace {
 
-constexpr const char* versionField = "physvib_scene";
+constexpr const char* sceneVersionField = "physvib_scene";
 
-Scene readRoot(Json& root, const SceneSettings& settings) {
-    checkVersion(JsonField(root, {}), versionField, sceneFormatVersion);
-    root.erase(versionField);
+Scene readSceneRoot(Json& root, const SceneSettings& settings) {
+    checkVersion(JsonField(root, {}), sceneVersionField, sceneFormatVersion);
+    root.erase(sceneVersionField);
     auto variables = applyVariables(root, settings);
     Scene scene = readFields<Scene>(JsonField(root, {}));
     if (const std::string fault = validate(scene); !fault.empty()) throw JsonError({}, fault);
@@ -27,7 +27,7 @@ Scene readRoot(Json& root, const SceneSettings& settings) {
 } // namespace
 
 Result<Scene> readScene(std::string_view text, std::string_view name, const SceneSettings& settings) {
-    return readJson(text, name, limits::maxSceneFileBytes, [&](Json& root) { return readRoot(root, settings); });
+    return readJson(text, name, limits::maxSceneFileBytes, [&](Json& root) { return readSceneRoot(root, settings); });
 }
 
 Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& settings) {
@@ -36,7 +36,7 @@ Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& 
 }
 
 std::string sceneJson(const Scene& scene) {
-    OrderedJson root = {{versionField, sceneFormatVersion}};
+    OrderedJson root = {{sceneVersionField, sceneFormatVersion}};
     root.update(detail::fieldsJson(scene, scene.materials));
     return jsonLines(root);
 }

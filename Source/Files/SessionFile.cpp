@@ -16,7 +16,7 @@
 namespace physvib {
 namespace {
 
-constexpr const char* versionField = "physvib_session";
+constexpr const char* sessionVersionField = "physvib_session";
 constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};
 constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"};
 constexpr double maxSeconds = static_cast<double>(limits::maxTimeNs) * 1e-9;
@@ -139,9 +139,9 @@ EventShaping readShaping(const JsonField& json) {
     return shaping;
 }
 
-SavedSession readRoot(const JsonField& root) {
-    checkVersion(root, versionField, sessionFormatVersion);
-    root.expectObject({versionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "equalised", "shaping", "channels", "panning", "takes", "controls", "recordings", "strikes", "desk"});
+SavedSession readSessionRoot(const JsonField& root) {
+    checkVersion(root, sessionVersionField, sessionFormatVersion);
+    root.expectObject({sessionVersionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "equalised", "shaping", "channels", "panning", "takes", "controls", "recordings", "strikes", "desk"});
     SavedSession session;
     session.lengthNs = readTime(root["seconds"]);
     session.run.stepsPerSecond = readWhole(root["steps_per_second"], Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond);
@@ -230,7 +230,7 @@ OrderedJson recordingsJson(const RecordingsChange& change, const std::filesystem
 } // namespace
 
 Result<SavedSession> readSession(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxSessionFileBytes, [](const Json& root) { return readRoot(JsonField(root, {})); });
+    return readJson(text, name, limits::maxSessionFileBytes, [](const Json& root) { return readSessionRoot(JsonField(root, {})); });
 }
 
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
@@ -242,7 +242,7 @@ Result<SavedSession> loadSession(const std::filesystem::path& path) {
 }
 
 std::string sessionJson(const SavedSession& session, const std::filesystem::path& folder) {
-    OrderedJson root{{versionField, sessionFormatVersion},
+    OrderedJson root{{sessionVersionField, sessionFormatVersion},
                      {"seconds", seconds(session.lengthNs)},
                      {"steps_per_second", session.run.stepsPerSecond},
                      {"timing", timingNames[static_cast<std::size_t>(session.run.timing)]},

@@ -30,8 +30,6 @@ Result<Data> readTrials(const AnalyseOptions& o) {
 }
 
 std::string bits(double value) { return fixedNumber(value, 2) + " bit"; }
-std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
-
 std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const InformationTransfer& it) {
     std::vector<std::string> words;
     const auto totals = matrix.stimulusTotals();

@@ -9,8 +9,6 @@
 namespace physvib {
 namespace {
 
-std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
-
 std::string chance(double p) { return p < 0.001 ? "p < 0.001" : "p = " + fixedNumber(p, 3); }
 
 void tell(std::ostream& out, const ChoiceSummary& summary) {

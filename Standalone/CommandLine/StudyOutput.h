@@ -18,6 +18,8 @@
 
 namespace physvib {
 
+inline std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
+
 inline void warn(const std::string& words) { std::cerr << "physvib: warning: " << words << '\n'; }
 
 /// Reads every file and gives the texts to `reader` at once.

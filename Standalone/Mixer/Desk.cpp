@@ -7,7 +7,6 @@
 #include <cmath>
 
 namespace physvib {
-
 namespace {
 
 constexpr int stepsPerSecond = 100;
@@ -15,8 +14,6 @@ constexpr double gapSeconds = 0.005; // the driver's thread shares the machine w
 constexpr double boardSeconds = 0.05; // the link needs 20 to 40 ms; more than that is told as trouble
 constexpr double maintainMs = 1000.0, boardPatienceMs = 3000.0; // greeting and clock take half a second
 constexpr double newStripDb = -12.0; // hands are attached
-
-double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
 
 Mix shakeTheBox() {
     Mix mix;

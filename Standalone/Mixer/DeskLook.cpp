@@ -6,12 +6,9 @@
 #include <cmath>
 
 namespace physvib {
-
 namespace {
 
 constexpr double holdMs = 1500.0;
-
-double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
 
 } // namespace
 

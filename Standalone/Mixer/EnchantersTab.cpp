@@ -2,19 +2,12 @@
 // The list of enchanters and the settings of the panner.
 #include "Mixer/EnchantersTab.h"
 #include "Files/ActuatorFile.h"
+#include "Mixer/Parts.h"
 
 namespace physvib {
-
 namespace {
 
 constexpr int rowPixels = 34;
-
-juce::Label& caption(juce::Label& label, const juce::String& words) {
-    label.setText(words, juce::dontSendNotification);
-    label.setFont(juce::Font{text::small});
-    label.setBorderSize({0, 0, 0, 0});
-    return label;
-}
 
 // Whoever named it what; -1: a layout of its own.
 int presetOf(const EnchanterLayout& layout) {

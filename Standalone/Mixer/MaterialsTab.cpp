@@ -2,11 +2,11 @@
 // The list, two numbers, a spot, and a thread that measures.
 #include "Mixer/MaterialsTab.h"
 #include "Mixer/MaterialColumns.h"
+#include "Mixer/Parts.h"
 #include "Physics/SceneLimits.h"
 #include <cmath>
 
 namespace physvib {
-
 namespace {
 
 constexpr int rowPixels = 28, headPixels = 20;
@@ -20,12 +20,6 @@ juce::NormalisableRange<double> rangeOf(double least, double low, double high, d
     return {least, most,
             [=](double, double, double s) { return s < end ? part(least, low, s / end) : s > 1.0 - end ? part(high, most, (s - 1.0 + end) / end) : part(low, high, (s - end) / (1.0 - 2.0 * end)); },
             [=](double, double, double v) { return v < low ? end * shareOf(least, low, v) : v > high ? 1.0 - end + end * shareOf(high, most, v) : end + (1.0 - 2.0 * end) * shareOf(low, high, v); }};
-}
-
-void caption(juce::Label& label, const juce::String& words) {
-    label.setText(words, juce::dontSendNotification);
-    label.setFont(juce::Font{text::small});
-    label.setBorderSize({0, 0, 0, 0});
 }
 
 } // namespace
@@ -142,7 +136,7 @@ void MaterialsTab::takeMix() {
         shown_.reset();
         order_.resize(materials.size());
         for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<int>(i);
-        std::ranges::stable_partition(order_, [&](int i) { return materials[static_cast<std::size_t>(i)].frequencyHz > 0.0; });
+        std::stable_partition(order_.begin(), order_.end(), [&](int i) { return materials[static_cast<std::size_t>(i)].frequencyHz > 0.0; });
         list_.updateContent();
         list_.selectRow(0);
     }

@@ -4,15 +4,14 @@
 #include "Files/AtomicFile.h"
 #include "Files/FileKind.h"
 #include "Files/SceneFile.h"
+#include "Mixer/Parts.h"
 #include "Mixer/RenderTask.h"
 
 namespace physvib {
-
 namespace {
 
 constexpr const char* sessionPattern = "*.json";
 constexpr double longestRender = 86'400.0; // as `physvib render` makes at most
-const juce::String dots = juce::String::charToString(0x2026);
 
 std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
 
@@ -135,7 +134,7 @@ void MixerWindow::renderOffline() {
     auto* window = new juce::AlertWindow{"Render the session", "It was played for " + number(played, 1) + " s. Beyond that its last scene goes on by itself.", juce::MessageBoxIconType::NoIcon, view_.get()};
     window->addTextEditor("seconds", juce::String{std::ceil(10.0 * played) / 10.0, 1}, "Seconds"); // without what parts thousands
     window->getTextEditor("seconds")->setInputRestrictions(8, "0123456789.");
-    window->addButton("Choose a file" + dots, 1, juce::KeyPress{juce::KeyPress::returnKey});
+    window->addButton("Choose a file" + dots(), 1, juce::KeyPress{juce::KeyPress::returnKey});
     window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
     window->enterModalState(true, juce::ModalCallbackFunction::create([this, window](int answer) {
         const double seconds = window->getTextEditorContents("seconds").getDoubleValue();

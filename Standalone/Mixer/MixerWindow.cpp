@@ -2,13 +2,12 @@
 // The window, what plays in it, its keys and its menu.
 #include "Mixer/MixerWindow.h"
 #include "Host/NoDevice.h"
+#include "Mixer/Parts.h"
 
 namespace physvib {
-
 namespace {
 
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
-const juce::String dots = juce::String::charToString(0x2026);
 
 } // namespace
 
@@ -148,20 +147,20 @@ void MixerWindow::showMenu(juce::Component& from) {
         recent.addItem(file.getFileName(), [this, file] { openDocument(file); });
     }
     item("New", "Ctrl+N", [this] { newDocument(); });
-    item("Open" + dots, "Ctrl+O", [this] { openDocument(); });
+    item("Open" + dots(), "Ctrl+O", [this] { openDocument(); });
     menu.addSubMenu("Recent", recent, recent.getNumItems() > 0);
     item("Save", "Ctrl+S", [this] { save(); });
-    item("Save as" + dots, "Ctrl+Shift+S", [this] { saveAs(); });
+    item("Save as" + dots(), "Ctrl+Shift+S", [this] { saveAs(); });
     menu.addSeparator();
     item(undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z", [&undo] { undo.undo(); }, undo.canUndo());
     item(undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z", [&undo] { undo.redo(); }, undo.canRedo());
     menu.addSeparator();
-    item("Scene" + dots, {}, [this] { import("Scene"); });
-    item("Layout" + dots, {}, [this] { import("Layout of enchanters"); });
-    item("Save the layout" + dots, {}, [this] { exportLayout(); });
+    item("Scene" + dots(), {}, [this] { import("Scene"); });
+    item("Layout" + dots(), {}, [this] { import("Layout of enchanters"); });
+    item("Save the layout" + dots(), {}, [this] { exportLayout(); });
     menu.addSeparator();
     item(desk_->isRecording() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
-    item("Render" + dots, "Ctrl+E", [this] { renderOffline(); });
+    item("Render" + dots(), "Ctrl+E", [this] { renderOffline(); });
     menu.addSeparator();
     const auto isLight = view_->ground() == Ground::light;
     look.addItem("Dark", true, !isLight, [this] { setGround(Ground::dark); });

@@ -3,20 +3,14 @@
 #include "Mixer/OutputTab.h"
 #include "Host/NoDevice.h"
 #include "Host/SerialLine.h"
+#include "Mixer/Parts.h"
 
 namespace physvib {
-
 namespace {
 
 constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
-
-void caption(juce::Label& label, const juce::String& words) {
-    label.setText(words, juce::dontSendNotification);
-    label.setFont(juce::Font{text::small});
-    label.setBorderSize({0, 0, 0, 0});
-}
 
 } // namespace
 

@@ -4,7 +4,6 @@
 #include "Host/PictureCanvas.h"
 
 namespace physvib {
-
 namespace {
 
 juce::Path pathOf(Sign sign) {
@@ -112,6 +111,12 @@ void prepareControls(juce::Component& root) {
     if (isControl && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
     if (slider == nullptr && dynamic_cast<juce::ComboBox*>(&root) == nullptr) // their parts are theirs
         for (auto* child : root.getChildren()) prepareControls(*child);
+}
+
+void caption(juce::Label& label, const juce::String& words) {
+    label.setText(words, juce::dontSendNotification);
+    label.setFont(juce::Font{text::small});
+    label.setBorderSize({0, 0, 0, 0});
 }
 
 juce::String number(double value, int decimals) { return picture::number(value, decimals); }

@@ -47,8 +47,15 @@ void onSlide(juce::Slider& slider, std::function<void(bool goesOn)> use);
 /// Every control under `root` can be reached by the keyboard, and is seen to be.
 void prepareControls(juce::Component& root);
 
+/// A small word beside a control.
+void caption(juce::Label& label, const juce::String& words);
+
+/// Of the clock that what is seen moves by; nothing that is rendered depends on it.
+inline double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
+
 /// Fixed notation, with a true minus sign.
 juce::String number(double value, int decimals);
 juce::String utf8(const std::string& words);
+inline juce::String dots() { return juce::String::charToString(0x2026); } ///< of what asks for more
 
 } // namespace physvib

@@ -7,19 +7,13 @@
 #include "Files/ReadFile.h"
 #include "Host/NoDevice.h"
 #include "Mixer/MixerView.h"
+#include "Mixer/Parts.h"
 
 namespace physvib {
-
 namespace {
 
 constexpr int fileId = 1000, noNoiseId = 1;
 constexpr std::array<int, 8> noiseLevels{-70, -60, -50, -45, -40, -35, -30, -25};
-
-void caption(juce::Label& label, const juce::String& words) {
-    label.setText(words, juce::dontSendNotification);
-    label.setFont(juce::Font{text::small});
-    label.setBorderSize({0, 0, 0, 0});
-}
 
 std::filesystem::path pathOf(const juce::String& words) {
     return std::filesystem::path{juce::File::getCurrentWorkingDirectory().getChildFile(words).getFullPathName().toStdString()};

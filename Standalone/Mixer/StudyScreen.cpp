@@ -2,16 +2,14 @@
 // From page to page.
 #include "Mixer/StudyScreen.h"
 #include "CommandLine/LayoutNamed.h"
+#include "Mixer/Parts.h"
 #include "Mixer/StudyWords.h"
 #include <cmath>
 
 namespace physvib {
-
 namespace {
 
 constexpr int barHeight = 56, inset = 40, partWidth = 300, partHeight = 84;
-
-double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
 
 /// The answer as it would be with the first stimulus of a condition, to see what it renders to.
 TrialRecord firstRecord(const Protocol& protocol, std::size_t condition, std::size_t session) {

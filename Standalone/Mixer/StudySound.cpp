@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls first, then the strikes, a moment later.
 #include "Mixer/StudySound.h"
+#include "Mixer/Parts.h"
 #include <algorithm>
 
 namespace physvib {
-
 namespace {
 
 using Kind = RenderControl::Kind;
 constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may come behind a strike; gains are ramped
 
 constexpr const char* noControls = "The session took no more controls: expected a device that plays";
-
-double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
 
 } // namespace
 

@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Fuzzes every parser from its corpus: run.sh [INPUTS], 100,000 for each unless told; 10,000,000 is a long afternoon.
-# Ends at the first fault, whose input it leaves in build/fuzz/findings.
+# Ends at the first fault, whose input it leaves in build/asan/findings.
 set -eu
 cd "$(dirname "$0")/../.."
 inputs=${1:-100000}
-build=${PHYSVIB_FUZZ_BUILD:-build/fuzz}
+build=${PHYSVIB_FUZZ_BUILD:-build/asan}
 mkdir -p "$build/findings"
 for name in actuator coupling events input layout materials protocol scene session state study wire; do
     mkdir -p "$build/corpus/$name" # what libFuzzer finds worth keeping; the first folder is the one it writes to

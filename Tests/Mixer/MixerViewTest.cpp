@@ -71,15 +71,15 @@ TEST(MixerView, TheTabKeyComesToEveryControl) {
 TEST(MixerView, EveryTextFitsAndEveryControlHasASizeAtTheSmallestWindow) {
     Desk desk{onlyNoDevice(), noDevice};
     MixerView view{desk};
-    for (const auto& [width, height] : {std::pair{MixerView::leastWidth, MixerView::leastHeight}, {1440, 900}, {3000, 1800}}) {
-        view.setSize(width, height);
+    for (const auto& size : {std::pair{MixerView::leastWidth, MixerView::leastHeight}, {1440, 900}, {3000, 1800}}) {
+        view.setSize(size.first, size.second);
         for (int k = 0; const auto& tab : view.tabs().names()) {
             view.tabs().choose(tab);
             view.scope().choose(view.scope().names()[k++ % view.scope().names().size()]);
             walk(view, [&](juce::Component& c) {
                 if (!isControl(c) || isPartOfControl(c)) return;
-                EXPECT_GE(c.getWidth(), 14) << c.getTitle() << " at " << width;
-                EXPECT_GE(c.getHeight(), 14) << c.getTitle() << " at " << width;
+                EXPECT_GE(c.getWidth(), 14) << c.getTitle() << " at " << size.first;
+                EXPECT_GE(c.getHeight(), 14) << c.getTitle() << " at " << size.first;
             });
         }
     }
