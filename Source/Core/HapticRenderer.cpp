@@ -84,7 +84,7 @@ void HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset)
     std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
     const Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, end};
     const bool isRecorded = player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz));
-    const bool taken = isRecorded     ? player_.strike(s.frequencyHz, s.amplitude, onset.frame, end, gains_.data())
+    const bool taken = isRecorded    ? player_.strike(s.frequencyHz, s.amplitude, onset.frame, end, gains_.data())
                        : isCoupled() ? strikeCoupled(s)
                                      : bank_.strike(s, gains_.data());
     if (taken) playedQueue_.push({event, onset.frame, delay > 0});

@@ -58,7 +58,7 @@ std::string readInputs(RenderJob& job) {
     if (!actuators) return actuators.error;
     job.actuators = std::move(actuators.value);
     if (!job.options.coupling.empty()) {
-        if (job.keepsLayouts()) return "--coupling: a saved session has layouts of its own, which may change: expected a --layout";
+        if (job.session) return "--coupling: expected a scene or events; a saved session may change its layout and play recordings";
         auto coupling = chooseCoupling(job.options.coupling, job.layout);
         if (!coupling) return coupling.error;
         job.coupling = std::move(coupling.value);

@@ -147,7 +147,7 @@ TEST_F(CouplingCommand, RefusesInOneLineWhatDoesNotFit) {
     refuses(render + "--coupling c.json --method SV --sound 200=a.wav", 2, "--coupling: expected a --method of modes", 3);
     refuses("play drop --device ALSA:null --coupling c.json", 2, "--coupling: not yet live; render has it", 3);
     std::filesystem::copy_file(PHYSVIB_SOURCE_DIR "/Tests/Fuzz/corpus/session/two-takes.json", folder_ / "session.json");
-    refuses("render session.json --out a.wav --coupling c.json", 1, "--coupling: a saved session has layouts of its own, which may change: expected a --layout", 4);
+    refuses("render session.json --out a.wav --coupling c.json", 1, "--coupling: expected a scene or events; a saved session may change its layout and play recordings", 4);
     write("c.json", coupling(0.0, 1.0).replace(1, 21, "\"physvib_coupling\": 2"));
     refuses(render + "--coupling c.json", 1, "c.json: physvib_coupling: made for a newer PhysVib", 4);
 }
