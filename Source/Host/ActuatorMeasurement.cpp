@@ -94,11 +94,12 @@ struct Trial {
     }
 };
 
-/// The delay at which the phases agree best: coarse steps, then a golden section.
-double delayOf(const std::vector<Point>& points, const Resonator& guess) {
+/// The delay at which the phases agree best with guess(hz): coarse steps, then a golden section.
+template <class Guess>
+double delayOf(const std::vector<Point>& points, Guess guess) {
     const auto agreement = [&](double seconds) {
         Complex sum = 0.0;
-        for (const Point& p : points) sum += p.response * std::conj(guess.at(p.hz)) * std::polar(1.0, twoPi * p.hz * seconds);
+        for (const Point& p : points) sum += p.response * std::conj(guess(p.hz)) * std::polar(1.0, twoPi * p.hz * seconds);
         return std::abs(sum.real());
     };
     const double step = 0.1 / points.back().hz;
@@ -136,7 +137,15 @@ Trial refine(const std::vector<Point>& points, Trial best) {
     return best;
 }
 
-std::string faultOf(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz) {
+double energyOf(const std::vector<Point>& points) {
+    double energy = 0.0;
+    for (const Point& p : points) energy += std::norm(p.response);
+    return energy;
+}
+constexpr const char* unswept = "what was played: expected a sweep through the whole band"; // its energy is not finite
+
+std::string faultOf(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band) {
+    if (!band.isKnown() || band.highHz >= 0.5 * rateHz || band.highHz < band.lowHz + 10.0) return "expected a band of at least 10 Hz below half the rate";
     constexpr double shortestSeconds = 0.1;
     if (auto fault = recordingFault(played, rateHz, shortestSeconds); !fault.empty()) return "what was played: " + fault;
     if (auto fault = recordingFault(recorded, rateHz, shortestSeconds); !fault.empty()) return "what was recorded: " + fault;
@@ -172,16 +181,14 @@ FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand&
 }
 
 Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band) {
-    if (auto fault = faultOf(played, recorded, rateHz); !fault.empty()) return Failure{fault};
-    if (!band.isKnown() || band.highHz >= 0.5 * rateHz || band.highHz < band.lowHz + 10.0) return Failure{"expected a band of at least 10 Hz below half the rate"};
+    if (auto fault = faultOf(played, recorded, rateHz, band); !fault.empty()) return Failure{fault};
     std::vector<Point> points;
     addPoints(points, played, recorded, rateHz, band, 240);
     const Resonator guess = firstGuess(points);
-    const Trial rough = refine(points, {points, {std::log(guess.resonanceHz), std::log(guess.q), delayOf(points, guess)}});
+    const Trial rough = refine(points, {points, {std::log(guess.resonanceHz), std::log(guess.q), delayOf(points, [&guess](double hz) { return guess.at(hz); })}});
     addPoints(points, played, recorded, rateHz, peakOf({std::exp(rough.at[0]), std::exp(rough.at[1])}, band), 120); // where resonance and Q are decided
-    double energy = 0.0;
-    for (const Point& p : points) energy += std::norm(p.response);
-    if (!std::isfinite(energy)) return Failure{"what was played: expected a sweep through the whole band"};
+    const double energy = energyOf(points);
+    if (!std::isfinite(energy)) return Failure{unswept};
     const Trial best = refine(points, {points, rough.at});
     MeasuredActuator measured{{std::exp(best.at[0]), std::exp(best.at[1])}, best.gain.real(), best.at[2], best.error / energy, rateHz};
     if (!(measured.residualShare < 0.5))
@@ -189,6 +196,24 @@ Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std
     if (const double hz = measured.resonator.resonanceHz; hz < band.lowHz || hz > band.highHz)
         return Failure{"expected a resonance from " + numberText(band.lowHz) + " to " + numberText(band.highHz) + " Hz, found none"};
     return measured;
+}
+
+Result<MeasuredLoopback> fitLoopback(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band) {
+    if (auto fault = faultOf(played, recorded, rateHz, band); !fault.empty()) return Failure{fault};
+    std::vector<Point> points;
+    addPoints(points, played, recorded, rateHz, band, 240);
+    const double energy = energyOf(points);
+    if (!std::isfinite(energy)) return Failure{unswept};
+    MeasuredLoopback m;
+    m.delaySeconds = delayOf(points, [](double) { return Complex{1.0}; });
+    Complex sum = 0.0;
+    for (const Point& p : points) sum += p.response * std::polar(1.0, twoPi * p.hz * m.delaySeconds);
+    const double count = static_cast<double>(points.size());
+    m.gain = sum.real() / count;
+    m.residualShare = 1.0 - m.gain * m.gain * count / energy;
+    if (!(m.residualShare < 0.1))
+        return Failure{"expected a cable from the output to the input, found a response that one explains by " + fixedNumber(100.0 * (1.0 - m.residualShare), 0) + " %"};
+    return m;
 }
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Resonance, Q, gain and delay of an actuator from a sweep that was played and what was recorded of it.
+// Resonance, Q, gain and delay of an actuator, or of a cable, from a sweep that was played and what was recorded of it.
 #pragma once
 #include "Core/Resonator.h"
 #include "Files/Result.h"
@@ -30,9 +30,19 @@ struct MeasuredActuator {
     FrequencyBand bandWithin(double decibels, const FrequencyBand& swept) const;
 };
 
+/// What a plain cable in the actuator's place does: gain e^(-i w delay), the device's and its driver's latency there and back.
+struct MeasuredLoopback {
+    double gain = 0.0;          ///< recorded over played; negative: turned polarity
+    double delaySeconds = 0.0;  ///< 0 to SweepSettings::restSeconds
+    double residualShare = 0.0; ///< as MeasuredActuator's
+};
+
 /// Fits the model to the transfer function between two recordings that begin together, over `band` and once more around
 /// the resonance. One line without a file's name if one of them is no such recording, or the model explains less than half of it.
 /// M only.
 Result<MeasuredActuator> fitActuator(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band = SweepSettings{}.band);
+
+/// The same with a cable for a model; refused if it explains less than nine tenths. M only.
+Result<MeasuredLoopback> fitLoopback(const std::vector<float>& played, const std::vector<float>& recorded, double rateHz, const FrequencyBand& band = SweepSettings{}.band);
 
 } // namespace physvib

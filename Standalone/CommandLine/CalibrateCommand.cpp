@@ -71,11 +71,32 @@ int writeSweep(const CalibrateOptions& o) {
     return exitDone;
 }
 
+std::string sourceOf(const CalibrateOptions& o) { return o.device.empty() ? o.recordedPath : o.device; }
+
+/// What was played and recorded, its faults told.
+Result<RecordedSweep> measureAndTell(const CalibrateOptions& o) {
+    auto sweep = measure(o);
+    if (sweep && sweep.value.xruns > 0) std::cerr << "physvib: warning: xruns of the device during the sweep: " << sweep.value.xruns << '\n';
+    return sweep;
+}
+
+int tellLoopback(const CalibrateOptions& o) {
+    const auto sweep = measureAndTell(o);
+    if (!sweep) return leave(exitFailed, sweep.error);
+    const auto found = fitLoopback(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
+    if (!found) return leave(exitFailed, sourceOf(o) + ": " + found.error);
+    const MeasuredLoopback& m = found.value;
+    std::cout << "latency of the loop " << fixedNumber(1e3 * m.delaySeconds, 3) << " ms, " << fixedNumber(m.delaySeconds * sweep.value.rateHz, 2) << " frames at " << numberText(sweep.value.rateHz)
+              << " Hz; gain " << fixedNumber(m.gain, 4) << "; " << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
+    return exitDone;
+}
+
 std::string fault(const CalibrateOptions& o) {
     const bool isPair = !o.playedPath.empty() || !o.recordedPath.empty();
     if (!o.sweepPath.empty()) return isPair || !o.device.empty() || !o.profilePath.empty() ? "calibrate: --sweep stands alone" : "";
     if (isPair == !o.device.empty()) return "calibrate: expected --device, or --played and --recorded, or --sweep";
     if (isPair && (o.playedPath.empty() || o.recordedPath.empty())) return "calibrate: expected both --played and --recorded";
+    if (o.isLoopback) return o.profilePath.empty() ? "" : "calibrate: --loopback measures a cable and writes no profile";
     if (o.profilePath.empty()) return "calibrate: expected --out FILE.json";
     if (!o.profilePath.ends_with(".json")) return "--out: expected a name that ends with .json, found " + inQuotes(o.profilePath);
     return o.band.empty() || parseBand(o.band) ? std::string{} : "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band);
@@ -92,6 +113,7 @@ void declareCalibrate(CLI::App& command, CalibrateOptions& o) {
     command.add_option("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment")->type_name("FILE.wav");
     command.add_option("--sweep", o.sweepPath, "only write the sweep")->type_name("FILE.wav");
     command.add_option("--out", o.profilePath, "the profile")->type_name("FILE.json");
+    command.add_flag("--loopback", o.isLoopback, "a cable from the output to the input: tell the latency of the loop");
     command.add_option("--name", o.name, "of the profile")->capture_default_str();
     command.add_option("--band", o.band, "to declare; left out: where it is within 10 dB of its peak")->type_name("LO-HI");
     command.add_option("--level", o.levelDb, "peak of the sweep in dB of full scale")->check(CLI::Range(-60.0, 0.0))->capture_default_str();
@@ -103,13 +125,13 @@ void declareCalibrate(CLI::App& command, CalibrateOptions& o) {
 int runCalibrate(const CalibrateOptions& o) {
     if (const auto why = fault(o); !why.empty()) return leave(exitUsage, why);
     if (!o.sweepPath.empty()) return writeSweep(o);
+    if (o.isLoopback) return tellLoopback(o);
     AtomicFile file(o.profilePath); // before anything vibrates
     if (!file.error().empty()) return leave(exitFailed, file.error());
-    const auto sweep = measure(o);
+    const auto sweep = measureAndTell(o);
     if (!sweep) return leave(exitFailed, sweep.error);
-    if (sweep.value.xruns > 0) std::cerr << "physvib: warning: xruns of the device during the sweep: " << sweep.value.xruns << '\n';
     const auto measured = fitActuator(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
-    if (!measured) return leave(exitFailed, (o.device.empty() ? o.recordedPath : o.device) + ": " + measured.error);
+    if (!measured) return leave(exitFailed, sourceOf(o) + ": " + measured.error);
     const ActuatorProfile profile = profileOf(o, measured.value);
     if (const auto read = readActuator(actuatorJson(profile), o.profilePath); !read) return leave(exitFailed, read.error);
     file.write(actuatorJson(profile));

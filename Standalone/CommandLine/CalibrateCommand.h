@@ -17,6 +17,7 @@ struct CalibrateOptions {
     std::string playedPath, recordedPath; ///< WAV pair, instead of a device
     std::string sweepPath;                ///< write the sweep and nothing else
     std::string profilePath;              ///< to write
+    bool isLoopback = false;              ///< a cable instead of an actuator: its latency, no profile
     std::string name = "calibrated";
     std::string band;                     ///< "LO-HI" to declare; empty: within 10 dB of the peak
     double levelDb = -12.0, seconds = 5.0;
@@ -26,7 +27,7 @@ struct CalibrateOptions {
 
 void declareCalibrate(CLI::App& command, CalibrateOptions& options);
 
-/// Writes the profile, with a line on how sure it is on stdout; the code to leave with.
+/// Writes the profile, with a line on how sure it is on stdout, or tells the latency of a loop; the code to leave with.
 int runCalibrate(const CalibrateOptions& options);
 
 } // namespace physvib

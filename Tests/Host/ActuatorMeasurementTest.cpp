@@ -69,5 +69,22 @@ TEST(ActuatorMeasurement, WhatIsNoMeasurementIsRefused) {
     EXPECT_EQ(fitActuator(std::vector<float>(48000, 0.0f), good, rate).error, "what was played: expected a sweep, found silence");
 }
 
+TEST(ActuatorMeasurement, ACableTellsTheLatencyOfTheLoop) {
+    std::mt19937 random{3};
+    std::normal_distribution<float> hiss;
+    for (const int delay : {0, 1, 517, 24000}) {
+        std::vector<float> recorded(sweep.size());
+        for (std::size_t n = 0; n < recorded.size(); ++n)
+            recorded[n] = (n < static_cast<std::size_t>(delay) ? 0.0f : -0.5f * sweep[n - static_cast<std::size_t>(delay)]) + 0.005f * hiss(random);
+        const auto found = fitLoopback(sweep, recorded, rate);
+        ASSERT_TRUE(found) << found.error;
+        EXPECT_NEAR(found.value.delaySeconds * rate, delay, 0.05);
+        EXPECT_NEAR(found.value.gain, -0.5, 0.005);
+        EXPECT_LT(found.value.residualShare, 0.02);
+    }
+    EXPECT_NE(fitLoopback(sweep, recordingOf({205, 8}, 0.3, 10, 0.0), rate).error.find("expected a cable from the output to the input"), std::string::npos);
+    EXPECT_EQ(fitLoopback(sweep, std::vector<float>(sweep.size(), 0.0f), rate).error, "what was recorded: expected the sweep, found silence");
+}
+
 } // namespace
 } // namespace physvib
