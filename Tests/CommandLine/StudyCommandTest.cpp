@@ -138,7 +138,7 @@ TEST_F(Study, BadCallsAndFilesAreRefused) {
     refuses("study run patterns --observer simulated --out none", 1, "cannot be written");
     refuses("study", 2, "");
     write("patterns-P01.csv", "my diary\n");
-    refuses("study run patterns --observer simulated", 1, "patterns-P01.csv:1: expected trials of this protocol", 1);
+    refuses("study run patterns --observer simulated", 1, "patterns-P01.csv:1: expected a trial file of physvib, found something else", 1);
     EXPECT_EQ(read("patterns-P01.csv"), "my diary\n");
     write("bad.json", R"({ "physvib_protocol": 1, "name": "bad", "conditions": [{ "name": "A", "layout": "phone2", "stimuli": "patterns", "enchanters": 4 }], "sessions": [{ "name": "main" }] })");
     refuses("study run bad.json --observer simulated", 1, "bad.json: condition A: expected as many enchanters as the layout has (2), found 4", 2);
