@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a collision before it is rendered: the method, then the frequencies that the actuators can play, then the level.
 #pragma once
+#include "Core/PerceivedLevel.h"
 #include "Core/RenderingMethod.h"
 #include "Core/Resonator.h"
 #include <algorithm>
@@ -27,11 +28,12 @@ struct EventShaping {
     RenderingMethod method;
     FrequencyRemap remap;
     double gain = 1.0; ///< of all events, also of a fixed level
+    PerceivedLevel perceived{}; ///< at the frequency that is played, of what the gain made
 
     CollisionEvent operator()(const CollisionEvent& collision) const noexcept {
         CollisionEvent event = method(collision);
         event.frequencyHz = remap(event.frequencyHz);
-        event.amplitude *= gain;
+        event.amplitude = perceived(event.amplitude * gain, event.frequencyHz);
         return event;
     }
     bool operator==(const EventShaping&) const = default;

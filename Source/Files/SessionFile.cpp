@@ -130,11 +130,12 @@ void readRecordings(const JsonField& list, SessionLog& log) {
 }
 
 EventShaping readShaping(const JsonField& json) {
-    json.expectObject({"method", "fixed_amplitude", "remap_hz", "gain"});
+    json.expectObject({"method", "fixed_amplitude", "remap_hz", "gain", "perceived_level"});
     EventShaping shaping;
     if (json.has("method") && !renderingMethodNamed(json["method"].text(), shaping.method)) json["method"].fail("expected a name from AV-FV-DRV to AF-FF-DRF");
     if (json.has("fixed_amplitude")) shaping.method.fixedAmplitude = json["fixed_amplitude"].numberUpTo(limits::maxAmplitude);
     if (json.has("gain")) shaping.gain = json["gain"].numberUpTo(limits::maxAmplitude);
+    if (json.has("perceived_level")) shaping.perceived.isWeighted = json["perceived_level"].truth();
     if (json.has("remap_hz")) shaping.remap.band = readBand(json["remap_hz"]);
     return shaping;
 }
@@ -206,6 +207,7 @@ OrderedJson shapingJson(const EventShaping& shaping) {
     OrderedJson json{{"method", std::string(name.begin(), name.end())}, {"fixed_amplitude", shaping.method.fixedAmplitude}};
     if (shaping.remap.band.isKnown()) json["remap_hz"] = bandJson(shaping.remap.band);
     if (shaping.gain != 1.0) json["gain"] = shaping.gain;
+    if (shaping.perceived.isWeighted) json["perceived_level"] = true;
     return json;
 }
 

@@ -15,7 +15,7 @@
 namespace physvib {
 
 /// The version of the format that is written, and the newest that is read.
-constexpr int sessionFormatVersion = 3; // 2: desk, strikes, slow motion; 3: recordings, gain
+constexpr int sessionFormatVersion = 3; // 2: desk, strikes, slow motion; 3: recordings, gain, perceived level
 
 /// A session as it was played.
 struct SavedSession {

@@ -90,8 +90,8 @@ int runPlay(PlayOptions& o) {
     if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
-    const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0;
-    if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db and --actuator; render --events, then board PORT play, has both");
+    const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.perceivedLevel == "off";
+    if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --perceived-level and --actuator; render --events, then board PORT play, has them");
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");

@@ -61,8 +61,11 @@ struct RenderJob {
         return session && std::ranges::none_of(own, [&](const char* name) { return options.given.contains(name); });
     }
     EqualisedActuators equalised() const { return keepsActuators() ? session->equalised : actuators.equalised; }
-    EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain()}; }
+    EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain(), perceived()}; }
     double gain() const { return session && !options.given.contains("--level-db") ? session->shaping.gain : std::pow(10.0, options.levelDb / 20.0); }
+    PerceivedLevel perceived() const {
+        return session && !options.given.contains("--perceived-level") ? session->shaping.perceived : PerceivedLevel{options.perceivedLevel == "on"};
+    }
     /// Whether what a session played of recordings is kept: its own method.
     bool keepsRecordings() const { return session && !options.given.contains("--method"); }
     bool isLimited() const { return session ? session->limiterEnabled : options.limiter == "on"; }
@@ -132,6 +135,7 @@ inline int takeSession(RenderJob& job) {
     job.scene = job.session->log.takes.front().whole();
     if (!job.keepsRecordings() || job.session->log.recordings.empty()) return exitDone;
     if (job.options.remap == "on") return leave(exitUsage, std::string{recordingsHaveNoFrequency});
+    if (job.perceived().isWeighted) return leave(exitUsage, std::string{recordingsHaveNoWeight});
     auto recordings = loadRecordings(job.session->log);
     if (!recordings) return leave(exitFailed, job.options.scene + ": " + recordings.error);
     job.sessionRecordings = std::move(recordings.value);

@@ -78,6 +78,8 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--sound-match", o.soundMatch, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)")
         ->check(CLI::IsMember({"peak", "rms"}))->capture_default_str();
     command.add_option("--level-db", o.levelDb, "all hits so much stronger or weaker")->check(between(-limits::maxLevelDb, limits::maxLevelDb, " dB"))->capture_default_str();
+    command.add_option("--perceived-level", o.perceivedLevel, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)")
+        ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
         ->check(between(leastContactDb, mostContactDb, " dB"))->capture_default_str();
     command.add_option("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file")->capture_default_str();
@@ -117,6 +119,7 @@ std::string checkSceneOptions(RenderOptions& o) {
     if (o.playsRecordings() && o.sounds.empty()) return "--method SV: expected a --sound for each material";
     if (!o.playsRecordings() && !o.sounds.empty() && o.contactSound.empty()) return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
     if (o.playsRecordings() && o.remap == "on") return std::string{recordingsHaveNoFrequency};
+    if (o.playsRecordings() && o.perceivedLevel == "on") return std::string{recordingsHaveNoWeight};
     if (!o.playsRecordings() && !renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"" + o.method + "\"";
     if (!o.sounds.empty() && (o.remap == "on" || o.renderingMethod.fixesFrequency)) return "--sound: expected hits at their material's own frequency, found " + (o.remap == "on" ? "--remap" : "--method " + o.method);
     if (o.remap == "on" && o.actuator == "none") return "--remap: expected an --actuator, whose band is to be used";

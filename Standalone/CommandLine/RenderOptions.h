@@ -36,6 +36,7 @@ struct RenderOptions {
     std::string limiter = "on";
     std::string location = "contact", timing = "onset", method = "AV-FV-DRV";
     double levelDb = 0.0;            ///< of all hits
+    std::string perceivedLevel = "off"; ///< on: hits of one amplitude feel more alike at all frequencies
     std::string soundMatch = "peak"; ///< of recordings: as high as the mode, or ("rms") as strong
     std::vector<std::string> sounds; ///< "HZ=FILE.wav" for SV and the contact sound
     std::string contactSound;        ///< where it is heard: a WAV of `render`, outputs of `play`; empty: not wanted
@@ -54,6 +55,7 @@ struct RenderOptions {
 };
 
 inline constexpr std::string_view recordingsHaveNoFrequency = "--remap: recordings have no frequency to be moved";
+inline constexpr std::string_view recordingsHaveNoWeight = "--perceived-level: recordings have no one frequency to be weighted by";
 inline constexpr std::string_view soundExpectation = "--sound: expected HZ=FILE.wav, the frequency of a material and its recorded contact";
 
 /// Appends what --sound says, "HZ=FILE.wav"; false if one is anything else.

@@ -89,6 +89,7 @@ Provenance RenderOutputs::provenance() const {
     Provenance p = inputProvenance();
     if (!job_.method().fixesNothing() || o.playsRecordings()) p.entries.emplace_back("method", o.method);
     if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
+    if (o.perceivedLevel == "on") p.entries.emplace_back("perceived_level", "on");
     for (const auto& [hz, path] : o.recordings)
         p.entries.emplace_back("sound", numberText(hz) + '=' + std::filesystem::path{path}.filename().string() + (o.soundMatch == "rms" ? ":rms" : ""));
     if (o.actuator != "none") p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());

@@ -102,7 +102,8 @@ TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
     setup.ceilings = {0.2f, 0.1f, 0.3f, 1.0f};
     setup.equalised[2] = {{205, 8}, {180, 230}};
     ASSERT_TRUE(renderingMethodNamed("AV-FV-DRF", setup.shaping.method));
-    setup.shaping.remap.band = {150, 300};
+    setup.shaping.remap.band = {150, 600};
+    setup.shaping.perceived.isWeighted = true;
     Session session{setup};
     const Felt felt = playEdited(session, setup, 60 * rate);
     const auto frames = static_cast<std::int64_t>(felt.signal.size()) / channels;
