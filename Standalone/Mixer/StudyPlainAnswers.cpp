@@ -222,7 +222,6 @@ public:
         number_.setInputRestrictions(9, "0123456789.,");
         number_.setJustification(juce::Justification::centred);
         number_.setFont(juce::Font{text::large});
-        number_.setSelectAllWhenFocused(true);
         number_.onTextChange = [this] { if (onChange) onChange(); };
         number_.setEscapeAndReturnKeysConsumed(false); // they silence, and go on
         addAndMakeVisible(number_);
