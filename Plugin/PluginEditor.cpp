@@ -120,7 +120,8 @@ void PluginEditor::refresh() {
     for (const auto& hit : hits) felt.push_back(hit.played.event);
     world_.update({std::move(poses), at, plugin_.takes().playOutFrames() * 1'000'000'000 / rate, felt, meters.peaks});
     meters_.update(meters, state_.layout);
-    const auto trouble = plugin_.trouble();
+    auto trouble = plugin_.trouble();
+    if (plugin_.keepsRefused()) trouble << " - the host's session keeps it until something is edited here";
     status_.setColour(juce::Label::textColourId, trouble.isEmpty() ? shade(*this, Shade::muted) : shade(*this, Shade::limit));
     status_.setText(trouble.isEmpty() ? statusLine(status, meters) : trouble, juce::dontSendNotification);
 }

@@ -39,6 +39,7 @@ PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     , name_{std::move(name)}
     , plan_{plan} {
     for (std::size_t i = 0; i < parameterCount; ++i) addParameter(parameters_[i] = new HostParameter{allParameters()[i]});
+    for (auto* p : parameters_) p->addListener(this);
     apply(newPluginState());
     startTimerHz(20);
 }
@@ -65,6 +66,7 @@ bool PluginProcessor::apply(PluginState state) {
     {
         const std::lock_guard lock{mutex_};
         trouble_.clear();
+        refused_.reset();
         state_ = std::move(state);
         renderSettings_.write({state_.transport, state_.layout.geometry, MidiTable{state_}});
     }
@@ -94,6 +96,20 @@ PluginState PluginProcessor::state() const {
 juce::String PluginProcessor::trouble() const {
     const std::lock_guard lock{mutex_};
     return trouble_;
+}
+
+bool PluginProcessor::keepsRefused() const {
+    const std::lock_guard lock{mutex_};
+    return !refused_.isEmpty();
+}
+
+// Only a hand on our editor begins a gesture, automation does not. Who silences what they did not expect edits nothing.
+void PluginProcessor::parameterGestureChanged(int which, bool begins) {
+    if (!begins || which == static_cast<int>(Parameter::bypass)) return;
+    const std::lock_guard lock{mutex_};
+    if (refused_.isEmpty()) return;
+    refused_.reset();
+    trouble_.clear();
 }
 
 // Tells the host what it may have to know anew.
@@ -142,24 +158,32 @@ const juce::String PluginProcessor::getProgramName(int index) {
 }
 
 void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {
+    {
+        const std::lock_guard lock{mutex_};
+        chunk = refused_;
+    }
+    if (!chunk.isEmpty()) return;
     const std::string text = pluginStateJson(state());
     chunk.replaceAll(text.data(), text.size());
 }
 
-// A chunk that cannot be read leaves everything as it was.
+// A chunk that cannot be read leaves everything as it was, and is what the next save gives back: a host's session that was
+// opened with an older PhysVib loses nothing.
 void PluginProcessor::setStateInformation(const void* data, int size) {
-    const auto read = readPluginState({static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))}, "state");
-    if (!read) {
-        refuse(readable(read.error));
-        return;
-    }
-    if (const auto unknown = firstUnknown(read.value); !unknown.empty()) {
-        refuse(readable("state: no parameter \"" + unknown + "\""));
-        return;
-    }
-    if (!apply(read.value)) return;
+    const std::string_view text{static_cast<const char*>(data), static_cast<std::size_t>(std::max(0, size))};
+    if (takeChunk(text)) return;
+    const std::lock_guard lock{mutex_};
+    refused_ = juce::MemoryBlock{text.data(), text.size()};
+}
+
+bool PluginProcessor::takeChunk(std::string_view text) {
+    const auto read = readPluginState(text, "state");
+    if (!read) return refuse(readable(read.error));
+    if (const auto unknown = firstUnknown(read.value); !unknown.empty()) return refuse(readable("state: no parameter \"" + unknown + "\""));
+    if (!apply(read.value)) return false;
     takeParameters(read.value);
     program_ = programOf(read.value.scene);
+    return true;
 }
 
 // Those that the state does not name get their defaults. The host is told of what it does not know: each telling may mark

@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-class PluginProcessor final : public juce::AudioProcessor, private juce::Timer {
+class PluginProcessor final : public juce::AudioProcessor, private juce::Timer, private juce::AudioProcessorParameter::Listener {
 public:
     PluginProcessor(juce::String name, const BusPlan& plan);
     ~PluginProcessor() override;
@@ -25,6 +25,7 @@ public:
     void edit(PluginState state);
     PluginState state() const; ///< with the parameters as they are
     juce::String trouble() const; ///< empty while all is well
+    bool keepsRefused() const; ///< the next save gives back the chunk that was refused, since nothing has been edited
     std::uint64_t stateCount() const noexcept { return stateCount_; } ///< grows with every state that was taken
     int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
@@ -60,6 +61,9 @@ public:
 private:
     static BusesProperties outputsOf(const BusPlan& plan);
     void timerCallback() override;
+    void parameterValueChanged(int, float) override {}
+    void parameterGestureChanged(int which, bool begins) override;
+    bool takeChunk(std::string_view text);
     bool refuse(const juce::String& why);
     void publish();
     void takeParameters(const PluginState& state);
@@ -83,9 +87,10 @@ private:
     const BusPlan plan_;
     std::array<HostParameter*, parameterCount> parameters_{}; // owned by AudioProcessor
 
-    mutable std::mutex mutex_; // guards state_ and trouble_; nobody holds it while calling the host
+    mutable std::mutex mutex_; // guards what follows, up to the atomics; nobody holds it while calling the host
     PluginState state_;
     juce::String trouble_;
+    juce::MemoryBlock refused_; // a chunk that is not ours to lose
     std::atomic<int> program_{0};
     std::atomic<std::uint64_t> stateCount_{0};
     std::atomic<double> sampleRateHz_{0.0};

@@ -54,7 +54,7 @@ TEST(PluginChunk, ABrokenChunkLeavesTheLastGoodStateAndSaysSo) {
         if (i % 3 == 0) broken.resize(at);
         else broken[at] = static_cast<char>(random.below(256));
         host.plugin->setStateInformation(broken.data(), static_cast<int>(broken.size()));
-        if (host.plugin->trouble().isNotEmpty()) EXPECT_TRUE(chunkOf(*host.plugin) == good) << host.plugin->trouble();
+        if (host.plugin->trouble().isNotEmpty()) EXPECT_EQ(pluginStateJson(host.plugin->state()), text) << host.plugin->trouble();
         host.plugin->setStateInformation(good.getData(), static_cast<int>(good.getSize()));
         ASSERT_EQ(host.plugin->trouble(), "");
     }
@@ -67,6 +67,42 @@ TEST(PluginChunk, ABrokenChunkLeavesTheLastGoodStateAndSaysSo) {
     EXPECT_TRUE(host.plugin->trouble().startsWith("state: ")) << host.plugin->trouble();
     host.plugin->setStateInformation(nullptr, 0);
     EXPECT_TRUE(chunkOf(*host.plugin) == good);
+}
+
+std::string newerThan(const std::string& text) {
+    const std::string from = "\"physvib_plugin_state\": ", now = from + std::to_string(pluginStateVersion);
+    return from + "99" + text.substr(text.find(now) + now.size());
+}
+
+TEST(PluginChunk, ARefusedChunkIsWhatTheNextSaveGivesBackUntilAHandEdits) {
+    TestHost host;
+    const auto own = chunkOf(*host.plugin);
+    const std::string newer = "{ " + newerThan(own.toString().toStdString());
+    auto& level = host.plugin->parameter(Parameter::level);
+    const auto refuse = [&] { host.plugin->setStateInformation(newer.data(), static_cast<int>(newer.size())); };
+    const auto saved = [&] { return chunkOf(*host.plugin).toString().toStdString(); };
+    const auto gesture = [&](Parameter which) {
+        host.plugin->parameter(which).beginChangeGesture();
+        host.plugin->parameter(which).endChangeGesture();
+    };
+    refuse();
+    EXPECT_TRUE(host.plugin->trouble().contains("made for a newer PhysVib")) << host.plugin->trouble();
+    EXPECT_EQ(saved(), newer);
+    level.setValue(0.5f); // as automation does
+    gesture(Parameter::bypass); // silence first, think then
+    EXPECT_EQ(saved(), newer);
+    gesture(Parameter::level);
+    EXPECT_NE(saved(), newer) << "a knob that a hand has moved";
+    EXPECT_EQ(host.plugin->trouble(), "");
+    refuse();
+    host.plugin->edit(host.plugin->state());
+    EXPECT_NE(saved(), newer) << "an edit";
+    refuse();
+    host.plugin->setCurrentProgram(1);
+    EXPECT_NE(saved(), newer) << "another program";
+    refuse();
+    host.plugin->setStateInformation(own.getData(), static_cast<int>(own.getSize()));
+    EXPECT_TRUE(chunkOf(*host.plugin) == own) << "a chunk that can be read";
 }
 
 TEST(PluginChunk, ParametersOfAnotherPhysVibAreRefused) {
