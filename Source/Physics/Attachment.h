@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 // PhysVib for anybody's b2World: attach, set three values per fixture, step, take events.
 #pragma once
+#include "Contacts/ContactEvents.h"
+#include "Contacts/HapticFixture.h"
+#include "Contacts/ImpactSettings.h"
 #include "Core/CollisionEvent.h"
-#include "Physics/AttachmentSettings.h"
-#include "Physics/CollisionCatcher.h"
-#include "Physics/ContactGraph.h"
-#include "Physics/EventSorter.h"
-#include "Physics/FixtureTable.h"
-#include "Physics/HapticFixture.h"
-#include "Physics/Impact.h"
-#include "Physics/ImpactModel.h"
-#include "Physics/OnsetImpacts.h"
-#include "Physics/ReleaseImpacts.h"
+#include "Physics/WorldBodies.h"
+#include "Physics/WorldListener.h"
 #include <box2d/box2d.h>
 #include <cstdint>
 #include <vector>
@@ -30,15 +25,15 @@ class Attachment final : private b2DestructionListener {
 public:
     /// The world must outlive the attachment. Attachments of the same world must end in reverse order. Throws
     /// std::invalid_argument if a setting is out of range.
-    explicit Attachment(b2World& world, const AttachmentSettings& settings = {});
+    explicit Attachment(b2World& world, const ImpactSettings& settings = {});
     ~Attachment() override;
     Attachment(const Attachment&) = delete;
     Attachment& operator=(const Attachment&) = delete;
 
     /// Takes effect with the next step; with another timing, what is under way is lost. Throws as the
     /// constructor does.
-    void configure(const AttachmentSettings& settings);
-    const AttachmentSettings& settings() const noexcept { return settings_; }
+    void configure(const ImpactSettings& settings) { events_.configure(settings); }
+    const ImpactSettings& settings() const noexcept { return events_.settings(); }
 
     /// Gives a fixture its values, at first or again (the camera may come and go); returns its id in events,
     /// 0, 1, 2... in order of first calls, never used twice. Throws std::invalid_argument if it is of another
@@ -66,39 +61,31 @@ public:
 
     /// World time after the steps done, and the time before which all events are final: one step earlier,
     /// since a contact is noticed up to one step after it was made.
-    std::int64_t timeNs() const noexcept { return span_.endNs; }
-    std::int64_t settledNs() const noexcept { return span_.startNs; }
+    std::int64_t timeNs() const noexcept { return events_.timeNs(); }
+    std::int64_t settledNs() const noexcept { return events_.settledNs(); }
 
     /// Appends the events that are final now, in the order of their times.
-    void take(std::vector<CollisionEvent>& events);
+    void take(std::vector<CollisionEvent>& events) { events_.take(events); }
 
     /// Contacts and events lost so far because more came in one step than there is room for.
-    std::uint64_t drops() const noexcept;
+    std::uint64_t drops() const noexcept { return events_.drops(); }
 
     /// The constants of Eq. 5.4 in the last step begun.
-    const ImpactModel& impactModel() const noexcept { return model_; }
+    const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }
 
 private:
     void SayGoodbye(b2Joint* joint) override;
     void SayGoodbye(b2Fixture* fixture) override;
-    void refresh();
-    void forget(std::int32_t slot);
-    void release(std::int32_t slot);
+    void look();
+    std::int32_t slotOf(const b2Fixture& fixture) const noexcept;
     void check(const b2Fixture& fixture) const;
 
     b2World& world_;
     b2DestructionListener* chained_;
-    AttachmentSettings settings_;
-    ImpactModel model_;
-    FixtureTable table_;
-    ContactGraph graph_;
-    CollisionCatcher catcher_;
-    OnsetImpacts onset_;
-    ReleaseImpacts release_;
-    EventSorter held_;
-    StepSpan span_;
-    std::vector<Impact> impacts_;
-    std::vector<std::int32_t> vanished_;
+    BodySweeps sweeps_;
+    WorldBodies bodies_;
+    ContactEvents events_;
+    WorldListener listener_;
 };
 
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Inverts the straight line a body moves along within its step.
 #include "Physics/BodySweeps.h"
+#include "Physics/WorldNames.h"
 #include <algorithm>
 
 namespace physvib {

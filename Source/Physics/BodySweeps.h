@@ -2,21 +2,13 @@
 // How bodies start a step, and how far into it Box2D has advanced them when it reports a contact: it does not
 // say so itself.
 #pragma once
+#include "Contacts/BodyReader.h"
 #include <box2d/box2d.h>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace physvib {
-
-/// Velocity of a body.
-struct BodyMotion {
-    b2Vec2 metresPerSecond{0.0F, 0.0F};
-    float radiansPerSecond = 0.0F;
-};
-inline BodyMotion motionOf(const b2Body& body) noexcept {
-    return {body.GetLinearVelocity(), body.GetAngularVelocity()};
-}
 
 /// Within a step a body moves along a straight line: position = origin + fraction * step * velocity. Contacts
 /// of the regular pass are found at fraction 0, those of the time-of-impact pass wherever the body has been
@@ -31,6 +23,8 @@ public:
 
     /// In BeginContact and EndContact: 0 (start) to 1 (end of the step), how far this body has come.
     double fraction(std::int32_t index, const b2Body& body) const noexcept;
+
+    double stepSeconds() const noexcept { return stepSeconds_; }
 
     /// Velocity before the step.
     const BodyMotion& start(std::int32_t index) const noexcept { return at(index).start; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A world as data: what a simulation is built from, and what a picture of it is drawn from. No Box2D here.
 #pragma once
-#include "Physics/Voice.h"
+#include "Contacts/Voice.h"
 #include <optional>
 #include <string>
 #include <variant>

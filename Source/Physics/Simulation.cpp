@@ -24,8 +24,8 @@ StepClock checkedClock(const Scene& scene, int stepsPerSecond) {
     return {stepsPerSecond};
 }
 
-AttachmentSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocation location) {
-    AttachmentSettings settings;
+ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocation location) {
+    ImpactSettings settings;
     settings.fieldWidthMetres = scene.fieldWidthMetres;
     settings.normalisation = scene.normalisation.secondsPerMetre;
     settings.handMassKg = scene.normalisation.handMassKg;

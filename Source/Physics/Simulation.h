@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Physics/Attachment.h"
-#include "Physics/ImpactModel.h"
+#include "Contacts/ImpactModel.h"
 #include "Physics/Scene.h"
 #include "Physics/SceneWorld.h"
 #include "Physics/StepClock.h"

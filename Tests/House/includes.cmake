@@ -3,15 +3,16 @@
 set(Core_may "Core/")
 set(Wire_may "Wire/|Core/")
 set(Study_may "Study/|Core/")
-set(Physics_may "Physics/|Core/|box2d/")
-set(Files_may "Files/|Physics/|Study/|Core/|nlohmann/")
-set(Host_may "Host/|Files/|Physics/|Wire/|Study/|Core/|juce_")
-set(Plugin_may "Host/|Files/|Physics/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
+set(Contacts_may "Contacts/|Core/")
+set(Physics_may "Physics/|Contacts/|Core/|box2d/")
+set(Files_may "Files/|Physics/|Contacts/|Study/|Core/|nlohmann/")
+set(Host_may "Host/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
+set(Plugin_may "Host/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
 # Core also stays free of what a board without an operating system lacks.
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Study Physics Files Host Plugin)
+foreach(room Core Wire Study Contacts Physics Files Host Plugin)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     foreach(file ${files})
         file(STRINGS ${file} includes REGEX "^ *# *include")

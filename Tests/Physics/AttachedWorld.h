@@ -12,8 +12,8 @@ constexpr HapticFixture camera{250.0, 20.0, true, 10.0, Voice::own};
 constexpr HapticFixture object{120.0, 30.0, false, 0.0, Voice::own};
 
 /// A = |J| / m_i.
-inline AttachmentSettings unity() {
-    AttachmentSettings settings;
+inline ImpactSettings unity() {
+    ImpactSettings settings;
     settings.normalisation = 1.0;
     settings.handMassKg = 0.0;
     return settings;

@@ -147,8 +147,8 @@ class DestroyedInContact : public testing::TestWithParam<bool> {
 protected:
     Foreign foreign;
     Attachment attachment{foreign.world, settings()};
-    static AttachmentSettings settings() {
-        AttachmentSettings result = unity();
+    static ImpactSettings settings() {
+        ImpactSettings result = unity();
         result.keepsHitsOfDestroyed = GetParam();
         return result;
     }
@@ -365,7 +365,7 @@ TEST(Attachment, EventsAreHandedOutSortedAndOnceSettled) {
 
 TEST(Attachment, NormalisationFollowsTheWorldUnlessItIsGiven) {
     Foreign foreign;
-    AttachmentSettings settings;
+    ImpactSettings settings;
     settings.fieldWidthMetres = 5.0;
     Attachment attachment(foreign.world, settings);
     step(attachment, 1);
@@ -412,7 +412,7 @@ TEST(Attachment, RefusesNonsense) {
     Attachment attachment(foreign.world);
     EXPECT_THROW(attachment.set(*other.ball, camera), std::invalid_argument);
     for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-        AttachmentSettings settings;
+        ImpactSettings settings;
         settings.fieldWidthMetres = bad;
         EXPECT_THROW(Attachment(other.world, settings), std::invalid_argument);
         settings = {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which contacts strike, when and how hard, in worlds whose hits are known by hand.
-#include "Physics/CollisionCatcher.h"
+#include "Contacts/CollisionCatcher.h"
 #include "AttachedWorld.h"
 
 namespace physvib {

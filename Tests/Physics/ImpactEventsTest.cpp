@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whose sound a hit has, and where it is felt.
-#include "Physics/ImpactEvents.h"
+#include "Contacts/ImpactEvents.h"
 #include "AttachedWorld.h"
 
 namespace physvib {
@@ -64,7 +64,7 @@ TEST_F(ImpactEventsWorld, IsFeltAtTheContact) {
 }
 
 TEST_F(ImpactEventsWorld, IsFeltAtTheCentreOfTheCamerasFixtureOnDemand) {
-    AttachmentSettings settings = unity();
+    ImpactSettings settings = unity();
     settings.location = ImpactLocation::fixture;
     attachment.configure(settings);
     const auto events = hit(Voice::own, object);

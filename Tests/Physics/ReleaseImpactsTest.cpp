@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The thesis' timing against the solver's impulses and against Eq. 5.2 and 5.3 by hand.
-#include "Physics/ReleaseImpacts.h"
+#include "Contacts/ReleaseImpacts.h"
 #include "AttachedWorld.h"
 
 namespace physvib {
@@ -9,8 +9,8 @@ namespace {
 class ReleaseImpactsWorld : public AttachedWorld {
 protected:
     ReleaseImpactsWorld() { attachment.configure(release()); }
-    static AttachmentSettings release() {
-        AttachmentSettings settings = unity();
+    static ImpactSettings release() {
+        ImpactSettings settings = unity();
         settings.timing = ImpactTiming::release;
         return settings;
     }
@@ -23,7 +23,7 @@ struct Dropped {
 };
 Dropped drop(ImpactTiming timing, float height, float stepSeconds) {
     b2World world({0.0F, -9.8F});
-    AttachmentSettings settings = unity();
+    ImpactSettings settings = unity();
     settings.timing = timing;
     Attachment attachment(world, settings);
     b2BodyDef def;
@@ -138,7 +138,7 @@ TEST_F(ReleaseImpactsWorld, RestingBallStrikesOnce) {
 
 TEST_F(ReleaseImpactsWorld, PartnerDestroyedBeforeTheReleaseTakesTheEventAlong) {
     for (const bool keeps : {false, true}) {
-        AttachmentSettings settings = release();
+        ImpactSettings settings = release();
         settings.keepsHitsOfDestroyed = keeps;
         attachment.configure(settings);
         b2Fixture& ground = floor();

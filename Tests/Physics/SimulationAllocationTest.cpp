@@ -47,7 +47,7 @@ TEST(SimulationAllocation, SteppingAllocatesNothingOfOurs) {
 class AttachmentAllocation : public testing::TestWithParam<ImpactTiming> {
 protected:
     AttachmentAllocation() {
-        AttachmentSettings settings;
+        ImpactSettings settings;
         settings.timing = GetParam();
         attachment.configure(settings);
         const b2BodyDef ground;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The contact-state graph of the thesis (5.1.3): which fixtures are connected by touching ones.
 #pragma once
-#include "Physics/IntegerMap.h"
+#include "Contacts/IntegerMap.h"
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One function per question: whose sound, where.
-#include "Physics/ImpactEvents.h"
+#include "Contacts/ImpactEvents.h"
 
 namespace physvib {
 
 namespace {
-
-b2Vec2 centreOf(const b2Fixture& fixture) {
-    b2MassData mass;
-    fixture.GetMassData(&mass);
-    return fixture.GetBody()->GetWorldPoint(mass.center);
-}
 
 void push(CollisionEvent event, const HapticFixture& sound, EventSorter& events) {
     event.frequencyHz = sound.frequencyHz;
@@ -20,11 +14,11 @@ void push(CollisionEvent event, const HapticFixture& sound, EventSorter& events)
 
 } // namespace
 
-void addEvents(const Impact& impact, const FixtureTable& table, const ImpactModel& model,
+void addEvents(const Impact& impact, const FixtureTable& table, const BodyReader& bodies, const ImpactModel& model,
                ImpactLocation location, EventSorter& events) {
     const KnownFixture& camera = table[impact.camera];
     const KnownFixture* other = impact.other == FixtureTable::none ? nullptr : &table[impact.other];
-    const b2Vec2 place = location == ImpactLocation::contact ? impact.point : centreOf(*camera.fixture);
+    const Vector2 place = location == ImpactLocation::contact ? impact.point : bodies.centreOfFixture(camera);
 
     CollisionEvent event;
     event.timeNs = impact.timeNs;

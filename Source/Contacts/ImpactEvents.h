@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // From what a camera felt to collision events: amplitude, voice and place.
 #pragma once
-#include "Physics/AttachmentSettings.h"
-#include "Physics/EventSorter.h"
-#include "Physics/FixtureTable.h"
-#include "Physics/Impact.h"
-#include "Physics/ImpactModel.h"
+#include "Contacts/BodyReader.h"
+#include "Contacts/EventSorter.h"
+#include "Contacts/FixtureTable.h"
+#include "Contacts/Impact.h"
+#include "Contacts/ImpactModel.h"
+#include "Contacts/ImpactSettings.h"
 
 namespace physvib {
 
@@ -13,7 +14,7 @@ namespace physvib {
 /// amplitude, as two bodies sound that ring at the same time (Eq. 5.1 adds). Voice `other` or `both` with a
 /// partner that has no frequency is `own`; where there is none either, or no mass for Eq. 5.4, nothing
 /// sounds. During a step; M only.
-void addEvents(const Impact& impact, const FixtureTable& table, const ImpactModel& model,
+void addEvents(const Impact& impact, const FixtureTable& table, const BodyReader& bodies, const ImpactModel& model,
                ImpactLocation location, EventSorter& events);
 
 } // namespace physvib

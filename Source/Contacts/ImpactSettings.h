@@ -14,7 +14,7 @@ enum class ImpactTiming { onset, release };
 enum class ImpactLocation { contact, fixture };
 
 /// For an Attachment. All can be changed while it runs.
-struct AttachmentSettings {
+struct ImpactSettings {
     double fieldWidthMetres = 1.0;       ///< v_max of Eq. 5.7 is one field width per second
     std::optional<double> normalisation; ///< A* in s/m, instead of Eq. 5.7's
     std::optional<double> handMassKg;    ///< m_h, instead of the largest mass in the world (Eq. 5.7)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Four steps of impulses per pair of a camera and what touches it.
-#include "Physics/ChainLoads.h"
+#include "Contacts/ChainLoads.h"
 #include <algorithm>
 
 namespace physvib {
@@ -18,10 +18,10 @@ void ChainLoads::resize(std::int32_t slots) {
     if (passed_.size() < static_cast<std::size_t>(slots)) passed_.resize(static_cast<std::size_t>(slots));
 }
 
-void ChainLoads::add(std::int32_t a, std::int32_t b, b2Vec2 impulse, b2Vec2 point) {
+void ChainLoads::add(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point) {
     Contact& contact = find(a, b, true);
     contact.now +=
-        contact.b == b ? impulse : -impulse; // the points and passes of the step, the parts of a chain
+        contact.b == b ? newtonSeconds : -newtonSeconds; // the points and passes of the step, the parts of a chain
     contact.point = point;
     contact.isSolved = true;
 }
@@ -29,18 +29,18 @@ void ChainLoads::add(std::int32_t a, std::int32_t b, b2Vec2 impulse, b2Vec2 poin
 void ChainLoads::settle() noexcept {
     for (const Contact& contact : contacts_) {
         if (!contact.isSolved || contact.isUnknown) continue;
-        const b2Vec2 load = loadOf(contact);
-        if (contact.now.LengthSquared() <= load.LengthSquared()) continue;
+        const Vector2 load = loadOf(contact);
+        if (contact.now.lengthSquared() <= load.lengthSquared()) continue;
         pass(contact.a, contact.b, load - contact.now, contact.point);
         pass(contact.b, contact.a, contact.now - load, contact.point);
     }
 }
 
-void ChainLoads::pass(std::int32_t slot, std::int32_t other, b2Vec2 newtonSeconds, b2Vec2 point) noexcept {
+void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, Vector2 point) noexcept {
     Passed& passed = passed_[static_cast<std::size_t>(slot)];
     passed.newtonSeconds += newtonSeconds;
-    if (newtonSeconds.Length() <= passed.strongest) return;
-    passed.strongest = newtonSeconds.Length();
+    if (newtonSeconds.length() <= passed.strongest) return;
+    passed.strongest = newtonSeconds.length();
     passed.other = other;
     passed.point = point;
 }
@@ -56,7 +56,7 @@ void ChainLoads::endStep(const ContactGraph& graph) noexcept {
         if (contact.isSolved) {
             if (contact.isUnknown) contact.past.fill(contact.now);
             contact.past = {contact.now, contact.past[0], contact.past[1]};
-            contact.now.SetZero();
+            contact.now = {};
             contact.isSolved = contact.isUnknown = false;
         } else if (!graph.isTouching(contact.a, contact.b)) {
             drop(i);
@@ -69,9 +69,9 @@ void ChainLoads::forget(std::int32_t slot) noexcept {
         if (contacts_[i].a == slot || contacts_[i].b == slot) drop(i);
 }
 
-b2Vec2 ChainLoads::loadOf(const Contact& contact) noexcept {
-    const auto isLess = [](const b2Vec2& a, const b2Vec2& b) {
-        return a.LengthSquared() < b.LengthSquared();
+Vector2 ChainLoads::loadOf(const Contact& contact) noexcept {
+    const auto isLess = [](const Vector2& a, const Vector2& b) {
+        return a.lengthSquared() < b.lengthSquared();
     };
     return *std::min_element(contact.past.begin(), contact.past.end(), isLess);
 }
@@ -81,7 +81,7 @@ ChainLoads::Contact& ChainLoads::find(std::int32_t a, std::int32_t b, bool isUnk
     if (known != IntegerMap::none) return contacts_[static_cast<std::size_t>(known)];
     indices_.set(pairKey(a, b), static_cast<std::int32_t>(contacts_.size()));
     contacts_.push_back(
-        {a, b, b2Vec2_zero, b2Vec2_zero, {b2Vec2_zero, b2Vec2_zero, b2Vec2_zero}, false, isUnknown});
+        {a, b, {}, {}, {}, false, isUnknown});
     return contacts_.back();
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // `release` timing, as the thesis has it: impulses from the velocities before a contact and at its end.
 #pragma once
-#include "Physics/CollisionCatcher.h"
-#include "Physics/ContactGraph.h"
-#include "Physics/FixtureTable.h"
-#include "Physics/Impact.h"
+#include "Contacts/CollisionCatcher.h"
+#include "Contacts/ContactGraph.h"
+#include "Contacts/FixtureTable.h"
+#include "Contacts/Impact.h"
 #include <cstdint>
 #include <vector>
 
@@ -20,7 +20,7 @@ class ReleaseImpacts {
 public:
     static constexpr std::int64_t latestNs = 50'000'000; // thesis 5.1.3: released 10 to 50 ms later
 
-    ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
+    ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph, const BodyReader& bodies);
 
     /// Appends the impacts of contacts that ended, or got old, in a step that is settled.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
@@ -42,10 +42,10 @@ private:
         std::int32_t order;         // of its beginning within the step; earlier: -1
         bool isDirect, isOver;
         std::int64_t beginNs;
-        b2Vec2 point, arm; // arm: from the centre of mass to the point, -l of Eq. 5.3
+        Vector2 point, arm; // arm: from the centre of mass to the point, -l of Eq. 5.3
         BodyMotion start;
         double lighterMassKg;
-        b2Vec2 gained{0.0F, 0.0F}; // N s, by what touches an immovable camera
+        Vector2 gained{}; // N s, by what touches an immovable camera
     };
     void open(const StepSpan& span);
     void openDirect(const ContactRecord& record, const StepSpan& span);
@@ -53,17 +53,18 @@ private:
     bool isReached(std::int32_t slot);
     void push(const Strike& strike);
     void follow();
-    b2Vec2 gain(std::int32_t camera);
-    b2Vec2 gainOf(std::int32_t slot);
+    Vector2 gain(std::int32_t camera);
+    Vector2 gainOf(std::int32_t slot);
     void release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts);
     void expire(const StepSpan& span, std::vector<Impact>& impacts);
     void finish(const Strike& strike, const BodyMotion& end, std::int64_t timeNs, const StepSpan& span,
                 std::vector<Impact>& impacts) const;
-    b2Vec2 impulse(const Strike& strike, const BodyMotion& end) const;
+    Vector2 impulse(const Strike& strike, const BodyMotion& end) const;
 
     const CollisionCatcher& catcher_;
     const FixtureTable& table_;
     ContactGraph& graph_;
+    const BodyReader& bodies_;
     std::vector<Strike> strikes_;
     std::vector<std::int32_t> reached_; // components at the camera in question
     std::vector<std::int64_t> counted_; // by body: the sum it was last counted in

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Insertion into a sorted array: stable, and nothing is allocated, as std::stable_sort would.
-#include "Physics/EventSorter.h"
+#include "Contacts/EventSorter.h"
 #include <algorithm>
 #include <tuple>
 

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Strikes that wait for the end of their contact.
-#include "Physics/ReleaseImpacts.h"
+#include "Contacts/ReleaseImpacts.h"
 #include <algorithm>
 #include <utility>
 
 namespace physvib {
 
-namespace {
-
-double inertiaAboutCentre(const b2Body& body) {
-    return body.GetInertia() - body.GetMass() * body.GetLocalCenter().LengthSquared();
-}
-
-} // namespace
-
-ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table,
-                               ContactGraph& graph)
+ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph,
+                               const BodyReader& bodies)
     : catcher_(catcher)
     , table_(table)
-    , graph_(graph) {
+    , graph_(graph)
+    , bodies_(bodies) {
     strikes_.reserve(CollisionCatcher::maxDistantRecords);
     reached_.reserve(CollisionCatcher::maxDirectRecords);
 }
@@ -76,10 +69,9 @@ void ReleaseImpacts::openHandedOn(const StepSpan& span) {
         if (cause == nullptr) continue;
         const ChainLoads::Passed& passed = catcher_.loads().passed(camera);
         const bool isKnown = passed.other != FixtureTable::none;
-        const b2Vec2 point = isKnown ? passed.point : cause->point;
+        const Vector2 point = isKnown ? passed.point : cause->point;
         push({camera, isKnown ? passed.other : cause->a, cause->a, cause->b, cause->order, false, false,
-              span.timeNs(cause->fraction), point, point - table_[camera].body->GetWorldCenter(),
-              catcher_.sweeps().start(table_[camera].bodyIndex),
+              span.timeNs(cause->fraction), point, point - bodies_.centreOfBody(table_[camera]), bodies_.motionBefore(table_[camera]),
               std::min(table_[camera].movableMassKg(), cause->lighterMassKg)});
     }
 }
@@ -99,7 +91,7 @@ void ReleaseImpacts::push(const Strike& strike) {
 
 void ReleaseImpacts::follow() {
     std::int32_t camera = FixtureTable::none;
-    b2Vec2 gained{0.0F, 0.0F};
+    Vector2 gained;
     for (Strike& strike : strikes_) {
         if (table_[strike.camera].isDynamic()) continue;
         if (strike.camera != camera) gained = gain(strike.camera);
@@ -108,9 +100,9 @@ void ReleaseImpacts::follow() {
     }
 }
 
-b2Vec2 ReleaseImpacts::gain(std::int32_t camera) {
+Vector2 ReleaseImpacts::gain(std::int32_t camera) {
     ++sums_;
-    b2Vec2 sum{0.0F, 0.0F};
+    Vector2 sum;
     graph_.forNeighbours(camera, [&](std::int32_t neighbour) { sum += gainOf(neighbour); });
     for (const ContactRecord& record : catcher_.records()) { // one may have ended already
         if (record.a == camera) sum += gainOf(record.b);
@@ -119,13 +111,13 @@ b2Vec2 ReleaseImpacts::gain(std::int32_t camera) {
     return sum;
 }
 
-b2Vec2 ReleaseImpacts::gainOf(std::int32_t slot) {
+Vector2 ReleaseImpacts::gainOf(std::int32_t slot) {
     const KnownFixture& known = table_[slot];
-    const auto body = static_cast<std::size_t>(known.bodyIndex);
+    const auto body = static_cast<std::size_t>(known.facts.bodyIndex);
     if (counted_.size() <= body) counted_.resize(body + 1, 0);
-    if (!known.isDynamic() || std::exchange(counted_[body], sums_) == sums_) return {0.0F, 0.0F};
-    const b2Vec2 before = catcher_.sweeps().start(known.bodyIndex).metresPerSecond;
-    return known.body->GetMass() * (known.body->GetLinearVelocity() - before);
+    if (!known.isDynamic() || std::exchange(counted_[body], sums_) == sums_) return {};
+    const Vector2 before = bodies_.motionBefore(known).metresPerSecond;
+    return static_cast<float>(known.massKg()) * (bodies_.motion(known).metresPerSecond - before);
 }
 
 void ReleaseImpacts::release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts) {
@@ -137,9 +129,8 @@ void ReleaseImpacts::release(bool ofThisStep, const StepSpan& span, std::vector<
         for (const Strike& strike : strikes_) {
             if (!isReleased(strike)) continue;
             const bool isA = strike.camera == end.a;
-            const BodyMotion& motion = strike.isDirect
-                                           ? (isA ? end.motionA : end.motionB)
-                                           : catcher_.sweeps().start(table_[strike.camera].bodyIndex);
+            const BodyMotion motion = strike.isDirect ? (isA ? end.motionA : end.motionB)
+                                                      : bodies_.motionBefore(table_[strike.camera]);
             finish(strike, motion, span.timeNs(end.fraction), span, impacts);
         }
         std::erase_if(strikes_, isReleased);
@@ -153,7 +144,7 @@ void ReleaseImpacts::expire(const StepSpan& span, std::vector<Impact>& impacts) 
     for (const Strike& strike : strikes_) {
         if (!isOld(strike)) continue;
         const std::int64_t timeNs = strike.isOver ? span.startNs : strike.beginNs + latestNs;
-        finish(strike, motionOf(*table_[strike.camera].body), std::max(timeNs, span.earliestNs), span,
+        finish(strike, bodies_.motion(table_[strike.camera]), std::max(timeNs, span.earliestNs), span,
                impacts);
     }
     std::erase_if(strikes_, isOld);
@@ -163,26 +154,27 @@ void ReleaseImpacts::finish(const Strike& strike, const BodyMotion& end, std::in
                             const StepSpan& span, std::vector<Impact>& impacts) const {
     const KnownFixture& camera = table_[strike.camera];
     if (!camera.values.isCamera) return;
-    const b2Vec2 felt = impulse(strike, end);
-    auto size = static_cast<double>(felt.Length());
+    const Vector2 felt = impulse(strike, end);
+    auto size = static_cast<double>(felt.length());
     if (!strike.isDirect && camera.isDynamic()) {
+        const auto massKg = static_cast<float>(camera.massKg());
         const auto seconds = static_cast<float>(timeNs - strike.beginNs) * 1.0e-9F;
-        const b2Vec2 withoutFall = felt - seconds * camera.body->GetMass() * span.gravity;
-        size = std::min(size, static_cast<double>(withoutFall.Length()));
+        const Vector2 withoutFall = felt - seconds * massKg * span.gravityMetresPerSecond2;
+        size = std::min(size, static_cast<double>(withoutFall.length()));
     }
     if (span.isStrike(size, strike.lighterMassKg))
         impacts.push_back({strike.camera, strike.other, timeNs, size, strike.point});
 }
 
-b2Vec2 ReleaseImpacts::impulse(const Strike& strike, const BodyMotion& end) const {
+Vector2 ReleaseImpacts::impulse(const Strike& strike, const BodyMotion& end) const {
     const KnownFixture& camera = table_[strike.camera];
     if (!camera.isDynamic()) return strike.gained;
-    const b2Vec2 linear = camera.body->GetMass() * (end.metresPerSecond - strike.start.metresPerSecond);
-    const float length = strike.arm.Length();
+    const Vector2 linear = static_cast<float>(camera.massKg()) * (end.metresPerSecond - strike.start.metresPerSecond);
+    const float length = strike.arm.length();
     if (length <= 0.0F) return linear;
-    const auto inertia = static_cast<float>(inertiaAboutCentre(*camera.body));
+    const auto inertia = static_cast<float>(bodies_.inertia(camera));
     const float spin = end.radiansPerSecond - strike.start.radiansPerSecond;
-    return linear + (inertia * spin / (length * length)) * b2Cross(1.0F, strike.arm);
+    return linear + (inertia * spin / (length * length)) * strike.arm.turnedLeft();
 }
 
 } // namespace physvib

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // `onset` timing: what cameras feel of a contact that begins, by the solver's impulses.
 #pragma once
-#include "Physics/CollisionCatcher.h"
-#include "Physics/ContactGraph.h"
-#include "Physics/FixtureTable.h"
-#include "Physics/Impact.h"
+#include "Contacts/CollisionCatcher.h"
+#include "Contacts/ContactGraph.h"
+#include "Contacts/FixtureTable.h"
+#include "Contacts/Impact.h"
 #include <cstdint>
 #include <vector>
 

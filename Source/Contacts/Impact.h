@@ -2,9 +2,8 @@
 // What the catcher's stages hand to each other: the step, the contacts that began in it, and what a camera
 // felt.
 #pragma once
-#include "Physics/BodySweeps.h"
+#include "Contacts/BodyReader.h"
 #include <algorithm>
-#include <box2d/box2d.h>
 #include <cmath>
 #include <cstdint>
 
@@ -16,7 +15,7 @@ struct StepSpan {
     std::int64_t startNs = 0;
     std::int64_t endNs = 0;
     double thresholdMetresPerSecond = 0.0;
-    b2Vec2 gravity{0.0F, 0.0F};
+    Vector2 gravityMetresPerSecond2;
 
     double seconds() const noexcept { return static_cast<double>(endNs - startNs) * 1.0e-9; }
     /// Time of a moment given in steps after the start, -1 to 1.
@@ -32,24 +31,24 @@ struct StepSpan {
 
 /// A contact that began in this step. Fixtures are slots of the FixtureTable.
 struct ContactRecord {
-    const b2Contact* contact; // valid within its step only, and only compared
-    std::int32_t a, b;
-    std::int32_t order; // of beginnings and ends within the step
-    b2Vec2 point;       // world
-    double fraction;    // moment of touch in steps after the start of this step, -1 to 1
-    double lighterMassKg;
+    std::uint64_t contact = 0; // the engine's name of it, valid within its step only
+    std::int32_t a = 0, b = 0;
+    std::int32_t order = 0; // of beginnings and ends within the step
+    Vector2 point;          // world
+    double fraction = 0.0;  // moment of touch in steps after the start of this step, -1 to 1
+    double lighterMassKg = 0.0;
     BodyMotion motionA, motionB;             // before the solver
-    b2Vec2 armA, armB;                       // from the centre of mass to the point
-    double normalImpulse, tangentialImpulse; // N s, summed over the points and passes of the step
+    Vector2 armA, armB;                      // from the centre of mass to the point
+    double normalImpulse = 0.0, tangentialImpulse = 0.0; // N s, summed over the points and passes of the step
 
     double impulse() const noexcept { return std::hypot(normalImpulse, tangentialImpulse); }
 };
 
 /// A contact that ended.
 struct ContactEnd {
-    std::int32_t a, b;
-    std::int32_t order;
-    double fraction;
+    std::int32_t a = 0, b = 0;
+    std::int32_t order = 0;
+    double fraction = 0.0;
     BodyMotion motionA, motionB;
 };
 
@@ -59,7 +58,7 @@ struct Impact {
     std::int32_t other;  // slot of what touches the camera there, or FixtureTable::none
     std::int64_t timeNs;
     double newtonSeconds;
-    b2Vec2 point;
+    Vector2 point;
 };
 
 } // namespace physvib

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The default normalisation of the impact model.
-#include "Physics/ImpactModel.h"
+#include "Contacts/ImpactModel.h"
 
 namespace physvib {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The impulses that reach cameras through contacts that were there before: hits handed on by others.
 #pragma once
-#include "Physics/ContactGraph.h"
-#include "Physics/FixtureTable.h"
-#include "Physics/Impact.h"
-#include "Physics/IntegerMap.h"
+#include "Contacts/ContactGraph.h"
+#include "Contacts/FixtureTable.h"
+#include "Contacts/IntegerMap.h"
+#include "Contacts/Vector2.h"
 #include <array>
-#include <box2d/box2d.h>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -21,10 +20,10 @@ namespace physvib {
 class ChainLoads {
 public:
     struct Passed {
-        b2Vec2 newtonSeconds{0.0F, 0.0F};
+        Vector2 newtonSeconds;
         float strongest = 0.0F;                  ///< size of the part that came through `other`
         std::int32_t other = FixtureTable::none; ///< slot of the neighbour that handed on most
-        b2Vec2 point{0.0F, 0.0F};
+        Vector2 point;
     };
 
     ChainLoads();
@@ -32,8 +31,8 @@ public:
     /// Room for this many slots.
     void resize(std::int32_t slots);
 
-    /// In PostSolve: the old contact (a, b) has pushed b by `impulse` (N s, world), and a by its opposite.
-    void add(std::int32_t a, std::int32_t b, b2Vec2 impulse, b2Vec2 point);
+    /// In a step: the old contact (a, b) has pushed b by `newtonSeconds` (world), and a by its opposite.
+    void add(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point);
 
     /// After a step: adds up what was handed on.
     void settle() noexcept;
@@ -53,14 +52,14 @@ public:
 private:
     struct Contact {
         std::int32_t a, b;
-        b2Vec2 now, point; // now: on b
-        std::array<b2Vec2, 3> past;
+        Vector2 now, point; // now: on b
+        std::array<Vector2, 3> past;
         bool isSolved;
         bool isUnknown; // met in mid-contact: what it pushes in this step is its load
     };
-    static b2Vec2 loadOf(const Contact& contact) noexcept;
+    static Vector2 loadOf(const Contact& contact) noexcept;
     Contact& find(std::int32_t a, std::int32_t b, bool isUnknown);
-    void pass(std::int32_t slot, std::int32_t other, b2Vec2 newtonSeconds, b2Vec2 point) noexcept;
+    void pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, Vector2 point) noexcept;
     void drop(std::size_t index) noexcept;
 
     std::vector<Contact> contacts_;

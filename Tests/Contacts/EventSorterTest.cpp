@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Order, release and overflow of events that wait for their turn.
-#include "Physics/EventSorter.h"
+#include "Contacts/EventSorter.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

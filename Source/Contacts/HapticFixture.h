@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What PhysVib must know of a fixture: the thesis' user data (Fig. 5.1), kept beside Box2D's own.
 #pragma once
-#include "Physics/Voice.h"
+#include "Contacts/Voice.h"
 
 namespace physvib {
 

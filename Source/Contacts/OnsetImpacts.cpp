@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Direct strikes at once; what is handed on one step later.
-#include "Physics/OnsetImpacts.h"
+#include "Contacts/OnsetImpacts.h"
 #include <algorithm>
 
 namespace physvib {
@@ -53,7 +53,7 @@ void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) 
         const ChainLoads::Passed& now = catcher_.loads().passed(handedOn.camera);
         const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
         const auto impulse =
-            static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).Length());
+            static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
         const KnownFixture& camera = table_[handedOn.camera];
         const double others =
             main.other == FixtureTable::none ? camera.movableMassKg() : table_[main.other].movableMassKg();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Union-find over the live edges.
-#include "Physics/ContactGraph.h"
+#include "Contacts/ContactGraph.h"
 #include <algorithm>
 
 namespace physvib {

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// A vector in the plane, in the single precision that 2D physics engines compute with.
+#pragma once
+#include <cmath>
+
+namespace physvib {
+
+/// Of a place (m), a velocity (m/s), an impulse (N s)... as the name that holds it says. Any thread.
+struct Vector2 {
+    float x = 0.0F, y = 0.0F;
+
+    friend Vector2 operator+(Vector2 a, Vector2 b) noexcept { return {a.x + b.x, a.y + b.y}; }
+    friend Vector2 operator-(Vector2 a, Vector2 b) noexcept { return {a.x - b.x, a.y - b.y}; }
+    friend Vector2 operator-(Vector2 a) noexcept { return {-a.x, -a.y}; }
+    friend Vector2 operator*(float s, Vector2 a) noexcept { return {s * a.x, s * a.y}; }
+    Vector2& operator+=(Vector2 other) noexcept { return *this = *this + other; }
+
+    float lengthSquared() const noexcept { return x * x + y * y; }
+    float length() const noexcept { return std::sqrt(lengthSquared()); }
+
+    /// The same vector, turned by 90 degrees counter-clockwise.
+    Vector2 turnedLeft() const noexcept { return {-y, x}; }
+};
+
+} // namespace physvib
