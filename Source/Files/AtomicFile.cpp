@@ -10,6 +10,10 @@ namespace physvib {
 namespace {
 
 namespace fs = std::filesystem;
+using Lock = SystemFile::Lock;
+
+constexpr const char* suffix = ".physvib.part"; // a name that no other program gives: what is left behind under it is removed
+constexpr const char* inTheWay = "another program is writing it, or left its temporary file: ";
 
 std::string reasonOf(int code) {
     return std::generic_category().message(code);
@@ -36,16 +40,17 @@ std::string obstacle(const fs::path& target) {
     return denied == 0 ? std::string() : reasonOf(denied);
 }
 
-/// Creates the first free name.part, name.part2, ...; 0 or the error number.
-int createSibling(const fs::path& target, fs::path& sibling) {
-    constexpr int mostWriters = 1000; // at once, or left behind by a power cut
-    int code = EEXIST;
-    for (int i = 1; i <= mostWriters && code == EEXIST; ++i) {
-        sibling = target;
-        sibling += i == 1 ? ".part" : ".part" + std::to_string(i);
-        code = tryOpen(sibling, "wbx");
-    }
-    return code;
+/// Removes the temporary file of a program that was killed: no one living has locked it. Whoever removes has locked what he
+/// removes, so nobody's living file goes. Empty, or what is in the way.
+std::string removeLeftBehind(const fs::path& sibling) {
+    SystemFile left = SystemFile::look(sibling);
+    if (!left.isOpen()) return left.error() == ENOENT ? std::string() : inTheWay + sibling.string() + ": " + left.reason();
+    const Lock lock = left.lock();
+    if (lock == Lock::others) return "it is being written already, here or by another program";
+    if (lock == Lock::none) return inTheWay + sibling.string();
+    std::error_code code;
+    if (left.isAt(sibling)) fs::remove(sibling, code);
+    return code ? inTheWay + sibling.string() + ": " + code.message() : std::string();
 }
 
 } // namespace
@@ -60,33 +65,32 @@ AtomicFile::~AtomicFile() {
     removeTemporary();
 }
 
-const std::string& AtomicFile::write(std::string_view bytes) {
-    if (!error_.empty()) return error_;
-    std::FILE* const stream = std::fopen(temporary_.string().c_str(), "wb");
-    bool written = stream != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
-    int code = errno;
-    if (stream != nullptr && std::fclose(stream) != 0 && written) {
-        written = false;
-        code = errno;
-    }
-    if (written) return error_;
-    fail(reasonOf(code));
+bool AtomicFile::writeAt(std::int64_t position, std::string_view bytes) {
+    if (!error_.empty() || file_.writeAt(position, bytes)) return error_.empty();
+    fail(file_.reason());
     removeTemporary();
+    return false;
+}
+
+const std::string& AtomicFile::write(std::string_view bytes) {
+    if (error_.empty()) file_.resize(0);
+    writeAt(0, bytes);
     return error_;
 }
 
 const std::string& AtomicFile::commit() {
     if (!error_.empty()) return error_;
     std::error_code code;
-    // Best effort: the permissions of another owner's file cannot always be copied.
-    if (const fs::file_status present = fs::status(target_, code); fs::exists(present))
-        fs::permissions(temporary_, present.permissions(), code);
-    fs::rename(temporary_, target_, code);
-    if (code) {
+    file_.takePermissionsOf(target_);
+    if (!file_.isAt(temporary_) && fs::exists(fs::symlink_status(temporary_, code))) {
+        fail("its temporary file was replaced by another");
+        temporary_.clear(); // not ours to remove
+    } else if (fs::rename(temporary_, target_, code); code) {
         fail(code.message());
-        removeTemporary();
+    } else {
+        temporary_.clear();
     }
-    temporary_.clear();
+    removeTemporary();
     return error_;
 }
 
@@ -97,10 +101,25 @@ std::string AtomicFile::prepare() {
         if (code) return code.message();
     }
     if (std::string reason = obstacle(target_); !reason.empty()) return reason;
-    fs::path sibling;
-    if (const int denied = createSibling(target_, sibling); denied != 0) return reasonOf(denied);
-    temporary_ = std::move(sibling);
-    return {};
+    fs::path sibling = target_;
+    return make(sibling += suffix);
+}
+
+// Between making and locking, another program may take the new file for one that was left behind, and remove it.
+std::string AtomicFile::make(const fs::path& sibling) {
+    constexpr int mostTries = 100;
+    for (int i = 0; i < mostTries; ++i) {
+        SystemFile made = SystemFile::create(sibling);
+        if (!made.isOpen() && made.error() != EEXIST) return made.reason();
+        if (made.isOpen() && made.lock() != Lock::others && made.isAt(sibling)) {
+            temporary_ = sibling;
+            file_ = std::move(made);
+            onEnd_ = RemovedOnEnd(file_, temporary_);
+            return {};
+        }
+        if (std::string reason = removeLeftBehind(sibling); !reason.empty()) return reason;
+    }
+    return "it is being written already, over and over";
 }
 
 void AtomicFile::fail(std::string_view reason) {
@@ -112,6 +131,8 @@ void AtomicFile::removeTemporary() noexcept {
     std::error_code ignored;
     if (!temporary_.empty()) fs::remove(temporary_, ignored);
     temporary_.clear();
+    onEnd_ = RemovedOnEnd();
+    file_ = SystemFile(); // and with it the lock
 }
 
 std::string writeFile(const fs::path& path, std::string_view bytes) {

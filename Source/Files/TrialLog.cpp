@@ -9,7 +9,6 @@
 #include "Files/ReadFile.h"
 #include "Files/StudyRows.h"
 #include "Files/TrialColumns.h"
-#include <cerrno>
 #include <limits>
 #include <map>
 #include <utility>
@@ -182,30 +181,25 @@ TrialLogFile::TrialLogFile(std::filesystem::path path, const Protocol& protocol,
 }
 
 void TrialLogFile::open(std::string_view version) {
-    std::error_code code;
-    std::size_t kept = 0;
-    if (std::filesystem::exists(path_, code)) {
-        const auto text = readFile(path_, limits::maxTableBytes);
-        auto log = text ? readTrialLog(text.value, path_.string(), protocol_, participant_) : Result<TrialLog>{Failure{text.error}};
-        if (!log) {
-            error_ = log.error;
-            return;
-        }
-        kept = log.value.wholeBytes;
-        records_ = std::move(log.value.records);
-        if (kept < text.value.size()) std::filesystem::resize_file(path_, kept, code);
-        if (code) return fail("cannot be written: " + code.message());
+    file_ = SystemFile::grow(path_);
+    if (!file_.isOpen()) return failToWrite();
+    if (file_.lock() == SystemFile::Lock::others) return fail("another program is writing it: the participant's study runs already");
+    const auto text = readFile(path_, limits::maxTableBytes);
+    auto log = text ? readTrialLog(text.value, path_.string(), protocol_, participant_) : Result<TrialLog>{Failure{text.error}};
+    if (!log) {
+        error_ = log.error;
+        return;
     }
-    file_.reset(std::fopen(path_.string().c_str(), "ab"));
-    if (!file_) return fail("cannot be written: " + std::generic_category().message(errno));
-    if (kept == 0) write(trialHeader(protocol_, participant_, version));
+    records_ = std::move(log.value.records);
+    const std::size_t kept = log.value.wholeBytes;
+    if (kept < text.value.size() && !file_.resize(static_cast<std::int64_t>(kept))) return failToWrite();
+    std::error_code ignored;
+    if (kept == 0 && !write(trialHeader(protocol_, participant_, version))) std::filesystem::remove(path_, ignored);
 }
 
 bool TrialLogFile::write(const std::string& text) {
-    if (!error_.empty()) return false;
-    if (std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() && std::fflush(file_.get()) == 0) return true;
-    fail("cannot be written: " + std::generic_category().message(errno));
-    return false;
+    if (error_.empty() && !file_.append(text)) failToWrite();
+    return error_.empty();
 }
 
 bool TrialLogFile::append(const TrialRecord& record) { return write(trialRow(protocol_, participant_, record)); }

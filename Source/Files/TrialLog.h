@@ -3,11 +3,10 @@
 #pragma once
 #include "Files/Provenance.h"
 #include "Files/Result.h"
+#include "Files/SystemFile.h"
 #include "Study/Trial.h"
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +33,8 @@ Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, cons
 /// A trial file that grows. M only.
 class TrialLogFile {
 public:
-    /// Opens the file, or makes it with its header. What was cut off at its end is dropped.
+    /// Opens the file, or makes it with its header. What was cut off at its end is dropped. It is locked: one program at a time
+    /// writes it.
     TrialLogFile(std::filesystem::path path, const Protocol& protocol, Participant participant, std::string_view version);
 
     /// Empty, or one line that says why the file cannot be used.
@@ -50,15 +50,13 @@ private:
     void open(std::string_view version);
     bool write(const std::string& text);
     void fail(const std::string& reason) { error_ = path_.string() + ": " + reason; }
+    void failToWrite() { fail("cannot be written: " + file_.reason()); }
 
-    struct Close {
-        void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-    };
     std::filesystem::path path_;
     const Protocol& protocol_;
     Participant participant_;
     std::vector<TrialRecord> records_;
-    std::unique_ptr<std::FILE, Close> file_;
+    SystemFile file_;
     std::string error_;
 };
 

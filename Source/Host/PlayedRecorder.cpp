@@ -11,7 +11,7 @@ void PlayedRecorder::drain() {
     });
 }
 
-std::string PlayedRecorder::finish() {
+const std::string& PlayedRecorder::finish() {
     drain();
     return wav_.finish();
 }

@@ -13,10 +13,13 @@ namespace physvib {
 class PlayedRecorder {
 public:
     /// Room for `seconds` until drain() is called. M.
-    PlayedRecorder(const std::string& path, int channels, int sampleRateHz, double seconds = 4.0)
+    PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds = 4.0)
         : sampleRateHz_{sampleRateHz}
         , wav_{path, channels, sampleRateHz}
         , tap_{channels, static_cast<int>(seconds * sampleRateHz)} {}
+
+    /// Empty, or one line with the reason. M.
+    const std::string& error() const noexcept { return wav_.error(); }
 
     int sampleRateHz() const noexcept { return sampleRateHz_; }
 
@@ -29,8 +32,8 @@ public:
     /// Writes what has come. M, often enough.
     void drain();
 
-    /// The last samples, the header, and the file is complete; empty or one line with the reason. M, after R stopped.
-    std::string finish();
+    /// The last samples, the header, and the file is in its place; empty or one line with the reason. M, after R stopped.
+    const std::string& finish();
 
     std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); } ///< of the session; -1: nothing yet
     std::int64_t frames() const noexcept { return written_; }                                       ///< in the file. M

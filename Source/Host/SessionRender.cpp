@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The events of takes and strikes merged, then the offline renderer into a file.
 #include "Host/SessionRender.h"
-#include "Files/AtomicFile.h"
 #include "Host/OfflineRender.h"
 #include "Host/SessionRecordings.h"
 #include "Host/WavSink.h"
@@ -23,9 +22,8 @@ std::string renderSession(const SavedSession& session, const std::string& path, 
     const auto loaded = loadRecordings(session.log);
     if (!loaded) return loaded.error;
     const SessionRecordings recordings{session.log, loaded.value, sampleRateHz};
-    AtomicFile file{path};
-    if (!file.error().empty()) return file.error();
-    WavSink wav{file.temporaryPath().string(), session.channels, sampleRateHz, comment, path};
+    WavSink wav{path, session.channels, sampleRateHz, comment};
+    if (!wav.error().empty()) return wav.error();
     if (!progress(0.0)) return "cancelled";
     const std::int64_t endNs = std::llround(seconds * 1e9);
     bool goesOn = true;
@@ -47,8 +45,7 @@ std::string renderSession(const SavedSession& session, const std::string& path, 
                       return wav.write(block, n) && (goesOn = progress(0.5 + 0.5 * static_cast<double>(done) / static_cast<double>(frames)));
                   });
     if (!goesOn) return "cancelled";
-    const auto error = wav.finish();
-    return error.empty() ? file.commit() : error;
+    return wav.finish();
 }
 
 } // namespace physvib

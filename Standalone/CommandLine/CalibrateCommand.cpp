@@ -57,16 +57,13 @@ ActuatorProfile profileOf(const CalibrateOptions& o, const MeasuredActuator& m) 
 
 int writeSweep(const CalibrateOptions& o) {
     const int rate = o.sampleRateHz > 0 ? o.sampleRateHz : 48000;
-    AtomicFile file(o.sweepPath);
-    if (!file.error().empty()) return leave(exitFailed, file.error());
-    WavSink wav(file.temporaryPath().string(), 1, rate, "physvib " PHYSVIB_VERSION " sweep", o.sweepPath);
+    WavSink wav(o.sweepPath, 1, rate, "physvib " PHYSVIB_VERSION " sweep");
     const auto samples = sweepOf(sweepSettings(o), rate);
     for (std::size_t at = 0; at < samples.size(); at += 4096) {
         const float* const from = samples.data() + at;
         wav.write(&from, static_cast<int>(std::min<std::size_t>(4096, samples.size() - at)));
     }
-    if (auto error = wav.finish(); !error.empty()) return leave(exitFailed, error);
-    if (const std::string& error = file.commit(); !error.empty()) return leave(exitFailed, error);
+    if (const std::string& error = wav.finish(); !error.empty()) return leave(exitFailed, error);
     std::cout << o.sweepPath << "  play it, record what the actuator does, and give both to physvib calibrate\n";
     return exitDone;
 }

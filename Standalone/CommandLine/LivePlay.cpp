@@ -4,7 +4,7 @@
 #include "CommandLine/BoardStatus.h"
 #include "CommandLine/InputListener.h"
 #include "Host/BoardOutput.h"
-#include "Host/Recording.h"
+#include "Host/PlayedRecorder.h"
 #include "Host/SessionJournal.h"
 #include "Host/SimulationDriver.h"
 #include <cmath>
@@ -119,14 +119,14 @@ std::string playLive(LivePlay wanted) {
     }
     const wire::Telemetry before = board ? board->status().telemetry : wire::Telemetry{};
     Session session{wanted.setup};
-    std::optional<WavRecording> recording; // outlives the output, whose callback fills it
+    std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
     AudioOutput output{session};
     if (auto error = output.open(wanted.output); !error.empty()) return error;
     if (!wanted.recordPath.empty()) {
         recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
         if (!recording->error().empty()) return recording->error();
-        output.record(&recording->recorder());
+        output.record(&*recording);
     }
     if (!wanted.savePath.empty()) {
         const Provenance provenance{PHYSVIB_VERSION, {{"scene", wanted.setup.scene.name}, {"session", wanted.savePath}}};
@@ -140,7 +140,7 @@ std::string playLive(LivePlay wanted) {
         const auto driver = makeDriver(wanted, session);
         std::optional<InputListener> listener;
         if (wanted.listens) listener.emplace(session, output);
-        Watch watch{session, output, board ? &*board : nullptr, recording ? &recording->recorder() : nullptr, journal ? &*journal : nullptr, wanted.seconds};
+        Watch watch{session, output, board ? &*board : nullptr, recording ? &*recording : nullptr, journal ? &*journal : nullptr, wanted.seconds};
         juce::MessageManager::getInstance()->runDispatchLoop();
         played = watch.played();
     }
@@ -149,7 +149,7 @@ std::string playLive(LivePlay wanted) {
     output.close();
     const std::string trouble = board ? reportBoard(*board, before) : "";
     if (journal && !journal->error().empty()) return journal->error();
-    if (recording && recording->recorder().framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recording->recorder().framesLost() << '\n';
+    if (recording && recording->framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
     const std::string error = recording ? recording->finish() : "";
     return error.empty() ? trouble : error;
 }

@@ -19,7 +19,11 @@ std::string open(std::optional<AtomicFile>& file, const std::string& path) {
     return file->error();
 }
 
-std::string commit(std::optional<AtomicFile>& file) { return file ? file->commit() : std::string{}; }
+std::string open(std::unique_ptr<WavSink>& wav, const std::string& path, int channels, int sampleRateHz, const std::string& provenance) {
+    if (path.empty()) return {};
+    wav = std::make_unique<WavSink>(path, channels, sampleRateHz, provenance);
+    return wav->error();
+}
 
 } // namespace
 
@@ -30,11 +34,11 @@ RenderOutputs::RenderOutputs(const RenderJob& job)
 
 std::string RenderOutputs::open() {
     const RenderOptions& o = job_.options;
-    for (const auto& [file, path] : {std::pair{&wavFile_, &o.wavPath}, {&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}, {&contactFile_, &o.contactSound}})
-        if (std::string error = physvib::open(*file, *path); !error.empty()) return error;
-    if (wavFile_) wav_ = std::make_unique<WavSink>(wavFile_->temporaryPath().string(), job_.channels(), o.sampleRateHz, provenanceText(), o.wavPath);
-    if (contactFile_) contactWav_ = std::make_unique<WavSink>(contactFile_->temporaryPath().string(), 1, o.sampleRateHz, provenanceText() + " heard=contact_sound", o.contactSound);
-    return {};
+    std::string error = physvib::open(wav_, o.wavPath, job_.channels(), o.sampleRateHz, provenanceText());
+    if (error.empty()) error = physvib::open(contactWav_, o.contactSound, 1, o.sampleRateHz, provenanceText() + " heard=contact_sound");
+    for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}})
+        if (error.empty()) error = physvib::open(*file, *path);
+    return error;
 }
 
 void RenderOutputs::begin() {
@@ -74,13 +78,15 @@ bool RenderOutputs::takeContactSound(const float* samples, int frames) {
 
 std::string RenderOutputs::finish() {
     std::string error;
-    if (wav_) error = wav_->finish();
-    if (error.empty() && contactWav_) error = contactWav_->finish();
+    for (auto* wav : {wav_.get(), contactWav_.get()})
+        if (error.empty() && wav) error = wav->complete();
     if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
-    for (auto* file : {&wavFile_, &eventsFile_, &pictureFile_, &patternFile_, &contactFile_})
-        if (error.empty()) error = commit(*file);
+    for (auto* wav : {wav_.get(), contactWav_.get()})
+        if (error.empty() && wav) error = wav->finish();
+    for (auto* file : {&eventsFile_, &pictureFile_, &patternFile_})
+        if (error.empty() && *file) error = (*file)->commit();
     return error;
 }
 
@@ -155,13 +161,13 @@ void RenderOutputs::showProgress() {
 void RenderOutputs::summarise(std::ostream& out) const {
     const RenderOptions& o = job_.options;
     out << std::fixed << std::setprecision(1);
-    if (wavFile_) {
+    if (wav_) {
         out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ") << job_.seconds() << " s at "
             << o.sampleRateHz << " Hz, " << peakWords(job_, whole_) << '\n';
     }
     if (eventsFile_) out << o.eventsPath << "  " << collisionWords(job_) << '\n';
     if (patternFile_) out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
-    if (contactFile_) out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale " << numberText(o.contactSoundDb) << " dBFS\n";
+    if (contactWav_) out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale " << numberText(o.contactSoundDb) << " dBFS\n";
     if (pictureFile_) out << o.picturePath << "  the world, every channel and every hit\n";
 }
 

@@ -46,7 +46,7 @@ private:
     bool writeWav(const float* const* channels, int frames);
 
     const RenderJob& job_;
-    std::optional<AtomicFile> wavFile_, eventsFile_, pictureFile_, patternFile_, contactFile_;
+    std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_;
     std::unique_ptr<WavSink> wav_, contactWav_;
     std::vector<std::vector<float>> scaled_; // for the interface's voltage
     std::vector<float> heard_;

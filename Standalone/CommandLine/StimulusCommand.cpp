@@ -8,12 +8,12 @@
 #include "Host/StimulusRender.h"
 #include "Host/WavSink.h"
 #include <CLI/CLI.hpp>
+#include <optional>
 
 namespace physvib {
 namespace {
 
-std::string wavBytes(const StimulusSound& sound, const std::string& temporary, const std::string& comment, const std::string& name) {
-    WavSink sink{temporary, static_cast<int>(sound.channels.size()), sound.sampleRateHz, comment, name};
+void writeWav(const StimulusSound& sound, WavSink& sink) {
     std::vector<const float*> at;
     for (const auto& channel : sound.channels) at.push_back(channel.data());
     const auto frames = static_cast<int>(sound.channels.front().size());
@@ -22,7 +22,6 @@ std::string wavBytes(const StimulusSound& sound, const std::string& temporary, c
         sink.write(at.data(), block);
         for (auto& channel : at) channel += block;
     }
-    return sink.finish();
 }
 
 std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescription& layout, const std::string& provenance) {
@@ -53,13 +52,13 @@ std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const 
 
 int write(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescription& layout) {
     const std::string provenance = provenanceLine({PHYSVIB_VERSION, {{"stimulus", made.title}, {"layout", o.layout}, {"level_g", numberText(o.levelG)}}});
+    std::optional<WavSink> wav;
     if (!o.wavPath.empty()) {
-        AtomicFile file{o.wavPath};
-        if (!file.error().empty()) return leave(exitFailed, file.error());
-        if (auto error = wavBytes(made.sound, file.temporaryPath().string(), provenance, o.wavPath); !error.empty()) return leave(exitFailed, error);
-        if (const auto& error = file.commit(); !error.empty()) return leave(exitFailed, error);
+        writeWav(made.sound, wav.emplace(o.wavPath, static_cast<int>(made.sound.channels.size()), made.sound.sampleRateHz, provenance));
+        if (const auto& error = wav->complete(); !error.empty()) return leave(exitFailed, error);
     }
     if (const int code = writeStudyFiles({{o.picturePath, [&] { return pictureOf(made, o, layout, provenance); }}}); code != exitDone) return code;
+    if (wav && !wav->finish().empty()) return leave(exitFailed, wav->error());
     std::cout << printable(made.title) << "  " << made.sound.channels.size() << (made.sound.channels.size() == 1 ? " channel, " : " channels, ")
               << fixedNumber(static_cast<double>(made.sound.channels.front().size()) / made.sound.sampleRateHz, 3) << " s\n";
     return exitDone;

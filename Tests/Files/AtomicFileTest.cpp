@@ -5,7 +5,6 @@
 #include "Files/ReadFile.h"
 #include <csignal>
 #include <fstream>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -21,27 +20,6 @@ void put(const fs::path& path, std::string_view bytes) {
 std::string contentOf(const fs::path& path) {
     return readFile(path, 1'000'000).value;
 }
-
-/// While it lives, no file may grow beyond `bytes`: a full disk without filling one.
-class FileSizeLimit {
-public:
-    explicit FileSizeLimit(rlim_t bytes)
-        : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit small{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &small);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
-private:
-    rlimit before_{};
-    void (*handler_)(int);
-};
 
 /// While it lives, the test is nobody if it was root (who may write everything), and `folder` is its own.
 class WithoutRoot {
@@ -73,7 +51,8 @@ TEST_F(AtomicFileTest, NothingAppearsBeforeCommit) {
     AtomicFile file(folder / "out.wav");
     ASSERT_EQ(file.error(), "");
     EXPECT_EQ(file.temporaryPath().parent_path(), folder);
-    put(file.temporaryPath(), "samples");
+    EXPECT_TRUE(file.writeAt(4, "les"));
+    EXPECT_TRUE(file.writeAt(0, "samp"));
     EXPECT_FALSE(fs::exists(folder / "out.wav"));
     EXPECT_EQ(file.commit(), "");
     EXPECT_EQ(contentOf(folder / "out.wav"), "samples");
@@ -84,21 +63,74 @@ TEST_F(AtomicFileTest, WithoutCommitTheOldFileStaysAndTheNewOneGoes) {
     put(folder / "out.wav", "old");
     {
         AtomicFile file(folder / "out.wav");
-        put(file.temporaryPath(), "half");
+        file.writeAt(0, "half");
         EXPECT_EQ(filesInFolder(), 2u);
     }
     EXPECT_EQ(contentOf(folder / "out.wav"), "old");
     EXPECT_EQ(filesInFolder(), 1u);
 }
 
-TEST_F(AtomicFileTest, TwoWritersOfOnePathDoNotShareATemporary) {
-    AtomicFile first(folder / "out.csv"), second(folder / "out.csv");
-    EXPECT_NE(first.temporaryPath(), second.temporaryPath());
-    put(first.temporaryPath(), "first");
-    put(second.temporaryPath(), "second");
+TEST_F(AtomicFileTest, OnePathHasOneWriterHoweverItIsSpelled) {
+    put(folder / "out.csv", "old");
+    fs::create_directory(folder / "sub");
+    fs::create_symlink("out.csv", folder / "link.csv");
+    AtomicFile first(folder / "out.csv");
+    for (const fs::path& path : {folder / "out.csv", folder / "sub" / ".." / "out.csv", folder / "link.csv"})
+        EXPECT_EQ(writeFile(path, "second"), path.string() + ": cannot be written: it is being written already, here or by another program");
+    first.write("first");
     EXPECT_EQ(first.commit(), "");
-    EXPECT_EQ(second.commit(), "");
-    EXPECT_EQ(contentOf(folder / "out.csv"), "second");
+    EXPECT_EQ(contentOf(folder / "out.csv"), "first");
+    EXPECT_EQ(writeFile(folder / "out.csv", "second"), "") << "and the next one may";
+    EXPECT_EQ(filesInFolder(), 3u);
+}
+
+TEST_F(AtomicFileTest, WhatAKilledProgramLeftBehindIsRemoved) {
+    const fs::path left = AtomicFile(folder / "out.csv").temporaryPath();
+    for (int i = 0; i < 3; ++i) { // or a thousand
+        put(left, "half");
+        ASSERT_EQ(writeFile(folder / "out.csv", "new"), "") << i;
+    }
+    EXPECT_EQ(contentOf(folder / "out.csv"), "new");
+    EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(AtomicFileTest, ALinkInTheWayLeadsNowhere) {
+    const fs::path left = AtomicFile(folder / "out.csv").temporaryPath();
+    put(folder / "victim", "mine");
+    fs::create_hard_link(folder / "victim", left);
+    EXPECT_EQ(writeFile(folder / "out.csv", "new"), "");
+    fs::create_symlink("victim", left);
+    EXPECT_TRUE(writeFile(folder / "out.csv", "newer").starts_with((folder / "out.csv").string() + ": cannot be written: another program is writing it, or left"));
+    EXPECT_EQ(contentOf(folder / "victim"), "mine");
+    EXPECT_EQ(contentOf(folder / "out.csv"), "new");
+}
+
+TEST_F(AtomicFileTest, ALinkPutInBetweenIsNotWrittenThrough) {
+    put(folder / "victim", "mine");
+    AtomicFile file(folder / "out.csv");
+    fs::remove(file.temporaryPath());
+    fs::create_symlink("victim", file.temporaryPath());
+    file.write("new");
+    EXPECT_EQ(file.commit(), (folder / "out.csv").string() + ": cannot be written: its temporary file was replaced by another");
+    EXPECT_EQ(contentOf(folder / "victim"), "mine");
+    EXPECT_FALSE(fs::exists(folder / "out.csv"));
+}
+
+/// Writes three files, puts one in its place, and is ended by a signal.
+void endWhileWriting(const fs::path& folder) {
+    std::signal(SIGTERM, [](int) {
+        removeAllOnEnd();
+        _exit(3);
+    });
+    AtomicFile first(folder / "a.csv"), second(folder / "b.csv"), third(folder / "done.csv");
+    third.write("new");
+    if (third.commit().empty()) std::raise(SIGTERM);
+}
+
+TEST_F(AtomicFileTest, ASignalThatEndsTheProgramRemovesWhatIsBeingWritten) {
+    put(folder / "done.csv", "old");
+    EXPECT_EXIT(endWhileWriting(folder), testing::ExitedWithCode(3), "");
+    EXPECT_EQ(contentOf(folder / "done.csv"), "new");
     EXPECT_EQ(filesInFolder(), 1u);
 }
 

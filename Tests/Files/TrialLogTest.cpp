@@ -111,6 +111,41 @@ TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
     EXPECT_EQ(readFile(path, 1'000'000).value, "my diary");
 }
 
+TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
+    const auto path = folder / "t.csv";
+    const Protocol p = findProtocol("magnitudes").value;
+    Experiment experiment{p, participant};
+    const SimulatedObserver observer{{}, p, participant};
+    {
+        TrialLogFile log{path, p, participant, "0"};
+        EXPECT_EQ((TrialLogFile{path, p, participant, "0"}.error()), path.string() + ": another program is writing it: the participant's study runs already");
+        EXPECT_TRUE(log.append(experiment.take(observer.answer(experiment))));
+    }
+    const TrialLogFile next{path, p, participant, "0"};
+    EXPECT_EQ(next.error(), "");
+    EXPECT_EQ(next.records().size(), 1u);
+}
+
+TEST_F(TrialLogFiles, AFullDiskLeavesWholeRows) {
+    const auto path = folder / "t.csv";
+    const Protocol p = findProtocol("magnitudes").value;
+    const std::string text = wholeFile(p);
+    for (const std::size_t bytes : {std::size_t{0}, std::size_t{10}, text.size() / 2, text.size() - 1}) {
+        std::filesystem::remove(path);
+        {
+            const FileSizeLimit full(bytes);
+            TrialLogFile log{path, p, participant, "0"};
+            Experiment experiment{p, participant};
+            const SimulatedObserver observer{{}, p, participant};
+            while (!experiment.isDone() && log.append(experiment.take(observer.answer(experiment)))) {}
+            EXPECT_EQ(log.error(), path.string() + ": cannot be written: File too large");
+        }
+        const std::string kept = readFile(path, 1'000'000).value;
+        EXPECT_EQ(kept, text.substr(0, bytes < 100 ? 0 : text.rfind('\n', bytes - 1) + 1));
+        EXPECT_EQ(std::filesystem::exists(path), !kept.empty());
+    }
+}
+
 TEST(TrialLog, AnalysesReadIt) {
     const auto trialsOf = [](const char* name) { return wholeFile(findProtocol(name).value); };
     const auto one = [](const std::string& text) { return NamedText{text, "t.csv"}; };

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// An open file of the system, with its lock: the one place of this room that asks for more than the standard library knows.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+/// A regular file that stays open, so that no other file can take its name's place unnoticed. The first error stays and refuses
+/// what follows. One thread at a time, not R.
+class SystemFile {
+public:
+    /// A new file; an error if there is anything of that name already, a link as well.
+    static SystemFile create(const std::filesystem::path& path);
+
+    /// What is there, to grow, or a new one. A link is followed; a pipe or a device is an error, and is not waited for.
+    static SystemFile grow(const std::filesystem::path& path);
+
+    /// What is there, only to lock it and to ask what it is; no link.
+    static SystemFile look(const std::filesystem::path& path);
+
+    SystemFile() = default;
+    SystemFile(SystemFile&& other) noexcept;
+    SystemFile& operator=(SystemFile&& other) noexcept;
+    ~SystemFile();
+
+    bool isOpen() const noexcept { return descriptor_ >= 0; }
+    /// The first error number, 0 if there was none; and in words.
+    int error() const noexcept { return error_; }
+    std::string reason() const;
+    /// What follows is tried again: a full disk may have room by now.
+    void forgetError() noexcept { error_ = isOpen() ? 0 : error_; }
+
+    enum class Lock { taken, others, none }; ///< none: the file system has no locks
+    /// Nobody else may lock it until it is closed, which any end of the program does.
+    Lock lock() noexcept;
+
+    /// All of `bytes` at their place, or false.
+    bool writeAt(std::int64_t position, std::string_view bytes) noexcept;
+
+    /// All of `bytes` at the end; or false, and the end is where it was.
+    bool append(std::string_view bytes) noexcept;
+
+    bool resize(std::int64_t bytes) noexcept;
+    std::int64_t size() noexcept; ///< 0 after an error
+
+    /// Whether it is the file of that name, itself or through nothing but folders.
+    bool isAt(const std::filesystem::path& path) const noexcept;
+
+    /// May be read and written by whom `path` may. Best effort: another owner's permissions cannot always be copied.
+    void takePermissionsOf(const std::filesystem::path& path) const noexcept;
+
+private:
+    friend class RemovedOnEnd;
+    SystemFile(const std::filesystem::path& path, int flags) noexcept;
+    bool note(bool isGood) noexcept;
+
+    int descriptor_ = -1;
+    int error_ = 0;
+};
+
+/// Removes a file if a signal ends the program (see removeAllOnEnd()); until this object goes. Any thread but R.
+class RemovedOnEnd {
+public:
+    RemovedOnEnd() = default;
+    /// `file`, which outlives this object, if it is still what has that name then.
+    RemovedOnEnd(const SystemFile& file, const std::filesystem::path& name);
+    RemovedOnEnd(RemovedOnEnd&& other) noexcept;
+    RemovedOnEnd& operator=(RemovedOnEnd&& other) noexcept;
+    ~RemovedOnEnd();
+
+private:
+    int slot_ = -1;
+};
+
+/// For the handler of a signal that ends the program: allocates, locks and waits for nothing.
+void removeAllOnEnd() noexcept;
+
+} // namespace physvib
