@@ -68,10 +68,8 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
         limiter_.setCeiling(control.channel, control.value);
     }
     if (control.kind == Kind::recordings) player_.setContacts(control.recordings);
-    if (control.kind == Kind::stopAll) {
-        bank_.fadeAll(position_);
-        player_.fadeAll(position_);
-    }
+    if (control.kind == Kind::stopAll) bank_.fadeAll(position_);
+    if (control.kind == Kind::recordings || control.kind == Kind::stopAll) player_.fadeAll(position_);
 }
 
 template <class P>

@@ -68,8 +68,8 @@ public:
     void prepare(const RendererSettings& settings) noexcept;
 
     /// From now on events play these recordings instead of modes; none: modes. Events without one are rejected, or, with
-    /// `othersAreModes`, play their mode. Both the list and its samples, at this rate, outlive the renderer or the next
-    /// call. prepare and moveTo forget them. M, not while rendering.
+    /// `othersAreModes`, play their mode. Both the list and its samples, at this rate, outlive the renderer. prepare and moveTo
+    /// forget them. M, not while rendering.
     void setContacts(std::span<const RecordedContact> contacts, bool othersAreModes = false) noexcept {
         player_.setContacts(contacts); // as a control can
         othersAreModes_ = othersAreModes;

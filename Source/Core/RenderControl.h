@@ -17,7 +17,7 @@ struct RenderControl {
         stopAll, ///< whatever rings fades out; later events are played
         delay,   ///< of `channel`: `value` seconds, 0 to limits::maxChannelDelaySeconds
         ceiling,  ///< of `channel`: largest sample while the limiter is on, `value` > 0
-        recordings ///< from now on `recordings` are played instead of modes; what they sound stops
+        recordings ///< from now on `recordings` are played instead of modes; recordings that sound fade out
     };
     std::int64_t timeNs = 0;
     Kind kind = Kind::stopAll;

@@ -23,11 +23,8 @@ public:
         voiceCount_ = 0;
     }
 
-    /// What sounds stops. M, not while rendering, or R.
-    void setContacts(std::span<const RecordedContact> contacts) noexcept {
-        contacts_ = contacts;
-        voiceCount_ = 0;
-    }
+    /// Of later strikes; what sounds, sounds on. M, not while rendering, or R.
+    void setContacts(std::span<const RecordedContact> contacts) noexcept { contacts_ = contacts; }
 
     bool isOn() const noexcept { return !contacts_.empty(); }
     bool has(double frequencyHz) const noexcept { return std::ranges::find(contacts_, frequencyHz, &RecordedContact::frequencyHz) != contacts_.end(); }

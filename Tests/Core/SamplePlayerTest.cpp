@@ -111,5 +111,36 @@ TEST(SamplePlayer, StopFadesItWithoutAStep) {
     EXPECT_EQ(player.voices(), 0);
 }
 
+TEST(SamplePlayer, RecordingsThatAreExchangedFadeWithoutAStep) {
+    const std::vector<float> ones(48000, 1.0f);
+    const RecordedContact constant[] = {{349.0, ones}};
+    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    renderer->prepare(square());
+    renderer->setContacts(constant);
+    RenderControl exchange;
+    exchange.timeNs = 10'000'000;
+    exchange.kind = RenderControl::Kind::recordings;
+    exchange.recordings = contacts;
+    struct Source : test::ListSource {
+        std::vector<RenderControl> controls;
+        using ListSource::pop;
+        bool pop(RenderControl& control) {
+            if (controls.empty()) return false;
+            control = controls.back();
+            controls.pop_back();
+            return true;
+        }
+    } source{{{hit(0, 1.0, 0, 1)}}, {exchange}};
+    const int latency = renderer->latencyFrames();
+    test::Channels all(4, std::vector<float>(2000));
+    std::vector<float*> at;
+    for (auto& channel : all) at.push_back(channel.data());
+    renderer->render(source, at.data(), 2000);
+    const auto& out = all[0];
+    EXPECT_EQ(out[static_cast<std::size_t>(latency + 479)], 1.0f);
+    EXPECT_EQ(out[static_cast<std::size_t>(latency + 960)], 0.0f);
+    for (std::size_t n = static_cast<std::size_t>(latency) + 1; n < 2000; ++n) ASSERT_LE(std::abs(out[n] - out[n - 1]), 0.0022f) << n;
+}
+
 } // namespace
 } // namespace physvib
