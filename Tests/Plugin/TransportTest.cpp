@@ -33,8 +33,8 @@ TEST(Transport, AHostThatTellsChangesOnlyGoesOnAsBefore) {
     EXPECT_EQ(t.follow({}, {}, 64), Change::none);
     EXPECT_EQ(t.follow(true, 140, 64), Change::none) << "a change of tempo within the block";
     EXPECT_EQ(t.follow({}, {}, 64), Change::none);
-    EXPECT_EQ(t.follow(true, 320, 64), Change::started) << "a jump, after what was not told";
-    EXPECT_EQ(t.follow(false, 384, 64), Change::stopped);
+    EXPECT_EQ(t.follow(true, 420, 64), Change::started) << "a jump, after what was not told";
+    EXPECT_EQ(t.follow(false, 484, 64), Change::stopped);
     EXPECT_EQ(t.follow({}, {}, 64), Change::none);
 }
 
@@ -43,6 +43,41 @@ TEST(Transport, AStartThatIsTheFirstThingToldIsAStart) {
     EXPECT_EQ(t.follow({}, {}, 64), Change::started) << "perhaps a host without a transport";
     EXPECT_EQ(t.follow(true, 0, 64), Change::started);
     EXPECT_EQ(t.follow({}, {}, 64), Change::none);
+}
+
+/// Starts in ten minutes of blocks at the places that `place(block)` gives.
+template <class Place>
+int startsIn(int blocks, Place place, int frames = 512) {
+    Transport t;
+    int starts = 0;
+    for (int b = 0; b < blocks; ++b) starts += t.follow(true, static_cast<std::int64_t>(place(b)), frames) == Change::started ? 1 : 0;
+    return starts;
+}
+constexpr int tenMinutes = 56'250; // blocks of 512 at 48 kHz
+
+TEST(Transport, ImperfectOnesMakeNoStarts) {
+    EXPECT_EQ(startsIn(tenMinutes, [](int b) { return 512.0 * b - (b == 100 ? 1 : 0); }), 1) << "a frame backwards";
+    for (const double speed : {0.5, 0.9, 0.99, 1.0001, 1.01, 1.5, 2.0}) EXPECT_EQ(startsIn(tenMinutes, [=](int b) { return speed * 512 * b; }), 1) << speed;
+    for (const double speed : {0.5, 1.0, 2.0}) {
+        Random random{4};
+        EXPECT_EQ(startsIn(tenMinutes, [&](int b) { return speed * 512 * b + random.below(512); }), 1) << "jitter of a block, at " << speed;
+    }
+    const auto tape = [](int b) { return 512.0 * (b + 100 * std::sin(0.005 * b)); }; // half to one and a half times the speed, and back
+    EXPECT_EQ(startsIn(tenMinutes, tape), 1);
+}
+
+TEST(Transport, AHandThatScrubsIsOneStartAndAnotherWhenItLetsGo) {
+    const auto hand = [](int b) { return b < 100 || b >= 200 ? 512.0 * b : 512.0 * (100 - 5 * (b - 100)); };
+    EXPECT_EQ(startsIn(300, hand), 1 + 2);
+    const auto shuttle = [](int b) { return b < 100 ? 512.0 * b : 512.0 * 8 * b; };
+    EXPECT_EQ(startsIn(1000, shuttle), 1 + 1) << "eight times the speed, for ever";
+}
+
+TEST(Transport, ALoopStartsEveryTime) {
+    for (const int frames : {64, 512, 4096}) {
+        const int length = 10; // blocks
+        EXPECT_EQ(startsIn(10 * length, [=](int b) { return static_cast<double>(frames) * (b % length); }, frames), 10) << frames;
+    }
 }
 
 PluginState restarting() {
