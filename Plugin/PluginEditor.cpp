@@ -130,7 +130,10 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
     const int rate = plugin_.preparedRateHz(), enchanters = enchantersOf(state_);
     if (rate == 0 || plugin_.takes().playOutFrames() == 0) return "The host has not started the plug-in yet.";
     const auto& r = status.session.render;
-    juce::String line = "felt " + juce::String{1e3 * static_cast<double>(plugin_.takes().playOutFrames()) / rate, 1} + " ms after the contact (told to the host)";
+    const auto ms = [rate](std::int64_t frames) { return juce::String{1e3 * static_cast<double>(frames) / rate, 1} + " ms"; };
+    juce::String line = "felt " + ms(plugin_.takes().playOutFrames()) + " after the contact (told to the host)";
+    if (status.burstFrames > 0) line << ", " << ms(status.burstFrames) << " of it as the host asks ahead of time";
+    if (status.waitedFrames > 0) line << ": it came during this run, which is not the bounce before that";
     if (meters.connected < enchanters) line << "   |   " << meters.connected << " of " << enchanters << " connected";
     line << "   |   take " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)} << " played, "
          << juce::String{static_cast<juce::int64>(status.late)} << " late, " << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";

@@ -33,6 +33,7 @@ public:
 
     /// One picture of what is going on; the timer calls it, at most 25 times a second.
     void refresh();
+    juce::String statusText() const { return status_.getText(); }
 
 private:
     void timerCallback() override { refresh(); }

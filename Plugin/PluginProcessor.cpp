@@ -26,6 +26,8 @@ juce::String readable(std::string text) {
     return juce::String::fromUTF8(text.data(), static_cast<int>(text.size()));
 }
 
+bool isRate(int hz) { return hz >= limits::minSampleRateHz && hz <= limits::maxSampleRateHz; }
+
 int programOf(const Scene& scene) {
     const auto& scenes = builtInScenes();
     const auto found = std::ranges::find(scenes, scene.name, &Scene::name);
@@ -57,18 +59,16 @@ PluginProcessor::~PluginProcessor() {
 
 bool PluginProcessor::apply(PluginState state) {
     try {
-        takes_.set(sessionSetupOf(state));
+        takes_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}});
     } catch (const std::invalid_argument& error) {
         return refuse(readable(error.what()));
     }
-    takes_.setQuickStarts(state.transport == TransportMode::restartOnPlay);
     tailSeconds_ = longestRingSeconds(state);
     {
         const std::lock_guard lock{mutex_};
         trouble_.clear();
         refused_.reset();
         state_ = std::move(state);
-        renderSettings_.write({state_.transport, state_.layout.geometry, MidiTable{state_}});
     }
     ++stateCount_;
     publish();
@@ -94,8 +94,11 @@ PluginState PluginProcessor::state() const {
 }
 
 juce::String PluginProcessor::trouble() const {
+    const auto fault = takes_.fault();
+    if (const int rate = preparedRateHz(); rate > 0 && !isRate(rate))
+        return "the host runs at " + juce::String{rate} + " Hz; expected " + juce::String{limits::minSampleRateHz} + " to " + juce::String{limits::maxSampleRateHz} + ": silent";
     const std::lock_guard lock{mutex_};
-    return trouble_;
+    return trouble_.isNotEmpty() ? trouble_ : readable(fault);
 }
 
 bool PluginProcessor::keepsRefused() const {
@@ -119,8 +122,9 @@ void PluginProcessor::publish() {
 
 void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     sampleRateHz_ = sampleRateHz;
+    const int rate = juce::roundToInt(sampleRateHz);
+    if (!isRate(rate)) return releaseResources(); // silent, and trouble() says so
     blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, blockFrames);
-    const int rate = juce::jlimit(limits::minSampleRateHz, limits::maxSampleRateHz, juce::roundToInt(sampleRateHz));
     outputs_ = BusMap{*this};
     open_.prepare(rate, limits::channelRampSeconds, value(Parameter::bypass) > 0.5 ? 0.0f : 1.0f);
     transport_.reset();
@@ -138,6 +142,7 @@ void PluginProcessor::releaseResources() {
 
 void PluginProcessor::timerCallback() {
     for (auto* p : parameters_) p->tellHost();
+    publish(); // L may have grown
 }
 
 juce::AudioProcessorEditor* PluginProcessor::createEditor() { return new PluginEditor{*this}; }

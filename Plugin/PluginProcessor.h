@@ -96,13 +96,6 @@ private:
     std::atomic<double> sampleRateHz_{0.0};
     std::atomic<double> tailSeconds_{0.0};
 
-    /// What R needs to know of the state.
-    struct RenderSettings {
-        TransportMode transport = TransportMode::free;
-        EnchanterLayout layout;
-        MidiTable midi;
-    };
-    LatestValue<RenderSettings> renderSettings_;
     LatestValue<ChannelMeters> meters_;
     Takes takes_;
     BusMap outputs_;

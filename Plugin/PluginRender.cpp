@@ -61,7 +61,7 @@ void PluginProcessor::followTransport(int frames) noexcept {
             if (const auto samples = position->getTimeInSamples()) at = *samples;
         }
     const auto change = transport_.follow(plays, at, frames);
-    const bool restarts = renderSettings_.read().transport == TransportMode::restartOnPlay;
+    const bool restarts = takes_.lookForNew() == TransportMode::restartOnPlay;
     if (restarts && change == Transport::Change::started) takes_.start();
     else if (restarts && !transport_.isPlaying()) takes_.stop();
     else if (!takes_.isPlaying()) takes_.start();
@@ -96,14 +96,13 @@ void PluginProcessor::sendControls(int frame) noexcept {
     if (gravityChanged || tiltChanged) sendHold(*session, frame);
     if (hasChanged(Parameter::material)) {
         RenderInput input;
-        input.group = renderSettings_.read().midi.groupOfMaterial(juce::roundToInt(value(Parameter::material)));
+        input.group = takes_.settings().midi.groupOfMaterial(juce::roundToInt(value(Parameter::material)));
         if (input.group >= 0) session->perform(input, frame);
     }
 }
 
 void PluginProcessor::sendPanner(Session& session, int frame) noexcept {
-    const auto& settings = renderSettings_.read();
-    if (settings.layout.count != session.channels()) return; // a new take is on its way
+    const auto& settings = takes_.settings();
     const auto law = static_cast<PanningLaw>(juce::roundToInt(value(Parameter::law)));
     auto control = controlOf(RenderControl::Kind::panner);
     control.panner = {settings.layout, law, value(Parameter::exponent), settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres()};
@@ -126,8 +125,8 @@ void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int fram
 
 void PluginProcessor::strike(int channel, int note, int velocity, int frame) noexcept {
     Session* const session = takes_.session();
-    const auto& midi = renderSettings_.read().midi;
     if (!session) return;
+    const auto& midi = takes_.settings().midi;
     if (RenderInput input; (input.group = midi.groupOf(note)) >= 0) {
         input.scale = velocity / 127.0;
         session->perform(input, frame);
@@ -148,7 +147,7 @@ void PluginProcessor::control(int channel, int controller, int value, int frame)
         if (Session* const session = takes_.session()) session->control(controlOf(RenderControl::Kind::stopAll), frame);
         return;
     }
-    const int which = renderSettings_.read().midi.parameterOf(controller);
+    const int which = takes_.settings().midi.parameterOf(controller);
     if (which < 0) return;
     parameters_[static_cast<std::size_t>(which)]->setByController(static_cast<float>(value) / 127.0f);
     sendControls(frame);

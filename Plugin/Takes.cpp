@@ -1,53 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Starting, ending and recycling takes.
+// Making, stepping and freeing takes: all but the render role's part.
 #include "Takes.h"
 #include "Physics/InputCheck.h"
 #include "Physics/SceneValidation.h"
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 namespace physvib {
-
-Take::Take(const SessionSetup& setup, std::uint64_t ofGeneration, int sampleRateHz, int blockFrames)
-    : session{setup}
-    , generation{ofGeneration}
-    , sampleRateHz_{sampleRateHz}
-    , blockFrames_{blockFrames} {
-    out.assign(static_cast<std::size_t>(session.channels()), std::vector<float>(static_cast<std::size_t>(blockFrames)));
-    for (auto& channel : out) at_.push_back(channel.data());
-    rewind();
-}
-
-void Take::rewind() {
-    session.prepare(sampleRateHz_, blockFrames_);
-    session.advance(); // its time begins with the first block
-    fade_.prepare(sampleRateHz_, limits::channelRampSeconds, 1.0f);
-    owed_ = -1;
-    over_ = false;
-    number = 0;
-    isEnded = false;
-}
-
-void Take::end() noexcept {
-    if (owed_ < 0) owed_ = session.playOutFrames();
-}
-
-void Take::render(int frames, RenderMode mode) noexcept {
-    session.render(at_.data(), frames, mode);
-    if (owed_ < 0) return;
-    const int kept = static_cast<int>(std::min<std::int64_t>(owed_, frames));
-    owed_ -= kept;
-    if (kept == frames) return;
-    std::array<float*, limits::maxEnchanters> rest{};
-    for (std::size_t j = 0; j < at_.size(); ++j) rest[j] = at_[j] + kept;
-    fade_.moveTo(0.0f);
-    fade_.apply(rest.data(), session.channels(), frames - kept);
-    over_ = fade_.isResting();
-}
-
-// Any thread but R
 
 namespace {
 
@@ -60,77 +22,92 @@ void checkGroups(const SessionSetup& setup) {
     }
 }
 
+bool startsQuickly(const TakeOrder& order) noexcept { return order.settings.transport == TransportMode::restartOnPlay; }
+
 } // namespace
 
-void Takes::set(SessionSetup setup) {
+void Takes::set(SessionSetup setup, const TakeSettings& settings) {
     setup.longestGapSeconds = TakePace::longestGapSeconds(setup.stepsPerSecond);
     checkGroups(setup);
     const std::lock_guard one{setMutex_};
+    const auto before = order();
+    const auto wanted = std::make_shared<const TakeOrder>(TakeOrder{std::move(setup), settings, before ? before->generation + 1 : 1});
     for (;;) { // a take is built without the mutex, so that the worlds that play are stepped meanwhile
-        auto [rate, block, generation] = present();
+        std::unique_lock lock{mutex_};
+        const int rate = sampleRateHz_, block = blockFrames_;
+        lock.unlock();
         std::unique_ptr<Take> take;
-        if (block > 0) take = std::make_unique<Take>(setup, generation + 1, rate, block);
-        else Simulation{setup.scene, setup.seed, setup.stepsPerSecond}; // throws if it cannot be simulated
-        const std::lock_guard lock{mutex_};
+        if (block > 0) take = std::make_unique<Take>(wanted, rate, block, leadFrames_);
+        else Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond}; // throws if it cannot be simulated
+        lock.lock();
         if (rate != sampleRateHz_ || block != blockFrames_) continue; // the host has prepared us meanwhile
-        setup_ = std::move(setup);
-        if (take) exchange(std::move(take));
-        return;
+        return exchange(wanted, std::move(take));
     }
 }
 
-std::tuple<int, int, std::uint64_t> Takes::present() {
+std::shared_ptr<const TakeOrder> Takes::order() const {
     const std::lock_guard lock{mutex_};
-    return {sampleRateHz_, blockFrames_, generation_};
+    return order_;
 }
 
 // The mutex is held.
-void Takes::exchange(std::unique_ptr<Take> take) {
-    generation_ = take->generation;
-    ticksPerSecond_ = TakePace::ticksPerSecond(setup_->stepsPerSecond);
+void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take) {
+    order_ = std::move(order);
+    fault_.clear();
+    canMake_ = true;
+    if (!take) return;
+    ticksPerSecond_ = TakePace::ticksPerSecond(order_->setup.stepsPerSecond);
     playOutFrames_ = take->session.playOutFrames();
     takes_.push_back(std::move(take));
     Take* const unused = spare_.exchange(takes_.back().get(), std::memory_order_acq_rel);
     if (unused) unused->isEnded = true;
-    renew_.store(true, std::memory_order_release);
+    newest_.store(order_->generation, std::memory_order_release);
 }
 
 void Takes::prepare(int sampleRateHz, int blockFrames) {
     release();
-    const std::lock_guard lock{mutex_};
-    if (!setup_) return;
+    std::unique_lock lock{mutex_};
+    if (!order_) return;
     sampleRateHz_ = sampleRateHz;
     blockFrames_ = blockFrames;
-    ticksPerSecond_ = TakePace::ticksPerSecond(setup_->stepsPerSecond);
+    leadFrames_ = std::max<std::int64_t>(blockFrames, std::llround(leadSeconds_ * sampleRateHz));
     started_ = 0;
     delayedBlocks_ = lateBefore_ = 0;
-    slippedBefore_ = 0;
+    slippedBefore_ = waitedFrames_ = 0;
     startWanted_ = false;
-    renew_ = false;
     status_.write({});
-    spare_ = &add();
-    playOutFrames_ = takes_.back()->session.playOutFrames();
+    tickedNs_ = nowNs();
+    exchange(order_, std::make_unique<Take>(order_, sampleRateHz, blockFrames, leadFrames_));
     stop_ = false;
-    thread_ = std::thread{[this] { run(); }};
+    if (handNs_) return;
+    stepper_ = std::thread{[this] { step(); }};
+    builder_ = std::thread{[this] { build(); }};
 }
 
 void Takes::release() {
-    stop_ = true;
-    if (thread_.joinable()) thread_.join();
+    {
+        const std::lock_guard lock{mutex_}; // or the builder would sleep through it
+        stop_ = true;
+    }
+    workToDo_.notify_all();
+    if (stepper_.joinable()) stepper_.join();
+    if (builder_.joinable()) builder_.join();
     const std::lock_guard lock{mutex_};
     for (auto& take : takes_) drain(*take);
-    playing_ = ending_ = nullptr;
+    playing_ = next_ = nullptr;
+    endingCount_ = 0;
     spare_ = nullptr;
+    hasNext_ = false;
     takes_.clear();
     sampleRateHz_ = blockFrames_ = 0;
 }
 
-Take& Takes::add() {
-    takes_.push_back(std::make_unique<Take>(*setup_, generation_, sampleRateHz_, blockFrames_));
-    return *takes_.back();
+std::int64_t Takes::nowNs() const noexcept {
+    using namespace std::chrono;
+    return handNs_ ? handNs_->load() : duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
 }
 
-void Takes::run() {
+void Takes::step() {
     using Clock = std::chrono::steady_clock;
     for (auto deadline = Clock::now(); !stop_;) {
         const std::chrono::nanoseconds period{1'000'000'000 / ticksPerSecond_};
@@ -142,27 +119,103 @@ void Takes::run() {
 }
 
 void Takes::tick() {
-    const std::lock_guard lock{mutex_};
+    std::unique_lock lock{mutex_};
     for (auto& take : takes_) {
         if (take->isEnded.load(std::memory_order_acquire)) continue;
-        take->session.advance();
+        stepWorld(*take);
         drain(*take);
     }
-    makeReady();
+    tickedNs_.store(nowNs(), std::memory_order_release);
+    if (!isWorkToDo()) return;
+    if (handNs_) return tryToMakeReady(lock);
+    lock.unlock();
+    workToDo_.notify_one();
 }
 
-// Ended takes of the present setup become the spare, others go; without one, a new one is made if starts must be quick.
-void Takes::makeReady() {
-    const auto isOver = [this](auto& take) {
-        if (!take->isEnded.load(std::memory_order_acquire)) return false;
+// Out of memory, at worst: the host plays on.
+void Takes::stepWorld(Take& take) {
+    if (take.isStill) return;
+    try {
+        take.session.advance();
+    } catch (const std::exception& error) {
+        take.isStill = true;
+        fault_ = std::string{"the world stands still: "} + error.what();
+    }
+}
+
+void Takes::build() {
+    std::unique_lock lock{mutex_};
+    for (;;) {
+        workToDo_.wait(lock, [this] { return stop_ || isWorkToDo(); });
+        if (stop_) return;
+        tryToMakeReady(lock);
+    }
+}
+
+void Takes::tryToMakeReady(std::unique_lock<std::mutex>& lock) noexcept {
+    try {
+        makeReady(lock);
+    } catch (const std::exception& error) {
+        if (!lock.owns_lock()) lock.lock();
+        canMake_ = false;
+        fault_ = std::string{"no take could be made: "} + error.what();
+    }
+}
+
+// The mutex is held, but not while a take is made or freed.
+void Takes::makeReady(std::unique_lock<std::mutex>& lock) {
+    const auto order = order_;
+    const bool isNeeded = isTakeNeeded();
+    auto ended = takeOut();
+    lock.unlock();
+    auto ready = isNeeded ? makeOf(ended, order) : nullptr;
+    ended.clear();
+    lock.lock();
+    if (!ready) return;
+    takes_.push_back(std::move(ready));
+    Take* const made = takes_.back().get();
+    Take* none = nullptr;
+    if (made->generation() != order_->generation || !spare_.compare_exchange_strong(none, made, std::memory_order_acq_rel)) made->isEnded = true;
+}
+
+std::unique_ptr<Take> Takes::makeOf(std::vector<std::unique_ptr<Take>>& ended, std::shared_ptr<const TakeOrder> order) {
+    const auto found = std::ranges::find_if(ended, [&](const auto& take) { return take->generation() == order->generation && !take->isStill; });
+    if (found == ended.end()) {
+        ++made_;
+        return std::make_unique<Take>(std::move(order), sampleRateHz_, blockFrames_, leadFrames_);
+    }
+    (*found)->rewind(leadFrames_);
+    return std::move(*found);
+}
+
+bool Takes::isLeftOver(const Take& take) const {
+    return take.isEnded.load(std::memory_order_acquire) && (take.generation() != order_->generation || !startsQuickly(*order_) || takes_.size() > kept);
+}
+
+// One more is worth its memory if none is ready; else what is ending will do.
+bool Takes::isTakeNeeded() const {
+    if (!startsQuickly(*order_) || spare_.load() != nullptr || !canMake_) return false;
+    const bool hasEnded = std::ranges::any_of(takes_, [](const auto& take) { return take->isEnded.load(std::memory_order_acquire); });
+    return hasEnded || !hasNext_ || takes_.size() < kept;
+}
+
+bool Takes::isWorkToDo() const {
+    return isTakeNeeded() || std::ranges::any_of(takes_, [this](const auto& take) { return isLeftOver(*take); });
+}
+
+// Those left over, and if one is needed, one that has ended. The mutex is held.
+std::vector<std::unique_ptr<Take>> Takes::takeOut() {
+    std::vector<std::unique_ptr<Take>> out;
+    bool isNeeded = isTakeNeeded();
+    for (auto& take : takes_) {
+        const bool isNext = isNeeded && take->isEnded && take->generation() == order_->generation;
+        if (!isNext && !isLeftOver(*take)) continue;
+        isNeeded = isNeeded && !isNext;
         drain(*take);
-        if (take->generation != generation_ || !quickStarts_ || spare_.load() != nullptr) return true;
-        take->rewind();
-        spare_.store(take.get(), std::memory_order_release);
-        return false;
-    };
-    std::erase_if(takes_, isOver);
-    if (quickStarts_ && spare_.load() == nullptr && takes_.size() < 3) spare_.store(&add(), std::memory_order_release);
+        out.push_back(std::move(take));
+    }
+    std::erase(takes_, nullptr);
+    return out;
 }
 
 void Takes::drain(Take& take) {
@@ -178,6 +231,11 @@ std::vector<TakeEvent> Takes::takeLog() {
     return std::exchange(log_, {});
 }
 
+std::string Takes::fault() const {
+    const std::lock_guard lock{mutex_};
+    return fault_;
+}
+
 std::int64_t Takes::poses(std::vector<BodyPose>& now) {
     const std::lock_guard lock{mutex_};
     const Take* newest = nullptr;
@@ -185,65 +243,6 @@ std::int64_t Takes::poses(std::vector<BodyPose>& now) {
         if (!take->isEnded && take->number > 0 && (!newest || take->number > newest->number)) newest = take.get();
     now.clear();
     return newest ? newest->session.readPoses(now) : 0;
-}
-
-// R
-
-bool Takes::begin(RenderMode mode) noexcept {
-    if (ending_ && ending_->isOver()) letGo(ending_);
-    if (renew_.exchange(false, std::memory_order_acq_rel) && playing_) startWanted_ = true;
-    if (!startWanted_) return false;
-    Take* const next = takeSpare(mode);
-    if (!next) {
-        ++delayedBlocks_;
-        return false;
-    }
-    stop();
-    playing_ = next;
-    next->number = ++started_;
-    return true;
-}
-
-Take* Takes::takeSpare(RenderMode mode) noexcept {
-    Take* const ready = spare_.exchange(nullptr, std::memory_order_acq_rel);
-    if (ready || mode == RenderMode::realtime) return ready;
-    const std::lock_guard lock{mutex_};
-    makeReady();
-    Take* const next = spare_.exchange(nullptr);
-    return next ? next : &add();
-}
-
-void Takes::stop() noexcept {
-    startWanted_ = false;
-    if (!playing_) return;
-    letGo(ending_);
-    lateBefore_ += playing_->session.status().render.late;
-    slippedBefore_ += playing_->session.slippedNs();
-    ending_ = playing_;
-    ending_->end();
-    playing_ = nullptr;
-}
-
-void Takes::letGo(Take*& take) noexcept {
-    if (take) take->isEnded.store(true, std::memory_order_release);
-    take = nullptr;
-}
-
-void Takes::render(int frames, RenderMode mode) noexcept {
-    if (playing_) {
-        playing_->render(frames, mode);
-        const auto& now = playing_->session.status();
-        status_.write({now, playing_->number, lateBefore_ + now.render.late, slippedBefore_ + playing_->session.slippedNs(), delayedBlocks_});
-    }
-    if (ending_ && !ending_->isOver()) ending_->render(frames, mode);
-}
-
-void Takes::addTo(float* out, int channel, int frames) const noexcept {
-    for (const Take* take : {static_cast<const Take*>(playing_), static_cast<const Take*>(ending_)}) {
-        if (channel >= channelsOf(take)) continue;
-        const float* const in = take->out[static_cast<std::size_t>(channel)].data();
-        std::transform(in, in + frames, out, out, [](float a, float b) { return a + b; });
-    }
 }
 
 } // namespace physvib

@@ -2,21 +2,24 @@
 // Takes: runs of a session from its seed on, one after the other, started and ended at exact frames by the render role.
 //
 // Each take is a session of its own that begins at session time 0, so that takes with equal inputs are equal to the
-// bit. The take that is replaced plays on for L frames - what happened before is owed to the host, which shifts our
-// output by L - and fades then. One thread per instance drives the worlds, and makes ended takes ready for use again.
+// bit. Those that are replaced play on for L frames - what happened before is owed to the host, which shifts our
+// output by L - and fade then. Two threads per instance: one steps the worlds and does nothing else; the other makes takes
+// ready, of ended ones where it can, and frees what is left over, beside it.
 //
-// Who owns what: `takes_` is under `mutex_` (the thread and M; R only in non-realtime blocks). R holds a pointer to the
-// playing and to the ending take; it gets one by taking `spare_`, and gives it up by `isEnded`, one atomic store.
+// Who owns what: `takes_` is under `mutex_` (the threads and M; R only in non-realtime blocks). R holds pointers to the
+// playing take, to the next one and to those that are ending; it gets one by taking `spare_`, and gives it up by
+// `isEnded`, one atomic store. A take that is being made or freed is in nobody's list, so no mutex is held meanwhile.
+//
+// Hosts in bursts. L covers what the host asks for at once: one block. If it asks for more - twenty blocks in a row, half
+// a second ahead, a block larger than announced - the world cannot be there, since it never goes beyond session time. R
+// sees that (Session::framesMissing) and, if the steady clock says that the thread has been in time, lets L grow until the
+// world is there. The host is told, and later takes begin with it.
 #pragma once
-#include "Core/GainRamp.h"
-#include "Host/Session.h"
-#include <atomic>
-#include <memory>
+#include "Take.h"
+#include <condition_variable>
 #include <mutex>
-#include <optional>
+#include <string>
 #include <thread>
-#include <tuple>
-#include <vector>
 
 namespace physvib {
 
@@ -24,6 +27,8 @@ namespace physvib {
 struct TakePace {
     static constexpr int leastTicksPerSecond = 200; // 5 ms: a quarter of the two steps that are in L anyway
     static constexpr double headroomSeconds = 0.005; // a DAW's own threads come before ours (measured: Docs/plugin.md)
+    static constexpr double growthSeconds = 0.02; // L grows in steps: hosts stop and start to take it out again
+    static constexpr double mostLeadSeconds = 1.0; // twice of what hosts are known to render ahead
     static int ticksPerSecond(int stepsPerSecond) noexcept { return stepsPerSecond > leastTicksPerSecond ? std::min(stepsPerSecond, 1000) : leastTicksPerSecond; }
     static double longestGapSeconds(int stepsPerSecond) noexcept { return 1.0 / ticksPerSecond(stepsPerSecond) + headroomSeconds; }
 };
@@ -34,35 +39,6 @@ struct TakeEvent {
     PlayedEvent played;
 };
 
-/// One run of a session.
-class Take {
-public:
-    Take(const SessionSetup& setup, std::uint64_t generation, int sampleRateHz, int blockFrames);
-
-    /// From its seed again. The thread or M, while nobody renders it.
-    void rewind();
-
-    /// The next frames of every channel of the session. R.
-    void render(int frames, RenderMode mode) noexcept;
-
-    /// Plays what is owed and fades then. R.
-    void end() noexcept;
-    bool isOver() const noexcept { return over_; } ///< R
-
-    Session session;
-    const std::uint64_t generation;
-    std::atomic<int> number{0};       ///< set by R when it starts
-    std::atomic<bool> isEnded{false}; ///< R lets go of it
-    std::vector<std::vector<float>> out;
-
-private:
-    int sampleRateHz_, blockFrames_;
-    std::vector<float*> at_;
-    std::int64_t owed_ = -1; // frames until it fades; -1: it is not ending
-    GainRamp fade_;
-    bool over_ = false;
-};
-
 /// Counts and figures for people.
 struct TakesStatus {
     SessionStatus session; ///< of the playing take
@@ -70,6 +46,8 @@ struct TakesStatus {
     std::uint64_t late = 0;          ///< events played after their time, in all takes
     std::int64_t slippedNs = 0;      ///< stalls of the worlds of all takes
     std::uint64_t delayedBlocks = 0; ///< blocks that a start had to wait for a take to be ready
+    std::int64_t burstFrames = 0;    ///< part of L: what the host asks for at once beyond a block
+    std::int64_t waitedFrames = 0;   ///< by which L has grown while something was played: since then all comes later
 };
 
 class Takes {
@@ -77,32 +55,37 @@ public:
     Takes() = default;
     ~Takes() { release(); }
 
+    /// For tests, before prepare: no threads; `tick` does what they do, and it is `nowNs`.
+    void driveByHand(const std::atomic<std::int64_t>& nowNs) noexcept { handNs_ = &nowNs; }
+    void tick(); ///< steps the worlds
+
     /// What later takes play. While prepared, the playing take is replaced as soon as R comes by. Any thread but R;
     /// throws std::invalid_argument, and changes nothing, if the setup is not valid.
-    void set(SessionSetup setup);
+    void set(SessionSetup setup, const TakeSettings& settings);
 
     /// A fresh take stands ready; nothing plays yet. Any thread but R, while nobody renders.
     void prepare(int sampleRateHz, int blockFrames);
     void release();
 
-    /// Keeps a second take ready, so that a start is never late. Any thread.
-    void setQuickStarts(bool on) noexcept { quickStarts_ = on; }
-
-    /// L of the present setup; 0 before prepare. Any thread.
+    /// L of the present setup and host; 0 before prepare. Any thread.
     std::int64_t playOutFrames() const noexcept { return playOutFrames_; }
+
+    /// At the beginning of a block, first: lets new settings in. How they follow the transport. R, wait-free.
+    TransportMode lookForNew() noexcept;
 
     /// The next `begin` ends the playing take, if there is one, and starts another at its seed. R.
     void start() noexcept { startWanted_ = true; }
-    /// Ends the playing take. R.
+    /// Ends the playing take; not yet if too many are ending. R.
     void stop() noexcept;
     bool isPlaying() const noexcept { return playing_ != nullptr; } ///< R
     Session* session() noexcept { return playing_ ? &playing_->session : nullptr; } ///< R: the playing take's
+    const TakeSettings& settings() const noexcept { return playing_ ? playing_->settings() : newSettings_; } ///< R: the playing take's; none: the newest
 
-    /// Before each block; true if a take starts with it, which knows no controls yet. R, wait-free if realtime.
+    /// Before each part of a block; true if a take starts with it, which knows no controls yet. R, wait-free if realtime.
     bool begin(RenderMode mode) noexcept;
-    /// Renders at most the prepared block; `enchanter(j)` is then valid. R, wait-free if realtime.
+    /// Renders at most the prepared block; `addTo` is then valid. R, wait-free if realtime.
     void render(int frames, RenderMode mode) noexcept;
-    int channels() const noexcept { return std::max(channelsOf(playing_), channelsOf(ending_)); } ///< R
+    int channels() const noexcept; ///< R
     /// Adds the samples of channel j to out[0..frames). R.
     void addTo(float* out, int channel, int frames) const noexcept;
 
@@ -112,44 +95,68 @@ public:
     std::int64_t poses(std::vector<BodyPose>& now);
     std::uint64_t lostFromLog() const noexcept { return lost_; }
     TakesStatus status() noexcept { return status_.read(); } ///< one reader
+    std::string fault() const; ///< why no take can be made, or a world stands still; empty while all is well. Any thread but R
+    std::uint64_t made() const noexcept { return made_; } ///< takes that were built, not made of ended ones. Any thread
 
 private:
     static constexpr std::size_t logSize = 16384; // ten minutes of "shake the box", if nobody looks
-    static int channelsOf(const Take* take) noexcept { return take ? take->session.channels() : 0; }
-    std::tuple<int, int, std::uint64_t> present();
-    void exchange(std::unique_ptr<Take> take);
-    void run();
-    void tick();
+    static constexpr std::size_t kept = 3;        // one plays, one is next, one is ending or spare
+    static constexpr std::size_t mostEnding = 8;  // loops as short as an eighth of L
+    std::shared_ptr<const TakeOrder> order() const;
+    void exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take);
+    void step();
+    void build();
+    void stepWorld(Take& take);
     void drain(Take& take);
-    void makeReady();
-    Take* takeSpare(RenderMode mode) noexcept;
-    void letGo(Take*& take) noexcept;
-    Take& add();
+    bool isLeftOver(const Take& take) const;
+    bool isTakeNeeded() const;
+    bool isWorkToDo() const;
+    std::vector<std::unique_ptr<Take>> takeOut();
+    std::unique_ptr<Take> makeOf(std::vector<std::unique_ptr<Take>>& ended, std::shared_ptr<const TakeOrder> order);
+    void makeReady(std::unique_lock<std::mutex>& lock);
+    void tryToMakeReady(std::unique_lock<std::mutex>& lock) noexcept;
+    std::int64_t nowNs() const noexcept;
 
-    std::mutex setMutex_; // one `set` at a time; taken first
-    std::mutex mutex_;    // guards what follows, up to the atomics
-    std::optional<SessionSetup> setup_;
+    // R
+    template <class Do>
+    void forEachSounding(Do what) const noexcept;
+    void letGo(Take*& take) noexcept;
+    void letGoOfThoseOver() noexcept;
+    void coverBurst(int frames) noexcept;
+    void tell() noexcept;
+
+    std::mutex setMutex_;      // one `set` at a time; taken first
+    mutable std::mutex mutex_; // guards what follows, up to the atomics
+    std::shared_ptr<const TakeOrder> order_;
     std::vector<std::unique_ptr<Take>> takes_;
     std::vector<TakeEvent> log_;
-    std::uint64_t generation_ = 0;
-    int sampleRateHz_ = 0, blockFrames_ = 0; // 0: not prepared
+    std::string fault_;
+    bool canMake_ = true; // until it fails, then from the next settings on
+    int sampleRateHz_ = 0, blockFrames_ = 0; // 0: not prepared; they change while nobody renders
+    std::condition_variable workToDo_;
 
     std::atomic<Take*> spare_{nullptr};
-    std::atomic<bool> renew_{false}, quickStarts_{false}, stop_{false};
-    std::atomic<std::int64_t> playOutFrames_{0};
-    std::atomic<std::uint64_t> lost_{0};
+    std::atomic<std::uint64_t> newest_{0}; // generation of the last settings, once they are in spare_
+    std::atomic<bool> hasNext_{false}, stop_{false};
+    std::atomic<std::int64_t> playOutFrames_{0}, leadFrames_{0}, tickedNs_{0};
+    std::atomic<double> leadSeconds_{0.0}; // what the host was seen to ask for at once, also before prepare
+    std::atomic<std::uint64_t> lost_{0}, made_{0};
     std::atomic<int> ticksPerSecond_{TakePace::leastTicksPerSecond};
     LatestValue<TakesStatus> status_;
+    const std::atomic<std::int64_t>* handNs_ = nullptr;
 
     // R
     Take* playing_ = nullptr;
-    Take* ending_ = nullptr;
+    Take* next_ = nullptr;
+    std::array<Take*, mostEnding> ending_{}; // the oldest first
+    std::size_t endingCount_ = 0;
+    TakeSettings newSettings_;
     bool startWanted_ = false;
     int started_ = 0;
     std::uint64_t delayedBlocks_ = 0, lateBefore_ = 0;
-    std::int64_t slippedBefore_ = 0;
+    std::int64_t slippedBefore_ = 0, waitedFrames_ = 0;
 
-    std::thread thread_;
+    std::thread stepper_, builder_;
 };
 
 } // namespace physvib

@@ -72,6 +72,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     world_.forget();
     made_.clear();
     handed_ = 0;
+    steppedNs_ = 0;
     for (CollisionEvent unplayed; queue_.pop(unplayed) || ownStrikes_.pop(unplayed);) {}
     for (RenderInput undone; ownInputs_.pop(undone);) {}
     ownSpawns_ = 0;
@@ -91,6 +92,8 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
 void Session::setLaw(int sampleRateHz, int maxBlockFrames) {
     law_ = {sampleRateHz, maxBlockFrames, setup_.stepsPerSecond, setup_.longestGapSeconds,
             HapticRenderer<DesktopProfile>::latencyFramesAt(sampleRateHz), setup_.boardSeconds};
+    playOutFrames_ = law_.playOutFrames();
+    grownFrames_ = 0;
 }
 
 void Session::resume(int sampleRateHz, int maxBlockFrames) {
@@ -148,7 +151,7 @@ int Session::advance() {
 
 int Session::catchUp() {
     const std::int64_t now = nowNs();
-    if (const std::int64_t lag = now - world_.timeNs(); lag > law_.longestLagNs()) {
+    if (const std::int64_t lag = now - world_.timeNs(); lag > longestLagNs()) {
         slippedNs_ += lag - law_.safeLagNs();
         world_.standStill(lag - law_.safeLagNs());
     }
@@ -190,6 +193,7 @@ bool Session::handOver() {
     if (handed_ < made_.size()) return false;
     made_.clear();
     handed_ = 0;
+    steppedNs_.store(world_.timeNs(), std::memory_order_release);
     return true;
 }
 
@@ -200,6 +204,26 @@ std::int64_t Session::sessionNs(std::int64_t frames) const noexcept {
 std::int64_t Session::nextFeltNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_relaxed) - playOutFrames()); }
 
 std::int64_t Session::nowNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_acquire)); }
+
+// A microsecond less than D lets pass: frames in whole nanoseconds do not add up to the last one.
+std::int64_t Session::framesMissing(int frames) const noexcept {
+    const std::int64_t lagNs = sessionNs(sessionFrames_.load(std::memory_order_relaxed) + frames) - steppedNs_.load(std::memory_order_acquire);
+    const std::int64_t missingNs = lagNs - longestLagNs() + 1000;
+    const FrameClock clock{law_.sampleRateHz};
+    return missingNs > 0 ? clock.at(missingNs).frame : -clock.at(-missingNs).frame + 1;
+}
+
+void Session::lengthen(std::int64_t frames) noexcept {
+    playOutFrames_.fetch_add(frames, std::memory_order_relaxed);
+    grownFrames_.fetch_add(frames, std::memory_order_release);
+}
+
+// L first: D, which reads both the other way round, must not take a gap for a stall.
+void Session::wait(int frames) noexcept {
+    offline_.store(false, std::memory_order_release);
+    lengthen(frames);
+    sessionFrames_.fetch_add(frames, std::memory_order_release);
+}
 
 void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     if (mode == RenderMode::realtime) offline_.store(false, std::memory_order_release);

@@ -28,7 +28,8 @@
 //
 // Stalls. If D comes later than L allows for, it catches up only as far as all events are still in time; the rest is
 // given up: the world has stood still for that long (`slippedNs`, logged), instead of a burst of late hits. An event
-// that arrives after its time all the same is played at once and counted by the renderer.
+// that arrives after its time all the same is played at once and counted by the renderer. If D is in time and R is not - a
+// host that asks for much at once - R may wait for the world instead (framesMissing, wait): L grows, nothing is given up.
 #pragma once
 #include "Core/HapticRenderer.h"
 #include "Core/LatestValue.h"
@@ -66,7 +67,7 @@ public:
     void resume(int sampleRateHz, int maxBlockFrames);
 
     /// L. Any thread after prepare.
-    std::int64_t playOutFrames() const noexcept { return law_.playOutFrames(); }
+    std::int64_t playOutFrames() const noexcept { return playOutFrames_.load(std::memory_order_relaxed); }
 
     int channels() const noexcept { return setup_.channels; }
 
@@ -85,6 +86,20 @@ public:
     /// Writes out[channel][0..frames), and the contact sound's channel behind them if there is one. R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;
 
+    /// How many frames L is too short for the next `frames` to be in time, as far as the world has been stepped; 0 or less: it
+    /// has as many to spare. R, wait-free.
+    std::int64_t framesMissing(int frames) const noexcept;
+
+    /// Instead of render: session time goes on by `frames`, and nothing of it is lost, since L grows by as much. What to play
+    /// meanwhile is the caller's. R, wait-free.
+    void wait(int frames) noexcept;
+
+    /// L is that much longer from the start. R or M, after prepare and before the first block.
+    void lengthen(std::int64_t frames) noexcept;
+
+    /// By how much L has grown since prepare. Any thread.
+    std::int64_t framesGrown() const noexcept { return grownFrames_.load(std::memory_order_acquire); }
+
     /// Acts in the world at session time: it is felt L later, and logged. Empty, or what is wrong with it (see
     /// InputCheck), and nothing is done. Any thread but R.
     std::string act(Action action);
@@ -94,7 +109,7 @@ public:
     /// queue is full. Any thread but R.
     std::int64_t post(RenderControl control);
 
-    /// From session time on, events play these recordings instead of modes; none: modes. What recordings sound stops. Felt
+    /// From session time on, events play these recordings instead of modes; none: modes. Recordings that sound fade out. Felt
     /// and logged as a control; the time it was given, -1 if the queue is full. M.
     std::int64_t useRecordings(std::vector<ContactRecording> recordings);
 
@@ -170,12 +185,14 @@ private:
     void moveWorld(std::int64_t untilNs);
     bool handOver();
     std::int64_t nowNs() const noexcept;
+    std::int64_t longestLagNs() const noexcept { return law_.longestLagNs() + sessionNs(framesGrown()); }
     std::int64_t sessionNs(std::int64_t frames) const noexcept;
     void renderBehind(float* const* out, std::int64_t done, int frames, RenderMode mode) noexcept;
     void renderOwnWorld(float* const* out, int frames, std::int64_t endNs);
 
     SessionSetup setup_;
     ClockLaw law_;
+    std::atomic<std::int64_t> playOutFrames_{0}, grownFrames_{0}; // L, and what of it R has added to the law's
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
     struct RecordingSet {
         std::vector<ContactRecording> recordings;
@@ -192,6 +209,7 @@ private:
     OwnInputs ownInputs_;
     const std::unique_ptr<ToldEvents> told_;
     std::atomic<std::int64_t> sessionFrames_{0};
+    std::atomic<std::int64_t> steppedNs_{0};     // session time of the world up to which all is in the queue
     std::atomic<std::int64_t> restartFrame_{-1}; // -1: not wanted
     std::atomic<bool> offline_{false};
     std::atomic<bool> isDriven_{false}; // somebody has begun to step the world

@@ -72,6 +72,23 @@ TEST(PluginProcessor, AnyRateAndAnyBlockIsFiniteAndWithinFullScale) {
         }
 }
 
+TEST(PluginProcessor, ARateThatCannotBeRenderedIsSaidAndSilent) {
+    TestHost host;
+    host.prepare(48000, 512);
+    for (const double rate : {384000.0, 192001.0, 4000.0}) {
+        host.prepare(rate, 512);
+        Samples signal;
+        host.play(static_cast<std::int64_t>(rate), signal);
+        EXPECT_EQ(peakOf(signal), 0.0f) << rate;
+        EXPECT_TRUE(host.plugin->trouble().startsWith("the host runs at " + juce::String{static_cast<int>(rate)} + " Hz; expected 5000 to 192000")) << host.plugin->trouble();
+    }
+    host.prepare(48000, 512);
+    EXPECT_EQ(host.plugin->trouble(), "");
+    Samples signal;
+    host.play(2 * 48000, signal);
+    EXPECT_GT(peakOf(signal), 0.01f);
+}
+
 TEST(PluginProcessor, ABlockLargerThanAnnouncedIsRenderedInParts) {
     TestHost host;
     host.prepare(48000, 128);

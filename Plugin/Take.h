@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One run of a session from its seed on, with the settings it was made for, until it has played what is owed.
+#pragma once
+#include "Core/GainRamp.h"
+#include "Host/Session.h"
+#include "TakeSettings.h"
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace physvib {
+
+/// What takes are made of; the next settings have the next number.
+struct TakeOrder {
+    SessionSetup setup;
+    TakeSettings settings;
+    std::uint64_t generation = 0;
+};
+
+class Take {
+public:
+    /// `leadFrames`: as many as L covers at once, a block at least. Any thread but R.
+    Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames);
+
+    /// From its seed again. Any thread but R, while nobody renders or steps it.
+    void rewind(std::int64_t leadFrames);
+
+    const TakeSettings& settings() const noexcept { return order_->settings; }
+    std::uint64_t generation() const noexcept { return order_->generation; }
+
+    /// Frames that L covers at once. R.
+    std::int64_t leadFrames() const noexcept { return leadFrames_ + session.framesGrown(); }
+
+    /// The next frames of every channel of the session, at most a block. While L covers less than `leadFrames`, it grows: the
+    /// session goes on and nothing of it is played; what was to be felt comes so much later. R.
+    void render(int frames, std::int64_t leadFrames, RenderMode mode) noexcept;
+
+    /// Plays what is owed and fades then. R.
+    void end() noexcept;
+    bool isOver() const noexcept { return over_; } ///< R
+
+    Session session;
+    std::atomic<int> number{0};       ///< set by R when it starts
+    std::atomic<bool> isEnded{false}; ///< R lets go of it
+    bool isStill = false;             ///< its world could not go on; whoever steps it
+    std::vector<std::vector<float>> out;
+
+private:
+    std::array<float*, limits::maxEnchanters> from(int frame) noexcept;
+    void standStill(int frames) noexcept;
+    void play(int first, int frames, RenderMode mode) noexcept;
+    void fade(int first, int frames) noexcept;
+
+    std::shared_ptr<const TakeOrder> order_;
+    int sampleRateHz_;
+    std::int64_t leadFrames_ = 0; // of prepare
+    std::int64_t owed_ = -1;      // frames until it fades; -1: it is not ending
+    GainRamp fade_, gap_;         // gap_ is shut while L grows
+    std::array<float, limits::maxEnchanters> last_{};
+    bool over_ = false;
+};
+
+} // namespace physvib

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What takes owe each other: nothing is cut, settings travel inside, ended ones are used again, none is made in the way of others.
+#include "PluginTesting.h"
+#include <atomic>
+#include <cstdlib>
+#include <future>
+#include <new>
+
+namespace {
+
+std::atomic<void (*)()> beforeLarge{nullptr}; // is called before memory for a renderer is taken
+
+} // namespace
+
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    if (auto* const call = beforeLarge.load(); call && size > 10'000'000) call();
+    const auto grain = static_cast<std::size_t>(alignment);
+    void* const memory = std::aligned_alloc(grain, (size + grain - 1) / grain * grain);
+    return memory ? memory : throw std::bad_alloc{};
+}
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+PluginState onPlay() {
+    auto state = newPluginState();
+    state.transport = TransportMode::restartOnPlay;
+    state.limiterEnabled = false;
+    return state;
+}
+
+TEST(Takes, WhatIsOwedIsPlayedHoweverManyJumpsFollow) {
+    constexpr int block = 64, before = 300 * block;
+    for (const int apart : {2, 3, 10}) { // blocks between jumps; L is 24
+        TestHost host;
+        ASSERT_TRUE(host.plugin->apply(onPlay()));
+        host.prepare(48000, block);
+        const int latency = host.plugin->getLatencySamples();
+        Samples straight, jumping;
+        host.playHead.isThere = host.playHead.isPlaying = true;
+        const auto playStruck = [&](Samples& signal) { // shortly before the first jump
+            host.play(before - 5 * block, signal);
+            juce::MidiBuffer midi;
+            midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
+            host.block(block, midi);
+            for (std::size_t c = 0; c < signal.size(); ++c) signal[c].insert(signal[c].end(), host.buffer.getReadPointer(static_cast<int>(c)), host.buffer.getReadPointer(static_cast<int>(c)) + block);
+            host.play(4 * block, signal);
+        };
+        playStruck(straight);
+        host.play(before, straight);
+        host.prepare(48000, block);
+        host.playHead.frame = 0;
+        playStruck(jumping);
+        for (int jump = 1; jump < 5; ++jump) {
+            host.playHead.frame = 1'000'000 * jump;
+            host.play(apart * block, jumping);
+        }
+        host.play(before, jumping);
+        float owed = 0.0f;
+        for (std::size_t c = 0; c < straight.size(); ++c)
+            for (int n = latency; n < before + latency; ++n) {
+                const auto at = static_cast<std::size_t>(n);
+                ASSERT_EQ(jumping[c][at], straight[c][at]) << apart << ", frame " << n;
+                if (n > before) owed = std::max(owed, std::abs(straight[c][at]));
+            }
+        EXPECT_GT(owed, 0.01f);
+        EXPECT_EQ(host.plugin->takes().status().take, 5);
+        EXPECT_EQ(host.plugin->takes().status().delayedBlocks, 0u);
+    }
+}
+
+TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
+    auto two = strikeAt(0, 2), four = strikeAt(0, 4);
+    two.notes[0].material = 1;
+    const auto frequencyOf = [](const PluginState& s) { return s.scene.materials[static_cast<std::size_t>(s.notes[0].material)].frequencyHz; };
+    ASSERT_NE(frequencyOf(two), frequencyOf(four));
+    TestHost host;
+    ASSERT_TRUE(host.plugin->apply(two));
+    host.prepare(48000, 64);
+    std::atomic<bool> isDone{false};
+    std::thread message{[&] {
+        for (int i = 0; i < 60; ++i) host.plugin->apply(i % 2 ? two : four);
+        isDone = true;
+    }};
+    std::vector<int> channels{0}; // of each take
+    while (!isDone) {
+        juce::MidiBuffer midi;
+        midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
+        host.block(64, midi);
+        if (host.plugin->takes().status().take == static_cast<int>(channels.size())) channels.push_back(host.plugin->takes().session()->channels());
+    }
+    message.join();
+    EXPECT_GT(channels.size(), 10u);
+    host.plugin->releaseResources();
+    int others = 0;
+    for (const auto& e : host.plugin->takes().takeLog()) others += e.played.event.frequencyHz != frequencyOf(channels[static_cast<std::size_t>(e.take)] == 2 ? two : four);
+    EXPECT_EQ(others, 0) << "struck by another take's notes";
+}
+
+TEST(Takes, ALoopUsesThoseThatHaveEnded) {
+    std::atomic<std::int64_t> nowNs{0};
+    TestHost host;
+    ASSERT_TRUE(host.plugin->apply(onPlay()));
+    host.plugin->takes().driveByHand(nowNs);
+    host.prepare(48000, 480, false);
+    host.playHead.isThere = host.playHead.isPlaying = true;
+    for (int b = 0; b < 600; ++b) {
+        if (b % 30 == 0) host.playHead.frame = 0;
+        host.block(480);
+        for (int t = 0; t < 2; ++t) {
+            nowNs += 5'000'000;
+            host.plugin->takes().tick();
+        }
+    }
+    EXPECT_EQ(host.plugin->takes().status().take, 20);
+    EXPECT_EQ(host.plugin->takes().status().delayedBlocks, 0u);
+    EXPECT_EQ(host.plugin->takes().status().slippedNs, 0);
+    EXPECT_EQ(host.plugin->takes().made(), 2u) << "one to be next, one to be spare";
+}
+
+// The next one is made as long as this lasts: until the test lets it, or two seconds have passed.
+std::promise<void>* letMake = nullptr;
+std::atomic<bool> isMaking{false}, hasWaitedInVain{false};
+
+TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
+    TestHost host;
+    ASSERT_TRUE(host.plugin->apply(onPlay()));
+    host.prepare(48000, 480, false);
+    host.playHead.isThere = host.playHead.isPlaying = true;
+    std::promise<void> let;
+    letMake = &let;
+    isMaking = hasWaitedInVain = false;
+    beforeLarge = [] {
+        beforeLarge = nullptr;
+        auto may = letMake->get_future();
+        isMaking = true;
+        hasWaitedInVain = may.wait_for(std::chrono::seconds{2}) != std::future_status::ready;
+    };
+    while (!isMaking) {
+        host.block(480);
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    }
+    std::vector<BodyPose> poses;
+    const auto before = host.plugin->takes().poses(poses);
+    for (int b = 0; b < 4; ++b) host.block(480);
+    for (int i = 0; i < 100 && host.plugin->takes().poses(poses) == before; ++i) std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    EXPECT_GT(host.plugin->takes().poses(poses), before);
+    let.set_value();
+    host.plugin->releaseResources();
+    EXPECT_FALSE(hasWaitedInVain) << "the world stood still for as long as the other was made";
+}
+
+TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {
+    TestHost host;
+    ASSERT_TRUE(host.plugin->apply(onPlay()));
+    beforeLarge = nullptr;
+    host.prepare(48000, 480, false);
+    beforeLarge = [] { throw std::bad_alloc{}; };
+    host.playHead.isThere = host.playHead.isPlaying = true;
+    for (int b = 0; b < 1000 && host.plugin->trouble().isEmpty(); ++b) {
+        host.block(480);
+        std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    }
+    beforeLarge = nullptr;
+    EXPECT_TRUE(host.plugin->trouble().startsWith("no take could be made: ")) << host.plugin->trouble();
+    EXPECT_TRUE(host.plugin->apply(onPlay()));
+    EXPECT_EQ(host.plugin->trouble(), "");
+    for (int b = 0; b < 10; ++b) host.block(480);
+    EXPECT_EQ(host.plugin->takes().status().take, 2);
+}
+
+} // namespace
+} // namespace physvib
