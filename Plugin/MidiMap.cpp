@@ -73,8 +73,6 @@ std::vector<std::vector<Action>> actionGroups(const PluginState& state) {
     return groups;
 }
 
-std::vector<ControllerRule> defaultControllers() { return {{1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}}; }
-
 MidiTable::MidiTable(const PluginState& state)
     : width_{state.scene.fieldWidthMetres}
     , height_{state.scene.fieldHeightMetres} {

@@ -12,9 +12,6 @@ namespace physvib {
 /// each material for all that is felt, then each note rule.
 std::vector<std::vector<Action>> actionGroups(const PluginState& state);
 
-/// What a new instance's controllers do.
-std::vector<ControllerRule> defaultControllers();
-
 /// The rules of a state made ready for the render role: a table, no search. Built on M, read by R.
 class MidiTable {
 public:

@@ -10,14 +10,6 @@ namespace physvib {
 
 namespace {
 
-std::string firstUnknown(const PluginState& state) {
-    for (const auto& [id, value] : state.parameters)
-        if (parameterOfId(id) < 0) return id;
-    for (const auto& rule : state.controllers)
-        if (parameterOfId(rule.parameter) < 0) return rule.parameter;
-    return {};
-}
-
 /// A message may quote bytes of a broken chunk, and JUCE writes beyond its memory where a text is no UTF-8.
 juce::String readable(std::string text) {
     if (!juce::CharPointer_UTF8::isValidString(text.data(), static_cast<int>(text.size())))
@@ -28,6 +20,7 @@ juce::String readable(std::string text) {
 
 bool isRate(int hz) { return hz >= limits::minSampleRateHz && hz <= limits::maxSampleRateHz; }
 
+// The built-in scene of that name, which may have been another when a session was saved; one's own are shown as the first.
 int programOf(const Scene& scene) {
     const auto& scenes = builtInScenes();
     const auto found = std::ranges::find(scenes, scene.name, &Scene::name);
@@ -63,7 +56,8 @@ bool PluginProcessor::apply(PluginState state) {
     } catch (const std::invalid_argument& error) {
         return refuse(readable(error.what()));
     }
-    tailSeconds_ = longestRingSeconds(state);
+    tailSeconds_ = tailSeconds(state);
+    program_ = programOf(state.scene);
     {
         const std::lock_guard lock{mutex_};
         trouble_.clear();
@@ -76,7 +70,8 @@ bool PluginProcessor::apply(PluginState state) {
 }
 
 void PluginProcessor::edit(PluginState state) {
-    if (apply(std::move(state))) updateHostDisplay(ChangeDetails{}.withNonParameterStateChanged(true));
+    const int before = program_;
+    if (apply(std::move(state))) updateHostDisplay(ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(program_ != before));
 }
 
 bool PluginProcessor::refuse(const juce::String& why) {
@@ -89,7 +84,7 @@ PluginState PluginProcessor::state() const {
     const std::lock_guard lock{mutex_};
     PluginState now = state_;
     now.parameters.clear();
-    for (const auto* p : parameters_) now.parameters.emplace_back(p->row().id, p->value());
+    for (const auto* p : parameters_) now.parameters.emplace_back(p->row().id, stateValue(p->row(), p->value()));
     return now;
 }
 
@@ -151,10 +146,12 @@ juce::AudioProcessorEditor* PluginProcessor::createEditor() { return new PluginE
 int PluginProcessor::getNumPrograms() { return static_cast<int>(builtInScenes().size()); }
 
 void PluginProcessor::setCurrentProgram(int index) {
-    if (index < 0 || index >= getNumPrograms() || index == program_) return;
+    if (index < 0 || index >= getNumPrograms()) return;
     auto changed = state();
-    changed.scene = builtInScenes()[static_cast<std::size_t>(index)];
-    if (apply(std::move(changed))) program_ = index;
+    const auto& scene = builtInScenes()[static_cast<std::size_t>(index)];
+    if (changed.scene == scene) return; // hosts repeat themselves, and the world would start anew
+    changed.scene = scene;
+    apply(std::move(changed));
 }
 
 const juce::String PluginProcessor::getProgramName(int index) {
@@ -184,10 +181,9 @@ void PluginProcessor::setStateInformation(const void* data, int size) {
 bool PluginProcessor::takeChunk(std::string_view text) {
     const auto read = readPluginState(text, "state");
     if (!read) return refuse(readable(read.error));
-    if (const auto unknown = firstUnknown(read.value); !unknown.empty()) return refuse(readable("state: no parameter \"" + unknown + "\""));
+    if (const auto fault = faultOfParameters(read.value); !fault.empty()) return refuse(readable("state: " + fault));
     if (!apply(read.value)) return false;
     takeParameters(read.value);
-    program_ = programOf(read.value.scene);
     return true;
 }
 
@@ -198,7 +194,7 @@ void PluginProcessor::takeParameters(const PluginState& state) {
     for (std::size_t i = 0; i < parameterCount; ++i) normals[i] = parameters_[i]->getDefaultValue();
     for (const auto& [id, value] : state.parameters) {
         const auto which = static_cast<std::size_t>(parameterOfId(id));
-        normals[which] = static_cast<float>(normalised(parameters_[which]->row(), value));
+        normals[which] = static_cast<float>(normalised(parameters_[which]->row(), *valueOfState(parameters_[which]->row(), value)));
     }
     for (std::size_t i = 0; i < parameterCount; ++i)
         if (parameters_[i]->getValue() != normals[i]) parameters_[i]->setValueNotifyingHost(normals[i]);

@@ -41,7 +41,10 @@ public:
     void processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
     using juce::AudioProcessor::processBlock;
     using juce::AudioProcessor::processBlockBypassed;
-    juce::AudioProcessorParameter* getBypassParameter() const override { return parameters_.back(); }
+    /// None for LV2: its wrapper writes `lv2:enabled` over it in every block, and tells the host so from the render call.
+    juce::AudioProcessorParameter* getBypassParameter() const override {
+        return wrapperType == wrapperType_LV2 ? nullptr : parameters_[static_cast<std::size_t>(Parameter::bypass)];
+    }
     double getTailLengthSeconds() const override { return tailSeconds_; }
     bool acceptsMidi() const override { return true; }
     bool producesMidi() const override { return false; }

@@ -8,7 +8,7 @@ namespace physvib {
 namespace {
 
 constexpr int slideController = 74; // MPE's third dimension
-constexpr int allSoundOff = 120, allNotesOff = 123;
+constexpr int allSoundOff = 120;    // All Notes Off does nothing: what notes strike rings out by itself, and the world is no note
 constexpr float peakFallDbPerSecond = 20.0f;
 
 RenderControl controlOf(RenderControl::Kind kind, int channel = 0, float value = 0.0f) {
@@ -143,7 +143,7 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
 
 void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {
     if (controller == slideController) slide_[static_cast<std::size_t>(channel)] = static_cast<float>(value - 64) / 128.0f;
-    if (controller == allSoundOff || controller == allNotesOff) {
+    if (controller == allSoundOff) {
         if (Session* const session = takes_.session()) session->control(controlOf(RenderControl::Kind::stopAll), frame);
         return;
     }

@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Panner, session and tail of a state.
+// Panner, session, tail and parameters of a state.
 #include "PluginSettings.h"
 #include "Files/SceneCatalogue.h"
 #include "MidiMap.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace physvib {
+
+namespace {
+
+std::string wordsOf(const ParameterRow& row) {
+    std::string words;
+    for (const auto word : row.choices) words += (words.empty() ? "" : ", ") + std::string{word};
+    return words;
+}
+
+} // namespace
 
 LayoutDescription presetLayout(std::string_view name) {
     EnchanterLayout geometry;
@@ -18,7 +29,6 @@ PluginState newPluginState() {
     PluginState state;
     state.scene = builtInScenes().front();
     state.layout = presetLayout("phone4");
-    state.controllers = defaultControllers();
     return state;
 }
 
@@ -38,11 +48,38 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     return setup;
 }
 
-double longestRingSeconds(const PluginState& state) noexcept {
+double tailSeconds(const PluginState& state) noexcept {
+    const bool spawns = std::ranges::any_of(state.notes, [](const NoteRule& rule) { return rule.kind == NoteKind::spawn; });
+    if (!state.scene.bodies.empty() || !state.scene.script.empty() || spawns) return std::numeric_limits<double>::infinity();
     double least = limits::maxDecayPerSecond;
     for (const auto& m : state.scene.materials)
         if (m.frequencyHz > 0.0 && m.decayPerSecond > 0.0) least = std::min(least, m.decayPerSecond);
     return limits::retireDecibels / 20.0 * std::log(10.0) / least;
+}
+
+ParameterValue stateValue(const ParameterRow& row, double value) {
+    if (row.choices.empty()) return value;
+    return valueText(row, value);
+}
+
+std::optional<double> valueOfState(const ParameterRow& row, const ParameterValue& value) {
+    if (const auto* const number = std::get_if<double>(&value)) return *number;
+    const auto& word = std::get<std::string>(value);
+    if (std::ranges::find(row.choices, word) == row.choices.end()) return {};
+    return valueOf(row, word);
+}
+
+std::string faultOfParameters(const PluginState& state) {
+    const auto noSuch = [](const std::string& id) { return "no parameter \"" + id + "\""; };
+    for (const auto& [id, value] : state.parameters) {
+        const int which = parameterOfId(id);
+        if (which < 0) return noSuch(id);
+        if (const auto& row = rowOf(static_cast<Parameter>(which)); !valueOfState(row, value))
+            return "parameters." + id + ": expected " + (row.choices.empty() ? "a number" : "one of " + wordsOf(row)) + ", found \"" + std::get<std::string>(value) + "\"";
+    }
+    for (const auto& rule : state.controllers)
+        if (parameterOfId(rule.parameter) < 0) return noSuch(rule.parameter);
+    return {};
 }
 
 } // namespace physvib

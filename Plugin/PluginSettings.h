@@ -2,7 +2,10 @@
 // From the state of an instance to what renders it.
 #pragma once
 #include "Files/PluginState.h"
+#include "Host/Parameters.h"
 #include "Host/Session.h"
+#include <optional>
+#include <string>
 
 namespace physvib {
 
@@ -18,7 +21,16 @@ inline int enchantersOf(const PluginState& state) noexcept { return state.layout
 PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept;
 SessionSetup sessionSetupOf(const PluginState& state);
 
-/// From a strike at full scale until it has fallen out of hearing, at the smallest decay of the scene. Any thread.
-double longestRingSeconds(const PluginState& state) noexcept;
+/// Infinite: a world goes on by itself. Without one, from a strike at full scale until it has fallen out of hearing, at the
+/// smallest decay of the scene. Any thread.
+double tailSeconds(const PluginState& state) noexcept;
+
+/// A parameter's value as a state keeps it: a choice by its word, so that others may join it (decision 34). Any thread.
+ParameterValue stateValue(const ParameterRow& row, double value);
+/// The value in the parameter's unit; none if the row has no such word. Any thread.
+std::optional<double> valueOfState(const ParameterRow& row, const ParameterValue& value);
+
+/// What a state says of parameters that are not there, or by words that they do not know; empty if nothing. Any thread.
+std::string faultOfParameters(const PluginState& state);
 
 } // namespace physvib

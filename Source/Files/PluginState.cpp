@@ -108,6 +108,14 @@ ControllerRule readController(const JsonField& field) {
     return {wholeNumberUpTo(field["controller"], 119), field["parameter"].text()};
 }
 
+// What moves hands does not come unasked: nobody had chosen these.
+const std::vector<ControllerRule> controllersOfVersion1{{1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}};
+
+ParameterValue readParameter(const Json& value, const JsonField& field) {
+    if (value.is_string()) return field.text();
+    return field.number();
+}
+
 PluginState readStateRoot(const Json& json) {
     const JsonField root{json, {}};
     checkVersion(root, stateVersionField, pluginStateVersion);
@@ -122,9 +130,10 @@ PluginState readStateRoot(const Json& json) {
     const JsonField notes = root["notes"], controllers = root["controllers"], parameters = root["parameters"];
     for (std::size_t i = 0, n = sizeUpTo(notes, mostNotes); i < n; ++i) state.notes.push_back(readNote(notes.item(i), state.scene));
     for (std::size_t i = 0, n = sizeUpTo(controllers, mostControllers); i < n; ++i) state.controllers.push_back(readController(controllers.item(i)));
+    if (root[stateVersionField].wholeNumber() == 1 && state.controllers == controllersOfVersion1) state.controllers.clear();
     parameters.expectObject();
     if (json["parameters"].size() > mostParameters) parameters.fail("expected at most " + std::to_string(mostParameters) + " parameters");
-    for (const auto& item : json["parameters"].items()) state.parameters.emplace_back(item.key(), parameters[item.key()].number());
+    for (const auto& item : json["parameters"].items()) state.parameters.emplace_back(item.key(), readParameter(item.value(), parameters[item.key()]));
     return state;
 }
 
@@ -164,7 +173,8 @@ std::string pluginStateJson(const PluginState& state) {
     root["controllers"] = OrderedJson::array();
     for (const ControllerRule& rule : state.controllers) root["controllers"].push_back({{"controller", rule.controller}, {"parameter", rule.parameter}});
     root["parameters"] = OrderedJson::object();
-    for (const auto& [id, value] : state.parameters) root["parameters"][id] = value;
+    for (const auto& [id, value] : state.parameters)
+        std::visit([&json = root["parameters"][id]](const auto& it) { json = it; }, value);
     return jsonLines(root);
 }
 

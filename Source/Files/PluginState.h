@@ -9,12 +9,14 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace physvib {
 
 /// The version of the format that is written, and the newest that is read. A new field makes a new version.
-constexpr int pluginStateVersion = 1;
+/// 2: choices by their words; what version 1 gave every instance as controllers is left out.
+constexpr int pluginStateVersion = 2;
 
 enum class TransportMode {
     free,         ///< the scene runs whenever the host renders
@@ -47,6 +49,9 @@ struct ControllerRule {
     bool operator==(const ControllerRule&) const = default;
 };
 
+/// A number in the parameter's unit; the word of a choice, of which version 1 wrote the place.
+using ParameterValue = std::variant<double, std::string>;
+
 struct PluginState {
     Scene scene;
     std::uint32_t seed = 1;
@@ -56,7 +61,7 @@ struct PluginState {
     TransportMode transport = TransportMode::free;
     std::vector<NoteRule> notes; ///< others: every octave is a material, every note a place from left (C) to right (B)
     std::vector<ControllerRule> controllers;
-    std::vector<std::pair<std::string, double>> parameters; ///< id and value in the parameter's unit
+    std::vector<std::pair<std::string, ParameterValue>> parameters; ///< by their ids
 };
 
 /// The state that `text` describes; or, of the first thing that is wrong, one line

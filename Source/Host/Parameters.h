@@ -18,7 +18,7 @@ constexpr std::size_t parameterCount = 10;
 enum class ParameterScale {
     linear,
     log,    ///< equal steps are equal ratios; the range is above 0
-    choice, ///< one of `choices`, 0 to choices.size() - 1
+    choice, ///< one of `choices`, 0 to choices.size() - 1; each keeps its place from 0 to 1 (decision 34)
     toggle  ///< 0 or 1
 };
 

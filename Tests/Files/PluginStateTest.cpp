@@ -42,7 +42,7 @@ PluginState sampleState(const char* scene = "fruit-basket") {
     s.notes.push_back(push);
     s.notes.push_back(spawn);
     s.controllers = {{1, "tilt"}};
-    s.parameters = {{"bypass", 0.0}, {"level", -7.123456789}};
+    s.parameters = {{"bypass", "off"}, {"level", -7.123456789}};
     return s;
 }
 
@@ -81,8 +81,8 @@ std::string refusal(std::string text, const std::string& found, const std::strin
 
 TEST(PluginState, WhatIsWrongIsNamed) {
     const std::string text = pluginStateJson(sampleState());
-    EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 1", "\"physvib_plugin_state\": 2"),
-              "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 1, found 2");
+    EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 2", "\"physvib_plugin_state\": 3"),
+              "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 2, found 3");
     EXPECT_EQ(refusal(text, "\"x\": 0.1", "\"x\": 2"), "f: notes[0].x: expected a number from 0 to 1, found 2");
     EXPECT_EQ(refusal(text, "\"note\": 60", "\"note\": 128"), "f: notes[0].note: expected 0 to 127, found 128");
     EXPECT_EQ(refusal(text, "\"do\": \"push\", \"object\": \"" + sampleState().scene.bodies.front().name + "\"", "\"do\": \"push\", \"object\": \"nobody\""),
@@ -92,7 +92,7 @@ TEST(PluginState, WhatIsWrongIsNamed) {
     EXPECT_EQ(refusal(text, "restart-on-play", "sometimes"), "f: transport: expected one of free, restart-on-play, found \"sometimes\"");
     EXPECT_EQ(refusal(text, "\"steps_per_second\": 500", "\"steps_per_second\": 1"), "f: steps_per_second: expected 10 to 10000, found 1");
     EXPECT_EQ(refusal(text, "\"seed\": 4294967295", "\"seed\": 1.5"), "f: seed: expected a whole number, found 1.5");
-    EXPECT_EQ(refusal(text, "\"level\": -7.123456789", "\"level\": \"loud\""), "f: parameters.level: expected a number, found a string");
+    EXPECT_EQ(refusal(text, "\"level\": -7.123456789", "\"level\": true"), "f: parameters.level: expected a number, found a boolean");
     EXPECT_NE(refusal(text, "\"extent_m\"", "\"extent\"").find("f: layout: "), std::string::npos);
     EXPECT_NE(refusal(text, "\"limiter\"", "\"limit\"").find("unknown field \"limit\""), std::string::npos);
     EXPECT_NE(refusal(text, "\"bodies\"", "\"bodys\"").find("f: scene: "), std::string::npos);
@@ -108,6 +108,19 @@ TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never writte
     EXPECT_EQ(read.value.layout.enchanters.size(), 3u);
     EXPECT_EQ(read.value.notes, (std::vector<NoteRule>{strike(60, 1, 0.1, 1.0), strike(127, 0, 0.0, 0.25)}));
     EXPECT_EQ(read.value.parameters.size(), 2u);
+    EXPECT_EQ(read.value.controllers, (std::vector<ControllerRule>{{1, "tilt"}})) << "somebody's own";
+}
+
+TEST(PluginState, TheControllersThatVersionOneGaveEveryInstanceAreLeftOut) {
+    auto state = sampleState();
+    state.controllers = {{1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}};
+    std::string text = pluginStateJson(state);
+    const auto chosen = readPluginState(text, "f");
+    EXPECT_EQ(chosen.value.controllers.size(), 4u) << "since version 2 they are a choice";
+    text.replace(text.find("state\": 2"), 9, "state\": 1");
+    const auto read = readPluginState(text, "f");
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_TRUE(read.value.controllers.empty());
 }
 
 } // namespace

@@ -18,6 +18,15 @@ TEST(Parameters, IdsArePromises) { // a change here breaks every saved session o
     EXPECT_EQ(ids, promised);
 }
 
+// Hosts keep what they automate from 0 to 1: a choice that moves becomes another one in every project. How choices can
+// still be added: decision 34.
+TEST(Parameters, PlacesOfChoicesArePromises) {
+    const auto placeOf = [](Parameter p, std::string_view word) { return normalised(rowOf(p), valueOf(rowOf(p), word)); };
+    for (int i = 0; const auto word : {"linear", "log", "log-outer", "energy"}) EXPECT_DOUBLE_EQ(placeOf(Parameter::law, word), i++ / 3.0) << word;
+    for (int i = 0; const auto word : {"as the scene", "1", "2", "3", "4", "5", "6", "7", "8"}) EXPECT_DOUBLE_EQ(placeOf(Parameter::material, word), i++ / 8.0) << word;
+    for (int i = 0; const auto word : {"off", "on"}) EXPECT_DOUBLE_EQ(placeOf(Parameter::bypass, word), i++) << word;
+}
+
 TEST(Parameters, RowsAreInRangeAndNamed) {
     std::set<std::string_view> ids;
     for (const auto& row : allParameters()) {

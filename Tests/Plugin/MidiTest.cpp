@@ -109,6 +109,9 @@ TEST(Midi, BendSlideAndParametersMoveThePhantom) {
 
 TEST(Midi, ControllersMoveParametersAndTheHostIsTold) {
     QuietHost host;
+    auto state = host.plugin->state();
+    state.controllers = {{7, "level"}};
+    ASSERT_TRUE(host.plugin->apply(state));
     struct Told final : juce::AudioProcessorParameter::Listener {
         void parameterValueChanged(int, float value) override { told = value; }
         void parameterGestureChanged(int, bool) override {}
@@ -125,14 +128,44 @@ TEST(Midi, ControllersMoveParametersAndTheHostIsTold) {
     level.removeListener(&told);
 }
 
-TEST(Midi, NotesOffAndAStoppedTransportSilence) {
-    for (const int how : {0, 1, 2}) {
+TEST(Midi, NoControllerMovesANewInstance) {
+    TestHost host; // with the safe level of a new instance
+    auto& level = host.plugin->parameter(Parameter::level);
+    level.setValue(level.getDefaultValue());
+    host.prepare(48000, 480);
+    const auto before = host.plugin->state();
+    juce::MidiBuffer midi;
+    for (int controller = 0; controller < 120; ++controller)
+        for (const int value : {0, 127}) midi.addEvent(Message::controllerEvent(1, controller, value), controller);
+    host.block(480, midi);
+    EXPECT_EQ(host.plugin->state().parameters, before.parameters);
+    EXPECT_TRUE(before.controllers.empty());
+}
+
+TEST(Midi, AllNotesOffLetsTheWorldGoOn) {
+    Samples undisturbed, told;
+    for (auto* signal : {&undisturbed, &told}) {
+        TestHost host;
+        host.prepare(48000, 480);
+        host.play(48000, *signal);
+        juce::MidiBuffer midi;
+        if (signal == &told)
+            for (int mode = 123; mode < 128; ++mode) midi.addEvent(Message::controllerEvent(1, mode, 0), 100); // those that imply it as well
+        const auto& out = host.block(480, midi);
+        for (std::size_t c = 0; c < 4; ++c) (*signal)[c].insert((*signal)[c].end(), out.getReadPointer(static_cast<int>(c)), out.getReadPointer(static_cast<int>(c)) + 480);
+        host.play(48000, *signal);
+    }
+    EXPECT_GT(peakOf(later(told, 48000)), 0.01f);
+    EXPECT_TRUE(told == undisturbed);
+}
+
+TEST(Midi, AllSoundOffAndAStoppedTransportSilence) {
+    for (const int how : {1, 2}) {
         QuietHost host;
         host.playHead.isThere = host.playHead.isPlaying = true;
         host.send(Message::noteOn(1, 60, juce::uint8{127}), 0);
         const auto sound = host.playOn(host.latency + 960);
         EXPECT_GT(peakOf(later(sound, host.latency)), 0.01f);
-        if (how == 0) host.send(Message::allNotesOff(1), 0);
         if (how == 1) host.send(Message::allSoundOff(1), 0);
         if (how == 2) host.playHead.isPlaying = false;
         const auto rest = host.playOn(host.latency + 9600);

@@ -3,6 +3,7 @@
 #include "PluginTesting.h"
 #include "Files/SceneCatalogue.h"
 #include <atomic>
+#include <future>
 
 namespace physvib {
 namespace {
@@ -114,6 +115,28 @@ TEST(PluginChunk, ParametersOfAnotherPhysVibAreRefused) {
     EXPECT_EQ(host.plugin->trouble(), "state: no parameter \"wobble\"");
 }
 
+TEST(PluginChunk, AChoiceIsKeptByItsWord) {
+    TestHost host;
+    auto& law = host.plugin->parameter(Parameter::law);
+    law.setValue(law.getValueForText("log-outer"));
+    const auto chunk = chunkOf(*host.plugin).toString();
+    EXPECT_TRUE(chunk.contains("\"law\": \"log-outer\""));
+    const auto give = [&](const juce::String& value) {
+        const auto text = chunk.replace("\"law\": \"log-outer\"", "\"law\": " + value).toStdString();
+        host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
+    };
+    give("3");
+    EXPECT_EQ(law.value(), 3.0) << "as version 1 wrote it";
+    give("\"logarithmic\"");
+    EXPECT_EQ(host.plugin->trouble(), "state: parameters.law: expected one of linear, log, log-outer, energy, found \"logarithmic\"");
+    EXPECT_EQ(law.value(), 3.0);
+    auto state = host.plugin->state();
+    state.parameters = {{"level", "loud"}};
+    const auto text = pluginStateJson(state);
+    host.plugin->setStateInformation(text.data(), static_cast<int>(text.size()));
+    EXPECT_EQ(host.plugin->trouble(), "state: parameters.level: expected a number, found \"loud\"");
+}
+
 TEST(PluginChunk, ComesAndGoesOnAnyThreadWhileItPlays) {
     TestHost host;
     host.prepare(48000, 256, false);
@@ -143,11 +166,13 @@ TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenes) {
     for (int i = 0; i < 5; ++i) {
         host.plugin->setCurrentProgram(i);
         EXPECT_EQ(host.plugin->getProgramName(i).toStdString(), host.plugin->state().scene.name);
-        EXPECT_GT(host.plugin->getTailLengthSeconds(), 0.05);
+        EXPECT_EQ(host.plugin->getTailLengthSeconds(), std::numeric_limits<double>::infinity()) << "a world goes on by itself";
     }
     host.plugin->setCurrentProgram(99);
     EXPECT_EQ(host.plugin->getCurrentProgram(), 4);
     EXPECT_EQ(host.plugin->getProgramName(99), "");
+    host.plugin->apply(strikeAt(0, 4));
+    EXPECT_NEAR(host.plugin->getTailLengthSeconds(), 1.35, 0.01) << "without a world: the longest ring of its materials";
 }
 
 struct Listener final : juce::AudioProcessorListener {
@@ -155,9 +180,36 @@ struct Listener final : juce::AudioProcessorListener {
     void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& details) override {
         latencies += details.latencyChanged ? 1 : 0;
         edits += details.nonParameterStateChanged ? 1 : 0;
+        programs += details.programChanged ? 1 : 0;
     }
-    std::atomic<int> parameters{0}, latencies{0}, edits{0};
+    std::atomic<int> parameters{0}, latencies{0}, edits{0}, programs{0};
 };
+
+TEST(PluginChunk, TheProgramIsTheSceneThatPlays) {
+    TestHost host;
+    Listener listener;
+    host.plugin->addListener(&listener);
+    auto state = host.plugin->state();
+    const auto editTo = [&](const Scene& scene) {
+        state.scene = scene;
+        host.plugin->edit(state);
+    };
+    editTo(builtInScenes()[3]);
+    EXPECT_EQ(host.plugin->getCurrentProgram(), 3);
+    EXPECT_EQ(listener.programs, 1) << "the host's menu shows it";
+    host.plugin->apply(newPluginState());
+    EXPECT_EQ(host.plugin->getCurrentProgram(), 0);
+    Scene own = builtInScenes()[3];
+    own.gravityMetresPerSecond2.y *= 0.5;
+    editTo(own);
+    EXPECT_EQ(host.plugin->getCurrentProgram(), 3) << "it bears the name";
+    host.plugin->setCurrentProgram(3);
+    EXPECT_TRUE(host.plugin->state().scene == builtInScenes()[3]) << "chosen again, it is the built-in one";
+    const auto count = host.plugin->stateCount();
+    host.plugin->setCurrentProgram(3);
+    EXPECT_EQ(host.plugin->stateCount(), count) << "hosts repeat themselves: the world does not start anew";
+    host.plugin->removeListener(&listener);
+}
 
 TEST(PluginChunk, AStateThatIsTakenIsNoEdit) {
     TestHost host;
@@ -174,6 +226,53 @@ TEST(PluginChunk, AStateThatIsTakenIsNoEdit) {
     EXPECT_EQ(listener.edits, 0);
     EXPECT_EQ(listener.latencies, 0);
     host.plugin->removeListener(&listener);
+}
+
+/// Whatever it is told of, it has somebody else look at the plug-in, and waits for that.
+struct Curious final : juce::AudioProcessorListener {
+    explicit Curious(PluginProcessor& about)
+        : plugin{about} {}
+    void look() {
+        if (isLooking.exchange(true)) return;
+        ++looks;
+        std::packaged_task<void()> task{[this] {
+            plugin.state();
+            plugin.trouble();
+            plugin.takes().takeLog();
+            std::vector<BodyPose> poses;
+            plugin.takes().poses(poses);
+            plugin.apply(plugin.state());
+        }};
+        auto done = task.get_future();
+        std::thread other{std::move(task)};
+        const bool isFree = done.wait_for(std::chrono::seconds{20}) == std::future_status::ready;
+        EXPECT_TRUE(isFree) << "a lock is held while the host is told";
+        if (isFree) other.join();
+        else std::abort(); // it would wait for ever
+        isLooking = false;
+    }
+    void audioProcessorParameterChanged(juce::AudioProcessor*, int, float) override { look(); }
+    void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails&) override { look(); }
+    PluginProcessor& plugin;
+    int looks = 0;
+    std::atomic<bool> isLooking{false};
+};
+
+TEST(PluginChunk, NoLockIsHeldWhileTheHostIsTold) {
+    TestHost host{{BusPlan::Kind::manyBuses}};
+    host.prepare(48000, 512, false);
+    const auto chunk = chunkOf(*host.plugin);
+    Curious curious{*host.plugin};
+    host.plugin->addListener(&curious);
+    auto state = host.plugin->state();
+    state.stepsPerSecond = 500;
+    host.plugin->edit(state); // a latency, an edit
+    host.plugin->parameter(Parameter::tilt).setValue(0.75f);
+    host.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize())); // a latency, a parameter
+    host.plugin->parameter(Parameter::level).setByController(0.5f);
+    for (int i = 0; i < 100 && curious.looks < 5; ++i) runFor(0.05); // the timer tells of the controller
+    EXPECT_EQ(curious.looks, 5);
+    host.plugin->removeListener(&curious);
 }
 
 TEST(PluginChunk, TheHostIsToldOfALatencyThatChanges) {

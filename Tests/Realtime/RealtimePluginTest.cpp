@@ -28,6 +28,7 @@ void expectNothingForbidden(BusPlan plan) {
     for (const auto mode : {TransportMode::free, TransportMode::restartOnPlay}) {
         auto settings = plugin.state();
         settings.transport = mode;
+        settings.controllers = {{1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}, {20, "bypass"}};
         plugin.apply(settings);
         host.prepare(48000, 64, false);
         host.playHead.isThere = true;
@@ -69,6 +70,21 @@ void expectNothingForbidden(BusPlan plan) {
 
 TEST(RealtimePlugin, OneBus) {
     for (const int width : {1, 2, 4, 16}) expectNothingForbidden({BusPlan::Kind::oneBus, width});
+}
+
+// What hosts and validators ask of parameters from any thread, the message thread among them: no lock can hold them up.
+TEST(RealtimePlugin, ParametersAnswerWithoutALock) {
+    TestHost host{{BusPlan::Kind::manyBuses}};
+    host.prepare(48000, 512, false);
+    RealtimeGuard::forget();
+    for (auto* parameter : host.plugin->getParameters()) {
+        const RealtimeGuard guard;
+        const float value = parameter->getValue() + parameter->getDefaultValue();
+        const auto words = parameter->getName(512) + parameter->getLabel() + parameter->getText(value, 1024) + parameter->getCurrentValueAsText();
+        parameter->setValue(parameter->getValueForText(words));
+    }
+    EXPECT_EQ(RealtimeGuard::count(RealtimeGuard::locks), 0u);
+    EXPECT_EQ(RealtimeGuard::count(RealtimeGuard::waits), 0u);
 }
 
 TEST(RealtimePlugin, ManyBuses) { expectNothingForbidden({BusPlan::Kind::manyBuses}); }

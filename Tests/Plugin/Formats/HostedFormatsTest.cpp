@@ -1,38 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // VST3 and LV2 in JUCE's host: what leaves them is what the processor renders, sample by sample.
-#include "Plugin/PluginTesting.h"
+#include "Plugin/Formats/Hosting.h"
 
 namespace physvib {
 namespace {
 
 using namespace test;
-
-/// VST3 goes by its bundle, LV2 by the address that its bundle tells.
-struct Format {
-    explicit Format(bool isVst3) {
-        if (isVst3) format = std::make_unique<juce::VST3PluginFormat>();
-        else format = std::make_unique<juce::LV2PluginFormat>();
-        format->searchPathsForPlugins(juce::FileSearchPath{PHYSVIB_PLUGINS}, true, false);
-    }
-    std::unique_ptr<juce::AudioPluginInstance> load(const juce::String& identifier) const {
-        juce::OwnedArray<juce::PluginDescription> found;
-        format->findAllTypesForFile(found, identifier);
-        if (found.isEmpty()) return nullptr;
-        juce::String error;
-        auto plugin = format->createInstanceFromDescription(*found[0], 48000.0, 512, error);
-        EXPECT_EQ(error, "");
-        return plugin;
-    }
-    std::unique_ptr<juce::AudioPluginFormat> format;
-};
-
-const juce::String vst3Identifier = PHYSVIB_PLUGINS "/PhysVib.vst3", lv2Identifier = "urn:physvib:plugin";
-
-juce::AudioProcessorParameter* named(juce::AudioPluginInstance& plugin, std::string_view name) {
-    for (auto* p : plugin.getParameters())
-        if (p->getName(100).toStdString() == name) return p;
-    return nullptr;
-}
 
 Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes) {
     plugin.setNonRealtime(true);

@@ -83,7 +83,8 @@ TEST(RawVst3, MonoBuses) {
 TEST(RawVst3, StateComesBackAndSuspensionRepeatsTheTake) {
     RawVst3 host{oneBus, "PhysVib"};
     const std::string fresh = host.state();
-    EXPECT_FALSE(host.setState("nonsense") && host.state() != fresh) << "a broken chunk leaves the last good state";
+    EXPECT_TRUE(host.setState("nonsense"));
+    EXPECT_TRUE(host.state().starts_with("nonsense")) << "a chunk that cannot be read is what the next save gives back";
     auto state = newPluginState();
     state.seed = 42;
     EXPECT_TRUE(host.setState(pluginStateJson(state)));
@@ -102,7 +103,7 @@ TEST(RawVst3, StateComesBackAndSuspensionRepeatsTheTake) {
     EXPECT_GT(*std::max_element(takes[0].begin(), takes[0].end()), 0.001f);
     EXPECT_EQ(host.state(), chunk);
     EXPECT_EQ(host.processor->getLatencySamples(), 256u + 480 + 960 + 47);
-    EXPECT_GT(host.processor->getTailSamples(), 1000u);
+    EXPECT_EQ(host.processor->getTailSamples(), vst::kInfiniteTail);
 }
 
 TEST(RawVst3, TwentyInstances) {

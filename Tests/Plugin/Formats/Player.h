@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The processor, or a finished module of it in JUCE's host, that plays notes in every block: there is always something to
+// silence.
+#pragma once
+#include "Plugin/Formats/Hosting.h"
+
+namespace physvib::test {
+
+/// Of what is played, and of a switch that closes, in frames.
+constexpr int block = 512, ramp = 480;
+
+enum class Kind { processor, vst3, lv2 };
+
+/// The processor itself or a module of it, that plays: notes in every block, so that there is always something to silence.
+class Player {
+public:
+    explicit Player(Kind kindOf)
+        : kind{kindOf} {
+        if (kind == Kind::processor) own_ = std::make_unique<PluginProcessor>("PhysVib", BusPlan{});
+        else hosted_ = Format{kind == Kind::vst3}.load(kind == Kind::vst3 ? vst3Identifier : lv2Identifier);
+        plugin().setPlayHead(&playHead);
+        playHead.isThere = playHead.isPlaying = true;
+    }
+    ~Player() {
+        plugin().releaseResources();
+        plugin().setPlayHead(nullptr);
+    }
+    juce::AudioProcessor& plugin() { return own_ ? static_cast<juce::AudioProcessor&>(*own_) : *hosted_; }
+
+    void prepare(bool isOffline) {
+        plugin().setNonRealtime(isOffline);
+        plugin().setRateAndBufferSizeDetails(48000.0, block);
+        plugin().prepareToPlay(48000.0, block);
+        buffer_.setSize(plugin().getTotalNumOutputChannels(), block);
+    }
+    /// The largest sample from frame `from` of the first block on.
+    float peakOf(int blocks, int from = 0) {
+        float peak = 0.0f;
+        for (int b = 0; b < blocks; ++b, from = std::max(0, from - block)) {
+            juce::MidiBuffer midi;
+            midi.swapWith(next);
+            midi.addEvent(juce::MidiMessage::noteOn(1, 36 + count_ % 12, juce::uint8{127}), 7);
+            ++count_;
+            buffer_.clear();
+            plugin().processBlock(buffer_, midi);
+            if (playHead.isPlaying) playHead.frame += block;
+            if (from < block) peak = std::max(peak, buffer_.getMagnitude(from, block - from));
+            if (!plugin().isNonRealtime()) std::this_thread::sleep_for(std::chrono::microseconds{block * 1'000'000 / 48'000}); // the pace of a device
+        }
+        return peak;
+    }
+
+    /// Whether it is felt, soon; a busy machine may make it late.
+    bool isFelt() {
+        for (int b = 0; b < 300; ++b)
+            if (peakOf(1) > 0.01f) return true;
+        return false;
+    }
+
+    /// Our own switch, as hosts automate it, and that of the host.
+    juce::AudioProcessorParameter& bypass() { return own_ ? own_->parameter(Parameter::bypass) : *named(*hosted_, "Bypass", kind == Kind::lv2 ? &hostsBypass() : nullptr); }
+    juce::AudioProcessorParameter& hostsBypass() { return *plugin().getBypassParameter(); }
+
+    /// As from a saved session. The hosts' wrapping of our chunk is JUCE's own.
+    void load(const PluginState& state) {
+        const std::string json = pluginStateJson(state);
+        juce::MemoryBlock chunk{json.data(), json.size()};
+        if (kind == Kind::vst3) {
+            juce::XmlElement xml{"VST3PluginState"};
+            xml.createNewChildElement("IComponent")->addTextElement(chunk.toBase64Encoding());
+            juce::AudioProcessor::copyXmlToBinary(xml, chunk);
+        }
+        if (kind == Kind::lv2) {
+            juce::MemoryBlock turtle;
+            hosted_->getStateInformation(turtle);
+            const auto text = turtle.toString();
+            const auto head = text.upToFirstOccurrenceOf("StateString", true, false).length();
+            const auto from = text.indexOfChar(head, '"'), to = text.indexOfChar(from + 1, '"'); // base64 has no quotes
+            const auto changed = text.substring(0, from + 1) + chunk.toBase64Encoding() + text.substring(to);
+            chunk.replaceAll(changed.toRawUTF8(), changed.getNumBytesAsUTF8());
+        }
+        plugin().setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    }
+
+    const Kind kind;
+    TestPlayHead playHead;
+    juce::MidiBuffer next; ///< goes with the next block
+
+private:
+    std::unique_ptr<PluginProcessor> own_;
+    std::unique_ptr<juce::AudioPluginInstance> hosted_;
+    juce::AudioBuffer<float> buffer_;
+    int count_ = 0;
+};
+
+constexpr int panicController = 20;
+
+/// Loud, and with a controller that silences.
+inline PluginState playing(bool isSilenced = false) {
+    auto state = newPluginState();
+    state.controllers = {{panicController, "bypass"}};
+    state.parameters = {{"level", 0.0}, {"bypass", isSilenced ? 1.0 : 0.0}};
+    return state;
+}
+
+} // namespace physvib::test

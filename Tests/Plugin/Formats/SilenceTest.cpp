@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// SILENCE by every door, in every format, whatever the host does: at most one block and the ramp of 10 ms until nothing
+// moves any more, and it stays so. In the wrappers themselves, since what they do to a bypass is not ours.
+#include "Plugin/Formats/Player.h"
+#include <functional>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+struct Door {
+    const char* name;
+    std::function<void(Player&)> silence, open;
+};
+const std::vector<Door> doors{
+    {"automation", [](Player& p) { p.bypass().setValue(1.0f); }, [](Player& p) { p.bypass().setValue(0.0f); }},
+    {"the host's bypass", [](Player& p) { (p.kind == Kind::processor ? p.bypass() : p.hostsBypass()).setValue(1.0f); },
+     [](Player& p) { (p.kind == Kind::processor ? p.bypass() : p.hostsBypass()).setValue(0.0f); }},
+    {"a controller", [](Player& p) { p.next.addEvent(juce::MidiMessage::controllerEvent(1, panicController, 127), 0); },
+     [](Player& p) { p.next.addEvent(juce::MidiMessage::controllerEvent(1, panicController, 0), 0); }},
+    {"a session", [](Player& p) { p.load(playing(true)); }, [](Player& p) { p.load(playing(false)); }},
+};
+
+struct HostState {
+    const char* name;
+    bool isOffline, rolls;
+};
+constexpr HostState hostStates[]{{"bounces", true, true}, {"plays", false, true}, {"stands", true, false}};
+
+constexpr const char* kindNames[]{"processor", "VST3", "LV2"};
+
+TEST(Silence, ByEveryDoorInEveryFormatAndHostState) {
+    for (const auto kind : {Kind::processor, Kind::vst3, Kind::lv2})
+        for (const auto& host : hostStates)
+            for (const auto& door : doors) {
+                SCOPED_TRACE(std::string{kindNames[static_cast<int>(kind)]} + ", the host " + host.name + ", " + door.name);
+                Player player{kind};
+                player.load(playing());
+                player.prepare(host.isOffline);
+                player.playHead.isPlaying = host.rolls;
+                EXPECT_TRUE(player.isFelt());
+                door.silence(player);
+                EXPECT_EQ(player.peakOf(8, block + ramp), 0.0f);
+                door.open(player);
+                EXPECT_TRUE(player.isFelt()) << "it comes back";
+            }
+}
+
+TEST(Silence, OursStaysWhateverTheHostsBypassDoes) {
+    Player player{Kind::lv2}; // elsewhere they are one
+    player.load(playing());
+    player.prepare(true);
+    player.bypass().setValue(1.0f);
+    player.peakOf(3);
+    for (const float isBypassed : {1.0f, 0.0f, 1.0f, 0.0f}) {
+        player.hostsBypass().setValue(isBypassed);
+        EXPECT_EQ(player.peakOf(30), 0.0f) << isBypassed;
+    }
+    player.bypass().setValue(0.0f);
+    EXPECT_TRUE(player.isFelt());
+}
+
+TEST(Silence, OfTheHostLeavesOursAsItIs) {
+    Player player{Kind::lv2};
+    player.load(playing());
+    player.prepare(true);
+    player.hostsBypass().setValue(1.0f);
+    player.peakOf(10);
+    EXPECT_EQ(player.bypass().getValue(), 0.0f) << "and nothing is told to the host from the render call";
+}
+
+} // namespace
+} // namespace physvib
