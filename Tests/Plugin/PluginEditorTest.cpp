@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The editor without a window: fifty openings, sizes, what it costs, and a picture of it to look at.
 #include "PluginTesting.h"
+#include "Host/Views/Look.h"
 #include "PluginEditor.h"
 #include "Files/SceneCatalogue.h"
 
@@ -53,6 +54,28 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
         file.truncate();
         juce::PNGImageFormat{}.writeImageToStream(pictures.back(), file);
     }
+}
+
+juce::Button* buttonOf(juce::Component& in, const juce::String& words) {
+    for (auto* child : in.getChildren()) {
+        if (auto* button = dynamic_cast<juce::Button*>(child); button && button->getButtonText() == words) return button;
+        if (auto* found = buttonOf(*child, words)) return found;
+    }
+    return nullptr;
+}
+
+TEST(PluginEditor, SilenceIsFilledOnlyWhileItIsOn) {
+    TestHost host;
+    auto editor = openEditor(*host.plugin);
+    auto* const silence = buttonOf(*editor, "SILENCE");
+    ASSERT_NE(silence, nullptr);
+    const auto ground = [&] { return silence->createComponentSnapshot(silence->getLocalBounds(), true, 1.0f).getPixelAt(silence->getWidth() / 2, 6); };
+    const auto red = shade(*silence, Shade::limit);
+    EXPECT_LT(ground().getSaturation(), 0.5f * red.getSaturation());
+    EXPECT_EQ(host.plugin->parameter(Parameter::bypass).getValue(), 0.0f);
+    silence->setToggleState(true, juce::sendNotificationSync); // as a click
+    EXPECT_EQ(ground(), red);
+    EXPECT_EQ(host.plugin->parameter(Parameter::bypass).getValue(), 1.0f);
 }
 
 TEST(PluginEditor, EditsReachTheProcessorAndItsHost) {

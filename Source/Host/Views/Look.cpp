@@ -107,21 +107,20 @@ void Look::drawButtonBackground(juce::Graphics& g, juce::Button& button, const j
     const auto area = button.getLocalBounds().toFloat().reduced(0.5f);
     const bool isQuiet = isTrue(button, quietProperty), stops = isTrue(button, stopProperty);
     auto colour = button.getToggleState() ? tintOf(button) : shade(button, Shade::raised);
-    if (stops) colour = shade(button, Shade::limit).withMultipliedBrightness(button.getToggleState() ? 1.0f : 0.82f);
+    if (stops && button.getToggleState()) colour = shade(button, Shade::limit);
     if (isQuiet && !button.getToggleState()) colour = colour.withAlpha(isOver ? 0.6f : 0.0f);
     if (isOver && button.isEnabled()) colour = colour.brighter(0.08f);
     if (isDown) colour = colour.darker(0.15f);
     g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.45f));
     g.fillRoundedRectangle(area, corner);
-    if (stops && button.getToggleState()) {
-        g.setColour(shade(button, Shade::text));
-        g.drawRoundedRectangle(area.reduced(1.0f), corner, 2.0f);
-    }
+    if (!stops) return;
+    g.setColour(shade(button, button.getToggleState() ? Shade::text : Shade::limit)); // off it is a red frame: what is filled is pressed
+    g.drawRoundedRectangle(area.reduced(1.0f), corner, 2.0f);
 }
 
 void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool, bool) {
     auto colour = shade(button, Shade::text);
-    if (isTrue(button, stopProperty)) colour = juce::Colours::white;
+    if (isTrue(button, stopProperty)) colour = button.getToggleState() ? juce::Colours::white : shade(button, Shade::limit);
     else if (button.getToggleState()) colour = readableOn(tintOf(button));
     else if (isTrue(button, quietProperty) && !isTrue(button, titleProperty)) colour = shade(button, Shade::accent);
     g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.4f));
