@@ -15,7 +15,7 @@ struct BusPlan {
     int channels = 4; ///< of the one bus until the host asks for another width; LV2 cannot ask
 
     static constexpr int widestBus = 16;              // VST3 gives up to 19 speakers names; LV2 and hosts stop at 16
-    static constexpr int busCount = 32;               // stereo: as many channels as there can be enchanters
+    static constexpr int busCount = 15;               // stereo: from 32 channels on JUCE takes memory in every block (decision 35)
     static constexpr int busesOfANewInstance = 2;     // the thesis' four enchanters; the host enables the others
 };
 

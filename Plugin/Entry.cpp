@@ -1,8 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The function by which a format's wrapper makes an instance; each build defines its name and its buses.
+#include "Entry.h"
 #include "PluginProcessor.h"
+
+namespace physvib {
+
+Making& making() noexcept {
+    static thread_local Making now;
+    return now;
+}
+
+} // namespace physvib
 
 juce::AudioProcessor* JUCE_CALLTYPE createPluginFilter();
 juce::AudioProcessor* JUCE_CALLTYPE createPluginFilter() {
-    return new physvib::PluginProcessor{JucePlugin_Name, {physvib::BusPlan::Kind::PHYSVIB_BUSES, PHYSVIB_CHANNELS}};
+    using namespace physvib;
+    auto& now = making();
+    now.instance = new PluginProcessor{JucePlugin_Name, {BusPlan::Kind::PHYSVIB_BUSES, PHYSVIB_CHANNELS}};
+    now.instance->expectBlocksOf(now.usualBlockFrames);
+    return now.instance;
 }

@@ -1,6 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+get_target_property(juce_modules juce::juce_core INTERFACE_JUCE_MODULE_PATH)
+set_source_files_properties(${juce_modules}/juce_audio_plugin_client/juce_audio_plugin_client_LV2.cpp PROPERTIES COMPILE_DEFINITIONS lv2_descriptor=juceLv2Descriptor)
+set_source_files_properties(Lv2Entry.cpp PROPERTIES COMPILE_DEFINITIONS PHYSVIB_LV2_ENTRY)
+set(physvib_entry_points ${CMAKE_CURRENT_LIST_DIR}/entry-points.map)
+
 # physvib_plugin(TARGET NAME CODE LV2URI BUSES CHANNELS FORMATS...): NAME.vst3, NAME.lv2, NAME.component in plugins/
 # (spaces of the name become hyphens).
+# A module shows hosts its format's entry points and nothing else, so that no two share a static. It stays loaded, as the
+# shared statics kept it: threads of JUCE and of X11's handlers may outlast the last instance.
 # CODE (four characters) and LV2URI are promises: hosts find our instances by them.
 function(physvib_plugin target name code lv2uri buses channels)
     string(REPLACE " " "-" file ${name})
@@ -24,12 +31,21 @@ function(physvib_plugin target name code lv2uri buses channels)
         JucePlugin_LV2URI="${lv2uri}") # juce_add_plugin's own argument is lost in Debian's package
     target_link_libraries(${target} PUBLIC physvib-plugin)
     set(plugins ${CMAKE_BINARY_DIR}/plugins)
+    foreach(module ${target}_VST3 ${target}_LV2)
+        if(TARGET ${module} AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+            set_target_properties(${module} PROPERTIES LINK_DEPENDS ${physvib_entry_points})
+            target_link_options(${module} PRIVATE LINKER:--version-script=${physvib_entry_points} LINKER:-z,nodelete)
+        endif()
+    endforeach()
     if(TARGET ${target}_VST3)
         set_target_properties(${target}_VST3 PROPERTIES LIBRARY_OUTPUT_DIRECTORY
             $<IF:$<PLATFORM_ID:Linux>,${plugins}/${file}.vst3/Contents/${CMAKE_SYSTEM_PROCESSOR}-linux,${plugins}>)
     endif()
     if(TARGET ${target}_LV2)
         set_target_properties(${target}_LV2 PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY "${plugins}/${file}.lv2")
+        target_sources(${target}_LV2 PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Entry.cpp)
+        add_custom_command(TARGET ${target}_LV2 POST_BUILD VERBATIM # after JUCE's command, which writes it
+            COMMAND ${CMAKE_COMMAND} -DFILE=${plugins}/${file}.lv2/dsp.ttl -P ${CMAKE_CURRENT_SOURCE_DIR}/lv2-description.cmake)
     endif()
     if(TARGET ${target}_AU)
         set_target_properties(${target}_AU PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${plugins})

@@ -119,7 +119,8 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     sampleRateHz_ = sampleRateHz;
     const int rate = juce::roundToInt(sampleRateHz);
     if (!isRate(rate)) return releaseResources(); // silent, and trouble() says so
-    blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, blockFrames);
+    const int usual = usualBlockFrames_ > 0 ? std::min(usualBlockFrames_, blockFrames) : blockFrames;
+    blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, usual);
     outputs_ = BusMap{*this};
     open_.prepare(rate, limits::channelRampSeconds, value(Parameter::bypass) > 0.5 ? 0.0f : 1.0f);
     transport_.reset();

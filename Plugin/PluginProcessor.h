@@ -29,6 +29,9 @@ public:
     std::uint64_t stateCount() const noexcept { return stateCount_; } ///< grows with every state that was taken
     int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
+    /// How many frames a block usually has where a host announces far more (LV2); 0: as announced. M, before prepareToPlay.
+    void expectBlocksOf(int frames) noexcept { usualBlockFrames_ = frames; }
+
     HostParameter& parameter(Parameter which) noexcept { return *parameters_[static_cast<std::size_t>(which)]; }
     Takes& takes() noexcept { return takes_; }
     ChannelMeters meters() noexcept { return meters_.read(); } ///< one reader
@@ -102,6 +105,7 @@ private:
     LatestValue<ChannelMeters> meters_;
     Takes takes_;
     BusMap outputs_;
+    int usualBlockFrames_ = 0;
 
     // R
     Transport transport_;

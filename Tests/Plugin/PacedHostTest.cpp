@@ -148,6 +148,32 @@ TEST(PacedHost, ABlockLargerThanAnnouncedLosesNothingAndLGrows) {
     }
 }
 
+// As LV2 hosts do that announce what an export may need.
+TEST(PacedHost, LIsThatOfTheUsualBlockUntilALargerOneComes) {
+    PacedHost host{busy()};
+    host.plugin->expectBlocksOf(512);
+    host.prepare(48000, 8192, false);
+    const int usual = host.plugin->getLatencySamples();
+    EXPECT_EQ(usual, 512 + 480 + 960 + 47);
+    Samples signal;
+    host.largest = 512;
+    for (int b = 0; b < 20; ++b) {
+        host.play(512, signal);
+        host.waitFrames(512);
+    }
+    EXPECT_EQ(host.plugin->takes().playOutFrames(), usual);
+    host.largest = 2048;
+    for (int b = 0; b < 20; ++b) {
+        host.play(2048, signal);
+        host.waitFrames(2048);
+    }
+    const auto learned = host.plugin->takes().playOutFrames();
+    EXPECT_GE(learned, 2048);
+    EXPECT_LT(learned, usual + 8192 - 512) << "less than for the largest that can come";
+    for (int i = 0; i < 100 && host.plugin->getLatencySamples() != learned; ++i) runFor(0.01);
+    EXPECT_EQ(host.plugin->getLatencySamples(), learned);
+}
+
 TEST(PacedHost, AnInputActsWhereItCameWhileLGrows) {
     auto state = busy();
     const auto played = [&](auto& host, int burst, auto pause) {

@@ -3,9 +3,8 @@
 // the memory in use grows from one opening to the next. Run by openings.sh.
 // Usage: physvib-editor-openings COUNT
 #include "Host/MessageLoop.h"
+#include "Plugin/Formats/DisplayNames.h"
 #include "PluginProcessor.h"
-#include <X11/Xlib.h>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <malloc.h>
@@ -16,18 +15,6 @@ using namespace physvib;
 
 constexpr int framesPerBlock = 512;
 constexpr double mostGrowthBytes = 1.0e6; // caches fill for some two hundred openings; 25 editors that are not freed hold 3 MB
-
-/// What a window manager would have named, and JUCE takes for granted; kept until the display is closed.
-Display* openDisplayWithNames() {
-    Display* const display = XOpenDisplay(nullptr);
-    if (display == nullptr) return nullptr;
-    for (const char* name : std::array{"WM_PROTOCOLS", "WM_TAKE_FOCUS", "WM_DELETE_WINDOW", "WM_CHANGE_STATE", "WM_STATE", "_NET_WM_PING", "_NET_WM_STATE",
-                                       "_NET_WM_STATE_HIDDEN", "_NET_WM_STATE_FULLSCREEN", "_NET_WM_WINDOW_TYPE", "_NET_WM_ALLOWED_ACTIONS", "_NET_FRAME_EXTENTS",
-                                       "_NET_WORKAREA", "_MOTIF_WM_HINTS"})
-        XInternAtom(display, name, 0);
-    XSync(display, 0);
-    return display;
-}
 
 double bytesInUse() {
     const auto heap = mallinfo2();
@@ -53,7 +40,7 @@ double openOnce(PluginProcessor& plugin, juce::AudioBuffer<float>& buffer) {
 int main(int argc, char** argv) {
     const int count = argc == 2 ? std::atoi(argv[1]) : 0;
     if (count < 2) return 2;
-    Display* const display = openDisplayWithNames();
+    Display* const display = test::openDisplayWithNames();
     if (display == nullptr) {
         std::puts("there is no display");
         return 1;

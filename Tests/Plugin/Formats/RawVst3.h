@@ -2,6 +2,7 @@
 // The least a VST3 host can be: one component of a module, its buses, its state, blocks with notes. Does only what it
 // is told, so that a plug-in can be met in every order of calls.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <dlfcn.h>
@@ -125,7 +126,7 @@ public:
         if (activateBuses)
             for (int b = 0; b < buses(); ++b) component->activateBus(vst::kAudio, vst::kOutput, b, true);
         component->activateBus(vst::kEvent, vst::kInput, 0, true);
-        vst::ProcessSetup setup{vst::kOffline, vst::kSample32, block, 48000.0};
+        vst::ProcessSetup setup{mode, vst::kSample32, block, 48000.0};
         processor->setupProcessing(setup);
         component->setActive(true);
         processor->setProcessing(true);
@@ -160,19 +161,21 @@ public:
         context.sampleRate = 48000.0;
         context.state = vst::ProcessContext::kPlaying;
         vst::ProcessData data;
-        data.processMode = vst::kOffline;
+        data.processMode = mode;
         data.numSamples = block_;
         data.numOutputs = static_cast<Steinberg::int32>(outputs.size());
         data.outputs = outputs.data();
         data.inputEvents = &notes_;
         data.processContext = &context;
-        const bool done = processor->process(data) == kResultOk;
+        const bool done = call(*processor, data) == kResultOk;
         notes_.events.clear();
         return done;
     }
 
     vst::IComponent* component = nullptr;
     vst::IAudioProcessor* processor = nullptr;
+    Steinberg::int32 mode = vst::kOffline;
+    Steinberg::tresult (*call)(vst::IAudioProcessor&, vst::ProcessData&) = [](vst::IAudioProcessor& to, vst::ProcessData& data) { return to.process(data); };
     std::vector<std::vector<std::vector<float>>> channels; ///< [bus][channel][frame] of the last block
 
 private:

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The least an LV2 host can be: one instance of the module of four channels, its ports, blocks. Does only what it is told.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <dlfcn.h>
+#include <lv2/atom/atom.h>
+#include <lv2/buf-size/buf-size.h>
+#include <lv2/core/lv2.h>
+#include <lv2/options/options.h>
+#include <lv2/urid/urid.h>
+#include <string>
+#include <vector>
+
+namespace physvib::test {
+
+class RawLv2 {
+public:
+    static constexpr std::size_t channels = 4;
+    enum Port : std::uint32_t { input = channels, output, latencyOut, freeWheeling, isEnabled };
+
+    /// `nominal` 0: not told, as some hosts do.
+    RawLv2(int largestBlock, int nominal) {
+        module_ = dlopen(PHYSVIB_PLUGINS "/PhysVib.lv2/PhysVib.so", RTLD_NOW | RTLD_LOCAL);
+        if (!module_) return;
+        descriptor_ = reinterpret_cast<const LV2_Descriptor* (*)(std::uint32_t)>(dlsym(module_, "lv2_descriptor"))(0);
+        largest_ = largestBlock;
+        nominal_ = nominal;
+        const auto whole = idOf(LV2_ATOM__Int), largestId = idOf(LV2_BUF_SIZE__maxBlockLength), nominalId = idOf(LV2_BUF_SIZE__nominalBlockLength);
+        const LV2_Options_Option largestOption{LV2_OPTIONS_INSTANCE, 0, largestId, sizeof largest_, whole, &largest_};
+        const LV2_Options_Option nominalOption{LV2_OPTIONS_INSTANCE, 0, nominalId, sizeof nominal_, whole, &nominal_};
+        const LV2_Options_Option end{};
+        options_ = {largestOption, nominal > 0 ? nominalOption : end, end};
+        features_ = {LV2_Feature{LV2_URID__map, &map_}, {LV2_BUF_SIZE__boundedBlockLength, nullptr}, {LV2_OPTIONS__options, options_.data()}};
+        const LV2_Feature* const features[]{&features_[0], &features_[1], &features_[2], nullptr};
+        handle_ = descriptor_->instantiate(descriptor_, 48000.0, PHYSVIB_PLUGINS "/PhysVib.lv2/", features);
+        if (!handle_) return;
+        for (std::uint32_t c = 0; c < channels; ++c) {
+            out[c].assign(static_cast<std::size_t>(largestBlock), 0.0f);
+            descriptor_->connect_port(handle_, c, out[c].data());
+        }
+        descriptor_->connect_port(handle_, input, in_.data());
+        descriptor_->connect_port(handle_, output, told_.data());
+        descriptor_->connect_port(handle_, latencyOut, &latency);
+        descriptor_->connect_port(handle_, freeWheeling, &offline);
+        descriptor_->connect_port(handle_, isEnabled, &enabled);
+    }
+    ~RawLv2() {
+        if (handle_) descriptor_->cleanup(handle_);
+        if (module_) dlclose(module_);
+    }
+    bool isLoaded() const { return handle_ != nullptr; }
+    void activate() { descriptor_->activate(handle_); }
+    void deactivate() { descriptor_->deactivate(handle_); }
+
+    /// A block; how many bytes of events the plug-in sent with it.
+    std::size_t run(int frames) {
+        auto* const in = reinterpret_cast<LV2_Atom_Sequence*>(in_.data());
+        auto* const sent = reinterpret_cast<LV2_Atom_Sequence*>(told_.data());
+        *in = {{sizeof(LV2_Atom_Sequence_Body), idOf(LV2_ATOM__Sequence)}, {0, 0}};
+        sent->atom = {static_cast<std::uint32_t>(sizeof told_ - sizeof(LV2_Atom)), idOf(LV2_ATOM__Chunk)};
+        descriptor_->run(handle_, static_cast<std::uint32_t>(frames));
+        return sent->atom.size - sizeof(LV2_Atom_Sequence_Body);
+    }
+    /// What every enchanter plays in that many blocks.
+    std::vector<float> play(int blocks, int frames) {
+        std::vector<float> signal;
+        for (int b = 0; b < blocks; ++b) {
+            run(frames);
+            for (const auto& channel : out) signal.insert(signal.end(), channel.begin(), channel.begin() + frames);
+        }
+        return signal;
+    }
+
+    std::array<std::vector<float>, channels> out;
+    float latency = 0.0f, offline = 1.0f, enabled = 1.0f;
+
+private:
+    LV2_URID idOf(const std::string& uri) {
+        for (std::size_t i = 0; i < uris_.size(); ++i)
+            if (uris_[i] == uri) return static_cast<LV2_URID>(i + 1);
+        uris_.push_back(uri);
+        return static_cast<LV2_URID>(uris_.size());
+    }
+    std::vector<std::string> uris_;
+    LV2_URID_Map map_{this, [](LV2_URID_Map_Handle host, const char* uri) { return static_cast<RawLv2*>(host)->idOf(uri); }};
+    std::array<LV2_Options_Option, 3> options_{};
+    std::array<LV2_Feature, 3> features_{};
+    std::int32_t largest_ = 0, nominal_ = 0;
+    alignas(8) std::array<std::byte, 16384> in_{}, told_{};
+    void* module_ = nullptr;
+    const LV2_Descriptor* descriptor_ = nullptr;
+    LV2_Handle handle_ = nullptr;
+};
+
+} // namespace physvib::test

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The LV2 module in a bare host: what JUCE's wrapper leaves out of LV2, and what it must not do.
+#include "Plugin/Formats/RawLv2.h"
+#include <algorithm>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <regex>
+#include <string>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+constexpr int block = 512, latencyOf512 = 1999; // a block, 10 ms of gap, two steps, the limiter
+
+TEST(RawLv2, TheLatencyIsThatOfTheUsualBlockNotOfTheLargest) {
+    for (const auto& [largest, nominal, latency] : {std::tuple{8192, block, latencyOf512}, {block, 0, latencyOf512}, {block, 8192, latencyOf512}, {8192, 0, latencyOf512 + 8192 - block}}) {
+        RawLv2 host{largest, nominal};
+        ASSERT_TRUE(host.isLoaded());
+        host.activate();
+        host.run(block);
+        EXPECT_EQ(host.latency, latency) << largest << ' ' << nominal;
+        host.deactivate();
+    }
+}
+
+TEST(RawLv2, ActivatedAgainTheSceneStartsAtItsSeed) {
+    RawLv2 host{block, block};
+    ASSERT_TRUE(host.isLoaded());
+    host.activate();
+    const auto first = host.play(200, block);
+    EXPECT_GT(*std::ranges::max_element(first), 0.001f);
+    for (int i = 0; i < 3; ++i) {
+        host.deactivate();
+        host.activate();
+        EXPECT_TRUE(host.play(200, block) == first) << i;
+    }
+    host.deactivate();
+}
+
+TEST(RawLv2, NothingIsToldFromTheRenderCallWhenTheHostBypasses) {
+    RawLv2 host{block, block};
+    ASSERT_TRUE(host.isLoaded());
+    host.activate();
+    host.run(block);
+    for (int b = 0; b < 20; ++b) {
+        host.enabled = b % 2 == 0 ? 0.0f : 1.0f;
+        EXPECT_EQ(host.run(block), 0u) << b;
+    }
+    host.deactivate();
+}
+
+TEST(RawLv2, TheHostsSwitchSilencesWithinABlockAndItsRamp) {
+    RawLv2 host{block, block};
+    ASSERT_TRUE(host.isLoaded());
+    host.activate();
+    host.play(100, block);
+    host.enabled = 0.0f;
+    const auto shut = host.play(100, block);
+    EXPECT_TRUE(std::all_of(shut.begin() + 4 * block, shut.end(), [](float x) { return x == 0.0f; }));
+    host.enabled = 1.0f;
+    const auto open = host.play(300, block);
+    EXPECT_GT(*std::ranges::max_element(open), 0.001f);
+    host.deactivate();
+}
+
+TEST(RawLv2, DescriptionsHaveFloatsAndNoEmptyAddresses) {
+    for (const std::string width : {"", "-2", "-8", "-16"}) {
+        std::ifstream file{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/dsp.ttl"};
+        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+        ASSERT_FALSE(text.empty()) << width;
+        EXPECT_EQ(text.find("<>"), std::string::npos) << width << ": that is the file itself";
+        EXPECT_NE(text.find("bufs:nominalBlockLength"), std::string::npos) << width;
+        const std::regex number{"(lv2:default|lv2:minimum|lv2:maximum|rdf:value) ([^ \t\n]+)"};
+        for (std::sregex_iterator found{text.begin(), text.end(), number}, end; found != end; ++found)
+            EXPECT_NE((*found)[2].str().find('.'), std::string::npos) << width << ": " << found->str();
+    }
+}
+
+} // namespace
+} // namespace physvib
