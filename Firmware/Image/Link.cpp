@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t framesPerMs = limits::board::sampleRateHz / 1000;
 constexpr std::uint32_t fadeFrames = 3 * framesPerMs; // render-ahead and fade, so that silence is there in time
-constexpr std::uint32_t watchdogFrames(int ms) noexcept { return static_cast<std::uint32_t>(std::max(ms, 20)) * framesPerMs - fadeFrames; }
+constexpr std::uint32_t watchdogFrames(int ms) noexcept { return static_cast<std::uint32_t>(std::clamp(ms, 20, wire::defaultWatchdogMs)) * framesPerMs - fadeFrames; }
 
 } // namespace
 
@@ -69,8 +69,8 @@ void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept 
 
 void Link::greet(const wire::Hello& hello) noexcept {
     stopAll();
-    sequence_ = 0xFF;
-    lost_ = 0;
+    greeted_ = true;
+    order_ = {};
     watchdogFrames_ = watchdogFrames(hello.watchdogMs);
     wire::HelloReply reply;
     reply.channels = BoardRenderer::channels;
@@ -85,11 +85,8 @@ void Link::greet(const wire::Hello& hello) noexcept {
 }
 
 void Link::strike(const wire::Strike& strike) noexcept {
-    const auto gap = static_cast<std::uint8_t>(strike.sequence - sequence_);
-    if (gap == 0 || selfTest_.isRunning()) return; // came twice
-    lost_ += gap - 1u;
-    sequence_ = strike.sequence;
-    renderer_->schedule(strike.event);
+    if (!greeted_ || selfTest_.isRunning()) return;
+    if (order_.isNew(strike.sequence, strike.event.frame, renderer_->frame())) renderer_->schedule(strike.event);
 }
 
 void Link::sendTelemetry() noexcept {
@@ -98,7 +95,7 @@ void Link::sendTelemetry() noexcept {
     t.frame = outputs_->played();
     t.good = decoder_.good();
     t.bad = decoder_.bad();
-    t.lost = lost_;
+    t.lost = order_.lost();
     t.overruns = serial_->overruns();
     t.played = status.played;
     t.late = status.late;

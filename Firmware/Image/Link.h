@@ -7,6 +7,7 @@
 #include "SerialPort.h"
 #include "Wire/FrameDecoder.h"
 #include "Wire/SelfTest.h"
+#include "Wire/StrikeOrder.h"
 #include <cstdint>
 
 namespace physvib::board {
@@ -50,9 +51,9 @@ private:
     wire::SelfTestRun selfTest_;
     std::uint32_t heardAt_ = 0; // frame of the last message
     std::uint32_t watchdogFrames_ = 0;
-    std::uint32_t lost_ = 0, worstBlockCycles_ = 0;
-    std::uint8_t sequence_ = 0xFF; // of the last strike
-    bool silenced_ = true;
+    std::uint32_t worstBlockCycles_ = 0;
+    wire::StrikeOrder order_;
+    bool greeted_ = false, silenced_ = true;
 };
 
 } // namespace physvib::board

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -14,8 +15,21 @@ constexpr std::int64_t givenUpAfter = 3 * second / 2;   // a silent line is open
 constexpr std::int64_t tooOld = 50 * ms;                // a strike this late is not worth the line
 constexpr std::int64_t lineAhead = 4 * ms;              // in the system's buffers at most: the rest can still be thinned
 constexpr double marginMs = 4.0 + 3.0 + 2.1;            // lineAhead, this thread's naps, one strike on the line
-constexpr double restartFrames = limits::board::sampleRateHz; // no line delays an answer by a second
+constexpr std::int64_t longestAnswer = second;           // no line delays an answer by more
+constexpr double restartFrames = limits::board::sampleRateHz; // nor does a clock that runs on differ by as much
 constexpr int crowded = 4;                              // from here on strikes go in the compact form
+
+/// Why nothing is sent to this board; empty: it is what this program plays on.
+std::string refusal(const wire::HelloReply& board) {
+    if (board.version < 1 || board.version > wire::protocolVersion)
+        return "expected a board of protocol " + std::to_string(wire::protocolVersion) + ", found " + std::to_string(board.version);
+    if (board.channels != limits::board::channels || board.sampleRateHz != limits::board::sampleRateHz)
+        return "expected a board of " + std::to_string(limits::board::channels) + " channels at " + std::to_string(limits::board::sampleRateHz) + " Hz, found " +
+               std::to_string(board.channels) + " at " + std::to_string(board.sampleRateHz) + " Hz";
+    if (board.watchdogMs > wire::defaultWatchdogMs || board.aheadFrames > limits::board::sampleRateHz)
+        return "expected a board that is silent " + std::to_string(wire::defaultWatchdogMs) + " ms after its computer, and plays within a second";
+    return {};
+}
 
 constexpr std::int64_t lineNs(std::size_t bytes) { return static_cast<std::int64_t>(bytes) * 10 * second / wire::lineBitsPerSecond; }
 
@@ -116,22 +130,31 @@ void BoardLink::receive() {
 
 void BoardLink::handle(std::span<const std::uint8_t> payload) {
     heardNs_ = nowNs();
-    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting) { // the first of several
-        now_.board = hello;
-        now_.trouble.clear();
-        nextGainsNs_ = 0; // it may have been without power, and plays at its own again
-        now_.state = State::synchronising;
-        sequence_ = 0xFF;
-        ++now_.connections;
-    }
-    if (wire::Pong pong; wire::decode(payload, pong) && now_.state >= State::synchronising) {
-        const double expected = clock_.frameAt(heardNs_);
-        if (clock_.isReady() && std::abs(pong.frame - expected) > restartFrames) return disconnect(now_.port + ": the board has started anew");
-        clock_.add(pingSentNs_[pong.id], pong.frame + pong.fraction / 256.0, heardNs_);
-        if (clock_.isReady()) now_.state = State::ready;
-    }
+    if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting) return meet(hello); // the first of several
+    if (wire::Pong pong; wire::decode(payload, pong) && now_.state >= State::synchronising) return take(pong);
     if (wire::Telemetry telemetry; wire::decode(payload, telemetry)) now_.telemetry = telemetry;
     if (wire::SelfTestReply reply; wire::decode(payload, reply)) now_.selfTest = reply;
+}
+
+void BoardLink::meet(const wire::HelloReply& board) {
+    if (auto fault = refusal(board); !fault.empty()) return disconnect(now_.port + ": " + fault);
+    now_.board = board;
+    now_.trouble.clear();
+    nextGainsNs_ = 0; // it may have been without power, and plays at its own again
+    now_.state = State::synchronising;
+    sequence_ = 0xFF;
+    pingSentNs_.fill(0);
+    ++now_.connections;
+}
+
+// An answer to a ping that nobody sent, or that is answered already, says nothing of the clock.
+void BoardLink::take(const wire::Pong& pong) {
+    const std::int64_t sentNs = std::exchange(pingSentNs_[pong.id], 0);
+    if (sentNs == 0 || heardNs_ - sentNs > longestAnswer) return;
+    const double frames = clock_.unwrapped(pong.frame, pong.fraction);
+    if (!clock_.isEmpty() && std::abs(frames - clock_.frameAt(heardNs_)) > restartFrames) return disconnect(now_.port + ": the board has started anew");
+    clock_.add(sentNs, frames, heardNs_);
+    if (clock_.isReady()) now_.state = State::ready;
 }
 
 void BoardLink::greet() {

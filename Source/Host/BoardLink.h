@@ -84,6 +84,8 @@ private:
     void disconnect(const std::string& why);
     void receive();
     void handle(std::span<const std::uint8_t> payload);
+    void meet(const wire::HelloReply& board);
+    void take(const wire::Pong& pong);
     void greet();
     void keepInTouch();
     void obey();
@@ -110,7 +112,7 @@ private:
     StrikeBacklog backlog_;
     BoardLinkStatus now_;
     std::optional<wire::Gains> gains_;
-    std::array<std::int64_t, 256> pingSentNs_{};
+    std::array<std::int64_t, 256> pingSentNs_{}; // 0: not on its way
     std::int64_t heardNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0, nextGainsNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
     std::size_t searched_ = 0; // ports tried so far
     std::uint8_t pingId_ = 0, sequence_ = 0xFF;

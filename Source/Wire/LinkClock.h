@@ -23,11 +23,19 @@ public:
     static constexpr double maxDrift = 0.02;  // the board's internal oscillator: 1 % and its temperature
 
     void clear() noexcept { count_ = next_ = 0; }
+    bool isEmpty() const noexcept { return count_ == 0; }
+
+    /// The board counts in 32 bits, which are over after 6.2 days; this goes on. For the next `add`.
+    double unwrapped(std::uint32_t frame, std::uint8_t fraction) const noexcept {
+        const auto sinceLast = static_cast<std::int32_t>(frame - static_cast<std::uint32_t>(last_));
+        return static_cast<double>(isEmpty() ? frame : last_ + sinceLast) + fraction / 256.0;
+    }
 
     /// A ping sent at `sentNs`, answered with the board's clock `boardFrames`, received at `receivedNs`.
     void add(std::int64_t sentNs, double boardFrames, std::int64_t receivedNs) noexcept {
         if (count_ == 0) origin_ = {sentNs, boardFrames};
         points_[static_cast<std::size_t>(next_)] = {seconds(sentNs), (boardFrames - origin_.frames) / rate, seconds(receivedNs)};
+        last_ = static_cast<std::int64_t>(boardFrames);
         next_ = (next_ + 1) % window;
         count_ = std::min(count_ + 1, window);
         estimate();
@@ -90,6 +98,7 @@ private:
     };
     Origin origin_;
     std::array<Point, static_cast<std::size_t>(window)> points_{};
+    std::int64_t last_ = 0; // frame of the newest ping
     int count_ = 0, next_ = 0;
     double offset_ = 0.0, drift_ = 0.0;
 };

@@ -19,7 +19,7 @@ constexpr std::uint8_t protocolVersion = 1;
 constexpr int lineBitsPerSecond = 115200;      // 8N1: 11,520 bytes a second, what the thesis' Bluetooth module does
 constexpr std::size_t maxPayload = 64;         // type, fields, CRC: room for telemetry to grow
 constexpr std::size_t maxFrame = cobsMaxEncoded(maxPayload) + 1;
-constexpr int defaultWatchdogMs = 500;         // five pings missed: the computer is gone
+constexpr int defaultWatchdogMs = 500;         // five pings missed: the computer is gone. No hello can make it longer
 constexpr int pingsPerSecond = 10;             // also what keeps the board from falling silent
 constexpr int firstPingsPerSecond = 50;        // until the clock is known
 
@@ -32,7 +32,7 @@ enum class Type : std::uint8_t {
 struct Hello {
     static constexpr Type type = Type::hello;
     std::uint8_t version = protocolVersion;
-    std::uint16_t watchdogMs = defaultWatchdogMs; ///< without a message for so long, the board falls silent
+    std::uint16_t watchdogMs = defaultWatchdogMs; ///< without a message for so long, the board falls silent; defaultWatchdogMs at most
     void visit(auto&& field) { field(version), field(watchdogMs); }
 };
 
@@ -52,7 +52,7 @@ struct HelloReply {
     }
 };
 
-/// A collision. `sequence` counts strikes of either form; one that comes twice is played once.
+/// A collision. `sequence` counts strikes of either form; one that comes again (see StrikeOrder), or before a hello, is not played.
 struct Strike {
     static constexpr Type type = Type::strike;
     std::uint8_t sequence = 0;

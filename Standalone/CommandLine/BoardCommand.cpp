@@ -148,7 +148,7 @@ int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelD
     const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + spare;
     const std::int64_t slipped = followClock(world, job.endNs(), delay, job.panner(), link);
     if (interrupted) link.stopAll();
-    else nap(static_cast<int>(delay / ms) + 500);
+    else waitFor([] { return false; }, static_cast<int>(delay / ms) + 500); // what is on its way
     std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(delay) * 1e-6 << " ms after the contact; " << static_cast<double>(slipped) * 1e-6
               << " ms of stalls\n";
     return finish(link, before);

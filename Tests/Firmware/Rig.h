@@ -30,14 +30,19 @@ private:
 public:
     virtualboard::VirtualBoard board;
 
+    void start() { board.runUntil(board.seconds() + 0.01); }
+
     /// Waits for the board to start, says hello; its answer. Throws if there is none.
-    wire::HelloReply connect(int watchdogMs = 60000) {
-        board.runUntil(board.seconds() + 0.01);
+    wire::HelloReply connect(int watchdogMs = wire::defaultWatchdogMs) {
+        start();
         return *ask<wire::HelloReply>(wire::Hello{wire::protocolVersion, static_cast<std::uint16_t>(watchdogMs)});
     }
 
     template <class Message>
-    void send(const Message& message) { board.send(framed(message)); }
+    void send(const Message& message) {
+        sentAt_ = board.seconds();
+        board.send(framed(message));
+    }
 
     /// Sends and waits up to `seconds` for an answer of this type.
     template <class Reply, class Message>
@@ -76,9 +81,13 @@ public:
         runTo(end);
     }
 
-    /// Runs until this frame is played.
+    /// Runs until this frame is played, and keeps in touch meanwhile.
     void runTo(double frame) {
-        while (this->frame() < frame) board.runUntil(board.seconds() + std::max(0.0001, (frame - this->frame()) / 8000));
+        constexpr double patience = 0.4; // less than the board's
+        while (this->frame() < frame) {
+            if (board.seconds() > sentAt_ + 0.9 * patience) send(wire::Ping{});
+            board.runUntil(board.seconds() + std::clamp((frame - this->frame()) / 8000, 0.0001, 0.1 * patience));
+        }
     }
 
     /// The renderer in the board's memory, between two blocks.
@@ -98,6 +107,7 @@ public:
 private:
     wire::FrameDecoder decoder_;
     std::uint8_t sequence_ = 0xFF;
+    double sentAt_ = 0.0;
 };
 
 /// True if the modes hold the same bits.

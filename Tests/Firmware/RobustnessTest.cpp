@@ -117,6 +117,37 @@ TEST(BoardRobustness, UnpluggedItIsSilentInTimeAndGoesOnWithoutARestart) {
     EXPECT_EQ(rig.board.resets(), 0);
 }
 
+TEST(BoardRobustness, NoHelloCanMakeItSoundOnForLonger) {
+    test::Rig rig;
+    EXPECT_EQ(rig.connect(65535).watchdogMs, wire::defaultWatchdogMs);
+    rig.play({tone(500)}, 560);
+    rig.board.runUntil(rig.board.seconds() + 1.0);
+    const std::size_t deadline = 20 + 17 + 4000 + 80; // its message came at frame 20 and took 2 ms; and those of the hello before
+    const auto& codes = rig.codes();
+    ASSERT_GT(codes.size(), deadline + 1000);
+    EXPECT_NE(codes[deadline - 300], silence);
+    for (std::size_t n = deadline; n < codes.size(); ++n) ASSERT_EQ(codes[n], silence) << n;
+}
+
+TEST(BoardRobustness, NothingIsStruckBeforeAHelloOrTwice) {
+    test::Rig rig;
+    rig.start();
+    rig.send(wire::Strike{0, tone(400, 20)});
+    rig.runTo(800);
+    EXPECT_EQ(rig.telemetry().played, 0u);
+    for (const auto& frame : rig.codes()) ASSERT_EQ(frame, silence);
+    rig.connect();
+    const std::uint32_t first = rig.frame() + 400;
+    for (std::uint8_t i = 0; i < 3; ++i) rig.send(wire::Strike{i, tone(first + 100u * i, 5)});
+    for (std::uint8_t i = 0; i < 3; ++i) rig.send(wire::Strike{i, tone(first + 100u * i, 5)}); // the line says it all again
+    rig.runTo(first + 600);
+    rig.send(wire::Strike{0, tone(first, 5)}); // and later
+    rig.runTo(first + 1000);
+    const auto t = rig.telemetry();
+    EXPECT_EQ(t.played, 3u);
+    EXPECT_EQ(t.lost, 0u);
+}
+
 TEST(BoardRobustness, StopAllIsSilenceWithinTwoMilliseconds) {
     test::Rig rig;
     rig.connect();

@@ -61,6 +61,25 @@ TEST(LinkClock, FindsTheOnePercentOfAnInternalOscillator) {
     EXPECT_LT(worstError(clock, line, 10, 60), 0.0005);
 }
 
+TEST(LinkClock, GoesOnWhenTheBoardsCounterIsOver) {
+    constexpr double over = 4294967296.0;
+    Line line; // 6.2 days and a second before: it wraps while the clock is being learnt; and later
+    for (const double wrapsAfter : {1.0, 30.0}) {
+        LinkClock clock;
+        line.bootSeconds = over / 8000 - wrapsAfter;
+        double worst = 0.0;
+        for (double t = 0; t < 60; t += clock.isReady() ? 0.1 : 0.02) {
+            const double there = t + line.delay(), frames = line.boardSeconds(there) * 8000;
+            const auto counted = static_cast<std::uint32_t>(static_cast<std::uint64_t>(frames));
+            clock.add(ns(t), clock.unwrapped(counted, static_cast<std::uint8_t>((frames - std::floor(frames)) * 256.0)), ns(there + line.delay()));
+            if (clock.isReady()) worst = std::max(worst, std::abs(clock.frameAt(ns(t + 0.1)) / 8000 - line.boardSeconds(t + 0.1)));
+        }
+        EXPECT_LT(worst, 0.002) << wrapsAfter;
+        EXPECT_GT(clock.frameAt(ns(60)), over);
+        EXPECT_LT(clock.worstDelaySeconds(), 0.035);
+    }
+}
+
 TEST(LinkClock, IsNotReadyBeforeItKnows) {
     LinkClock clock;
     Line line;

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Boards that answer as none should, and one whose counter is over: what the link makes of them.
+#include "VirtualBoard.h"
+#include "VirtualBoard/PseudoTerminal.h"
+#include "Wire/FrameDecoder.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+
+/// Another end of the line, that says what it is told to.
+class FakeBoard {
+public:
+    FakeBoard(const wire::HelloReply& reply, std::uint32_t first, bool lies = false)
+        : reply_{reply}, first_{first}, lies_{lies} {}
+    ~FakeBoard() {
+        stop_ = true;
+        thread_.join();
+    }
+    const std::string& port() const { return line_.path(); }
+    /// Of its counter, which does not wrap here.
+    double frameAt(std::int64_t ns) const { return first_ + static_cast<double>(ns - startNs_) * 1e-9 * limits::board::sampleRateHz; }
+    std::vector<wire::Strike> strikes() const {
+        const std::scoped_lock lock{mutex_};
+        return strikes_;
+    }
+
+private:
+    void run() {
+        wire::FrameDecoder decoder;
+        while (!stop_) {
+            for (const auto byte : line_.read())
+                if (const auto payload = decoder.feed(byte); !payload.empty()) handle(payload);
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+        }
+    }
+    void handle(std::span<const std::uint8_t> payload) {
+        if (wire::Hello hello; wire::decode(payload, hello)) send(reply_);
+        if (wire::Ping ping; wire::decode(payload, ping)) {
+            const auto frame = static_cast<std::uint32_t>(static_cast<std::uint64_t>(frameAt(BoardLink::nowNs())));
+            if (lies_) send(wire::Pong{static_cast<std::uint8_t>(ping.id + 100), frame + 800, 0}); // of a ping that was never sent, or is answered
+            send(wire::Pong{ping.id, frame, 0});
+            if (lies_) send(wire::Pong{ping.id, frame + 400, 0}); // once more
+        }
+        const std::scoped_lock lock{mutex_};
+        if (wire::Strike strike; wire::decode(payload, strike)) strikes_.push_back(strike);
+    }
+    template <class Message>
+    void send(const Message& message) {
+        std::array<std::uint8_t, wire::maxFrame> frame;
+        line_.write({frame.data(), wire::encode(message, frame)});
+    }
+
+    virtualboard::PseudoTerminal line_;
+    const wire::HelloReply reply_;
+    const std::uint32_t first_;
+    const bool lies_;
+    const std::int64_t startNs_ = BoardLink::nowNs();
+    mutable std::mutex mutex_;
+    std::vector<wire::Strike> strikes_;
+    std::atomic<bool> stop_{false};
+    std::thread thread_{[this] { run(); }};
+};
+
+wire::HelloReply ours() {
+    wire::HelloReply reply;
+    reply.channels = limits::board::channels;
+    reply.sampleRateHz = limits::board::sampleRateHz;
+    reply.aheadFrames = 16;
+    reply.watchdogMs = wire::defaultWatchdogMs;
+    return reply;
+}
+
+TEST(BoardLinkWithAFakeBoard, OneThatIsNotOursIsRefusedAndTold) {
+    struct {
+        void (*change)(wire::HelloReply&);
+        const char* told;
+    } const cases[]{
+        {[](wire::HelloReply& r) { r.version = 255; }, ": expected a board of protocol 1, found 255"},
+        {[](wire::HelloReply& r) { r.channels = 0; }, ": expected a board of 4 channels at 8000 Hz, found 0 at 8000 Hz"},
+        {[](wire::HelloReply& r) { r.sampleRateHz = 0; }, ": expected a board of 4 channels at 8000 Hz, found 4 at 0 Hz"},
+        {[](wire::HelloReply& r) { r.watchdogMs = 65535; }, ": expected a board that is silent 500 ms after its computer, and plays within a second"},
+    };
+    for (const auto& one : cases) {
+        auto reply = ours();
+        one.change(reply);
+        FakeBoard board{reply, 0};
+        BoardLink link{board.port()};
+        EXPECT_TRUE(test::comesTrue([&] { return link.status().trouble == board.port() + one.told; })) << link.status().trouble;
+        EXPECT_EQ(link.status().connections, 0u);
+    }
+}
+
+TEST(BoardLinkWithAFakeBoard, NeitherAWrongAnswerNorACounterThatIsOverMovesItsClock) {
+    FakeBoard board{ours(), 4'294'967'295u - 8000u, true}; // over in a second, while the clock is learnt
+    BoardLink link{board.port()};
+    ASSERT_TRUE(test::comesTrue([&] { return link.status().state == BoardLinkStatus::State::ready; }));
+    const std::int64_t onset = BoardLink::nowNs() + 100 * ms;
+    link.push({onset, {0, 16 * 205, 16, 0, {1000, 0, 0, 0}}});
+    ASSERT_TRUE(test::comesTrue([&] { return !board.strikes().empty(); }));
+    const auto wanted = static_cast<std::uint32_t>(static_cast<std::uint64_t>(board.frameAt(onset)));
+    EXPECT_LT(std::abs(static_cast<std::int32_t>(board.strikes()[0].event.frame - wanted)), 160) << "20 ms; a wrong answer is 50 or 100 off";
+    EXPECT_EQ(link.status().connections, 1u);
+    EXPECT_EQ(link.status().refused, 0u);
+    EXPECT_LT(link.status().playOutMs, 200.0);
+}
+
+} // namespace
+} // namespace physvib
