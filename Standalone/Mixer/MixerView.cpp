@@ -109,8 +109,15 @@ void MixerView::setDropShown(bool isShown) {
     repaint();
 }
 
+// A screen lies over everything: keys that come while nothing has the focus are its own before they are the world's below.
+bool MixerView::covered(const juce::KeyPress& key) {
+    const auto screen = std::ranges::find_if(getChildren(), [](const auto* child) { return child->isVisible() && child->getWantsKeyboardFocus(); });
+    return screen != getChildren().end() && (*screen)->keyPressed(key);
+}
+
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
+    if (!world_.isVisible() && covered(key)) return true;
     setHint(false);
     if (key == KeyPress::escapeKey) return bar_.toggleSilence(), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;

@@ -39,6 +39,7 @@ public:
 private:
     void changeListenerCallback(juce::ChangeBroadcaster*) override { takeMix(); }
     void timerCallback() override { refresh(); }
+    bool covered(const juce::KeyPress& key);
     void takeMix();
     void keepPace();
 

@@ -234,6 +234,7 @@ public:
     bool isComplete() const override { return answer().value > 0.0; }
     bool needsNext() const override { return true; }
     juce::String keys() const override { return "Type a number, then Enter."; }
+    bool takeKey(const juce::KeyPress& key) override { return isEnabled() && number_.keyPressed(key); } // typed while the focus was elsewhere
     void begin() override { number_.grabKeyboardFocus(); }
     void resized() override { number_.setBounds(column(getLocalBounds(), 260, 64)); }
     void enablementChanged() override {

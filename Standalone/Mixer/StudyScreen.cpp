@@ -185,6 +185,7 @@ void StudyScreen::take(Answer answer) {
 }
 
 void StudyScreen::refresh() {
+    if (isShowing() && !hasKeyboardFocus(true)) grabKeyboardFocus(); // first: an open answer takes it from here
     const bool isTrial = page_ == Page::trial;
     const bool isSilent = desk_.isSilent();
     silence_.setButtonText(isSilent ? "SILENT  Esc: feel" : "SILENCE  Esc");
@@ -201,7 +202,6 @@ void StudyScreen::refresh() {
         setDescription(words);
         repaint();
     }
-    if (isShowing() && !hasKeyboardFocus(true)) grabKeyboardFocus();
 }
 
 void StudyScreen::updateTrial() {

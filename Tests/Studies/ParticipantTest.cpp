@@ -281,6 +281,26 @@ TEST_F(ByAParticipant, RatesOnlyWhatWasFeltForLongEnough) {
     analyse("ratings");
 }
 
+TEST_F(ByAParticipant, GivesTheNumberThatWasTypedWhereverTheFocusWent) {
+    begin(R"({"name": "main", "task": "estimate", "question": "How strong?"})",
+          R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
+    passPage();
+    const juce::String number{"12.5"};
+    for (const bool isWindowLeft : {true, false}) {
+        p->feel();
+        ASSERT_TRUE(p->canUse("Number"));
+        for (const auto character : number) { // between two pictures, as a busy display does
+            if (isWindowLeft) juce::Component::unfocusAllComponents();
+            else p->screen()->grabKeyboardFocus();
+            p->view.getPeer()->handleKeyPress(juce::KeyPress{static_cast<int>(character), 0, character});
+        }
+        p->pump();
+        p->enter();
+    }
+    close();
+    EXPECT_EQ(column("value", "estimate"), (Texts{"12.5", "12.5"}));
+}
+
 TEST_F(ByAParticipant, GivesNumbers) {
     begin(R"({"name": "main", "task": "estimate", "question": "How strong?"})",
           R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1", "0.2"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
