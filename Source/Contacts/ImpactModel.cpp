@@ -4,9 +4,6 @@
 
 namespace physvib {
 
-double defaultNormalisation(double fieldWidthMetres) noexcept {
-    const double maxSpeed = fieldWidthMetres / 1.0; // across the field in one second
-    return 1.0 / (2.0 * maxSpeed);
-}
+double defaultNormalisation(double fieldWidthMetres) noexcept { return 1.0 / (2.0 * largestSpeed(fieldWidthMetres)); }
 
 } // namespace physvib

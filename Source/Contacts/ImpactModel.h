@@ -17,7 +17,10 @@ struct ImpactModel {
     }
 };
 
-/// Eq. 5.7: A* = 1 / (2 v_max) in s/m, v_max being one field width per second. Any thread.
+/// v_max of Eq. 5.7 in m/s: one field width per second. Any thread.
+constexpr double largestSpeed(double fieldWidthMetres) noexcept { return fieldWidthMetres / 1.0; }
+
+/// Eq. 5.7: A* = 1 / (2 v_max) in s/m. Any thread.
 double defaultNormalisation(double fieldWidthMetres) noexcept;
 
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shapes, skins and masses.
 #include "Physics/SceneBodies.h"
+#include "Contacts/ImpactModel.h"
 #include "Physics/BodyMass.h"
 #include "Physics/ShapeGeometry.h"
 #include <algorithm>
@@ -94,7 +95,7 @@ b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& bo
     def.angularVelocity = static_cast<float>(body.spinRadiansPerSecond);
     def.linearDamping = static_cast<float>(body.linearDampingPerSecond);
     def.angularDamping = static_cast<float>(body.angularDampingPerSecond);
-    const double maxSpeed = 2.0 * scene.fieldWidthMetres; // per second, as in Eq. 5.7
+    const double maxSpeed = 2.0 * largestSpeed(scene.fieldWidthMetres);
     def.bullet = thinnestMetres(body) < maxSpeed * stepSeconds;
     b2Body& created = *world.CreateBody(&def);
     for (const FixtureDescription& fixture : body.fixtures) {

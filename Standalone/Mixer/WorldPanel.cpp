@@ -2,7 +2,10 @@
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/WorldPanel.h"
 #include "Mixer/HitWords.h"
+#include "Contacts/ImpactModel.h"
+#include "Physics/BodyMass.h"
 #include "Physics/SceneCast.h"
+#include <cmath>
 
 namespace physvib {
 
@@ -27,7 +30,7 @@ WorldPanel::WorldPanel(Desk& desk)
     setTitle("World");
     setWantsKeyboardFocus(true);
     view_.onPull = [this](const std::string& body, Vector metres, Vector point) { pull(body, metres, point); };
-    view_.pullText = [this](double metres) { return "drag " + number(1e-3 * desk_.mix().dragNewtonSecondsPerMetre * metres, 1) + " " + kiloNewtonSeconds; };
+    view_.pullText = [this](const std::string& body, double metres, Vector point) { return "drag " + number(1e-3 * push(body, metres, point), 2) + " " + kiloNewtonSeconds; };
     view_.onAttach = [this](FieldShare at) { desk_.attach(at.x, at.y); };
     view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
     view_.onMove = [this](int enchanter, FieldShare to) {
@@ -51,7 +54,7 @@ WorldPanel::WorldPanel(Desk& desk)
     tilt_.setValue(0.0, juce::dontSendNotification);
     tilt_.setDoubleClickReturnValue(true, 0.0);
     tilt_.onValueChange = [this] { desk_.act(TiltAction{juce::degreesToRadians(-tilt_.getValue())}); };
-    setUpKnob(drag_, "Drag strength", "Drag strength: how hard a body is pushed per metre that it is dragged; double click: as in the thesis");
+    setUpKnob(drag_, "Drag strength", "Drag strength: how hard a body is pushed per metre that it is dragged, up to the speed of a field's width a second; double click: as in the thesis");
     drag_.setRange(leastDrag, mostDrag, 1'000.0);
     drag_.setSkewFactorFromMidPoint(10'000.0);
     drag_.setDoubleClickReturnValue(true, thesisDrag);
@@ -93,9 +96,19 @@ bool WorldPanel::keyPressed(const juce::KeyPress& key) {
 }
 
 void WorldPanel::pull(const std::string& body, Vector metres, Vector point) {
-    const double push = desk_.mix().dragNewtonSecondsPerMetre;
-    const auto fault = desk_.act(ImpulseAction{body, {push * metres.x, push * metres.y}, point});
+    const double way = std::hypot(metres.x, metres.y), each = way > 0.0 ? push(body, way, point) / way : 0.0;
+    const auto fault = desk_.act(ImpulseAction{body, {each * metres.x, each * metres.y}, point});
     if (!fault.empty()) desk_.report(utf8(fault));
+}
+
+// Screen metres are meant by the thesis' figure, the field's are larger: no drag moves the point that it pulls off faster
+// than v_max (Eq. 5.7), for which amplitudes are made.
+double WorldPanel::push(const std::string& body, double metres, Vector point) const {
+    const auto& scene = desk_.sceneNow();
+    const auto cast = sceneCast(scene);
+    const auto pulled = std::ranges::find(cast, body, &BodyDescription::name);
+    const double wanted = desk_.mix().dragNewtonSecondsPerMetre * metres;
+    return pulled == cast.end() ? wanted : std::min(wanted, largestSpeed(scene.fieldWidthMetres) * pushedMassKg(*pulled, scene, point));
 }
 
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {

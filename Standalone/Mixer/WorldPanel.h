@@ -25,6 +25,7 @@ public:
 
 private:
     void pull(const std::string& body, Vector metres, Vector point);
+    double push(const std::string& body, double metres, Vector point) const;
     void showMenu(const std::string& body, FieldShare at);
     void addBody(FieldShare at, int material, bool isBox);
     void edit(const juce::String& name, const Action& action);

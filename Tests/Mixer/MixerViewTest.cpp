@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window's components without a display: names and the keyboard for every control, sizes, looks, and what clicks do.
 #include "MixerTesting.h"
+#include "Physics/BodyMass.h"
+#include <cmath>
 #include <set>
 
 namespace physvib {
@@ -187,14 +189,33 @@ TEST(MixerView, ADragPushesByItsStrength) {
     strength->setValue(8'000.0, juce::sendNotificationSync);
     desk.dispatchPendingMessages();
     auto& world = view.world().view();
-    EXPECT_EQ(world.pullText(0.5), "drag 4.0 " + juce::String::fromUTF8("kN\xc2\xb7s"));
-    world.onPull("large rubber ball", {0.5, 0.0}, {});
+    EXPECT_EQ(world.pullText("large rubber ball", 0.02, {}), "drag 0.16 " + juce::String::fromUTF8("kN\xc2\xb7s"));
+    world.onPull("large rubber ball", {0.02, 0.0}, {});
     const auto& inputs = desk.saved().log.takes.back().inputs;
     ASSERT_EQ(inputs.size(), 1u);
-    EXPECT_EQ(std::get<ImpulseAction>(inputs[0].action).newtonSeconds.x, 4'000.0);
+    EXPECT_EQ(std::get<ImpulseAction>(inputs[0].action).newtonSeconds.x, 160.0);
     desk.undoManager().undo();
     desk.dispatchPendingMessages();
     EXPECT_EQ(strength->getValue(), 32'000.0);
+}
+
+TEST(MixerView, NoDragMovesWhatItPullsOffFasterThanAmplitudesAreMadeFor) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    const auto& scene = *desk.mix().scene;
+    std::size_t count = 0;
+    for (const auto& body : scene.bodies) {
+        if (body.type != BodyType::dynamicBody) continue;
+        for (const Vector point : {Vector{}, Vector{0.1, 0.05}}) {
+            view.world().view().onPull(body.name, {-3.0, 4.0}, point);
+            const auto inputs = desk.saved().log.takes.back().inputs;
+            ASSERT_EQ(inputs.size(), ++count);
+            const auto& push = std::get<ImpulseAction>(inputs.back().action).newtonSeconds;
+            EXPECT_NEAR(std::hypot(push.x, push.y) / pushedMassKg(body, scene, point), scene.fieldWidthMetres, 1e-9) << body.name;
+            EXPECT_NEAR(push.x / push.y, -0.75, 1e-12);
+        }
+    }
+    EXPECT_GT(count, 4u);
 }
 
 TEST(MixerView, AStripIsTestedAndSweptByButtonAndByKey) {

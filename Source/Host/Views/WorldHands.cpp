@@ -62,11 +62,17 @@ void WorldView::mouseUp(const juce::MouseEvent& e) {
     if (onSpot && grip.enchanter < 0 && !e.mods.isPopupMenu() && !e.mouseWasDraggedSinceMouseDown() && map().field.contains(e.position)) return onSpot(map().shareAt(e.position));
     if (grip.body < 0 || !onPull || !e.mouseWasDraggedSinceMouseDown()) return;
     const auto at = map();
-    const auto pose = poseOf(static_cast<std::size_t>(grip.body));
     const auto way = (e.position - grip.from) / at.pixelsPerMetre;
-    const auto start = (grip.from - at.at(pose.xMetres, pose.yMetres)) / at.pixelsPerMetre; // on the body, turned with it
+    onPull(cast_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, pointOf(grip));
+}
+
+// On the body, turned with it.
+Vector WorldView::pointOf(const Grip& grip) const {
+    const auto at = map();
+    const auto pose = poseOf(static_cast<std::size_t>(grip.body));
+    const auto start = (grip.from - at.at(pose.xMetres, pose.yMetres)) / at.pixelsPerMetre;
     const double c = std::cos(pose.angleRadians), s = std::sin(pose.angleRadians);
-    onPull(cast_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, {c * start.x - s * start.y, -s * start.x - c * start.y});
+    return {c * start.x - s * start.y, -s * start.x - c * start.y};
 }
 
 bool WorldView::isInterestedInDragSource(const SourceDetails& details) { return onAttach && details.description == newEnchanter; }

@@ -289,7 +289,8 @@ void WorldView::drawGrip(juce::Graphics& g, const Map& at) const {
     if (!pullText) return;
     g.setFont(juce::Font{text::small});
     const auto words = juce::Rectangle<float>{130.0f, 18.0f}.withCentre(grip_.to.translated(0.0f, -16.0f)).constrainedWithin(getLocalBounds().reduced(4).toFloat());
-    g.drawText(pullText(grip_.from.getDistanceFrom(grip_.to) / at.pixelsPerMetre), words, juce::Justification::centred, false);
+    const auto& body = cast_[static_cast<std::size_t>(grip_.body)].name;
+    g.drawText(pullText(body, grip_.from.getDistanceFrom(grip_.to) / at.pixelsPerMetre, pointOf(grip_)), words, juce::Justification::centred, false);
 }
 
 } // namespace physvib

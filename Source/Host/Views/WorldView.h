@@ -53,7 +53,7 @@ public:
 
     // What a hand does; what is not set cannot be done. M.
     std::function<void(const std::string& body, Vector pullMetres, Vector pointMetres)> onPull; ///< in the field's axes; the point on the body
-    std::function<juce::String(double metres)> pullText;                                     ///< beside the line while it is pulled
+    std::function<juce::String(const std::string& body, double metres, Vector pointMetres)> pullText; ///< beside the line while it is pulled
     std::function<void(int enchanter, FieldShare to)> onMove;                                ///< while it is moved
     std::function<void(int enchanter)> onDetach;                                             ///< dropped outside
     std::function<void(FieldShare at)> onAttach;
@@ -104,6 +104,7 @@ private:
         bool isOutside = false;
     };
     Map map() const;
+    Vector pointOf(const Grip& grip) const;
     juce::Colour colourOf(const CollisionEvent& event) const;
     BodyPose poseOf(std::size_t body) const;
     juce::AffineTransform placeOf(const BodyPose& pose, const Map& at) const;
