@@ -16,9 +16,10 @@ bool isRate(int hz) { return hz >= limits::minSampleRateHz && hz <= limits::maxS
 
 } // namespace
 
-AudioOutput::AudioOutput(Session& session, AudioDeviceTypes types)
+AudioOutput::AudioOutput(Session& session, AudioDeviceTypes types, const std::atomic<bool>* silence)
     : session_{session}
-    , types_{std::move(types)} {}
+    , types_{std::move(types)}
+    , silence_{silence} {}
 
 AudioOutput::~AudioOutput() { close(); }
 
@@ -184,9 +185,9 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     const auto start = juce::Time::getHighResolutionTicks();
     const FeltMoment felt{session_.nextFeltNs(), std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count() + latencyNs_};
     if (frames > largestBlock_.load(std::memory_order_relaxed)) largestBlock_.store(frames, std::memory_order_relaxed);
-    const bool isSilent = silent_.load(std::memory_order_relaxed) || ending_.load(std::memory_order_relaxed);
+    const bool rests = isSilent() || ending_.load(std::memory_order_relaxed);
     for (auto [ramp, gain] : {std::pair{&master_, &level_}, {&noiseRamp_, &noiseGain_}, {&contactRamp_, &contactGain_}}) {
-        if (isSilent) ramp->moveTo(0.0f, frames);
+        if (rests) ramp->moveTo(0.0f, frames);
         else ramp->moveTo(gain->load(std::memory_order_relaxed));
     }
     for (int done = 0; done < frames; done += block_) renderPart(out, outputs, done, std::min(block_, frames - done));

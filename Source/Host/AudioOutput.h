@@ -68,8 +68,9 @@ public:
     /// A device that calls for no block for this long has gone; the longest block lasts 1.6 s (8192 frames at 5 kHz).
     static constexpr std::chrono::seconds patience{2};
 
-    /// `session` outlives the output; `types` is where devices are looked for. M.
-    explicit AudioOutput(Session& session, AudioDeviceTypes types = systemAudioDeviceTypes);
+    /// `session` outlives the output; `types` is where devices are looked for. `silence`, if there is one, outlives it too: while
+    /// it is true, as setSilent. M.
+    explicit AudioOutput(Session& session, AudioDeviceTypes types = systemAudioDeviceTypes, const std::atomic<bool>* silence = nullptr);
     ~AudioOutput() override;
 
     /// Opens that device and no other; empty, or one line with the reason. The session is prepared by the first
@@ -92,7 +93,7 @@ public:
 
     /// Silent within a block, back in a ramp. Any thread, wait-free.
     void setSilent(bool silent) noexcept { silent_.store(silent, std::memory_order_relaxed); }
-    bool isSilent() const noexcept { return silent_.load(std::memory_order_relaxed); }
+    bool isSilent() const noexcept { return silent_.load(std::memory_order_relaxed) || (silence_ && silence_->load(std::memory_order_relaxed)); }
     float level() const noexcept { return level_.load(std::memory_order_relaxed); }
     void setLevel(float level) noexcept { level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed); }
 
@@ -148,6 +149,7 @@ private:
 
     Session& session_;
     AudioDeviceTypes types_;
+    const std::atomic<bool>* const silence_;
     AudioOutputSettings settings_;
     FoundDevice found_;
     std::atomic<bool> running_{false}, silent_{false}, ending_{false};

@@ -121,7 +121,7 @@ std::string playLive(LivePlay wanted) {
     Session session{wanted.setup};
     std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
-    AudioOutput output{session};
+    AudioOutput output{session, systemAudioDeviceTypes, &interrupted};
     if (auto error = output.open(wanted.output); !error.empty()) return error;
     if (!wanted.recordPath.empty()) {
         recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());

@@ -67,7 +67,8 @@ struct Rig {
     FakeInterface interface, speakers;
     SessionSetup setup;
     Session session{setup};
-    AudioOutput output{session, fakeTypes({&speakers, &interface})};
+    std::atomic<bool> interrupt{false};
+    AudioOutput output{session, fakeTypes({&speakers, &interface}), &interrupt};
     std::vector<CollisionEvent> log;
 };
 
@@ -306,6 +307,21 @@ TEST(AudioOutput, TheSilenceSwitchActsWithinABlockAndComesBackInARamp) {
         const auto out = rig.play(0.1, block), expected = steady.play(0.1, block);
         for (std::size_t n = 0; n < out[0].size(); ++n)
             EXPECT_NEAR(out[0][n], expected[0][n] * std::min(1.0f, static_cast<float>(n + 1) / (0.005f * hostRate)), 1e-6f) << n;
+    }
+}
+
+TEST(AudioOutput, ASignalIsSilenceBeforeAnythingEnds) {
+    for (const int block : {64, 2048}) {
+        Rig rig, steady;
+        ASSERT_EQ(rig.open(), "");
+        ASSERT_EQ(steady.open(), "");
+        playUntilLoud(rig, steady);
+        rig.interrupt = true; // by another thread, in the middle of whatever M does
+        EXPECT_TRUE(rig.output.isSilent()) << "for the board beside it";
+        EXPECT_EQ(rig.play(1.0 / hostRate, block)[0].back(), 0.0f) << block;
+        for (const auto& channel : rig.play(0.1, block)) EXPECT_EQ(loudest(channel), 0.0f) << block;
+        rig.output.setSilent(false);
+        for (const auto& channel : rig.play(0.1, block)) EXPECT_EQ(loudest(channel), 0.0f) << "nobody undoes it";
     }
 }
 
