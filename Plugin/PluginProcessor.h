@@ -5,6 +5,7 @@
 // host calls non-realtime is rendered with RenderMode::offline, so that a bounce is the live take at any speed.
 #pragma once
 #include "BusPlan.h"
+#include "ControlPace.h"
 #include "Host/ChannelMeters.h"
 #include "HostParameter.h"
 #include "MidiMap.h"
@@ -79,10 +80,17 @@ private:
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
     void followTransport(int frames) noexcept;
     void forgetControls() noexcept;
-    bool hasChanged(Parameter which) noexcept;
+    bool hasNews(Parameter which) const noexcept;
+    template <class Send>
+    void send(std::initializer_list<Parameter> those, Send what) noexcept;
+    template <class Make>
+    bool sendAt(Session& session, ControlPace& pace, int first, int end, Make make) noexcept;
+    void sendPaced(int first, int end) noexcept;
     void sendControls(int frame) noexcept;
-    void sendPanner(Session& session, int frame) noexcept;
-    void sendHold(Session& session, int frame) noexcept;
+    RenderControl pannerControl() const noexcept;
+    bool sendMaterial(Session& session, int frame) noexcept;
+    void stopAll(int frame) noexcept;
+    void silence(int frame) noexcept;
     void receive(const juce::MidiMessageMetadata& message, int frame) noexcept;
     void strike(int channel, int note, int velocity, int frame) noexcept;
     void control(int channel, int controller, int value, int frame) noexcept;
@@ -112,7 +120,9 @@ private:
     int blockFrames_ = 0;
     GainRamp open_; // shut by bypass
     ChannelMeters measured_;
-    std::array<double, parameterCount> sent_{};
+    std::array<double, parameterCount> sent_{}; // what the playing take has taken
+    ControlPace levelPace_, pannerPace_;
+    bool owesStop_ = false, owesSilence_ = false;
     std::array<float, 17> bend_{}, slide_{}; // per MIDI channel, from 1: shifts of the strikes, in parts of the field
 };
 

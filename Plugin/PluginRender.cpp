@@ -11,10 +11,9 @@ constexpr int slideController = 74; // MPE's third dimension
 constexpr int allSoundOff = 120;    // All Notes Off does nothing: what notes strike rings out by itself, and the world is no note
 constexpr float peakFallDbPerSecond = 20.0f;
 
-RenderControl controlOf(RenderControl::Kind kind, int channel = 0, float value = 0.0f) {
+RenderControl controlOf(RenderControl::Kind kind, float value = 0.0f) {
     RenderControl control;
     control.kind = kind;
-    control.channel = channel;
     control.value = value;
     return control;
 }
@@ -43,6 +42,7 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
         if (takes_.begin(mode)) forgetControls();
         sendControls(0);
         for (; message != midi.end() && (*message).samplePosition < first + part; ++message) receive(*message, std::max(0, (*message).samplePosition - first));
+        sendPaced(0, part); // what controllers said faster than it may go
         takes_.render(part, mode);
         mix(buffer, first, part);
         first += part;
@@ -65,11 +65,13 @@ void PluginProcessor::followTransport(int frames) noexcept {
     if (restarts && change == Transport::Change::started) takes_.start();
     else if (restarts && !transport_.isPlaying()) takes_.stop();
     else if (!takes_.isPlaying()) takes_.start();
-    else if (change == Transport::Change::stopped) takes_.session()->control(controlOf(RenderControl::Kind::stopAll), 0);
+    else if (change == Transport::Change::stopped) stopAll(0);
 }
 
 // A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
 void PluginProcessor::forgetControls() noexcept {
+    levelPace_ = pannerPace_ = {};
+    owesStop_ = false;
     sent_.fill(std::numeric_limits<double>::quiet_NaN());
     for (const auto which : {Parameter::gravity, Parameter::tilt, Parameter::material}) {
         const auto& row = rowOf(which);
@@ -77,43 +79,69 @@ void PluginProcessor::forgetControls() noexcept {
     }
 }
 
-bool PluginProcessor::hasChanged(Parameter which) noexcept {
-    double& sent = sent_[static_cast<std::size_t>(which)];
-    const double now = value(which);
-    return std::exchange(sent, now) != now;
+bool PluginProcessor::hasNews(Parameter which) const noexcept { return sent_[static_cast<std::size_t>(which)] != value(which); }
+
+// A value is told again until it is taken, so the newest is never lost.
+template <class Send>
+void PluginProcessor::send(std::initializer_list<Parameter> those, Send what) noexcept {
+    if (std::ranges::none_of(those, [this](Parameter which) { return hasNews(which); })) return;
+    auto told = sent_;
+    for (const auto which : those) told[static_cast<std::size_t>(which)] = value(which); // before: the host may change it meanwhile
+    if (what()) sent_ = told;
+}
+
+// Within frames first to end of this block, as its pace allows; else later.
+template <class Make>
+bool PluginProcessor::sendAt(Session& session, ControlPace& pace, int first, int end, Make make) noexcept {
+    const std::int64_t now = session.framesRendered(), at = pace.nextFrom(now + first);
+    if (at >= now + end || !session.control(make(), static_cast<int>(at - now))) return false;
+    pace.wentAt(at, session.playOutFrames());
+    return true;
+}
+
+void PluginProcessor::sendPaced(int first, int end) noexcept {
+    Session* const session = takes_.session();
+    if (!session) return;
+    send({Parameter::level}, [&] {
+        return sendAt(*session, levelPace_, first, end, [this] { return controlOf(RenderControl::Kind::level, static_cast<float>(gainOfLevel(value(Parameter::level)))); });
+    });
+    send({Parameter::law, Parameter::exponent}, [&] { return sendAt(*session, pannerPace_, first, end, [this] { return pannerControl(); }); });
 }
 
 void PluginProcessor::sendControls(int frame) noexcept {
     Session* const session = takes_.session();
     if (!session) return;
-    if (hasChanged(Parameter::level)) {
-        const auto gain = static_cast<float>(gainOfLevel(value(Parameter::level)));
-        for (int j = 0; j < session->channels(); ++j) session->control(controlOf(RenderControl::Kind::gain, j, gain), frame);
-    }
-    const bool lawChanged = hasChanged(Parameter::law), exponentChanged = hasChanged(Parameter::exponent);
-    if (lawChanged || exponentChanged) sendPanner(*session, frame);
-    const bool gravityChanged = hasChanged(Parameter::gravity), tiltChanged = hasChanged(Parameter::tilt);
-    if (gravityChanged || tiltChanged) sendHold(*session, frame);
-    if (hasChanged(Parameter::material)) {
+    if (owesStop_) stopAll(frame);
+    if (owesSilence_) silence(frame);
+    sendPaced(frame, frame + 1);
+    send({Parameter::gravity, Parameter::tilt}, [&] {
         RenderInput input;
-        input.group = takes_.settings().midi.groupOfMaterial(juce::roundToInt(value(Parameter::material)));
-        if (input.group >= 0) session->perform(input, frame);
-    }
+        input.hold = {value(Parameter::gravity), juce::degreesToRadians(value(Parameter::tilt))};
+        return session->perform(input, frame);
+    });
+    send({Parameter::material}, [&] { return sendMaterial(*session, frame); });
 }
 
-void PluginProcessor::sendPanner(Session& session, int frame) noexcept {
+RenderControl PluginProcessor::pannerControl() const noexcept {
     const auto& settings = takes_.settings();
     const auto law = static_cast<PanningLaw>(juce::roundToInt(value(Parameter::law)));
     auto control = controlOf(RenderControl::Kind::panner);
     control.panner = {settings.layout, law, value(Parameter::exponent), settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres()};
-    session.control(control, frame);
+    return control;
 }
 
-void PluginProcessor::sendHold(Session& session, int frame) noexcept {
+bool PluginProcessor::sendMaterial(Session& session, int frame) noexcept {
     RenderInput input;
-    input.hold = {value(Parameter::gravity), juce::degreesToRadians(value(Parameter::tilt))};
-    session.perform(input, frame);
+    input.group = takes_.settings().midi.groupOfMaterial(juce::roundToInt(value(Parameter::material)));
+    return input.group < 0 || session.perform(input, frame);
 }
+
+void PluginProcessor::stopAll(int frame) noexcept {
+    Session* const session = takes_.session();
+    owesStop_ = session && !session->control(controlOf(RenderControl::Kind::stopAll), frame);
+}
+
+void PluginProcessor::silence(int frame) noexcept { owesSilence_ = !takes_.silence(frame); }
 
 void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int frame) noexcept {
     if (message.numBytes < 3) return; // nothing that is shorter means anything to us
@@ -143,10 +171,7 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
 
 void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {
     if (controller == slideController) slide_[static_cast<std::size_t>(channel)] = static_cast<float>(value - 64) / 128.0f;
-    if (controller == allSoundOff) {
-        if (Session* const session = takes_.session()) session->control(controlOf(RenderControl::Kind::stopAll), frame);
-        return;
-    }
+    if (controller == allSoundOff) return silence(frame);
     const int which = takes_.settings().midi.parameterOf(controller);
     if (which < 0) return;
     parameters_[static_cast<std::size_t>(which)]->setByController(static_cast<float>(value) / 127.0f);

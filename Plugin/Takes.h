@@ -83,6 +83,9 @@ public:
 
     /// Before each part of a block; true if a take starts with it, which knows no controls yet. R, wait-free if realtime.
     bool begin(RenderMode mode) noexcept;
+    /// What happened before that frame of the coming block is not felt any more, whatever take it is of. False if one has no
+    /// room for it: it has to be told again. R, wait-free.
+    bool silence(int frame) noexcept;
     /// Renders at most the prepared block; `addTo` is then valid. R, wait-free if realtime.
     void render(int frames, RenderMode mode) noexcept;
     int channels() const noexcept; ///< R

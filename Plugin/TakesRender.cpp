@@ -56,6 +56,12 @@ void Takes::stop() noexcept {
     ending_[endingCount_++] = std::exchange(playing_, nullptr);
 }
 
+bool Takes::silence(int frame) noexcept {
+    bool all = true;
+    forEachSounding([&](Take& take) { all = take.session.silence(frame) && all; });
+    return all;
+}
+
 void Takes::letGo(Take*& take) noexcept {
     if (take) take->isEnded.store(true, std::memory_order_release);
     take = nullptr;

@@ -23,6 +23,7 @@ public:
         prepareEqualisers(sampleRateHz);
         for (auto& ramp : ramps_) ramp.prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
         gains_.fill(1.0f);
+        level_ = 1.0f;
         muted_.fill(false);
         delaySeconds_.fill(0.0f);
         prepareDelays(sampleRateHz);
@@ -39,6 +40,12 @@ public:
     void setGain(int channel, float gain) noexcept {
         gains_[index(channel)] = gain;
         aim(channel);
+    }
+
+    /// Of all channels, on top of their gains.
+    void setLevel(float level) noexcept {
+        level_ = level;
+        for (int j = 0; j < channels_; ++j) aim(j);
     }
 
     /// A muted channel is exactly silent after the ramp, and so has no say in the limiter.
@@ -71,7 +78,7 @@ private:
         for (int j = 0; j < channels_; ++j) equalisers_[index(j)] = {actuators_[index(j)], sampleRateHz};
     }
     static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
-    float aimOf(int channel) const noexcept { return muted_[index(channel)] ? 0.0f : gains_[index(channel)]; }
+    float aimOf(int channel) const noexcept { return muted_[index(channel)] ? 0.0f : level_ * gains_[index(channel)]; }
     void aim(int channel) noexcept {
         if (hasBegun_) ramps_[index(channel)].moveTo(aimOf(channel));
         else ramps_[index(channel)].jumpTo(aimOf(channel));
@@ -93,6 +100,7 @@ private:
     std::array<ActuatorEqualiser, width> equalisers_{};
     std::array<GainRamp, width> ramps_{};
     std::array<float, width> gains_{};
+    float level_ = 1.0f;
     std::array<bool, width> muted_{};
 };
 

@@ -19,6 +19,7 @@ void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     pending_.clear();
     controls_.clear();
     position_ = 0;
+    silentUntilNs_ = INT64_MIN;
     played_ = late_ = rejected_ = 0;
 }
 
@@ -61,6 +62,7 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
     const bool isChannel = control.channel >= 0 && control.channel < channels_;
     if (control.kind == Kind::panner && control.panner.channels() <= channels_) panner_ = control.panner;
     if (control.kind == Kind::gain && isChannel) actuators_.setGain(control.channel, control.value);
+    if (control.kind == Kind::level) actuators_.setLevel(control.value);
     if (control.kind == Kind::mute && isChannel) actuators_.setMuted(control.channel, control.value != 0.0f);
     if (control.kind == Kind::delay && isChannel) actuators_.setDelay(control.channel, control.value);
     if (control.kind == Kind::ceiling && isChannel && control.value > 0.0f) {
@@ -68,8 +70,10 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
         limiter_.setCeiling(control.channel, control.value);
     }
     if (control.kind == Kind::recordings) player_.setContacts(control.recordings);
-    if (control.kind == Kind::stopAll) bank_.fadeAll(position_);
-    if (control.kind == Kind::recordings || control.kind == Kind::stopAll) player_.fadeAll(position_);
+    const bool isSilence = control.kind == Kind::silence;
+    if (isSilence) silentUntilNs_ = std::max(silentUntilNs_, control.untilNs);
+    if (isSilence || control.kind == Kind::stopAll) bank_.fadeAll(position_, isSilence ? limits::silenceFadePerSecond : limits::stealFadePerSecond);
+    if (isSilence || control.kind == Kind::stopAll || control.kind == Kind::recordings) player_.fadeAll(position_);
 }
 
 template <class P>

@@ -123,7 +123,7 @@ private:
     RendererSettings settings_;
     int channels_ = 1;
     bool othersAreModes_ = false; // events without a recording
-    std::int64_t position_ = 0;
+    std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN; // no event before it is played
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
 };
 
@@ -147,6 +147,10 @@ int HapticRenderer<Profile>::strikeAndReach(Source& source, int most) noexcept {
         refill(source);
         actOnDue();
         std::int64_t end = nextChange(most);
+        if (!pending_.empty() && pending_.nextTime() < silentUntilNs_) {
+            pending_.pop();
+            continue;
+        }
         if (!pending_.empty()) {
             const FramePosition onset = clock_.at(pending_.nextTime());
             if (onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead())) {

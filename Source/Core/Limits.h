@@ -18,6 +18,7 @@ constexpr double maxLevelDb = 80.0;        // up or down, of what is rendered: b
 constexpr std::int64_t maxTimeNs = 1'000'000'000'000'000; // 11.6 days; frames and their phases stay in 64 bits
 constexpr double retireDecibels = 140.0;   // a strike is over when it has fallen by this much (24-bit floor)
 constexpr double stealFadePerSecond = 1000.0; // a stolen mode falls by 60 dB in 7 ms: no click, soon gone
+constexpr double silenceFadePerSecond = 2000.0; // 140 dB in 8 ms: silence within 10 ms, and still no click
 constexpr double channelRampSeconds = 0.01; // gains, mutes, detached channels: no click, still at once to a hand
 constexpr double maxChannelDelaySeconds = 0.05; // aligns hands and sound; longer, a hand takes it for another hit
 constexpr double limiterLookAheadSeconds = 0.001; // attack of the limiter = its constant latency

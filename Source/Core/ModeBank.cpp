@@ -155,12 +155,12 @@ void ModeBank<P>::recycle(int slot) noexcept {
 
 // From `frame` on the mode decays faster: same phase, no step, gone within milliseconds.
 template <class P>
-void ModeBank<P>::fade(int slot, std::int64_t frame) noexcept {
+void ModeBank<P>::fade(int slot, std::int64_t frame, double perSecond) noexcept {
     rebase(slot);
     Mode& m = mode(slot);
     index_.erase(m.hash(), slot);
     const std::int64_t before = m.decayIncrement;
-    m.decayPerSecond += limits::stealFadePerSecond;
+    m.decayPerSecond += perSecond;
     setIncrements(m);
     m.isFading = true;
     m.endFrame = std::min(m.endFrame, frame + lifeFrames(m.decayIncrement));
@@ -179,10 +179,10 @@ void ModeBank<P>::fade(int slot, std::int64_t frame) noexcept {
 }
 
 template <class P>
-void ModeBank<P>::fadeAll(std::int64_t frame) noexcept {
+void ModeBank<P>::fadeAll(std::int64_t frame, double perSecond) noexcept {
     enterTile(frame);
     for (int i = 0; i < activeCount_; ++i)
-        if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading) fade(slot, frame);
+        if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading) fade(slot, frame, perSecond);
 }
 
 template <class P>

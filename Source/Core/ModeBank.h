@@ -65,8 +65,8 @@ public:
     /// Closes that gate; to be called when its frame is the next one to be rendered.
     void closeNextGate() noexcept;
 
-    /// From `frame` on, the next one to be rendered, everything fades as a stolen mode does.
-    void fadeAll(std::int64_t frame) noexcept;
+    /// From `frame` on, the next one to be rendered, everything fades: as a stolen mode does, unless it is to go faster.
+    void fadeAll(std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
 
     /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. False if all are 0.
     bool render(float* const* out, std::int64_t first, int frames) noexcept;
@@ -108,7 +108,7 @@ private:
     int create(const Mode& mode) noexcept;
     void release(int slot) noexcept;
     void recycle(int slot) noexcept;
-    void fade(int slot, std::int64_t frame) noexcept;
+    void fade(int slot, std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
     int quietest(bool fading) const noexcept;
     void fillPowers(int slot) noexcept;
     void rebase(int slot) noexcept;

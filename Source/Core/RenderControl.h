@@ -17,13 +17,16 @@ struct RenderControl {
         stopAll, ///< whatever rings fades out; later events are played
         delay,   ///< of `channel`: `value` seconds, 0 to limits::maxChannelDelaySeconds
         ceiling,  ///< of `channel`: largest sample while the limiter is on, `value` > 0
-        recordings ///< from now on `recordings` are played instead of modes; recordings that sound fade out
+        recordings, ///< from now on `recordings` are played instead of modes; recordings that sound fade out
+        level,      ///< of all channels, on top of their gains: `value`, 0 or more
+        silence     ///< as stopAll, and events before `untilNs` are not played. These two are born in the render call: no file names them
     };
     std::int64_t timeNs = 0;
     Kind kind = Kind::stopAll;
     int channel = 0;
     float value = 0.0f;
     PhantomPanner panner;
+    std::int64_t untilNs = 0;
     std::span<const RecordedContact> recordings{}; ///< at the renderer's rate; empty: modes
 };
 

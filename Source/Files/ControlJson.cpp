@@ -78,6 +78,8 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
         control.value = static_cast<float>(readNumber(json["value"], leastCeiling, 1.0));
         break;
     case Kind::recordings: // not among the names: a session's file lists them apart
+    case Kind::level: // nor these: no file knows them
+    case Kind::silence:
     case Kind::stopAll: expectFields(json, {}, otherField);
     }
     return control;

@@ -136,6 +136,15 @@ bool Session::control(RenderControl control, int frame) noexcept {
     return ownControls_.push(control);
 }
 
+bool Session::silence(int frame) noexcept {
+    const std::int64_t now = sessionFrames_.load(std::memory_order_relaxed) + frame;
+    RenderControl control;
+    control.kind = RenderControl::Kind::silence;
+    control.timeNs = sessionNs(std::max<std::int64_t>(0, now - playOutFrames() + renderer_->latencyFrames())); // which leaves us now
+    control.untilNs = sessionNs(now);
+    return ownControls_.push(control);
+}
+
 bool Session::perform(RenderInput input, int frame) noexcept {
     input.timeNs = sessionNs(sessionFrames_.load(std::memory_order_relaxed) + frame);
     return ownInputs_.push(input);

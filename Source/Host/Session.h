@@ -142,6 +142,8 @@ public:
     bool strike(CollisionEvent event, int frame) noexcept;
     bool control(RenderControl control, int frame) noexcept;
     bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step
+    /// Not L later but as soon as it can be: what rings fades, and what happened before is not felt any more. As the others. R, wait-free.
+    bool silence(int frame) noexcept;
 
     /// What has been played, in the renderer's frames (session frame - L). One reader.
     HapticRenderer<DesktopProfile>::PlayedQueue& played() noexcept { return renderer_->played(); }
@@ -171,7 +173,7 @@ private:
     using Controls = EventQueue<RenderControl, 256>;
     using OwnStrikes = EventQueue<CollisionEvent, 1024>; // both ends are R: a dense chord in a block of 8192 frames
     using OwnInputs = EventQueue<RenderInput, 1024>;     // from R to whoever steps the world
-    using OwnControls = EventQueue<RenderControl, 128>;  // a gain for each enchanter, and more
+    using OwnControls = EventQueue<RenderControl, 128>;  // whoever sends them keeps to a pace
     struct LiveSource;
     struct OfflineSource;
     void setContacts();

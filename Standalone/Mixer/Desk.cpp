@@ -78,14 +78,15 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     , tap_{channels, 1 << 14}
     , output_{session_, types_}
     , undo_{1000, 30}
-    , sceneNow_{*mix_.scene} {
+    , sceneNow_{*mix_.scene}
+    , told_{mix_.panner(), {}} {
     saved_.run = setupOf(mix_, false).run();
     saved_.panner = mix_.panner();
     mostEnchanters_ = mix_.count();
     tap_.hear(mix_.count());
     output_.listen(&tap_);
     open(device);
-    postDifferences(mix_, true);
+    tellSession();
     edits_ = 0;
     if (!device.board.empty()) {
         link_ = std::make_unique<BoardLink>(device.board == anyBoard ? std::string{} : device.board);
@@ -112,28 +113,32 @@ void Desk::apply(const Mix& next) {
     mostEnchanters_ = std::max(mostEnchanters_, mix_.count());
     if (mix_.scene != before.scene || mix_.seed != before.seed) takeScene(mix_.scene == before.scene);
     tap_.hear(mix_.count());
-    postDifferences(before, false);
+    tellSession();
     if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output)))
         if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8(error));
     output_.setLevel(masterGain(mix_));
     sendChangeMessage();
 }
 
-// What the session plays by: as little as has changed.
-void Desk::postDifferences(const Mix& before, bool all) {
+// What the session plays by, as little as it does not know yet. What finds no room is told later: watchOutput asks again.
+void Desk::tellSession() {
     using Kind = RenderControl::Kind;
-    if (!all && !isSame(before.panner(), mix_.panner())) {
-        if (mix_.count() < before.count()) session_.post({0, Kind::stopAll, 0, 0.0f, {}}); // a channel may be another enchanter's now
-        session_.post({0, Kind::panner, 0, 0.0f, mix_.panner()});
+    const auto post = [this](Kind kind, int channel, float value, const PhantomPanner& panner = {}) { return session_.post({0, kind, channel, value, panner}) >= 0; };
+    const auto tell = [&](Kind kind, int channel, float value, float& told) {
+        if (value != told && post(kind, channel, value)) told = value;
+    };
+    if (const auto panner = mix_.panner(); !isSame(told_.panner, panner)) {
+        if (panner.channels() < told_.panner.channels() && !post(Kind::stopAll, 0, 0.0f)) return; // a channel may be another enchanter's now
+        if (!post(Kind::panner, 0, 0.0f, panner)) return;
+        told_.panner = panner;
     }
     for (int j = 0; j < mix_.count(); ++j) {
-        const auto i = static_cast<std::size_t>(j);
-        const Strip strip = mix_.strips[i], old = !all && i < before.strips.size() ? before.strips[i] : Strip{};
-        const bool isSilent = mix_.isSilent(j), wasSilent = !all && i < before.strips.size() && before.isSilent(j);
-        if (channelGain(strip) != channelGain(old)) session_.post({0, Kind::gain, j, channelGain(strip), {}});
-        if (strip.delayMs != old.delayMs) session_.post({0, Kind::delay, j, static_cast<float>(1e-3 * strip.delayMs), {}});
-        if (strip.ceilingDb != old.ceilingDb) session_.post({0, Kind::ceiling, j, ceilingOf(strip), {}});
-        if (isSilent != wasSilent) session_.post({0, Kind::mute, j, isSilent ? 1.0f : 0.0f, {}});
+        const Strip& strip = mix_.strips[static_cast<std::size_t>(j)];
+        ToldStrip& told = told_.strips[static_cast<std::size_t>(j)];
+        tell(Kind::gain, j, channelGain(strip), told.gain);
+        tell(Kind::delay, j, static_cast<float>(1e-3 * strip.delayMs), told.delaySeconds);
+        tell(Kind::ceiling, j, ceilingOf(strip), told.ceiling);
+        tell(Kind::mute, j, mix_.isSilent(j) ? 1.0f : 0.0f, told.mute);
     }
 }
 
@@ -197,6 +202,7 @@ std::string Desk::hear(const ListeningSettings& listening) {
 }
 
 void Desk::watchOutput() {
+    tellSession();
     if (const double now = nowMs(); now - maintainedAtMs_ > maintainMs) {
         maintainedAtMs_ = now;
         deviceTrouble_ = utf8(output_.maintain());

@@ -150,7 +150,7 @@ private:
     void showEdit(const Action& action);
     void takeScene(bool keepsSounds);
     void apply(const Mix& next);
-    void postDifferences(const Mix& before, bool all);
+    void tellSession();
     std::vector<int> outputMap() const;
     void measure(const float* const* block, int frames);
     void strike(int enchanter, std::vector<CollisionEvent> strikes);
@@ -170,6 +170,14 @@ private:
     juce::String trouble_, deviceTrouble_, outputTrouble_; // shown; of the device; with the board's
     bool isSilent_ = false, isNews_ = false, wasBoardReady_ = false;
     std::uint64_t edits_ = 0, worldEdits_ = 0;
+    struct ToldStrip {
+        float gain = 1.0f, delaySeconds = 0.0f, ceiling = 1.0f, mute = 0.0f;
+    };
+    struct Told { // what the session has taken
+        PhantomPanner panner;
+        std::array<ToldStrip, limits::maxEnchanters> strips;
+    };
+    Told told_;
     SavedSession saved_;
     int mostEnchanters_ = 0, added_ = 0;
     std::unique_ptr<Recording> recording_;

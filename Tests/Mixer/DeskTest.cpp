@@ -157,6 +157,23 @@ TEST(Desk, ADeviceThatVanishesIsToldAndTakenUpAgain) {
     EXPECT_TRUE(desk.trouble().contains("feet")) << "never a silent failure";
 }
 
+TEST(Desk, WhatFindsNoRoomInTheSessionIsToldWhenThereIsRoom) {
+    FakeInterface hands;
+    Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}}; // which calls for nothing yet
+    const auto lastGain = [&] {
+        float gain = 1.0f;
+        for (const auto& c : desk.saved().log.channels)
+            if (c.kind == Kind::gain && c.channel == 1) gain = c.value;
+        return gain;
+    };
+    for (int k = 1; k <= 400; ++k) desk.change("Gain of B", [k](Mix& mix) { mix.strips[1].gainDb = -0.1 * k; });
+    EXPECT_NE(lastGain(), channelGain(desk.mix().strips[1]));
+    EXPECT_TRUE(runUntil([&] { return hands.play(64), desk.look(), lastGain() == channelGain(desk.mix().strips[1]); }));
+    const auto told = desk.saved().log.channels.size();
+    for (int k = 0; k < 10; ++k) desk.look();
+    EXPECT_EQ(desk.saved().log.channels.size(), told) << "once";
+}
+
 TEST(Desk, TwoHundredBodiesForAWhile) {
     Scene crowd = *findBuiltInScene("shake-the-box");
     for (int k = 0; k < 200; ++k) {

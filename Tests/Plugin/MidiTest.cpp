@@ -173,6 +173,42 @@ TEST(Midi, AllSoundOffAndAStoppedTransportSilence) {
     }
 }
 
+TEST(Midi, AllSoundOffIsSilenceAtOnceAndForWhatWasBefore) {
+    for (const int size : {64, 480, 4096}) {
+        QuietHost host, other;
+        for (auto* h : {&host, &other}) h->prepare(48000, size);
+        const int latency = host.plugin->getLatencySamples();
+        const int notes = (latency + 4800) / size; // ring, and wait
+        for (int i = 0; i < notes; ++i) {
+            juce::MidiBuffer midi;
+            midi.addEvent(Message::noteOn(1, 48 + i % 12, juce::uint8{100}), i % size);
+            host.block(size, midi);
+        }
+        Samples after;
+        juce::MidiBuffer off;
+        off.addEvent(Message::noteOn(1, 50, juce::uint8{100}), 10);
+        off.addEvent(Message::allSoundOff(1), 20);
+        off.addEvent(Message::noteOn(1, 60, juce::uint8{127}), 30);
+        const auto& out = host.block(size, off);
+        after.assign(4, {});
+        for (std::size_t c = 0; c < 4; ++c) after[c].assign(out.getReadPointer(static_cast<int>(c)), out.getReadPointer(static_cast<int>(c)) + size);
+        EXPECT_GT(std::abs(out.getMagnitude(0, 20)), 0.0f);
+        host.play(latency + 4800, after);
+        float loudest = 0.0f;
+        for (const auto& channel : after)
+            for (std::size_t n = 20 + 480; n < static_cast<std::size_t>(latency + 29); ++n) loudest = std::max(loudest, std::abs(channel[n]));
+        EXPECT_EQ(loudest, 0.0f) << size << ": 10 ms after it, until what came later is felt";
+        Samples alone(4); // what came later is whole
+        juce::MidiBuffer note;
+        note.addEvent(Message::noteOn(1, 60, juce::uint8{127}), 30);
+        const auto& first = other.block(size, note);
+        for (std::size_t c = 0; c < 4; ++c) alone[c].assign(first.getReadPointer(static_cast<int>(c)), first.getReadPointer(static_cast<int>(c)) + size);
+        other.play(latency + 4800, alone);
+        for (std::size_t n = static_cast<std::size_t>(latency + 30); n < alone[0].size(); ++n) ASSERT_NEAR(after[0][n], alone[0][n], 1e-5f) << size << ' ' << n;
+        EXPECT_GT(peakOf(alone), 0.01f);
+    }
+}
+
 TEST(Midi, NotesStrikeWhileTheTransportStands) {
     QuietHost host;
     host.playHead.isThere = true;
