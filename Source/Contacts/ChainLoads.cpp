@@ -12,10 +12,8 @@ constexpr std::size_t expectedContacts = 1024;
 ChainLoads::ChainLoads()
     : indices_(expectedContacts) {
     contacts_.reserve(expectedContacts);
-}
-
-void ChainLoads::resize(std::int32_t slots) {
-    if (passed_.size() < static_cast<std::size_t>(slots)) passed_.resize(static_cast<std::size_t>(slots));
+    passed_.reserve(expectedContacts);
+    receivers_.reserve(expectedContacts);
 }
 
 void ChainLoads::add(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point) {
@@ -26,7 +24,7 @@ void ChainLoads::add(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vect
     contact.isSolved = true;
 }
 
-void ChainLoads::settle() noexcept {
+void ChainLoads::settle() {
     for (const Contact& contact : contacts_) {
         if (!contact.isSolved || contact.isUnknown) continue;
         const Vector2 load = loadOf(contact);
@@ -36,8 +34,11 @@ void ChainLoads::settle() noexcept {
     }
 }
 
-void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, Vector2 point) noexcept {
-    Passed& passed = passed_[static_cast<std::size_t>(slot)];
+void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, Vector2 point) {
+    const auto index = static_cast<std::size_t>(slot);
+    if (passed_.size() <= index) passed_.resize(index + 1);
+    Passed& passed = passed_[index];
+    if (passed.other == FixtureTable::none) receivers_.push_back(slot);
     passed.newtonSeconds += newtonSeconds;
     if (newtonSeconds.length() <= passed.strongest) return;
     passed.strongest = newtonSeconds.length();
@@ -50,9 +51,10 @@ void ChainLoads::begin(std::int32_t a, std::int32_t b) {
 }
 
 void ChainLoads::endStep(const ContactGraph& graph) noexcept {
+    for (const std::int32_t slot : receivers_) passed_[static_cast<std::size_t>(slot)] = {};
+    receivers_.clear();
     for (std::size_t i = contacts_.size(); i-- > 0;) {
         Contact& contact = contacts_[i];
-        for (const std::int32_t end : {contact.a, contact.b}) passed_[static_cast<std::size_t>(end)] = {};
         if (contact.isSolved) {
             if (contact.isUnknown) contact.past.fill(contact.now);
             contact.past = {contact.now, contact.past[0], contact.past[1]};

@@ -28,19 +28,22 @@ public:
 
     ChainLoads();
 
-    /// Room for this many slots.
-    void resize(std::int32_t slots);
-
     /// In a step: the old contact (a, b) has pushed b by `newtonSeconds` (world), and a by its opposite.
     void add(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point);
 
     /// After a step: adds up what was handed on.
-    void settle() noexcept;
+    void settle();
+
+    /// The slots that got something through old contacts in this step. After settle().
+    const std::vector<std::int32_t>& receivers() const noexcept { return receivers_; }
 
     /// What a fixture, a camera at least, got through old contacts in this step. After settle().
-    const Passed& passed(std::int32_t slot) const noexcept { return passed_[static_cast<std::size_t>(slot)]; }
+    Passed passed(std::int32_t slot) const noexcept {
+        const auto index = static_cast<std::size_t>(slot);
+        return index < passed_.size() ? passed_[index] : Passed{};
+    }
 
-    /// After that: a contact that began in this step is old from the next one on, and has no load yet.
+    /// A contact begins: it has no load yet.
     void begin(std::int32_t a, std::int32_t b);
 
     /// At last: this step becomes the past. Bodies that sleep keep their load.
@@ -59,12 +62,13 @@ private:
     };
     static Vector2 loadOf(const Contact& contact) noexcept;
     Contact& find(std::int32_t a, std::int32_t b, bool isUnknown);
-    void pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, Vector2 point) noexcept;
+    void pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, Vector2 point);
     void drop(std::size_t index) noexcept;
 
     std::vector<Contact> contacts_;
     IntegerMap indices_;         // of the contacts, by their ends
     std::vector<Passed> passed_; // by slot
+    std::vector<std::int32_t> receivers_;
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From an engine's words to records.
+// From an engine's words to blows and loads.
 #include "Contacts/CollisionCatcher.h"
 #include <algorithm>
 
@@ -8,58 +8,57 @@ namespace physvib {
 CollisionCatcher::CollisionCatcher(const FixtureTable& table, ContactGraph& graph)
     : table_(table)
     , graph_(graph) {
-    records_.reserve(maxDirectRecords + maxDistantRecords);
-    ends_.reserve(maxDirectRecords + maxDistantRecords);
+    blows_.reserve(maxDirectBlows + maxDistantBlows);
+    ends_.reserve(maxDirectBlows + maxDistantBlows);
+    last_.reserve(maxDirectBlows + maxDistantBlows);
 }
 
-void CollisionCatcher::beginStep() {
-    loads_.resize(table_.size());
+void CollisionCatcher::beginStep(const StepSpan& span) noexcept {
+    span_ = span;
     isStepping_ = true;
 }
 
-void CollisionCatcher::settle() noexcept {
+void CollisionCatcher::settle() {
     isStepping_ = false;
     loads_.settle();
 }
 
 void CollisionCatcher::endStep() {
-    for (const ContactRecord& record : records_) {
-        recordOf_.erase(record.contact);
-        if (isFelt(record.a, record.b)) loads_.begin(record.a, record.b);
+    if (!last_.empty()) lastOf_.clear();
+    last_.assign(blows_.size(), {});
+    for (std::size_t i = 0; i < blows_.size(); ++i) {
+        blowOf_.erase(pairKey(blows_[i].a, blows_[i].b));
+        lastOf_.set(pairKey(blows_[i].a, blows_[i].b), static_cast<std::int32_t>(i));
     }
     loads_.endStep(graph_);
-    records_.clear();
+    hasHeard_ = false;
+    blows_.clear();
     ends_.clear();
-    directRecords_ = 0;
+    directBlows_ = 0;
     order_ = 0;
 }
 
 void CollisionCatcher::forget(std::int32_t slot) noexcept {
     const auto isOf = [slot](const auto& noted) { return noted.a == slot || noted.b == slot; };
-    for (const ContactRecord& record : records_)
-        if (isOf(record)) recordOf_.erase(record.contact);
-    std::erase_if(records_, isOf);
+    if (!last_.empty()) lastOf_.clear();
+    last_.assign(blows_.size(), {});
+    for (std::size_t i = 0; i < blows_.size(); ++i) {
+        blowOf_.erase(pairKey(blows_[i].a, blows_[i].b));
+        lastOf_.set(pairKey(blows_[i].a, blows_[i].b), static_cast<std::int32_t>(i));
+    }
+    std::erase_if(blows_, isOf);
+    directBlows_ = 0;
+    for (std::size_t i = 0; i < blows_.size(); ++i) {
+        blowOf_.set(pairKey(blows_[i].a, blows_[i].b), static_cast<std::int32_t>(i));
+        directBlows_ += isFelt(blows_[i].a, blows_[i].b) ? 1 : 0;
+    }
     std::erase_if(ends_, isOf);
     loads_.forget(slot);
 }
 
-ContactRecord* CollisionCatcher::begin(std::uint64_t contact, std::int32_t a, std::int32_t b) {
+void CollisionCatcher::begin(std::int32_t a, std::int32_t b) {
     graph_.insert(a, b);
-    if (!isStepping_) return nullptr;
-    const bool isDirect = isFelt(a, b);
-    const std::size_t count = isDirect ? directRecords_ : records_.size() - directRecords_;
-    if (count == (isDirect ? maxDirectRecords : maxDistantRecords)) {
-        ++drops_;
-        return nullptr;
-    }
-    directRecords_ += isDirect ? 1 : 0;
-    if (begun(contact) == nullptr) recordOf_.set(contact, static_cast<std::int32_t>(records_.size()));
-    ContactRecord& record = records_.emplace_back();
-    record.contact = contact;
-    record.a = a;
-    record.b = b;
-    record.order = order_++;
-    return &record;
+    if (isStepping_ && isFelt(a, b)) loads_.begin(a, b);
 }
 
 ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
@@ -72,9 +71,43 @@ ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
     return &end;
 }
 
-ContactRecord* CollisionCatcher::begun(std::uint64_t contact) noexcept {
-    const std::int32_t known = recordOf_.find(contact);
-    return known == IntegerMap::none ? nullptr : &records_[static_cast<std::size_t>(known)];
+bool CollisionCatcher::isBlow(std::int32_t a, std::int32_t b, double approachMetresPerSecond) const noexcept {
+    return approachMetresPerSecond >= span_.leastApproach(gravityScaleOf(a, b));
+}
+
+void CollisionCatcher::push(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point) {
+    hasHeard_ = true;
+    if (const std::int32_t i = last_.empty() ? IntegerMap::none : lastOf_.find(pairKey(a, b)); i != IntegerMap::none) last_[static_cast<std::size_t>(i)] += newtonSeconds;
+    if (isFelt(a, b)) loads_.add(a, b, newtonSeconds, point);
+}
+
+double CollisionCatcher::aftermath(std::int32_t a, std::int32_t b) const noexcept {
+    const std::int32_t i = lastOf_.find(pairKey(a, b));
+    return i == IntegerMap::none ? 0.0 : static_cast<double>(last_[static_cast<std::size_t>(i)].length());
+}
+
+Blow* CollisionCatcher::strike(std::int32_t a, std::int32_t b) {
+    hasHeard_ = true;
+    const bool isDirect = isFelt(a, b);
+    const std::size_t count = isDirect ? directBlows_ : blows_.size() - directBlows_;
+    if (count == (isDirect ? maxDirectBlows : maxDistantBlows)) {
+        ++drops_;
+        return nullptr;
+    }
+    directBlows_ += isDirect ? 1 : 0;
+    blowOf_.set(pairKey(a, b), static_cast<std::int32_t>(blows_.size()));
+    Blow& made = blows_.emplace_back();
+    made.a = a;
+    made.b = b;
+    made.order = order_++;
+    made.gravityScale = gravityScaleOf(a, b);
+    made.lighterMassKg = std::min(table_[a].movableMassKg(), table_[b].movableMassKg());
+    return &made;
+}
+
+Blow* CollisionCatcher::blow(std::int32_t a, std::int32_t b) noexcept {
+    const std::int32_t known = blowOf_.find(pairKey(a, b));
+    return known == IntegerMap::none ? nullptr : &blows_[static_cast<std::size_t>(known)];
 }
 
 bool CollisionCatcher::isFelt(std::int32_t a, std::int32_t b) const noexcept {

@@ -12,26 +12,25 @@
 
 namespace physvib {
 
-/// Keeps the contact graph up to date, and notes for each step which solid contacts began, with the solver's impulses
-/// of that same step. An impulse of an older contact is no strike but a load, since a resting body pushes in every
-/// step. Fixtures are slots of the table; contacts have names of the engine's choice, not 0. M only.
+/// Keeps the contact graph up to date, and notes for each step what struck what: a blow is what goes beyond load. It
+/// needs parts of two surfaces that were apart and near each other faster than a resting body does; what they push is the
+/// blow. What is pushed elsewhere, by bodies that rest, lean, roll over a seam, or are created at rest, is a load. A pair
+/// of fixtures has at most one blow in a step, however many contacts and points it has. Fixtures are slots of the
+/// table. M only.
 class CollisionCatcher {
 public:
-    /// Contacts that may begin in one step: those of cameras, and others, which may be handed on to cameras.
-    /// A world that has more of them is a noise, not a touch.
-    static constexpr std::size_t maxDirectRecords = 1024;
-    static constexpr std::size_t maxDistantRecords = 4096;
+    /// Blows in one step: those at cameras, and others, which may be handed on to cameras. A world that has more of
+    /// them is a noise, not a touch.
+    static constexpr std::size_t maxDirectBlows = 1024;
+    static constexpr std::size_t maxDistantBlows = 4096;
 
     CollisionCatcher(const FixtureTable& table, ContactGraph& graph);
 
-    /// Two fixtures that touched before anybody listened.
-    void meet(std::int32_t a, std::int32_t b) { graph_.insert(a, b); }
-
-    /// Right before the engine's step; the table is up to date.
-    void beginStep();
+    /// Right before the engine's step.
+    void beginStep(const StepSpan& span) noexcept;
 
     /// Right after it: what was noted is complete.
-    void settle() noexcept;
+    void settle();
 
     /// When all that was noted has been used.
     void endStep();
@@ -41,42 +40,60 @@ public:
 
     bool isStepping() const noexcept { return isStepping_; }
 
-    /// A contact of two solid fixtures begins. What is returned is to be filled in with where, when and how (its names
-    /// and its place in the order are there, its impulses are 0); nullptr: outside a step, or without room (counted).
-    ContactRecord* begin(std::uint64_t contact, std::int32_t a, std::int32_t b);
+    /// Whether the engine has told anything of a felt contact, or of a blow, in this step.
+    bool hasHeard() const noexcept { return hasHeard_; }
 
-    /// It ends. What is returned is to be filled in likewise; nullptr: without room, and it is felt as if it had not
-    /// ended in time.
+    /// A contact of two solid fixtures begins; there may be several of a pair (the links of a chain).
+    void begin(std::int32_t a, std::int32_t b);
+
+    /// One of them ends. What is returned is to be filled in with when and how; nullptr: without room, and it is felt
+    /// as if it had not ended in time.
     ContactEnd* end(std::int32_t a, std::int32_t b);
 
-    /// The record of a contact that began in this step, to which the engine's impulses are added: one that opens and
-    /// closes again within a step is still one hit. nullptr: it is older.
-    ContactRecord* begun(std::uint64_t contact) noexcept;
+    /// Whether parts that near each other so fast, before the solver, are a blow.
+    bool isBlow(std::int32_t a, std::int32_t b, double approachMetresPerSecond) const noexcept;
+
+    /// The blow of a pair in this step, if there is one. `strike` makes it, to be filled in (its fixtures, mass and
+    /// place in the order are); nullptr, and counted, without room.
+    Blow* strike(std::int32_t a, std::int32_t b);
+    Blow* blow(std::int32_t a, std::int32_t b) noexcept;
 
     /// Whether a camera is one of the two.
     bool isFelt(std::int32_t a, std::int32_t b) const noexcept;
 
-    /// What an older contact that is felt has pushed b by, and a by its opposite, N s in the world.
-    void push(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point) { loads_.add(a, b, newtonSeconds, point); }
+    /// Whether a pair's load matters: it is felt, or goes on with a blow of the last step.
+    bool isHeard(std::int32_t a, std::int32_t b) const noexcept { return isFelt(a, b) || (!last_.empty() && lastOf_.find(pairKey(a, b)) != IntegerMap::none); }
 
-    const std::vector<ContactRecord>& records() const noexcept { return records_; }
+    /// What parts of a heard pair that are no blow have pushed b by, and a by its opposite, N s in the world.
+    void push(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point);
+
+    const std::vector<Blow>& blows() const noexcept { return blows_; }
+    /// N s that the pair of a blow of the last step has gone on to push in this one: engines spread a blow over two.
+    double aftermath(std::int32_t a, std::int32_t b) const noexcept;
     /// Contacts that ended in the step or since the one before it.
     const std::vector<ContactEnd>& ends() const noexcept { return ends_; }
     const ChainLoads& loads() const noexcept { return loads_; }
 
-    /// Contacts that found no room so far.
+    /// Blows that found no room so far.
     std::uint64_t drops() const noexcept { return drops_; }
 
 private:
+    float gravityScaleOf(std::int32_t a, std::int32_t b) const noexcept {
+        return std::max(table_[a].gravityScale(), table_[b].gravityScale());
+    }
+
     const FixtureTable& table_;
     ContactGraph& graph_;
     ChainLoads loads_;
-    std::vector<ContactRecord> records_; // of the present step
+    StepSpan span_;
+    std::vector<Blow> blows_; // of the present step
     std::vector<ContactEnd> ends_;
-    IntegerMap recordOf_{256}; // by the name of the contact; small, to stay in the nearest cache
-    std::size_t directRecords_ = 0;
+    std::vector<Vector2> last_; // of the blows of the last step: what they have pushed in this one
+    IntegerMap lastOf_{256};
+    IntegerMap blowOf_{256}; // by the pair; small, to stay in the nearest cache
+    std::size_t directBlows_ = 0;
     std::int32_t order_ = 0;
-    bool isStepping_ = false;
+    bool isStepping_ = false, hasHeard_ = false;
     std::uint64_t drops_ = 0;
 };
 

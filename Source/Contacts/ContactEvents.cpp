@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace physvib {
 
 namespace {
 
 // Two cameras per direct record, two voices each, of this step and of the one whose events still wait.
-constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectRecords;
+constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectBlows;
 
 constexpr double restingSteps = 1.5; // see ImpactSettings::thresholdMetresPerSecond
 
@@ -50,61 +51,115 @@ void ContactEvents::configure(const ImpactSettings& settings) {
         onset_.reset();
 }
 
+std::int32_t ContactEvents::know(std::uint64_t fixture, const BodyFacts& body) {
+    const std::int32_t slot = table_.know(fixture, body);
+    graph_.setPassing(slot, body.isDynamic);
+    return slot;
+}
+
+SetResult ContactEvents::set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values,
+                             std::int32_t id) {
+    if (const std::string_view fault = faultOf(values); !fault.empty()) return {-1, fault};
+    const std::int32_t given = table_.set(know(fixture, body), values, centre, id);
+    if (given == FixtureTable::none) return {-1, "id: expected one that no other fixture has"};
+    return {given, {}};
+}
+
 void ContactEvents::remove(std::int32_t slot) {
-    forget(slot);
+    forget(slot, true, !settings_.keepsHitsOfDestroyed);
     table_.unset(slot);
 }
 
+void ContactEvents::cut(std::int32_t a, std::int32_t b, const BodyMotion& motionA, const BodyMotion& motionB) {
+    conclude();
+    graph_.erase(a, b);
+    impacts_.clear();
+    release_.cut({a, b, 0, 1.0, motionA, motionB}, span_, impacts_);
+    addImpacts();
+}
+
+void ContactEvents::vanish(std::int32_t slot) {
+    conclude();
+    if (settings_.keepsHitsOfDestroyed) {
+        impacts_.clear();
+        onset_.finish(slot, span_, impacts_);
+        release_.finish(slot, span_, impacts_);
+        addImpacts();
+    }
+    release(slot);
+}
+
 void ContactEvents::release(std::int32_t slot) {
-    forget(slot);
+    const bool isWithdrawn = !settings_.keepsHitsOfDestroyed;
+    forget(slot, isWithdrawn, isWithdrawn);
     graph_.isolate(slot);
     table_.release(slot);
 }
 
-void ContactEvents::forget(std::int32_t slot) {
-    const bool withdraws = !settings_.keepsHitsOfDestroyed;
-    held_.withdraw(table_[slot].id, withdraws);
+void ContactEvents::forget(std::int32_t slot, bool isWithdrawn, bool othersToo) {
+    if (isWithdrawn) held_.withdraw(table_[slot].id, othersToo);
     catcher_.forget(slot);
-    onset_.forget(slot, withdraws);
-    release_.forget(slot, withdraws);
+    onset_.forget(slot, othersToo);
+    release_.forget(slot, othersToo);
 }
 
-void ContactEvents::endLook() {
-    vanished_.clear();
-    table_.endLook(vanished_);
-    for (const std::int32_t slot : vanished_) release(slot);
-    for (std::int32_t slot = 0; slot < table_.size(); ++slot)
-        if (table_[slot].isUsed()) graph_.setPassing(slot, table_[slot].isDynamic());
-}
-
-void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity) {
+void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double largestMassKg) {
     span_.earliestNs = span_.startNs;
     span_.startNs = span_.endNs;
     span_.endNs = std::max(span_.startNs, endNs);
+    span_.leastMetresPerSecond = settings_.thresholdMetresPerSecond;
     span_.gravityMetresPerSecond2 = gravity;
-    const double resting = restingSteps * static_cast<double>(gravity.length()) * span_.seconds();
-    span_.thresholdMetresPerSecond = std::max(settings_.thresholdMetresPerSecond, resting);
     model_ = {settings_.normalisation.value_or(defaultNormalisation(settings_.fieldWidthMetres)),
-              settings_.handMassKg.value_or(table_.largestMassKg()), settings_.driveGain};
-    catcher_.beginStep();
+              settings_.handMassKg.value_or(std::max(largestMassKg, table_.largestStaticMassKg(bodies_))), settings_.driveGain};
+    catcher_.beginStep(span_);
+    isConcluded_ = false;
+}
+
+void ContactEvents::conclude() {
+    if (catcher_.hasHeard()) finish();
 }
 
 void ContactEvents::endStep() {
+    finish();
+    catcher_.endStep();
+}
+
+void ContactEvents::finish() {
+    if (std::exchange(isConcluded_, true)) return;
     catcher_.settle();
     impacts_.clear();
     if (settings_.timing == ImpactTiming::onset)
         onset_.collect(span_, impacts_);
     else
         release_.collect(span_, impacts_);
-    for (const Impact& impact : impacts_) addEvents(impact, table_, bodies_, model_, settings_.location, held_);
-    catcher_.endStep();
+    addImpacts();
+}
+
+void ContactEvents::addImpacts() {
+    for (const Impact& impact : impacts_) addEvents(impact, table_, bodies_, model_, settings_, held_);
 }
 
 void ContactEvents::take(std::vector<CollisionEvent>& events) {
-    const auto first = static_cast<std::ptrdiff_t>(events.size());
+    const std::size_t first = events.size();
     held_.release(settledNs(), events);
-    for (auto event = events.begin() + first; event != events.end(); ++event)
-        event->source.other = std::max(event->source.other, -1); // fixtures without values are nobody
+    name(events, first);
+}
+
+void ContactEvents::flush(std::vector<CollisionEvent>& events) {
+    const std::size_t first = events.size();
+    held_.flush(events);
+    name(events, first);
+}
+
+// Fixtures without values are nobody.
+void ContactEvents::name(std::vector<CollisionEvent>& events, std::size_t first) {
+    for (std::size_t i = first; i < events.size(); ++i) events[i].source.other = std::max(events[i].source.other, -1);
+}
+
+void ContactEvents::shift(Vector2 by) noexcept {
+    settings_.fieldOrigin += by;
+    onset_.shift(by);
+    release_.shift(by);
 }
 
 } // namespace physvib

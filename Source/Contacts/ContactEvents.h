@@ -17,10 +17,11 @@
 
 namespace physvib {
 
-/// An engine's attachment feeds one of these. Each step: `look` at every fixture between `beginLook` and `endLook`,
+/// An engine's attachment feeds one of these: `know` a fixture when it gets values or touches another; each step
 /// `beginStep`, what the engine tells of its contacts to `catcher()`, `endStep`; then the events are taken.
 ///
-/// All methods: the world's thread (M). After warm-up none allocates, but where the world or the caller's vector grows.
+/// All methods: the world's thread (M). None allocates once it has seen as much as it will, but where the caller's vector
+/// grows.
 class ContactEvents {
 public:
     /// `bodies` must outlive it. Throws std::invalid_argument if a setting is out of range.
@@ -33,21 +34,36 @@ public:
     void configure(const ImpactSettings& settings);
     const ImpactSettings& settings() const noexcept { return settings_; }
 
-    FixtureTable& fixtures() noexcept { return table_; }
+    /// Gives values to a fixture, now with this body and with its centre of mass there in the body's frame; see
+    /// FixtureTable::set. Values that faultOf() finds fault with, and an id that another has, are refused.
+    SetResult set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values, std::int32_t id);
+
     const FixtureTable& fixtures() const noexcept { return table_; }
     CollisionCatcher& catcher() noexcept { return catcher_; }
 
     /// Takes the values of a fixture away, and its events that have not been handed out.
     void remove(std::int32_t slot);
 
-    /// A fixture that is gone: its slot is free.
+    /// A contact of two slots is cut while the engine does not step: one of them is about to go.
+    void cut(std::int32_t a, std::int32_t b, const BodyMotion& motionA, const BodyMotion& motionB);
+
+    /// A fixture that is about to go, while it is still there: what it felt and gave so far stays, or not (see
+    /// ImpactSettings::keepsHitsOfDestroyed). Not while the engine steps.
+    void vanish(std::int32_t slot);
+
+    /// A fixture that has gone: its slot is free.
     void release(std::int32_t slot);
 
-    /// After the look: what was not seen is released.
-    void endLook();
+    /// A fixture, now with this body: its slot. Call it at least when a contact of it begins.
+    std::int32_t know(std::uint64_t fixture, const BodyFacts& body);
 
-    /// The step ends at `endNs` (not before timeNs()); gravity in m/s^2.
-    void beginStep(std::int64_t endNs, Vector2 gravity);
+    /// The step ends at `endNs` (not before timeNs()); gravity in m/s^2; the largest mass of a dynamic body, kg (Eq. 5.7).
+    void beginStep(std::int64_t endNs, Vector2 gravity, double largestMassKg);
+
+    /// The engine's step is over: what it told becomes events. An attachment that learns of a destruction after the
+    /// engine's step, and before endStep, calls it while everything is still there. Does nothing if nothing was told,
+    /// or a second time.
+    void conclude();
     void endStep();
 
     /// World time after the steps done, and the time before which all events are final: one step earlier,
@@ -59,6 +75,14 @@ public:
     /// Appends the events that are final now, in the order of their times.
     void take(std::vector<CollisionEvent>& events);
 
+    /// Appends all events, final or not, for those who need them at once rather than in order: what comes later may
+    /// lie up to a step before them.
+    void flush(std::vector<CollisionEvent>& events);
+
+    /// The engine has moved all places by this much (its origin is another): what is under way moves along, and the
+    /// field, so that events stay where they are in it.
+    void shift(Vector2 by) noexcept;
+
     /// Contacts and events lost so far because more came in one step than there is room for.
     std::uint64_t drops() const noexcept { return catcher_.drops() + release_.drops() + held_.drops(); }
 
@@ -66,7 +90,10 @@ public:
     const ImpactModel& impactModel() const noexcept { return model_; }
 
 private:
-    void forget(std::int32_t slot);
+    void finish();
+    void addImpacts();
+    void forget(std::int32_t slot, bool isWithdrawn, bool othersToo);
+    static void name(std::vector<CollisionEvent>& events, std::size_t first);
 
     const BodyReader& bodies_;
     ImpactSettings settings_;
@@ -79,7 +106,7 @@ private:
     EventSorter held_;
     StepSpan span_;
     std::vector<Impact> impacts_;
-    std::vector<std::int32_t> vanished_;
+    bool isConcluded_ = true;
 };
 
 } // namespace physvib

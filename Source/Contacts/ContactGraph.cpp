@@ -81,8 +81,8 @@ void ContactGraph::make(std::int32_t node) {
 
 void ContactGraph::drop(std::size_t edge) noexcept {
     const Edge gone = edges_[edge];
-    --at(gone.a).degree;
-    --at(gone.b).degree;
+    for (const std::int32_t node : {gone.a, gone.b})
+        if (--at(node).degree == 0) at(node).parent = node; // a rebuild meets only those who touch somebody
     indices_.erase(pairKey(gone.a, gone.b));
     edges_[edge] = edges_.back();
     edges_.pop_back();
@@ -106,7 +106,8 @@ void ContactGraph::unite(const Edge& edge) noexcept {
 }
 
 void ContactGraph::rebuild() noexcept {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].parent = static_cast<std::int32_t>(i);
+    for (const Edge& edge : edges_) // who touches nobody is alone already
+        for (const std::int32_t node : {edge.a, edge.b}) at(node).parent = node;
     for (const Edge& edge : edges_) unite(edge);
     isStale_ = false;
 }

@@ -4,6 +4,7 @@
 #include "Contacts/IntegerMap.h"
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace physvib {
@@ -52,6 +53,15 @@ public:
         }
     }
 
+    /// Calls see(node) once for each node that touches another. Walks through all edges.
+    template <class See>
+    void forTouching(See see) {
+        ++visits_;
+        for (const Edge& edge : edges_)
+            for (const std::int32_t node : {edge.a, edge.b})
+                if (std::exchange(at(node).visit, visits_) != visits_) see(node);
+    }
+
 private:
     struct Edge {
         std::int32_t a, b;
@@ -61,6 +71,7 @@ private:
         std::int32_t parent = 0;
         std::int32_t degree = 0;
         bool isPassing = true;
+        std::uint32_t visit = 0; // the last walk that has met it
     };
 
     Node& at(std::int32_t node) { return nodes_[static_cast<std::size_t>(node)]; }
@@ -74,6 +85,7 @@ private:
     std::vector<Edge> edges_;
     IntegerMap indices_; // of the edges, by their pair of nodes
     bool isStale_ = false;
+    std::uint32_t visits_ = 0;
 };
 
 } // namespace physvib

@@ -14,11 +14,14 @@ class EventSorter {
 public:
     explicit EventSorter(std::size_t capacity);
 
-    /// Takes the event in; if there is no room, it is dropped and counted.
+    /// Takes the event in; without room, the weakest of all is dropped and counted.
     void push(const CollisionEvent& event) noexcept;
 
     /// Appends all events before `beforeNs` to `finished`, and forgets them.
     void release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished);
+
+    /// All of them, whatever their time.
+    void flush(std::vector<CollisionEvent>& finished);
 
     /// Forgets the events of a fixture (by its id), and if `asOther`, those it gave to others.
     void withdraw(std::int32_t fixture, bool asOther) noexcept;

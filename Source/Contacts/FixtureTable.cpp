@@ -1,56 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Slots by the engine's names, checked against the world once per step.
+// Slots by the engine's names.
 #include "Contacts/FixtureTable.h"
 #include <algorithm>
 
 namespace physvib {
 
-std::int32_t FixtureTable::set(const FixtureFacts& facts, const HapticFixture& values) {
-    KnownFixture& known = at(slotOf(facts));
-    set(facts, values, known.isNamed() ? known.id : nextId_);
-    return known.id;
-}
+namespace {
 
-void FixtureTable::set(const FixtureFacts& facts, const HapticFixture& values, std::int32_t id) {
-    KnownFixture& known = at(slotOf(facts));
-    known.id = id;
-    known.values = values;
-    nextId_ = std::max(nextId_, id + 1);
-}
+std::uint64_t keyOf(std::int32_t id) noexcept { return static_cast<std::uint64_t>(id) + 1; } // a key is not 0
 
-void FixtureTable::unset(std::int32_t slot) noexcept {
-    at(slot).id = nextNameless_--;
-    at(slot).values = {};
-}
+} // namespace
 
-void FixtureTable::release(std::int32_t slot) {
-    slots_.erase(at(slot).facts.fixture);
-    at(slot) = {};
-    free_.push_back(slot);
-}
-
-void FixtureTable::beginLook() noexcept {
-    ++looks_;
-    largestMassKg_ = 0.0;
-    cameras_.clear();
-}
-
-void FixtureTable::look(const FixtureFacts& facts, bool isEnabled) {
-    const std::int32_t slot = slotOf(facts);
-    KnownFixture& known = at(slot);
-    known.facts = facts;
-    known.seen = looks_;
-    if (known.values.isCamera) cameras_.push_back(slot);
-    if (isEnabled) largestMassKg_ = std::max(largestMassKg_, known.massKg());
-}
-
-void FixtureTable::endLook(std::vector<std::int32_t>& vanished) const {
-    for (std::int32_t slot = 0; slot < size(); ++slot)
-        if ((*this)[slot].isUsed() && (*this)[slot].seen != looks_) vanished.push_back(slot);
-}
-
-std::int32_t FixtureTable::slotOf(const FixtureFacts& facts) {
-    if (const std::int32_t slot = find(facts.fixture); slot != none) return slot;
+std::int32_t FixtureTable::know(std::uint64_t fixture, const BodyFacts& body) {
+    if (const std::int32_t slot = find(fixture); slot != none) {
+        if (at(slot).isNamed() && at(slot).isDynamic() != body.isDynamic) isWeightStale_ = true;
+        at(slot).body = body;
+        return slot;
+    }
     if (free_.empty()) {
         free_.push_back(size());
         known_.emplace_back();
@@ -58,10 +24,71 @@ std::int32_t FixtureTable::slotOf(const FixtureFacts& facts) {
     }
     const std::int32_t slot = free_.back();
     free_.pop_back();
-    at(slot).facts = facts;
+    at(slot).fixture = fixture;
+    at(slot).body = body;
     at(slot).id = nextNameless_--;
-    slots_.set(facts.fixture, slot);
+    slots_.set(fixture, slot);
     return slot;
+}
+
+std::int32_t FixtureTable::set(std::int32_t slot, const HapticFixture& values, Vector2 centre, std::int32_t id) {
+    KnownFixture& known = at(slot);
+    if (id == none) id = known.isNamed() ? known.id : nextId_;
+    if (const std::int32_t owner = slotOfId_.find(keyOf(id)); owner != none && owner != slot) return none;
+    lose(slot);
+    known.id = id;
+    known.values = values;
+    known.centre = centre;
+    slotOfId_.set(keyOf(id), slot);
+    nextId_ = std::max(nextId_, id + 1);
+    weigh(known);
+    return id;
+}
+
+void FixtureTable::unset(std::int32_t slot) {
+    lose(slot);
+    at(slot).id = nextNameless_--;
+    at(slot).values = {};
+}
+
+void FixtureTable::release(std::int32_t slot) {
+    lose(slot);
+    slots_.erase(at(slot).fixture);
+    at(slot) = {};
+    free_.push_back(slot);
+}
+
+// What the slot has been given so far counts no more.
+void FixtureTable::lose(std::int32_t slot) {
+    const KnownFixture& known = at(slot);
+    if (!known.isNamed()) return;
+    slotOfId_.erase(keyOf(known.id));
+    if (!known.isDynamic()) isWeightStale_ = true;
+}
+
+void FixtureTable::weigh(const KnownFixture& known) {
+    if (!known.isUsed() || known.isDynamic() || known.values.staticMassKg <= 0.0) return;
+    const std::int32_t i = staticBodyOf_.find(known.body.body);
+    if (i == IntegerMap::none) {
+        staticBodyOf_.set(known.body.body, static_cast<std::int32_t>(staticBodies_.size()));
+        staticBodies_.push_back({known.body.body, known.values.staticMassKg});
+    } else {
+        double& mass = staticBodies_[static_cast<std::size_t>(i)].massKg;
+        mass = std::max(mass, known.values.staticMassKg);
+    }
+}
+
+double FixtureTable::largestStaticMassKg(const BodyReader& bodies) {
+    if (isWeightStale_) {
+        staticBodies_.clear();
+        staticBodyOf_.clear();
+        for (const KnownFixture& known : known_) weigh(known);
+        isWeightStale_ = false;
+    }
+    double largest = 0.0;
+    for (const StaticBody& each : staticBodies_)
+        if (each.massKg > largest && bodies.facts(each.body).isEnabled) largest = each.massKg;
+    return largest;
 }
 
 } // namespace physvib

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the catcher's stages hand to each other: the step, the contacts that began in it, and what a camera
-// felt.
+// What the catcher's stages hand to each other: the step, the blows that fell in it, and what a camera felt.
 #pragma once
 #include "Contacts/BodyReader.h"
 #include <algorithm>
@@ -14,7 +13,7 @@ struct StepSpan {
     std::int64_t earliestNs = 0; ///< start of the step before: contacts are noticed up to a step late
     std::int64_t startNs = 0;
     std::int64_t endNs = 0;
-    double thresholdMetresPerSecond = 0.0;
+    double leastMetresPerSecond = 0.0; ///< ImpactSettings::thresholdMetresPerSecond
     Vector2 gravityMetresPerSecond2;
 
     double seconds() const noexcept { return static_cast<double>(endNs - startNs) * 1.0e-9; }
@@ -23,23 +22,36 @@ struct StepSpan {
         const double sinceStart = fraction * static_cast<double>(endNs - startNs);
         return std::max(earliestNs, startNs + static_cast<std::int64_t>(std::llround(sinceStart)));
     }
+
+    /// By how much a blow must change the velocity of a body that gravity pulls so much: more than resting does, which
+    /// gives it g dt in every step, and more than that when a contact trembles.
+    double thresholdMetresPerSecond(float gravityScale) const noexcept {
+        constexpr double restingSteps = 1.5;
+        const double g = static_cast<double>(gravityMetresPerSecond2.length()) * std::abs(static_cast<double>(gravityScale));
+        return std::max(leastMetresPerSecond, restingSteps * g * seconds());
+    }
+    /// How fast two surfaces must near each other for a blow: two thirds of the same, which is the least that gives
+    /// as much with a restitution of a half, and what a resting body may gain in a step.
+    double leastApproach(float gravityScale) const noexcept { return thresholdMetresPerSecond(gravityScale) / 1.5; }
+
     /// True if an impulse moves the lighter body by more than resting does.
-    bool isStrike(double newtonSeconds, double lighterMassKg) const noexcept {
-        return newtonSeconds > 0.0 && newtonSeconds >= thresholdMetresPerSecond * lighterMassKg;
+    bool isStrike(double newtonSeconds, double lighterMassKg, float gravityScale) const noexcept {
+        return newtonSeconds > 0.0 && newtonSeconds >= thresholdMetresPerSecond(gravityScale) * lighterMassKg;
     }
 };
 
-/// A contact that began in this step. Fixtures are slots of the FixtureTable.
-struct ContactRecord {
-    std::uint64_t contact = 0; // the engine's name of it, valid within its step only
+/// Two fixtures of which parts that were apart meet in this step, faster than resting bodies do. Fixtures are slots of
+/// the FixtureTable.
+struct Blow {
     std::int32_t a = 0, b = 0;
-    std::int32_t order = 0; // of beginnings and ends within the step
-    Vector2 point;          // world
-    double fraction = 0.0;  // moment of touch in steps after the start of this step, -1 to 1
+    std::int32_t order = 0; // of blows and ends within the step
+    float gravityScale = 1.0F; // the larger one of the two bodies
+    Vector2 point;         // world
+    double fraction = 0.0; // moment of touch in steps after the start of this step, -1 to 1
     double lighterMassKg = 0.0;
-    BodyMotion motionA, motionB;             // before the solver
-    Vector2 armA, armB;                      // from the centre of mass to the point
-    double normalImpulse = 0.0, tangentialImpulse = 0.0; // N s, summed over the points and passes of the step
+    BodyMotion motionA, motionB;                         // before the solver
+    Vector2 armA, armB;                                  // from the centre of mass to the point
+    double normalImpulse = 0.0, tangentialImpulse = 0.0; // N s, of the parts that met, summed over the passes of the step
 
     double impulse() const noexcept { return std::hypot(normalImpulse, tangentialImpulse); }
 };

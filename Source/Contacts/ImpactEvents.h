@@ -13,8 +13,8 @@ namespace physvib {
 /// Adds the event of an impact (Eq. 5.4), or two if the camera's voice is `both`: each with the full
 /// amplitude, as two bodies sound that ring at the same time (Eq. 5.1 adds). Voice `other` or `both` with a
 /// partner that has no frequency is `own`; where there is none either, or no mass for Eq. 5.4, nothing
-/// sounds. During a step; M only.
+/// sounds. While the camera's body is in the world; M only.
 void addEvents(const Impact& impact, const FixtureTable& table, const BodyReader& bodies, const ImpactModel& model,
-               ImpactLocation location, EventSorter& events);
+               const ImpactSettings& settings, EventSorter& events);
 
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What can be chosen about the way from contacts to events.
 #pragma once
+#include "Contacts/Vector2.h"
 #include <optional>
 
 namespace physvib {
@@ -22,15 +23,20 @@ struct ImpactSettings {
     ImpactTiming timing = ImpactTiming::onset;
     ImpactLocation location = ImpactLocation::contact;
 
-    /// Hits that change the velocity of the lighter body by less than this are no strikes: 0.15 m/s is a
-    /// landing from about a millimetre. Never less than 1.5 g dt is asked for, g being the world's gravity: a
-    /// body at rest gets g dt in every step, and contacts that tremble open and shut give this again and
-    /// again.
+    /// Hits that change the velocity of the lighter body by less than this are no strikes, nor are those of surfaces
+    /// that near each other at less than two thirds of it: 0.15 m/s is a landing from about a millimetre. Never less
+    /// than 1.5 g dt is asked for, g being the gravity that pulls the bodies: a body at rest gets g dt in every step,
+    /// and contacts that tremble open and shut give this again and again.
     double thresholdMetresPerSecond = 0.15;
 
-    /// True: a camera also feels the hit of a body that is destroyed right after it (a shell that bursts).
-    /// False: events not yet handed out go with either body.
-    bool keepsHitsOfDestroyed = false;
+    /// True: what a body struck, or felt as a camera, before it was destroyed is felt (a shell that bursts, a jar that
+    /// breaks). False: events not yet handed out go with either body.
+    bool keepsHitsOfDestroyed = true;
+
+    /// Where the field is in the world, now: its lower left corner and how it is turned. Events tell places in the
+    /// field. It may move at any time, as a camera that scrolls does.
+    Vector2 fieldOrigin;
+    float fieldRadians = 0.0F; ///< counter-clockwise
 };
 
 } // namespace physvib

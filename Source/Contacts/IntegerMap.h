@@ -54,6 +54,12 @@ public:
         --size_;
     }
 
+    /// Forgets all keys, and keeps the room.
+    void clear() noexcept {
+        std::fill(entries_.begin(), entries_.end(), Entry{});
+        size_ = 0;
+    }
+
     std::size_t size() const noexcept { return size_; }
 
 private:

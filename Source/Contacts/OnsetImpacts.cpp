@@ -2,6 +2,7 @@
 // Direct strikes at once; what is handed on one step later.
 #include "Contacts/OnsetImpacts.h"
 #include <algorithm>
+#include <utility>
 
 namespace physvib {
 
@@ -9,24 +10,33 @@ OnsetImpacts::OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& 
     : catcher_(catcher)
     , table_(table)
     , graph_(graph) {
-    strikes_.reserve(CollisionCatcher::maxDirectRecords + CollisionCatcher::maxDistantRecords);
-    for (std::vector<HandedOn>* each : {&waiting_, &begun_})
-        each->reserve(CollisionCatcher::maxDirectRecords);
-    reached_.reserve(CollisionCatcher::maxDirectRecords);
+    waiting_.reserve(CollisionCatcher::maxDirectBlows);
+    for (auto* stamps : {&waitingSince_, &usedIn_}) stamps->reserve(CollisionCatcher::maxDirectBlows);
 }
 
 void OnsetImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
+    ++steps_;
     strike(span, impacts);
+    findLate();
     complete(span, impacts);
-    begun_.clear();
-    if (!strikes_.empty()) begin();
-    waiting_.swap(begun_);
+    waiting_.clear();
+    begin();
+    std::swap(before_, strikes_);
+}
+
+void OnsetImpacts::reset() noexcept {
+    waiting_.clear();
+    before_.clear();
+}
+
+void OnsetImpacts::shift(Vector2 by) noexcept {
+    for (HandedOn& handedOn : waiting_) handedOn.passed.point += by;
 }
 
 void OnsetImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
+    before_.forget(slot);
     std::erase_if(waiting_, [&](const HandedOn& handedOn) {
-        const bool isOf = handedOn.strike.a == slot || handedOn.strike.b == slot;
-        return handedOn.camera == slot || (withdraws && isOf);
+        return handedOn.camera == slot || (withdraws && (handedOn.a == slot || handedOn.b == slot));
     });
     for (HandedOn& handedOn : waiting_)
         if (handedOn.passed.other == slot) handedOn.passed.other = FixtureTable::none;
@@ -34,66 +44,69 @@ void OnsetImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
 
 void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
     strikes_.clear();
-    for (const ContactRecord& record : catcher_.records()) {
-        const double impulse = record.impulse();
-        if (!span.isStrike(impulse, record.lighterMassKg)) continue;
-        const std::int64_t timeNs = span.timeNs(record.fraction);
-        strikes_.push_back({record.a, record.b, timeNs, impulse, 0, 0});
-        if (table_[record.a].values.isCamera)
-            impacts.push_back({record.a, record.b, timeNs, impulse, record.point});
-        if (table_[record.b].values.isCamera)
-            impacts.push_back({record.b, record.a, timeNs, impulse, record.point});
+    for (const Blow& blow : catcher_.blows()) {
+        const double impulse = blow.impulse();
+        if (!span.isStrike(impulse, blow.lighterMassKg, blow.gravityScale)) continue;
+        const std::int64_t timeNs = span.timeNs(blow.fraction);
+        strikes_.add({blow.a, blow.b, timeNs, impulse, 0.0, 0, 0});
+        if (table_[blow.a].values.isCamera) impacts.push_back({blow.a, blow.b, timeNs, impulse, blow.point});
+        if (table_[blow.b].values.isCamera) impacts.push_back({blow.b, blow.a, timeNs, impulse, blow.point});
     }
+}
+
+// Cameras to which the blows of the last step come in this one only.
+void OnsetImpacts::findLate() {
+    if (before_.isEmpty()) return;
+    before_.follow(catcher_);
+    before_.locate(graph_);
+    for (const HandedOn& handedOn : waiting_) stamp(waitingSince_, handedOn.camera) = steps_;
+    for (const std::int32_t camera : catcher_.loads().receivers())
+        if (stamp(waitingSince_, camera) != steps_) wait(camera, before_, {});
 }
 
 void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) {
-    isUsed_.assign(static_cast<std::size_t>(table_.size()), false);
-    for (const HandedOn& handedOn : waiting_) {
-        isUsed_[static_cast<std::size_t>(handedOn.camera)] = true;
-        const ChainLoads::Passed& now = catcher_.loads().passed(handedOn.camera);
-        const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
-        const auto impulse =
-            static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
-        const KnownFixture& camera = table_[handedOn.camera];
-        const double others =
-            main.other == FixtureTable::none ? camera.movableMassKg() : table_[main.other].movableMassKg();
-        if (camera.values.isCamera && span.isStrike(impulse, std::min(camera.movableMassKg(), others)))
-            impacts.push_back({handedOn.camera, main.other, std::max(span.earliestNs, handedOn.strike.timeNs),
-                               impulse, main.point});
+    for (HandedOn& handedOn : waiting_) {
+        stamp(usedIn_, handedOn.camera) = steps_;
+        handedOn.causedNewtonSeconds += before_.find(handedOn.camera, graph_).aftermath;
+        complete(handedOn, catcher_.loads().passed(handedOn.camera), span, impacts);
     }
+}
+
+void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, const StepSpan& span,
+                            std::vector<Impact>& impacts) const {
+    const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
+    const auto whole = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
+    const double impulse = std::min(whole, handedOn.causedNewtonSeconds);
+    const KnownFixture& camera = table_[handedOn.camera];
+    const KnownFixture& other = main.other == FixtureTable::none ? camera : table_[main.other];
+    const double lighter = std::min(camera.movableMassKg(), other.movableMassKg());
+    if (camera.values.isCamera && span.isStrike(impulse, lighter, std::max(camera.gravityScale(), other.gravityScale())))
+        impacts.push_back({handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse, main.point});
+}
+
+void OnsetImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const {
+    for (const HandedOn& handedOn : waiting_)
+        if (handedOn.camera == camera) complete(handedOn, {}, span, impacts);
 }
 
 void OnsetImpacts::begin() {
-    for (Strike& strike : strikes_) {
-        strike.componentA = graph_.component(strike.a);
-        strike.componentB = graph_.component(strike.b);
-    }
-    std::sort(strikes_.begin(), strikes_.end(), [](const Strike& one, const Strike& two) {
-        return one.newtonSeconds != two.newtonSeconds ? one.newtonSeconds > two.newtonSeconds
-                                                      : one.timeNs < two.timeNs;
-    });
-    for (const std::int32_t camera : table_.cameras()) {
-        const Strike* strike = table_[camera].values.isCamera ? cause(camera) : nullptr;
-        if (strike == nullptr) continue;
-        begun_.push_back({camera, *strike, {}});
-        if (!isUsed_[static_cast<std::size_t>(camera)])
-            begun_.back().passed = catcher_.loads().passed(camera);
-    }
+    if (strikes_.isEmpty()) return;
+    strikes_.locate(graph_);
+    for (const std::int32_t camera : catcher_.loads().receivers())
+        if (stamp(usedIn_, camera) != steps_) wait(camera, strikes_, catcher_.loads().passed(camera));
 }
 
-const OnsetImpacts::Strike* OnsetImpacts::cause(std::int32_t camera) {
-    graph_.reach(camera, reached_);
-    const auto isCause = [&](const Strike& strike) {
-        return strike.a != camera && strike.b != camera &&
-               (isReached(strike.componentA) || isReached(strike.componentB));
-    };
-    const auto found = std::find_if(strikes_.begin(), strikes_.end(), isCause);
-    return found == strikes_.end() ? nullptr : &*found;
+void OnsetImpacts::wait(std::int32_t camera, StrikeCauses& causes, const ChainLoads::Passed& passed) {
+    if (!table_[camera].values.isCamera) return;
+    const StrikeCauses::Found found = causes.find(camera, graph_);
+    if (found.strongest == nullptr) return;
+    waiting_.push_back({camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds, passed});
 }
 
-bool OnsetImpacts::isReached(std::int32_t component) const noexcept {
-    return component != ContactGraph::noComponent &&
-           std::find(reached_.begin(), reached_.end(), component) != reached_.end();
+std::uint32_t& OnsetImpacts::stamp(std::vector<std::uint32_t>& stamps, std::int32_t slot) {
+    const auto index = static_cast<std::size_t>(slot);
+    if (stamps.size() <= index) stamps.resize(index + 1, 0);
+    return stamps[index];
 }
 
 } // namespace physvib

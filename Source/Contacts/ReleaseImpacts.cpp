@@ -2,7 +2,7 @@
 // Strikes that wait for the end of their contact.
 #include "Contacts/ReleaseImpacts.h"
 #include <algorithm>
-#include <utility>
+#include <limits>
 
 namespace physvib {
 
@@ -12,8 +12,8 @@ ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTab
     , table_(table)
     , graph_(graph)
     , bodies_(bodies) {
-    strikes_.reserve(CollisionCatcher::maxDistantRecords);
-    reached_.reserve(CollisionCatcher::maxDirectRecords);
+    strikes_.reserve(CollisionCatcher::maxDistantBlows);
+    reached_.reserve(CollisionCatcher::maxDirectBlows);
 }
 
 void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
@@ -36,44 +36,47 @@ void ReleaseImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
 }
 
 void ReleaseImpacts::open(const StepSpan& span) {
-    for (const ContactRecord& record : catcher_.records())
-        if (record.impulse() > 0.0)
-            openDirect(record, span); // a contact that its user has switched off has none
-    openHandedOn(span);
+    for (const Blow& blow : catcher_.blows())
+        if (blow.impulse() > 0.0) openDirect(blow, span); // one that its user has switched off has none
+    if (!catcher_.blows().empty()) openHandedOn(span);
 }
 
-void ReleaseImpacts::openDirect(const ContactRecord& record, const StepSpan& span) {
+void ReleaseImpacts::openDirect(const Blow& blow, const StepSpan& span) {
     for (const bool isA : {true, false}) {
-        const std::int32_t camera = isA ? record.a : record.b;
+        const std::int32_t camera = isA ? blow.a : blow.b;
         if (!table_[camera].values.isCamera) continue;
         // What is handed on to this camera from now on cannot be told from what strikes it.
         std::erase_if(strikes_, [camera](const Strike& s) { return s.camera == camera && !s.isDirect; });
-        push({camera, isA ? record.b : record.a, record.a, record.b, record.order, true, false,
-              span.timeNs(record.fraction), record.point, isA ? record.armA : record.armB,
-              isA ? record.motionA : record.motionB, record.lighterMassKg});
+        push({camera, isA ? blow.b : blow.a, blow.a, blow.b, blow.order, true, false, span.timeNs(blow.fraction), blow.point,
+              isA ? blow.armA : blow.armB, isA ? blow.motionA : blow.motionB, blow.lighterMassKg, blow.gravityScale});
     }
 }
 
+// Cameras that touch something: no others are handed anything.
 void ReleaseImpacts::openHandedOn(const StepSpan& span) {
-    for (const std::int32_t camera : table_.cameras()) {
-        const auto isOfCamera = [camera](const Strike& strike) { return strike.camera == camera; };
-        if (std::any_of(strikes_.begin(), strikes_.end(), isOfCamera)) continue;
-        graph_.reach(camera, reached_);
-        const ContactRecord* cause = nullptr;
-        for (const ContactRecord& record : catcher_.records()) {
-            const bool isStronger = cause == nullptr || record.impulse() > cause->impulse();
-            if (isStronger && span.isStrike(record.impulse(), record.lighterMassKg) &&
-                (isReached(record.a) || isReached(record.b)))
-                cause = &record;
-        }
-        if (cause == nullptr) continue;
-        const ChainLoads::Passed& passed = catcher_.loads().passed(camera);
-        const bool isKnown = passed.other != FixtureTable::none;
-        const Vector2 point = isKnown ? passed.point : cause->point;
-        push({camera, isKnown ? passed.other : cause->a, cause->a, cause->b, cause->order, false, false,
-              span.timeNs(cause->fraction), point, point - bodies_.centreOfBody(table_[camera]), bodies_.motionBefore(table_[camera]),
-              std::min(table_[camera].movableMassKg(), cause->lighterMassKg)});
+    graph_.forTouching([&](std::int32_t slot) {
+        if (table_[slot].values.isCamera) openHandedOn(slot, span);
+    });
+}
+
+void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
+    const auto isOfCamera = [camera](const Strike& strike) { return strike.camera == camera; };
+    if (std::any_of(strikes_.begin(), strikes_.end(), isOfCamera)) return;
+    graph_.reach(camera, reached_);
+    const Blow* cause = nullptr;
+    for (const Blow& blow : catcher_.blows()) {
+        const bool isStronger = cause == nullptr || blow.impulse() > cause->impulse();
+        if (isStronger && span.isStrike(blow.impulse(), blow.lighterMassKg, blow.gravityScale) && (isReached(blow.a) || isReached(blow.b)))
+            cause = &blow;
     }
+    if (cause == nullptr) return;
+    const ChainLoads::Passed passed = catcher_.loads().passed(camera);
+    const bool isKnown = passed.other != FixtureTable::none;
+    const Vector2 point = isKnown ? passed.point : cause->point;
+    const std::uint64_t body = table_[camera].body.body;
+    push({camera, isKnown ? passed.other : cause->a, cause->a, cause->b, cause->order, false, false,
+          span.timeNs(cause->fraction), point, point - bodies_.centre(body), bodies_.motionBefore(body),
+          std::min(table_[camera].movableMassKg(), cause->lighterMassKg), cause->gravityScale});
 }
 
 bool ReleaseImpacts::isReached(std::int32_t slot) {
@@ -101,40 +104,45 @@ void ReleaseImpacts::follow() {
 }
 
 Vector2 ReleaseImpacts::gain(std::int32_t camera) {
-    ++sums_;
+    sums_ = sums_ == std::numeric_limits<std::int32_t>::max() ? 0 : sums_ + 1;
     Vector2 sum;
     graph_.forNeighbours(camera, [&](std::int32_t neighbour) { sum += gainOf(neighbour); });
-    for (const ContactRecord& record : catcher_.records()) { // one may have ended already
-        if (record.a == camera) sum += gainOf(record.b);
-        if (record.b == camera) sum += gainOf(record.a);
+    for (const Blow& blow : catcher_.blows()) { // one may have ended already
+        if (blow.a == camera) sum += gainOf(blow.b);
+        if (blow.b == camera) sum += gainOf(blow.a);
     }
     return sum;
 }
 
 Vector2 ReleaseImpacts::gainOf(std::int32_t slot) {
     const KnownFixture& known = table_[slot];
-    const auto body = static_cast<std::size_t>(known.facts.bodyIndex);
-    if (counted_.size() <= body) counted_.resize(body + 1, 0);
-    if (!known.isDynamic() || std::exchange(counted_[body], sums_) == sums_) return {};
-    const Vector2 before = bodies_.motionBefore(known).metresPerSecond;
-    return static_cast<float>(known.massKg()) * (bodies_.motion(known).metresPerSecond - before);
+    if (!known.isDynamic() || counted_.find(known.body.body) == sums_) return {};
+    counted_.set(known.body.body, sums_);
+    const Vector2 before = bodies_.motionBefore(known.body.body).metresPerSecond;
+    return static_cast<float>(known.massKg()) * (bodies_.motion(known.body.body).metresPerSecond - before);
 }
 
 void ReleaseImpacts::release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts) {
-    for (const ContactEnd& end : catcher_.ends()) {
-        const auto isReleased = [&](const Strike& strike) {
-            return strike.a == end.a && strike.b == end.b && strike.order < end.order &&
-                   (strike.order >= 0) == ofThisStep;
-        };
-        for (const Strike& strike : strikes_) {
-            if (!isReleased(strike)) continue;
-            const bool isA = strike.camera == end.a;
-            const BodyMotion motion = strike.isDirect ? (isA ? end.motionA : end.motionB)
-                                                      : bodies_.motionBefore(table_[strike.camera]);
-            finish(strike, motion, span.timeNs(end.fraction), span, impacts);
-        }
-        std::erase_if(strikes_, isReleased);
+    for (const ContactEnd& end : catcher_.ends())
+        release(end, span, impacts, [&](const Strike& strike) {
+            return strike.order < end.order && (strike.order >= 0) == ofThisStep;
+        });
+}
+
+void ReleaseImpacts::cut(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts) {
+    release(end, span, impacts, [](const Strike&) { return true; });
+}
+
+template <class Choice>
+void ReleaseImpacts::release(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts, Choice choice) {
+    const auto isReleased = [&](const Strike& strike) { return strike.a == end.a && strike.b == end.b && choice(strike); };
+    for (const Strike& strike : strikes_) {
+        if (!isReleased(strike)) continue;
+        const BodyMotion motion = strike.isDirect ? (strike.camera == end.a ? end.motionA : end.motionB)
+                                                  : bodies_.motionBefore(table_[strike.camera].body.body);
+        finish(strike, motion, span.timeNs(end.fraction), span, impacts);
     }
+    std::erase_if(strikes_, isReleased);
 }
 
 void ReleaseImpacts::expire(const StepSpan& span, std::vector<Impact>& impacts) {
@@ -144,10 +152,15 @@ void ReleaseImpacts::expire(const StepSpan& span, std::vector<Impact>& impacts) 
     for (const Strike& strike : strikes_) {
         if (!isOld(strike)) continue;
         const std::int64_t timeNs = strike.isOver ? span.startNs : strike.beginNs + latestNs;
-        finish(strike, bodies_.motion(table_[strike.camera]), std::max(timeNs, span.earliestNs), span,
+        finish(strike, bodies_.motion(table_[strike.camera].body.body), std::max(timeNs, span.earliestNs), span,
                impacts);
     }
     std::erase_if(strikes_, isOld);
+}
+
+void ReleaseImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const {
+    for (const Strike& strike : strikes_)
+        if (strike.camera == camera) finish(strike, bodies_.motion(table_[camera].body.body), span.endNs, span, impacts);
 }
 
 void ReleaseImpacts::finish(const Strike& strike, const BodyMotion& end, std::int64_t timeNs,
@@ -162,7 +175,7 @@ void ReleaseImpacts::finish(const Strike& strike, const BodyMotion& end, std::in
         const Vector2 withoutFall = felt - seconds * massKg * span.gravityMetresPerSecond2;
         size = std::min(size, static_cast<double>(withoutFall.length()));
     }
-    if (span.isStrike(size, strike.lighterMassKg))
+    if (span.isStrike(size, strike.lighterMassKg, strike.gravityScale))
         impacts.push_back({strike.camera, strike.other, timeNs, size, strike.point});
 }
 
@@ -172,7 +185,7 @@ Vector2 ReleaseImpacts::impulse(const Strike& strike, const BodyMotion& end) con
     const Vector2 linear = static_cast<float>(camera.massKg()) * (end.metresPerSecond - strike.start.metresPerSecond);
     const float length = strike.arm.length();
     if (length <= 0.0F) return linear;
-    const auto inertia = static_cast<float>(bodies_.inertia(camera));
+    const auto inertia = static_cast<float>(bodies_.inertia(camera.body.body));
     const float spin = end.radiansPerSecond - strike.start.radiansPerSecond;
     return linear + (inertia * spin / (length * length)) * strike.arm.turnedLeft();
 }

@@ -28,6 +28,17 @@ public:
     /// Forgets what is under way.
     void reset() noexcept { strikes_.clear(); }
 
+    /// All places have moved by this much: the world's origin is another.
+    void shift(Vector2 by) noexcept {
+        for (Strike& strike : strikes_) strike.point += by;
+    }
+
+    /// A contact ends while the engine does not step.
+    void cut(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts);
+
+    /// What a camera has felt so far, since it is about to vanish.
+    void finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const;
+
     /// The slot has another owner from now on. A camera that is gone feels nothing; one whose partner is gone
     /// feels what it felt so far, unless `withdraws`.
     void forget(std::int32_t slot, bool withdraws) noexcept;
@@ -45,17 +56,21 @@ private:
         Vector2 point, arm; // arm: from the centre of mass to the point, -l of Eq. 5.3
         BodyMotion start;
         double lighterMassKg;
+        float gravityScale;
         Vector2 gained{}; // N s, by what touches an immovable camera
     };
     void open(const StepSpan& span);
-    void openDirect(const ContactRecord& record, const StepSpan& span);
+    void openDirect(const Blow& blow, const StepSpan& span);
     void openHandedOn(const StepSpan& span);
+    void openHandedOn(std::int32_t camera, const StepSpan& span);
     bool isReached(std::int32_t slot);
     void push(const Strike& strike);
     void follow();
     Vector2 gain(std::int32_t camera);
     Vector2 gainOf(std::int32_t slot);
     void release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts);
+    template <class Choice>
+    void release(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts, Choice choice);
     void expire(const StepSpan& span, std::vector<Impact>& impacts);
     void finish(const Strike& strike, const BodyMotion& end, std::int64_t timeNs, const StepSpan& span,
                 std::vector<Impact>& impacts) const;
@@ -67,8 +82,8 @@ private:
     const BodyReader& bodies_;
     std::vector<Strike> strikes_;
     std::vector<std::int32_t> reached_; // components at the camera in question
-    std::vector<std::int64_t> counted_; // by body: the sum it was last counted in
-    std::int64_t sums_ = 0;
+    IntegerMap counted_; // by body: the sum it was last counted in
+    std::int32_t sums_ = 0;
     std::uint64_t drops_ = 0;
 };
 

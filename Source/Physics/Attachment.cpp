@@ -1,58 +1,65 @@
 // SPDX-License-Identifier: MIT
 // Comes into a world, and leaves it as it was.
 #include "Physics/Attachment.h"
-#include "Physics/InstalledListener.h"
 #include "Physics/WorldNames.h"
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace physvib {
 
+namespace {
+
+// Worlds may call these for as long as the program runs.
+void keepForEver(std::unique_ptr<WorldListener> listener) {
+    static auto* const kept = new std::vector<std::unique_ptr<WorldListener>>; // never destroyed: worlds may be, later
+    kept->push_back(std::move(listener));
+}
+
+} // namespace
+
 Attachment::Attachment(b2World& world, const ImpactSettings& settings)
-    : world_(world)
-    , chained_(destructionListenerOf(world))
-    , bodies_(sweeps_)
+    : world_(&world)
     , events_(bodies_, settings)
-    , listener_(events_.fixtures(), events_.catcher(), sweeps_, *world.GetContactManager().m_contactListener) {
-    look();
+    , listener_(std::make_unique<WorldListener>(events_, sweeps_)) {
     for (const b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
-        listener_.meet(*contact);
-    world.SetContactListener(&listener_);
-    world.SetDestructionListener(this);
+        listener_->finder().begin(*contact);
+    listener_->install(world);
 }
 
 Attachment::~Attachment() {
-    if (world_.GetContactManager().m_contactListener == &listener_)
-        world_.SetContactListener(&listener_.chained());
-    if (destructionListenerOf(world_) == this) world_.SetDestructionListener(chained_);
+    if (world_ == nullptr) return;
+    listener_->deafen();
+    keepForEver(std::move(listener_));
 }
 
-std::int32_t Attachment::set(const b2Fixture& fixture, const HapticFixture& values) {
-    check(fixture);
-    return events_.fixtures().set(factsOf(fixture), values);
+void Attachment::detach() {
+    if (world_ == nullptr) return;
+    listener_->deafen();
+    if (!listener_->remove(*world_)) keepForEver(std::move(listener_));
+    world_ = nullptr;
 }
 
-void Attachment::set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id) {
-    check(fixture);
-    events_.fixtures().set(factsOf(fixture), values, id);
+SetResult Attachment::set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id) {
+    if (fixture.GetBody()->GetWorld() != world_) return {-1, "fixture: expected one of the world attached to"};
+    listener_->finder().find(fixture); // an heir of its address starts anew
+    return events_.set(nameOf(fixture), factsOf(*fixture.GetBody()), centreOf(fixture), values, id);
 }
 
 const HapticFixture* Attachment::find(const b2Fixture& fixture) const noexcept {
-    const std::int32_t slot = slotOf(fixture);
-    if (slot == FixtureTable::none) return nullptr;
-    const KnownFixture& known = events_.fixtures()[slot];
-    return known.isNamed() ? &known.values : nullptr;
+    const FixtureTable& fixtures = events_.fixtures();
+    const std::int32_t slot = fixtures.find(nameOf(fixture));
+    const bool isIt = slot != FixtureTable::none && fixtures[slot].isNamed() && fixtures[slot].body.body == nameOf(*fixture.GetBody());
+    return isIt ? &fixtures[slot].values : nullptr;
 }
 
 void Attachment::remove(const b2Fixture& fixture) {
-    if (const std::int32_t slot = slotOf(fixture); slot != FixtureTable::none) events_.remove(slot);
+    if (const std::int32_t slot = events_.fixtures().find(nameOf(fixture)); slot != FixtureTable::none) events_.remove(slot);
 }
 
 void Attachment::step(float stepSeconds, int velocityIterations, int positionIterations) {
-    if (!(stepSeconds > 0.0F)) return;
+    if (!(stepSeconds >= 0.0F) || world_ == nullptr) return;
     beginStep(static_cast<double>(stepSeconds));
-    world_.Step(stepSeconds, velocityIterations, positionIterations);
+    world_->Step(stepSeconds, velocityIterations, positionIterations);
     endStep();
 }
 
@@ -63,39 +70,34 @@ void Attachment::beginStep(double stepSeconds) {
 }
 
 void Attachment::beginStepUntil(std::int64_t endNs) {
-    look();
-    events_.beginStep(endNs, toVector(world_.GetGravity()));
-    sweeps_.beginStep(world_, events_.stepSeconds());
+    if (world_ == nullptr) return;
+    if (!listener_->isInstalled(*world_)) releaseUnseen();
+    listener_->install(*world_);
+    const double stepSeconds = static_cast<double>(std::max<std::int64_t>(0, endNs - timeNs())) * 1.0e-9;
+    sweeps_.beginStep(*world_, stepSeconds);
+    events_.beginStep(endNs, toVector(world_->GetGravity()), sweeps_.largestMassKg());
 }
 
-void Attachment::endStep() { events_.endStep(); }
-
-void Attachment::SayGoodbye(b2Joint* joint) {
-    if (chained_ != nullptr) chained_->SayGoodbye(joint);
+void Attachment::endStep() {
+    if (world_ == nullptr) return;
+    if (!listener_->isInstalled(*world_)) releaseUnseen();
+    events_.endStep();
+    listener_->finder().endStep();
 }
 
-void Attachment::SayGoodbye(b2Fixture* fixture) {
-    if (const std::int32_t slot = slotOf(*fixture); slot != FixtureTable::none) events_.release(slot);
-    if (chained_ != nullptr) chained_->SayGoodbye(fixture);
+// What was destroyed while nobody told us. Not often: a game has set a listener of its own.
+void Attachment::releaseUnseen() {
+    IntegerMap bodies;
+    for (const b2Body* body = world_->GetBodyList(); body != nullptr; body = body->GetNext()) bodies.set(nameOf(*body), 0);
+    for (std::int32_t slot = 0; slot < events_.fixtures().size(); ++slot)
+        if (const KnownFixture& known = events_.fixtures()[slot]; known.isUsed() && bodies.find(known.body.body) == IntegerMap::none)
+            events_.release(slot);
 }
 
-void Attachment::look() {
-    FixtureTable& table = events_.fixtures();
-    table.beginLook();
-    std::int32_t bodyIndex = 0;
-    for (const b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext(), ++bodyIndex)
-        for (const b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext())
-            table.look(factsOf(*fixture, bodyIndex), body->IsEnabled());
-    events_.endLook();
-}
-
-std::int32_t Attachment::slotOf(const b2Fixture& fixture) const noexcept {
-    return events_.fixtures().find(nameOf(fixture));
-}
-
-void Attachment::check(const b2Fixture& fixture) const {
-    if (fixture.GetBody()->GetWorld() != &world_)
-        throw std::invalid_argument("fixture: expected one of the world attached to");
+void Attachment::shiftOrigin(b2Vec2 newOrigin) {
+    if (world_ == nullptr) return;
+    world_->ShiftOrigin(newOrigin);
+    events_.shift(-toVector(newOrigin));
 }
 
 } // namespace physvib

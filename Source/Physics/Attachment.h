@@ -9,39 +9,42 @@
 #include "Physics/WorldListener.h"
 #include <box2d/box2d.h>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace physvib {
 
-/// Turns the collisions of one world into events. The world stays its owner's: user data are not touched, and
-/// the contact and destruction listeners it has at that time are called as before, and put back at the end.
-/// (A listener that is set later takes the attachment's place; set it first.) Bodies and fixtures may come
-/// and go between steps; they are noticed. Only a fixture destroyed by b2Body::DestroyFixture should be named
-/// to remove() first: Box2D tells nobody, and a new fixture at the same address would inherit its values.
+/// Turns the collisions of one world into events. The world stays its owner's: user data are not touched, its motion
+/// is the same to the bit, and its contact and destruction listeners are called as before, also those that are set, or
+/// taken away, while the attachment is there. Bodies and fixtures may come and go between steps, or between the parts
+/// of one. Only a fixture destroyed by b2Body::DestroyFixture should be named to remove() first: Box2D tells nobody, and
+/// the next fixture of that body may take its address, and so its values.
 ///
-/// All methods: the world's thread (M), not inside a step. After warm-up none allocates, but where the world
-/// or the caller's vector grows.
-class Attachment final : private b2DestructionListener {
+/// World and attachment may end in any order. A world outlived by its attachment is not touched any more; an attachment
+/// outlived by its world leaves a listener there that hands on calls, unless it has been detached.
+///
+/// All methods: the world's thread (M), not inside a step. None allocates once it has seen as much as it will, but where
+/// the caller's vector grows. What a step costs follows what moves, touches and strikes, not the size of the map.
+class Attachment final {
 public:
-    /// The world must outlive the attachment. Attachments of the same world must end in reverse order. Throws
-    /// std::invalid_argument if a setting is out of range.
+    /// Throws std::invalid_argument if a setting is out of range.
     explicit Attachment(b2World& world, const ImpactSettings& settings = {});
-    ~Attachment() override;
+    ~Attachment();
     Attachment(const Attachment&) = delete;
     Attachment& operator=(const Attachment&) = delete;
+
+    /// Leaves the world, which must still be there, with the listeners it had; nothing is felt any more.
+    void detach();
 
     /// Takes effect with the next step; with another timing, what is under way is lost. Throws as the
     /// constructor does.
     void configure(const ImpactSettings& settings) { events_.configure(settings); }
     const ImpactSettings& settings() const noexcept { return events_.settings(); }
 
-    /// Gives a fixture its values, at first or again (the camera may come and go); returns its id in events,
-    /// 0, 1, 2... in order of first calls, never used twice. Throws std::invalid_argument if it is of another
-    /// world.
-    std::int32_t set(const b2Fixture& fixture, const HapticFixture& values);
-
-    /// The same with an id (>= 0) of the caller's choice.
-    void set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id);
+    /// Gives a fixture its values, at first or again (the camera may come and go). Its id in events is `id` (>= 0), if
+    /// given, else 0, 1, 2... in order of first calls, never used twice. Refused, told by the result, are values that
+    /// cannot be played, a fixture of another world, and an id that another fixture has.
+    SetResult set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id = FixtureTable::none);
 
     /// The values of a fixture; nullptr if it has none. Valid until the next call of anything.
     const HapticFixture* find(const b2Fixture& fixture) const noexcept;
@@ -49,13 +52,14 @@ public:
     /// Takes a fixture's values away, and its events that have not been handed out.
     void remove(const b2Fixture& fixture);
 
-    /// One step of the world with everything around it. Zero or negative times do nothing.
+    /// One step of the world with everything around it. No time: as Box2D has it, contacts are found, and nothing moves.
+    /// Negative times do nothing.
     void step(float stepSeconds, int velocityIterations = 8, int positionIterations = 3);
 
-    /// The same around a b2World::Step of the user's own. Step lengths may differ; time is the sum of their
-    /// nanoseconds, each rounded.
+    /// The same around a b2World::Step of the user's own. Step lengths may differ; time is the sum of their nanoseconds,
+    /// each rounded. What happens in steps that are not told is felt at the start of the next one that is.
     void beginStep(double stepSeconds);
-    /// For worlds whose clock is a step count: the step ends at `endNs` (later than timeNs()).
+    /// For worlds whose clock is a step count: the step ends at `endNs` (not before timeNs()).
     void beginStepUntil(std::int64_t endNs);
     void endStep();
 
@@ -67,25 +71,26 @@ public:
     /// Appends the events that are final now, in the order of their times.
     void take(std::vector<CollisionEvent>& events) { events_.take(events); }
 
-    /// Contacts and events lost so far because more came in one step than there is room for.
+    /// Appends all events at once, for those who would rather have them a step earlier than in order.
+    void flush(std::vector<CollisionEvent>& events) { events_.flush(events); }
+
+    /// b2World::ShiftOrigin, with what PhysVib knows of places: events stay where they are in the field.
+    void shiftOrigin(b2Vec2 newOrigin);
+
+    /// Hits and events lost so far because more came than there is room for. The weakest events go first.
     std::uint64_t drops() const noexcept { return events_.drops(); }
 
     /// The constants of Eq. 5.4 in the last step begun.
     const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }
 
 private:
-    void SayGoodbye(b2Joint* joint) override;
-    void SayGoodbye(b2Fixture* fixture) override;
-    void look();
-    std::int32_t slotOf(const b2Fixture& fixture) const noexcept;
-    void check(const b2Fixture& fixture) const;
+    void releaseUnseen();
 
-    b2World& world_;
-    b2DestructionListener* chained_;
+    b2World* world_; // nullptr: detached
     BodySweeps sweeps_;
-    WorldBodies bodies_;
+    WorldBodies bodies_{sweeps_};
     ContactEvents events_;
-    WorldListener listener_;
+    std::unique_ptr<WorldListener> listener_;
 };
 
 } // namespace physvib

@@ -3,6 +3,7 @@
 // say so itself.
 #pragma once
 #include "Contacts/BodyReader.h"
+#include "Contacts/IntegerMap.h"
 #include <box2d/box2d.h>
 #include <cstddef>
 #include <cstdint>
@@ -12,32 +13,41 @@ namespace physvib {
 
 /// Within a step a body moves along a straight line: position = origin + fraction * step * velocity. Contacts
 /// of the regular pass are found at fraction 0, those of the time-of-impact pass wherever the body has been
-/// moved to. Bodies are named by their place in the world's list. M only.
+/// moved to. M only.
 class BodySweeps {
 public:
-    /// Before b2World::Step: every body is where its step begins. Allocates if the world has grown.
+    /// Before b2World::Step: every body is where its step begins. Looks at each body once, as Box2D does several times,
+    /// and at no fixture. Allocates if the world has grown.
     void beginStep(const b2World& world, double stepSeconds);
-
-    /// In PostSolve: the solver has put `body` at the end of its step and perhaps given it another velocity.
-    void solved(std::int32_t index, const b2Body& body) noexcept;
-
-    /// In BeginContact and EndContact: 0 (start) to 1 (end of the step), how far this body has come.
-    double fraction(std::int32_t index, const b2Body& body) const noexcept;
 
     double stepSeconds() const noexcept { return stepSeconds_; }
 
-    /// Velocity before the step.
-    const BodyMotion& start(std::int32_t index) const noexcept { return at(index).start; }
+    /// The largest mass of an enabled dynamic body, kg (m_max of Eq. 5.7).
+    double largestMassKg() const noexcept { return largestMassKg_; }
+
+    /// In PostSolve: the solver has put `body` at the end of its step and perhaps given it another velocity. `hint` is
+    /// where it was found the last time, which spares a search.
+    void solved(const b2Body& body, std::int32_t& hint) noexcept;
+
+    /// In BeginContact, PreSolve and EndContact: 0 (start) to 1 (end of the step), how far this body has come.
+    double fraction(const b2Body& body) const noexcept;
+
+    /// Velocity before the step; of a body that came later, its own.
+    BodyMotion start(const b2Body& body) const noexcept;
 
 private:
     struct Sweep {
+        const b2Body* body; // not followed
         b2Vec2 origin;
         BodyMotion start;
     };
-    const Sweep& at(std::int32_t index) const noexcept { return sweeps_[static_cast<std::size_t>(index)]; }
+    const Sweep* find(const b2Body& body) const noexcept;
+    void index();
 
     double stepSeconds_ = 0.0;
-    std::vector<Sweep> sweeps_;
+    double largestMassKg_ = 0.0;
+    std::vector<Sweep> sweeps_; // of what is not static
+    IntegerMap indices_;        // of the sweeps, by their bodies
 };
 
 } // namespace physvib

@@ -5,21 +5,21 @@
 
 namespace physvib {
 
-BodyMotion WorldBodies::motion(const KnownFixture& fixture) const { return motionOf(bodyOf(fixture)); }
+BodyFacts WorldBodies::facts(std::uint64_t body) const { return factsOf(bodyOf(body)); }
 
-BodyMotion WorldBodies::motionBefore(const KnownFixture& fixture) const { return sweeps_.start(fixture.facts.bodyIndex); }
+BodyMotion WorldBodies::motion(std::uint64_t body) const { return motionOf(bodyOf(body)); }
 
-Vector2 WorldBodies::centreOfBody(const KnownFixture& fixture) const { return toVector(bodyOf(fixture).GetWorldCenter()); }
+BodyMotion WorldBodies::motionBefore(std::uint64_t body) const { return sweeps_.start(bodyOf(body)); }
 
-Vector2 WorldBodies::centreOfFixture(const KnownFixture& fixture) const {
-    b2MassData mass;
-    fixtureOf(fixture).GetMassData(&mass);
-    return toVector(bodyOf(fixture).GetWorldPoint(mass.center));
+Vector2 WorldBodies::centre(std::uint64_t body) const { return toVector(bodyOf(body).GetWorldCenter()); }
+
+Vector2 WorldBodies::toWorld(std::uint64_t body, Vector2 ofBody) const {
+    return toVector(bodyOf(body).GetWorldPoint({ofBody.x, ofBody.y}));
 }
 
-double WorldBodies::inertia(const KnownFixture& fixture) const {
-    const b2Body& body = bodyOf(fixture);
-    return body.GetInertia() - body.GetMass() * body.GetLocalCenter().LengthSquared();
+double WorldBodies::inertia(std::uint64_t body) const {
+    const b2Body& of = bodyOf(body);
+    return of.GetInertia() - of.GetMass() * of.GetLocalCenter().LengthSquared();
 }
 
 } // namespace physvib

@@ -6,17 +6,18 @@
 
 namespace physvib {
 
-/// M only, within a step or right after it.
+/// Bodies are named by their addresses. M only, within a step or right after it.
 class WorldBodies final : public BodyReader {
 public:
     explicit WorldBodies(const BodySweeps& sweeps) noexcept
         : sweeps_(sweeps) {}
 
-    BodyMotion motion(const KnownFixture& fixture) const override;
-    BodyMotion motionBefore(const KnownFixture& fixture) const override;
-    Vector2 centreOfBody(const KnownFixture& fixture) const override;
-    Vector2 centreOfFixture(const KnownFixture& fixture) const override;
-    double inertia(const KnownFixture& fixture) const override;
+    BodyFacts facts(std::uint64_t body) const override;
+    BodyMotion motion(std::uint64_t body) const override;
+    BodyMotion motionBefore(std::uint64_t body) const override;
+    Vector2 centre(std::uint64_t body) const override;
+    Vector2 toWorld(std::uint64_t body, Vector2 ofBody) const override;
+    double inertia(std::uint64_t body) const override;
 
 private:
     const BodySweeps& sweeps_;

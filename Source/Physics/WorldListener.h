@@ -1,43 +1,58 @@
 // SPDX-License-Identifier: MIT
-// Box2D's contact callbacks, handed to the collision catcher in its own words.
+// Box2D's callbacks: taken by the attachment, and handed on to the game's own listeners as they are.
 #pragma once
-#include "Contacts/CollisionCatcher.h"
-#include "Contacts/FixtureTable.h"
-#include "Physics/BodySweeps.h"
+#include "Physics/BlowFinder.h"
 #include <box2d/box2d.h>
-#include <cstdint>
 
 namespace physvib {
 
-/// Listens to one b2World, and hands every call on to the listener that was there before. Says when and where a
-/// contact that begins was made, which Box2D does not. M only.
-class WorldListener final : public b2ContactListener {
+/// Listens to one b2World, and hands every call on to the listeners that were there before.
+///
+/// A world keeps bare pointers to its listeners and tells nobody when it ends. So a listener is only destroyed once its
+/// world is known to have another one (`remove`); an attachment that ends without that leaves it behind, deaf, handing
+/// on calls. M only.
+class WorldListener final : public b2ContactListener, public b2DestructionListener {
 public:
-    WorldListener(const FixtureTable& table, CollisionCatcher& catcher, BodySweeps& sweeps, b2ContactListener& chained) noexcept
-        : table_(table)
-        , catcher_(catcher)
-        , sweeps_(sweeps)
-        , chained_(chained) {}
+    WorldListener(ContactEvents& events, BodySweeps& sweeps)
+        : events_(events)
+        , finder_(events, sweeps) {}
+    WorldListener(const WorldListener&) = delete;
+    WorldListener& operator=(const WorldListener&) = delete;
 
-    /// A contact of the time before: it is part of the graph, if it touches.
-    void meet(const b2Contact& contact);
+    /// Becomes the world's listener, or is again after a game has set another or none; what it finds is called as well.
+    void install(b2World& world);
 
-    b2ContactListener& chained() const noexcept { return chained_; }
+    /// Whether the world tells it what is destroyed.
+    bool isInstalled(b2World& world) const;
+
+    /// Gives the world back what it had, unless somebody has set something else that may call it: then false.
+    bool remove(b2World& world);
+
+    /// From now on it hands calls on, and touches nothing else.
+    void deafen() noexcept { isDeaf_ = true; }
+
+    BlowFinder& finder() noexcept { return finder_; }
 
     void BeginContact(b2Contact* contact) override;
     void EndContact(b2Contact* contact) override;
     void PreSolve(b2Contact* contact, const b2Manifold* oldManifold) override;
     void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
+    void SayGoodbye(b2Joint* joint) override;
+    void SayGoodbye(b2Fixture* fixture) override;
 
 private:
-    void describe(const b2Contact& contact, ContactRecord& record) const noexcept;
-    double fractionOf(std::int32_t a, std::int32_t b) const noexcept;
-    void push(const b2Contact& contact, const b2ContactImpulse& impulse, std::int32_t a, std::int32_t b);
+    class Call;
+    template <class Listener>
+    static Listener* behindDeaf(Listener* found, Listener* WorldListener::*next);
+    template <class Listener>
+    bool isReachedBy(Listener* found, Listener* WorldListener::*next) const;
 
-    const FixtureTable& table_;
-    CollisionCatcher& catcher_;
-    BodySweeps& sweeps_;
-    b2ContactListener& chained_;
+    ContactEvents& events_;
+    BlowFinder finder_;
+    b2ContactListener* chained_ = nullptr;
+    b2DestructionListener* chainedEnds_ = nullptr;
+    const void* callFor_ = nullptr; // what the call that is being handed on is about
+    bool isDeaf_ = false;
 };
 
 } // namespace physvib

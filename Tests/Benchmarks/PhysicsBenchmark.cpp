@@ -135,4 +135,58 @@ BENCHMARK(stepOfAShakenBox)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
+/// A map of still tiles on which ten balls bounce. Arguments: tiles; whether all are cameras; whether the timing is release.
+void stepAmongTiles(benchmark::State& state) {
+    const int tiles = static_cast<int>(state.range(0));
+    struct Map {
+        explicit Map(int count) {
+            const b2BodyDef def;
+            b2Body* const ground = world.CreateBody(&def);
+            const int columns = std::max(20, count / 20);
+            for (int i = 0; i < count; ++i) {
+                b2PolygonShape tile;
+                tile.SetAsBox(0.5F, 0.5F, {static_cast<float>(i % columns), -static_cast<float>(i / columns)}, 0.0F);
+                fixtures.push_back(ground->CreateFixture(&tile, 0.0F));
+            }
+            for (int i = 0; i < 10; ++i) {
+                b2BodyDef ball;
+                ball.type = b2_dynamicBody;
+                ball.allowSleep = false;
+                ball.position = {1.5F * static_cast<float>(i) + 1.0F, 2.0F + 0.3F * static_cast<float>(i)};
+                b2CircleShape circle;
+                circle.m_radius = 0.3F;
+                fixtures.push_back(world.CreateBody(&ball)->CreateFixture(&circle, 10.0F));
+                fixtures.back()->SetRestitution(1.0F);
+            }
+        }
+        b2World world{{0.0F, -9.8F}};
+        std::vector<b2Fixture*> fixtures;
+    } plain(tiles), felt(tiles);
+    ImpactSettings settings;
+    settings.timing = state.range(2) != 0 ? ImpactTiming::release : ImpactTiming::onset;
+    Attachment attachment(felt.world, settings);
+    for (b2Fixture* fixture : felt.fixtures)
+        if (state.range(1) != 0 || fixture->GetBody()->GetType() == b2_dynamicBody) attachment.set(*fixture, wall);
+    std::vector<double> without, with;
+    std::vector<CollisionEvent> events;
+    for (auto _ : state) {
+        without.push_back(secondsOf([&] { plain.world.Step(stepSeconds, 8, 3); }));
+        with.push_back(secondsOf([&] {
+            attachment.step(stepSeconds);
+            attachment.take(events);
+        }));
+        state.SetIterationTime(without.back() + with.back());
+    }
+    const double box2d = median(without), attached = median(with);
+    state.counters["box2d_us"] = 1.0e6 * box2d;
+    state.counters["attached_us"] = 1.0e6 * attached;
+    state.counters["added_us"] = 1.0e6 * (attached - box2d);
+    state.counters["events"] = static_cast<double>(events.size());
+}
+BENCHMARK(stepAmongTiles)
+    ->ArgNames({"tiles", "cameras", "release"})
+    ->ArgsProduct({{100, 1000, 10000, 50000}, {0, 1}, {0, 1}})
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+
 } // namespace

@@ -97,10 +97,9 @@ TEST(Attachment, ForeignWorldIsFeltAndKeepsItsCallsAndUserData) {
 
 TEST(Attachment, LeavesTheWorldWithTheListenersItHad) {
     Foreign foreign;
-    {
-        Attachment attachment(foreign.world);
-        EXPECT_NE(foreign.world.GetContactManager().m_contactListener, &foreign.game);
-    }
+    Attachment attachment(foreign.world);
+    EXPECT_NE(foreign.world.GetContactManager().m_contactListener, &foreign.game);
+    attachment.detach();
     EXPECT_EQ(foreign.world.GetContactManager().m_contactListener, &foreign.game);
     foreign.world.DestroyBody(foreign.ball->GetBody());
     EXPECT_EQ(foreign.game.lostFixtures, 1);
@@ -109,11 +108,10 @@ TEST(Attachment, LeavesTheWorldWithTheListenersItHad) {
 TEST(Attachment, LeavesAListenerThatWasSetLater) {
     Foreign foreign;
     Game later;
-    {
-        Attachment attachment(foreign.world);
-        foreign.world.SetContactListener(&later);
-        foreign.world.SetDestructionListener(&later);
-    }
+    Attachment attachment(foreign.world);
+    foreign.world.SetContactListener(&later);
+    foreign.world.SetDestructionListener(&later);
+    attachment.detach();
     EXPECT_EQ(foreign.world.GetContactManager().m_contactListener, &later);
     foreign.world.DestroyBody(foreign.ball->GetBody());
     EXPECT_EQ(later.lostFixtures, 1);
@@ -165,10 +163,10 @@ protected:
     }
 };
 
-TEST_P(DestroyedInContact, CameraFeelsNothingAnyMore) {
+TEST_P(DestroyedInContact, CameraFeelsItsLastHitIfItIsKept) {
     attachment.set(*foreign.floor, object);
     attachment.set(*foreign.ball, camera);
-    EXPECT_TRUE(runAndDestroy().empty());
+    EXPECT_EQ(runAndDestroy().size(), GetParam() ? 1U : 0U);
 }
 
 TEST_P(DestroyedInContact, PartnerTakesItsHitAlongUnlessItIsKept) {
@@ -206,7 +204,7 @@ TEST(Attachment, FixtureRemovedBeforeItIsDestroyedLeavesNothingToItsHeir) {
     Foreign foreign;
     Attachment attachment(foreign.world, unity());
     attachment.set(*foreign.floor, object);
-    const std::int32_t id = attachment.set(*foreign.ball, camera);
+    const std::int32_t id = attachment.set(*foreign.ball, camera).id;
     b2Body& body = *foreign.ball->GetBody();
     attachment.remove(*foreign.ball);
     EXPECT_EQ(attachment.find(*foreign.ball), nullptr);
@@ -214,7 +212,7 @@ TEST(Attachment, FixtureRemovedBeforeItIsDestroyedLeavesNothingToItsHeir) {
     b2Fixture& heir = foreign.add(1.0F);
     EXPECT_EQ(attachment.find(heir), nullptr);
     EXPECT_TRUE(step(attachment, 120).empty());
-    EXPECT_GT(attachment.set(heir, camera), id); // ids are not used again
+    EXPECT_GT(attachment.set(heir, camera).id, id); // ids are not used again
 }
 
 TEST(Attachment, RemovedFixtureTakesItsEventsAlong) {
@@ -241,7 +239,7 @@ TEST(Attachment, BodiesOfDestructionsBetweenStepAndEndAreSafe) {
         attachment.take(events);
     }
     EXPECT_EQ(foreign.game.lostFixtures, 1);
-    EXPECT_TRUE(events.empty());
+    EXPECT_EQ(events.size(), 2U); // what breaks is felt, by both
 }
 
 TEST(Attachment, ContactsAtTheAddressOfDestroyedOnesAreFelt) {
@@ -263,7 +261,7 @@ TEST(Attachment, ContactsAtTheAddressOfDestroyedOnesAreFelt) {
             attachment.endStep();
         }
         b2Fixture& next = foreign.add(0.4F);
-        EXPECT_EQ(step(attachment, 30, 0.01F).size(), 1U) << round; // its first bounce
+        EXPECT_EQ(step(attachment, 30, 0.01F).size(), 4U) << round; // of those that broke, and its first bounce
         foreign.world.DestroyBody(next.GetBody());
     }
 }
@@ -399,10 +397,10 @@ TEST(Attachment, NormalisationFollowsTheWorldUnlessItIsGiven) {
 TEST(Attachment, IdsAreInOrderOrTheCallers) {
     Foreign foreign;
     Attachment attachment(foreign.world);
-    EXPECT_EQ(attachment.set(*foreign.floor, camera), 0);
+    EXPECT_EQ(attachment.set(*foreign.floor, camera).id, 0);
     attachment.set(*foreign.ball, object, 7);
-    EXPECT_EQ(attachment.set(*foreign.floor, object), 0);
-    EXPECT_EQ(attachment.set(foreign.add(3.0F), object), 8);
+    EXPECT_EQ(attachment.set(*foreign.floor, object).id, 0);
+    EXPECT_EQ(attachment.set(foreign.add(3.0F), object).id, 8);
     ASSERT_NE(attachment.find(*foreign.ball), nullptr);
     EXPECT_EQ(attachment.find(*foreign.ball)->frequencyHz, object.frequencyHz);
 }
@@ -410,7 +408,7 @@ TEST(Attachment, IdsAreInOrderOrTheCallers) {
 TEST(Attachment, RefusesNonsense) {
     Foreign foreign, other;
     Attachment attachment(foreign.world);
-    EXPECT_THROW(attachment.set(*other.ball, camera), std::invalid_argument);
+    EXPECT_FALSE(attachment.set(*other.ball, camera));
     for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
         ImpactSettings settings;
         settings.fieldWidthMetres = bad;

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Fresh points that near each other fast are blows; everything else is load.
+#include "Physics/BlowFinder.h"
+#include "Physics/WorldNames.h"
+#include <algorithm>
+
+namespace physvib {
+
+namespace {
+
+bool isSolid(const b2Contact& contact) {
+    return !contact.GetFixtureA()->IsSensor() && !contact.GetFixtureB()->IsSensor();
+}
+
+const b2Body& bodyA(const b2Contact& contact) { return *contact.GetFixtureA()->GetBody(); }
+const b2Body& bodyB(const b2Contact& contact) { return *contact.GetFixtureB()->GetBody(); }
+
+bool isIn(unsigned mask, int point) noexcept { return (mask >> point & 1U) != 0; }
+
+/// How fast B comes towards A at a point; the normal points from A to B.
+double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
+    const b2Vec2 velocity = bodyB(contact).GetLinearVelocityFromWorldPoint(point) - bodyA(contact).GetLinearVelocityFromWorldPoint(point);
+    return -b2Dot(velocity, normal);
+}
+
+} // namespace
+
+std::int32_t BlowFinder::find(const b2Fixture& fixture) {
+    const std::int32_t slot = events_.fixtures().find(nameOf(fixture));
+    if (slot == FixtureTable::none || events_.fixtures()[slot].body.body == nameOf(*fixture.GetBody())) return slot;
+    events_.release(slot);
+    return FixtureTable::none;
+}
+
+BlowFinder::Pair BlowFinder::know(const b2Contact& contact) {
+    find(contact);
+    return {events_.know(nameOf(*contact.GetFixtureA()), factsOf(bodyA(contact))),
+            events_.know(nameOf(*contact.GetFixtureB()), factsOf(bodyB(contact)))};
+}
+
+void BlowFinder::begin(const b2Contact& contact) {
+    if (!isSolid(contact) || !contact.IsTouching()) return;
+    const Pair pair = know(contact);
+    events_.catcher().begin(pair.a, pair.b);
+}
+
+void BlowFinder::end(const b2Contact& contact) {
+    fresh_.forget(contact);
+    const Pair pair = find(contact);
+    if (!pair.isKnown()) return;
+    const BodyMotion motionA = motionOf(bodyA(contact)), motionB = motionOf(bodyB(contact));
+    if (!bodyA(contact).GetWorld()->IsLocked()) {
+        events_.cut(pair.a, pair.b, motionA, motionB);
+    } else if (ContactEnd* const end = events_.catcher().end(pair.a, pair.b)) {
+        end->fraction = fractionOf(contact);
+        end->motionA = motionA;
+        end->motionB = motionB;
+    }
+}
+
+void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
+    if (!fresh_.look(contact, before, events_.catcher().isStepping()) || !contact.IsEnabled()) return;
+    const Pair pair = know(contact);
+    if (events_.catcher().blow(pair.a, pair.b) != nullptr) return;
+    b2WorldManifold manifold;
+    contact.GetWorldManifold(&manifold);
+    const unsigned fresh = fresh_.mask(contact);
+    double fastest = 0.0;
+    for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
+        if (isIn(fresh, i)) fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
+    if (!events_.catcher().isBlow(pair.a, pair.b, fastest)) return;
+    if (Blow* blow = events_.catcher().strike(pair.a, pair.b)) describe(contact, manifold, fresh, *blow);
+}
+
+void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const {
+    const int count = contact.GetManifold()->pointCount;
+    int deepest = isIn(fresh, 0) ? 0 : 1;
+    const bool isFlat = count > 1 && isIn(fresh, 0) && isIn(fresh, 1);
+    if (isFlat && manifold.separations[1] < manifold.separations[0]) deepest = 1;
+    const b2Vec2 touch = manifold.points[deepest];
+    // A flat landing touches along a line: its middle, not whichever end is deeper by a rounding.
+    blow.point = toVector(isFlat ? 0.5F * (manifold.points[0] + manifold.points[1]) : touch);
+    blow.motionA = motionOf(bodyA(contact));
+    blow.motionB = motionOf(bodyB(contact));
+    blow.armA = blow.point - toVector(bodyA(contact).GetWorldCenter());
+    blow.armB = blow.point - toVector(bodyB(contact).GetWorldCenter());
+
+    const double perStep = approach(contact, touch, manifold.normal) * sweeps_.stepSeconds();
+    const double depth = std::max(0.0, -static_cast<double>(manifold.separations[deepest]));
+    const double stepsAgo = perStep > 0.0 ? std::min(1.0, depth / perStep) : 0.0;
+    blow.fraction = fractionOf(contact) - stepsAgo;
+}
+
+double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {
+    if (!events_.catcher().isStepping()) return 0.0;
+    const bool aIsFaster = bodyA(contact).GetLinearVelocity().LengthSquared() > bodyB(contact).GetLinearVelocity().LengthSquared();
+    return sweeps_.fraction(aIsFaster ? bodyA(contact) : bodyB(contact));
+}
+
+void BlowFinder::noteMoved(const b2Body& body, std::int32_t slot) {
+    if (body.GetType() != b2_dynamicBody) return;
+    const auto index = static_cast<std::size_t>(slot);
+    if (sweepHints_.size() <= index) sweepHints_.resize(index + 1, 0);
+    sweeps_.solved(body, sweepHints_[index]);
+}
+
+// What fresh points push is part of the blow, if it is one; everything else is load.
+void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
+    const unsigned fresh = fresh_.solved(contact); // old from the next step on
+    const Pair pair = find(contact);
+    if (!pair.isKnown()) return;
+    noteMoved(bodyA(contact), pair.a);
+    noteMoved(bodyB(contact), pair.b);
+    Blow* const blow = fresh != 0 ? events_.catcher().blow(pair.a, pair.b) : nullptr;
+    const bool isHeard = events_.catcher().isHeard(pair.a, pair.b);
+    b2WorldManifold manifold;
+    b2Vec2 onB{0.0F, 0.0F};
+    bool isLoaded = false;
+    for (int i = 0; i < impulse.count; ++i) {
+        if (blow != nullptr && isIn(fresh, i)) {
+            blow->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
+            blow->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
+        } else if (isHeard) {
+            if (!isLoaded) contact.GetWorldManifold(&manifold);
+            isLoaded = true;
+            onB += impulse.normalImpulses[i] * manifold.normal + impulse.tangentImpulses[i] * b2Cross(manifold.normal, 1.0F);
+        }
+    }
+    if (isLoaded) events_.catcher().push(pair.a, pair.b, toVector(onB), toVector(manifold.points[0]));
+}
+
+} // namespace physvib

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Where, when and how fast the surfaces of a b2World meet, and what they push each other by: Box2D tells little of it.
+#pragma once
+#include "Contacts/ContactEvents.h"
+#include "Physics/BodySweeps.h"
+#include "Physics/FreshPoints.h"
+#include <box2d/box2d.h>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// Turns what Box2D says of its contacts into what the collision catcher wants to know. M only.
+class BlowFinder {
+public:
+    BlowFinder(ContactEvents& events, BodySweeps& sweeps)
+        : events_(events)
+        , sweeps_(sweeps) {
+        sweepHints_.reserve(CollisionCatcher::maxDirectBlows);
+    }
+
+    /// The slot of a fixture, FixtureTable::none if it is not known. One that has taken the address of another, on
+    /// another body, is not that one.
+    std::int32_t find(const b2Fixture& fixture);
+
+    void begin(const b2Contact& contact);                                 ///< in BeginContact
+    void end(const b2Contact& contact);                                   ///< in EndContact
+    void look(const b2Contact& contact, const b2Manifold& before);        ///< in PreSolve, after the game's own
+    void push(const b2Contact& contact, const b2ContactImpulse& impulse); ///< in PostSolve
+
+    /// Right after b2World::Step.
+    void endStep() noexcept { fresh_.endStep(); }
+
+private:
+    struct Pair {
+        std::int32_t a, b;
+        bool isKnown() const noexcept { return a != FixtureTable::none && b != FixtureTable::none; }
+    };
+    Pair find(const b2Contact& contact) { return {find(*contact.GetFixtureA()), find(*contact.GetFixtureB())}; }
+    Pair know(const b2Contact& contact);
+    void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const;
+    void noteMoved(const b2Body& body, std::int32_t slot);
+    double fractionOf(const b2Contact& contact) const noexcept;
+
+    ContactEvents& events_;
+    BodySweeps& sweeps_;
+    FreshPoints fresh_;
+    std::vector<std::int32_t> sweepHints_; // by slot
+};
+
+} // namespace physvib

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// What games do to their worlds, and what must not break them: listeners, lives and addresses that come and go.
+#include "AttachedWorld.h"
+#include <limits>
+#include <memory>
+
+namespace physvib {
+namespace {
+
+using ForeignWorld = AttachedWorld;
+
+class Listener : public b2ContactListener, public b2DestructionListener {
+public:
+    void BeginContact(b2Contact*) override { ++begins; }
+    void SayGoodbye(b2Joint*) override {}
+    void SayGoodbye(b2Fixture*) override { ++goodbyes; }
+    int begins = 0, goodbyes = 0;
+};
+
+TEST_F(ForeignWorld, WithoutAListenerIsFeltAsWell) {
+    b2World bare({0.0F, 0.0F});
+    bare.SetContactListener(nullptr);
+    Attachment onBare(bare, unity());
+    onBare.step(0.01F);
+    attachment.set(floor(), camera);
+    attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    world.SetContactListener(nullptr);
+    EXPECT_EQ(run(20).size(), 1U);
+}
+
+TEST_F(ForeignWorld, ListenerSetLaterIsCalledAndTheWorldIsFelt) {
+    Listener later;
+    attachment.set(floor(), camera);
+    attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    world.SetContactListener(&later);
+    world.SetDestructionListener(&later);
+    EXPECT_EQ(run(20).size(), 1U);
+    EXPECT_EQ(later.begins, 1);
+    world.DestroyBody(world.GetBodyList());
+    EXPECT_EQ(later.goodbyes, 1);
+}
+
+/// Hands every call on to the listener it found, as we do.
+class Forwarding : public b2ContactListener {
+public:
+    explicit Forwarding(b2World& world) : behind(world.GetContactManager().m_contactListener) { world.SetContactListener(this); }
+    void BeginContact(b2Contact* contact) override { ++begins; behind->BeginContact(contact); }
+    void EndContact(b2Contact* contact) override { behind->EndContact(contact); }
+    void PreSolve(b2Contact* contact, const b2Manifold* before) override { behind->PreSolve(contact, before); }
+    void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override { behind->PostSolve(contact, impulse); }
+    b2ContactListener* behind;
+    int begins = 0;
+};
+
+TEST_F(ForeignWorld, ListenerThatHandsCallsBackIsCalledOnce) {
+    Forwarding game(world);
+    attachment.set(floor(), camera);
+    attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    EXPECT_EQ(run(20).size(), 1U);
+    EXPECT_EQ(game.begins, 1);
+}
+
+TEST_F(ForeignWorld, FixtureMadeBetweenBeginAndStepIsFelt) {
+    attachment.set(floor(), camera);
+    run(3);
+    attachment.beginStep(0.01);
+    std::vector<b2Fixture*> late;
+    for (int i = 0; i < 100; ++i) late.push_back(&ball(0.6F * static_cast<float>(i), 0.26F, 0.0F, -5.0F));
+    for (const b2Fixture* each : late) attachment.set(*each, camera);
+    world.Step(0.01F, 8, 3);
+    attachment.endStep();
+    std::size_t count = 0;
+    for (const CollisionEvent& event : run(3)) count += event.source.fixture == 0 ? 1 : 0;
+    EXPECT_EQ(count, 100U);
+}
+
+class DestroyedBeforeTheEnd : public AttachedWorld, public testing::WithParamInterface<ImpactTiming> {};
+
+TEST_P(DestroyedBeforeTheEnd, FixturesAndBodiesAreFeltByWhatTheStepKnew) {
+    ImpactSettings settings = unity();
+    settings.location = ImpactLocation::fixture;
+    settings.timing = GetParam();
+    attachment.configure(settings);
+    attachment.set(floor(), object);
+    Listener own;
+    for (int round = 0; round < 3; ++round) {
+        b2Fixture& struck = ball(0.0F, 0.26F, 0.0F, -5.0F);
+        attachment.set(struck, camera);
+        attachment.beginStep(0.01);
+        world.Step(0.01F, 8, 3);
+        if (round == 0) struck.GetBody()->DestroyFixture(&struck);
+        if (round == 1) world.DestroyBody(struck.GetBody());
+        if (round == 2) {
+            world.SetDestructionListener(&own); // and nobody tells us
+            world.DestroyBody(struck.GetBody());
+        }
+        attachment.endStep();
+        EXPECT_EQ(run(10).size(), 1U) << round;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Timings, DestroyedBeforeTheEnd, testing::Values(ImpactTiming::onset, ImpactTiming::release));
+
+TEST(ForeignWorldLife, WorldMayEndBeforeItsAttachment) {
+    auto world = std::make_unique<b2World>(b2Vec2{0.0F, -10.0F});
+    const auto attachment = std::make_unique<Attachment>(*world);
+    attachment->step(0.01F);
+    world.reset();
+}
+
+TEST(ForeignWorldLife, AttachmentsMayEndInAnyOrderAndTheGameIsStillCalled) {
+    Listener game;
+    b2World world({0.0F, -10.0F});
+    world.SetContactListener(&game);
+    const b2BodyDef ground;
+    b2EdgeShape edge;
+    edge.SetTwoSided({-9.0F, 0.0F}, {9.0F, 0.0F});
+    world.CreateBody(&ground)->CreateFixture(&edge, 0.0F);
+    for (int i = 0; i < 100; ++i) Attachment{world}.step(0.01F);
+    auto first = std::make_unique<Attachment>(world), second = std::make_unique<Attachment>(world);
+    first.reset();
+    b2BodyDef def;
+    def.type = b2_dynamicBody;
+    def.position = {0.0F, 0.3F};
+    b2CircleShape circle;
+    circle.m_radius = 0.2F;
+    world.CreateBody(&def)->CreateFixture(&circle, 1.0F);
+    for (int i = 0; i < 50; ++i) second->step(0.01F);
+    EXPECT_EQ(game.begins, 1);
+    second->detach();
+    second.reset();
+}
+
+TEST_F(ForeignWorld, OriginMovesAndEventsStayInTheField) {
+    attachment.set(floor(), camera);
+    attachment.set(ball(2.0F, 0.26F, 0.0F, -5.0F), object);
+    attachment.step(0.01F); // struck, and not yet final
+    attachment.shiftOrigin({1000.0F, 0.0F});
+    const auto events = run(2);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_NEAR(events[0].x, 2.0, 0.01);
+    attachment.set(ball(-995.0F, 0.26F, 0.0F, -5.0F), object);
+    const auto later = run(2);
+    ASSERT_EQ(later.size(), 1U);
+    EXPECT_NEAR(later[0].x, 5.0, 0.01);
+}
+
+TEST_F(ForeignWorld, FieldMayLieAnywhereAndMove) {
+    attachment.set(floor(), camera);
+    ImpactSettings settings = unity();
+    settings.fieldOrigin = {-41.0F, -1.0F};
+    attachment.configure(settings);
+    attachment.set(ball(-41.0F, 0.26F, 0.0F, -5.0F), object);
+    auto events = run(2);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_NEAR(events[0].x, 0.0, 0.01);
+    EXPECT_NEAR(events[0].y, 1.0, 0.01);
+    settings.fieldOrigin = {3.0F, 0.0F};
+    settings.fieldRadians = 0.5F * b2_pi; // the device lies on its side
+    attachment.configure(settings);
+    attachment.set(ball(3.0F, 0.26F, 0.0F, -5.0F), object);
+    attachment.set(ball(8.0F, 0.26F, 0.0F, -5.0F), object);
+    events = run(2);
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_NEAR(std::min(events[0].y, events[1].y), -5.0, 0.01);
+}
+
+TEST_F(ForeignWorld, AddressUsedAgainInheritsNothing) {
+    attachment.set(floor(), camera);
+    for (int i = 0; i < 50; ++i) {
+        b2Fixture& first = ball(0.0F, 5.0F, 0.0F, 0.0F);
+        attachment.set(first, {100.0, 10.0, true, 0.0, Voice::own});
+        world.SetDestructionListener(nullptr);
+        if (i % 2 == 0) run(0); // notices what happened to the listener, or not
+        b2Body* const body = first.GetBody();
+        if (i % 3 == 0) body->DestroyFixture(&first);
+        else if (i % 2 == 0) world.DestroyBody(body);
+        else continue; // without a step in between nobody could know
+        const b2Fixture& heir = ball(0.0F, 7.0F, 0.0F, 0.0F);
+        EXPECT_EQ(attachment.find(heir), nullptr) << i;
+    }
+}
+
+TEST_F(ForeignWorld, RefusesWhatCannotBePlayed) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const b2Fixture& ground = floor();
+    for (const HapticFixture& bad : {HapticFixture{nan, 10.0}, {-5.0, 10.0}, {1.0e6, 10.0}, {100.0, nan}, {100.0, 5000.0},
+                                     {100.0, 10.0, true, nan}, {100.0, 10.0, true, -1.0}}) {
+        const SetResult result = attachment.set(ground, bad);
+        EXPECT_FALSE(result);
+        EXPECT_EQ(result.id, -1);
+        EXPECT_EQ(attachment.find(ground), nullptr);
+    }
+    EXPECT_EQ(attachment.set(ground, camera, 7).id, 7);
+    EXPECT_FALSE(attachment.set(ball(0.0F, 1.0F, 0.0F, 0.0F), camera, 7)) << "one id twice";
+}
+
+TEST_F(ForeignWorld, FlushGivesEventsAtOnce) {
+    attachment.set(floor(), camera);
+    attachment.set(ball(0.0F, 0.26F, 0.0F, -5.0F), object);
+    std::vector<CollisionEvent> events;
+    attachment.step(0.01F);
+    attachment.take(events);
+    EXPECT_TRUE(events.empty());
+    attachment.flush(events);
+    EXPECT_EQ(events.size(), 1U);
+}
+
+} // namespace
+} // namespace physvib
