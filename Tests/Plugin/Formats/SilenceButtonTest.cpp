@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// SILENCE clicked in the window that a module opens in its host: it stays pressed, and nothing moves any more. Needs a
+// display.
+#include "Plugin/Formats/Player.h"
+#include "PluginEditor.h"
+#include <cstdlib>
+// X11's macros come last
+#include "Plugin/Formats/DisplayNames.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+juce::Button* silenceIn(juce::Component& in) {
+    for (auto* child : in.getChildren()) {
+        if (auto* button = dynamic_cast<juce::Button*>(child); button && button->getButtonText() == "SILENCE") return button;
+        if (auto* found = silenceIn(*child)) return found;
+    }
+    return nullptr;
+}
+
+/// Where the button is in a window of that size; the module's own cannot be looked into.
+juce::Point<int> placeOfSilence(int width, int height) {
+    PluginProcessor plugin{"PhysVib", BusPlan{}};
+    const std::unique_ptr<juce::AudioProcessorEditor> editor{plugin.createEditorIfNeeded()};
+    editor->setSize(width, height);
+    auto* const button = silenceIn(*editor);
+    return button ? editor->getLocalPoint(button, button->getLocalBounds().getCentre()) : juce::Point<int>{};
+}
+
+/// The innermost window: each host and each format nests it in others of its own, below one of a pixel for the keyboard.
+Window innermost(Display* display, Window window) {
+    Window root = 0, parent = 0, *children = nullptr;
+    unsigned int count = 0;
+    if (XQueryTree(display, window, &root, &parent, &children, &count) == 0 || count == 0) return window;
+    const Window child = children[0];
+    XFree(children);
+    return innermost(display, child);
+}
+
+// The pointer goes there, and nothing lies between press and release: a button that is not below the pointer is let go.
+void click(Display* display, Window window, juce::Point<int> at) {
+    XWarpPointer(display, 0, window, 0, 0, 0, 0, at.x, at.y);
+    XSync(display, 0);
+    runFor(0.3);
+    XEvent event{};
+    event.xbutton.window = window;
+    event.xbutton.root = DefaultRootWindow(display);
+    event.xbutton.x = at.x;
+    event.xbutton.y = at.y;
+    event.xbutton.button = Button1;
+    event.xbutton.same_screen = 1;
+    for (const auto& [type, mask, state] : {std::tuple{ButtonPress, ButtonPressMask, 0}, {ButtonRelease, ButtonReleaseMask, Button1Mask}}) {
+        event.type = type;
+        event.xbutton.state = static_cast<unsigned int>(state);
+        XSendEvent(display, window, 1, mask, &event);
+    }
+    XSync(display, 0);
+    runFor(0.3);
+}
+
+void expectTheButtonSilences(Kind kind, Display* display) {
+    Player player{kind};
+    player.load(playing());
+    player.prepare(true);
+    EXPECT_TRUE(player.isFelt());
+    const std::unique_ptr<juce::AudioProcessorEditor> editor{player.plugin().createEditorIfNeeded()};
+    ASSERT_NE(editor, nullptr);
+    editor->addToDesktop(0);
+    editor->setVisible(true);
+    runFor(1.0);
+    const auto window = innermost(display, static_cast<Window>(reinterpret_cast<std::uintptr_t>(editor->getWindowHandle())));
+    const auto place = placeOfSilence(editor->getWidth(), editor->getHeight());
+    click(display, window, place);
+    EXPECT_EQ(player.peakOf(40, block + ramp), 0.0f);
+    click(display, window, place);
+    EXPECT_TRUE(player.isFelt()) << "clicked again";
+}
+
+TEST(SilenceButton, InEveryFormatsWindow) {
+    if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "there is no display";
+    Display* const display = openDisplayWithNames();
+    for (const auto kind : {Kind::processor, Kind::vst3, Kind::lv2}) {
+        SCOPED_TRACE(static_cast<int>(kind));
+        expectTheButtonSilences(kind, display);
+    }
+    XCloseDisplay(display);
+}
+
+} // namespace
+} // namespace physvib
