@@ -23,6 +23,13 @@ Result<std::vector<std::vector<ContactRecording>>> loadRecordings(const SessionL
     return all;
 }
 
+std::vector<std::string> recordingPaths(const SessionLog& log) {
+    std::vector<std::string> paths;
+    for (const RecordingsChange& change : log.recordings)
+        for (const RecordingFile& file : change.files) paths.push_back(file.path);
+    return paths;
+}
+
 SessionRecordings::SessionRecordings(const SessionLog& log, const std::vector<std::vector<ContactRecording>>& loaded, int sampleRateHz) {
     for (const RecordingsChange& change : log.recordings) times_.push_back(change.timeNs);
     for (const auto& set : loaded) sounds_.emplace_back(set, sampleRateHz);

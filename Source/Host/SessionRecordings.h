@@ -4,12 +4,16 @@
 #include "Core/RenderControl.h"
 #include "Files/SessionLog.h"
 #include "Host/ContactSounds.h"
+#include <string>
 #include <vector>
 
 namespace physvib {
 
 /// One item per change in `log.recordings`; or one line: a file is missing, has changed, or is no hit. M only.
 Result<std::vector<std::vector<ContactRecording>>> loadRecordings(const SessionLog& log);
+
+/// Where they are. Any thread.
+std::vector<std::string> recordingPaths(const SessionLog& log);
 
 /// They at one rate, and the controls that exchange them; lives as long as whoever renders. M only.
 class SessionRecordings {

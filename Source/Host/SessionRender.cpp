@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The events of takes and strikes merged, then the offline renderer into a file.
 #include "Host/SessionRender.h"
+#include "Files/FileClash.h"
 #include "Host/OfflineRender.h"
 #include "Host/SessionRecordings.h"
 #include "Host/WavSink.h"
@@ -21,6 +22,7 @@ std::string renderSession(const SavedSession& session, const std::string& path, 
                           const std::function<bool(double)>& progress) {
     const auto loaded = loadRecordings(session.log);
     if (!loaded) return loaded.error;
+    if (auto clash = fileClash({&path, 1}, recordingPaths(session.log)); !clash.empty()) return clash;
     const SessionRecordings recordings{session.log, loaded.value, sampleRateHz};
     WavSink wav{path, session.channels, sampleRateHz, comment};
     if (!wav.error().empty()) return wav.error();

@@ -4,6 +4,7 @@
 #include "CommandLine/AnalyseGrids.h"
 #include "CommandLine/AnalyseLabels.h"
 #include "CommandLine/AnalyseVotes.h"
+#include "CommandLine/CallFiles.h"
 #include "CommandLine/StudyOutput.h"
 #include "Files/TrialColumns.h"
 #include <CLI/CLI.hpp>
@@ -37,7 +38,7 @@ void declareOwn(CLI::App& command, std::string_view name, AnalyseOptions& o) {
     if (isGrid)
         command.add_option("--threshold", o.thresholdPercent, "percent count that a cell must reach, inclusive")
             ->check(CLI::Range(0.0, 100.0))->capture_default_str();
-    if (name == "resolution") command.add_option("--counts", o.countsPath, "the percent counts")->type_name("FILE.csv");
+    if (name == "resolution") command.add_option("--counts", o.countsPath, "the percent counts")->type_name("FILE.csv")->check(writtenFile);
     if (name == "icons")
         command.add_option("--meanings", o.meanings, "how many meanings the icons shall have")
             ->check(CLI::Range(std::size_t{2}, std::size_t{1000}))->capture_default_str();
@@ -50,8 +51,8 @@ void declareAnalyse(CLI::App& command, AnalyseOptions& o) {
     for (const Analysis& analysis : analyses) {
         CLI::App* const own = command.add_subcommand(std::string{analysis.name}, analysis.purpose);
         own->add_option("files", o.files, "trials, or what the analysis is about; several are taken together")->required()->type_name("FILE.csv");
-        own->add_option("--picture", o.picturePath, "the result to look at")->type_name("FILE.png");
-        own->add_option("--export", o.exportPath, "the result as a table for a statistics package")->type_name("FILE.csv");
+        own->add_option("--picture", o.picturePath, "the result to look at")->type_name("FILE.png")->check(writtenFile);
+        own->add_option("--export", o.exportPath, "the result as a table for a statistics package")->type_name("FILE.csv")->check(writtenFile);
         declareOwn(*own, analysis.name, o);
     }
 }

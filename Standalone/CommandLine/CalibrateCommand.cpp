@@ -2,6 +2,7 @@
 // From a device or two files to a profile in its place.
 #include "CommandLine/CalibrateCommand.h"
 #include "CommandLine/BandText.h"
+#include "CommandLine/CallFiles.h"
 #include "CommandLine/ExitCode.h"
 #include "Files/ActuatorFile.h"
 #include "Files/AtomicFile.h"
@@ -108,8 +109,8 @@ void declareCalibrate(CLI::App& command, CalibrateOptions& o) {
     command.add_option("--rate", o.sampleRateHz, "sample rate; left out: as the device stands, 48000 for a file")->check(CLI::Range(limits::minSampleRateHz, limits::maxSampleRateHz));
     command.add_option("--played", o.playedPath, "what was played elsewhere")->type_name("FILE.wav");
     command.add_option("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment")->type_name("FILE.wav");
-    command.add_option("--sweep", o.sweepPath, "only write the sweep")->type_name("FILE.wav");
-    command.add_option("--out", o.profilePath, "the profile")->type_name("FILE.json");
+    command.add_option("--sweep", o.sweepPath, "only write the sweep")->type_name("FILE.wav")->check(writtenFile);
+    command.add_option("--out", o.profilePath, "the profile")->type_name("FILE.json")->check(writtenFile);
     command.add_flag("--loopback", o.isLoopback, "a cable from the output to the input: tell the latency of the loop");
     command.add_option("--name", o.name, "of the profile")->capture_default_str();
     command.add_option("--band", o.band, "to declare; left out: where it is within 10 dB of its peak")->type_name("LO-HI");

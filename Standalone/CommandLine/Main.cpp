@@ -5,9 +5,11 @@
 #include "CommandLine/AttenuationCommand.h"
 #include "CommandLine/BoardCommand.h"
 #include "CommandLine/CalibrateCommand.h"
+#include "CommandLine/CallFiles.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/MaterialCommand.h"
 #include "CommandLine/PlayCommand.h"
+#include "CommandLine/Process.h"
 #include "CommandLine/RenderCommand.h"
 #include "CommandLine/StimulusCommand.h"
 #include "CommandLine/StudyCommand.h"
@@ -73,6 +75,7 @@ int run(int argc, char** argv) {
         const std::string reason = unknown.empty() ? error.what() : "unknown: " + unknown.front();
         return leave(exitUsage, reason + " (see physvib --help)");
     }
+    if (const std::string clash = clashOfCall(app); !clash.empty()) return leave(exitUsage, clash);
     if (scenes->parsed()) return listScenes();
     if (actuators->parsed()) return listActuators();
     if (devices->parsed()) return runDevices();
@@ -93,9 +96,14 @@ int run(int argc, char** argv) {
 } // namespace physvib
 
 int main(int argc, char** argv) {
+    using namespace physvib;
+    beginProcess();
+    int code = exitFailed;
     try {
-        return physvib::run(argc, argv);
+        code = run(argc, argv);
     } catch (const std::exception& error) { // out of memory, a full disk inside a library: still one line
-        return physvib::leave(physvib::exitFailed, error.what());
+        leave(exitFailed, error.what());
     }
+    const std::string fault = outputFault();
+    return fault.empty() || code != exitDone ? code : leave(exitFailed, fault);
 }

@@ -2,9 +2,11 @@
 // The options of `physvib play`, from words to a session's setup.
 #include "CommandLine/PlayCommand.h"
 #include "CommandLine/BoardCommand.h"
+#include "CommandLine/CallFiles.h"
 #include "CommandLine/LivePlay.h"
 #include "CommandLine/NumberList.h"
 #include "CommandLine/RenderJob.h"
+#include "Files/FileClash.h"
 #include "Host/AudioOutput.h"
 #include "Host/SerialLine.h"
 #include <CLI/CLI.hpp>
@@ -81,8 +83,8 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     command.add_option("--noise-db", o.noiseDb, "its root mean square, in dB of full scale")->check(CLI::Range(PinkNoise::leastDb, PinkNoise::mostDb))->capture_default_str();
     command.add_option("--contact-sound", o.scene.contactSound, "other outputs of the device on which each hit is heard, from 1")->type_name("5,6");
     command.add_option("--block", o.blockFrames, "frames per block; 0: as the device stands")->check(CLI::Range(0, limits::maxBlockFrames));
-    command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav");
-    command.add_option("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv")->type_name("FILE.json");
+    command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav")->check(writtenFile);
+    command.add_option("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv")->type_name("FILE.json")->check(writtenFile);
     command.add_flag("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
 }
 
@@ -111,6 +113,8 @@ int runPlay(PlayOptions& o) {
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
         return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
+    const std::vector<std::string> written{o.recordPath, o.savePath, o.savePath.empty() ? "" : std::filesystem::path{o.savePath}.replace_extension(".events.csv").string()};
+    if (auto clash = fileClash(written, job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
     if (!parseMap(o.map, settings.channelMap)) return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
     settings.listening.noiseDb = o.noiseDb;

@@ -4,6 +4,7 @@
 #include "CommandLine/RenderCommand.h"
 #include "CommandLine/RenderJob.h"
 #include "CommandLine/RenderOutputs.h"
+#include "Files/FileClash.h"
 #include "Files/FileKind.h"
 #include "Files/NumberText.h"
 #include "Host/HeardContacts.h"
@@ -128,6 +129,7 @@ int runRender(const RenderOptions& options) {
         if (const int code = isSession ? takeSession(job) : takeScene(job); code != exitDone) return code;
     }
     if (const std::string error = readInputs(job); !error.empty()) return leave(exitFailed, error);
+    if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
     const std::string error = render(job);

@@ -47,6 +47,12 @@ struct RenderJob {
         constexpr const char* panning[] = {"--layout", "--law", "--exponent", "--field"};
         return session && std::ranges::none_of(panning, [&](const char* name) { return options.given.contains(name); });
     }
+    /// Files that are read because others name them: a session its recordings, a layout its actuators.
+    std::vector<std::string> namedInputs() const {
+        auto paths = session ? recordingPaths(session->log) : std::vector<std::string>{};
+        for (const EnchanterDescription& enchanter : layout.enchanters) paths.push_back(enchanter.actuator);
+        return paths;
+    }
     int channels() const { return keepsLayouts() ? session->channels : layout.geometry.count; }
     double seconds() const {
         return session && !options.given.contains("--seconds") ? static_cast<double>(session->lengthNs) * 1e-9 : options.seconds;

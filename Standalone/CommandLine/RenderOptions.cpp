@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names, ranges and help texts of the options of `physvib render`.
+#include "CommandLine/CallFiles.h"
 #include "CommandLine/RenderOptions.h"
 #include "Files/NumberText.h"
 #include "Physics/Simulation.h"
@@ -92,14 +93,14 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
 void declareRenderOptions(CLI::App& command, RenderOptions& o) {
     declareSceneOptions(command, o);
     command.add_option("--from-events", o.fromEvents, "render this event list instead of a scene")->type_name("EVENTS.csv");
-    command.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav");
-    command.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");
-    command.add_option("--picture", o.picturePath, "world, waveforms and event marks")->type_name("FILE.png");
-    command.add_option("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel")->type_name("FILE.csv");
+    command.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav")->check(writtenFile);
+    command.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv")->check(writtenFile);
+    command.add_option("--picture", o.picturePath, "world, waveforms and event marks")->type_name("FILE.png")->check(writtenFile);
+    command.add_option("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel")->type_name("FILE.csv")->check(writtenFile);
     command.add_option("--threshold", o.threshold, "of the pattern, in full scale")->check(between(0.0, 1.0, ""))->capture_default_str();
     command.add_option("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
         ->check(between(0.001, 1000.0, " V"));
-    command.add_option("--contact-sound", o.contactSound, "what is heard of each hit, for headphones: one channel, in sync with --out")->type_name("FILE.wav");
+    command.add_option("--contact-sound", o.contactSound, "what is heard of each hit, for headphones: one channel, in sync with --out")->type_name("FILE.wav")->check(writtenFile);
     command.add_option("--rate", o.sampleRateHz, "sample rate")
         ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
     command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
@@ -129,11 +130,7 @@ std::string checkSceneOptions(RenderOptions& o) {
 std::string checkRenderOptions(RenderOptions& o) {
     if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
     if (!o.sets.empty() && o.scene.empty()) return "--set: only a scene has variables";
-    std::vector<std::string> outputs{o.wavPath, o.eventsPath, o.picturePath, o.patternPath, o.contactSound};
-    std::erase(outputs, "");
-    if (outputs.empty()) return "render: nothing to write; give --out, --events, --picture, --pattern or --contact-sound";
-    std::ranges::sort(outputs);
-    if (std::ranges::adjacent_find(outputs) != outputs.end()) return "render: two outputs in the same file";
+    if (std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return "render: nothing to write; give --out, --events, --picture, --pattern or --contact-sound";
     if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";
     if (!o.coupling.empty() && o.playsRecordings()) return "--coupling: expected a --method of modes; a recording has no one frequency";
     return checkSceneOptions(o);

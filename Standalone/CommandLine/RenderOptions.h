@@ -49,6 +49,7 @@ struct RenderOptions {
     SceneSettings settings; ///< from `sets` by checkRenderOptions
     double fieldWidthMetres = 0.0, fieldHeightMetres = 0.0; ///< from `field` by checkRenderOptions; 0: not given
     PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
+    std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, patternPath, contactSound}; } ///< of `render`
     bool playsRecordings() const { return method == "SV"; }
     std::vector<std::pair<double, std::string>> recordings; ///< from `sounds`: of which frequency, in which file
     RenderingMethod renderingMethod;                        ///< from `method`; its amplitude needs the layout

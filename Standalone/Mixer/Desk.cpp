@@ -100,6 +100,7 @@ Desk::~Desk() {
     driver_.reset();
     onBoard_.reset();
     output_.close();
+    if (recording_) closeRecording(); // whoever closes the window while it runs wants what is there
 }
 
 void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {

@@ -147,6 +147,7 @@ private:
     void watchOutput();
     juce::String boardTrouble();
     void finishRecording();
+    juce::String closeRecording();
     void showEdit(const Action& action);
     void takeScene(bool keepsSounds);
     void apply(const Mix& next);

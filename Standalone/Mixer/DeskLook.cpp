@@ -86,15 +86,22 @@ void Desk::finishRecording() {
     recording_->drain();
     if (!isEnding_ && output_.isRecording()) return;
     if (isEnding_ && now_.device.isRunning && now_.device.blocks <= endsAfterBlock_) return;
-    const Provenance provenance{PHYSVIB_VERSION, {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
     recordedFrom_ = recording_->recorder().firstFrame();
     const auto lost = recording_->recorder().framesLost();
-    auto error = utf8(recording_->finish(session_.playOutFrames(), provenance));
+    auto error = closeRecording();
     if (error.isEmpty() && lost > 0) error = "frames missing in the recording: " + juce::String{static_cast<juce::int64>(lost)};
     if (error.isEmpty() && !isEnding_) error = "the recording ends where the device changed its rate";
-    recording_.reset();
     if (onRecorded) onRecorded(recordingFile_, error);
     sendChangeMessage();
+}
+
+/// Both files in their places; empty, or one line with the reason.
+juce::String Desk::closeRecording() {
+    const Provenance provenance{PHYSVIB_VERSION, {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
+    for (PlayedEvent played; session_.played().pop(played);) recording_->take(played);
+    const auto error = utf8(recording_->finish(session_.playOutFrames(), provenance));
+    recording_.reset();
+    return error;
 }
 
 } // namespace physvib

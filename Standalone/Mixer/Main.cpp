@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The application `physvib-mixer`: its window, or pictures of it.
+#include "CommandLine/Interrupt.h"
+#include "CommandLine/Process.h"
 #include "Mixer/MixerWindow.h"
 #include "Mixer/Shots.h"
 #include "Host/NoDevice.h"
@@ -52,7 +54,8 @@ void summarise(Desk& desk) {
               << number(100.0 * moment.device.worstLoad, 1) << " %" << std::endl;
 }
 
-class MixerApplication final : public juce::JUCEApplication {
+// A signal ends it in order, without a question: a recording gets its place, and the copy of the session stays.
+class MixerApplication final : public juce::JUCEApplication, private juce::Timer {
 public:
     const juce::String getApplicationName() override { return "PhysVib mixer"; }
     const juce::String getApplicationVersion() override { return PHYSVIB_VERSION; }
@@ -66,14 +69,23 @@ public:
         for (int k = 0; k < arguments.size(); ++k)
             if (!arguments[k].isOption() && (k == 0 || arguments[k - 1].text != "--device")) file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[k].text);
         window_ = std::make_unique<MixerWindow>(deviceTypes(), device, file);
+        heedInterrupts();
+        startTimer(milliseconds);
     }
     void shutdown() override {
+        stopTimer();
         if (hasSummary_) summarise(window_->desk());
         window_.reset();
     }
     void systemRequestedQuit() override { window_->requestQuit(); }
 
 private:
+    static constexpr int milliseconds = 200;
+
+    void timerCallback() override {
+        if (interrupted) quit();
+    }
+
     std::unique_ptr<MixerWindow> window_;
     bool hasSummary_ = false;
 };
@@ -84,10 +96,15 @@ juce::JUCEApplicationBase* makeApplication() { return new MixerApplication; }
 } // namespace physvib
 
 int main(int argc, char* argv[]) {
+    physvib::beginProcess();
     {
         const juce::ArgumentList arguments{argc, argv};
         const juce::ScopedJuceInitialiser_GUI juce;
-        if (const auto code = physvib::runWithoutWindow(arguments)) return *code;
+        if (const auto code = physvib::runWithoutWindow(arguments)) {
+            const std::string fault = physvib::outputFault();
+            if (fault.empty() || *code != 0) return *code;
+            return std::cerr << "physvib-mixer: " << fault << '\n', physvib::exitFailed;
+        }
     }
     juce::JUCEApplicationBase::createInstance = physvib::makeApplication;
     return juce::JUCEApplicationBase::main(argc, const_cast<const char**>(argv));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // States are reached as a person would reach them, with a clock instead of a device.
 #include "Mixer/Shots.h"
+#include "Files/AtomicFile.h"
 #include "Mixer/MaterialShots.h"
 #include "Mixer/MixerView.h"
 #include "Mixer/StudyShots.h"
@@ -98,9 +99,9 @@ juce::String takeShot(const juce::File& file, const juce::String& name) {
     runFor(state->seconds, view);
     desk.dispatchPendingMessages(); // what has been told meanwhile
     const auto image = view.createComponentSnapshot(view.getLocalBounds(), true, 1.0f);
-    juce::TemporaryFile temporary{file};
-    if (auto out = temporary.getFile().createOutputStream(); !out || !juce::PNGImageFormat{}.writeImageToStream(image, *out)) return file.getFullPathName() + ": cannot be written";
-    return temporary.overwriteTargetFileWithTemporary() ? juce::String{} : file.getFullPathName() + ": cannot be written";
+    juce::MemoryOutputStream png;
+    juce::PNGImageFormat{}.writeImageToStream(image, png);
+    return utf8(writeFile(file.getFullPathName().toStdString(), {static_cast<const char*>(png.getData()), png.getDataSize()}));
 }
 
 } // namespace physvib
