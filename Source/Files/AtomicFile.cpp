@@ -84,11 +84,8 @@ const std::string& AtomicFile::commit() {
     file_.takePermissionsOf(target_);
     if (!file_.isAt(temporary_) && fs::exists(fs::symlink_status(temporary_, code))) {
         fail("its temporary file was replaced by another");
-        temporary_.clear(); // not ours to remove
     } else if (fs::rename(temporary_, target_, code); code) {
         fail(code.message());
-    } else {
-        temporary_.clear();
     }
     removeTemporary();
     return error_;
@@ -129,7 +126,7 @@ void AtomicFile::fail(std::string_view reason) {
 
 void AtomicFile::removeTemporary() noexcept {
     std::error_code ignored;
-    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+    if (file_.isOpen() && file_.isAt(temporary_)) fs::remove(temporary_, ignored);
     temporary_.clear();
     onEnd_ = RemovedOnEnd();
     file_ = SystemFile(); // and with it the lock

@@ -2,9 +2,10 @@
 // What every command that writes keeps to: inputs stay, one file is written once, words arrive or their loss is told, and an end by
 // a signal leaves nothing half done.
 #include "Calls.h"
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <thread>
 
 namespace physvib {
@@ -149,15 +150,22 @@ TEST_F(Outputs, TwoRendersToOneFileAtOnceAreToldApart) {
 
 // A file system that fills up after so many bytes of each file: the limit on a file's size behaves like that.
 TEST_F(Outputs, AFullDiskIsToldAndLeavesTheOldFiles) {
-    const std::string render = "render scene.json --seconds 0.2 --out o.wav --events o.csv --picture o.png --pattern p.csv";
-    ASSERT_EQ(call(render).exitCode, 0);
-    const std::size_t most = read("o.wav").size();
-    ASSERT_GT(most, 0u);
-    for (const char* name : {"o.wav", "o.csv", "o.png", "p.csv"}) write(name, "old");
-    for (std::size_t blocks = 0; blocks * 512 < most; blocks = blocks * 2 + 1) {
-        shell("sh -c \"(ulimit -f " + std::to_string(blocks) + "; " + program_ + render + "; echo \\$?) 2>&1 | cat >.out\""); // words go through a pipe
-        EXPECT_TRUE(read(".out").ends_with("cannot be written: File too large\n1\n")) << blocks << read(".out");
-        for (const char* name : {"o.wav", "o.csv", "o.png", "p.csv"}) EXPECT_EQ(read(name), "old") << blocks;
+    const struct {
+        std::string call;
+        std::vector<std::string> outputs;
+    } calls[] = {{"render scene.json --seconds 0.2 --out o.wav --events o.csv --picture o.png --pattern p.csv", {"o.wav", "o.csv", "o.png", "p.csv"}},
+                 {"stimulus pattern ABA-250 --out o.wav --picture o.png", {"o.wav", "o.png"}},
+                 {"calibrate --sweep o.wav --seconds 1", {"o.wav"}},
+                 {"analyse confusion trials.csv --export o.csv --picture o.png", {"o.csv", "o.png"}}};
+    for (const auto& [words, outputs] : calls) {
+        ASSERT_EQ(call(words).exitCode, 0) << words;
+        std::size_t most = 0;
+        for (const auto& name : outputs) most = std::max(most, read(name).size()), write(name, "old");
+        for (std::size_t blocks = 0; blocks * 512 < most; blocks = blocks * 2 + 1) {
+            shell("sh -c \"(ulimit -f " + std::to_string(blocks) + "; " + program_ + words + "; echo \\$?) 2>&1 | cat >.out\""); // words go through a pipe
+            EXPECT_TRUE(read(".out").ends_with("cannot be written: File too large\n1\n")) << words << ' ' << blocks << read(".out");
+            for (const auto& name : outputs) EXPECT_EQ(read(name), "old") << words << ' ' << blocks;
+        }
         for (const auto& name : files()) EXPECT_FALSE(name.ends_with(".part")) << name;
     }
 }
