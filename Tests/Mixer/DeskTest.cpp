@@ -143,6 +143,18 @@ TEST(Desk, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
     EXPECT_NE(desk.startRecording(folder("no/such/folder/take.wav")), "");
 }
 
+TEST(Desk, ARecordingThatRunsWhenTheDeskIsClosedIsKept) {
+    TestFolder folder;
+    {
+        Desk desk{onlyNoDevice(), noDevice};
+        ASSERT_EQ(desk.startRecording(folder("take.wav")), "");
+        EXPECT_TRUE(runUntil([&] { return desk.look(), desk.recordedSeconds() > 0.1; }));
+    }
+    EXPECT_GT(folder("take.wav").getSize(), 4 * 4 * 4800);
+    EXPECT_TRUE(folder("take.csv").existsAsFile());
+    EXPECT_FALSE(folder("take.wav.physvib.part").exists());
+}
+
 TEST(Desk, ADeviceThatVanishesIsToldAndTakenUpAgain) {
     FakeInterface hands;
     Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}};
