@@ -4,6 +4,7 @@
 #include "Files/AtomicFile.h"
 #include "Mixer/MaterialShots.h"
 #include "Mixer/MixerView.h"
+#include "Mixer/Parts.h"
 #include "Mixer/StudyShots.h"
 #include "Host/NoDevice.h"
 #include <functional>
