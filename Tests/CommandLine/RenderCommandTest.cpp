@@ -240,7 +240,7 @@ TEST_F(Render, UnwritableOutputsLeaveNothing) {
 }
 
 TEST_F(Render, TwoOutputsInOneFileAreRefused) {
-    refuses("render shake-the-box --seconds 1 --out a --events a", 2, "same file");
+    refuses("render shake-the-box --seconds 1 --out a --events a", 2, "a: expected another file to write, this is the output a");
 }
 
 TEST_F(Render, EventsAfterTheEndAreTold) {
