@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # kills.sh BIN_FOLDER KILLS render|study|play|mixer...: kills each of them (SIGKILL) at so many random moments. Every file is whole or
 # absent, an old one stays as it was until then, a study goes on to the bytes of one that was never cut off, a session that is
-# killed loses at most a second, and nothing that was left behind is in the way. `play` needs jackd, `mixer` a display.
+# killed loses at most a second, and nothing that was left behind is in the way. `play` needs jackd, `mixer` a display (with-display.sh) and xdotool.
 set -eu
 bin=$1 kills=$2
 shift 2
@@ -87,6 +87,7 @@ kill_mixers() {
     n=0 copies=0
     while [ $n -lt "$kills" ]; do
         n=$((n + 1))
+        (sleep 2 && xdotool mousemove 1170 140 click 1) 2>/dev/null & # a new enchanter: something to keep a copy of
         kill_within 9 "$bin/physvib-mixer" --device "None:no device"
         for copy in physvib/recovery-*.json; do
             [ -e "$copy" ] || continue
