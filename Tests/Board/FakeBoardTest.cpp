@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boards that answer as none should, and one whose counter is over: what the link makes of them.
-#include "Host/BoardOutput.h"
-#include "Host/FakeAudioDevice.h"
-#include "Host/WallsScene.h"
 #include "VirtualBoard.h"
 #include "VirtualBoard/PseudoTerminal.h"
 #include "Wire/FrameDecoder.h"
@@ -25,11 +22,6 @@ public:
     const std::string& port() const { return line_.path(); }
     /// Of its counter, which does not wrap here.
     double frameAt(std::int64_t ns) const { return first_ + static_cast<double>(ns - startNs_) * 1e-9 * limits::board::sampleRateHz; }
-    /// The last that it was told of the first channel.
-    int gain() const {
-        const std::scoped_lock lock{mutex_};
-        return gains_.gains[0];
-    }
     std::vector<wire::Strike> strikes() const {
         const std::scoped_lock lock{mutex_};
         return strikes_;
@@ -54,7 +46,6 @@ private:
         }
         const std::scoped_lock lock{mutex_};
         if (wire::Strike strike; wire::decode(payload, strike)) strikes_.push_back(strike);
-        if (wire::Gains gains; wire::decode(payload, gains)) gains_ = gains;
     }
     template <class Message>
     void send(const Message& message) {
@@ -69,7 +60,6 @@ private:
     const std::int64_t startNs_ = BoardLink::nowNs();
     mutable std::mutex mutex_;
     std::vector<wire::Strike> strikes_;
-    wire::Gains gains_;
     std::atomic<bool> stop_{false};
     std::thread thread_{[this] { run(); }};
 };
@@ -115,28 +105,6 @@ TEST(BoardLinkWithAFakeBoard, NeitherAWrongAnswerNorACounterThatIsOverMovesItsCl
     EXPECT_EQ(link.status().connections, 1u);
     EXPECT_EQ(link.status().refused, 0u);
     EXPECT_LT(link.status().playOutMs, 200.0);
-}
-
-TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
-    FakeBoard board{ours(), 0};
-    BoardLink link{board.port()};
-    SessionSetup setup = test::setupOfWalls();
-    setup.channels = 4;
-    setup.boardSeconds = 0.05;
-    Session session{setup};
-    std::atomic<bool> interrupt{false};
-    test::FakeInterface hands;
-    AudioOutput output{session, test::fakeTypes({&hands}), &interrupt};
-    output.setLevel(0.5f);
-    BoardOutput onBoard{session, output, link, setup.panner};
-    const int half = limits::board::amplitudeUnit / 2;
-    EXPECT_TRUE(test::comesTrue([&] { return board.gain() == half; }));
-    output.setSilent(true);
-    EXPECT_TRUE(test::comesTrue([&] { return board.gain() == 0; }));
-    output.setSilent(false);
-    EXPECT_TRUE(test::comesTrue([&] { return board.gain() == half; }));
-    interrupt = true; // Ctrl-C
-    EXPECT_TRUE(test::comesTrue([&] { return board.gain() == 0; }));
 }
 
 } // namespace
