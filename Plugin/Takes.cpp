@@ -76,8 +76,8 @@ void Takes::prepare(int sampleRateHz, int blockFrames) {
     slippedBefore_ = waitedFrames_ = 0;
     startWanted_ = false;
     status_.write({});
-    tickedNs_ = nowNs();
     exchange(order_, std::make_unique<Take>(order_, sampleRateHz, blockFrames, leadFrames_));
+    tickedNs_ = nowNs(); // making it took longer than a gap
     stop_ = false;
     if (handNs_) return;
     stepper_ = std::thread{[this] { step(); }};
