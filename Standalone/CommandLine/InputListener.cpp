@@ -12,7 +12,6 @@ namespace physvib {
 namespace {
 
 constexpr int pollMilliseconds = 50; // only the end of the program waits for it
-constexpr std::size_t longestLine = 65'536;
 
 } // namespace
 
@@ -27,38 +26,35 @@ InputListener::~InputListener() {
 }
 
 void InputListener::run() {
-    std::string text;
+    LineCutter lines;
+    const auto takeLine = [this](std::string_view line, bool isWhole) { take(line, isWhole); };
     char bytes[4096];
     while (!stop_) {
         pollfd input{STDIN_FILENO, POLLIN, 0};
         if (poll(&input, 1, pollMilliseconds) <= 0) continue;
         const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
-        if (count <= 0) return;
-        text.append(bytes, static_cast<std::size_t>(count));
-        for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n')) {
-            take(text.substr(0, end));
-            text.erase(0, end + 1);
-        }
-        if (text.size() > longestLine) text.clear(); // never a line of ours
+        if (count <= 0) return lines.end(takeLine);
+        lines.add({bytes, static_cast<std::size_t>(count)}, takeLine);
     }
 }
 
-void InputListener::take(const std::string& line) {
+void InputListener::take(std::string_view line, bool isWhole) {
     const std::string name = "standard input:" + std::to_string(++lines_);
-    if (line.find_first_not_of(" \t\r") == std::string::npos) return;
-    const auto read = readInputLine(line, name, session_.state().scene->materials, session_.channels());
-    std::string fault = read.error;
-    if (read) {
-        if (const auto* action = std::get_if<Action>(&read.value)) {
-            fault = session_.act(*action);
-            if (!fault.empty()) fault = name + ": " + fault;
-        } else if (const auto* control = std::get_if<RenderControl>(&read.value)) {
-            if (session_.post(*control) < 0) fault = name + ": too many controls at once";
-        } else {
-            output_.setSilent(std::get<SilenceControl>(read.value).isOn);
-        }
-    }
+    const std::string fault = isWhole ? act(line, name) : name + ": expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out";
     if (!fault.empty()) std::cerr << "physvib: " + fault + "\n";
+}
+
+std::string InputListener::act(std::string_view line, const std::string& name) {
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) return {};
+    const auto read = readInputLine(line, name, session_.state().scene->materials, session_.channels());
+    if (!read) return read.error;
+    if (const auto* action = std::get_if<Action>(&read.value)) {
+        const std::string fault = session_.act(*action);
+        return fault.empty() ? fault : name + ": " + fault;
+    }
+    if (const auto* control = std::get_if<RenderControl>(&read.value)) return session_.post(*control) < 0 ? name + ": too many controls at once" : "";
+    output_.setSilent(std::get<SilenceControl>(read.value).isOn);
+    return {};
 }
 
 } // namespace physvib

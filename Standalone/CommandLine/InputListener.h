@@ -3,6 +3,7 @@
 #pragma once
 #include "Host/AudioOutput.h"
 #include "Host/Session.h"
+#include "CommandLine/LineCutter.h"
 #include <atomic>
 #include <string>
 #include <thread>
@@ -18,7 +19,8 @@ public:
 
 private:
     void run();
-    void take(const std::string& line);
+    void take(std::string_view line, bool isWhole);
+    std::string act(std::string_view line, const std::string& name);
 
     Session& session_;
     AudioOutput& output_;
