@@ -13,25 +13,49 @@
 
 namespace physvib {
 
+struct CloseFile {
+    void operator()(std::FILE* open) const noexcept { std::fclose(open); }
+};
+using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
+
+inline Failure unreadable(const std::filesystem::path& path, const std::string& why) { return {path.string() + ": cannot be read: " + why}; }
+inline Failure unreadable(const std::filesystem::path& path, int code) { return unreadable(path, std::generic_category().message(code)); }
+inline Failure tooLong(const std::filesystem::path& path, std::size_t maxBytes) { return {path.string() + ": expected at most " + std::to_string(maxBytes) + " bytes, found more"}; }
+
 /// The bytes of the file, at most `maxBytes`. Pipes are read to their end. M only.
 inline Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
-    const auto unreadable = [&path](int code) {
-        return Failure{path.string() + ": cannot be read: " + std::generic_category().message(code)};
-    };
-    const auto close = [](std::FILE* open) { std::fclose(open); };
-    const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.string().c_str(), "rb"), close);
-    if (!file) return unreadable(errno);
-
+    const OpenFile file{std::fopen(path.string().c_str(), "rb")};
+    if (!file) return unreadable(path, errno);
     std::string text;
+    std::error_code unknown; // of what is no file: it grows
+    if (const auto bytes = std::filesystem::file_size(path, unknown); !unknown && bytes <= maxBytes) text.reserve(bytes);
+    else if (!unknown) return tooLong(path, maxBytes);
     std::array<char, 65536> block;
     while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
         text.append(block.data(), count);
-        if (text.size() > maxBytes)
-            return Failure{path.string() + ": expected at most " + std::to_string(maxBytes) +
-                           " bytes, found more"};
+        if (text.size() > maxBytes) return tooLong(path, maxBytes);
     }
-    if (std::ferror(file.get())) return unreadable(errno);
+    if (std::ferror(file.get())) return unreadable(path, errno);
     return text;
+}
+
+struct RegularFile {
+    OpenFile stream;
+    std::size_t bytes = 0;
+};
+
+/// A file that has an end and can be searched, of at most `maxBytes`, open at its beginning: no folder, and no pipe or device, which
+/// would wait or never end. Any thread.
+inline Result<RegularFile> openRegular(const std::filesystem::path& path, std::size_t maxBytes) {
+    std::error_code code;
+    const auto status = std::filesystem::status(path, code); // before it is opened: opening a pipe waits
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return unreadable(path, "expected a regular file, found a folder, a device or a pipe");
+    RegularFile file{OpenFile{std::fopen(path.string().c_str(), "rb")}};
+    if (!file.stream) return unreadable(path, errno);
+    file.bytes = std::filesystem::file_size(path, code);
+    if (code) return unreadable(path, code.message());
+    if (file.bytes > maxBytes) return tooLong(path, maxBytes);
+    return file;
 }
 
 } // namespace physvib

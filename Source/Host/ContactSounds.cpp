@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cut, normalised, resampled.
 #include "Host/ContactSounds.h"
+#include "Files/FileLimits.h"
 #include "Files/ReadFile.h"
 #include "Host/HitExcerpt.h"
+#include "Host/ReadRecording.h"
 #include "Host/RecordingFaults.h"
-#include "Host/StimulusRender.h"
 #include "Host/SyntheticContact.h"
 #include <algorithm>
 #include <cmath>
 #include <juce_audio_basics/juce_audio_basics.h>
-#include <limits>
 #include <numbers>
 
 namespace physvib {
@@ -69,7 +69,7 @@ Result<ContactRecording> readContact(const RecordingFile& file) {
 /// Empty, or that the file is not what it was.
 std::string takeHash(RecordingFile& file) {
     if (syntheticSeed(file.path)) return {};
-    const auto bytes = readFile(file.path, std::numeric_limits<std::size_t>::max()); // readRecording has said how long it may be
+    const auto bytes = readFile(file.path, limits::maxRecordingFileBytes);
     if (!bytes) return bytes.error;
     const std::string hash = contentHash(bytes.value);
     if (!file.hash.empty() && file.hash != hash) return file.path + ": expected the recording with the hash " + file.hash + ", found " + hash + ": it has changed since";

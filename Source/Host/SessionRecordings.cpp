@@ -1,24 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From files to controls.
 #include "Host/SessionRecordings.h"
+#include "Files/FileLimits.h"
 #include <algorithm>
 
 namespace physvib {
+namespace {
 
-Result<std::vector<std::vector<ContactRecording>>> loadRecordings(const SessionLog& log) {
-    std::vector<std::vector<ContactRecording>> all;
-    std::vector<ContactRecording> known; // a study exchanges the same few, over and over
-    for (const RecordingsChange& change : log.recordings) {
-        auto& set = all.emplace_back();
-        for (const RecordingFile& file : change.files) {
-            auto found = std::ranges::find(known, file, &ContactRecording::file);
-            if (found == known.end()) {
-                auto contact = loadContact(file);
-                if (!contact) return Failure{contact.error};
-                found = known.insert(known.end(), std::move(contact.value));
-            }
-            set.push_back(*found);
+/// A set of recordings that a session plays, loaded where no other has the same file.
+Result<std::vector<ContactRecording>> loadSet(const std::vector<RecordingFile>& files, const LoadedRecordings& before) {
+    std::vector<ContactRecording> set;
+    for (const RecordingFile& file : files) {
+        const ContactRecording* known = nullptr;
+        for (const auto& other : before.sets)
+            if (const auto found = std::ranges::find(other, file, &ContactRecording::file); found != other.end()) known = &*found;
+        if (known != nullptr) {
+            set.push_back(*known);
+            continue;
         }
+        auto contact = loadContact(file);
+        if (!contact) return Failure{contact.error};
+        set.push_back(std::move(contact.value));
+    }
+    return set;
+}
+
+std::size_t samplesOf(const std::vector<ContactRecording>& set) {
+    std::size_t count = 0;
+    for (const ContactRecording& recording : set) count += recording.samples.size();
+    return count;
+}
+
+} // namespace
+
+Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
+    LoadedRecordings all;
+    std::vector<const std::vector<RecordingFile>*> files; // of each set
+    std::size_t samples = 0;
+    for (const RecordingsChange& change : log.recordings) {
+        const auto same = std::ranges::find_if(files, [&](const auto* known) { return *known == change.files; });
+        all.setOfChange.push_back(static_cast<std::size_t>(same - files.begin()));
+        if (same != files.end()) continue;
+        auto set = loadSet(change.files, all);
+        if (!set) return Failure{set.error};
+        samples += samplesOf(set.value);
+        if (files.size() == limits::maxRecordingSets) return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSets) + " different sets"};
+        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples)) return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSamples) + " samples in all sets"};
+        files.push_back(&change.files);
+        all.sets.push_back(std::move(set.value));
     }
     return all;
 }
@@ -30,17 +59,18 @@ std::vector<std::string> recordingPaths(const SessionLog& log) {
     return paths;
 }
 
-SessionRecordings::SessionRecordings(const SessionLog& log, const std::vector<std::vector<ContactRecording>>& loaded, int sampleRateHz) {
+SessionRecordings::SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz)
+    : setOfChange_{loaded.setOfChange} {
     for (const RecordingsChange& change : log.recordings) times_.push_back(change.timeNs);
-    for (const auto& set : loaded) sounds_.emplace_back(set, sampleRateHz);
+    for (const auto& set : loaded.sets) sounds_.emplace_back(set, sampleRateHz);
 }
 
 std::vector<RenderControl> SessionRecordings::with(std::vector<RenderControl> controls) const {
-    for (std::size_t i = 0; i < sounds_.size(); ++i) {
+    for (std::size_t i = 0; i < setOfChange_.size(); ++i) {
         RenderControl& control = controls.emplace_back();
         control.timeNs = times_[i];
         control.kind = RenderControl::Kind::recordings;
-        control.recordings = sounds_[i].contacts();
+        control.recordings = sounds_[setOfChange_[i]].contacts();
     }
     std::ranges::stable_sort(controls, {}, &RenderControl::timeNs);
     return controls;

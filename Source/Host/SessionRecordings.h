@@ -9,8 +9,14 @@
 
 namespace physvib {
 
-/// One item per change in `log.recordings`; or one line: a file is missing, has changed, or is no hit. M only.
-Result<std::vector<std::vector<ContactRecording>>> loadRecordings(const SessionLog& log);
+/// What a session plays of recordings; a study exchanges the same few sets over and over.
+struct LoadedRecordings {
+    std::vector<std::vector<ContactRecording>> sets; ///< each once
+    std::vector<std::size_t> setOfChange;            ///< per change in SessionLog::recordings
+};
+
+/// Those of `log`; or one line: a file is missing, has changed, or is no hit, or they are too many. M only.
+Result<LoadedRecordings> loadRecordings(const SessionLog& log);
 
 /// Where they are. Any thread.
 std::vector<std::string> recordingPaths(const SessionLog& log);
@@ -18,13 +24,14 @@ std::vector<std::string> recordingPaths(const SessionLog& log);
 /// They at one rate, and the controls that exchange them; lives as long as whoever renders. M only.
 class SessionRecordings {
 public:
-    SessionRecordings(const SessionLog& log, const std::vector<std::vector<ContactRecording>>& loaded, int sampleRateHz);
+    SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz);
 
     /// `controls`, in time order, and these; both stay in order.
     std::vector<RenderControl> with(std::vector<RenderControl> controls) const;
 
 private:
     std::vector<std::int64_t> times_;
+    std::vector<std::size_t> setOfChange_;
     std::vector<ContactSounds> sounds_;
 };
 

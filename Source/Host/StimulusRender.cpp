@@ -5,13 +5,11 @@
 #include "Host/OfflineRender.h"
 #include <algorithm>
 #include <cmath>
-#include <juce_audio_formats/juce_audio_formats.h>
 
 namespace physvib {
 namespace {
 
-constexpr double longestRecordingSeconds = 600.0; // a stimulus that long is a mistake
-constexpr double fullScaleSlack = 1e-6;           // a sine's peak at a rounded level
+constexpr double fullScaleSlack = 1e-6; // a sine's peak at a rounded level
 
 double peakOf(const std::vector<float>& samples) {
     double peak = 0.0;
@@ -46,26 +44,6 @@ Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescr
     });
     const std::string error = scaleToEnchanters(sound, layout);
     if (!error.empty()) return Failure{error};
-    return sound;
-}
-
-Result<StimulusSound> readRecording(const std::filesystem::path& path) {
-    const auto unreadable = [&](const std::string& why) { return Failure{path.string() + ": " + why}; };
-    const juce::File file = juce::File::getCurrentWorkingDirectory().getChildFile(juce::String::fromUTF8(path.string().c_str()));
-    auto stream = file.createInputStream();
-    if (!stream) return unreadable("cannot be read: No such file or directory");
-    juce::AudioFormatManager formats;
-    formats.registerBasicFormats();
-    const std::unique_ptr<juce::AudioFormatReader> reader{formats.createReaderFor(std::move(stream))}; // by what is in it
-    if (!reader || reader->numChannels < 1) return unreadable("expected a WAV, FLAC or Ogg Vorbis file");
-    if (reader->lengthInSamples < 1) return unreadable("expected samples, found none");
-    if (static_cast<double>(reader->lengthInSamples) > longestRecordingSeconds * reader->sampleRate)
-        return unreadable("expected at most " + fixedNumber(longestRecordingSeconds, 0) + " s");
-    StimulusSound sound{juce::roundToInt(reader->sampleRate), {}};
-    juce::AudioBuffer<float> buffer(static_cast<int>(reader->numChannels), static_cast<int>(reader->lengthInSamples));
-    if (!reader->read(&buffer, 0, buffer.getNumSamples(), 0, true, true)) return unreadable("cannot be read to its end");
-    for (int j = 0; j < buffer.getNumChannels(); ++j)
-        sound.channels.emplace_back(buffer.getReadPointer(j), buffer.getReadPointer(j) + buffer.getNumSamples());
     return sound;
 }
 

@@ -3,8 +3,8 @@
 #include "CommandLine/AttenuationCommand.h"
 #include "CommandLine/ExitCode.h"
 #include "Files/NumberText.h"
+#include "Host/ReadRecording.h"
 #include "Host/RecordingFaults.h"
-#include "Host/StimulusRender.h"
 #include "Study/Coupling.h"
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "Files/NumberText.h"
 #include "Host/ActuatorMeasurement.h"
 #include "Host/AudioOutput.h"
-#include "Host/StimulusRender.h"
+#include "Host/ReadRecording.h"
 #include "Host/SweepRecorder.h"
 #include "Host/WavSink.h"
 #include <CLI/CLI.hpp>

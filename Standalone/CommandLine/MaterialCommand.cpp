@@ -7,7 +7,7 @@
 #include "Files/NumberText.h"
 #include "Host/LoudestChannel.h"
 #include "Host/MaterialExtractor.h"
-#include "Host/StimulusRender.h"
+#include "Host/ReadRecording.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 

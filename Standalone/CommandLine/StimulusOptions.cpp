@@ -5,6 +5,7 @@
 #include "Core/Limits.h"
 #include "Files/ActuatorFile.h"
 #include "Files/NumberText.h"
+#include "Host/ReadRecording.h"
 #include "Study/PercentCounts.h"
 #include <CLI/CLI.hpp>
 #include <cmath>

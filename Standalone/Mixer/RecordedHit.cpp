@@ -3,8 +3,8 @@
 #include "Mixer/RecordedHit.h"
 #include "Host/LoudestChannel.h"
 #include "Host/PartialFit.h"
+#include "Host/ReadRecording.h"
 #include "Host/Spectrum.h"
-#include "Host/StimulusRender.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>

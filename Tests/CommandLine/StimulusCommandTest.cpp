@@ -65,7 +65,7 @@ TEST_F(StimulusCommand, ARecordingIsPlacedLikeAPhantom) {
     EXPECT_EQ(*std::ranges::max_element(placed), 0.5f);
     refuses("stimulus wav direct.wav --at 0,0 --out x.wav", 1, "direct.wav: expected one channel, found 4", 3);
     write("no.wav", "RIFF, but not really");
-    refuses("stimulus wav no.wav --at 0,0 --out x.wav", 1, "no.wav: expected a WAV, FLAC or Ogg Vorbis file", 4);
+    refuses("stimulus wav no.wav --at 0,0 --out x.wav", 1, "no.wav: expected a WAV file", 4);
 }
 
 TEST_F(StimulusCommand, LevelsAreInG) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recorded contacts: at a level that is known, in a live session, and in the session that is rendered again from its file.
 #include "FakeHost.h"
+#include "Host/ReadRecording.h"
 #include "Host/SessionJournal.h"
 #include "Host/SessionRecordings.h"
 #include "Host/SessionRender.h"
-#include "Host/StimulusRender.h"
 #include "Host/WavSink.h"
 #include <cmath>
 #include <cstdlib>

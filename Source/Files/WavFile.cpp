@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Chunk by chunk; only format and data are looked at, and never more is asked of memory than the file has bytes for.
+#include "Files/WavFile.h"
+#include "Files/FileLimits.h"
+#include "Files/NumberText.h"
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <string_view>
+
+namespace physvib {
+
+std::string soundFault(const SoundShape& shape) {
+    using namespace limits;
+    const auto expected = [](const std::string& words, std::int64_t found, const char* unit) { return "expected " + words + ", found " + std::to_string(found) + unit; };
+    if (shape.channels < 1 || shape.channels > maxRecordingChannels) return expected("1 to " + std::to_string(maxRecordingChannels) + " channels", shape.channels, "");
+    if (shape.sampleRateHz < minRecordingRateHz || shape.sampleRateHz > maxRecordingRateHz)
+        return expected("a rate of " + std::to_string(minRecordingRateHz) + " to " + std::to_string(maxRecordingRateHz) + " Hz", shape.sampleRateHz, " Hz");
+    if (shape.frames < 1) return "expected samples, found none";
+    if (shape.frames > maxRecordingSeconds * shape.sampleRateHz) return expected("at most " + std::to_string(maxRecordingSeconds) + " s", shape.frames / shape.sampleRateHz, " s");
+    if (shape.frames > maxRecordingSamples / shape.channels) return expected("at most " + std::to_string(maxRecordingSamples) + " samples in all channels", shape.frames * shape.channels, "");
+    return {};
+}
+
+namespace {
+
+constexpr std::uint64_t unknownLength = 0x7fff0000; // what is written to a pipe cannot say how long it is: programs say this, or more
+
+class WavReader {
+public:
+    explicit WavReader(std::FILE& file)
+        : file_{file} {}
+
+    Result<SampledSound> read() {
+        if (!readHeader() || !findData()) return Failure{error_};
+        const SoundShape shape{rateHz_, channels_, static_cast<std::int64_t>(dataBytes_ / frameBytes())};
+        if (auto fault = soundFault(shape); !fault.empty()) return Failure{fault};
+        return takeSamples(static_cast<std::size_t>(shape.frames));
+    }
+
+private:
+    std::uint64_t frameBytes() const noexcept { return static_cast<std::uint64_t>(channels_) * bits_ / 8; }
+
+    bool take(std::span<unsigned char> bytes) { return std::fread(bytes.data(), 1, bytes.size(), &file_) == bytes.size(); }
+    std::uint64_t number(int bytes) { // little-endian; 0 behind the end, where no loop goes on
+        std::uint64_t value = 0;
+        for (int i = 0; i < bytes; ++i) value |= static_cast<std::uint64_t>(std::max(0, std::fgetc(&file_))) << (8 * i);
+        return value;
+    }
+    bool takeName() { return std::fread(name_, 1, 4, &file_) == 4; }
+    bool isNamed(std::string_view wanted) const noexcept { return std::string_view(name_, 4) == wanted; }
+    bool fail(std::string error) {
+        error_ = std::move(error);
+        return false;
+    }
+
+    bool readHeader() {
+        if (std::fseek(&file_, 0, SEEK_END) != 0) return fail("cannot be read");
+        size_ = static_cast<std::uint64_t>(std::max(0l, std::ftell(&file_)));
+        std::rewind(&file_);
+        if (!takeName() || !(isNamed("RIFF") || isNamed("RF64"))) return fail("expected a WAV file");
+        number(4); // its length: the file knows better
+        return (takeName() && isNamed("WAVE")) || fail("expected a WAV file");
+    }
+
+    /// To the first sample.
+    bool findData() {
+        while (takeName()) {
+            std::uint64_t bytes = number(4);
+            const auto begin = static_cast<std::uint64_t>(std::ftell(&file_));
+            if (isNamed("data")) return beginData(begin, longBytes_ > 0 ? longBytes_ : bytes);
+            if (isNamed("ds64")) longBytes_ = (number(8), number(8));
+            if (isNamed("fmt ") && !readFormat(bytes)) return false;
+            bytes += bytes & 1;
+            if (bytes > size_ - std::min(size_, begin)) break;
+            std::fseek(&file_, static_cast<long>(begin + bytes), SEEK_SET);
+        }
+        return fail("expected samples, found none");
+    }
+
+    bool readFormat(std::uint64_t bytes) {
+        constexpr std::uint64_t pcm = 1, ieeeFloat = 3, extensible = 0xfffe;
+        std::uint64_t format = number(2);
+        channels_ = static_cast<std::int64_t>(number(2));
+        rateHz_ = static_cast<std::int64_t>(number(4));
+        number(6); // bytes per second and per frame: both follow
+        bits_ = number(2);
+        if (format == extensible && bytes >= 40) format = (number(8), number(2)); // the rest of its GUID is always the same
+        isFloat_ = format == ieeeFloat;
+        const bool isKnown = isFloat_ ? bits_ == 32 : format == pcm && (bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32);
+        return (isKnown && channels_ > 0) || fail("expected PCM of 8, 16, 24 or 32 bits, or float of 32");
+    }
+
+    bool beginData(std::uint64_t begin, std::uint64_t bytes) {
+        if (channels_ == 0) return fail("expected a format before the samples");
+        const std::uint64_t present = size_ - std::min(size_, begin);
+        dataBytes_ = std::min(bytes, present);
+        return bytes <= present || bytes >= unknownLength ||
+               fail("expected " + std::to_string(bytes) + " bytes of samples, as its header says, found " + std::to_string(present) + ": it ends early");
+    }
+
+    Result<SampledSound> takeSamples(std::size_t frames) {
+        SampledSound sound{static_cast<int>(rateHz_), {static_cast<std::size_t>(channels_), std::vector<float>(frames)}};
+        std::vector<unsigned char> block(frameBytes() * 4096);
+        for (std::size_t at = 0; at < frames;) {
+            const std::size_t count = std::min<std::size_t>(4096, frames - at);
+            if (!take({block.data(), count * frameBytes()})) return Failure{"cannot be read to its end"};
+            const unsigned char* from = block.data();
+            for (std::size_t i = 0; i < count; ++i, ++at)
+                for (auto& channel : sound.channels) channel[at] = sample(from);
+        }
+        return sound;
+    }
+
+    /// The next one, and past it.
+    float sample(const unsigned char*& from) const noexcept {
+        std::uint32_t high = 0; // its bits are the highest ones
+        for (std::uint64_t i = 4 - bits_ / 8; i < 4; ++i) high |= static_cast<std::uint32_t>(*from++) << (8 * i);
+        if (isFloat_) return std::bit_cast<float>(high);
+        if (bits_ == 8) high ^= 0x80000000; // the only one that is not signed
+        return static_cast<float>(static_cast<std::int32_t>(high)) * 0x1p-31f;
+    }
+
+    std::FILE& file_;
+    char name_[4] = {};
+    std::uint64_t size_ = 0, longBytes_ = 0, dataBytes_ = 0, bits_ = 0;
+    std::int64_t channels_ = 0, rateHz_ = 0;
+    bool isFloat_ = false;
+    std::string error_;
+};
+
+} // namespace
+
+Result<SampledSound> readWav(std::FILE& file) { return WavReader{file}.read(); }
+
+} // namespace physvib

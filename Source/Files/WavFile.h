@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// WAV files in, without trust in their headers.
+#pragma once
+#include "Files/Result.h"
+#include "Files/SampledSound.h"
+#include <cstdio>
+
+namespace physvib {
+
+/// The samples of a WAVE file (RIFF or RF64; PCM of 8, 16, 24 or 32 bits, float of 32), from the beginning of `file`, which
+/// can be searched; full scale is 1. Or what is wrong with it, without its name: more than the limits of recordings, or
+/// less than the header says. A length that was not known when the header was written is what is there. Any thread.
+Result<SampledSound> readWav(std::FILE& file);
+
+} // namespace physvib

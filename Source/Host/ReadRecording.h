@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Recordings in: the one door through which sounds come from files.
+#pragma once
+#include "Files/Result.h"
+#include "Files/SampledSound.h"
+#include <filesystem>
+
+namespace physvib {
+
+/// A recording (WAV, FLAC, Ogg Vorbis, by what is in it) as it is: its rate and channels; or one line naming the file. Only a
+/// regular file, within the limits of recordings, and only if it holds what its header says. Any thread but R.
+Result<SampledSound> readRecording(const std::filesystem::path& path);
+
+} // namespace physvib
