@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What reading a file gives: a value, or one line that says what is wrong with the file.
 #pragma once
+#include "Files/CleanText.h"
 #include <string>
 #include <utility>
 
 namespace physvib {
 
-/// An error on its way into a Result: one line naming file, place and what was expected.
+/// An error on its way into a Result: one line naming file, place and what was expected; names as they are, Result cleans.
 struct Failure {
     std::string message;
 };
@@ -17,7 +18,7 @@ struct Result {
     Result(T loaded)
         : value(std::move(loaded)) {}
     Result(Failure failure)
-        : error(std::move(failure.message)) {}
+        : error(cleanLine(failure.message)) {}
     explicit operator bool() const noexcept { return error.empty(); }
 
     T value{};

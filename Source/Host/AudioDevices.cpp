@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scanning.
 #include "Host/AudioDevices.h"
+#include "Files/CleanText.h"
 #include <algorithm>
 
 namespace physvib {
@@ -49,7 +50,7 @@ FoundDevice findAudioDevice(const AudioDeviceTypes& types, const std::string& wa
     for (auto& type : all) {
         if (hasType && !isNamed(type)) continue;
         type->scanForDevices();
-        const auto name = juce::String::fromUTF8(wanted.c_str() + (hasType ? prefix(type).size() : 0));
+        const auto name = juce::String::fromUTF8(cleanLine(wanted.substr(hasType ? prefix(type).size() : 0)).c_str());
         if (!type->getDeviceNames(false).contains(name)) continue;
         std::unique_ptr<juce::AudioIODevice> device{type->createDevice(name, withInputs && type->getDeviceNames(true).contains(name) ? name : juce::String{})};
         if (device) return {std::move(type), std::move(device)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The look of a picture: panels, wells, words in three sizes, numbers with units, axes.
 #pragma once
+#include "Files/CleanText.h"
 #include "Host/Palette.h"
 #include <vector>
 
@@ -8,6 +9,9 @@ namespace physvib::picture {
 
 using Area = juce::Rectangle<int>;
 using Spot = juce::Point<float>;
+
+/// Words from a file: JUCE reads beyond the end of what is no UTF-8.
+inline juce::String wordsOf(const std::string& text) { return juce::String::fromUTF8(cleanLine(text).c_str()); }
 
 constexpr float smallText = 15.0f;
 constexpr float mediumText = 18.0f;

@@ -123,7 +123,7 @@ juce::String fullHeight(const WaveformEnvelope& wave) {
 
 juce::String labelOf(const PictureInput& input, int channel) {
     const auto index = static_cast<std::size_t>(channel);
-    if (index < input.labels.size()) return juce::String::fromUTF8(input.labels[index].c_str());
+    if (index < input.labels.size()) return wordsOf(input.labels[index]);
     return input.layout.count <= 26 ? juce::String::charToString(static_cast<juce::juce_wchar>('A' + channel))
                                     : juce::String(channel + 1);
 }

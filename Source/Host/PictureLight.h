@@ -16,6 +16,7 @@ public:
                0.0f) {}
 
     void add(Spot centre, float radius, float strength, juce::Colour colour) {
+        if (!area_.toFloat().expanded(radius).contains(centre)) return; // also what is too far away for whole numbers
         const auto reach = juce::Rectangle<float>(2.0f * radius, 2.0f * radius)
                                .withCentre(centre)
                                .getSmallestIntegerContainer();

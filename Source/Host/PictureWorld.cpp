@@ -151,7 +151,7 @@ juce::String whoHitWhom(const PictureInput& input, const CollisionEvent& hit) {
     const auto cast = input.scene != nullptr ? sceneCast(*input.scene) : std::vector<BodyDescription>{};
     const auto name = [&](std::int32_t fixture) {
         const auto body = bodyOfFixture(cast, fixture);
-        return body < cast.size() ? juce::String::fromUTF8(cast[body].name.c_str()) : juce::String();
+        return body < cast.size() ? wordsOf(cast[body].name) : juce::String();
     };
     const auto felt = name(hit.source.fixture), by = name(hit.source.other);
     return felt.isEmpty() || by.isEmpty() ? felt : felt + ", struck by " + by;

@@ -20,9 +20,9 @@ constexpr int footerHeight = 34;
 constexpr int besideLanes = 200; // headings, the lane of hits, the axis
 
 void drawHeader(const Canvas& canvas, const PictureInput& input, Area row) {
-    canvas.text(juce::String::fromUTF8(input.title.c_str()), row.removeFromTop(36), J::centredLeft,
+    canvas.text(wordsOf(input.title), row.removeFromTop(36), J::centredLeft,
                 palette::text, largeText, true);
-    canvas.text(juce::String::fromUTF8(input.subtitle.c_str()), row, J::centredLeft, palette::muted);
+    canvas.text(wordsOf(input.subtitle), row, J::centredLeft, palette::muted);
 }
 
 juce::String dot() {
@@ -47,9 +47,9 @@ juce::String soundNumbers(const PictureInput& input) {
 void drawFooter(const Canvas& canvas, const PictureInput& input, Area row) {
     auto words =
         eventNumbers(input) + dot() + soundNumbers(input) + dot() + shortNumber(input.durationSeconds) + " s";
-    if (!input.law.empty()) words += dot() + juce::String::fromUTF8(input.law.c_str());
+    if (!input.law.empty()) words += dot() + wordsOf(input.law);
     canvas.text(words, row.removeFromLeft(textWidth(words, smallText) + 40), J::centredLeft, palette::text);
-    canvas.text(juce::String::fromUTF8(input.provenance.c_str()), row, J::centredRight, palette::muted);
+    canvas.text(wordsOf(input.provenance), row, J::centredRight, palette::muted);
 }
 
 } // namespace

@@ -9,9 +9,6 @@
 
 namespace physvib::picture {
 
-/// UTF-8, as all our words are.
-inline juce::String wordsOf(const std::string& text) { return juce::String::fromUTF8(text.c_str(), static_cast<int>(text.size())); }
-
 /// `count` panels of that height, `acrossMost` side by side, drawn one after the other into what is inside them.
 struct StudyPage {
     std::string title;

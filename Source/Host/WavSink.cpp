@@ -2,6 +2,7 @@
 // JUCE's WAV writer with the extensible header it leaves out, into a file that is not JUCE's: that one swallows errors of
 // writing, takes descriptor 0 for none, and opens by name.
 #include "Host/WavSink.h"
+#include "Files/CleanText.h"
 #include <juce_audio_formats/juce_audio_formats.h>
 
 namespace physvib {
@@ -47,7 +48,7 @@ private:
 juce::StringPairArray infoChunk(const std::string& comment) {
     juce::StringPairArray info;
     if (!comment.empty())
-        info.set(juce::WavAudioFormat::riffInfoComment2, juce::String::fromUTF8(comment.c_str()));
+        info.set(juce::WavAudioFormat::riffInfoComment2, juce::String::fromUTF8(cleanLine(comment).c_str()));
     return info;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the command line's exit codes mean, and how it says what went wrong.
 #pragma once
+#include "Files/CleanText.h"
 #include <iostream>
 #include <string_view>
 
@@ -12,9 +13,12 @@ enum ExitCode : int {
     exitUsage = 2   ///< the call's words are off
 };
 
-/// One line on stderr; the code to leave with.
+/// One line on stderr, whatever names are in it.
+inline void tell(std::string_view words) { std::cerr << "physvib: " + cleanLine(words) + '\n'; }
+
+/// The same; the code to leave with.
 inline int leave(ExitCode code, std::string_view reason) {
-    std::cerr << "physvib: " << reason << '\n';
+    tell(reason);
     return code;
 }
 

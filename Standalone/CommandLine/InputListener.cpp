@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Polls standard input, cuts it into lines, and hands each to the session.
 #include "CommandLine/InputListener.h"
+#include "CommandLine/ExitCode.h"
 #include "Files/InputLine.h"
-#include <iostream>
 #include <poll.h>
 #include <type_traits>
 #include <unistd.h>
@@ -41,7 +41,7 @@ void InputListener::run() {
 void InputListener::take(std::string_view line, bool isWhole) {
     const std::string name = "standard input:" + std::to_string(++lines_);
     const std::string fault = isWhole ? act(line, name) : name + ": expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out";
-    if (!fault.empty()) std::cerr << "physvib: " + fault + "\n";
+    if (!fault.empty()) tell(fault);
 }
 
 std::string InputListener::act(std::string_view line, const std::string& name) {

@@ -2,6 +2,7 @@
 // Session, driver, device, board, recorder, journal and listener for the length of a call.
 #include "CommandLine/LivePlay.h"
 #include "CommandLine/BoardStatus.h"
+#include "CommandLine/ExitCode.h"
 #include "CommandLine/InputListener.h"
 #include "Host/BoardOutput.h"
 #include "Host/PlayedRecorder.h"
@@ -73,7 +74,7 @@ private:
     }
 
     void report(const std::string& trouble) {
-        if (!trouble.empty() && trouble != lastTrouble_) std::cerr << "physvib: " << trouble << '\n';
+        if (!trouble.empty() && trouble != lastTrouble_) tell(trouble);
         lastTrouble_ = trouble;
     }
 

@@ -106,9 +106,9 @@ int runPlay(PlayOptions& o) {
     auto actuators = chooseActuators(o.scene, job.layout);
     if (!actuators) return leave(exitFailed, actuators.error);
     job.actuators = std::move(actuators.value);
-    for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) std::cerr << "physvib: warning: " << line << '\n';
+    for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) tell("warning: " + line);
     if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty()) return leave(exitFailed, fault);
-    for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) std::cerr << "physvib: " << line << '\n';
+    for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
     if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty())) return leave(exitUsage, "--noise, --contact-sound: expected a --device that they are heard on");
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")

@@ -20,7 +20,7 @@ namespace physvib {
 
 inline std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
 
-inline void warn(const std::string& words) { std::cerr << "physvib: warning: " << words << '\n'; }
+inline void warn(const std::string& words) { tell("warning: " + words); }
 
 /// Reads every file and gives the texts to `reader` at once.
 template <class Reader>

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Words about strangers' files, fit for a terminal, a log, a screen: one line of UTF-8, whatever the file or its name holds.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+/// A character at the front of a text; no bytes: what is there is no UTF-8.
+struct Utf8Character {
+    std::uint32_t code = 0;
+    std::size_t bytes = 0;
+};
+
+/// Any thread.
+constexpr Utf8Character firstCharacter(std::string_view text) noexcept {
+    if (text.empty()) return {};
+    const auto lead = static_cast<unsigned char>(text.front());
+    if (lead < 0x80) return {lead, 1};
+    const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+    if (lead < 0xc2 || lead > 0xf4 || text.size() < bytes) return {};
+    std::uint32_t code = lead & (0x7fu >> bytes);
+    for (std::size_t i = 1; i < bytes; ++i) {
+        const auto next = static_cast<unsigned char>(text[i]);
+        if ((next & 0xc0) != 0x80) return {};
+        code = code << 6 | (next & 0x3f);
+    }
+    constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+    const bool isHalfOfAPair = code >= 0xd800 && code < 0xe000;
+    return code < least[bytes] || code > 0x10ffff || isHalfOfAPair ? Utf8Character{} : Utf8Character{code, bytes};
+}
+
+/// Any thread.
+constexpr bool isUtf8(std::string_view text) noexcept {
+    while (!text.empty()) {
+        const std::size_t bytes = firstCharacter(text).bytes;
+        if (bytes == 0) return false;
+        text.remove_prefix(bytes);
+    }
+    return true;
+}
+
+/// Whether a terminal or a text box would do something instead of showing it: control characters (both sets), line and
+/// paragraph ends, marks that turn the direction of what follows.
+constexpr bool isControl(std::uint32_t code) noexcept {
+    return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x200e || code == 0x200f || (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+}
+
+/// `text` with \xNN for every byte of what is no UTF-8 or controls. Any thread.
+inline std::string cleanLine(std::string_view text) {
+    constexpr std::string_view hex = "0123456789abcdef";
+    std::string out;
+    while (!text.empty()) {
+        const auto [code, bytes] = firstCharacter(text);
+        const bool isShown = bytes > 0 && !isControl(code);
+        const std::string_view taken = text.substr(0, bytes > 0 ? bytes : 1);
+        text.remove_prefix(taken.size());
+        if (isShown) out += taken;
+        else
+            for (const char c : taken) out.append("\\x").append(1, hex[static_cast<unsigned char>(c) >> 4]).append(1, hex[c & 15]);
+    }
+    return out;
+}
+
+} // namespace physvib
