@@ -36,7 +36,8 @@ Result<CsvTable> readCsvTable(std::string_view text, std::string_view name);
 /// The same of a file. M only.
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path);
 
-/// Appends `text` as a cell, in quotes if it needs them; control characters become spaces. Any thread.
+/// Appends `text` as a cell, in quotes if it needs them, behind an apostrophe if a spreadsheet would take it for a formula (the reader
+/// takes it off); control characters become spaces. Any thread.
 void appendCell(std::string& line, std::string_view text);
 
 } // namespace physvib

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // What the parts of a protocol ask of each other, and the stimuli they name.
 #include "Study/Protocol.h"
+#include "Study/CallWords.h"
 #include <algorithm>
 #include <set>
 
 namespace physvib {
 namespace {
 
-constexpr double mostStimuli = 4096; // of a condition; a session of them lasts a day
+constexpr double mostStimuli = 4096;      // of a condition; a session of them lasts a day
+constexpr double mostTrials = 100'000.0; // of a session in a condition; those of a week
 
 bool sharesNames(const auto& items, auto nameOf) {
     std::set<std::string> names;
@@ -47,22 +49,51 @@ std::string taskFault(const SessionPlan& s) {
     return {};
 }
 
+void replaceAll(std::string& words, const std::string& from, const std::string& to) {
+    for (std::size_t at = words.find(from); at != std::string::npos; at = words.find(from, at + to.size())) words.replace(at, from.size(), to);
+}
+
+/// Of a name that is put into calls: it must not bring further names.
+bool isPlain(const std::string& value) { return value.find_first_of("{}") == std::string::npos; }
+
+std::string valuesFault(const CallSet& calls) {
+    for (const StudyFactor& factor : calls.factors)
+        if (!isPlain(factor.name) || !std::ranges::all_of(factor.values, isPlain)) return "factors: expected names and values without braces";
+    return {};
+}
+
+/// Every call that a condition can make, as it would stand in a row. Empty, or what is wrong with the first.
+std::string callsFault(const Protocol& p, const ConditionPlan& c, const CallSet& calls) {
+    if (std::string fault = valuesFault(calls); !fault.empty()) return fault;
+    const bool namesParts = calls.call.find("{alternative}") != std::string::npos || calls.call.find("{object}") != std::string::npos;
+    const auto parts = namesParts ? callPartsOf(p) : std::set<std::string>{""};
+    if (!std::ranges::all_of(parts, isPlain)) return "call: expected alternatives and objects without braces";
+    for (const StimulusItem& item : stimuliOf(c))
+        for (const std::string& part : parts)
+            if (std::string fault = callFault(callOf(calls, item, part, "0")); !fault.empty()) return "call: " + fault;
+    return {};
+}
+
 std::string stimulusFault(const ConditionPlan& c, const SessionPlan& s) {
     const bool isGrid = std::holds_alternative<GridSet>(c.stimuli);
+    if (stimulusCount(c) * s.repetitions > mostTrials) return "stimuli: expected at most " + std::to_string(static_cast<int>(mostTrials)) + " trials in session " + s.name;
     if (s.task == StudyTask::locate && !isGrid) return "stimuli: expected a grid, which the task locate needs";
     if (s.fewestTouches > 0 && !isGrid) return "stimuli: expected a grid, which free touches need";
     return {};
 }
 
 std::string conditionFault(const Protocol& p, const ConditionPlan& c) {
+    if (!isPlainPath(c.layout)) return "layout: expected a name, or a file in the folder or below";
     if (stimulusCount(c) > mostStimuli) return "stimuli: expected at most " + std::to_string(static_cast<int>(mostStimuli)) + " of them";
     for (const auto& s : p.sessions)
         if (std::string fault = stimulusFault(c, s); !fault.empty()) return fault;
     if (const auto* patterns = std::get_if<PatternSet>(&c.stimuli))
         for (const double seconds : patterns->pulseSeconds)
             if (parsePatternLabel(patternLabel({seconds, 1, {}}))->pulseSeconds != seconds) return "pulse_s: expected whole milliseconds";
-    if (const auto* calls = std::get_if<CallSet>(&c.stimuli))
+    if (const auto* calls = std::get_if<CallSet>(&c.stimuli)) {
         if (sharesNames(calls->factors, [](const auto& f) { return f.name; })) return "factors: expected a name of its own for each";
+        if (std::string fault = callsFault(p, c, *calls); !fault.empty()) return fault;
+    }
     if (sharesNames(stimuliOf(c), [](const auto& item) { return item.label; })) return "stimuli: expected no two of the same label";
     return {};
 }
@@ -122,6 +153,8 @@ double countOf(const CallSet& set) noexcept {
 
 std::string validate(const Protocol& p) {
     const auto at = [](const char* list, std::size_t index, const std::string& fault) { return std::string(list) + "[" + std::to_string(index) + "]." + fault; };
+    for (std::size_t i = 0; i < p.sounds.size(); ++i)
+        if (!isPlainPath(p.sounds[i].file)) return at("sounds", i, "file: expected a file in the folder or below, of plain characters; others are given with --sound");
     if (p.conditions.empty()) return "conditions: expected one or more, found none";
     if (p.sessions.empty()) return "sessions: expected one or more, found none";
     if (sharesNames(p.conditions, [](const auto& c) { return c.name; })) return "conditions: expected a name of its own for each";
@@ -142,6 +175,25 @@ std::vector<std::string> scalesOf(const Protocol& protocol) {
         for (const auto& scale : session.scales)
             if (std::ranges::find(scales, scale) == scales.end()) scales.push_back(scale);
     return scales;
+}
+
+std::set<std::string> callPartsOf(const Protocol& p) {
+    std::set<std::string> parts;
+    for (const SessionPlan& s : p.sessions) {
+        for (const Alternative& a : s.alternatives) parts.insert(a.name);
+        parts.insert(s.objects.begin(), s.objects.end());
+    }
+    if (parts.empty()) parts.emplace();
+    return parts;
+}
+
+std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, const std::string& levelDb) {
+    std::string words = set.call;
+    for (const auto& [name, value] : item.values) replaceAll(words, "{" + name + "}", value);
+    replaceAll(words, "{alternative}", part);
+    replaceAll(words, "{object}", part);
+    replaceAll(words, "{level_db}", levelDb);
+    return words;
 }
 
 std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition) {

@@ -8,6 +8,7 @@
 #include "Study/Stimulus.h"
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -158,6 +159,12 @@ struct StimulusItem {
 
 /// All stimuli of a condition, in a fixed order. Any thread (allocates).
 std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition);
+
+/// The call of a stimulus with all names filled in; `part` is the alternative or object. Any thread (allocates).
+std::string callOf(const CallSet& set, const StimulusItem& item, const std::string& part, const std::string& levelDb);
+
+/// What alternatives and objects can be put into calls; at least one, which has no name. Any thread (allocates).
+std::set<std::string> callPartsOf(const Protocol& protocol);
 
 /// Number of stimuli without making them. Any thread.
 double stimulusCount(const ConditionPlan& condition) noexcept;

@@ -16,10 +16,6 @@ std::string text(double number) {
 /// Level in g; dB are rounded to a thousandth so that the text is short and exact enough.
 double raised(double levelG, double db) { return db == 0.0 ? levelG : std::round(levelG * std::pow(10.0, db / 20.0) * 1e6) * 1e-6; }
 
-void replaceAll(std::string& words, const std::string& from, const std::string& to) {
-    for (std::size_t at = words.find(from); at != std::string::npos; at = words.find(from, at + to.size())) words.replace(at, from.size(), to);
-}
-
 struct Part {
     std::string name;
     double levelDb = 0.0;
@@ -56,14 +52,9 @@ struct CallMaker {
                " --seconds " + text(set.seconds);
     }
     std::string call(const CallSet& set, const Part& part) const {
-        std::string words = set.call;
         const auto items = stimuliOf(condition);
         const auto item = std::ranges::find(items, label(), &StimulusItem::label);
-        if (item != items.end())
-            for (const auto& [name, value] : item->values) replaceAll(words, "{" + name + "}", value);
-        replaceAll(words, "{alternative}", part.name);
-        replaceAll(words, "{object}", part.name);
-        replaceAll(words, "{level_db}", text(part.levelDb));
+        const std::string words = callOf(set, item != items.end() ? *item : StimulusItem{}, part.name, text(part.levelDb));
         return words + soundWords(protocol, words);
     }
 };

@@ -17,6 +17,9 @@ struct CallStimulus {
     std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
 };
 
+/// Empty, or what the program would find wrong with the words of a call. M only.
+std::string wordsFault(const std::string& call);
+
 /// The stimulus of `render SCENE ...` or `stimulus ...`, without the name of the program; or one line with what is wrong.
 /// What `physvib stimulus` would refuse as too strong for the layout at `sampleRateHz` is refused here, and so is `stimulus
 /// wav`, which is samples and no events. M only.

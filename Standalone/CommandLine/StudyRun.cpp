@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Experiment and trial file, step by step together.
 #include "CommandLine/StudyRun.h"
+#include "CommandLine/CallStimulus.h"
 #include "CommandLine/LayoutNamed.h"
 #include "Files/NumberText.h"
 #include <algorithm>
@@ -12,11 +13,32 @@ bool isStudyCode(const std::string& code) noexcept {
     return code.size() <= 32 && std::ranges::all_of(code, isPlain);
 }
 
+namespace {
+
+/// The words of a condition's calls: each value of each factor once, with the first of the others. The reader has looked at all of them for
+/// what no call may do.
+std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condition) {
+    const auto* const calls = std::get_if<CallSet>(&condition.stimuli);
+    if (calls == nullptr) return {};
+    StimulusItem first;
+    for (const StudyFactor& factor : calls->factors) first.values.emplace_back(factor.name, factor.values.front());
+    for (std::size_t f = 0; f < calls->factors.size(); ++f)
+        for (const std::string& value : calls->factors[f].values) {
+            StimulusItem item = first;
+            item.values[f].second = value;
+            if (auto fault = wordsFault(callOf(*calls, item, *callPartsOf(protocol).begin(), "0")); !fault.empty()) return fault;
+        }
+    return {};
+}
+
+} // namespace
+
 std::string protocolFault(const Protocol& protocol, const std::string& name) {
     if (!isStudyCode(protocol.name)) return name + ": name: expected letters, digits, - and _, as files are called after it";
     for (const ConditionPlan& condition : protocol.conditions) {
         const auto layout = layoutNamed(condition.layout);
         if (!layout) return name + ": condition " + printable(condition.name) + ": " + layout.error;
+        if (auto fault = firstCallsFault(protocol, condition); !fault.empty()) return name + ": condition " + condition.name + ": call: " + fault;
         const auto* patterns = std::get_if<PatternSet>(&condition.stimuli);
         if (patterns && patterns->enchanters != layout.value.geometry.count)
             return name + ": condition " + printable(condition.name) + ": expected as many enchanters as the layout has (" + std::to_string(layout.value.geometry.count) + "), found " +

@@ -46,6 +46,40 @@ TEST(Protocol, FaultsAreNamedByTheirField) {
     EXPECT_EQ(fault([](Protocol& p) { p.conditions.clear(); }), "conditions: expected one or more, found none");
 }
 
+TEST(Protocol, CallsRenderAndDoNothingElse) {
+    const auto fault = [](const std::string& call, std::vector<std::string> values = {"1"}) {
+        Protocol p = gridProtocol();
+        p.conditions[0].stimuli = CallSet{{{"a", std::move(values)}, {"b", {"x"}}}, call};
+        return validate(p);
+    };
+    EXPECT_EQ(fault("render drop --set pair={a} --sound 80=wood/a.wav --layout phone1"), "");
+    EXPECT_EQ(fault("stimulus phantom --at 0.5,0.5 --level-g {a}"), "");
+    EXPECT_EQ(fault("frobnicate {a}"), "conditions[0].call: expected render or stimulus, and what they take");
+    EXPECT_EQ(fault("render {a}; touch x"), "conditions[0].call: expected letters, digits, spaces and _-+.,:=/%");
+    EXPECT_EQ(fault("render {a}", {"$(touch x)"}), "conditions[0].call: expected letters, digits, spaces and _-+.,:=/%") << "what a value brings";
+    EXPECT_EQ(fault("render {a} {c}"), "conditions[0].call: expected names of factors in braces, or alternative, object, level_db; found {c}");
+    EXPECT_EQ(fault("render drop --out x.wav"), "conditions[0].call: expected no file to be written, found --out");
+    EXPECT_EQ(fault("render drop --events=x.csv"), "conditions[0].call: expected no file to be written, found --events=x.csv");
+    EXPECT_EQ(fault("render drop --{a}{b} y", {"out=", "ou"}), "conditions[0].call: expected no file to be written, found --out=x") << "put together";
+    EXPECT_EQ(fault("render /home/x/scene.json"), "conditions[0].call: expected files in the folder or below, found /home/x/scene.json");
+    EXPECT_EQ(fault("render drop --layout a/../../x.json"), "conditions[0].call: expected files in the folder or below, found a/../../x.json");
+    EXPECT_EQ(fault("render drop --sound 80=/x.wav"), "conditions[0].call: expected files in the folder or below, found 80=/x.wav");
+    EXPECT_EQ(fault("render {a}", {"{b}{b}{b}"}), "conditions[0].factors: expected names and values without braces") << "sixteen of them would fill the memory";
+}
+
+TEST(Protocol, NamesFilesInItsFolderOnly) {
+    const auto fault = [](auto change) {
+        Protocol p = gridProtocol();
+        change(p);
+        return validate(p);
+    };
+    EXPECT_EQ(fault([](Protocol& p) { p.sounds = {{80.0, "synthetic-1"}, {349.0, "my sounds/ball.wav"}}; }), "");
+    EXPECT_EQ(fault([](Protocol& p) { p.sounds = {{80.0, "synthetic-1"}, {349.0, "/home/x/ball.wav"}}; }),
+              "sounds[1].file: expected a file in the folder or below, of plain characters; others are given with --sound");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].layout = "../x.json"; }), "conditions[0].layout: expected a name, or a file in the folder or below");
+    EXPECT_EQ(fault([](Protocol& p) { p.conditions[0].stimuli = GridSet{16, 16}, p.sessions[0].repetitions = 1000; }), "conditions[0].stimuli: expected at most 100000 trials in session main");
+}
+
 TEST(Protocol, StimuliAreCountedAsTheyAreMade) {
     const auto check = [](StimulusSet set, std::size_t count, const char* first) {
         const ConditionPlan condition{"A", "", "phone4", 205.0, 1.0, std::move(set)};
@@ -59,8 +93,8 @@ TEST(Protocol, StimuliAreCountedAsTheyAreMade) {
     check(PatternSet{4}, 168, "A-100");
     check(PatternSet{2, {0.05, 0.2, 0.4}}, 42, "A-50");
     check(GridSet{7, 5}, 35, "1,1");
-    check(CallSet{{{"pair", {"wood", "steel"}}, {"size", {"small", "large", "huge"}}}, "call"}, 6, "pair=wood size=small");
-    check(CallSet{{{"method", {"AV-FV-DRV", "AF-FF-DRF"}}}, "call"}, 2, "AV-FV-DRV");
+    check(CallSet{{{"pair", {"wood", "steel"}}, {"size", {"small", "large", "huge"}}}, "render {pair}"}, 6, "pair=wood size=small");
+    check(CallSet{{{"method", {"AV-FV-DRV", "AF-FF-DRF"}}}, "render {method}"}, 2, "AV-FV-DRV");
 }
 
 TEST(StudyOrder, LatinSquaresBalancePositionsAndNeighbours) {
