@@ -136,7 +136,7 @@ void Takes::tick() {
 void Takes::stepWorld(Take& take) {
     if (take.isStill) return;
     try {
-        take.session.advance();
+        take.session.advance([this](auto) { return !stop_; }); // release() waits for one step of a heavy world, not for all
     } catch (const std::exception& error) {
         take.isStill = true;
         fault_ = std::string{"the world stands still: "} + error.what();

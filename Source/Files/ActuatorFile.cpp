@@ -25,7 +25,7 @@ struct Figure {
     double least, most;
 };
 constexpr Figure resonance{"resonance_hz", &ActuatorProfile::resonanceHz, limits::leastMeasuredHz, limits::maxFrequencyHz};
-constexpr Figure quality{"q", &ActuatorProfile::q, 0.05, 1000.0};
+constexpr Figure quality{"q", &ActuatorProfile::q, limits::leastQ, limits::mostQ};
 constexpr std::array<Figure, 4> others{{{"drive_limit_v", &ActuatorProfile::driveLimitVolts, 0.001, 1000.0},
                                         {"rise_time_s", &ActuatorProfile::riseSeconds, 1e-5, 10.0},
                                         {"full_scale_g", &ActuatorProfile::fullScaleG, 1e-4, 1000.0},

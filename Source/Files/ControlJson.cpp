@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fields of controls and panners, with their ranges.
 #include "Files/ControlJson.h"
+#include "Files/FileLimits.h"
 #include "Files/LayoutJson.h"
-#include "Files/NumberText.h"
 #include <cmath>
 #include <string>
 #include <vector>
@@ -11,15 +11,8 @@ namespace physvib {
 namespace {
 
 constexpr std::array<std::string_view, 4> lawNames{"linear", "log", "log-outer", "energy"}; // as PanningLaw
-constexpr double least = 1e-3, mostExponent = 100.0, largestField = 1e6;
+constexpr double leastExponent = 1e-3, mostExponent = 100.0;
 constexpr double largestGain = 1000.0, leastCeiling = 1e-6;
-
-double readNumber(const JsonField& field, double lower, double upper) {
-    const double found = field.number();
-    if (!(found >= lower && found <= upper))
-        field.fail("expected " + numberText(lower) + " to " + numberText(upper) + ", found " + numberText(found));
-    return found;
-}
 
 int readChannel(const JsonField& field, int channels) {
     const int found = field.wholeNumber();
@@ -43,8 +36,8 @@ PhantomPanner readPanner(const JsonField& json, int channels) {
         json["layout"].fail("expected at most " + std::to_string(channels) + " enchanters, as many as there are channels");
     const JsonField field = json["field_m"];
     if (field.arraySize() != 2) field.fail("expected [width, height]");
-    return {layout, static_cast<PanningLaw>(json["law"].oneOf(lawNames)), readNumber(json["exponent"], least, mostExponent),
-            readNumber(field.item(0), least, largestField), readNumber(field.item(1), least, largestField)};
+    return {layout, static_cast<PanningLaw>(json["law"].oneOf(lawNames)), json["exponent"].numberWithin(leastExponent, mostExponent),
+            field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres), field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
 }
 
 RenderControl readControl(const JsonField& json, int channels, std::string_view otherField) {
@@ -60,7 +53,7 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
     case Kind::gain:
         expectFields(json, {"channel", "value"}, otherField);
         control.channel = readChannel(json["channel"], channels);
-        control.value = static_cast<float>(readNumber(json["value"], -largestGain, largestGain));
+        control.value = static_cast<float>(json["value"].numberWithin(-largestGain, largestGain));
         break;
     case Kind::mute:
         expectFields(json, {"channel", "on"}, otherField);
@@ -70,12 +63,12 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
     case Kind::delay:
         expectFields(json, {"channel", "seconds"}, otherField);
         control.channel = readChannel(json["channel"], channels);
-        control.value = static_cast<float>(readNumber(json["seconds"], 0.0, limits::maxChannelDelaySeconds));
+        control.value = static_cast<float>(json["seconds"].numberWithin(0.0, limits::maxChannelDelaySeconds));
         break;
     case Kind::ceiling:
         expectFields(json, {"channel", "value"}, otherField);
         control.channel = readChannel(json["channel"], channels);
-        control.value = static_cast<float>(readNumber(json["value"], leastCeiling, 1.0));
+        control.value = static_cast<float>(json["value"].numberWithin(leastCeiling, 1.0));
         break;
     case Kind::recordings: // not among the names: a session's file lists them apart
     case Kind::level: // nor these: no file knows them

@@ -31,6 +31,14 @@ bool takeCell(std::string_view& rest, std::string& cell) {
     return trimmed(takeUntil(',', rest)).empty();
 }
 
+/// A spreadsheet would take the text for a formula and reckon it: behind an apostrophe it stays text. Those that have one get another, so
+/// that reading takes away what writing has added.
+bool isTakenForFormula(std::string_view text) noexcept {
+    const std::size_t first = std::min(text.find_first_not_of('\''), text.size());
+    constexpr std::string_view signs = "=+-@";
+    return first < text.size() && signs.find(text[first]) != std::string_view::npos && !parseNumber<double>(text);
+}
+
 class TableReader {
 public:
     TableReader(std::string_view text, std::string_view name)
@@ -64,7 +72,9 @@ private:
         while (rest_.find_first_not_of(" \t\r\n") != std::string_view::npos) {
             const std::string_view line = nextLine();
             if (table_.rows.size() == limits::maxTableRows) return fail("expected at most " + std::to_string(limits::maxTableRows) + " rows");
+            if ((table_.rows.size() + 1) * table_.columns.size() > limits::maxTableCells) return fail("expected at most " + std::to_string(limits::maxTableCells) + " cells in all");
             CsvRow row{line_, {}};
+            row.cells.reserve(table_.columns.size());
             if (!takeCells(line, row.cells)) return false;
             if (row.cells.size() != table_.columns.size())
                 return fail("expected " + std::to_string(table_.columns.size()) + " cells, found " + std::to_string(row.cells.size()) +
@@ -75,9 +85,10 @@ private:
     }
     bool takeCells(std::string_view line, std::vector<std::string>& cells) {
         for (bool another = !line.empty(); another;) {
-            if (cells.size() == limits::maxTableColumns) return fail("expected at most " + std::to_string(limits::maxTableColumns) + " cells");
+            if (cells.size() == limits::maxTableColumns) return fail("expected at most " + std::to_string(limits::maxTableColumns) + " cells in a row");
             const std::string_view whole = line;
             if (!takeCell(line, cells.emplace_back())) return fail("expected quotes around whole cells, and in pairs");
+            if (cells.back().starts_with('\'') && isTakenForFormula(cells.back())) cells.back().erase(0, 1);
             if (cells.back().size() > limits::maxCellBytes) return fail("expected cells of at most " + std::to_string(limits::maxCellBytes) + " bytes");
             const std::size_t taken = whole.size() - line.size();
             another = taken > 0 && whole[taken - 1] == ',';
@@ -123,6 +134,7 @@ Result<CsvTable> loadCsvTable(const std::filesystem::path& path) {
 void appendCell(std::string& line, std::string_view text) {
     const bool needsQuotes = text.find_first_of(",\"#") != std::string_view::npos || text.starts_with(' ') || text.ends_with(' ');
     if (needsQuotes) line += '"';
+    if (isTakenForFormula(text)) line += '\'';
     for (const char c : text) {
         if (c == '"') line += '"';
         line += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;

@@ -35,8 +35,8 @@ void fillLabels(std::vector<EnchanterDescription>& enchanters) {
 void readExtent(const JsonField& extent, EnchanterLayout& geometry) {
     if (const std::size_t size = extent.arraySize(); size != 2)
         extent.fail("expected [width, height], found " + std::to_string(size) + " items");
-    geometry.extentWidthMetres = extent.item(0).positiveNumber();
-    geometry.extentHeightMetres = extent.item(1).positiveNumber();
+    geometry.extentWidthMetres = extent.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres);
+    geometry.extentHeightMetres = extent.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres);
 }
 
 std::string readLabel(const JsonField& label, const std::vector<EnchanterDescription>& before) {
@@ -51,7 +51,7 @@ EnchanterDescription readEnchanter(const JsonField& field, const std::vector<Enc
     EnchanterDescription enchanter;
     if (field.has("label")) enchanter.label = readLabel(field["label"], before);
     if (field.has("actuator")) enchanter.actuator = field["actuator"].text();
-    if (field.has("full_scale_g")) enchanter.fullScaleG = field["full_scale_g"].positiveNumber();
+    if (field.has("full_scale_g")) enchanter.fullScaleG = field["full_scale_g"].numberWithin(limits::leastFullScaleG, limits::mostFullScaleG);
     return enchanter;
 }
 

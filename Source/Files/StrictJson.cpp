@@ -5,7 +5,6 @@
 #include "Files/NumberText.h"
 #include <algorithm>
 #include <cstddef>
-#include <set>
 #include <vector>
 
 template class nlohmann::basic_json<>;
@@ -18,51 +17,6 @@ std::string toldPath(const std::string& path) {
     if (path.size() <= 2 * end + 3) return path;
     return path.substr(0, end) + "..." + path.substr(path.size() - end);
 }
-
-/// Follows the parser from value to value, and throws JsonError at a repeated field or too deep a nesting.
-class JsonGuard {
-public:
-    bool operator()(Json::parse_event_t event, const Json& parsed) {
-        using Event = Json::parse_event_t;
-        if (event == Event::key) takeKey(parsed.get_ref<const std::string&>());
-        if (event == Event::object_start || event == Event::array_start) open(event == Event::array_start);
-        if (event == Event::object_end || event == Event::array_end) open_.pop_back();
-        if (event == Event::value) nextPath();
-        return true;
-    }
-
-private:
-    struct Container {
-        std::string path;
-        bool isArray = false;
-        std::size_t items = 0;
-        std::string key;
-        std::set<std::string> keys;
-    };
-
-    void takeKey(const std::string& key) {
-        Container& object = open_.back();
-        if (!object.keys.insert(key).second)
-            throw JsonError(object.path, "field " + inQuotes(key) + " appears twice");
-        object.key = key;
-    }
-
-    void open(bool isArray) {
-        if (open_.size() == limits::maxJsonDepth)
-            throw JsonError({}, "nested deeper than " + std::to_string(limits::maxJsonDepth) + " levels");
-        open_.push_back({nextPath(), isArray, 0, {}, {}});
-    }
-
-    std::string nextPath() {
-        if (open_.empty()) return {};
-        Container& parent = open_.back();
-        if (parent.isArray) return parent.path + "[" + std::to_string(parent.items++) + "]";
-        const std::string name = printable(parent.key);
-        return parent.path.empty() ? name : parent.path + "." + name;
-    }
-
-    std::vector<Container> open_;
-};
 
 /// "line 3, column 7" of the byte the parser stopped at, counted from 1.
 std::string placeOf(std::string_view text, std::size_t byte) {
@@ -81,21 +35,106 @@ std::string detailOf(const std::exception& error) {
     return std::string(words.substr(0, longest)) + (words.size() > longest ? "..." : "");
 }
 
+/// Builds the value while the parser runs, and throws JsonError at a repeated field, too deep a nesting, or more than there is memory for.
+/// (The library's own builder looks through a whole list after each object in it: minutes for a hundred thousand.)
+class StrictBuilder final : public nlohmann::json_sax<Json> {
+public:
+    explicit StrictBuilder(std::string_view text)
+        : text_{text} {}
+
+    Json take() { return std::move(root_); }
+
+    bool null() override { return put(nullptr); }
+    bool boolean(bool value) override { return put(value); }
+    bool number_integer(number_integer_t value) override { return put(value); }
+    bool number_unsigned(number_unsigned_t value) override { return put(value); }
+    bool number_float(number_float_t value, const string_t&) override { return put(value); }
+    bool string(string_t& value) override {
+        spend(textBytes + value.size());
+        return put(std::move(value));
+    }
+    bool binary(binary_t&) override { return false; } // not in a text
+    bool start_object(std::size_t) override { return open(Json::object(), objectBytes); }
+    bool start_array(std::size_t) override { return open(Json::array(), arrayBytes); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool key(string_t& name) override {
+        spend(memberBytes + name.size());
+        Level& object = open_.back();
+        const auto [field, isNew] = object.value->emplace(name, nullptr);
+        if (!isNew) throw JsonError(path(), "field " + inQuotes(name) + " appears twice");
+        object.field = &*field;
+        object.name = std::move(name);
+        return true;
+    }
+    bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
+        const auto* const placed = dynamic_cast<const Json::parse_error*>(&error);
+        throw JsonError(placed != nullptr ? placeOf(text_, placed->byte) : std::string{}, detailOf(error));
+    }
+
+private:
+    // Roughly: nodes and their allocations, an array's room to grow, and the list that the library makes of all values to destroy them.
+    static constexpr std::size_t valueBytes = 48, textBytes = 32, memberBytes = 96, arrayBytes = 32, objectBytes = 64;
+
+    /// An object or array whose end has not come.
+    struct Level {
+        Json* value;
+        Json* field = nullptr; ///< of an object, that comes next, and its name
+        std::string name{};
+    };
+
+    void spend(std::size_t bytes) {
+        spent_ += bytes;
+        if (spent_ > limits::maxJsonMemory) throw JsonError({}, "expected fewer values: in memory they would take more than " + std::to_string(limits::maxJsonMemory) + " bytes");
+    }
+    Json& place(Json value) {
+        spend(valueBytes);
+        if (open_.empty()) return root_ = std::move(value);
+        if (Level& parent = open_.back(); !parent.value->is_array()) return *parent.field = std::move(value);
+        auto& list = open_.back().value->get_ref<Json::array_t&>();
+        list.push_back(std::move(value));
+        return list.back();
+    }
+    bool put(Json value) {
+        place(std::move(value));
+        return true;
+    }
+    bool open(Json container, std::size_t bytes) {
+        if (open_.size() == limits::maxJsonDepth) throw JsonError({}, "nested deeper than " + std::to_string(limits::maxJsonDepth) + " levels");
+        spend(bytes);
+        open_.push_back({&place(std::move(container))});
+        return true;
+    }
+    bool close() {
+        open_.pop_back();
+        return true;
+    }
+    /// Of the innermost container.
+    std::string path() const {
+        std::string words;
+        for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
+            const Level& level = open_[i];
+            if (level.value->is_array()) words += "[" + std::to_string(level.value->size() - 1) + "]";
+            else words.append(words.empty() ? "" : ".").append(printable(level.name));
+        }
+        return words;
+    }
+
+    std::string_view text_;
+    Json root_;
+    std::vector<Level> open_;
+    std::size_t spent_ = 0;
+};
+
 } // namespace
 
 JsonError::JsonError(const std::string& path, const std::string& message)
     : std::runtime_error(path.empty() ? message : toldPath(path) + ": " + message) {}
 
 Json parseStrictly(std::string_view text) {
-    JsonGuard guard;
-    try {
-        return Json::parse(
-            text, [&guard](int, Json::parse_event_t event, Json& parsed) { return guard(event, parsed); });
-    } catch (const Json::parse_error& error) {
-        throw JsonError(placeOf(text, error.byte), detailOf(error));
-    } catch (const Json::exception& error) {
-        throw JsonError({}, detailOf(error));
-    }
+    StrictBuilder builder{text};
+    Json::sax_parse(text, &builder);
+    return builder.take();
 }
 
 } // namespace physvib

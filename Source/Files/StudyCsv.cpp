@@ -3,6 +3,7 @@
 #include "Files/StudyCsv.h"
 #include "Files/FileLimits.h"
 #include "Files/StudyRows.h"
+#include <set>
 
 namespace physvib {
 namespace {
@@ -17,9 +18,10 @@ std::string numbered(std::string prefix, std::size_t number) {
 }
 
 template <class Trial>
-std::vector<Trial>& conditionNamed(StudyData<Trial>& data, const std::string& name) {
+std::vector<Trial>& conditionNamed(const StudyRows& rows, StudyData<Trial>& data, const std::string& name) {
     const auto found = std::ranges::find(data.conditions, name, &StudyCondition<Trial>::name);
     if (found != data.conditions.end()) return found->trials;
+    if (data.conditions.size() == limits::maxConditions) throw StudyFault{rows.table().name + ": expected at most " + std::to_string(limits::maxConditions) + " conditions, found more"};
     data.conditions.push_back({name, {}});
     return data.conditions.back().trials;
 }
@@ -40,6 +42,17 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
     return data;
 }
 
+/// A matrix of counts has a row and a column for each.
+void expectFewLabels(const std::string& file, const StudyData<IdentificationTrial>& data) {
+    std::set<std::string_view> labels;
+    for (const auto& condition : data.conditions)
+        for (const auto& trial : condition.trials) {
+            labels.insert(trial.stimulus);
+            labels.insert(trial.response);
+            if (labels.size() > limits::maxLabels) throw StudyFault{file + ": expected at most " + std::to_string(limits::maxLabels) + " different stimuli and responses, found more"};
+        }
+}
+
 std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTrial>& data) {
     const auto stimulus = rows.required("stimulus"), response = rows.required("response");
     const auto condition = rows.optional("condition");
@@ -51,10 +64,11 @@ std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTr
             if (missing++ == 0) firstMissing = row.line;
             return;
         }
-        conditionNamed(data, StudyRows::textIf(row, condition)).push_back({rows.text(row, stimulus), row.cells[response]});
+        conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back({rows.text(row, stimulus), row.cells[response]});
     });
     if (missing > 0)
         data.warnings.push_back(rows.table().name + ":" + std::to_string(firstMissing) + ": no response; trials left out for that: " + std::to_string(missing));
+    expectFewLabels(rows.table().name, data);
     return data.conditions.empty() ? 0 : taken;
 }
 
@@ -66,7 +80,7 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
     std::size_t taken = 0;
     rows.each("locate", [&](const CsvRow& r) {
         ++taken;
-        conditionNamed(data, StudyRows::textIf(r, condition))
+        conditionNamed(rows, data, StudyRows::textIf(r, condition))
             .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most), rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0)});
     });
     return taken;
@@ -85,7 +99,7 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     std::size_t taken = 0;
     rows.each("choose", [&](const CsvRow& row) {
         ++taken;
-        conditionNamed(data, {}).push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), rows.text(row, choice)});
+        conditionNamed(rows, data, {}).push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), rows.text(row, choice)});
     });
     return taken;
 }
@@ -111,7 +125,7 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
         ++taken;
         RatingTrial trial{StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), {}};
         for (const auto c : scales) trial.scores.push_back(rows.number(row, c, 0.0, 100.0));
-        conditionNamed(ratings.data, {}).push_back(std::move(trial));
+        conditionNamed(rows, ratings.data, {}).push_back(std::move(trial));
     });
     return taken;
 }
@@ -138,7 +152,7 @@ std::size_t takeLevels(const StudyRows& rows, StudyData<LevelTrial>& data) {
         if (row.cells[task] == "explore") continue; // it has no stimulus of its own
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
-            conditionNamed(data, {}).push_back(std::move(*trial));
+            conditionNamed(rows, data, {}).push_back(std::move(*trial));
         }
     }
     return taken;
@@ -165,7 +179,7 @@ std::size_t takePercentCounts(const StudyRows& rows, StudyData<PercentCounts>& d
     std::size_t taken = 0;
     rows.each({}, [&](const CsvRow& r) {
         ++taken;
-        auto& grids = conditionNamed(data, rows.text(r, condition));
+        auto& grids = conditionNamed(rows, data, rows.text(r, condition));
         if (grids.empty()) grids.push_back({r.cells[condition], 0, columns.size(), {}});
         PercentCounts& grid = grids.front();
         const int next = static_cast<int>(++grid.rows);

@@ -150,15 +150,15 @@ bool Session::perform(RenderInput input, int frame) noexcept {
     return ownInputs_.push(input);
 }
 
-int Session::advance() {
+int Session::advance(const StepWatch& goesOn) {
     const std::lock_guard lock{worldMutex_};
     if (offline_.load(std::memory_order_acquire)) return 0;
     isDriven_.store(true, std::memory_order_release);
     takeUp();
-    return catchUp();
+    return catchUp(goesOn);
 }
 
-int Session::catchUp() {
+int Session::catchUp(const StepWatch& goesOn) {
     const std::int64_t now = nowNs();
     if (const std::int64_t lag = now - world_.timeNs(); lag > longestLagNs()) {
         slippedNs_ += lag - law_.safeLagNs();
@@ -166,7 +166,7 @@ int Session::catchUp() {
     }
     takeOwnInputs(); // what R did until `now` is in the queue: it came before the frames were told
     int steps = 0;
-    for (; world_.timeNs() < now; ++steps) {
+    for (; world_.timeNs() < now && (steps == 0 || !goesOn || goesOn(world_.timeNs())); ++steps) {
         moveWorld(now);
         handOver(); // the next block may begin before the last step
     }

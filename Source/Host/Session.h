@@ -40,6 +40,7 @@
 #include "Host/SessionWorld.h"
 #include "Host/ToldEvents.h"
 #include "Physics/InputCheck.h"
+#include "Physics/SceneRun.h"
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -80,8 +81,8 @@ public:
     /// Session time in frames, with the block that is being rendered. Any thread.
     std::int64_t framesRendered() const noexcept { return sessionFrames_.load(std::memory_order_relaxed); }
 
-    /// Steps the world up to session time; the number of steps made. D.
-    int advance();
+    /// Steps the world up to session time, or until `goesOn` (asked after each step) says no; the number of steps made. D.
+    int advance(const StepWatch& goesOn = {});
 
     /// Writes out[channel][0..frames), and the contact sound's channel behind them if there is one. R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;
@@ -183,7 +184,7 @@ private:
     void takeUp();
     void takeOwnInputs();
     void spawnOwn(std::int64_t timeNs, SpawnAction action);
-    int catchUp();
+    int catchUp(const StepWatch& goesOn = {});
     void moveWorld(std::int64_t untilNs);
     bool handOver();
     std::int64_t nowNs() const noexcept;

@@ -24,7 +24,7 @@ void ThreadDriver::run() {
     for (auto deadline = Clock::now(); !threadShouldExit(); deadline += step_) {
         if (const auto now = Clock::now(); now > deadline + 10 * step_) deadline = now; // after a stall: no burst of ticks
         std::this_thread::sleep_until(deadline);
-        session_.advance();
+        session_.advance([this](auto) { return !threadShouldExit(); });
     }
 }
 

@@ -38,6 +38,7 @@ constexpr std::size_t maxFixtures = 8192;     // of the whole scene
 constexpr std::size_t maxPolygonVertices = 8; // b2_maxPolygonVertices
 constexpr std::size_t maxChainVertices = 1024;
 constexpr std::size_t maxChainEdges = 16'384; // of the whole scene: each has a place in Box2D's tree
+constexpr int maxContacts = 50'000; // at once; a heap of the most bodies has five each, twenty thousand in all
 constexpr std::size_t maxJoints = 4096;
 constexpr std::size_t maxInputs = 4096;
 constexpr std::size_t maxActions = 100'000; // inputs with their repetitions

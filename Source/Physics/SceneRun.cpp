@@ -5,10 +5,10 @@
 
 namespace physvib {
 
-SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs) {
+SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn) {
     const std::shared_ptr<const Scene> shared(&scene, [](const Scene*) {}); // the caller's, for this call
     const SceneTake take{0, 0, run.seed, shared, {}, {}};
-    return runTakes({&take, 1}, run, endNs);
+    return runTakes({&take, 1}, run, endNs, goesOn);
 }
 
 SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn) {
@@ -18,6 +18,7 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
         const bool isLast = &take == &takes.back();
         std::int64_t originNs = take.startNs;
         StallReader stalls{take.stalls};
+        if (goesOn && !goesOn(originNs)) return all; // also building a world takes its time
         while (isLast ? originNs + world.settledNs() < endNs : world.timeNs() < take.worldEndNs) {
             originNs += stalls.lengthBefore(world.timeNs());
             const std::size_t before = all.events.size();

@@ -27,11 +27,11 @@ struct SceneEvents {
     std::uint64_t drops = 0;
 };
 
-/// Asked after each step, with the session time that is reached; false: what has been made so far is enough.
+/// Asked before the first step of a take and after each step, with the session time that is reached; false: what has been made so far is enough.
 using StepWatch = std::function<bool(std::int64_t timeNs)>;
 
 /// M only. Throws what Simulation throws.
-SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs);
+SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn = {});
 
 /// The events of a session, again, in session time: of each take up to its end, of the last one all before
 /// `endNs`. `run` gives the step rate; seeds are the takes' own. M only. Throws what Simulation throws.

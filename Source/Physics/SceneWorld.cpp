@@ -28,6 +28,7 @@ SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& 
     , gravity_(scene.gravityMetresPerSecond2)
     , world_(box2dVector(scene.gravityMetresPerSecond2))
     , materials_(scene.materials) {
+    world_.SetContactFilter(&bound_);
     build();
     actOnScript(0);
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) startHalfAStepBehind(*bodies_[i]);

@@ -2,11 +2,13 @@
 // The Box2D world of a scene, and what the actions of its script and of live inputs do to it.
 #pragma once
 #include "Physics/BodyStart.h"
+#include "Physics/ContactBound.h"
 #include "Physics/Scene.h"
 #include "Physics/SceneScript.h"
 #include "Physics/StepClock.h"
 #include <box2d/box2d.h>
 #include <cstddef>
+#include <cstdint>
 #include <cstdint>
 #include <map>
 #include <random>
@@ -42,6 +44,10 @@ public:
     bool act(std::int64_t step);
 
     b2World& world() noexcept { return world_; }
+
+    /// How often two bodies passed through each other because there were too many contacts.
+    std::uint64_t contactsRefused() const noexcept { return bound_.refused(); }
+
     const Scene& scene() const noexcept { return scene_; } ///< with all inputs so far
 
     /// Bodies so far; numbers as in sceneCast().
@@ -99,6 +105,7 @@ private:
     Vector gravity_;  // before hold_
     HoldAction hold_;
     b2World world_;
+    ContactBound bound_{world_};
     std::vector<BodyDescription> cast_; // as described
     std::vector<BodyDescription> now_;  // with the materials and cameras of now
     std::vector<Material> materials_;   // with the sounds of now

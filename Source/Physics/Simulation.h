@@ -50,8 +50,8 @@ public:
     BodyPose pose(std::size_t index) const noexcept { return world_.pose(index); }
     std::size_t bodyCount() const noexcept { return world_.bodyCount(); }
 
-    /// Collisions lost so far because more began in one step than there is room for.
-    std::uint64_t drops() const noexcept { return attachment_.drops(); }
+    /// Collisions lost so far because more began in one step, or lasted at once, than there is room for.
+    std::uint64_t drops() const noexcept { return attachment_.drops() + world_.contactsRefused(); }
 
     /// The constants of Eq. 5.4 in the last step.
     const ImpactModel& impactModel() const noexcept { return attachment_.impactModel(); }

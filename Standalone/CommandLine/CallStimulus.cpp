@@ -5,6 +5,7 @@
 #include "CommandLine/StimulusOptions.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 
 namespace physvib {
 namespace {
@@ -21,7 +22,9 @@ Result<CallStimulus> ofScene(RenderOptions& o) {
     auto scene = findScene(o.scene, o.settings);
     if (!scene) return Failure{scene.error};
     job.scene = std::move(scene.value);
-    job.made = runScene(*job.scene, job.run(), job.endNs());
+    Patience patience{Patience::usualSeconds}; // whatever the call says: it may be a stranger's
+    job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
+    if (auto fault = patience.fault(); !fault.empty()) return Failure{fault};
     std::ranges::transform(job.made.events, job.made.events.begin(), job.shaping());
     if (auto fault = takeRecordings(job, job.made.events, o.scene); !fault.empty()) return Failure{fault};
     return CallStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f), job.feltRecordings()};
@@ -40,23 +43,34 @@ Result<CallStimulus> ofStimulus(const CLI::App& command, const StimulusOptions& 
     return call;
 }
 
-} // namespace
-
-Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz) {
+/// A call in its parts; `error` if its words are none.
+struct ParsedCall {
+    explicit ParsedCall(const std::string& call) {
+        declareRenderOptions(*render, renderOptions);
+        declareStimulus(*stimulus, stimulusOptions);
+        words.require_subcommand(1);
+        try {
+            words.parse(call, false);
+        } catch (const CLI::ParseError& fault) {
+            error = call + ": " + fault.what();
+        }
+    }
     CLI::App words;
     RenderOptions renderOptions;
     StimulusOptions stimulusOptions;
     CLI::App* const render = words.add_subcommand("render");
     CLI::App* const stimulus = words.add_subcommand("stimulus");
-    declareRenderOptions(*render, renderOptions);
-    declareStimulus(*stimulus, stimulusOptions);
-    words.require_subcommand(1);
-    try {
-        words.parse(call, false);
-    } catch (const CLI::ParseError& error) {
-        return Failure{call + ": " + error.what()};
-    }
-    auto made = words.got_subcommand(render) ? ofScene(renderOptions) : ofStimulus(*stimulus, stimulusOptions, sampleRateHz);
+    std::string error;
+};
+
+} // namespace
+
+std::string wordsFault(const std::string& call) { return ParsedCall{call}.error; }
+
+Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz) {
+    ParsedCall parsed{call};
+    if (!parsed.error.empty()) return Failure{parsed.error};
+    auto made = parsed.words.got_subcommand(parsed.render) ? ofScene(parsed.renderOptions) : ofStimulus(*parsed.stimulus, parsed.stimulusOptions, sampleRateHz);
     if (!made) return Failure{call + ": " + made.error};
     return made;
 }

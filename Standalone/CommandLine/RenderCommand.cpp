@@ -11,6 +11,7 @@
 #include "Host/OfflineRender.h"
 #include "Host/SessionRender.h"
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <sstream>
 
@@ -83,8 +84,12 @@ OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl
     return {renderer, job.frames(), o.blockFrames, controls, sounds.contacts()};
 }
 
-SceneEvents eventsOf(const RenderJob& job) {
-    return job.session ? sessionEvents(*job.session, job.endNs()) : runScene(*job.scene, job.run(), job.endNs());
+/// Of the scene or session; one line if it is simulated too slowly.
+Result<SceneEvents> eventsOf(const RenderJob& job) {
+    Patience patience{job.options.patienceSeconds};
+    auto made = job.session ? sessionEvents(*job.session, job.endNs(), std::ref(patience)) : runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
+    if (auto fault = patience.fault(); !fault.empty()) return Failure{job.options.scene + ": " + fault};
+    return made;
 }
 
 /// The same events once more, in one channel; controls of the enchanters say nothing here, but that all shall stop.
@@ -98,7 +103,11 @@ void renderContactSound(const RenderJob& job, std::vector<RenderControl> control
 std::string render(RenderJob& job) {
     RenderOutputs outputs{job};
     if (auto error = outputs.open(); !error.empty()) return error;
-    if (job.scene) job.made = eventsOf(job);
+    if (job.scene) {
+        auto made = eventsOf(job);
+        if (!made) return made.error;
+        job.made = std::move(made.value);
+    }
     const auto warnings = remapWarnings(job.shaping().remap, job.made.events, job.layout, job.options);
     std::ranges::transform(job.made.events, job.made.events.begin(), job.shaping());
     const auto& source = job.scene ? job.scene->name : job.options.fromEvents;
@@ -112,9 +121,9 @@ std::string render(RenderJob& job) {
     const RenderStatus status = renderOffline(job.made.events, settingsOf(job, controls, sounds), take);
     if (!job.options.contactSound.empty()) renderContactSound(job, controls, outputs);
     if (auto error = outputs.finish(); !error.empty()) return error;
-    for (const std::string& line : warnings) std::cerr << "physvib: warning: " << line << '\n';
-    for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) std::cerr << "physvib: " << line << '\n';
-    if (!job.coupling.note.empty()) std::cerr << "physvib: " << job.coupling.note << '\n';
+    for (const std::string& line : warnings) tell("warning: " + line);
+    for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) tell(line);
+    if (!job.coupling.note.empty()) tell(job.coupling.note);
     warn(status, job);
     outputs.summarise(std::cout);
     return {};

@@ -29,7 +29,7 @@ struct RenderJob {
     std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
     SceneEvents made;
     std::vector<ContactRecording> recordings{}; ///< of --sound
-    std::vector<std::vector<ContactRecording>> sessionRecordings{}; ///< of a session, per change
+    LoadedRecordings sessionRecordings{}; ///< of a session
     ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
     CouplingChoice coupling{};  ///< by the options
 
@@ -156,7 +156,7 @@ inline int takeScene(RenderJob& job) {
     if (!scene) return leave(isJsonPath(name) ? exitFailed : exitUsage, scene.error);
     job.scene = std::move(scene.value);
     for (const std::string& warning : sceneWarnings(*job.scene))
-        std::cerr << "physvib: warning: " << name << ": " << warning << '\n';
+        tell("warning: " + name + ": " + warning);
     return exitDone;
 }
 

@@ -5,6 +5,7 @@
 #include "Core/RenderingMethod.h"
 #include "Files/SceneFile.h"
 #include "Host/AudioOutput.h"
+#include "Host/Patience.h"
 #include <cstdint>
 #include <set>
 #include <string>
@@ -29,6 +30,7 @@ struct RenderOptions {
     int blockFrames = 256;
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
+    double patienceSeconds = Patience::usualSeconds; ///< with a world that is simulated slower than it lasts
     std::string layout = "phone4"; ///< preset or path of a layout file
     std::string field;             ///< "W,H" in metres; empty: the scene's, or the layout's extent
     std::string law = "linear";

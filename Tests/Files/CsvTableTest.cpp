@@ -33,13 +33,35 @@ TEST(CsvTable, FaultsAreNamedByLine) {
 }
 
 TEST(CsvTable, WrittenCellsAreReadBack) {
-    for (const std::string words : {"plain", "1,2", "say \"hi\"", " blanks ", "#no comment", ""}) {
+    for (const std::string words : {"plain", "1,2", "say \"hi\"", " blanks ", "#no comment", "", "=1+1", "-1+1", "@SUM(a)", "+a", "'=1", "''", "'a", "-5", "-"}) {
         std::string line;
         appendCell(line, words);
         const auto table = readCsvTable("a,b\n" + line + ",1\n", "t.csv");
         ASSERT_TRUE(table) << table.error << line;
         EXPECT_EQ(table.value.rows[0].cells[0], words);
     }
+}
+
+TEST(CsvTable, FormulasStandBehindAnApostropheNumbersDoNot) {
+    const auto cell = [](std::string_view words) {
+        std::string line;
+        appendCell(line, words);
+        return line;
+    };
+    EXPECT_EQ(cell("=HYPERLINK(\"a\")"), "\"'=HYPERLINK(\"\"a\"\")\"");
+    EXPECT_EQ(cell("@a"), "'@a");
+    EXPECT_EQ(cell("-a"), "'-a");
+    EXPECT_EQ(cell("-5.5"), "-5.5");
+    EXPECT_EQ(cell("a=b"), "a=b");
+}
+
+TEST(CsvTable, IsBoundedInCellsHoweverFewBytesTheyHave) {
+    std::string text, row(255, ',');
+    for (int c = 0; c < 256; ++c) text += (c == 0 ? "c" : ",c") + std::to_string(c);
+    row += '\n';
+    text += '\n';
+    for (int r = 0; r < 12'000; ++r) text += row;
+    EXPECT_EQ(readCsvTable(text, "t.csv").error, "t.csv:11720: expected at most 3000000 cells in all");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the tests of Files share: seeded numbers, mutated texts, a folder of their own, a full disk, a locale with a comma.
 #pragma once
+#include "Support/Mutations.h"
 #include <bit>
 #include <clocale>
 #include <cmath>
@@ -25,45 +26,6 @@ inline double anyDouble(std::mt19937& random) {
         const double number = std::bit_cast<double>((high << 32) | random());
         if (std::isfinite(number)) return number;
     }
-}
-
-/// 0 <= number < below.
-inline std::size_t anyIndex(std::mt19937& random, std::size_t below) {
-    return random() % below;
-}
-
-/// `text` after 1 to 4 small accidents: a byte changed, removed, doubled, a piece cut out, moved, or the end
-/// lost.
-inline std::string mutated(std::string text, std::string_view alphabet, std::mt19937& random) {
-    for (std::size_t accidents = 1 + anyIndex(random, 4); accidents > 0 && !text.empty(); --accidents) {
-        const std::size_t at = anyIndex(random, text.size());
-        const std::size_t length = 1 + anyIndex(random, 12);
-        const std::string piece = text.substr(at, length);
-        switch (anyIndex(random, 7)) {
-        case 0:
-            text[at] = static_cast<char>(random() & 0xff);
-            break;
-        case 1:
-            text[at] = alphabet[anyIndex(random, alphabet.size())];
-            break;
-        case 2:
-            text.insert(at, 1, alphabet[anyIndex(random, alphabet.size())]);
-            break;
-        case 3:
-            text.erase(at, length);
-            break;
-        case 4:
-            text.insert(at, piece);
-            break;
-        case 5:
-            text.insert(anyIndex(random, text.size()), piece);
-            break;
-        default:
-            text.resize(at);
-            break;
-        }
-    }
-    return text;
 }
 
 /// A fresh empty folder for one test, gone afterwards.

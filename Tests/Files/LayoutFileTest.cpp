@@ -2,6 +2,7 @@
 // Layouts survive writing and reading to the bit, and a bad one is named by its field.
 #include "Files/LayoutFile.h"
 #include "FileTesting.h"
+#include "Files/FileLimits.h"
 #include "Files/AtomicFile.h"
 #include <algorithm>
 #include <set>
@@ -54,14 +55,14 @@ double share(std::mt19937& random) {
 LayoutDescription randomLayout(std::mt19937& random) {
     LayoutDescription layout;
     layout.name = "n\"\\\xc3\xa4" + std::to_string(random());
-    layout.geometry.extentWidthMetres = std::abs(anyDouble(random)) + 1e-300;
-    layout.geometry.extentHeightMetres = std::abs(anyDouble(random)) + 1e-300;
+    layout.geometry.extentWidthMetres = limits::leastExtentMetres + share(random);
+    layout.geometry.extentHeightMetres = limits::mostExtentMetres * (1.0 - 0.9 * share(random));
     layout.geometry.count = 1 + static_cast<int>(anyIndex(random, limits::maxEnchanters));
     for (std::size_t j = 0; j < static_cast<std::size_t>(layout.geometry.count); ++j) {
         layout.geometry.places[j] = {layout.geometry.extentWidthMetres * share(random),
                                      layout.geometry.extentHeightMetres * share(random)};
         layout.enchanters.push_back(
-            {"L" + std::to_string(j), "lra-205", std::abs(anyDouble(random)) + 1e-300});
+            {"L" + std::to_string(j), "lra-205", limits::leastFullScaleG + share(random)});
     }
     return layout;
 }
@@ -176,8 +177,8 @@ TEST(LayoutFile, NamesTheFieldOfAnEnchanter) {
         {place + R"("label": ")" + std::string(201, 'x') + "\"",
          ".label: expected at most 200 bytes, found 201"},
         {place + R"("actuator": {})", ".actuator: expected a string, found an object"},
-        {place + R"("full_scale_g": 0)", ".full_scale_g: expected a number > 0, found 0"},
-        {place + R"("full_scale_g": -1.5)", ".full_scale_g: expected a number > 0, found -1.5"},
+        {place + R"("full_scale_g": 0)", ".full_scale_g: expected 1e-06 to 1e+06, found 0"},
+        {place + R"("full_scale_g": -1.5)", ".full_scale_g: expected 1e-06 to 1e+06, found -1.5"},
         {R"("x_m": 0, "x_m": 0)", ": field \"x_m\" appears twice"},
     };
     for (const auto& [fields, message] : cases)
@@ -203,8 +204,8 @@ TEST(LayoutFile, NamesTheFieldOfTheLayout) {
         {R"({"extent_m": [1, 1], "enchanters": [7]})", "enchanters[0]: expected an object, found a number"},
         {R"({"extent_m": [1], )" + list + "}", "extent_m: expected [width, height], found 1 items"},
         {R"({"extent_m": 1, )" + list + "}", "extent_m: expected an array, found a number"},
-        {R"({"extent_m": [0, 1], )" + list + "}", "extent_m[0]: expected a number > 0, found 0"},
-        {R"({"extent_m": [1, -2], )" + list + "}", "extent_m[1]: expected a number > 0, found -2"},
+        {R"({"extent_m": [0, 1], )" + list + "}", "extent_m[0]: expected 0.001 to 1e+06, found 0"},
+        {R"({"extent_m": [1, -2], )" + list + "}", "extent_m[1]: expected 0.001 to 1e+06, found -2"},
         {R"({"extent_m": [1, "2"], )" + list + "}", "extent_m[1]: expected a number, found a string"},
         {R"({"name": 1, "extent_m": [1, 1], )" + list + "}", "name: expected a string, found a number"},
         {R"({"colour": 1, "extent_m": [1, 1], )" + list + "}", "unknown field \"colour\""},

@@ -78,5 +78,15 @@ TEST(StudyCsv, BadPercentCountsAreNamed) {
     EXPECT_EQ(readOne(readPercentCounts, "condition,row\nA,1\n").error, "f.csv: expected a column c1, found none");
 }
 
+TEST(StudyCsv, LabelsAndConditionsAreBounded) {
+    std::string labels = "stimulus,response\n", conditions = "condition,stimulus,response\n";
+    for (int i = 0; i < 5000; ++i) {
+        labels += "s" + std::to_string(i) + ",a\n";
+        conditions += "c" + std::to_string(i) + ",a,a\n";
+    }
+    EXPECT_EQ(readOne(readIdentification, labels).error, "f.csv: expected at most 2048 different stimuli and responses, found more");
+    EXPECT_EQ(readOne(readIdentification, conditions).error, "f.csv: expected at most 4096 conditions, found more");
+}
+
 } // namespace
 } // namespace physvib

@@ -36,6 +36,17 @@ TEST(Session, LiveIsTheRenderedFileLLaterToTheBit) {
     EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 20 * rate));
 }
 
+TEST(Session, ADriverThatShallEndIsHeardAfterEachStep) {
+    const auto s = shakeTheBoxSetup(0.5);
+    Session session{s};
+    session.prepare(rate, 4800);
+    session.advance();
+    Block block;
+    for (int i = 0; i < 4; ++i) session.render(block.at.data(), 4800, RenderMode::realtime);
+    EXPECT_EQ(session.advance([](std::int64_t) { return false; }), 1);
+    EXPECT_EQ(session.advance(), 39) << "the rest, if it goes on after all";
+}
+
 TEST(Session, ABoardBesideItIsToldTheSameEventsAndLCoversIt) {
     auto s = shakeTheBoxSetup(0.02);
     Session alone{s};

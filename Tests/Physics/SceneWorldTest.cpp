@@ -400,5 +400,14 @@ TEST(SceneWorld, SeedsMoveSpawnedBodiesToo) {
     EXPECT_EQ(placeOf(5), placeOf(5));
 }
 
+TEST(SceneWorld, BodiesInOnePlaceHaveNoMoreContactsThanAStepCanBear) {
+    Scene scene = emptyScene();
+    for (int i = 0; i < 330; ++i) scene.bodies.push_back(body("ball " + std::to_string(i), CircleShape{0.2}, {5.0, 5.0})); // 54,285 pairs
+    World world(scene);
+    world.run(0.01);
+    EXPECT_EQ(world.inner.world().GetContactCount(), sceneLimits::maxContacts);
+    EXPECT_GE(world.inner.contactsRefused(), 4285u);
+}
+
 } // namespace
 } // namespace physvib
