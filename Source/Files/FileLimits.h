@@ -37,6 +37,6 @@ constexpr double leastFullScaleG = 1e-6, mostFullScaleG = 1e6; // of an enchante
 constexpr double leastQ = 0.05, mostQ = 1000.0;           // of a resonance
 constexpr double leastMeasuredHz = 1.0;                   // of actuators and of what is measured on them; the most is Core's
 constexpr std::size_t maxJsonDepth = 16;                  // our formats need fourteen levels
-constexpr std::size_t maxJsonMemory = 190'000'000;        // bytes, roughly, of what is parsed: a session of 300,000 inputs
+constexpr std::size_t maxJsonMarks = 1'000'000, jsonBytesPerMark = 8; // , : [ { of a text, and more by its length: an input has one in 12 bytes
 
 } // namespace physvib::limits
