@@ -52,7 +52,7 @@ inline std::string mutated(std::string text, std::string_view alphabet, std::mt1
 inline std::string withExtreme(std::string bytes, std::mt19937& random) {
     constexpr std::string_view written[] = {"0", "-1", "1e9", "-1e308", "1e400", "5e-324", "4294967296", "99999999999999999999", "0.1", "null", "[]", "{}", "\"\""};
     const std::size_t from = bytes.find_first_of("0123456789", bytes.empty() ? 0 : anyIndex(random, bytes.size()));
-    if (from != std::string::npos && random() % 2 == 0) return bytes.replace(from, bytes.find_first_not_of("0123456789.eE+-", from) - from, written[anyIndex(random, std::size(written))]);
+    if (from != std::string::npos && random() % 4 != 0) return bytes.replace(from, bytes.find_first_not_of("0123456789.eE+-", from) - from, written[anyIndex(random, std::size(written))]);
     constexpr char values[] = {'\xff', '\x7f', '\x80', '\0'};
     const char value = values[anyIndex(random, std::size(values))];
     const std::size_t at = bytes.empty() ? 0 : anyIndex(random, bytes.size());
