@@ -1,5 +1,5 @@
 #!/bin/sh
-# SPDX-License-Identifier: MIT
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Mutated files of every kind through the program: run.sh [COUNT] [SEED], 3,000 unless told.
 set -eu
 build=${PHYSVIB_BUILD:-$(dirname "$0")/../../build/release}
