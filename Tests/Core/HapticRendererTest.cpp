@@ -209,6 +209,16 @@ TEST(HapticRenderer, ControlsActAtTheirTimeWhateverTheBlockSize) {
     for (const int block : {1, 64, 441}) EXPECT_TRUE(renderSession(session, settings, 48000, block, status) == reference) << block;
 }
 
+TEST(HapticRenderer, ALevelMultipliesTheGainsOfAllChannels) {
+    using Kind = RenderControl::Kind;
+    Session levelled{randomEvents(200, 0.9, 8), {}}, gained = levelled;
+    levelled.controls = {controlAt(0, Kind::gain, 1, -0.5f), controlAt(0, Kind::mute, 2, 1), controlAt(0, Kind::level, 0, 0.25f)};
+    gained.controls = {controlAt(0, Kind::gain, 0, 0.25f), controlAt(0, Kind::gain, 1, -0.125f), controlAt(0, Kind::mute, 2, 1), controlAt(0, Kind::gain, 3, 0.25f)};
+    const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, true);
+    RenderStatus status;
+    EXPECT_TRUE(renderSession(levelled, settings, 48000, 256, status) == renderSession(gained, settings, 48000, 256, status));
+}
+
 TEST(HapticRenderer, AMutedChannelIsSilentAndHasNoSayInTheLimiter) {
     Session session{randomEvents(300, 0.9, 9), {}}, quiet = session;
     for (auto& e : session.events) e.amplitude *= 20; // on channel 1 only, from 0.1 s on muted
