@@ -124,23 +124,13 @@ void Desk::apply(const Mix& next) {
 // What the session plays by, as little as it does not know yet. What finds no room is told later: watchOutput asks again.
 void Desk::tellSession() {
     using Kind = RenderControl::Kind;
-    const auto post = [this](Kind kind, int channel, float value, const PhantomPanner& panner = {}) { return session_.post({0, kind, channel, value, panner}) >= 0; };
-    const auto tell = [&](Kind kind, int channel, float value, float& told) {
-        if (value != told && post(kind, channel, value)) told = value;
-    };
+    const auto post = [this](Kind kind, const PhantomPanner& panner) { return session_.post({0, kind, 0, 0.0f, panner}) >= 0; };
     if (const auto panner = mix_.panner(); !isSame(told_.panner, panner)) {
-        if (panner.channels() < told_.panner.channels() && !post(Kind::stopAll, 0, 0.0f)) return; // a channel may be another enchanter's now
-        if (!post(Kind::panner, 0, 0.0f, panner)) return;
+        if (panner.channels() < told_.panner.channels() && !post(Kind::stopAll, {})) return; // a channel may be another enchanter's now
+        if (!post(Kind::panner, panner)) return;
         told_.panner = panner;
     }
-    for (int j = 0; j < mix_.count(); ++j) {
-        const Strip& strip = mix_.strips[static_cast<std::size_t>(j)];
-        ToldStrip& told = told_.strips[static_cast<std::size_t>(j)];
-        tell(Kind::gain, j, channelGain(strip), told.gain);
-        tell(Kind::delay, j, static_cast<float>(1e-3 * strip.delayMs), told.delaySeconds);
-        tell(Kind::ceiling, j, ceilingOf(strip), told.ceiling);
-        tell(Kind::mute, j, mix_.isSilent(j) ? 1.0f : 0.0f, told.mute);
-    }
+    tellStrips(told_.strips, mix_.strips, [this](const RenderControl& control) { return session_.post(control) >= 0; });
 }
 
 std::vector<int> Desk::outputMap() const {
@@ -159,7 +149,7 @@ bool Desk::attach(double shareX, double shareY) {
         layout.name = "own";
         layout.enchanters.push_back({label(n), layout.enchanters.back().actuator, layout.enchanters.back().fullScaleG});
         layout.geometry.places[static_cast<std::size_t>(layout.geometry.count++)] = {shareX * layout.geometry.extentWidthMetres, shareY * layout.geometry.extentHeightMetres};
-        mix.strips.push_back(mix.nextStrip());
+        mix.strips.push_back(nextStrip(mix.strips));
         mix.strips.back().gainDb = newStripDb;
     });
     return true;

@@ -171,9 +171,6 @@ private:
     juce::String trouble_, deviceTrouble_, outputTrouble_; // shown; of the device; with the board's
     bool isSilent_ = false, isNews_ = false, wasBoardReady_ = false;
     std::uint64_t edits_ = 0, worldEdits_ = 0;
-    struct ToldStrip {
-        float gain = 1.0f, delaySeconds = 0.0f, ceiling = 1.0f, mute = 0.0f;
-    };
     struct Told { // what the session has taken
         PhantomPanner panner;
         std::array<ToldStrip, limits::maxEnchanters> strips;

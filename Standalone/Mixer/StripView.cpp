@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Strips and what they change on the desk.
 #include "Mixer/StripView.h"
-#include "Host/Views/MeterView.h"
 #include <cmath>
 
 namespace physvib {
@@ -10,19 +9,6 @@ namespace {
 
 constexpr int metersTop = 56;
 
-void setUpFader(juce::Slider& fader, double least, double most, const juce::String& title) {
-    fader.setSliderStyle(juce::Slider::LinearVertical);
-    fader.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
-    fader.getProperties().set(faderProperty, true);
-    fader.setRange(least, most, 0.1);
-    fader.setSkewFactorFromMidPoint(-15.0);
-    fader.setTitle(title);
-    fader.setDoubleClickReturnValue(true, 0.0);
-    fader.textFromValueFunction = [](double db) { return db <= leastStripDb ? juce::String{"silent"} : number(db, 1) + " dB"; };
-    fader.setPopupDisplayEnabled(true, true, nullptr);
-    fader.setWantsKeyboardFocus(true);
-}
-
 /// What that peak of a strip is felt as, behind the master.
 double gOf(const Desk& desk, std::size_t strip, float peak) { return peak * masterGain(desk.mix()) * desk.mix().layout.enchanters[strip].fullScaleG; }
 
@@ -30,35 +16,6 @@ double mostG(const Desk& desk, std::size_t strip) { return gOf(desk, strip, ceil
 juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
 
 } // namespace
-
-PeakMeter::PeakMeter(const juce::String& title) { setTitle(title); }
-
-void PeakMeter::set(float peak, float hold) {
-    const float height = meterHeight(peak), held = meterHeight(hold);
-    if (std::abs(height - peak_) < 0.004f && std::abs(held - hold_) < 0.004f) return;
-    peak_ = height;
-    hold_ = held;
-    setDescription(peak > 0.001f ? number(juce::Decibels::gainToDecibels(peak), 0) + " dB" : juce::String{"silent"});
-    repaint();
-}
-
-void PeakMeter::paint(juce::Graphics& g) {
-    const auto bar = getLocalBounds().toFloat();
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(bar, 3.0f);
-    const auto green = palette::enchanter(3);
-    const auto lit = bar.withTrimmedTop(bar.getHeight() * (1.0f - peak_));
-    if (lit.getHeight() > 0.5f) {
-        juce::ColourGradient ramp{green.darker(0.7f), bar.getBottomLeft(), palette::limit, bar.getTopLeft(), false};
-        ramp.addColour(0.6, green);
-        ramp.addColour(0.85, palette::now);
-        g.setGradientFill(ramp);
-        g.fillRoundedRectangle(lit, 3.0f);
-    }
-    if (hold_ <= 0.0f) return;
-    g.setColour(shade(*this, Shade::text));
-    g.fillRect(bar.getX() - 1.0f, bar.getY() + bar.getHeight() * (1.0f - hold_), bar.getWidth() + 2.0f, 2.0f);
-}
 
 StripView::StripView(Desk& desk, int strip)
     : desk_{desk}

@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A channel strip: meter with held peak and ceiling, fader, mute, solo, polarity, delay, the level in g, output, tests.
 #pragma once
-#include "Mixer/CeilingHandle.h"
 #include "Mixer/Desk.h"
 #include "Mixer/Parts.h"
+#include "Host/Views/StripParts.h"
 
 namespace physvib {
-
-/// A bar from -60 dB to full scale with the peak of the last moments.
-class PeakMeter final : public juce::Component {
-public:
-    explicit PeakMeter(const juce::String& title);
-    void set(float peak, float hold);
-    void paint(juce::Graphics& g) override;
-    std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
-        return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
-    }
-
-private:
-    float peak_ = 0.0f, hold_ = 0.0f; // as heights
-};
 
 class StripView final : public juce::Component {
 public:
