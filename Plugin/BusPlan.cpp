@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Channel sets that survive the way through a plug-in format in their order.
 #include "BusPlan.h"
+#include "Files/LayoutFile.h"
 #include <algorithm>
 
 namespace physvib {
@@ -22,6 +23,8 @@ bool isAcceptedAsOne(Processor::WrapperType format, const Set& set) {
     return format != Processor::wrapperType_VST3 || keepsItsOrder(set);
 }
 
+juce::String labelOf(int enchanter) { return juce::String{describeLayout({}, {1.0, 1.0, enchanter + 1, {}}).enchanters.back().label}; }
+
 bool isAcceptedAsOneOfMany(const Set& set) { return set.isDisabled() || set == Set::mono() || set == Set::stereo(); }
 
 } // namespace
@@ -39,8 +42,7 @@ std::vector<OutputBus> busesOf(const BusPlan& plan, Processor::WrapperType forma
     if (plan.kind == BusPlan::Kind::oneBus) return {{"Enchanters", channelsInOrder(plan.channels, format), true}};
     std::vector<OutputBus> buses;
     for (int b = 0; b < BusPlan::busCount; ++b) {
-        const auto name = "Enchanters " + juce::String{2 * b + 1} + "-" + juce::String{2 * b + 2};
-        buses.push_back({name, Set::stereo(), b < BusPlan::busesOfANewInstance});
+        buses.push_back({labelOf(2 * b) + ", " + labelOf(2 * b + 1), Set::stereo(), b < BusPlan::busesOfANewInstance});
     }
     return buses;
 }

@@ -1,71 +1,91 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Places, choices, and what is asked of the processor 25 times a second.
 #include "PluginEditor.h"
+#include "EditorParts.h"
 #include "Files/SceneCatalogue.h"
 #include "Host/Palette.h"
+#include "OpenedFile.h"
 
 namespace physvib {
 
 namespace {
 
 constexpr int framesPerSecond = 25; // a software renderer has other things to do
-constexpr int barHeight = 46, controlsHeight = 118, statusHeight = 26, metersWidth = 230;
+constexpr int barHeight = 50, groupsHeight = 124, statusHeight = 26, margin = 12;
+constexpr int leastWidth = 960, leastHeight = 540, firstWidth = 1180, firstHeight = 700;
 
-juce::String words(std::string_view utf8) { return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size())); }
+void caption(juce::Label& label, const juce::String& shown) {
+    label.setText(shown, juce::dontSendNotification);
+    label.setFont(juce::Font{text::small});
+    label.setBorderSize({0, 0, 0, 0});
+    label.setColour(juce::Label::textColourId, palette::muted);
+    label.setJustificationType(juce::Justification::centredRight);
+}
 
 } // namespace
 
 ParameterControl::ParameterControl(HostParameter& parameter) {
     const auto& row = parameter.row();
-    name_.setText(words(row.name), juce::dontSendNotification);
+    caption(name_, words(row.name));
     name_.setJustificationType(juce::Justification::centred);
-    name_.setFont(juce::Font{text::small});
-    name_.setColour(juce::Label::textColourId, palette::muted);
     addAndMakeVisible(name_);
-    if (row.scale == ParameterScale::toggle) {
-        button_.setButtonText("SILENCE");
-        button_.setClickingTogglesState(true);
-        button_.getProperties().set(stopProperty, true);
-        button_.setTooltip(words(row.help));
-        addAndMakeVisible(button_);
-        buttonAttachment_ = std::make_unique<juce::ButtonParameterAttachment>(parameter, button_);
+    if (!row.choices.empty()) {
+        for (int id = 1; const auto choice : row.choices) list_.addItem(words(choice), id++);
+        list_.setTitle(words(row.name));
+        list_.setTooltip(words(row.help));
+        addAndMakeVisible(list_);
+        listAttachment_ = std::make_unique<juce::ComboBoxParameterAttachment>(parameter, list_);
         return;
     }
     knob_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
     knob_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack); // asked for when the box is made
-    knob_.setTextBoxStyle(juce::Slider::TextBoxBelow, false, 92, 20);
+    knob_.setTextBoxStyle(juce::Slider::TextBoxBelow, false, 76, 20);
+    knob_.setTitle(words(row.name));
     knob_.setTooltip(words(row.help));
     addAndMakeVisible(knob_);
     knobAttachment_ = std::make_unique<juce::SliderParameterAttachment>(parameter, knob_);
     knob_.setDoubleClickReturnValue(true, parameter.convertFrom0to1(parameter.getDefaultValue()));
 }
 
+void ParameterControl::rename(int choice, const juce::String& text) {
+    if (list_.getItemText(choice) == text) return;
+    const bool isShown = list_.getSelectedItemIndex() == choice;
+    list_.changeItemText(choice + 1, text);
+    if (isShown) list_.setSelectedItemIndex(choice, juce::dontSendNotification);
+}
+
 void ParameterControl::resized() {
-    auto area = getLocalBounds().reduced(2);
-    name_.setBounds(area.removeFromTop(20));
+    auto area = getLocalBounds().reduced(2, 0);
+    name_.setBounds(area.removeFromTop(18));
     knob_.setBounds(area);
-    button_.setBounds(area.reduced(6, std::max(0, area.getHeight() / 2 - 24)));
+    list_.setBounds(area.withSizeKeepingCentre(area.getWidth() - 6, 28));
 }
 
 PluginEditor::PluginEditor(PluginProcessor& plugin)
     : AudioProcessorEditor{plugin}
-    , plugin_{plugin} {
+    , plugin_{plugin}
+    , silenceAttachment_{plugin.parameter(Parameter::bypass), silence_}
+    , midiPanel_{hands(true)}
+    , mix_{plugin, hands(false)} {
     setLookAndFeel(&look_);
     setOpaque(true);
     title_.setText("PhysVib", juce::dontSendNotification);
     title_.setFont(juce::Font{text::large, juce::Font::bold});
-    seedName_.setText("Seed", juce::dontSendNotification);
-    status_.setFont(juce::Font{text::medium});
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &seedName_, &seed_, &restart_, &world_, &meters_, &status_}) addAndMakeVisible(c);
-    for (std::size_t i = 0; i < parameterCount; ++i) {
-        controls_.push_back(std::make_unique<ParameterControl>(plugin.parameter(static_cast<Parameter>(i))));
-        addAndMakeVisible(*controls_.back());
-    }
+    caption(seedName_, "seed");
+    caption(stepsName_, "steps");
+    status_.setFont(juce::Font{text::small});
+    open_.setButtonText(juce::String::fromUTF8("Open\xe2\x80\xa6"));
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &open_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_, &silence_, &world_, &midiPanel_, &mix_, &status_})
+        addAndMakeVisible(c);
+    fillGroups();
     fillChoices();
+    showMidi(false);
     takeState();
     setResizable(true, true);
-    setResizeLimits(720, 460, 2400, 1600);
-    setSize(1040, 640);
+    setResizeLimits(leastWidth, leastHeight, 2400, 1600);
+    const bool isKept = state_.editorWidth >= leastWidth && state_.editorHeight >= leastHeight;
+    if (isKept) setSize(state_.editorWidth, state_.editorHeight);
+    else setSize(firstWidth, firstHeight);
     startTimerHz(framesPerSecond);
 }
 
@@ -74,21 +94,97 @@ PluginEditor::~PluginEditor() {
     setLookAndFeel(nullptr);
 }
 
+// Level is the mix's, and SILENCE stands by itself.
+void PluginEditor::fillGroups() {
+    for (const auto& group : parameterGroups()) {
+        groups_.push_back({group.name, {}});
+        for (const auto which : group.parameters) {
+            auto& controls = groups_.back().controls;
+            controls.push_back(std::make_unique<ParameterControl>(plugin_.parameter(which)));
+            addAndMakeVisible(*controls.back());
+            if (which == Parameter::material) material_ = controls.back().get();
+        }
+    }
+}
+
 void PluginEditor::fillChoices() {
     for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(words(scene.name), id++);
     for (int id = 1; const auto name : layoutPresetNames) layout_.addItem(words(name), id++);
+    for (const int steps : {50, 100, 200, 500, 1000}) steps_.addItem(juce::String{steps} + " /s", steps);
+    scene_.setTitle("Scene");
+    layout_.setTitle("Layout");
+    steps_.setTitle("Steps per second");
+    steps_.setTooltip("How often the world is stepped: more lets hits be felt sooner");
+    steps_.setEditableText(true);
+    seed_.setTitle("Seed");
+    seed_.setFont(juce::Font{text::medium});
+    seed_.setIndents(8, 7);
     seed_.setInputRestrictions(10, "0123456789");
-    scene_.onChange = [this] { edit([this](PluginState& s) { s.scene = builtInScenes()[static_cast<std::size_t>(scene_.getSelectedItemIndex())]; }); };
-    layout_.onChange = [this] { edit([this](PluginState& s) { s.layout = presetLayout(layoutPresetNames[static_cast<std::size_t>(layout_.getSelectedItemIndex())]); }); };
+    restart_.setClickingTogglesState(true);
+    restart_.setTooltip("The scene starts at its seed whenever the transport starts or jumps, and is silent while it stands");
+    open_.setTooltip("A scene, a layout or a saved session of your own; files can be dropped here as well");
+    midi_.setTooltip("What notes and controllers do");
+    silence_.setClickingTogglesState(true);
+    silence_.setTooltip(words(rowOf(Parameter::bypass).help));
+    silence_.getProperties().set(stopProperty, true);
+    scene_.onChange = [this] {
+        if (const int i = scene_.getSelectedItemIndex(); i >= 0) edit([i](PluginState& s) { takeScene(s, builtInScenes()[static_cast<std::size_t>(i)]); });
+    };
+    layout_.onChange = [this] {
+        if (const int i = layout_.getSelectedItemIndex(); i >= 0) edit([i](PluginState& s) { takePreset(s, layoutPresetNames[static_cast<std::size_t>(i)]); });
+    };
+    steps_.onChange = [this] {
+        const int wanted = juce::jlimit(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, steps_.getText().getIntValue());
+        edit([wanted](PluginState& s) { s.stepsPerSecond = wanted; });
+    };
     seed_.onReturnKey = [this] { edit([this](PluginState& s) { s.seed = static_cast<std::uint32_t>(std::min<juce::int64>(seed_.getText().getLargeIntValue(), 0xffffffff)); }); };
     restart_.onClick = [this] { edit([this](PluginState& s) { s.transport = restart_.getToggleState() ? TransportMode::restartOnPlay : TransportMode::free; }); };
+    open_.onClick = [this] { askFile(); };
+    midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
 }
 
-template <class Change>
-void PluginEditor::edit(Change change) {
+MixHands PluginEditor::hands(bool areChecked) {
+    return {[this, areChecked](const std::function<void(PluginState&)>& change) {
+                PluginState wanted = plugin_.state();
+                change(wanted);
+                if (const auto read = areChecked ? readPluginState(pluginStateJson(wanted), "MIDI") : Result<PluginState>{PluginState{}}; !read) return report(words(read.error));
+                edit(change);
+            },
+            [this](const juce::String& news) { report(news); }};
+}
+
+void PluginEditor::edit(const std::function<void(PluginState&)>& change) {
     PluginState state = plugin_.state();
     change(state);
+    news_.clear();
     plugin_.edit(std::move(state));
+}
+
+void PluginEditor::askFile() {
+    chooser_ = std::make_unique<juce::FileChooser>("A scene, a layout or a session", juce::File{}, "*.json");
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
+        if (const auto file = chooser.getResult(); file != juce::File{}) open(file);
+    });
+}
+
+void PluginEditor::open(const juce::File& file) {
+    auto opened = openFile(file.getFullPathName().toStdString(), plugin_.state());
+    report(opened ? words(opened.value.note) : words(opened.error));
+    if (opened) plugin_.open(std::move(opened.value.state));
+}
+
+void PluginEditor::showMidi(bool on) {
+    midiPanel_.setVisible(on);
+    world_.setVisible(!on);
+    midi_.setToggleState(on, juce::dontSendNotification);
+}
+
+void PluginEditor::nameMaterials() {
+    const auto& row = rowOf(Parameter::material);
+    for (std::size_t m = 1; m < row.choices.size(); ++m) {
+        const auto& materials = state_.scene.materials;
+        material_->rename(static_cast<int>(m), words(row.choices[m]) + (m <= materials.size() ? "  " + words(materials[m - 1].name) : juce::String{}));
+    }
 }
 
 void PluginEditor::takeState() {
@@ -100,11 +196,16 @@ void PluginEditor::takeState() {
     };
     select(scene_, state_.scene.name);
     select(layout_, state_.layout.name);
+    steps_.setText(juce::String{state_.stepsPerSecond} + " /s", juce::dontSendNotification);
     seed_.setText(juce::String{static_cast<juce::int64>(state_.seed)}, false);
     restart_.setToggleState(state_.transport == TransportMode::restartOnPlay, juce::dontSendNotification);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
     world_.show(state_.layout, {state_.layout.geometry, static_cast<PanningLaw>(value(Parameter::law)), value(Parameter::exponent), state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
+    midiPanel_.take(state_);
+    mix_.take(state_);
+    nameMaterials();
+    if (!getLocalBounds().isEmpty()) resized(); // more or fewer strips
 }
 
 void PluginEditor::refresh() {
@@ -112,16 +213,16 @@ void PluginEditor::refresh() {
     const auto hits = plugin_.takes().takeLog();
     const auto meters = plugin_.meters();
     const auto status = plugin_.takes().status();
-    played_ = status.session.render.played;
     const int rate = std::max(1, plugin_.preparedRateHz());
     std::vector<BodyPose> poses;
     const auto at = plugin_.takes().poses(poses);
     std::vector<CollisionEvent> felt;
     for (const auto& hit : hits) felt.push_back(hit.played.event);
     world_.update({std::move(poses), at, plugin_.takes().playOutFrames() * 1'000'000'000 / rate, felt, meters.peaks});
-    meters_.update(meters, state_.layout);
+    mix_.update(meters);
     auto trouble = plugin_.trouble();
     if (plugin_.keepsRefused()) trouble << " - the host's session keeps it until something is edited here";
+    if (trouble.isEmpty()) trouble = news_;
     status_.setColour(juce::Label::textColourId, trouble.isEmpty() ? shade(*this, Shade::muted) : shade(*this, Shade::limit));
     status_.setText(trouble.isEmpty() ? statusLine(status, meters) : trouble, juce::dontSendNotification);
 }
@@ -142,24 +243,50 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
     return line;
 }
 
-void PluginEditor::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::ground)); }
+void PluginEditor::paint(juce::Graphics& g) {
+    g.fillAll(shade(*this, Shade::ground));
+    for (const auto& group : groups_) {
+        fillPanel(g, *this, group.place);
+        g.setColour(shade(*this, Shade::text));
+        g.setFont(juce::Font{text::small, juce::Font::bold});
+        g.drawText(words(group.name), group.place.reduced(14, 8).removeFromTop(16), juce::Justification::centredLeft, false);
+    }
+}
 
 void PluginEditor::resized() {
-    auto area = getLocalBounds().reduced(12, 6);
-    auto bar = area.removeFromTop(barHeight).reduced(0, 9);
+    if (getWidth() >= leastWidth) plugin_.keepEditorSize(getWidth(), getHeight());
+    auto area = getLocalBounds().reduced(margin, 0);
+    auto bar = area.removeFromTop(barHeight).reduced(0, 10);
     status_.setBounds(area.removeFromBottom(statusHeight));
-    auto controls = area.removeFromBottom(controlsHeight).withTrimmedTop(8);
-    title_.setBounds(bar.removeFromLeft(104));
-    scene_.setBounds(bar.removeFromLeft(170));
-    layout_.setBounds(bar.withTrimmedLeft(10).removeFromLeft(110));
-    bar.removeFromLeft(130);
-    seedName_.setBounds(bar.removeFromLeft(48));
-    seed_.setBounds(bar.removeFromLeft(96));
-    restart_.setBounds(bar.withTrimmedLeft(14).removeFromLeft(150));
-    const int width = controls.getWidth() / static_cast<int>(controls_.size());
-    for (auto& c : controls_) c->setBounds(controls.removeFromLeft(width));
-    meters_.setBounds(area.removeFromRight(metersWidth));
-    world_.setBounds(area.withTrimmedRight(8));
+    const auto left = [&bar](juce::Component& c, int width, int space = panelGap) { c.setBounds(bar.removeFromLeft(width)), bar.removeFromLeft(space); };
+    left(title_, 84);
+    left(scene_, 150);
+    left(layout_, 92);
+    left(open_, 62);
+    left(seedName_, 30, 4);
+    left(seed_, 60);
+    left(stepsName_, 34, 4);
+    left(steps_, 78);
+    silence_.setBounds(bar.removeFromRight(92));
+    bar.removeFromRight(panelGap);
+    left(restart_, 112);
+    left(midi_, 54, 0);
+    auto controls = area.removeFromBottom(groupsHeight);
+    area.removeFromBottom(panelGap);
+    std::size_t count = 0;
+    for (const auto& group : groups_) count += group.controls.size();
+    const int width = (controls.getWidth() - panelGap * static_cast<int>(groups_.size() - 1)) / static_cast<int>(count);
+    for (auto& group : groups_) {
+        group.place = &group == &groups_.back() ? controls : controls.removeFromLeft(width * static_cast<int>(group.controls.size()));
+        controls.removeFromLeft(panelGap);
+        auto places = group.place.reduced(6, 6).withTrimmedTop(18);
+        const int one = places.getWidth() / static_cast<int>(group.controls.size());
+        for (auto& control : group.controls) control->setBounds(places.removeFromLeft(one));
+    }
+    mix_.setBounds(area.removeFromRight(std::min(mix_.wishedWidth(), area.getWidth() / 2)));
+    area.removeFromRight(panelGap);
+    world_.setBounds(area);
+    midiPanel_.setBounds(area);
 }
 
 } // namespace physvib

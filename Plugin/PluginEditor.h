@@ -1,59 +1,81 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plug-in's window: the world, the enchanters' meters, scene and layout, a knob per parameter, what went wrong.
+// The plug-in's window: the world, the mix, what is played and how, a control per parameter, what went wrong.
 #pragma once
-#include "Host/Views/MeterView.h"
 #include "Host/Views/WorldView.h"
+#include "MidiPanel.h"
+#include "MixPanel.h"
 #include "PluginProcessor.h"
 #include <memory>
 #include <vector>
 
 namespace physvib {
 
-/// A knob (or, for a switch, a button) of one parameter, with its name.
+/// A knob, or a list of words, of one parameter, with its name.
 class ParameterControl final : public juce::Component {
 public:
     explicit ParameterControl(HostParameter& parameter);
+    void rename(int choice, const juce::String& words); ///< of a list, from 0
     void resized() override;
 
 private:
     juce::Label name_;
     juce::Slider knob_;
-    juce::TextButton button_;
+    juce::ComboBox list_;
     std::unique_ptr<juce::SliderParameterAttachment> knobAttachment_;
-    std::unique_ptr<juce::ButtonParameterAttachment> buttonAttachment_;
+    std::unique_ptr<juce::ComboBoxParameterAttachment> listAttachment_;
 };
 
-class PluginEditor final : public juce::AudioProcessorEditor, private juce::Timer {
+class PluginEditor final : public juce::AudioProcessorEditor, public juce::FileDragAndDropTarget, private juce::Timer {
 public:
     explicit PluginEditor(PluginProcessor& plugin);
     ~PluginEditor() override;
 
+    /// Plays a file of one's own: a scene, a layout, or a saved session.
+    void open(const juce::File& file);
+    void showMidi(bool on);
+
     void paint(juce::Graphics& g) override;
     void resized() override;
+    bool isInterestedInFileDrag(const juce::StringArray& files) override { return files.size() == 1 && files[0].endsWithIgnoreCase(".json"); }
+    void filesDropped(const juce::StringArray& files, int, int) override { open(juce::File{files[0]}); }
 
     /// One picture of what is going on; the timer calls it, at most 25 times a second.
     void refresh();
     juce::String statusText() const { return status_.getText(); }
 
 private:
+    struct Group { // of parameters, side by side on a ground of their own
+        std::string_view name;
+        std::vector<std::unique_ptr<ParameterControl>> controls;
+        juce::Rectangle<int> place{};
+    };
     void timerCallback() override { refresh(); }
     void takeState();
+    void fillGroups();
     void fillChoices();
-    template <class Change>
-    void edit(Change change);
+    void nameMaterials();
+    void askFile();
+    void edit(const std::function<void(PluginState&)>& change);
+    void report(const juce::String& news) { news_ = news; }
+    MixHands hands(bool areChecked);
     juce::String statusLine(const TakesStatus& status, const ChannelMeters& meters) const;
 
     PluginProcessor& plugin_;
     Look look_;
-    juce::Label title_, status_, seedName_;
-    juce::ComboBox scene_, layout_;
+    juce::TooltipWindow tooltips_{this};
+    juce::Label title_, status_, seedName_, stepsName_;
+    juce::ComboBox scene_, layout_, steps_;
     juce::TextEditor seed_;
-    juce::ToggleButton restart_{"Restart on play"};
+    juce::TextButton restart_{"Restart on play"}, open_, midi_{"MIDI"}, silence_{"SILENCE"};
+    juce::ButtonParameterAttachment silenceAttachment_;
     WorldView world_;
-    MeterView meters_;
-    std::vector<std::unique_ptr<ParameterControl>> controls_;
+    MidiPanel midiPanel_;
+    MixPanel mix_;
+    std::vector<Group> groups_;
+    ParameterControl* material_ = nullptr;
+    std::unique_ptr<juce::FileChooser> chooser_;
+    juce::String news_; // of what was opened or asked for; until the next edit
     std::uint64_t shown_ = 0; // the processor's count of states
-    std::uint64_t played_ = 0;
     PluginState state_;
 };
 

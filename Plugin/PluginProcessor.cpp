@@ -33,8 +33,7 @@ PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     : AudioProcessor{outputsOf(plan)}
     , name_{std::move(name)}
     , plan_{plan} {
-    for (std::size_t i = 0; i < parameterCount; ++i) addParameter(parameters_[i] = new HostParameter{allParameters()[i]});
-    for (auto* p : parameters_) p->addListener(this);
+    addParameters();
     apply(newPluginState());
     startTimerHz(20);
 }
@@ -45,19 +44,41 @@ juce::AudioProcessor::BusesProperties PluginProcessor::outputsOf(const BusPlan& 
     return properties;
 }
 
+// Hosts number them as the table does.
+void PluginProcessor::addParameters() {
+    for (std::size_t i = 0; i < parameterCount; ++i) {
+        parameters_[i] = new HostParameter{allParameters()[i]};
+        parameters_[i]->addListener(this);
+    }
+    addParameter(&parameter(Parameter::level));
+    for (const auto& group : parameterGroups()) {
+        auto shown = std::make_unique<juce::AudioProcessorParameterGroup>(juce::String{group.id.data()}, juce::String{group.name.data()}, "/");
+        for (const auto which : group.parameters) shown->addChild(std::unique_ptr<HostParameter>{&parameter(which)});
+        addParameterGroup(std::move(shown));
+    }
+    addParameter(&parameter(Parameter::bypass));
+}
+
 PluginProcessor::~PluginProcessor() {
     stopTimer();
     takes_.release();
 }
 
 bool PluginProcessor::apply(PluginState state) {
+    fitToLayout(state);
     try {
-        takes_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}});
+        takes_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}}, state.strips);
     } catch (const std::invalid_argument& error) {
         return refuse(readable(error.what()));
     }
     tailSeconds_ = tailSeconds(state);
     program_ = programOf(state.scene);
+    take(std::move(state));
+    publish();
+    return true;
+}
+
+void PluginProcessor::take(PluginState state) {
     {
         const std::lock_guard lock{mutex_};
         trouble_.clear();
@@ -65,13 +86,29 @@ bool PluginProcessor::apply(PluginState state) {
         state_ = std::move(state);
     }
     ++stateCount_;
-    publish();
+}
+
+bool PluginProcessor::edit(PluginState state) {
+    fitToLayout(state);
+    const int before = program_;
+    if (isSameTake(this->state(), state)) {
+        takes_.mix(state.strips);
+        take(std::move(state));
+    } else if (!apply(std::move(state))) {
+        return false;
+    }
+    updateHostDisplay(ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(program_ != before));
     return true;
 }
 
-void PluginProcessor::edit(PluginState state) {
-    const int before = program_;
-    if (apply(std::move(state))) updateHostDisplay(ChangeDetails{}.withNonParameterStateChanged(true).withProgramChanged(program_ != before));
+void PluginProcessor::open(PluginState state) {
+    if (edit(state)) takeParameters(state);
+}
+
+void PluginProcessor::keepEditorSize(int width, int height) {
+    const std::lock_guard lock{mutex_};
+    state_.editorWidth = width;
+    state_.editorHeight = height;
 }
 
 bool PluginProcessor::refuse(const juce::String& why) {
@@ -151,7 +188,7 @@ void PluginProcessor::setCurrentProgram(int index) {
     auto changed = state();
     const auto& scene = builtInScenes()[static_cast<std::size_t>(index)];
     if (changed.scene == scene) return; // hosts repeat themselves, and the world would start anew
-    changed.scene = scene;
+    takeScene(changed, scene);
     apply(std::move(changed));
 }
 

@@ -22,8 +22,12 @@ public:
 
     /// What plays from now on. False and untouched, with a line in `trouble()`, if it cannot be played. Any thread but R.
     bool apply(PluginState state);
-    /// The same for an edit by a person: the host marks its session as changed. M.
-    void edit(PluginState state);
+    /// The same for an edit by a person: the host marks its session as changed, and what plays goes on if it can (isSameTake). M.
+    bool edit(PluginState state);
+    /// An edit that sets the parameters as well. M.
+    void open(PluginState state);
+    /// Saved with the state, though no edit. M.
+    void keepEditorSize(int width, int height);
     PluginState state() const; ///< with the parameters as they are
     juce::String trouble() const; ///< empty while all is well
     bool keepsRefused() const; ///< the next save gives back the chunk that was refused, since nothing has been edited
@@ -67,11 +71,13 @@ public:
 
 private:
     static BusesProperties outputsOf(const BusPlan& plan);
+    void addParameters();
     void timerCallback() override;
     void parameterValueChanged(int, float) override {}
     void parameterGestureChanged(int which, bool begins) override;
     bool takeChunk(std::string_view text);
     bool refuse(const juce::String& why);
+    void take(PluginState state);
     void publish();
     void takeParameters(const PluginState& state);
     double value(Parameter which) const noexcept { return parameters_[static_cast<std::size_t>(which)]->value(); }

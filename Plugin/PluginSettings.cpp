@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace physvib {
 
@@ -32,6 +33,42 @@ PluginState newPluginState() {
     return state;
 }
 
+void fitToLayout(PluginState& state) {
+    resizeStrips(state.strips, enchantersOf(state));
+    std::fill(state.equalised.begin() + enchantersOf(state), state.equalised.end(), EqualisedActuator{});
+}
+
+void takePreset(PluginState& state, std::string_view name) {
+    auto layout = presetLayout(name);
+    for (std::size_t j = 0; j < std::min(layout.enchanters.size(), state.layout.enchanters.size()); ++j) {
+        layout.enchanters[j].actuator = state.layout.enchanters[j].actuator;
+        layout.enchanters[j].fullScaleG = state.layout.enchanters[j].fullScaleG;
+    }
+    state.layout = std::move(layout);
+    fitToLayout(state);
+}
+
+void takeScene(PluginState& state, Scene scene) {
+    const Scene before = std::exchange(state.scene, std::move(scene));
+    for (const NoteRule& rule : std::exchange(state.notes, {})) {
+        NoteRule kept = rule;
+        if (rule.kind == NoteKind::push) {
+            if (std::ranges::find(state.scene.bodies, rule.object, &BodyDescription::name) == state.scene.bodies.end()) continue;
+        } else {
+            const auto& materials = state.scene.materials;
+            const auto found = std::ranges::find(materials, before.materials[static_cast<std::size_t>(rule.material)].name, &Material::name);
+            if (found == materials.end()) continue;
+            kept.material = static_cast<int>(found - materials.begin());
+        }
+        state.notes.push_back(kept);
+    }
+}
+
+bool isSameTake(const PluginState& a, const PluginState& b) {
+    return a.seed == b.seed && a.stepsPerSecond == b.stepsPerSecond && a.limiterEnabled == b.limiterEnabled && a.transport == b.transport &&
+           isSame(a.layout.geometry, b.layout.geometry) && a.equalised == b.equalised && a.notes == b.notes && a.controllers == b.controllers && a.scene == b.scene;
+}
+
 PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept {
     return {state.layout.geometry, law, exponent, state.scene.fieldWidthMetres, state.scene.fieldHeightMetres};
 }
@@ -44,6 +81,7 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     setup.channels = enchantersOf(state);
     setup.panner = pannerOf(state, PanningLaw::linear, 1.0);
     setup.limiterEnabled = state.limiterEnabled;
+    setup.equalised = state.equalised;
     setup.groups = actionGroups(state);
     return setup;
 }

@@ -17,6 +17,18 @@ PluginState newPluginState();
 
 inline int enchantersOf(const PluginState& state) noexcept { return state.layout.geometry.count; }
 
+/// As many strips as there are enchanters, and no equaliser beyond. Any thread.
+void fitToLayout(PluginState& state);
+
+/// A preset's places for the enchanters that are there, which keep what drives them and their strips. M only.
+void takePreset(PluginState& state, std::string_view name);
+
+/// Another scene. Note rules hold on to materials and bodies by their names: those that it has not are left out. Any thread.
+void takeScene(PluginState& state, Scene scene);
+
+/// True if what plays by `a` can go on by `b`, another mix at most. Any thread.
+bool isSameTake(const PluginState& a, const PluginState& b);
+
 /// Any thread.
 PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept;
 SessionSetup sessionSetupOf(const PluginState& state);

@@ -24,6 +24,11 @@ void Take::rewind(std::int64_t leadFrames) {
     over_ = false;
     number = 0;
     isEnded = false;
+    told_ = {};
+}
+
+bool Take::tell(std::span<const Strip> strips) {
+    return tellStrips(told_, strips, [this](const RenderControl& control) { return session.post(control) >= 0; });
 }
 
 void Take::end() noexcept {

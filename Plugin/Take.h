@@ -2,6 +2,7 @@
 // One run of a session from its seed on, with the settings it was made for, until it has played what is owed.
 #pragma once
 #include "Core/GainRamp.h"
+#include "Files/Mix.h"
 #include "Host/Session.h"
 #include "TakeSettings.h"
 #include <array>
@@ -26,6 +27,9 @@ public:
 
     /// From its seed again. Any thread but R, while nobody renders or steps it.
     void rewind(std::int64_t leadFrames);
+
+    /// It is to play by these strips from session time on. False: not all of it found room, to be told again. Any thread but R.
+    bool tell(std::span<const Strip> strips);
 
     const TakeSettings& settings() const noexcept { return order_->settings; }
     std::uint64_t generation() const noexcept { return order_->generation; }
@@ -55,6 +59,7 @@ private:
 
     std::shared_ptr<const TakeOrder> order_;
     int sampleRateHz_;
+    std::array<ToldStrip, limits::maxEnchanters> told_{};
     std::int64_t leadFrames_ = 0; // of prepare
     std::int64_t owed_ = -1;      // frames until it fades; -1: it is not ending
     GainRamp fade_, gap_;         // gap_ is shut while L grows

@@ -26,7 +26,7 @@ bool startsQuickly(const TakeOrder& order) noexcept { return order.settings.tran
 
 } // namespace
 
-void Takes::set(SessionSetup setup, const TakeSettings& settings) {
+void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<Strip> strips) {
     setup.longestGapSeconds = TakePace::longestGapSeconds(setup.stepsPerSecond);
     checkGroups(setup);
     const std::lock_guard one{setMutex_};
@@ -41,8 +41,21 @@ void Takes::set(SessionSetup setup, const TakeSettings& settings) {
         else Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond}; // throws if it cannot be simulated
         lock.lock();
         if (rate != sampleRateHz_ || block != blockFrames_) continue; // the host has prepared us meanwhile
+        strips_ = std::move(strips);
         return exchange(wanted, std::move(take));
     }
+}
+
+void Takes::mix(std::vector<Strip> strips) {
+    const std::lock_guard lock{mutex_};
+    strips_ = std::move(strips);
+    tellAll();
+}
+
+// The mutex is held. What found no room is told again by the next tick.
+void Takes::tellAll() {
+    for (auto& take : takes_)
+        if (take->generation() == order_->generation && !take->isEnded.load(std::memory_order_acquire)) take->tell(strips_);
 }
 
 std::shared_ptr<const TakeOrder> Takes::order() const {
@@ -56,6 +69,7 @@ void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Tak
     fault_.clear();
     canMake_ = true;
     if (!take) return;
+    take->tell(strips_);
     ticksPerSecond_ = TakePace::ticksPerSecond(order_->setup.stepsPerSecond);
     playOutFrames_ = take->session.playOutFrames();
     takes_.push_back(std::move(take));
@@ -120,6 +134,7 @@ void Takes::step() {
 
 void Takes::tick() {
     std::unique_lock lock{mutex_};
+    tellAll();
     for (auto& take : takes_) {
         if (take->isEnded.load(std::memory_order_acquire)) continue;
         stepWorld(*take);
@@ -172,6 +187,7 @@ void Takes::makeReady(std::unique_lock<std::mutex>& lock) {
     ended.clear();
     lock.lock();
     if (!ready) return;
+    ready->tell(strips_);
     takes_.push_back(std::move(ready));
     Take* const made = takes_.back().get();
     Take* none = nullptr;

@@ -59,9 +59,12 @@ public:
     void driveByHand(const std::atomic<std::int64_t>& nowNs) noexcept { handNs_ = &nowNs; }
     void tick(); ///< steps the worlds
 
-    /// What later takes play. While prepared, the playing take is replaced as soon as R comes by. Any thread but R;
-    /// throws std::invalid_argument, and changes nothing, if the setup is not valid.
-    void set(SessionSetup setup, const TakeSettings& settings);
+    /// What later takes play, and by what strips. While prepared, the playing take is replaced as soon as R comes by. Any
+    /// thread but R; throws std::invalid_argument, and changes nothing, if the setup is not valid.
+    void set(SessionSetup setup, const TakeSettings& settings, std::vector<Strip> strips = {});
+
+    /// Other strips; what plays goes on, and is felt by them L later. Any thread but R.
+    void mix(std::vector<Strip> strips);
 
     /// A fresh take stands ready; nothing plays yet. Any thread but R, while nobody renders.
     void prepare(int sampleRateHz, int blockFrames);
@@ -107,6 +110,7 @@ private:
     static constexpr std::size_t mostEnding = 8;  // loops as short as an eighth of L
     std::shared_ptr<const TakeOrder> order() const;
     void exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take);
+    void tellAll();
     void step();
     void build();
     void stepWorld(Take& take);
@@ -131,6 +135,7 @@ private:
     std::mutex setMutex_;      // one `set` at a time; taken first
     mutable std::mutex mutex_; // guards what follows, up to the atomics
     std::shared_ptr<const TakeOrder> order_;
+    std::vector<Strip> strips_; // of all takes of that order
     std::vector<std::unique_ptr<Take>> takes_;
     std::vector<TakeEvent> log_;
     std::string fault_;

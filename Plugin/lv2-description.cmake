@@ -7,4 +7,10 @@ string(REGEX REPLACE "((lv2:default|lv2:minimum|lv2:maximum|rdf:value) -?[0-9]+)
 # Neither is known; an empty address is that of the file.
 string(REGEX REPLACE "\t\tfoaf:(homepage|mbox) <> ;\n" "" text "${text}")
 string(REPLACE "\t\tbufs:maxBlockLength .\n" "\t\tbufs:maxBlockLength , bufs:nominalBlockLength .\n" text "${text}")
+# Ports are called as the enchanters that they drive: A, B, ...
+foreach(number RANGE 1 26)
+    math(EXPR letter "64 + ${number}")
+    string(ASCII ${letter} label)
+    string(REPLACE "lv2:name \"Audio Out ${number}\"" "lv2:name \"${label}\"" text "${text}")
+endforeach()
 file(WRITE "${FILE}" "${text}")

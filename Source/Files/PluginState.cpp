@@ -6,6 +6,7 @@
 #include "Files/JsonFile.h"
 #include "Files/JsonLines.h"
 #include "Files/JsonVersion.h"
+#include "Files/MixJson.h"
 #include "Files/NumberText.h"
 #include "Files/SceneFile.h"
 #include "Physics/SceneLimits.h"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr const char* stateVersionField = "physvib_plugin_state";
 constexpr std::array<std::string_view, 2> transportNames{"free", "restart-on-play"}; // as TransportMode
-constexpr std::array<std::string_view, 3> noteKindNames{"strike", "push", "spawn"};   // as NoteKind
+constexpr int mostEditorPixels = 20'000;
 constexpr std::size_t mostNotes = 128, mostControllers = 120, mostParameters = 1000;
 
 int wholeNumberUpTo(const JsonField& field, int most) {
@@ -119,10 +120,14 @@ ParameterValue readParameter(const Json& value, const JsonField& field) {
 PluginState readStateRoot(const Json& json) {
     const JsonField root{json, {}};
     checkVersion(root, stateVersionField, pluginStateVersion);
-    root.expectObject({stateVersionField, "scene", "seed", "steps_per_second", "layout", "limiter", "transport", "notes", "controllers", "parameters"});
+    root.expectObject({stateVersionField, "scene", "seed", "steps_per_second", "layout", "strips", "equalised", "limiter", "transport", "notes", "controllers", "editor_px", "parameters"});
     PluginState state;
     state.scene = readPart<Scene>(json, "scene", [](const std::string& text, const char* name) { return readScene(text, name); });
     state.layout = readPart<LayoutDescription>(json, "layout", readLayout);
+    const int enchanters = state.layout.geometry.count;
+    if (root.has("strips")) state.strips = readStrips(root["strips"], enchanters, Outputs::inOrder);
+    else resizeStrips(state.strips, enchanters); // version 1
+    if (root.has("equalised")) state.equalised = readEqualised(root["equalised"], enchanters);
     state.seed = readSeed(root["seed"]);
     state.stepsPerSecond = readSteps(root["steps_per_second"]);
     state.limiterEnabled = root["limiter"].truth();
@@ -131,6 +136,10 @@ PluginState readStateRoot(const Json& json) {
     for (std::size_t i = 0, n = sizeUpTo(notes, mostNotes); i < n; ++i) state.notes.push_back(readNote(notes.item(i), state.scene));
     for (std::size_t i = 0, n = sizeUpTo(controllers, mostControllers); i < n; ++i) state.controllers.push_back(readController(controllers.item(i)));
     if (root[stateVersionField].wholeNumber() == 1 && state.controllers == controllersOfVersion1) state.controllers.clear();
+    if (root.has("editor_px")) {
+        const Vector size = readVector(root["editor_px"], mostEditorPixels);
+        state.editorWidth = static_cast<int>(size.x), state.editorHeight = static_cast<int>(size.y);
+    }
     parameters.expectObject();
     if (json["parameters"].size() > mostParameters) parameters.fail("expected at most " + std::to_string(mostParameters) + " parameters");
     for (const auto& item : json["parameters"].items()) state.parameters.emplace_back(item.key(), readParameter(item.value(), parameters[item.key()]));
@@ -166,12 +175,17 @@ std::string pluginStateJson(const PluginState& state) {
     root["seed"] = state.seed;
     root["steps_per_second"] = state.stepsPerSecond;
     root["layout"] = OrderedJson::parse(layoutJson(state.layout));
+    auto strips = state.strips;
+    resizeStrips(strips, state.layout.geometry.count);
+    root["strips"] = stripsJson(strips, Outputs::inOrder);
+    root["equalised"] = equalisedJson(state.equalised, state.layout.geometry.count);
     root["limiter"] = state.limiterEnabled;
     root["transport"] = std::string(transportNames[static_cast<std::size_t>(state.transport)]);
     root["notes"] = OrderedJson::array();
     for (const NoteRule& rule : state.notes) root["notes"].push_back(noteJson(rule, state.scene));
     root["controllers"] = OrderedJson::array();
     for (const ControllerRule& rule : state.controllers) root["controllers"].push_back({{"controller", rule.controller}, {"parameter", rule.parameter}});
+    if (state.editorWidth > 0) root["editor_px"] = {state.editorWidth, state.editorHeight};
     root["parameters"] = OrderedJson::object();
     for (const auto& [id, value] : state.parameters)
         std::visit([&json = root["parameters"][id]](const auto& it) { json = it; }, value);

@@ -2,9 +2,11 @@
 // What an instance of the plug-in plays, and as versioned JSON in its host's session: whole in itself, so that a
 // session sounds the same when the built-in scenes have changed.
 #pragma once
-#include "Files/LayoutFile.h"
+#include "Core/ActuatorEqualiser.h"
+#include "Files/Mix.h"
 #include "Files/Result.h"
 #include "Physics/Scene.h"
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,7 +17,7 @@
 namespace physvib {
 
 /// The version of the format that is written, and the newest that is read. A new field makes a new version.
-/// 2: choices by their words; what version 1 gave every instance as controllers is left out.
+/// 2: choices by their words; what version 1 gave every instance as controllers is left out; strips, equalisers, the editor's size.
 constexpr int pluginStateVersion = 2;
 
 enum class TransportMode {
@@ -28,6 +30,8 @@ enum class NoteKind {
     push,   ///< an impulse on a body of the scene
     spawn   ///< drops a disc of a material at a place
 };
+
+inline constexpr std::array<std::string_view, 3> noteKindNames{"strike", "push", "spawn"}; // as NoteKind
 
 /// A note that does not do what the default map says.
 struct NoteRule {
@@ -57,10 +61,13 @@ struct PluginState {
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
     LayoutDescription layout;
+    std::vector<Strip> strips;      ///< one per enchanter, which leaves by the channel of its number; those missing are as new ones
+    EqualisedActuators equalised{}; ///< per enchanter
     bool limiterEnabled = true;
     TransportMode transport = TransportMode::free;
     std::vector<NoteRule> notes; ///< others: every octave is a material, every note a place from left (C) to right (B)
     std::vector<ControllerRule> controllers;
+    int editorWidth = 0, editorHeight = 0; ///< in pixels; 0: as it comes
     std::vector<std::pair<std::string, ParameterValue>> parameters; ///< by their ids
 };
 

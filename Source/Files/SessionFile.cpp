@@ -100,27 +100,6 @@ CollisionEvent readStrike(const JsonField& json) {
     return strike;
 }
 
-FrequencyBand readBand(const JsonField& json) {
-    if (json.arraySize() != 2) json.fail("expected [lowest, highest]");
-    const auto hz = [&](std::size_t i) { return json.item(i).numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz); };
-    const FrequencyBand band{hz(0), hz(1)};
-    if (!band.isKnown()) json.fail("expected a highest frequency above the lowest");
-    return band;
-}
-
-// One per channel, null for those that are played as they are; left out: all of them.
-void readEqualised(const JsonField& list, SavedSession& session) {
-    if (list.arraySize() != static_cast<std::size_t>(session.channels))
-        list.fail("expected " + std::to_string(session.channels) + " items, one per channel");
-    for (std::size_t j = 0; j < list.arraySize(); ++j) {
-        const JsonField item = list.item(j);
-        if (item.isNull()) continue;
-        item.expectObject({"resonance_hz", "q", "band_hz"});
-        const Resonator resonator{item["resonance_hz"].numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz), item["q"].numberWithin(limits::leastQ, limits::mostQ)};
-        session.equalised[j] = {resonator, readBand(item["band_hz"])};
-    }
-}
-
 RecordingFile readRecordingFile(const JsonField& json) {
     json.expectObject({"frequency_hz", "file", "hash", "decay_per_s", "matched"});
     RecordingFile file{json["frequency_hz"].positiveNumber(), json["file"].text()};
@@ -162,7 +141,7 @@ SavedSession readSessionRoot(const JsonField& root) {
     session.limiterEnabled = root["limiter"].truth();
     session.channels = readWhole(root["channels"], 1, limits::maxEnchanters);
     if (root.has("ceilings")) readCeilings(root["ceilings"], session);
-    if (root.has("equalised")) readEqualised(root["equalised"], session);
+    if (root.has("equalised")) session.equalised = readEqualised(root["equalised"], session.channels);
     if (root.has("shaping")) session.shaping = readShaping(root["shaping"]);
     session.panner = readPanner(root["panning"], session.channels);
     const JsonField takes = root["takes"];
@@ -202,18 +181,6 @@ OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
         if (stall.steps > 1) json["stalls"].back()["steps"] = stall.steps;
     }
     return json;
-}
-
-OrderedJson bandJson(const FrequencyBand& band) { return {band.lowHz, band.highHz}; }
-
-OrderedJson equalisedJson(const SavedSession& session) {
-    OrderedJson list = OrderedJson::array();
-    for (std::size_t j = 0; j < static_cast<std::size_t>(session.channels); ++j) {
-        const auto& [resonator, band] = session.equalised[j];
-        if (!session.equalised[j].isKnown()) list.push_back(nullptr);
-        else list.push_back({{"resonance_hz", resonator.resonanceHz}, {"q", resonator.q}, {"band_hz", bandJson(band)}});
-    }
-    return list;
 }
 
 OrderedJson shapingJson(const EventShaping& shaping) {
@@ -279,7 +246,7 @@ std::string sessionJson(const SavedSession& session, const std::filesystem::path
                      {"takes", OrderedJson::array()}};
     const std::vector<double> ceilings(session.ceilings.begin(), session.ceilings.begin() + session.channels);
     if (std::ranges::any_of(ceilings, [](double most) { return most != 1.0; })) root["ceilings"] = ceilings;
-    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) root["equalised"] = equalisedJson(session);
+    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) root["equalised"] = equalisedJson(session.equalised, session.channels);
     if (session.shaping != EventShaping{}) root["shaping"] = shapingJson(session.shaping);
     const SceneTake* before = nullptr;
     for (const SceneTake& take : session.log.takes) {

@@ -28,6 +28,11 @@ constexpr std::array<ParameterRow, parameterCount> table{{
     {"bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1, "Silence; the world goes on"},
 }};
 
+constexpr std::array panningGroup{Parameter::law, Parameter::exponent};
+constexpr std::array worldGroup{Parameter::gravity, Parameter::tilt, Parameter::material};
+constexpr std::array strikeGroup{Parameter::strikeLevel, Parameter::strikeX, Parameter::strikeY};
+constexpr std::array<ParameterGroup, 3> groups{{{"panning", "Panning", panningGroup}, {"world", "World", worldGroup}, {"strikes", "Strikes by notes", strikeGroup}}};
+
 std::string_view wordOf(const ParameterRow& row, double value) {
     const auto index = static_cast<std::size_t>(std::lround(std::clamp(value, row.least, row.most) - row.least));
     return row.choices[index];
@@ -38,6 +43,7 @@ bool hasWords(const ParameterRow& row) { return !row.choices.empty(); }
 } // namespace
 
 const std::array<ParameterRow, parameterCount>& allParameters() noexcept { return table; }
+std::span<const ParameterGroup> parameterGroups() noexcept { return groups; }
 const ParameterRow& rowOf(Parameter parameter) noexcept { return table[static_cast<std::size_t>(parameter)]; }
 
 int parameterOfId(std::string_view id) noexcept {

@@ -39,6 +39,14 @@ struct ParameterRow {
 const ParameterRow& rowOf(Parameter parameter) noexcept;
 const std::array<ParameterRow, parameterCount>& allParameters() noexcept;
 
+/// Parameters that belong together, each in one group, in the order of the table; `level` and `bypass` stand by themselves.
+struct ParameterGroup {
+    std::string_view id; ///< never changes
+    std::string_view name;
+    std::span<const Parameter> parameters;
+};
+std::span<const ParameterGroup> parameterGroups() noexcept; ///< any thread
+
 /// Place of the parameter with that id in the table; -1 if there is none. Any thread.
 int parameterOfId(std::string_view id) noexcept;
 

@@ -25,6 +25,11 @@ PluginState sampleState(const char* scene = "fruit-basket") {
     EnchanterLayout ring;
     layoutPreset("ring3", ring);
     s.layout = describeLayout("ring3", ring);
+    s.strips.resize(3);
+    s.strips[0] = {-7.5, true, false, true, 12.5, -6.0, 0};
+    s.strips[1] = {leastStripDb, false, true, false, 0.0, 0.0, 1};
+    s.strips[2].output = 2;
+    s.equalised[1] = {{205.0, 12.0}, {160.0, 260.0}};
     s.seed = 4294967295u;
     s.stepsPerSecond = 500;
     s.limiterEnabled = false;
@@ -42,6 +47,8 @@ PluginState sampleState(const char* scene = "fruit-basket") {
     s.notes.push_back(push);
     s.notes.push_back(spawn);
     s.controllers = {{1, "tilt"}};
+    s.editorWidth = 1500;
+    s.editorHeight = 900;
     s.parameters = {{"bypass", "off"}, {"level", -7.123456789}};
     return s;
 }
@@ -49,12 +56,16 @@ PluginState sampleState(const char* scene = "fruit-basket") {
 void expectSame(const PluginState& a, const PluginState& b) {
     EXPECT_TRUE(a.scene == b.scene);
     EXPECT_EQ(layoutJson(a.layout), layoutJson(b.layout));
+    EXPECT_EQ(a.strips, b.strips);
+    EXPECT_EQ(a.equalised, b.equalised);
     EXPECT_EQ(a.seed, b.seed);
     EXPECT_EQ(a.stepsPerSecond, b.stepsPerSecond);
     EXPECT_EQ(a.limiterEnabled, b.limiterEnabled);
     EXPECT_EQ(a.transport, b.transport);
     EXPECT_EQ(a.notes, b.notes);
     EXPECT_EQ(a.controllers, b.controllers);
+    EXPECT_EQ(a.editorWidth, b.editorWidth);
+    EXPECT_EQ(a.editorHeight, b.editorHeight);
     EXPECT_EQ(a.parameters, b.parameters);
 }
 
@@ -88,6 +99,9 @@ TEST(PluginState, WhatIsWrongIsNamed) {
     EXPECT_EQ(refusal(text, "\"do\": \"push\", \"object\": \"" + sampleState().scene.bodies.front().name + "\"", "\"do\": \"push\", \"object\": \"nobody\""),
               "f: notes[2].object: expected the name of a body that the scene starts with, found \"nobody\"");
     EXPECT_EQ(refusal(text, "\"radius_m\": 0.25", "\"radius_m\": 0"), "f: notes[3].radius_m: expected at least 0.01");
+    EXPECT_EQ(refusal(text, "\"ceiling_db\": -6", "\"ceiling_db\": 6"), "f: strips[0].ceiling_db: expected -60 to 0, found 6");
+    EXPECT_EQ(refusal(text, "\"q\": 12", "\"q\": -1"), "f: equalised[1].q: expected a number > 0, found -1");
+    EXPECT_EQ(refusal(text, "\"strips\": [", "\"strips\": [ { \"gain_db\": 0 },"), "f: strips: expected one strip per enchanter, 3");
     EXPECT_EQ(refusal(text, "\"controller\": 1", "\"controller\": 120"), "f: controllers[0].controller: expected 0 to 119, found 120");
     EXPECT_EQ(refusal(text, "restart-on-play", "sometimes"), "f: transport: expected one of free, restart-on-play, found \"sometimes\"");
     EXPECT_EQ(refusal(text, "\"steps_per_second\": 500", "\"steps_per_second\": 1"), "f: steps_per_second: expected 10 to 10000, found 1");
@@ -108,6 +122,9 @@ TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never writte
     EXPECT_EQ(read.value.layout.enchanters.size(), 3u);
     EXPECT_EQ(read.value.notes, (std::vector<NoteRule>{strike(60, 1, 0.1, 1.0), strike(127, 0, 0.0, 0.25)}));
     EXPECT_EQ(read.value.parameters.size(), 2u);
+    for (const Strip& s : read.value.strips) EXPECT_EQ(s.gainDb + s.delayMs + s.ceilingDb + (s.isMuted || s.isSolo || s.isInverted ? 1.0 : 0.0), 0.0) << "no mix";
+    EXPECT_EQ(read.value.strips.size(), 3u);
+    EXPECT_EQ(read.value.equalised, EqualisedActuators{});
     EXPECT_EQ(read.value.controllers, (std::vector<ControllerRule>{{1, "tilt"}})) << "somebody's own";
 }
 

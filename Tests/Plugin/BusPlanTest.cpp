@@ -62,6 +62,14 @@ std::vector<int> channelsOfEnchanters(TestHost& host, int enchanters) {
     return found;
 }
 
+TEST(BusPlan, BusesOfPairsBearTheLabelsOfTheirEnchanters) {
+    const auto buses = busesOf({BusPlan::Kind::manyBuses}, vst3);
+    EXPECT_EQ(buses[0].name, "A, B");
+    EXPECT_EQ(buses[1].name, "C, D");
+    EXPECT_EQ(buses[12].name, "Y, Z");
+    for (std::size_t b = 13; b < buses.size(); ++b) EXPECT_NE(buses[b].name, buses[b - 1].name);
+}
+
 TEST(BusPlan, ChannelJIsEnchanterJOnOneBus) {
     for (const int n : {1, 2, 3, 4, 8, 16}) {
         TestHost host{{BusPlan::Kind::oneBus, n}};

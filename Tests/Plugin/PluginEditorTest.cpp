@@ -24,8 +24,8 @@ TEST(PluginEditor, OpensFiftyTimesWhileItPlays) {
         ASSERT_NE(editor, nullptr);
         for (int b = 0; b < 5; ++b) host.block(512);
         editor->refresh();
-        editor->setSize(720 + 30 * i, 460 + 20 * i);
-        if (i % 10 == 0) EXPECT_EQ(pictureOf(*editor).getWidth(), 720 + 30 * i);
+        editor->setSize(960 + 30 * i, 540 + 20 * i);
+        if (i % 10 == 0) EXPECT_EQ(pictureOf(*editor).getWidth(), 960 + 30 * i);
         if (i % 7 == 0) host.plugin->setCurrentProgram(i % 5);
     }
 }
@@ -33,6 +33,24 @@ TEST(PluginEditor, OpensFiftyTimesWhileItPlays) {
 TEST(PluginEditor, ShowsTheWorldMoving) {
     TestHost host;
     host.prepare(48000, 480);
+    auto state = host.plugin->state();
+    state.layout.enchanters[2].actuator = "lra-205";
+    state.equalised[2] = {{205.0, 12.0}, {160.0, 260.0}};
+    state.strips[1].gainDb = -4.5;
+    state.strips[1].delayMs = 2.0;
+    state.strips[2].ceilingDb = -12.0;
+    NoteRule strike, push;
+    strike.note = 60;
+    strike.material = 4;
+    strike.y = 0.0;
+    push.note = 61;
+    push.kind = NoteKind::push;
+    push.object = state.scene.bodies.back().name;
+    push.atFullVelocity = {0.0, 500.0};
+    state.notes = {strike, push};
+    state.controllers = {{1, "tilt"}};
+    host.plugin->edit(state);
+    host.plugin->parameter(Parameter::level).setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
     auto editor = openEditor(*host.plugin);
     std::vector<juce::Image> pictures;
     for (int second = 0; second < 3; ++second) {
@@ -49,10 +67,16 @@ TEST(PluginEditor, ShowsTheWorldMoving) {
     EXPECT_GT(differ(pictures[0], pictures[1]), 500);
     EXPECT_GT(differ(pictures[1], pictures[2]), 500);
     if (const char* folder = std::getenv("PHYSVIB_PICTURES")) { // to look at
-        juce::FileOutputStream file{juce::File{folder}.getChildFile("plugin-editor.png")};
-        file.setPosition(0);
-        file.truncate();
-        juce::PNGImageFormat{}.writeImageToStream(pictures.back(), file);
+        const auto write = [folder](const juce::Image& picture, const char* name) {
+            juce::FileOutputStream file{juce::File{folder}.getChildFile(name)};
+            file.setPosition(0);
+            file.truncate();
+            juce::PNGImageFormat{}.writeImageToStream(picture, file);
+        };
+        write(pictures.back(), "plugin-editor.png");
+        editor->showMidi(true);
+        editor->setSize(960, 540);
+        write(pictureOf(*editor), "plugin-editor-midi.png");
     }
 }
 
@@ -76,6 +100,45 @@ TEST(PluginEditor, SilenceIsFilledOnlyWhileItIsOn) {
     silence->setToggleState(true, juce::sendNotificationSync); // as a click
     EXPECT_EQ(ground(), red);
     EXPECT_EQ(host.plugin->parameter(Parameter::bypass).getValue(), 1.0f);
+}
+
+TEST(PluginEditor, ComesBackInTheSizeItWasLeftInAlsoFromAChunk) {
+    TestHost host, other;
+    const auto count = host.plugin->stateCount();
+    openEditor(*host.plugin)->setSize(1000, 600);
+    EXPECT_EQ(openEditor(*host.plugin)->getWidth(), 1000);
+    EXPECT_EQ(host.plugin->stateCount(), count) << "no edit";
+    juce::MemoryBlock chunk;
+    host.plugin->getStateInformation(chunk);
+    other.plugin->setStateInformation(chunk.getData(), static_cast<int>(chunk.getSize()));
+    EXPECT_EQ(openEditor(*other.plugin)->getHeight(), 600);
+}
+
+TEST(PluginEditor, OpensFilesAndSaysWhatIsWrong) {
+    TestHost host;
+    auto editor = openEditor(*host.plugin);
+    const auto file = juce::File::createTempFile(".json");
+    file.replaceWithText(layoutJson(presetLayout("ring3")));
+    EXPECT_TRUE(editor->isInterestedInFileDrag(juce::StringArray{file.getFullPathName()}));
+    editor->filesDropped(juce::StringArray{file.getFullPathName()}, 0, 0);
+    EXPECT_EQ(host.plugin->state().layout.name, "ring3");
+    file.replaceWithText("{}");
+    editor->open(file);
+    editor->refresh();
+    EXPECT_EQ(host.plugin->state().layout.name, "ring3");
+    file.deleteFile();
+}
+
+TEST(PluginEditor, RulesAreSaidInWords) {
+    auto state = newPluginState();
+    NoteRule rule;
+    rule.x = 0.25;
+    EXPECT_EQ(wordsOf(rule, state.scene), "strikes " + juce::String{state.scene.materials[0].name} + " at 25 %, 50 %");
+    rule.kind = NoteKind::push;
+    rule.object = "ball";
+    rule.atFullVelocity = {0.0, 500.0};
+    EXPECT_EQ(wordsOf(rule, state.scene), "pushes ball by 0.0, 500.0 N s");
+    EXPECT_EQ(wordsOf(ControllerRule{7, "level"}), "moves Level over its whole range");
 }
 
 TEST(PluginEditor, EditsReachTheProcessorAndItsHost) {

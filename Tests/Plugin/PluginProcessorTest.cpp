@@ -57,6 +57,16 @@ TEST(PluginProcessor, LiveIsTheBounce) {
     GTEST_SKIP() << "this machine is too busy to be live";
 }
 
+TEST(PluginProcessor, HostsSeeTheParametersInTheOrderOfTheTableAndInGroups) {
+    TestHost host;
+    const auto& parameters = host.plugin->getParameters();
+    ASSERT_EQ(parameters.size(), static_cast<int>(parameterCount));
+    for (int i = 0; i < parameters.size(); ++i) EXPECT_EQ(parameters[i], &host.plugin->parameter(static_cast<Parameter>(i)));
+    juce::StringArray groups;
+    for (const auto* group : host.plugin->getParameterTree().getSubgroups(false)) groups.add(group->getName());
+    EXPECT_EQ(groups.joinIntoString(", "), "Panning, World, Strikes by notes");
+}
+
 TEST(PluginProcessor, AnyRateAndAnyBlockIsFiniteAndWithinFullScale) {
     TestHost host;
     Random random{1};

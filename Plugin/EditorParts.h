@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the parts of the editor share: words, grounds, distances.
+#pragma once
+#include "Host/Views/Look.h"
+#include <string_view>
+
+namespace physvib {
+
+constexpr int panelInset = 12, panelGap = 8;
+
+inline juce::String words(std::string_view utf8) { return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size())); }
+
+/// A rounded ground. M.
+inline void fillPanel(juce::Graphics& g, const juce::Component& component, juce::Rectangle<int> area) {
+    g.setColour(shade(component, Shade::panel));
+    g.fillRoundedRectangle(area.toFloat(), 8.0f);
+}
+
+} // namespace physvib

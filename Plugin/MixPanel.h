@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The plug-in's mix: a strip per enchanter, and behind them the level of all and the limiter.
+#pragma once
+#include "Host/Views/StripParts.h"
+#include "PluginProcessor.h"
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace physvib {
+
+/// Tells what a person has done with the state; what cannot be done is a line for them.
+struct MixHands {
+    std::function<void(const std::function<void(PluginState&)>&)> edit;
+    std::function<void(const juce::String&)> report;
+};
+
+/// M only.
+class MixStrip final : public juce::Component {
+public:
+    static constexpr int width = 80;
+
+    MixStrip(const MixHands& hands, int strip, const juce::String& label);
+    void take(const PluginState& state);
+    void update(float peak, bool isConnected);
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    void change(const std::function<void(Strip&)>& how);
+    void askDelay();
+    void askActuator();
+    void chooseActuator(const std::string& nameOrPath);
+    void equalise(bool on);
+
+    const MixHands& hands_;
+    const std::size_t index_;
+    const juce::String label_;
+    Strip strip_;
+    EnchanterDescription enchanter_;
+    bool isSilent_ = false, isEqualised_ = false, isConnected_ = true;
+    float hold_ = 0.0f;
+    double holdUntilMs_ = 0.0;
+    PeakMeter meter_;
+    juce::Slider fader_;
+    CeilingHandle ceiling_;
+    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"}, actuator_;
+    juce::Label level_, most_;
+    std::unique_ptr<juce::FileChooser> chooser_;
+};
+
+class MixPanel final : public juce::Component {
+public:
+    MixPanel(PluginProcessor& plugin, MixHands hands);
+    void take(const PluginState& state);
+    void update(const ChannelMeters& meters);
+    int wishedWidth() const; ///< that shows all strips
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    const MixHands hands_;
+    juce::Viewport viewport_;
+    juce::Component row_;
+    std::vector<std::unique_ptr<MixStrip>> strips_;
+    juce::StringArray labels_;
+    juce::Slider level_;
+    juce::SliderParameterAttachment levelAttachment_;
+    juce::TextButton limiter_{"Limiter"};
+    float limiterGain_ = 1.0f;
+    juce::Rectangle<int> levelName_, levelValue_, limiterBar_, limiterValue_;
+};
+
+} // namespace physvib

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A file of one's own into what an instance plays: a scene, a layout, or a session with its desk.
+#pragma once
+#include "Files/PluginState.h"
+#include "Files/Result.h"
+#include <filesystem>
+#include <string>
+
+namespace physvib {
+
+struct OpenedFile {
+    PluginState state;
+    std::string note; ///< a line for people on what of the file is not played here; empty: nothing
+};
+
+/// `state` with the scene or the layout of that file, or as a saved session left its desk; one line if it is none of them or
+/// wrong. M only.
+Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state);
+
+} // namespace physvib

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The plug-in's mix: trims, mutes, solos, polarity, delays, ceilings and equalisers, in a bounce, live, and while it plays.
+#include "PluginTesting.h"
+#include "Files/ActuatorFile.h"
+#include "Files/ReadFile.h"
+#include "Host/OfflineRender.h"
+#include "Physics/SceneRun.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+Strip strip(double gainDb, double delayMs, double ceilingDb, bool inverted = false) {
+    Strip s;
+    s.gainDb = gainDb;
+    s.delayMs = delayMs;
+    s.ceilingDb = ceilingDb;
+    s.isInverted = inverted;
+    return s;
+}
+
+/// A new instance with something of everything.
+PluginState mixedState() {
+    PluginState s = newPluginState();
+    s.strips = {strip(0.0, 0.0, 0.0), strip(6.0, 0.0, -12.0), strip(-3.0, 2.5, 0.0, true), strip(6.0, 50.0, -30.0)}; // C and D are struck first
+    s.strips[0].isMuted = true;
+    const auto actuator = findActuator("lra-205");
+    s.equalised[2] = {actuator.value.resonator(), *actuator.value.band};
+    return s;
+}
+
+/// The same without a session or a host: the offline renderer, told the mix at time 0.
+Samples renderedMix(const PluginState& s, std::int64_t frames) {
+    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / 48000 + 1);
+    std::vector<RenderControl> controls;
+    std::array<ToldStrip, limits::maxEnchanters> told{};
+    tellStrips(told, s.strips, [&controls](const RenderControl& c) { return controls.push_back(c), true; });
+    const RendererSettings settings{.sampleRateHz = 48000, .channels = enchantersOf(s), .panner = pannerOf(s, PanningLaw::linear, 1.0), .limiterEnabled = s.limiterEnabled, .equalised = s.equalised};
+    Samples signal(static_cast<std::size_t>(enchantersOf(s)));
+    renderOffline(made.events, {settings, frames, 256, controls}, [&signal](const float* const* block, int n) {
+        for (std::size_t j = 0; j < signal.size(); ++j) signal[j].insert(signal[j].end(), block[j], block[j] + n);
+        return true;
+    });
+    return signal;
+}
+
+float loudest(const std::vector<float>& channel) { return peakOf(Samples{channel}); }
+
+TEST(PluginMix, ABounceIsTheRenderedMixInEveryTake) {
+    TestHost host;
+    auto state = mixedState();
+    state.transport = TransportMode::restartOnPlay;
+    ASSERT_TRUE(host.plugin->apply(state));
+    host.plugin->parameter(Parameter::level).setValue(1.0f);
+    const auto expected = renderedMix(state, 48000);
+    host.prepare(48000, 512);
+    host.playHead.isThere = true;
+    for (int take = 0; take < 4; ++take) { // the third is the first one's session again
+        Samples signal, rest;
+        host.playHead.isPlaying = true;
+        const int latency = host.plugin->getLatencySamples();
+        host.play(48000 + latency, signal);
+        EXPECT_TRUE(later(signal, latency) == expected) << take;
+        host.playHead.isPlaying = false;
+        host.play(24000, rest);
+    }
+    EXPECT_EQ(loudest(expected[0]), 0.0f) << "muted";
+    EXPECT_LE(loudest(expected[3]), std::pow(10.0f, -30.0f / 20.0f) * 1.0001f) << "its ceiling";
+    EXPECT_GT(loudest(expected[2]) * loudest(expected[3]), 0.0f);
+}
+
+TEST(PluginMix, LiveIsTheBounce) {
+    TestHost host;
+    ASSERT_TRUE(host.plugin->apply(mixedState()));
+    host.prepare(48000, 480);
+    Samples bounce;
+    host.play(48000, bounce);
+    EXPECT_GT(loudest(bounce[2]) * loudest(bounce[3]), 0.0f);
+    for (int attempt = 0; attempt < 5; ++attempt) {
+        host.prepare(48000, 480, false);
+        Samples live;
+        for (int i = 0; i < 100; ++i) { // in real time: the world is stepped by a thread
+            host.play(480, live);
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        }
+        if (const auto status = host.plugin->takes().status(); status.late > 0 || status.slippedNs > 0) continue;
+        EXPECT_TRUE(live == bounce);
+        return;
+    }
+    GTEST_SKIP() << "this machine is too busy to be live";
+}
+
+TEST(PluginMix, AFaderIsFeltLLaterAndTheTakeGoesOn) {
+    TestHost still, moved;
+    for (auto* host : {&still, &moved}) host->prepare(48000, 512);
+    const int latency = still.plugin->getLatencySamples();
+    constexpr std::int64_t before = 94 * 512, after = 48000;
+    Samples a, b;
+    still.play(before + after, a);
+    moved.play(before, b);
+    auto state = moved.plugin->state();
+    state.strips[0].gainDb = leastStripDb;
+    state.strips[3].isInverted = true;
+    moved.plugin->edit(state);
+    moved.play(after, b);
+    EXPECT_EQ(moved.plugin->takes().status().take, 1) << "the world goes on";
+    EXPECT_TRUE(a[1] == b[1] && a[2] == b[2]);
+    const auto felt = static_cast<std::size_t>(before + latency), ramped = felt + 2 * 480 + 64;
+    for (std::size_t n = 0; n < a[0].size(); ++n) {
+        if (n < felt - 64) ASSERT_TRUE(a[0][n] == b[0][n] && a[3][n] == b[3][n]) << n;
+        if (n > ramped) ASSERT_TRUE(b[0][n] == 0.0f && b[3][n] == -a[3][n]) << n;
+    }
+}
+
+TEST(PluginMix, ASoloSilencesTheOthersAlsoInTheTakesThatFollow) {
+    TestHost host;
+    host.prepare(48000, 512);
+    auto state = host.plugin->state();
+    state.strips[1].isSolo = true;
+    host.plugin->edit(state);
+    for (const bool again : {false, true}) {
+        if (again) host.prepare(48000, 512);
+        Samples signal;
+        host.play(96000, signal);
+        EXPECT_GT(loudest(signal[1]), 0.0f);
+        for (const std::size_t j : {0u, 2u, 3u}) EXPECT_EQ(loudest(signal[j]), 0.0f) << j;
+    }
+}
+
+TEST(PluginMix, TheLevelStandsOnTopOfTheTrims) {
+    TestHost host;
+    auto state = mixedState();
+    state.limiterEnabled = false;
+    ASSERT_TRUE(host.plugin->apply(state));
+    host.prepare(48000, 512);
+    const int latency = host.plugin->getLatencySamples();
+    for (const auto& [level, shift] : {std::pair{1.0f, 0.0}, {0.9f, -6.0}, {0.0f, 2.0 * leastStripDb}}) { // the least is silence
+        auto& parameter = host.plugin->parameter(Parameter::level);
+        parameter.setValue(level);
+        EXPECT_NEAR(std::max(parameter.value(), leastStripDb), std::max(shift, leastStripDb), 0.01);
+        host.prepare(48000, 512);
+        Samples signal;
+        host.play(48000 + latency, signal);
+        auto expected = renderedMix(state, 48000);
+        const double gain = gainOfLevel(parameter.value());
+        const auto played = later(signal, latency);
+        for (std::size_t j = 0; j < expected.size(); ++j)
+            for (std::size_t n = 0; n < expected[j].size(); ++n) ASSERT_NEAR(played[j][n], gain * expected[j][n], 1e-6) << j << ' ' << n;
+    }
+}
+
+TEST(PluginMix, EnchantersThatComeGetTheLowestCeiling) {
+    TestHost host;
+    auto state = mixedState();
+    state.layout = presetLayout("phone2");
+    ASSERT_TRUE(host.plugin->apply(state));
+    EXPECT_EQ(host.plugin->state().strips.size(), 2u);
+    state = host.plugin->state();
+    state.layout = presetLayout("phone4");
+    ASSERT_TRUE(host.plugin->apply(state));
+    const auto strips = host.plugin->state().strips;
+    ASSERT_EQ(strips.size(), 4u);
+    EXPECT_EQ(strips[3].ceilingDb, -12.0);
+    EXPECT_EQ(strips[3].gainDb, 0.0);
+}
+
+TEST(PluginMix, ANewInstanceAndAChunkOfVersion1SoundAsWithoutAMix) {
+    const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Files/plugin-state-1.json", 1'000'000);
+    ASSERT_TRUE(text) << text.error;
+    TestHost host;
+    host.plugin->setStateInformation(text.value.data(), static_cast<int>(text.value.size()));
+    ASSERT_EQ(host.plugin->trouble(), "");
+    host.plugin->parameter(Parameter::level).setValue(1.0f);
+    auto old = host.plugin->state(), fresh = newPluginState();
+    old.transport = TransportMode::free;
+    for (auto& state : {old, fresh}) {
+        ASSERT_TRUE(host.plugin->apply(state));
+        host.prepare(48000, 512);
+        const int latency = host.plugin->getLatencySamples();
+        Samples signal;
+        host.play(96000 + latency, signal);
+        auto plain = state;
+        plain.strips.clear();
+        plain.equalised = {};
+        auto played = later(signal, latency);
+        played.resize(static_cast<std::size_t>(enchantersOf(state)));
+        EXPECT_TRUE(played == renderedMix(plain, 96000)) << state.scene.name;
+        EXPECT_GT(peakOf(played), 0.01f);
+    }
+}
+
+} // namespace
+} // namespace physvib

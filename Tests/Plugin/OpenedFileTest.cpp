@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of one's own in the plug-in: a scene, a layout, a mixer's session; what is wrong leaves everything as it was.
+#include "OpenedFile.h"
+#include "PluginTesting.h"
+#include "Files/AtomicFile.h"
+#include "Files/SceneCatalogue.h"
+#include "Files/SceneFile.h"
+#include "Files/SessionFile.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+class PluginFiles : public testing::Test {
+protected:
+    std::string write(const std::string& name, const std::string& text) {
+        const auto file = folder_.getChildFile(name);
+        EXPECT_TRUE(file.replaceWithText(text));
+        return file.getFullPathName().toStdString();
+    }
+    void SetUp() override { ASSERT_TRUE(folder_.createDirectory().wasOk()); }
+    void TearDown() override { folder_.deleteRecursively(); }
+    TestHost host_;
+
+private:
+    const juce::File folder_ = juce::File::createTempFile("physvib");
+};
+
+SavedSession sampleSession() {
+    SavedSession session;
+    session.run.stepsPerSecond = 200;
+    session.channels = 2;
+    session.limiterEnabled = false;
+    Mix mix;
+    mix.scene = std::make_shared<const Scene>(*findBuiltInScene("drop"));
+    mix.seed = 11;
+    mix.layout = presetLayout("phone2");
+    mix.law = PanningLaw::energy;
+    mix.exponent = 2.0;
+    mix.levelDb = -20.0;
+    mix.strips.resize(2);
+    mix.strips[0].gainDb = -6.0;
+    mix.strips[0].output = 7;
+    mix.strips[1].ceilingDb = -9.0;
+    session.panner = mix.panner();
+    session.equalised[1] = {{205.0, 12.0}, {160.0, 260.0}};
+    SceneTake take;
+    take.scene = mix.scene;
+    take.seed = mix.seed;
+    session.log.takes.push_back(take);
+    session.mix = mix;
+    return session;
+}
+
+TEST_F(PluginFiles, ASceneIsPlayedAndNotesThatItHasNoMaterialForAreLeftOut) {
+    auto state = host_.plugin->state();
+    NoteRule kept, lost;
+    kept.material = 1;
+    lost.note = 1;
+    lost.material = 2;
+    state.notes = {kept, lost};
+    Scene own = state.scene;
+    own.name = "own";
+    own.bodies.clear();
+    own.joints.clear();
+    own.script.clear();
+    own.materials = {state.scene.materials[1]};
+    const auto opened = openFile(write("scene.json", sceneJson(own)), state);
+    ASSERT_TRUE(opened) << opened.error;
+    EXPECT_EQ(opened.value.state.scene.name, "own");
+    ASSERT_EQ(opened.value.state.notes.size(), 1u);
+    EXPECT_EQ(opened.value.state.notes[0].material, 0) << "the same, at its new place";
+    EXPECT_TRUE(host_.plugin->edit(opened.value.state));
+    EXPECT_EQ(host_.plugin->trouble(), "");
+}
+
+TEST_F(PluginFiles, ALayoutKeepsTheStripsOfThoseThatAreThere) {
+    auto state = host_.plugin->state();
+    state.strips[0].gainDb = -3.0;
+    const auto opened = openFile(write("layout.json", layoutJson(presetLayout("ring3"))), state);
+    ASSERT_TRUE(opened) << opened.error;
+    EXPECT_EQ(opened.value.state.layout.name, "ring3");
+    ASSERT_EQ(opened.value.state.strips.size(), 3u);
+    EXPECT_EQ(opened.value.state.strips[0].gainDb, -3.0);
+}
+
+TEST_F(PluginFiles, ASessionBringsItsDeskSeedActuatorsAndSteps) {
+    const auto session = sampleSession();
+    const auto opened = openFile(write("session.json", sessionJson(session)), host_.plugin->state());
+    ASSERT_TRUE(opened) << opened.error;
+    EXPECT_EQ(opened.value.note, "");
+    host_.plugin->open(opened.value.state);
+    ASSERT_EQ(host_.plugin->trouble(), "");
+    const auto now = host_.plugin->state();
+    EXPECT_EQ(now.scene.name, "drop");
+    EXPECT_EQ(now.seed, 11u);
+    EXPECT_EQ(now.stepsPerSecond, 200);
+    EXPECT_EQ(now.layout.name, "phone2");
+    EXPECT_FALSE(now.limiterEnabled);
+    EXPECT_EQ(now.equalised, session.equalised);
+    ASSERT_EQ(now.strips.size(), 2u);
+    EXPECT_EQ(now.strips[0].gainDb, -6.0);
+    EXPECT_EQ(now.strips[0].output, 0) << "channel j is enchanter j";
+    EXPECT_EQ(now.strips[1].ceilingDb, -9.0);
+    EXPECT_EQ(host_.plugin->parameter(Parameter::law).value(), static_cast<double>(PanningLaw::energy));
+    EXPECT_NEAR(host_.plugin->parameter(Parameter::exponent).value(), 2.0, 1e-6);
+    EXPECT_NEAR(host_.plugin->parameter(Parameter::level).value(), -20.0, 1e-4);
+}
+
+TEST_F(PluginFiles, WhatOfASessionIsNotPlayedIsSaid) {
+    auto session = sampleSession();
+    session.shaping.gain = 2.0;
+    const auto opened = openFile(write("session.json", sessionJson(session)), host_.plugin->state());
+    ASSERT_TRUE(opened) << opened.error;
+    EXPECT_EQ(opened.value.note, "session.json: its method, timing and recordings are not played here");
+}
+
+TEST_F(PluginFiles, WhatIsWrongIsNamed) {
+    const auto state = host_.plugin->state();
+    const auto other = write("other.json", "{ \"answer\": 42 }"), broken = write("scene.json", "{ \"physvib_scene\": 1 }");
+    EXPECT_EQ(openFile(other, state).error, other + ": expected a scene, a layout or a saved session");
+    EXPECT_NE(openFile(broken, state).error.find(broken + ": "), std::string::npos);
+}
+
+} // namespace
+} // namespace physvib
