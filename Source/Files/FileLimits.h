@@ -12,6 +12,7 @@ constexpr std::size_t maxLayoutFileBytes = 1'000'000;     // 64 enchanters fill 
 constexpr std::size_t maxSceneFileBytes = 4'000'000;      // 4096 bodies of two fixtures fill about half of it
 constexpr std::size_t maxSessionFileBytes = 64'000'000;   // 100,000 inputs of a hundred bytes, and scenes
 constexpr std::size_t maxTakeBodies = 1'000'000;          // of all takes of a session, each checked and built: 250 starts of the largest scene
+constexpr std::int64_t maxSessionNs = 1'000'000'000'000'000; // 11.6 days: the most that a number of a file, a double, tells to the nanosecond
 constexpr std::size_t maxMaterialsFileBytes = 1'000'000;  // 256 materials fill about 40 kB
 constexpr std::size_t maxProtocolFileBytes = 1'000'000;   // a study of many conditions fills a few kB
 constexpr std::size_t maxActuatorFileBytes = 100'000;    // a profile fills less than 1 kB

@@ -13,6 +13,7 @@ struct PlacedBody {
     const BodyDescription* body; ///< of the scene
     std::string path;            ///< as scene files spell it
     int times = 1;
+    bool isLive = false; ///< of a live input
 };
 
 inline std::vector<PlacedBody> placedBodies(const Scene& scene) {
@@ -24,7 +25,7 @@ inline std::vector<PlacedBody> placedBodies(const Scene& scene) {
             bodies.push_back({&spawn->body, detail::itemPath("script", i) + ".body", scene.script[i].times});
     for (std::size_t i = 0; i < scene.inputs.size(); ++i)
         if (const auto* spawn = std::get_if<SpawnAction>(&scene.inputs[i].action))
-            bodies.push_back({&spawn->body, detail::itemPath("inputs", i) + ".body"});
+            bodies.push_back({&spawn->body, detail::itemPath("inputs", i) + ".body", 1, true});
     return bodies;
 }
 

@@ -4,6 +4,7 @@
 #include "Physics/SceneCast.h"
 #include "Physics/SceneReferences.h"
 #include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -20,13 +21,16 @@ class Cameras {
 public:
     explicit Cameras(const Scene& scene)
         : scene_(scene) {
-        for (const ScriptInput& input : scene.script) note(input.action);
+        for (const ScriptInput& input : scene.script)
+            if (!std::holds_alternative<SpawnAction>(input.action)) note(input.action);
         for (const LiveInput& input : scene.inputs) note(input.action);
+        bearers_.clear();
     }
 
     /// Of every repetition: each has a name of its own for camera and material actions.
-    std::string check(const PlacedBody& placed) const {
+    std::string check(const PlacedBody& placed) {
         const SpawnAction spawn{*placed.body, {}};
+        if (placed.isLive) count(placed.body->name);
         for (int k = 0; k < placed.times; ++k) {
             const BodyDescription body = spawnedBody(spawn, k, placed.times);
             for (int i = 0; i < static_cast<int>(body.fixtures.size()); ++i)
@@ -37,11 +41,24 @@ public:
     }
 
 private:
+    // A name may go on to another body, of which nothing has been said yet.
+    struct Bearer {
+        std::string_view name;
+        int number; // of those that live inputs have spawned by that name; what is said before the first is said of it
+        auto operator<=>(const Bearer&) const = default;
+    };
+    void count(std::string_view name) { ++bearers_[name]; }
+    Bearer bearer(std::string_view name) const {
+        const auto found = bearers_.find(name);
+        return {name, found == bearers_.end() ? 1 : found->second};
+    }
+
     void note(const Action& action) {
+        if (const auto* spawn = std::get_if<SpawnAction>(&action)) count(spawn->body.name);
         if (const auto* camera = std::get_if<CameraAction>(&action))
-            if (camera->isOn) switchedOn_.emplace(camera->body, camera->fixture);
+            if (camera->isOn) switchedOn_.emplace(bearer(camera->body), camera->fixture);
         if (const auto* change = std::get_if<MaterialAction>(&action))
-            changes_[change->body].push_back(change);
+            changes_[bearer(change->body)].push_back(change);
     }
 
     static const FixtureDescription& fixtureOf(const BodyDescription& body, int index) {
@@ -54,8 +71,8 @@ private:
     }
 
     bool mayBeCamera(const BodyDescription& body, int fixture) const {
-        return fixtureOf(body, fixture).isCamera || switchedOn_.contains({body.name, everyFixture}) ||
-               switchedOn_.contains({body.name, fixture});
+        return fixtureOf(body, fixture).isCamera || switchedOn_.contains({bearer(body.name), everyFixture}) ||
+               switchedOn_.contains({bearer(body.name), fixture});
     }
 
     std::string checkCamera(const BodyDescription& body, int index, const std::string& path) const {
@@ -74,7 +91,7 @@ private:
 
     bool mayBeSilent(const BodyDescription& body, int index) const {
         if (isSilent(fixtureOf(body, index).material)) return true;
-        const auto changes = changes_.find(body.name);
+        const auto changes = changes_.find(bearer(body.name));
         if (changes == changes_.end()) return false;
         return std::ranges::any_of(changes->second, [&](const MaterialAction* change) {
             const bool isMeant = change->fixture == everyFixture || change->fixture == index;
@@ -92,14 +109,15 @@ private:
     }
 
     const Scene& scene_;
-    std::set<std::pair<std::string_view, int>> switchedOn_;
-    std::map<std::string_view, std::vector<const MaterialAction*>> changes_;
+    std::map<std::string_view, int> bearers_;
+    std::set<std::pair<Bearer, int>> switchedOn_;
+    std::map<Bearer, std::vector<const MaterialAction*>> changes_;
 };
 
 } // namespace
 
 std::string checkCameras(const Scene& scene) {
-    const Cameras cameras(scene);
+    Cameras cameras(scene);
     for (const PlacedBody& placed : placedBodies(scene))
         if (std::string fault = cameras.check(placed); !fault.empty()) return fault;
     return {};

@@ -315,7 +315,7 @@ template <>
 struct FieldsOf<LiveInput> {
     template <class V>
     static void visit(V& v) {
-        v.field("time_s", &LiveInput::timeSeconds, upTo(sceneLimits::maxScriptSeconds), Need::required);
+        v.field("time_s", &LiveInput::timeSeconds, upTo(sceneLimits::maxLiveSeconds), Need::required);
         v.variant("input", &LiveInput::action, actionNames);
     }
 };

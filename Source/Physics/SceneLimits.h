@@ -25,6 +25,7 @@ constexpr double maxSpringHz = 1000.0;
 constexpr double maxDampingRatio = 100.0;
 constexpr double minScriptPeriodSeconds = 0.01;
 constexpr double maxScriptSeconds = 86'400.0;
+constexpr double maxLiveSeconds = 1'000'000.0; // 11.6 days: numbers of a file tell nanoseconds apart
 constexpr double maxDriveGain = 1.0e6;
 constexpr double minNormalisation = 1.0e-6; // s/m
 constexpr double maxNormalisation = 1.0e6;

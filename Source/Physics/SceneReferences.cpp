@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string_view>
 
 namespace physvib {
@@ -23,15 +24,12 @@ class References {
 public:
     explicit References(const Scene& scene)
         : scene_(scene)
-        , cast_(sceneCast(scene)) {
+        , cast_(scriptedCast(scene)) {
         for (const JointDescription& joint : scene.joints) joints_.emplace(joint.name, &joint);
     }
 
     std::string check() {
-        for (const BodyDescription& body : cast_)
-            if (!bodies_.emplace(body.name, &body).second)
-                return "bodies: expected names of their own, found \"" + body.name + "\" twice";
-        std::string fault;
+        std::string fault = nameBodies();
         for (std::size_t i = 0; i < scene_.joints.size() && fault.empty(); ++i)
             fault = checkJoint(scene_.joints[i], itemPath("joints", i));
         for (std::size_t i = 0; i < scene_.script.size() && fault.empty(); ++i)
@@ -42,6 +40,25 @@ public:
     }
 
 private:
+    // What an input has spawned and another has removed leaves its name to the next.
+    std::string nameBodies() {
+        const auto twice = [](const std::string& name) { return "bodies: expected names of their own, found \"" + name + "\" twice"; };
+        for (const BodyDescription& body : cast_)
+            if (!bodies_.emplace(body.name, &body).second) return twice(body.name);
+        std::set<std::string_view> there, gone;
+        for (const LiveInput& input : scene_.inputs) {
+            if (const auto* removal = std::get_if<RemoveAction>(&input.action); removal != nullptr && there.erase(removal->body) > 0) gone.insert(removal->body);
+            const auto* spawn = std::get_if<SpawnAction>(&input.action);
+            if (spawn == nullptr) continue;
+            const BodyDescription& body = spawn->body;
+            const auto [known, isNew] = bodies_.emplace(body.name, &body);
+            if (!isNew && gone.erase(body.name) == 0) return twice(body.name);
+            if (body.fixtures.size() > known->second->fixtures.size()) known->second = &body;
+            there.insert(body.name);
+        }
+        return {};
+    }
+
     std::string checkJoint(const JointDescription& joint, const std::string& path) const {
         if (!bodies_.contains(joint.bodyA)) return missing(path + ".body_a", "body", joint.bodyA);
         if (!bodies_.contains(joint.bodyB)) return missing(path + ".body_b", "body", joint.bodyB);

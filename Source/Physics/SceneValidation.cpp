@@ -8,6 +8,7 @@
 #include "Physics/SceneReferences.h"
 #include "Physics/ShapeGeometry.h"
 #include <cmath>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -31,21 +32,50 @@ std::size_t edgesOf(const BodyDescription& body) {
     return edges;
 }
 
-/// With the repetitions of the script.
-std::string checkTotals(const Scene& scene, const std::vector<PlacedBody>& placed) {
-    std::size_t bodies = 0, fixtures = 0, edges = 0, actions = 0;
-    for (const PlacedBody& p : placed) {
-        const auto times = static_cast<std::size_t>(p.times);
+struct Totals {
+    std::size_t bodies = 0, fixtures = 0, edges = 0;
+    void add(const BodyDescription& body, std::size_t times = 1) {
         bodies += times;
-        fixtures += times * p.body->fixtures.size();
-        edges += times * edgesOf(*p.body);
+        fixtures += times * body.fixtures.size();
+        edges += times * edgesOf(body);
     }
-    for (const ScriptInput& input : scene.script) actions += static_cast<std::size_t>(input.times);
-    for (const std::string& fault :
-         {atMost("bodies", maxBodies, bodies), atMost("fixtures", maxFixtures, fixtures),
-          atMost("chain edges", maxChainEdges, edges), atMost("script actions", maxActions, actions)})
-        if (!fault.empty()) return fault;
-    return {};
+    void take(const BodyDescription& body) {
+        bodies -= 1;
+        fixtures -= body.fixtures.size();
+        edges -= edgesOf(body);
+    }
+    std::string fault() const {
+        for (std::string fault : {atMost("bodies", maxBodies, bodies), atMost("fixtures", maxFixtures, fixtures), atMost("chain edges", maxChainEdges, edges)})
+            if (!fault.empty()) return fault;
+        return {};
+    }
+};
+
+/// With the repetitions of the script; of what live inputs spawn, as much as is there at once.
+std::string checkTotals(const Scene& scene) {
+    Totals totals;
+    std::size_t actions = 0;
+    for (const BodyDescription& body : scene.bodies) totals.add(body);
+    for (const ScriptInput& input : scene.script) {
+        actions += static_cast<std::size_t>(input.times);
+        if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) totals.add(spawn->body, static_cast<std::size_t>(input.times));
+    }
+    std::string fault = totals.fault();
+    if (fault.empty()) fault = atMost("script actions", maxActions, actions);
+    std::map<std::string_view, const BodyDescription*> spawned;
+    for (std::size_t i = 0; i < scene.inputs.size() && fault.empty(); ++i) {
+        if (const auto* removal = std::get_if<RemoveAction>(&scene.inputs[i].action))
+            if (const auto gone = spawned.find(removal->body); gone != spawned.end()) {
+                totals.take(*gone->second);
+                spawned.erase(gone);
+            }
+        const auto* spawn = std::get_if<SpawnAction>(&scene.inputs[i].action);
+        if (spawn == nullptr) continue;
+        totals.add(spawn->body);
+        spawned.emplace(spawn->body.name, &spawn->body);
+        fault = totals.fault();
+    }
+    return fault;
 }
 
 template <class T>
@@ -134,7 +164,7 @@ std::string validateMaterials(const std::vector<Material>& materials) {
 std::string validate(const Scene& scene) {
     if (std::string fault = checkRanges(scene); !fault.empty()) return fault;
     const auto placed = placedBodies(scene);
-    if (std::string fault = checkTotals(scene, placed); !fault.empty()) return fault;
+    if (std::string fault = checkTotals(scene); !fault.empty()) return fault;
     for (std::string fault : {checkUnique("materials", scene.materials), checkUnique("bodies", scene.bodies),
                               checkUnique("joints", scene.joints)})
         if (!fault.empty()) return fault;

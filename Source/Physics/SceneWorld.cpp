@@ -12,6 +12,9 @@ namespace physvib {
 
 namespace {
 
+// How long a removed body is kept: hits that it made are told until ReleaseImpacts::latestNs after them, some steps later.
+constexpr double heldSeconds = 0.5;
+
 Vector turnedBy(const Vector& v, double angleRadians) {
     const double c = std::cos(angleRadians), s = std::sin(angleRadians);
     return {c * v.x - s * v.y, s * v.x + c * v.y};
@@ -27,23 +30,24 @@ SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& 
     , script_(scene_, clock)
     , gravity_(scene.gravityMetresPerSecond2)
     , world_(box2dVector(scene.gravityMetresPerSecond2))
-    , materials_(scene.materials) {
+    , materials_(scene.materials)
+    , lastInputSeconds_(scene.inputs.empty() ? 0.0 : scene.inputs.back().timeSeconds) {
     world_.SetContactFilter(&bound_);
     build();
     actOnScript(0);
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) startHalfAStepBehind(*bodies_[i]);
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) startHalfAStepBehind(*bodies_.at(i).body);
 }
 
 void SceneWorld::build() {
     const auto cast = scriptedCast(scene_);
     for (std::size_t i = 0; i < cast.size(); ++i) {
         const bool isThere = i < scene_.bodies.size();
-        b2Body& body = add(cast[i], isThere ? startOf(cast[i]) : describedStart(cast[i]));
-        if (!isThere) body.SetEnabled(false);
+        const Body& body = add(cast[i], isThere ? startOf(cast[i]) : describedStart(cast[i]));
+        if (!isThere) body.body->SetEnabled(false);
     }
+    scripted_ = nextBody_;
     for (const JointDescription& joint : scene_.joints)
-        joints_.emplace(joint.name, &createJoint(world_, joint, *bodies_[bodyNames_.at(joint.bodyA)],
-                                                 *bodies_[bodyNames_.at(joint.bodyB)]));
+        joints_.emplace(joint.name, &createJoint(world_, joint, *find(joint.bodyA)->body, *find(joint.bodyB)->body));
     std::size_t next = scene_.bodies.size();
     for (const ScriptInput& input : scene_.script)
         if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) {
@@ -52,16 +56,13 @@ void SceneWorld::build() {
         }
 }
 
-b2Body& SceneWorld::add(const BodyDescription& body, const BodyStart& start) {
+SceneWorld::Body& SceneWorld::add(const BodyDescription& body, const BodyStart& start) {
     std::vector<b2Fixture*> created;
     b2Body& made = createBody(world_, scene_, body, start, clock_.stepSeconds(), created);
-    firstFixtures_.push_back(fixtures_.size());
-    for (std::size_t j = 0; j < created.size(); ++j) fixtures_.push_back({created[j], bodies_.size(), j});
-    bodyNames_.emplace(body.name, bodies_.size());
-    bodies_.push_back(&made);
-    cast_.push_back(body);
-    now_.push_back(body);
-    return made;
+    bodyNames_.emplace(body.name, nextBody_);
+    Body& added = bodies_.emplace(nextBody_++, Body{&made, nextFixture_, std::move(created), body, body}).first->second;
+    nextFixture_ += added.fixtures.size();
+    return added;
 }
 
 BodyStart SceneWorld::startOf(const BodyDescription& body) {
@@ -87,39 +88,58 @@ void SceneWorld::holdDevice() {
     const b2Vec2 gravity = box2dVector({hold_.factor * turned.x, hold_.factor * turned.y});
     if (gravity == world_.GetGravity()) return;
     world_.SetGravity(gravity);
-    for (b2Body* body : bodies_) body->SetAwake(true); // sleeping bodies would not notice
+    for (const auto& [number, body] : bodies_) body.body->SetAwake(true); // sleeping bodies would not notice
 }
 
-b2Body* SceneWorld::find(std::string_view name) const noexcept {
+SceneWorld::Body* SceneWorld::find(std::string_view name) noexcept {
     const auto place = bodyNames_.find(name);
-    return place == bodyNames_.end() ? nullptr : bodies_[place->second];
+    return place == bodyNames_.end() ? nullptr : &bodies_.at(place->second);
+}
+
+b2Body* SceneWorld::findInWorld(std::string_view name) noexcept {
+    Body* const found = find(name);
+    return found == nullptr ? nullptr : found->body;
 }
 
 template <class Change>
 void SceneWorld::forFixtures(const std::string& body, int fixture, Change change) {
-    const auto place = bodyNames_.find(body);
-    if (place == bodyNames_.end()) return;
-    const std::size_t first = firstFixtures_[place->second];
-    for (std::size_t i = 0; i < cast_[place->second].fixtures.size(); ++i)
-        if (fixture == everyFixture || static_cast<std::size_t>(fixture) == i) change(first + i);
+    Body* const meant = find(body);
+    if (meant == nullptr) return;
+    for (std::size_t i = 0; i < meant->fixtures.size(); ++i)
+        if (fixture == everyFixture || static_cast<std::size_t>(fixture) == i) change(*meant, i);
 }
 
-void SceneWorld::setMaterial(std::size_t fixture, int material) {
-    const Part& part = fixtures_[fixture];
-    now_[part.body].fixtures[part.index].material = material;
-    setSurface(*part.fixture, materials_[static_cast<std::size_t>(material)]);
-    setMass(*bodies_[part.body], now_[part.body], scene_);
+void SceneWorld::setMaterial(Body& body, std::size_t fixture, int material) {
+    body.now.fixtures[fixture].material = material;
+    setSurface(*body.fixtures[fixture], materials_[static_cast<std::size_t>(material)]);
+    setMass(*body.body, body.now, scene_);
 }
 
 void SceneWorld::addInput(std::int64_t step, Action action) {
-    const double last = scene_.inputs.empty() ? 0.0 : scene_.inputs.back().timeSeconds;
-    const double seconds = std::max(last, static_cast<double>(step) / clock_.stepsPerSecond);
-    scene_.inputs.push_back({seconds, std::move(action)});
+    lastInputSeconds_ = std::max(lastInputSeconds_, static_cast<double>(step) / clock_.stepsPerSecond);
+    scene_.inputs.push_back({lastInputSeconds_, std::move(action)});
+}
+
+void SceneWorld::forgetDone() {
+    if (2 * nextInput_ < scene_.inputs.size() || nextInput_ == 0) return; // each is moved once, on average
+    scene_.inputs.erase(scene_.inputs.begin(), scene_.inputs.begin() + static_cast<std::ptrdiff_t>(nextInput_));
+    nextInput_ = 0;
 }
 
 bool SceneWorld::act(std::int64_t step) {
+    step_ = step;
+    destroyRemoved(step);
     const bool live = actOnInputs(step);
     return actOnScript(step) || live;
+}
+
+// They have neither contacts nor places in Box2D's tree since they were disabled: the others' order stays as it is.
+void SceneWorld::destroyRemoved(std::int64_t step) {
+    for (; !leaving_.empty() && leaving_.front().step <= step; leaving_.pop_front()) {
+        const auto gone = bodies_.find(leaving_.front().body);
+        world_.DestroyBody(gone->second.body);
+        bodies_.erase(gone);
+    }
 }
 
 bool SceneWorld::actOnInputs(std::int64_t step) {
@@ -157,7 +177,7 @@ bool SceneWorld::apply(const Action& action) {
 }
 
 bool SceneWorld::spawn(const BodyDescription& body) {
-    startHalfAStepBehind(add(body, describedStart(body)));
+    startHalfAStepBehind(*add(body, describedStart(body)).body);
     return true;
 }
 
@@ -177,8 +197,8 @@ bool SceneWorld::act(const HoldAction& action) {
     return false;
 }
 
-bool SceneWorld::act(const ImpulseAction& action) const {
-    b2Body* body = find(action.body);
+bool SceneWorld::act(const ImpulseAction& action) {
+    b2Body* body = findInWorld(action.body);
     if (body == nullptr) return false;
     const b2Vec2 point =
         action.pointMetres ? body->GetWorldPoint(box2dVector(*action.pointMetres)) : body->GetWorldCenter();
@@ -186,8 +206,8 @@ bool SceneWorld::act(const ImpulseAction& action) const {
     return false;
 }
 
-bool SceneWorld::act(const VelocityAction& action) const {
-    b2Body* body = find(action.body);
+bool SceneWorld::act(const VelocityAction& action) {
+    b2Body* body = findInWorld(action.body);
     if (body == nullptr) return false;
     body->SetAwake(true); // also for a velocity of 0
     body->SetLinearVelocity(box2dVector(action.metresPerSecond));
@@ -196,20 +216,23 @@ bool SceneWorld::act(const VelocityAction& action) const {
 }
 
 bool SceneWorld::act(const SpawnAction& action, int repetition) {
-    const std::size_t body = spawned_.at(&action) + static_cast<std::size_t>(repetition);
-    for (std::size_t i = 0; i < cast_[body].fixtures.size(); ++i) {
-        setMaterial(firstFixtures_[body] + i, cast_[body].fixtures[i].material);
-        now_[body].fixtures[i].isCamera = cast_[body].fixtures[i].isCamera;
+    Body& body = bodies_.at(spawned_.at(&action) + static_cast<std::size_t>(repetition));
+    for (std::size_t i = 0; i < body.fixtures.size(); ++i) {
+        setMaterial(body, i, body.described.fixtures[i].material);
+        body.now.fixtures[i].isCamera = body.described.fixtures[i].isCamera;
     }
-    restartBody(*bodies_[body], cast_[body], startOf(cast_[body]));
-    startHalfAStepBehind(*bodies_[body]);
+    restartBody(*body.body, body.described, startOf(body.described));
+    startHalfAStepBehind(*body.body);
     return true;
 }
 
-bool SceneWorld::act(const RemoveAction& action) const {
-    b2Body* body = find(action.body);
-    if (body == nullptr) return false;
-    body->SetEnabled(false);
+bool SceneWorld::act(const RemoveAction& action) {
+    const auto place = bodyNames_.find(action.body);
+    if (place == bodyNames_.end()) return false;
+    bodies_.at(place->second).body->SetEnabled(false);
+    if (place->second < scripted_) return false;
+    leaving_.push_back({step_ + clock_.firstStepAt(heldSeconds), place->second});
+    bodyNames_.erase(place);
     return false;
 }
 
@@ -227,17 +250,15 @@ bool SceneWorld::act(const MotorAction& action) const {
 }
 
 bool SceneWorld::act(const CameraAction& action) {
-    forFixtures(action.body, action.fixture, [&](std::size_t fixture) {
-        const Part& part = fixtures_[fixture];
-        now_[part.body].fixtures[part.index].isCamera = action.isOn;
-    });
+    forFixtures(action.body, action.fixture,
+                [&](Body& body, std::size_t fixture) { body.now.fixtures[fixture].isCamera = action.isOn; });
     return true;
 }
 
 bool SceneWorld::act(const MaterialAction& action) {
     forFixtures(action.body, action.fixture,
-                [&](std::size_t fixture) { setMaterial(fixture, action.material); });
-    if (b2Body* body = find(action.body))
+                [&](Body& body, std::size_t fixture) { setMaterial(body, fixture, action.material); });
+    if (b2Body* body = findInWorld(action.body))
         for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
             edge->contact->ResetFriction(); // contacts keep the values they began with
             edge->contact->ResetRestitution();
@@ -252,22 +273,19 @@ bool SceneWorld::act(const SoundAction& action) {
     return true;
 }
 
-BodyPose SceneWorld::pose(std::size_t index) const noexcept {
-    const b2Body& body = *bodies_[index];
+BodyPose SceneWorld::pose(std::size_t number) const noexcept {
+    const auto found = bodies_.find(number);
+    return found == bodies_.end() ? BodyPose{0.0, 0.0, 0.0, false} : poseOf(*found->second.body);
+}
+
+BodyPose SceneWorld::poseOf(const b2Body& body) noexcept {
     return {body.GetPosition().x, body.GetPosition().y, body.GetAngle(), body.IsEnabled()};
 }
 
-const FixtureDescription& SceneWorld::fixtureNow(std::size_t index) const noexcept {
-    const Part& part = fixtures_[index];
-    return now_[part.body].fixtures[part.index];
-}
-
-const Material& SceneWorld::materialOf(std::size_t fixture) const noexcept {
-    return materials_[static_cast<std::size_t>(fixtureNow(fixture).material)];
-}
-
-const BodyDescription& SceneWorld::bodyOf(std::size_t fixture) const noexcept {
-    return now_[fixtures_[fixture].body];
+SceneWorld::FixtureNow SceneWorld::fixtureNow(const Body& body, std::size_t index) const noexcept {
+    const FixtureDescription& description = body.now.fixtures[index];
+    return {body.firstFixture + index, *body.fixtures[index], description,
+            materials_[static_cast<std::size_t>(description.material)], body.now};
 }
 
 } // namespace physvib

@@ -9,7 +9,7 @@
 #include <box2d/box2d.h>
 #include <cstddef>
 #include <cstdint>
-#include <cstdint>
+#include <deque>
 #include <map>
 #include <random>
 #include <string>
@@ -26,8 +26,9 @@ struct BodyPose {
     bool isPresent = true; ///< false: not spawned yet, or removed
 };
 
-/// All bodies of scriptedCast() exist from the start, so fixtures keep their numbers; those that are not there
-/// (yet) are disabled, which for Box2D means no contacts. What a live input spawns is created when it acts.
+/// All bodies of scriptedCast() exist from the start; those that are not there (yet) are disabled, which for Box2D
+/// means no contacts: the script may want them again. What a live input spawns is created when it acts, under the
+/// numbers that follow, and destroyed soon after it was removed: nobody can name it again. Numbers are never used twice.
 /// Seed 0 starts bodies exactly as described, any other a little beside (see jitteredStart). M only.
 class SceneWorld {
 public:
@@ -43,33 +44,58 @@ public:
     /// have another sound or camera since. Allocates for new bodies only.
     bool act(std::int64_t step);
 
+    /// Drops from scene() the live inputs that have acted, for worlds without end whose inputs are kept elsewhere.
+    void forgetDone();
+
     b2World& world() noexcept { return world_; }
 
     /// How often two bodies passed through each other because there were too many contacts.
     std::uint64_t contactsRefused() const noexcept { return bound_.refused(); }
 
-    const Scene& scene() const noexcept { return scene_; } ///< with all inputs so far
+    const Scene& scene() const noexcept { return scene_; } ///< with all inputs so far, but those forgotten
 
     /// Bodies so far; numbers as in sceneCast().
-    std::size_t bodyCount() const noexcept { return bodies_.size(); }
-    BodyPose pose(std::size_t body) const noexcept;
+    std::size_t bodyCount() const noexcept { return nextBody_; }
+    std::size_t bodiesInBox2d() const noexcept { return bodies_.size(); }
+    BodyPose pose(std::size_t body) const noexcept; ///< of one that is gone: not present
+    /// Calls `use` with number and pose of those that Box2D has, in the order of their numbers.
+    template <class Use>
+    void forAllBodies(Use use) const {
+        for (const auto& [number, body] : bodies_) use(number, poseOf(*body.body));
+    }
 
-    std::size_t fixtureCount() const noexcept { return fixtures_.size(); }
-    const b2Fixture& fixture(std::size_t index) const noexcept { return *fixtures_[index].fixture; }
-
-    /// The fixture, its material and its body as they are now.
-    const FixtureDescription& fixtureNow(std::size_t index) const noexcept;
-    const Material& materialOf(std::size_t fixture) const noexcept;
-    const BodyDescription& bodyOf(std::size_t fixture) const noexcept;
+    /// One fixture, its material and its body as they are now.
+    struct FixtureNow {
+        std::size_t number;
+        const b2Fixture& fixture; // owned by the world, as bodies and joints
+        const FixtureDescription& description;
+        const Material& material;
+        const BodyDescription& body;
+    };
+    /// Calls `use` with every FixtureNow of the world, in the order of their numbers.
+    template <class Use>
+    void forAllFixtures(Use use) const {
+        for (const auto& [number, body] : bodies_)
+            for (std::size_t i = 0; i < body.fixtures.size(); ++i) use(fixtureNow(body, i));
+    }
 
 private:
-    struct Part {
-        b2Fixture* fixture; // owned by the world, as bodies and joints
-        std::size_t body;
-        std::size_t index; // in the body
+    struct Body {
+        b2Body* body;
+        std::size_t firstFixture; // its number
+        std::vector<b2Fixture*> fixtures;
+        BodyDescription described;
+        BodyDescription now; // with the materials and cameras of now
     };
+    struct Leaving {
+        std::int64_t step;
+        std::size_t body;
+    };
+    static BodyPose poseOf(const b2Body& body) noexcept;
+    FixtureNow fixtureNow(const Body& body, std::size_t index) const noexcept;
     void build();
-    b2Body& add(const BodyDescription& body, const BodyStart& start);
+    Body& add(const BodyDescription& body, const BodyStart& start);
+    void destroyRemoved(std::int64_t step);
     bool actOnInputs(std::int64_t step);
     bool actOnScript(std::int64_t step);
     bool apply(const Action& action);
@@ -78,20 +104,21 @@ private:
     void startHalfAStepBehind(b2Body& body) const;
     void setGravity(const Vector& beforeHold);
     void holdDevice();
-    b2Body* find(std::string_view name) const noexcept; // nullptr if none has it
-    /// Calls `change` with the numbers of one fixture of a body, or of all.
+    Body* find(std::string_view name) noexcept; // nullptr if none has it
+    b2Body* findInWorld(std::string_view name) noexcept;
+    /// Calls `change` with a body and the indices of one of its fixtures, or of all.
     template <class Change>
     void forFixtures(const std::string& body, int fixture, Change change);
-    void setMaterial(std::size_t fixture, int material);
+    void setMaterial(Body& body, std::size_t fixture, int material);
 
     bool act(const DueAction& due);
     bool act(const GravityAction& action);
     bool act(const TiltAction& action);
     bool act(const HoldAction& action);
-    bool act(const ImpulseAction& action) const;
-    bool act(const VelocityAction& action) const;
+    bool act(const ImpulseAction& action);
+    bool act(const VelocityAction& action);
     bool act(const SpawnAction& action, int repetition);
-    bool act(const RemoveAction& action) const;
+    bool act(const RemoveAction& action);
     bool act(const MotorAction& action) const;
     bool act(const CameraAction& action);
     bool act(const MaterialAction& action);
@@ -105,6 +132,7 @@ private:
     Vector gravity_;  // before hold_
     HoldAction hold_;
     b2World world_;
+<<<<<<< HEAD
     ContactBound bound_{world_};
     std::vector<BodyDescription> cast_; // as described
     std::vector<BodyDescription> now_;  // with the materials and cameras of now
@@ -112,10 +140,18 @@ private:
     std::vector<b2Body*> bodies_;
     std::vector<std::size_t> firstFixtures_; // per body
     std::vector<Part> fixtures_;
+=======
+    std::vector<Material> materials_; // with the sounds of now
+    std::map<std::size_t, Body> bodies_; // by number
+    std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0; // numbers; below scripted_ stands scriptedCast()
+>>>>>>> b4413a5 (Worlds: what live inputs spawn and remove is destroyed, its name may be used again, and limits count what is there at once; events may lie 3.2 years ahead)
     std::map<std::string, std::size_t, std::less<>> bodyNames_;
+    std::deque<Leaving> leaving_; // in the order of their steps
     std::map<std::string_view, b2Joint*> joints_;
     std::map<const SpawnAction*, std::size_t> spawned_; // the body of the script's first repetition
     std::size_t nextInput_ = 0;
+    double lastInputSeconds_ = 0.0;
+    std::int64_t step_ = 0; // that begins
 };
 
 } // namespace physvib

@@ -35,11 +35,9 @@ ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocatio
     return settings;
 }
 
-HapticFixture hapticOf(const SceneWorld& world, std::size_t fixture) {
-    const FixtureDescription& now = world.fixtureNow(fixture);
-    const Material& material = world.materialOf(fixture);
-    return {material.frequencyHz, material.decayPerSecond, now.isCamera, world.bodyOf(fixture).massKg,
-            now.voice};
+HapticFixture hapticOf(const SceneWorld::FixtureNow& now) {
+    return {now.material.frequencyHz, now.material.decayPerSecond, now.description.isCamera, now.body.massKg,
+            now.description.voice};
 }
 
 } // namespace
@@ -53,8 +51,9 @@ Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecon
 }
 
 void Simulation::takeFixtures() {
-    for (std::size_t i = 0; i < world_.fixtureCount(); ++i)
-        attachment_.set(world_.fixture(i), hapticOf(world_, i), static_cast<std::int32_t>(i));
+    world_.forAllFixtures([this](const SceneWorld::FixtureNow& now) {
+        attachment_.set(now.fixture, hapticOf(now), static_cast<std::int32_t>(now.number));
+    });
 }
 
 void Simulation::addInput(double timeSeconds, Action action) {

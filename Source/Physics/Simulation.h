@@ -36,6 +36,9 @@ public:
     /// The scene with all inputs so far: a simulation of it, with the same seed and rate, does all of it again.
     const Scene& scene() const noexcept { return world_.scene(); }
 
+    /// Drops from scene() the inputs that have acted, for simulations without end whose inputs are kept elsewhere.
+    void forgetDone() { world_.forgetDone(); }
+
     /// Advances the world by one step and appends the events that are final now.
     void step(std::vector<CollisionEvent>& finished);
 
@@ -49,6 +52,10 @@ public:
     /// Pose of body `index` (< bodyCount()) of sceneCast(), at timeNs(). Live inputs make bodies more.
     BodyPose pose(std::size_t index) const noexcept { return world_.pose(index); }
     std::size_t bodyCount() const noexcept { return world_.bodyCount(); }
+    template <class Use>
+    void forAllBodies(Use use) const { world_.forAllBodies(use); } ///< see SceneWorld
+    /// Those that Box2D knows: what inputs spawn and remove goes.
+    std::size_t bodiesInBox2d() const noexcept { return world_.bodiesInBox2d(); }
 
     /// Collisions lost so far because more began in one step, or lasted at once, than there is room for.
     std::uint64_t drops() const noexcept { return attachment_.drops() + world_.contactsRefused(); }

@@ -34,7 +34,7 @@ TEST(FrameClock, FrameIsTheFirstOneNotBeforeTheOnset) {
 }
 
 TEST(FrameClock, ReachesTheLastMomentWithoutOverflow) {
-    EXPECT_EQ(FrameClock{192000}.at(limits::maxTimeNs).frame, 192'000'000'000);
+    EXPECT_EQ(FrameClock{192000}.at(limits::maxTimeNs).frame, 19'200'000'000'000);
 }
 
 } // namespace

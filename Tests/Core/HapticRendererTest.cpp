@@ -50,6 +50,35 @@ double errorOf(int channels, PanningLaw law, int rate, double seconds, const std
     return worst;
 }
 
+TEST(HapticRenderer, PlaysAfterMonthsAsAtTheBeginning) {
+    constexpr int rate = 48000, frames = 24000;
+    const auto layout = layoutOf(4);
+    const auto signalFrom = [&](std::int64_t second) {
+        EventQueue<CollisionEvent, 256> queue;
+        for (CollisionEvent e : randomEvents(100, 0.4, 5)) {
+            e.timeNs += second * 1'000'000'000;
+            queue.push(e);
+        }
+        const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+        renderer->prepare(settingsFor(layout, PanningLaw::linear, rate));
+        renderer->moveTo(rate, second * rate);
+        std::vector<std::vector<float>> signal(4, std::vector<float>(frames));
+        for (int done = 0; done < frames; done += 500) {
+            std::array<float*, 4> at{};
+            for (std::size_t j = 0; j < 4; ++j) at[j] = signal[j].data() + done;
+            renderer->render(queue, at.data(), 500);
+        }
+        EXPECT_EQ(renderer->status().played, 100u);
+        return signal;
+    };
+    const auto first = signalFrom(0);
+    for (const std::int64_t days : {90, 3 * 365}) {
+        const auto later = signalFrom(days * 86'400);
+        for (std::size_t j = 0; j < 4; ++j)
+            for (std::size_t n = 0; n < frames; ++n) ASSERT_NEAR(later[j][n], first[j][n], 1e-6f) << days << " days, frame " << n;
+    }
+}
+
 constexpr PanningLaw laws[] = {PanningLaw::linear, PanningLaw::log, PanningLaw::logOuter, PanningLaw::energy};
 
 TEST(HapticRenderer, EqualsTheClosedFormForEveryLawAndWidth) {

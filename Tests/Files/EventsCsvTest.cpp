@@ -122,10 +122,10 @@ TEST(EventsCsv, ADecayOfZeroNeedsADuration) {
 
 TEST(EventsCsv, NamesLineColumnAndWhatWasExpected) {
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"x,200,10,1,0,0,0,1,2,0,1", R"(time_s: expected seconds from 0 to 1000000, found "x")"},
-        {"-1,200,10,1,0,0,0,1,2,0,1", R"(time_s: expected seconds from 0 to 1000000, found "-1")"},
-        {"1000000.1,200,10,1,0,0,0,1,2,0,1",
-         R"(time_s: expected seconds from 0 to 1000000, found "1000000.1")"},
+        {"x,200,10,1,0,0,0,1,2,0,1", R"(time_s: expected seconds from 0 to 100000000, found "x")"},
+        {"-1,200,10,1,0,0,0,1,2,0,1", R"(time_s: expected seconds from 0 to 100000000, found "-1")"},
+        {"100000000.1,200,10,1,0,0,0,1,2,0,1",
+         R"(time_s: expected seconds from 0 to 100000000, found "100000000.1")"},
         {"0.4,200,10,1,0,0,0,1,2,0,1",
          "time_s: expected a time >= 0.500000000 of the row above, found 0.400000000"},
         {"1,0,10,1,0,0,0,1,2,0,1", R"(frequency_hz: expected a number > 0, found "0")"},
@@ -141,7 +141,7 @@ TEST(EventsCsv, NamesLineColumnAndWhatWasExpected) {
         {"1,200,10,1,0,,0,1,2,0,1", R"(y_m: expected a number, found "")"},
         {"1,200,10,1,0,0.5m,0,1,2,0,1", R"(y_m: expected a number, found "0.5m")"},
         {"1,200,10,1,0,\"0.5\",0,1,2,0,1", R"(y_m: expected a number, found ""0.5"")"},
-        {"1,200,10,1,0,0,-0.1,1,2,0,1", R"(duration_s: expected seconds from 0 to 1000000, found "-0.1")"},
+        {"1,200,10,1,0,0,-0.1,1,2,0,1", R"(duration_s: expected seconds from 0 to 100000000, found "-0.1")"},
         {"1,200,10,1,0,0,0,1.5,2,0,1", R"(fixture: expected a whole number, found "1.5")"},
         {"1,200,10,1,0,0,0,1,2147483648,0,1", R"(other: expected a whole number, found "2147483648")"},
         {"1,200,10,1,0,0,0,1,2,1e,1", R"(impulse_ns: expected a number, found "1e")"},

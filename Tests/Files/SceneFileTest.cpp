@@ -286,7 +286,7 @@ TEST(SceneFile, AbsurdRequestsAreRefusedWithTheLimit) {
               "my.json: bodies: expected at most 4096 items, found 5001");
     EXPECT_EQ(errorOf(std::string(4'000'001, ' ')), "my.json: expected at most 4000000 bytes, found more");
     EXPECT_EQ(errorOf(replaced(full, "\"times\": 2,", "\"times\": 100000,")),
-              "my.json: bodies: expected at most 4096 in all, found 100005");
+              "my.json: bodies: expected at most 4096 in all, found 100004");
 }
 
 // ---- variables

@@ -5,6 +5,7 @@
 #include "Physics/InputCheck.h"
 #include "Physics/SceneCast.h"
 #include "Physics/SceneRun.h"
+#include "Physics/SceneValidation.h"
 #include <gtest/gtest.h>
 #include <random>
 
@@ -114,6 +115,34 @@ TEST(InputCheck, SaysWhatIsWrongAndForgetsIt) {
     isRefused(ImpulseAction{"stone", {}, {}}, "body: expected the name of a body, found \"stone\"");
     EXPECT_EQ(check.take(SpawnAction{stone("stone", {1, 1}), {}}), "");
     EXPECT_EQ(check.take(ImpulseAction{"stone", {}, {}}), "");
+}
+
+TEST(InputCheck, SpawningAndRemovingGoesOnForMonths) {
+    const Scene scene = dropScene(1.0);
+    InputCheck check(scene, InputCheck::endless);
+    Scene whole = scene;
+    const auto take = [&](Action action) {
+        ASSERT_EQ(check.take(action), "");
+        whole.inputs.push_back({0.0, std::move(action)});
+    };
+    for (int i = 0; i < 4200; ++i) { // more than a world may hold at once
+        const std::string name = "stone " + std::to_string(i % 3000);
+        take(SpawnAction{stone(name, {1.0, 1.0}), {}});
+        take(CameraAction{name, everyFixture, i % 2 == 0});
+        take(TiltAction{0.1});
+        take(RemoveAction{name});
+        take(RemoveAction{name}); // nothing happens
+    }
+    EXPECT_EQ(validate(whole), "");
+    take(SpawnAction{stone("stone", {1.0, 1.0}), {}});
+    EXPECT_EQ(check.take(SpawnAction{stone("stone", {2.0, 1.0}), {}}), "bodies: expected names of their own, found \"stone\" twice");
+    EXPECT_EQ(check.take(ImpulseAction{"stone 5", {}, {}}), "body: expected the name of a body, found \"stone 5\"") << "gone long ago";
+}
+
+TEST(InputCheck, CountsWhatIsThereAtOnce) {
+    Scene scene = dropScene(1.0);
+    for (int i = 0; i < 5000; ++i) scene.inputs.push_back({0.0, SpawnAction{stone("stone " + std::to_string(i), {1.0, 1.0}), {}}});
+    EXPECT_EQ(validate(scene), "bodies: expected at most 4096 in all, found 4097");
 }
 
 TEST(InputCheck, EndsWithTheLimit) {
