@@ -83,6 +83,7 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     setup.limiterEnabled = state.limiterEnabled;
     setup.equalised = state.equalised;
     setup.groups = actionGroups(state);
+    setup.log = LogUse::none; // a host plays for months, and has a project of its own
     return setup;
 }
 

@@ -49,7 +49,7 @@ Session::Session(const SessionSetup& setup)
     , heard_{setup.contactSound ? std::make_unique<HeardContacts>(*setup.contactSound) : nullptr}
     , told_{setup.boardSeconds > 0.0 ? std::make_unique<ToldEvents>() : nullptr}
     , state_{std::make_shared<const Scene>(setup.scene), setup.seed}
-    , world_{setup.run(), setup.shaping} {
+    , world_{setup.run(), setup.shaping, setup.log != LogUse::none} {
     made_.reserve(4096);
     std::ranges::copy(setup.ceilings, ceilings_.begin());
     world_.start(0, state_.scene, state_.seed);
@@ -80,7 +80,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     for (RenderControl undone; controls_.pop(undone) || ownControls_.pop(undone);) {}
     check_.reset();
     controlLog_ = {};
-    if (!setup_.recordings.empty()) controlLog_.recordings.push_back({0, filesOf(setup_.recordings)});
+    if (!setup_.recordings.empty() && setup_.log != LogUse::none) controlLog_.recordings.push_back({0, filesOf(setup_.recordings)});
     slippedNs_ = 0;
     leastMarginFrames_ = noMargin;
     offline_ = false;
@@ -97,9 +97,11 @@ void Session::setLaw(int sampleRateHz, int maxBlockFrames) {
 }
 
 void Session::resume(int sampleRateHz, int maxBlockFrames) {
-    const std::lock_guard lock{worldMutex_};
+    const std::scoped_lock lock{inputMutex_, worldMutex_};
     catchUp(); // what the old L allowed for, the new one may not
-    const std::int64_t frames = FrameClock{sampleRateHz}.at(nowNs()).frame;
+    const FrameClock clock{sampleRateHz};
+    const std::int64_t frames = clock.at(nowNs()).frame;
+    if (const std::int64_t restart = restartFrame_.load(std::memory_order_acquire); restart >= 0) restartFrame_ = clock.at(sessionNs(restart)).frame;
     setLaw(sampleRateHz, maxBlockFrames);
     const auto rendered = std::max<std::int64_t>(0, frames - playOutFrames() + law_.limiterFrames);
     renderer_->moveTo(sampleRateHz, rendered);

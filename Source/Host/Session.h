@@ -135,8 +135,9 @@ public:
     /// The scene starts anew when frame `offset` of the next block is the present, as a new take. R, wait-free, or M.
     void restart(int offset = 0) noexcept;
 
-    /// Brings `log`, empty or brought up to date by this session before, up to date. Any thread but R.
-    void readLog(SessionLog& log) const;
+    /// Moves what is new since the last call to the end of `log`, which is the same each time; at first, and after prepare, it is
+    /// empty. Session time up to which it tells of the world. Nothing to move unless the setup has a log. Any thread but R, one reader.
+    std::int64_t readLog(SessionLog& log);
 
     /// What is born in the render call itself (MIDI, automation), `frame` frames into the block that is rendered next: it
     /// is felt L later like everything else, at an exact frame. False, and counted, if it found no room. R, wait-free.
@@ -159,8 +160,11 @@ public:
     /// Time that was given up after stalls. Any thread.
     std::int64_t slippedNs() const noexcept { return slippedNs_.load(std::memory_order_relaxed); }
 
+    /// Live inputs and bodies that the world holds now: for those who watch that neither grows without end. Any thread but R.
+    SessionSize size() const;
+
     /// Where the bodies of sceneCast() are, as far as the world has been stepped: the session time of that, L before it is
-    /// felt. Any thread but R.
+    /// felt. Without a log nobody knows what inputs have spawned, and what is gone is left out. Any thread but R.
     std::int64_t readPoses(std::vector<BodyPose>& poses) const;
 
     /// Collisions lost in the physics step. Any thread but R.
@@ -194,7 +198,7 @@ private:
     void renderOwnWorld(float* const* out, int frames, std::int64_t endNs);
 
     SessionSetup setup_;
-    ClockLaw law_;
+    ClockLaw law_; // changes while nobody renders, under both mutexes
     std::atomic<std::int64_t> playOutFrames_{0}, grownFrames_{0}; // L, and what of it R has added to the law's
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
     struct RecordingSet {
@@ -236,7 +240,7 @@ private:
     mutable std::mutex inputMutex_; // taken first; guards what follows, and the producer's side of controls_
     std::optional<InputCheck> check_;
     std::size_t checkedTake_ = 0;
-    SessionLog controlLog_; // without takes
+    SessionLog controlLog_; // without takes, of what has not been read
 };
 
 } // namespace physvib

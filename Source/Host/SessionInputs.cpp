@@ -3,6 +3,7 @@
 #include "Host/Session.h"
 #include "Physics/SceneValidation.h"
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace physvib {
@@ -11,7 +12,7 @@ std::string Session::act(Action action) {
     const std::lock_guard inputs{inputMutex_};
     for (;;) { // again if a new take began since the check
         if (const std::lock_guard lock{worldMutex_}; !check_ || checkedTake_ != world_.takeCount()) {
-            check_.emplace(world_.sceneNow());
+            check_.emplace(*world_.take().scene, setup_.log == LogUse::document ? sceneLimits::maxLiveInputs : InputCheck::endless);
             checkedTake_ = world_.takeCount();
         }
         if (std::string fault = check_->take(action); !fault.empty()) return fault;
@@ -57,6 +58,7 @@ std::int64_t Session::post(RenderControl control) {
         auto& most = ceilings_[static_cast<std::size_t>(control.channel)];
         most = std::max(most.load(), control.value);
     }
+    if (setup_.log == LogUse::none) return control.timeNs;
     if (control.kind == RenderControl::Kind::panner)
         controlLog_.panners.push_back({control.timeNs, control.panner});
     else
@@ -73,7 +75,7 @@ std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
     control.kind = RenderControl::Kind::recordings;
     control.recordings = recordingSet(recordings).sounds.contacts();
     if (!controls_.push(control)) return -1;
-    controlLog_.recordings.push_back({now, filesOf(recordings)});
+    if (setup_.log != LogUse::none) controlLog_.recordings.push_back({now, filesOf(recordings)});
     setup_.recordings = std::move(recordings);
     return now;
 }
@@ -86,7 +88,7 @@ bool Session::play(std::span<const CollisionEvent> strikes) {
     for (CollisionEvent strike : strikes) {
         strike.timeNs += now;
         made_.push_back(setup_.shaping(strike));
-        controlLog_.strikes.push_back(strike);
+        if (setup_.log != LogUse::none) controlLog_.strikes.push_back(strike);
     }
     handOver();
     return true;
@@ -110,23 +112,29 @@ void Session::restart(int offset) noexcept {
     restartFrame_.store(sessionFrames_.load(std::memory_order_relaxed) + offset, std::memory_order_release);
 }
 
-void Session::readLog(SessionLog& log) const {
-    const std::lock_guard inputs{inputMutex_};
-    const auto append = [](const auto& from, auto& to) {
-        to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(to.size()), from.end());
+std::int64_t Session::readLog(SessionLog& log) {
+    const std::scoped_lock lock{inputMutex_, worldMutex_};
+    if (setup_.log == LogUse::none) return nowNs();
+    const auto move = [](auto& from, auto& to) {
+        std::ranges::move(from, std::back_inserter(to));
+        from.clear();
     };
-    append(controlLog_.panners, log.panners);
-    append(controlLog_.channels, log.channels);
-    append(controlLog_.recordings, log.recordings);
-    append(controlLog_.strikes, log.strikes);
+    move(controlLog_.panners, log.panners);
+    move(controlLog_.channels, log.channels);
+    move(controlLog_.recordings, log.recordings);
+    move(controlLog_.strikes, log.strikes);
+    world_.moveLog(log.takes);
+    return std::min(nowNs(), world_.timeNs());
+}
+
+SessionSize Session::size() const {
     const std::lock_guard lock{worldMutex_};
-    world_.bringUpToDate(log.takes);
+    return world_.size();
 }
 
 std::int64_t Session::readPoses(std::vector<BodyPose>& poses) const {
     const std::lock_guard lock{worldMutex_};
-    poses.resize(world_.bodyCount());
-    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = world_.pose(i);
+    world_.readPoses(poses);
     return world_.timeNs();
 }
 

@@ -24,6 +24,13 @@ struct RenderInput {
     std::int64_t timeNs = 0; ///< given by the session
 };
 
+/// Who reads the log of a session; it keeps what has not been read.
+enum class LogUse {
+    none,     ///< nobody: nothing is kept, however long it plays
+    document, ///< somebody who keeps all of it: inputs are refused when a file of them would be
+    stream    ///< a journal that ends when its file is full; the session plays on
+};
+
 /// What a session plays, and on what.
 struct SessionSetup {
     Scene scene;
@@ -43,8 +50,15 @@ struct SessionSetup {
     double longestGapSeconds = messageTimerGapSeconds;
     double boardSeconds = 0.0; ///< of ClockLaw; above 0 the session tells what it makes (Session::told) for a BoardOutput
     std::vector<std::vector<Action>> groups; ///< what notes do; valid inputs of the scene
+    LogUse log = LogUse::document;
 
     SceneRun run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
+};
+
+/// What a session holds, beside its scene.
+struct SessionSize {
+    std::size_t bodies = 0; ///< in Box2D's world
+    std::size_t inputs = 0; ///< waiting, or of the log and not read
 };
 
 /// The part of it that can be exchanged while it plays.

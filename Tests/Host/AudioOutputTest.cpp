@@ -58,7 +58,6 @@ struct Rig {
     }
     void expectTheLogIsWhole() {
         ASSERT_GT(log.size(), 10u);
-        SessionLog made;
         session.readLog(made);
         EXPECT_TRUE(log == runTakes(made.takes, setup.run(), log.back().timeNs + 1).events);
         EXPECT_EQ(session.status().render.untold + session.status().render.rejected + session.drops(), 0u);
@@ -70,6 +69,7 @@ struct Rig {
     std::atomic<bool> interrupt{false};
     AudioOutput output{session, fakeTypes({&speakers, &interface}), &interrupt};
     std::vector<CollisionEvent> log;
+    SessionLog made;
 };
 
 TEST(AudioOutput, OpensTheDeviceThatIsNamedAndNoOther) {

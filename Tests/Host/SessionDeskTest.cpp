@@ -47,7 +47,7 @@ Signal play(Session& session, double seconds, Script script, int block = 300) {
     return signal;
 }
 
-SavedSession savedOf(const Session& session, const SessionSetup& setup, int channels) {
+SavedSession savedOf(Session& session, const SessionSetup& setup, int channels) {
     SavedSession saved{setup.run(), setup.panner, channels, setup.limiterEnabled, setup.ceilings, 0, {}, {}};
     session.readLog(saved.log);
     saved.lengthNs = 10'000'000'000;

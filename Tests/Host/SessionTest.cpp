@@ -170,6 +170,79 @@ TEST(Session, AnotherRateAndBlockLoseNoEventAndNoSound) {
     EXPECT_TRUE(played == made.events);
 }
 
+TEST(Session, ControlsThatComeWithAChangeOfRateNeverGoBackInTime) {
+    Session session{shakeTheBoxSetup(0.02)};
+    session.prepare(44100, 64);
+    session.advance();
+    std::atomic<bool> stop{false};
+    std::vector<std::int64_t> times;
+    std::thread hand{[&] {
+        while (!stop)
+            if (const auto time = session.post({.kind = RenderControl::Kind::gain, .value = 0.5f}); time >= 0) times.push_back(time);
+            else std::this_thread::yield();
+    }};
+    Block block;
+    for (int i = 0; i < 300; ++i) {
+        session.resume(i % 2 == 0 ? 192000 : 8000, 64);
+        for (int k = 0; k < 20; ++k) session.render(block.at.data(), 64, RenderMode::realtime);
+        session.advance();
+        drain(session);
+    }
+    stop = true;
+    hand.join();
+    ASSERT_GT(times.size(), 300u);
+    EXPECT_TRUE(std::ranges::is_sorted(times));
+}
+
+TEST(Session, ARestartThatWaitsKeepsItsTimeAtAnotherRate) {
+    Session session{shakeTheBoxSetup(0.02)};
+    session.prepare(48000, 480);
+    session.advance();
+    Block block;
+    for (int i = 0; i < 100; ++i) {
+        session.render(block.at.data(), 480, RenderMode::realtime);
+        session.advance();
+    }
+    session.restart(240); // at 1.005 s
+    session.resume(96000, 960);
+    session.advance();
+    SessionLog log;
+    session.readLog(log);
+    ASSERT_EQ(log.takes.size(), 2u);
+    EXPECT_EQ(log.takes[1].startNs, 1'005'000'000);
+}
+
+// As a host with automation and notes, and nobody who reads a log.
+TEST(Session, HoldsNoMoreBodiesAndInputsTheLongerItPlays) {
+    auto setup = shakeTheBoxSetup(0.02);
+    const BodyDescription note{"note", BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 0, true}}, {3.0, 2.0}};
+    setup.groups = {{SpawnAction{note, {}}}};
+    for (const auto use : {LogUse::none, LogUse::stream}) {
+        setup.log = use;
+        Session session{setup};
+        session.prepare(rate, 480);
+        Block block;
+        SessionLog log;
+        std::size_t mostBodies = 0, mostInputs = 0, notes = 0;
+        for (int i = 0; i < 3000; ++i) { // half a minute
+            session.perform({.hold = {1.0, 0.001 * (i % 500)}}, i % 480);
+            if (i % 7 == 0 && session.perform({.group = 0}, 0)) ++notes;
+            session.render(block.at.data(), 480, RenderMode::offline);
+            drain(session);
+            if (i % 100 == 0) session.readLog(log);
+            const auto size = session.size();
+            mostBodies = std::max(mostBodies, size.bodies);
+            mostInputs = std::max(mostInputs, size.inputs);
+        }
+        ASSERT_GT(notes, 400u);
+        EXPECT_LE(mostBodies, setup.scene.bodies.size() + 64 + 8) << "the newest notes, and those of the last half second";
+        EXPECT_LE(mostInputs, use == LogUse::none ? 8u : 140u);
+        session.readLog(log);
+        EXPECT_EQ(log.takes.size(), use == LogUse::none ? 0u : 1u);
+        if (use == LogUse::stream) EXPECT_EQ(log.takes[0].inputs.size(), 3000u + 2 * notes - 64);
+    }
+}
+
 TEST(Session, AfterAStallTheWorldGoesOnWithoutASpiral) {
     Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, 480);
