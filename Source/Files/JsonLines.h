@@ -13,6 +13,9 @@ using OrderedJson = nlohmann::ordered_json; // fields stay in the order they wer
 /// The shortest text that JSON reads back as the same bits: "-0" would be read as an integer. Any thread.
 std::string jsonNumber(double number);
 
+/// The value on one line, without a newline. Any thread.
+std::string jsonLine(const OrderedJson& value);
+
 /// The value in lines of up to 140 characters, where its parts allow it; a newline at the end. Any thread.
 std::string jsonLines(const OrderedJson& value);
 

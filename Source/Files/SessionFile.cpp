@@ -9,21 +9,21 @@
 #include "Files/JsonWriter.h"
 #include "Files/MixJson.h"
 #include "Files/NumberText.h"
+#include "Files/SessionJournalText.h"
+#include "Files/SessionParts.h"
 #include "Physics/SceneEdits.h"
 #include "Physics/SceneValidation.h"
 #include "Physics/Simulation.h"
 #include <cmath>
 
 namespace physvib {
+namespace detail {
 namespace {
 
 constexpr const char* sessionVersionField = "physvib_session";
 constexpr std::array<std::string_view, 2> timingNames{"onset", "release"};
 constexpr std::array<std::string_view, 2> locationNames{"contact", "fixture"};
-constexpr double maxSeconds = static_cast<double>(limits::maxTimeNs) * 1e-9;
-
-std::int64_t readTime(const JsonField& seconds) { return std::llround(seconds.numberUpTo(maxSeconds) * 1e9); }
-double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; } // the nearest to the decimal number
+constexpr double maxSeconds = static_cast<double>(limits::maxSessionNs) * 1e-9;
 
 int readWhole(const JsonField& field, int least, int most) {
     const int found = field.wholeNumber();
@@ -48,24 +48,38 @@ std::size_t bodiesOf(const Scene& scene) {
 
 SceneTake readTake(const JsonField& json, const SceneTake* before) {
     json.expectObject({"start_s", "world_end_s", "seed", "scene", "inputs", "stalls"});
-    SceneTake take;
-    take.startNs = readTime(json["start_s"]);
-    if (before != nullptr && take.startNs < before->startNs) json["start_s"].fail("expected a time that is not before that of the take above");
+    SceneTake take = readTakeStart(json, before);
     take.worldEndNs = readTime(json["world_end_s"]);
-    take.seed = static_cast<std::uint32_t>(json["seed"].numberUpTo(4294967295.0));
-    if (before != nullptr && !json.has("scene")) take.scene = before->scene;
-    else take.scene = std::make_shared<const Scene>(readFields<Scene>(json["scene"]));
     if (json.has("inputs"))
         detail::readValue(json["inputs"], take.inputs, items(0, sceneLimits::maxLiveInputs), take.scene->materials);
     for (std::size_t i = 0, count = json.has("stalls") ? json["stalls"].arraySize() : 0; i < count; ++i) {
         const JsonField stall = json["stalls"].item(i);
-        stall.expectObject({"time_s", "seconds", "steps"});
-        const std::int64_t last = take.stalls.empty() ? 0 : take.stalls.back().worldNs;
-        take.stalls.push_back({readNextTime(stall, last), readTime(stall["seconds"]), stall.has("steps") ? readWhole(stall["steps"], 1, 1'000'000'000) : 1});
+        take.stalls.push_back(readStall(stall, take));
     }
     const bool isKnownToBeValid = before != nullptr && take.scene == before->scene && take.inputs.empty();
     if (const std::string fault = isKnownToBeValid ? std::string{} : validate(take.whole()); !fault.empty()) json.fail(fault);
     return take;
+}
+
+} // namespace
+
+std::int64_t readTime(const JsonField& seconds) { return std::llround(seconds.numberUpTo(maxSeconds) * 1e9); }
+double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; } // the nearest to the decimal number
+
+SceneTake readTakeStart(const JsonField& json, const SceneTake* before) {
+    SceneTake take;
+    take.startNs = readTime(json["start_s"]);
+    if (before != nullptr && take.startNs < before->startNs) json["start_s"].fail("expected a time that is not before that of the take above");
+    take.seed = static_cast<std::uint32_t>(json["seed"].numberUpTo(4294967295.0));
+    if (before != nullptr && !json.has("scene")) take.scene = before->scene;
+    else take.scene = std::make_shared<const Scene>(readFields<Scene>(json["scene"]));
+    return take;
+}
+
+WorldStall readStall(const JsonField& json, const SceneTake& take) {
+    json.expectObject({"time_s", "seconds", "steps"});
+    const std::int64_t last = take.stalls.empty() ? 0 : take.stalls.back().worldNs;
+    return {readNextTime(json, last), readTime(json["seconds"]), json.has("steps") ? readWhole(json["steps"], 1, 1'000'000'000) : 1};
 }
 
 void readTimedControl(const JsonField& json, SavedSession& session) {
@@ -76,6 +90,8 @@ void readTimedControl(const JsonField& json, SavedSession& session) {
     else log.channels.push_back({time, control.kind, control.channel, control.value});
 }
 
+namespace {
+
 // One per channel; left out: full scale.
 void readCeilings(const JsonField& list, SavedSession& session) {
     if (list.arraySize() != static_cast<std::size_t>(session.channels))
@@ -85,6 +101,8 @@ void readCeilings(const JsonField& list, SavedSession& session) {
         session.ceilings[j] = static_cast<float>(list.item(j).numberUpTo(1.0));
     }
 }
+
+} // namespace
 
 CollisionEvent readStrike(const JsonField& json) {
     json.expectObject({"time_s", "frequency_hz", "decay_per_s", "amplitude", "x_m", "y_m", "duration_s"});
@@ -100,6 +118,8 @@ CollisionEvent readStrike(const JsonField& json) {
     return strike;
 }
 
+namespace {
+
 RecordingFile readRecordingFile(const JsonField& json) {
     json.expectObject({"frequency_hz", "file", "hash", "decay_per_s", "matched"});
     RecordingFile file{json["frequency_hz"].positiveNumber(), json["file"].text()};
@@ -109,15 +129,16 @@ RecordingFile readRecordingFile(const JsonField& json) {
     return file;
 }
 
-void readRecordings(const JsonField& list, SessionLog& log) {
-    for (std::size_t i = 0; i < list.arraySize(); ++i) {
-        const JsonField item = list.item(i);
-        item.expectObject({"time_s", "files"});
-        RecordingsChange change{readNextTime(item, log.recordings.empty() ? 0 : log.recordings.back().timeNs), {}};
-        for (std::size_t k = 0; k < item["files"].arraySize(); ++k) change.files.push_back(readRecordingFile(item["files"].item(k)));
-        log.recordings.push_back(std::move(change));
-    }
+} // namespace
+
+void readRecordingsChange(const JsonField& json, SessionLog& log) {
+    json.expectObject({"time_s", "files"});
+    RecordingsChange change{readNextTime(json, log.recordings.empty() ? 0 : log.recordings.back().timeNs), {}};
+    for (std::size_t k = 0; k < json["files"].arraySize(); ++k) change.files.push_back(readRecordingFile(json["files"].item(k)));
+    log.recordings.push_back(std::move(change));
 }
+
+namespace {
 
 EventShaping readShaping(const JsonField& json) {
     json.expectObject({"method", "fixed_amplitude", "remap_hz", "gain", "perceived_level"});
@@ -130,11 +151,14 @@ EventShaping readShaping(const JsonField& json) {
     return shaping;
 }
 
-SavedSession readSessionRoot(const JsonField& root) {
+} // namespace
+
+SavedSession readSessionHead(const JsonField& root, std::initializer_list<std::string_view> others) {
     checkVersion(root, sessionVersionField, sessionFormatVersion);
-    root.expectObject({sessionVersionField, "seconds", "steps_per_second", "timing", "location", "limiter", "ceilings", "equalised", "shaping", "channels", "panning", "takes", "controls", "recordings", "strikes", "desk"});
+    std::vector<std::string_view> known{sessionVersionField, "steps_per_second", "timing", "location", "limiter", "ceilings", "equalised", "shaping", "channels", "panning"};
+    known.insert(known.end(), others);
+    root.expectOnly(known);
     SavedSession session;
-    session.lengthNs = readTime(root["seconds"]);
     session.run.stepsPerSecond = readWhole(root["steps_per_second"], Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond);
     session.run.timing = static_cast<ImpactTiming>(root["timing"].oneOf(timingNames));
     session.run.location = static_cast<ImpactLocation>(root["location"].oneOf(locationNames));
@@ -144,6 +168,14 @@ SavedSession readSessionRoot(const JsonField& root) {
     if (root.has("equalised")) session.equalised = readEqualised(root["equalised"], session.channels);
     if (root.has("shaping")) session.shaping = readShaping(root["shaping"]);
     session.panner = readPanner(root["panning"], session.channels);
+    return session;
+}
+
+namespace {
+
+SavedSession readSessionRoot(const JsonField& root) {
+    SavedSession session = readSessionHead(root, {"seconds", "takes", "controls", "recordings", "strikes", "desk"});
+    session.lengthNs = readTime(root["seconds"]);
     const JsonField takes = root["takes"];
     if (takes.arraySize() == 0) takes.fail("expected at least 1 take, found none");
     for (std::size_t i = 0, bodies = 0; i < takes.arraySize(); ++i) {
@@ -153,7 +185,8 @@ SavedSession readSessionRoot(const JsonField& root) {
     }
     for (std::size_t i = 0, count = root.has("controls") ? root["controls"].arraySize() : 0; i < count; ++i)
         readTimedControl(root["controls"].item(i), session);
-    if (root.has("recordings")) readRecordings(root["recordings"], session.log);
+    for (std::size_t i = 0, count = root.has("recordings") ? root["recordings"].arraySize() : 0; i < count; ++i)
+        readRecordingsChange(root["recordings"].item(i), session.log);
     for (std::size_t i = 0, count = root.has("strikes") ? root["strikes"].arraySize() : 0; i < count; ++i)
         session.log.strikes.push_back(readStrike(root["strikes"].item(i)));
     if (root.has("desk")) {
@@ -164,6 +197,8 @@ SavedSession readSessionRoot(const JsonField& root) {
     return session;
 }
 
+} // namespace
+
 OrderedJson strikeJson(const CollisionEvent& strike) {
     OrderedJson json{{"time_s", seconds(strike.timeNs)}, {"frequency_hz", strike.frequencyHz}, {"decay_per_s", strike.decayPerSecond},
                      {"amplitude", strike.amplitude}, {"x_m", strike.x}, {"y_m", strike.y}};
@@ -171,15 +206,35 @@ OrderedJson strikeJson(const CollisionEvent& strike) {
     return json;
 }
 
-OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
-    OrderedJson json{{"start_s", seconds(take.startNs)}, {"world_end_s", seconds(take.worldEndNs)}, {"seed", take.seed}};
+OrderedJson takeStartJson(const SceneTake& take, const SceneTake* before, bool withEnd) {
+    OrderedJson json{{"start_s", seconds(take.startNs)}};
+    if (withEnd) json["world_end_s"] = seconds(take.worldEndNs);
+    json["seed"] = take.seed;
     const bool isSame = before != nullptr && (before->scene == take.scene || *before->scene == *take.scene);
-    if (!isSame) json["scene"] = detail::fieldsJson(*take.scene, take.scene->materials);
-    for (const LiveInput& input : take.inputs) json["inputs"].push_back(detail::fieldsJson(input, take.scene->materials));
-    for (const WorldStall& stall : take.stalls) {
-        json["stalls"].push_back({{"time_s", seconds(stall.worldNs)}, {"seconds", seconds(stall.lengthNs)}});
-        if (stall.steps > 1) json["stalls"].back()["steps"] = stall.steps;
-    }
+    if (!isSame) json["scene"] = fieldsJson(*take.scene, take.scene->materials);
+    return json;
+}
+
+OrderedJson inputJson(const LiveInput& input, const Scene& scene) { return fieldsJson(input, scene.materials); }
+
+OrderedJson stallJson(const WorldStall& stall) {
+    OrderedJson json{{"time_s", seconds(stall.worldNs)}, {"seconds", seconds(stall.lengthNs)}};
+    if (stall.steps > 1) json["steps"] = stall.steps;
+    return json;
+}
+
+OrderedJson timedControlJson(const RenderControl& control) {
+    OrderedJson timed{{"time_s", seconds(control.timeNs)}};
+    timed.update(controlJson(control));
+    return timed;
+}
+
+namespace {
+
+OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
+    OrderedJson json = takeStartJson(take, before, true);
+    for (const LiveInput& input : take.inputs) json["inputs"].push_back(inputJson(input, *take.scene));
+    for (const WorldStall& stall : take.stalls) json["stalls"].push_back(stallJson(stall));
     return json;
 }
 
@@ -204,6 +259,8 @@ std::string besides(const std::filesystem::path& folder, const std::string& path
     return whole.lexically_proximate(std::filesystem::absolute(folder).lexically_normal()).string();
 }
 
+} // namespace
+
 OrderedJson recordingsJson(const RecordingsChange& change, const std::filesystem::path& folder) {
     OrderedJson json{{"time_s", seconds(change.timeNs)}, {"files", OrderedJson::array()}};
     for (const RecordingFile& file : change.files) {
@@ -216,10 +273,29 @@ OrderedJson recordingsJson(const RecordingsChange& change, const std::filesystem
     return json;
 }
 
-} // namespace
+OrderedJson sessionHeadJson(const SavedSession& session, bool isJournal) {
+    OrderedJson root{{sessionVersionField, sessionFormatVersion}};
+    if (isJournal) root["journal"] = journalFormatVersion;
+    else root["seconds"] = seconds(session.lengthNs);
+    root["steps_per_second"] = session.run.stepsPerSecond;
+    root["timing"] = timingNames[static_cast<std::size_t>(session.run.timing)];
+    root["location"] = locationNames[static_cast<std::size_t>(session.run.location)];
+    root["limiter"] = session.limiterEnabled;
+    root["channels"] = session.channels;
+    root["panning"] = pannerJson(session.panner);
+    if (!isJournal) root["takes"] = OrderedJson::array();
+    const std::vector<double> ceilings(session.ceilings.begin(), session.ceilings.begin() + session.channels);
+    if (std::ranges::any_of(ceilings, [](double most) { return most != 1.0; })) root["ceilings"] = ceilings;
+    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) root["equalised"] = equalisedJson(session.equalised, session.channels);
+    if (session.shaping != EventShaping{}) root["shaping"] = shapingJson(session.shaping);
+    return root;
+}
+
+} // namespace detail
 
 Result<SavedSession> readSession(std::string_view text, std::string_view name) {
-    return readJson(text, name, limits::maxSessionFileBytes, [](const Json& root) { return readSessionRoot(JsonField(root, {})); });
+    if (isJournal(text)) return readJournal(text, name);
+    return readJson(text, name, limits::maxSessionFileBytes, [](const Json& root) { return detail::readSessionRoot(JsonField(root, {})); });
 }
 
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
@@ -235,31 +311,15 @@ Result<SavedSession> loadSession(const std::filesystem::path& path) {
 }
 
 std::string sessionJson(const SavedSession& session, const std::filesystem::path& folder) {
-    OrderedJson root{{sessionVersionField, sessionFormatVersion},
-                     {"seconds", seconds(session.lengthNs)},
-                     {"steps_per_second", session.run.stepsPerSecond},
-                     {"timing", timingNames[static_cast<std::size_t>(session.run.timing)]},
-                     {"location", locationNames[static_cast<std::size_t>(session.run.location)]},
-                     {"limiter", session.limiterEnabled},
-                     {"channels", session.channels},
-                     {"panning", pannerJson(session.panner)},
-                     {"takes", OrderedJson::array()}};
-    const std::vector<double> ceilings(session.ceilings.begin(), session.ceilings.begin() + session.channels);
-    if (std::ranges::any_of(ceilings, [](double most) { return most != 1.0; })) root["ceilings"] = ceilings;
-    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) root["equalised"] = equalisedJson(session.equalised, session.channels);
-    if (session.shaping != EventShaping{}) root["shaping"] = shapingJson(session.shaping);
+    OrderedJson root = detail::sessionHeadJson(session, false);
     const SceneTake* before = nullptr;
     for (const SceneTake& take : session.log.takes) {
-        root["takes"].push_back(takeJson(take, before));
+        root["takes"].push_back(detail::takeJson(take, before));
         before = &take;
     }
-    for (const RenderControl& control : controlsOf(session.log, true, session.channels)) {
-        OrderedJson timed{{"time_s", seconds(control.timeNs)}};
-        timed.update(controlJson(control));
-        root["controls"].push_back(std::move(timed));
-    }
-    for (const RecordingsChange& change : session.log.recordings) root["recordings"].push_back(recordingsJson(change, folder));
-    for (const CollisionEvent& strike : session.log.strikes) root["strikes"].push_back(strikeJson(strike));
+    for (const RenderControl& control : controlsOf(session.log, true, session.channels)) root["controls"].push_back(detail::timedControlJson(control));
+    for (const RecordingsChange& change : session.log.recordings) root["recordings"].push_back(detail::recordingsJson(change, folder));
+    for (const CollisionEvent& strike : session.log.strikes) root["strikes"].push_back(detail::strikeJson(strike));
     if (session.mix) root["desk"] = mixJson(*session.mix);
     return jsonLines(root);
 }

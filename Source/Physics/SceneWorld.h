@@ -132,19 +132,10 @@ private:
     Vector gravity_;  // before hold_
     HoldAction hold_;
     b2World world_;
-<<<<<<< HEAD
     ContactBound bound_{world_};
-    std::vector<BodyDescription> cast_; // as described
-    std::vector<BodyDescription> now_;  // with the materials and cameras of now
-    std::vector<Material> materials_;   // with the sounds of now
-    std::vector<b2Body*> bodies_;
-    std::vector<std::size_t> firstFixtures_; // per body
-    std::vector<Part> fixtures_;
-=======
     std::vector<Material> materials_; // with the sounds of now
     std::map<std::size_t, Body> bodies_; // by number
     std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0; // numbers; below scripted_ stands scriptedCast()
->>>>>>> b4413a5 (Worlds: what live inputs spawn and remove is destroyed, its name may be used again, and limits count what is there at once; events may lie 3.2 years ahead)
     std::map<std::string, std::size_t, std::less<>> bodyNames_;
     std::deque<Leaving> leaving_; // in the order of their steps
     std::map<std::string_view, b2Joint*> joints_;

@@ -31,7 +31,7 @@ public:
     ~Watch() override {
         stopTimer();
         drain();
-        if (journal_) journal_->keep(session_.status().sessionNs);
+        if (journal_) journal_->end(session_.status().sessionNs);
     }
     std::uint64_t played() const noexcept { return played_; }
 
@@ -54,10 +54,7 @@ private:
     void everySecond(const SessionStatus& status) {
         std::string trouble = output_.maintain();
         if (board_ && trouble.empty()) trouble = board_->status().trouble;
-        if (journal_) {
-            journal_->keep(status.sessionNs);
-            if (trouble.empty()) trouble = journal_->error();
-        }
+        if (journal_ && trouble.empty()) trouble = journal_->news();
         report(trouble);
         static const bool isTerminal = isatty(STDERR_FILENO) != 0;
         if (isTerminal) show(status);
@@ -119,6 +116,7 @@ std::string playLive(LivePlay wanted) {
         wanted.setup.boardSeconds = board->status().playOutMs * 1e-3;
     }
     const wire::Telemetry before = board ? board->status().telemetry : wire::Telemetry{};
+    wanted.setup.log = wanted.savePath.empty() ? LogUse::none : LogUse::stream;
     Session session{wanted.setup};
     std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
@@ -149,10 +147,9 @@ std::string playLive(LivePlay wanted) {
     if (recording && !output.isRecording()) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
     output.close();
     const std::string trouble = board ? reportBoard(*board, before) : "";
-    if (journal && !journal->error().empty()) return journal->error();
     if (recording && recording->framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
-    const std::string error = recording ? recording->finish() : "";
-    return error.empty() ? trouble : error;
+    const std::string saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : ""; // each, whatever becomes of the other
+    return !saved.empty() ? saved : !recorded.empty() ? recorded : trouble;
 }
 
 } // namespace physvib

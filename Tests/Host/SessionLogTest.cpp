@@ -2,6 +2,7 @@
 // What is done to a session while it plays is logged; the log, saved and read again, renders to what was felt, to the bit.
 #include "FakeHost.h"
 #include "Files/SessionFile.h"
+#include "Files/SessionJournalText.h"
 #include "Host/OfflineRender.h"
 #include "Host/Session.h"
 #include <atomic>
@@ -47,8 +48,9 @@ struct Felt {
     int refused = 0;
 };
 
-// A minute of a host that edits, restarts, exchanges the scene, stalls, and reads the log now and then.
-Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames) {
+// A host that edits, restarts, exchanges the scene, stalls, and has the log read now and then.
+template <class Read>
+Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames, Read read) {
     Felt felt;
     Random random{11};
     Block block;
@@ -73,14 +75,18 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
         if (random.below(2000) == 0) session.restart(random.below(size));
         if (random.below(2000) == 0) session.setState({std::make_shared<const Scene>(*findBuiltInScene("fruit-basket")), 4});
         if (random.below(1500) == 0) session.setState({std::make_shared<const Scene>(setup.scene), static_cast<std::uint32_t>(random.below(3))});
-        if (random.below(50) == 0) session.readLog(felt.log);
+        if (random.below(50) == 0) read(felt.log);
         session.render(block.at.data(), size, RenderMode::realtime);
         append(felt.signal, block.at.data(), size);
         done += size;
         while (drain(session).size() > 100) {}
     }
-    session.readLog(felt.log);
+    read(felt.log);
     return felt;
+}
+
+Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames) {
+    return playEdited(session, setup, frames, [&](SessionLog& log) { session.readLog(log); });
 }
 
 SavedSession saved(const SessionSetup& setup, const SessionLog& log, std::int64_t frames) {
@@ -124,6 +130,87 @@ TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
     ASSERT_EQ(again.size(), felt.signal.size());
     const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
     EXPECT_TRUE(differs.first == again.end()) << "at frame " << (differs.first - again.begin()) / channels << " of " << frames;
+}
+
+std::int64_t nsOf(const Felt& felt) { return static_cast<std::int64_t>(felt.signal.size()) / channels * 1'000'000'000 / rate; }
+
+TEST(SessionLog, AsLinesOfAJournalIsTheSameSession) {
+    auto setup = shakeTheBoxSetup(0.05);
+    setup.ceilings = {0.2f, 0.1f, 0.3f, 1.0f};
+    setup.shaping.perceived.isWeighted = true;
+    Session whole{setup}, told{setup};
+    const Felt felt = playEdited(whole, setup, 40 * rate);
+    ASSERT_GT(felt.log.takes.size(), 2u);
+    ASSERT_GT(whole.slippedNs(), 0);
+    JournalLines lines{saved(setup, {}, 0), {}};
+    std::string text = lines.head();
+    std::vector<std::size_t> ends;
+    const Felt same = playEdited(told, setup, 40 * rate, [&](SessionLog& log) {
+        text += lines.take(log, told.readLog(log));
+        ends.push_back(text.size());
+        EXPECT_TRUE(log.takes.size() == 1 && log.takes[0].inputs.empty() && log.channels.empty()) << "it is on disk";
+    });
+    SessionLog rest = same.log;
+    text += lines.take(rest, nsOf(same));
+    ASSERT_TRUE(isJournal(text));
+    const auto read = readSession(text, "monday.json");
+    ASSERT_EQ(read.error, "");
+    EXPECT_EQ(sessionJson(read.value), sessionJson(saved(setup, felt.log, static_cast<std::int64_t>(felt.signal.size()) / channels)));
+
+    Random random{3};
+    for (int i = 0; i < 40; ++i) { // cut off anywhere: all that was told before
+        const std::size_t cut = ends[0] + static_cast<std::size_t>(random.below(static_cast<int>(text.size() - ends[0])));
+        const auto part = readSession(std::string_view{text}.substr(0, cut), "monday.json");
+        ASSERT_EQ(part.error, "") << cut;
+        const auto last = std::ranges::upper_bound(ends, cut) - 1;
+        EXPECT_EQ(sessionJson(part.value), sessionJson(readSession(std::string_view{text}.substr(0, *last), "monday.json").value)) << cut;
+    }
+}
+
+TEST(SessionLog, AJournalEndsWhereAFileIsFullAndTheSessionPlaysOn) {
+    auto setup = shakeTheBoxSetup(0.05);
+    setup.log = LogUse::stream;
+    Session session{setup};
+    session.prepare(rate, 480);
+    session.advance();
+    Block block;
+    JournalLines lines{saved(setup, {}, 0), {}};
+    std::string text = lines.head();
+    SessionLog log;
+    for (int i = 0; i < 102; ++i) {
+        session.render(block.at.data(), 480, RenderMode::realtime);
+        session.advance();
+        for (int k = 0; k < 1000; ++k) ASSERT_EQ(session.act(TiltAction{0.0001 * k}), "");
+        text += lines.take(log, session.readLog(log));
+    }
+    EXPECT_EQ(lines.full(), "100000 inputs");
+    EXPECT_NEAR(static_cast<double>(lines.toldNs()) * 1e-9, 1.0, 0.02);
+    EXPECT_LT(session.size().inputs, 3000u);
+    const auto read = readSession(text, "monday.json");
+    ASSERT_EQ(read.error, "");
+    EXPECT_EQ(read.value.log.takes[0].inputs.size(), 100'000u);
+    EXPECT_EQ(read.value.lengthNs, lines.toldNs());
+}
+
+TEST(SessionLog, AJournalIsReadAsStrictlyAsAFile) {
+    const auto setup = shakeTheBoxSetup(0.05);
+    JournalLines lines{saved(setup, {}, 0), {}};
+    SessionLog log;
+    log.takes.push_back({0, 0, 1, std::make_shared<const Scene>(setup.scene), {{0.5, TiltAction{1.0}}}, {{200'000'000, 10'000'000}}});
+    const std::string text = lines.head() + lines.take(log, 1'000'000'000);
+    ASSERT_EQ(readSession(text, "s.json").error, "");
+    const auto refuses = [&](const std::string& from, const std::string& to, const std::string& why) {
+        std::string other = text;
+        const auto at = other.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        other.replace(at, from.size(), to);
+        EXPECT_EQ(readSession(other, "s.json").error, why);
+    };
+    refuses("\"journal\": 1", "\"journal\": 2", "s.json:1: journal: made for a newer PhysVib: expected a version up to 1, found 2");
+    refuses("{ \"time_s\": 0.5, \"input\": \"tilt\"", "{ \"angle\": 1, \"time_s\": 0.5, \"input\": \"tilt\"", "s.json:3: input: unknown field \"angle\"");
+    refuses("{ \"stall\"", "{ \"stop\"", "s.json:4: unknown field \"stop\"");
+    refuses("{ \"take\": ", "{ \"take\": 1, \"x\": ", "s.json:2: unknown field \"x\"");
+    EXPECT_EQ(readSession(lines.head(), "s.json").error, "s.json:1: expected at least 1 take, found none");
 }
 
 TEST(SessionLog, StatesFromAThirdThreadDisturbNothing) {

@@ -101,8 +101,9 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
     const auto file = folder / "monday.json";
     {
         SessionJournal journal{file, session, setup, {}};
-        journal.keep(session.status().sessionNs);
         ASSERT_EQ(journal.error(), "");
+        journal.end(session.status().sessionNs);
+        ASSERT_EQ(journal.finish(), "");
     }
     std::ifstream text{file};
     const std::string json{std::istreambuf_iterator<char>{text}, {}};

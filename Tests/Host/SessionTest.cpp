@@ -182,7 +182,7 @@ TEST(Session, ControlsThatComeWithAChangeOfRateNeverGoBackInTime) {
             else std::this_thread::yield();
     }};
     Block block;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 1000; ++i) {
         session.resume(i % 2 == 0 ? 192000 : 8000, 64);
         for (int k = 0; k < 20; ++k) session.render(block.at.data(), 64, RenderMode::realtime);
         session.advance();

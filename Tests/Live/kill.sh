@@ -23,7 +23,7 @@ playing=
 exec 3>&-
 
 "$physvib" render "$folder/session.json" --out "$folder/again.wav" --events "$folder/again.csv" >/dev/null
-seconds=$(sed -n 's/^  "seconds": \([0-9]*\).*/\1/p' "$folder/session.json")
+seconds=$(sed -n 's/^{ "seconds": \([0-9]*\).*/\1/p' "$folder/session.json" | tail -n 1)
 inputs=$(grep -c '"tilt", "angle_rad": 0.[1-9] }' "$folder/session.json")
 gains=$(grep -c '"gain"' "$folder/session.json")
 rows "$folder/session.events.csv" >"$folder/played"

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Parts that whole session files and journals have in common. For the .cpp files of Files.
+#pragma once
+#include "Files/JsonField.h"
+#include "Files/JsonLines.h"
+#include "Files/SessionFile.h"
+#include <initializer_list>
+#include <string_view>
+
+namespace physvib::detail {
+
+// Reading; all throw JsonError.
+std::int64_t readTime(const JsonField& seconds);
+/// What stands before the lists; `others` may stand beside it.
+SavedSession readSessionHead(const JsonField& root, std::initializer_list<std::string_view> others);
+SceneTake readTakeStart(const JsonField& json, const SceneTake* before);
+WorldStall readStall(const JsonField& json, const SceneTake& take); ///< not before the last of the take
+void readTimedControl(const JsonField& json, SavedSession& session);
+void readRecordingsChange(const JsonField& json, SessionLog& log);
+CollisionEvent readStrike(const JsonField& json);
+
+// Writing.
+double seconds(std::int64_t ns);
+OrderedJson sessionHeadJson(const SavedSession& session, bool isJournal);
+OrderedJson takeStartJson(const SceneTake& take, const SceneTake* before, bool withEnd);
+OrderedJson inputJson(const LiveInput& input, const Scene& scene);
+OrderedJson stallJson(const WorldStall& stall);
+OrderedJson timedControlJson(const RenderControl& control);
+OrderedJson recordingsJson(const RecordingsChange& change, const std::filesystem::path& folder);
+OrderedJson strikeJson(const CollisionEvent& strike);
+
+} // namespace physvib::detail

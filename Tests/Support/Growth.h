@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Memory and time of what goes on for hours of simulated time. Memory is asserted, times are told.
+#pragma once
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <malloc.h>
+#include <string>
+#include <vector>
+
+namespace physvib::test {
+
+/// How long the long tests simulate; one hour at least, of which nothing is asserted.
+inline double hoursWanted() {
+    const char* const hours = std::getenv("PHYSVIB_HOURS");
+    return hours != nullptr ? std::atof(hours) : 10.0;
+}
+
+/// What the program has asked for and not given back; what the system holds for it beside that comes and goes.
+inline double memoryMb() {
+    const auto now = mallinfo2();
+    return static_cast<double>(now.uordblks + now.hblkhd) / 1e6;
+}
+
+/// Steps, hour by hour.
+class Growth {
+public:
+    explicit Growth(std::string what)
+        : what_{std::move(what)} {
+        microseconds_.reserve(1'000'000);
+        hours_.reserve(1000);
+    }
+
+    template <class Step>
+    void step(double simulatedSeconds, Step step) {
+        if (simulatedSeconds >= 3600.0 * static_cast<double>(hours_.size() + 1)) endHour();
+        const auto before = std::chrono::steady_clock::now();
+        step();
+        microseconds_.push_back(std::chrono::duration<float, std::micro>(std::chrono::steady_clock::now() - before).count());
+    }
+
+    void expectFlat() {
+        endHour();
+        for (std::size_t h = 1; h < hours_.size(); ++h) EXPECT_LT(hours_[h] - hours_[0], 1.0) << "MB more than after the first hour, after hour " << h + 1;
+    }
+
+private:
+    void endHour() {
+        auto& sorted = microseconds_;
+        if (sorted.empty()) return;
+        std::ranges::sort(sorted);
+        const float median = sorted[sorted.size() / 2];
+        const auto slow = sorted.end() - std::ranges::upper_bound(sorted, 2 * median);
+        const std::size_t count = sorted.size();
+        const float p99 = sorted[count * 99 / 100], most = sorted.back();
+        sorted.clear();
+        hours_.push_back(memoryMb());
+        std::printf("%s: hour %zu: %.2f MB; a step %.1f us (median), %.1f (99 %%), %.1f (most), %.3f %% above twice the median\n", what_.c_str(), hours_.size(), hours_.back(), median, p99, most,
+                    100.0 * static_cast<double>(slow) / static_cast<double>(count));
+        std::fflush(stdout);
+    }
+
+    std::string what_;
+    std::vector<float> microseconds_;
+    std::vector<double> hours_; // MB
+};
+
+} // namespace physvib::test
