@@ -40,12 +40,7 @@ void CollisionCatcher::endStep() {
 
 void CollisionCatcher::forget(std::int32_t slot) noexcept {
     const auto isOf = [slot](const auto& noted) { return noted.a == slot || noted.b == slot; };
-    if (!last_.empty()) lastOf_.clear();
-    last_.assign(blows_.size(), {});
-    for (std::size_t i = 0; i < blows_.size(); ++i) {
-        blowOf_.erase(pairKey(blows_[i].a, blows_[i].b));
-        lastOf_.set(pairKey(blows_[i].a, blows_[i].b), static_cast<std::int32_t>(i));
-    }
+    for (const Blow& blow : blows_) blowOf_.erase(pairKey(blow.a, blow.b));
     std::erase_if(blows_, isOf);
     directBlows_ = 0;
     for (std::size_t i = 0; i < blows_.size(); ++i) {
