@@ -247,12 +247,6 @@ OrderedJson shapingJson(const EventShaping& shaping) {
     return json;
 }
 
-/// Whether a path does not leave the folder it begins in.
-bool staysBelow(const std::filesystem::path& path) {
-    const auto normal = path.lexically_normal();
-    return normal.is_relative() && (normal.empty() || *normal.begin() != "..");
-}
-
 std::string besides(const std::filesystem::path& folder, const std::string& path) {
     if (folder.empty() || syntheticSeed(path)) return path;
     const auto whole = std::filesystem::absolute(path).lexically_normal();
@@ -297,6 +291,16 @@ Result<SavedSession> readSession(std::string_view text, std::string_view name) {
     if (isJournal(text)) return readJournal(text, name);
     return readJson(text, name, limits::maxSessionFileBytes, [](const Json& root) { return detail::readSessionRoot(JsonField(root, {})); });
 }
+
+namespace {
+
+/// Whether a path does not leave the folder it begins in.
+bool staysBelow(const std::filesystem::path& path) {
+    const auto normal = path.lexically_normal();
+    return normal.is_relative() && (normal.empty() || *normal.begin() != "..");
+}
+
+} // namespace
 
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
     auto session = loadText(path, limits::maxSessionFileBytes, readSession);
