@@ -10,7 +10,7 @@
 #include "Files/MixJson.h"
 #include "Files/NumberText.h"
 #include "Files/SessionJournalText.h"
-#include "Files/SessionParts.h"
+#include "Files/SessionJson.h"
 #include "Physics/SceneEdits.h"
 #include "Physics/SceneValidation.h"
 #include "Physics/Simulation.h"

@@ -5,7 +5,7 @@
 #include "Files/JsonFile.h"
 #include "Files/JsonReader.h"
 #include "Files/JsonVersion.h"
-#include "Files/SessionParts.h"
+#include "Files/SessionJson.h"
 #include "Physics/SceneValidation.h"
 #include <algorithm>
 #include <utility>

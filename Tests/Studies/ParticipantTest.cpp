@@ -389,15 +389,15 @@ TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
         const auto file = folder.getChildFile("short.json");
         file.replaceWithText(R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": ")" + call +
                              R"("}], "sessions": [{"name": "main", "task": "estimate"}]})");
-        EXPECT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
-        return p->tab().begin();
+        const std::string fault = p->tab().chooseProtocol(file.getFullPathName().toStdString());
+        return fault.empty() ? p->tab().begin() : fault;
     };
     EXPECT_NE(refusal("stimulus phantom --at 0.5,2").find("expected X,Y from 0 to 1"), std::string::npos);
     EXPECT_NE(refusal("stimulus phantom --at 0.5,0.5 --level-g 40").find("expected at most its full scale of 1 g"), std::string::npos);
     EXPECT_NE(refusal("render drop --method SV").find("--method SV: expected a --sound for each material"), std::string::npos);
     EXPECT_NE(refusal("render drop --method SV --sound 80=gone.wav").find("gone.wav: cannot be read"), std::string::npos);
     EXPECT_NE(refusal("render drop --method SV --sound 81=synthetic-1").find("expected a --sound for 80 Hz"), std::string::npos);
-    EXPECT_NE(refusal("devices").find("devices"), std::string::npos);
+    EXPECT_NE(refusal("devices").find("call: expected render or stimulus"), std::string::npos);
     EXPECT_EQ(p->screen(), nullptr);
     EXPECT_FALSE(folder.getChildFile("short-P01.csv").exists());
 }

@@ -3,11 +3,11 @@
 // the memory in use grows from one opening to the next. Run by openings.sh.
 // Usage: physvib-editor-openings COUNT
 #include "Host/MessageLoop.h"
-#include "Plugin/Formats/DisplayNames.h"
 #include "PluginProcessor.h"
 #include <cstdio>
 #include <cstdlib>
 #include <malloc.h>
+#include "Plugin/Formats/DisplayNames.h" // last: X11's names are macros
 
 namespace {
 
