@@ -112,7 +112,7 @@ bool SystemFile::note(bool isGood) noexcept {
 }
 
 RemovedOnEnd::RemovedOnEnd(const SystemFile& file, const std::filesystem::path& name) {
-    auto removal = std::make_unique<Removal>(file.descriptor_, std::filesystem::absolute(name).string());
+    auto removal = std::make_unique<Removal>(Removal{file.descriptor_, std::filesystem::absolute(name).string()});
     for (std::size_t i = 0; i < removals.size() && slot_ < 0; ++i) {
         Removal* none = nullptr;
         if (removals[i].compare_exchange_strong(none, removal.get())) slot_ = static_cast<int>(i);
