@@ -106,6 +106,7 @@ std::string AtomicFile::prepare() {
 std::string AtomicFile::make(const fs::path& sibling) {
     constexpr int mostTries = 100;
     for (int i = 0; i < mostTries; ++i) {
+        const HeldSignals held;
         SystemFile made = SystemFile::create(sibling);
         if (!made.isOpen() && made.error() != EEXIST) return made.reason();
         if (made.isOpen() && made.lock() != Lock::others && made.isAt(sibling)) {

@@ -131,6 +131,15 @@ RemovedOnEnd::~RemovedOnEnd() {
     if (slot_ >= 0) delete removals[static_cast<std::size_t>(slot_)].exchange(nullptr);
 }
 
+HeldSignals::HeldSignals() noexcept {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+}
+
+HeldSignals::~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
 void removeAllOnEnd() noexcept {
     for (auto& slot : removals)
         if (const Removal* const removal = slot.exchange(nullptr); removal && isFileAt(removal->descriptor, removal->name.c_str())) unlink(removal->name.c_str());

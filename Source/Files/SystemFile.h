@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An open file of the system, with its lock: the one place of this room that asks for more than the standard library knows.
 #pragma once
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -73,6 +74,19 @@ public:
 
 private:
     int slot_ = -1;
+};
+
+/// While it lives, signals that end the program wait: between making a file and being ready to remove it. Any thread but
+/// R; for the thread that made it.
+class HeldSignals {
+public:
+    HeldSignals() noexcept;
+    ~HeldSignals();
+    HeldSignals(const HeldSignals&) = delete;
+    HeldSignals& operator=(const HeldSignals&) = delete;
+
+private:
+    sigset_t before_;
 };
 
 /// For the handler of a signal that ends the program: allocates, locks and waits for nothing.

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(PHYSVIB_SANITIZED)
 constexpr const char* little = ""; // a sanitizer takes memory of its own
 #else
 constexpr const char* little = "ulimit -d 300000; "; // kB
