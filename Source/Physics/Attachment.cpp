@@ -4,6 +4,8 @@
 #include "Physics/WorldNames.h"
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <utility>
 
 namespace physvib {
 
@@ -11,7 +13,9 @@ namespace {
 
 // Worlds may call these for as long as the program runs.
 void keepForEver(std::unique_ptr<WorldListener> listener) {
+    static std::mutex mutex; // worlds may live on threads of their own
     static auto* const kept = new std::vector<std::unique_ptr<WorldListener>>; // never destroyed: worlds may be, later
+    const std::lock_guard lock{mutex};
     kept->push_back(std::move(listener));
 }
 

@@ -26,6 +26,7 @@ public:
     /// range.
     Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecond,
                ImpactTiming timing = ImpactTiming::onset, ImpactLocation location = ImpactLocation::contact);
+    ~Simulation() { attachment_.detach(); } // the world is still there, and leaves with it
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 

@@ -28,14 +28,14 @@ private:
 void WorldListener::BeginContact(b2Contact* contact) {
     const Call call{*this, contact};
     if (!call) return;
-    if (!isDeaf_) finder_.begin(*contact);
+    if (finder_) finder_->begin(*contact);
     if (chained_ != nullptr) chained_->BeginContact(contact);
 }
 
 void WorldListener::EndContact(b2Contact* contact) {
     const Call call{*this, contact};
     if (!call) return;
-    if (!isDeaf_) finder_.end(*contact);
+    if (finder_) finder_->end(*contact);
     if (chained_ != nullptr) chained_->EndContact(contact);
 }
 
@@ -43,13 +43,13 @@ void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) 
     const Call call{*this, contact};
     if (!call) return;
     if (chained_ != nullptr) chained_->PreSolve(contact, oldManifold); // it may switch the contact off
-    if (!isDeaf_) finder_.look(*contact, *oldManifold);
+    if (finder_) finder_->look(*contact, *oldManifold);
 }
 
 void WorldListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
     const Call call{*this, contact};
     if (!call) return;
-    if (!isDeaf_) finder_.push(*contact, *impulse);
+    if (finder_) finder_->push(*contact, *impulse);
     if (chained_ != nullptr) chained_->PostSolve(contact, impulse);
 }
 
@@ -61,14 +61,14 @@ void WorldListener::SayGoodbye(b2Joint* joint) {
 void WorldListener::SayGoodbye(b2Fixture* fixture) {
     const Call call{*this, fixture};
     if (!call) return;
-    if (const std::int32_t slot = isDeaf_ ? FixtureTable::none : finder_.find(*fixture); slot != FixtureTable::none) events_.vanish(slot);
+    if (const std::int32_t slot = finder_ ? finder_->find(*fixture) : FixtureTable::none; slot != FixtureTable::none) events_.vanish(slot);
     if (chainedEnds_ != nullptr) chainedEnds_->SayGoodbye(fixture);
 }
 
 // What a world's listener really is: those of attachments that have ended are passed over.
 template <class Listener>
 Listener* WorldListener::behindDeaf(Listener* found, Listener* WorldListener::*next) {
-    for (auto* deaf = dynamic_cast<WorldListener*>(found); deaf != nullptr && deaf->isDeaf_; deaf = dynamic_cast<WorldListener*>(found))
+    for (auto* deaf = dynamic_cast<WorldListener*>(found); deaf != nullptr && !deaf->finder_; deaf = dynamic_cast<WorldListener*>(found))
         found = deaf->*next;
     return found;
 }

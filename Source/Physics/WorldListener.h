@@ -3,6 +3,7 @@
 #pragma once
 #include "Physics/BlowFinder.h"
 #include <box2d/box2d.h>
+#include <memory>
 
 namespace physvib {
 
@@ -15,7 +16,7 @@ class WorldListener final : public b2ContactListener, public b2DestructionListen
 public:
     WorldListener(ContactEvents& events, BodySweeps& sweeps)
         : events_(events)
-        , finder_(events, sweeps) {}
+        , finder_(std::make_unique<BlowFinder>(events, sweeps)) {}
     WorldListener(const WorldListener&) = delete;
     WorldListener& operator=(const WorldListener&) = delete;
 
@@ -29,9 +30,9 @@ public:
     bool remove(b2World& world);
 
     /// From now on it hands calls on, and touches nothing else.
-    void deafen() noexcept { isDeaf_ = true; }
+    void deafen() noexcept { finder_.reset(); }
 
-    BlowFinder& finder() noexcept { return finder_; }
+    BlowFinder& finder() noexcept { return *finder_; }
 
     void BeginContact(b2Contact* contact) override;
     void EndContact(b2Contact* contact) override;
@@ -48,11 +49,10 @@ private:
     bool isReachedBy(Listener* found, Listener* WorldListener::*next) const;
 
     ContactEvents& events_;
-    BlowFinder finder_;
+    std::unique_ptr<BlowFinder> finder_; // none: deaf
     b2ContactListener* chained_ = nullptr;
     b2DestructionListener* chainedEnds_ = nullptr;
     const void* callFor_ = nullptr; // what the call that is being handed on is about
-    bool isDeaf_ = false;
 };
 
 } // namespace physvib
