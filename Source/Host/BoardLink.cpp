@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
 constexpr std::int64_t helloEvery = 250 * ms, telemetryEvery = second, gainsEvery = second, searchEvery = second / 2;
+constexpr std::int64_t firstGainsAgain = 8 * ms;        // then after twice as long each time: silence is not a second late where a line loses it
 constexpr std::int64_t givenUpAfter = 3 * second / 2;   // a silent line is opened again
 constexpr std::int64_t tooOld = 50 * ms;                // a strike this late is not worth the line
 constexpr std::int64_t lineAhead = 4 * ms;              // in the system's buffers at most: the rest can still be thinned
@@ -140,7 +141,7 @@ void BoardLink::meet(const wire::HelloReply& board) {
     if (auto fault = refusal(board); !fault.empty()) return disconnect(now_.port + ": " + fault);
     now_.board = board;
     now_.trouble.clear();
-    nextGainsNs_ = 0; // it may have been without power, and plays at its own again
+    nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // it may have been without power, and plays at its own again
     now_.state = State::synchronising;
     sequence_ = 0xFF;
     pingSentNs_.fill(0);
@@ -176,7 +177,8 @@ void BoardLink::keepInTouch() {
         send(wire::TelemetryRequest{});
     }
     if (line_ && gains_ && now >= nextGainsNs_) {
-        nextGainsNs_ = now + gainsEvery;
+        nextGainsNs_ = now + gainsPauseNs_;
+        gainsPauseNs_ = std::min(2 * gainsPauseNs_, gainsEvery);
         send(*gains_);
     }
 }
@@ -192,7 +194,7 @@ void BoardLink::obey() {
         for (BoardStrike waiting; strikes_.pop(waiting);) {}
         if (line_) send(wire::StopAll{});
     }
-    if (orders.gains) gains_ = orders.gains, nextGainsNs_ = 0;
+    if (orders.gains) gains_ = orders.gains, nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain;
     if (orders.selfTest && line_) {
         now_.selfTest.reset();
         send(wire::SelfTest{});

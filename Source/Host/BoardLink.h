@@ -62,7 +62,7 @@ public:
 
     void stopAll() { order([](Orders& o) { o.stopAll = true; }); }
     void requestSelfTest() { order([](Orders& o) { o.selfTest = true; }); }
-    /// Negative gains turn the polarity; -8 to 8. Repeated, since a line may lose them and a board its power.
+    /// Negative gains turn the polarity; -8 to 8. Repeated, soon at first, since a line may lose them and a board its power.
     void setGains(const std::array<double, limits::board::channels>& gains);
 
     BoardLinkStatus status() const;
@@ -113,7 +113,7 @@ private:
     BoardLinkStatus now_;
     std::optional<wire::Gains> gains_;
     std::array<std::int64_t, 256> pingSentNs_{}; // 0: not on its way
-    std::int64_t heardNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0, nextGainsNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
+    std::int64_t heardNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0, nextGainsNs_ = 0, gainsPauseNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
     std::size_t searched_ = 0; // ports tried so far
     std::uint8_t pingId_ = 0, sequence_ = 0xFF;
     std::thread thread_;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boards that answer as none should, and one whose counter is over: what the link makes of them.
+#include "Host/BoardOutput.h"
+#include "Host/FakeAudioDevice.h"
+#include "Host/WallsScene.h"
 #include "VirtualBoard.h"
 #include "VirtualBoard/PseudoTerminal.h"
 #include "Wire/FrameDecoder.h"
@@ -22,6 +25,21 @@ public:
     const std::string& port() const { return line_.path(); }
     /// Of its counter, which does not wrap here.
     double frameAt(std::int64_t ns) const { return first_ + static_cast<double>(ns - startNs_) * 1e-9 * limits::board::sampleRateHz; }
+    /// The last that it was told of the first channel.
+    int gain() const {
+        const std::scoped_lock lock{mutex_};
+        return gains_.gains[0];
+    }
+    /// From now on the line loses so many of each new gains, before one is heard.
+    void loseGains(int messages) {
+        const std::scoped_lock lock{mutex_};
+        losses_ = messages;
+    }
+    /// How often it was asked for telemetry, which is once a second, between the newest gains and their being heard.
+    int secondsLate() const {
+        const std::scoped_lock lock{mutex_};
+        return secondsLate_;
+    }
     std::vector<wire::Strike> strikes() const {
         const std::scoped_lock lock{mutex_};
         return strikes_;
@@ -46,6 +64,13 @@ private:
         }
         const std::scoped_lock lock{mutex_};
         if (wire::Strike strike; wire::decode(payload, strike)) strikes_.push_back(strike);
+        if (wire::TelemetryRequest request; wire::decode(payload, request)) ++seconds_;
+        if (wire::Gains gains; wire::decode(payload, gains)) hear(gains);
+    }
+    void hear(const wire::Gains& gains) {
+        if (gains.gains != sent_.gains) sent_ = gains, unheard_ = losses_, changedIn_ = seconds_;
+        if (unheard_-- > 0) return;
+        if (gains_.gains != gains.gains) gains_ = gains, secondsLate_ = seconds_ - changedIn_;
     }
     template <class Message>
     void send(const Message& message) {
@@ -60,6 +85,8 @@ private:
     const std::int64_t startNs_ = BoardLink::nowNs();
     mutable std::mutex mutex_;
     std::vector<wire::Strike> strikes_;
+    wire::Gains gains_, sent_; // heard; as they came last, perhaps lost
+    int losses_ = 0, unheard_ = 0, seconds_ = 0, changedIn_ = 0, secondsLate_ = 0;
     std::atomic<bool> stop_{false};
     std::thread thread_{[this] { run(); }};
 };
@@ -105,6 +132,39 @@ TEST(BoardLinkWithAFakeBoard, NeitherAWrongAnswerNorACounterThatIsOverMovesItsCl
     EXPECT_EQ(link.status().connections, 1u);
     EXPECT_EQ(link.status().refused, 0u);
     EXPECT_LT(link.status().playOutMs, 200.0);
+}
+
+TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
+    FakeBoard board{ours(), 0};
+    BoardLink link{board.port()};
+    SessionSetup setup = test::setupOfWalls();
+    setup.channels = 4;
+    setup.boardSeconds = 0.05;
+    Session session{setup};
+    std::atomic<bool> interrupt{false};
+    test::FakeInterface hands;
+    AudioOutput output{session, test::fakeTypes({&hands}), &interrupt};
+    output.setLevel(0.5f);
+    BoardOutput onBoard{session, output, link, setup.panner};
+    const int half = limits::board::amplitudeUnit / 2;
+    EXPECT_TRUE(test::comesTrue([&] { return board.gain() == half; }));
+    output.setSilent(true);
+    EXPECT_TRUE(test::comesTrue([&] { return board.gain() == 0; }));
+    output.setSilent(false);
+    EXPECT_TRUE(test::comesTrue([&] { return board.gain() == half; }));
+    interrupt = true; // Ctrl-C
+    EXPECT_TRUE(test::comesTrue([&] { return board.gain() == 0; }));
+}
+
+TEST(BoardLinkWithAFakeBoard, GainsThatTheLineLosesComeAgainSoon) {
+    FakeBoard board{ours(), 0};
+    BoardLink link{board.port()};
+    link.setGains({1.0, 1.0, 1.0, 1.0});
+    ASSERT_TRUE(test::comesTrue([&] { return board.gain() != 0; }));
+    board.loseGains(4);
+    link.setGains({});
+    ASSERT_TRUE(test::comesTrue([&] { return board.gain() == 0; }));
+    EXPECT_LE(board.secondsLate(), 1) << "the fifth message, not four seconds later";
 }
 
 } // namespace
