@@ -3,6 +3,7 @@
 #include "Mixer/StudyAnswer.h"
 #include "Mixer/StudyParts.h"
 #include <cmath>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -90,7 +91,9 @@ public:
         return false;
     }
     bool keyPressed(const juce::KeyPress& key) override { return takeKey(key); }
-    void mouseMove(const juce::MouseEvent& e) override { follow(e); }
+    void mouseMove(const juce::MouseEvent& e) override { // JUCE also tells of a mouse that lies still, when what is under it changes: no hand moved the mark
+        if (std::exchange(seenAt_, e.position).value_or(e.position) != e.position) follow(e);
+    }
     void mouseDrag(const juce::MouseEvent& e) override { follow(e); }
     void mouseDown(const juce::MouseEvent& e) override { follow(e); }
     void mouseUp(const juce::MouseEvent& e) override {
@@ -130,6 +133,7 @@ private:
     const LayoutDescription layout_;
     FieldPlace mark_{0.5, 0.5};
     std::optional<FieldPlace> answered_;
+    std::optional<juce::Point<float>> seenAt_; // the mouse
 };
 
 } // namespace

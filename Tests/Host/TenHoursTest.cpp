@@ -10,33 +10,50 @@ namespace {
 
 using namespace test;
 
+struct Monday {
+    explicit Monday(const std::filesystem::path& file)
+        : session{setup}
+        , journal{file, session, setup, {}} {
+        session.prepare(hostRate, 480);
+        session.advance();
+    }
+    static SessionSetup streamed() {
+        auto setup = shakeTheBoxSetup(0.02);
+        setup.log = LogUse::stream;
+        return setup;
+    }
+    void input(std::int64_t i) {
+        if (i % 50 == 0) ASSERT_EQ(session.act(TiltAction{0.001 * static_cast<double>(i % 1000)}), "");
+        if (i % 500 == 0) ASSERT_GE(session.post({.kind = RenderControl::Kind::gain, .channel = 1, .value = 0.5f}), 0);
+    }
+    void step() {
+        session.render(block.at.data(), 480, RenderMode::realtime);
+        session.advance();
+        for (PlayedEvent e; session.played().pop(e);) journal.take(e);
+    }
+    const SessionSetup setup = streamed();
+    Session session;
+    SessionJournal journal;
+    Block block;
+};
+
 TEST(SessionForHours, DISABLED_HoldsNoMoreAndGetsNoSlower) {
     Growth growth{"play --listen --save, two inputs a second"};
     const auto folder = std::filesystem::temp_directory_path() / ("physvib-hours-" + std::to_string(getpid()));
     std::filesystem::create_directory(folder);
     {
-        auto setup = shakeTheBoxSetup(0.02);
-        setup.log = LogUse::stream;
-        Session session{setup};
-        session.prepare(hostRate, 480);
-        SessionJournal journal{folder / "monday.json", session, setup, {}};
-        ASSERT_EQ(journal.error(), "");
-        session.advance();
-        Block block;
+        Monday one{folder / "one.json"}, other{folder / "other.json"};
         const auto blocks = static_cast<std::int64_t>(hoursWanted() * 360'000);
         for (std::int64_t i = 0; i < blocks; ++i) {
-            if (i % 50 == 0) ASSERT_EQ(session.act(TiltAction{0.001 * static_cast<double>(i % 1000)}), "");
-            if (i % 500 == 0) ASSERT_GE(session.post({.kind = RenderControl::Kind::gain, .channel = 1, .value = 0.5f}), 0);
-            growth.step(static_cast<double>(i) * 0.01, [&] {
-                session.render(block.at.data(), 480, RenderMode::realtime);
-                session.advance();
-                for (PlayedEvent e; session.played().pop(e);) journal.take(e);
-            });
+            for (Monday* monday : {&one, &other}) monday->input(i);
+            growth.step(static_cast<double>(i) * 0.01, [&] { one.step(); }, [&] { other.step(); });
         }
         growth.expectFlat();
-        journal.end(session.status().sessionNs);
-        EXPECT_EQ(journal.finish(), "");
-        EXPECT_EQ(journal.news(), "");
+        for (Monday* monday : {&one, &other}) {
+            monday->journal.end(monday->session.status().sessionNs);
+            EXPECT_EQ(monday->journal.finish(), "");
+            EXPECT_EQ(monday->journal.news(), "");
+        }
     }
     std::filesystem::remove_all(folder);
 }

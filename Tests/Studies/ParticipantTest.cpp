@@ -175,6 +175,8 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
             }
             p->key(juce::KeyPress::rightKey, juce::ModifierKeys::shiftModifier);
             p->key(juce::KeyPress::downKey);
+            juce::Desktop::getInstance().getMainMouseSource().triggerFakeMove(); // as JUCE does when what lies under the mouse changes
+            p->pump();
             touched.push_back({0.1, 0.01});
             p->enter();
         }

@@ -6,6 +6,12 @@
 #include <cmath>
 
 namespace physvib {
+namespace {
+
+/// A long press is none, as it is for JUCE.
+bool isDrag(const juce::MouseEvent& e) { return e.source.hasMovedSignificantlySincePressed(); }
+
+} // namespace
 
 int WorldView::bodyAt(juce::Point<float> p) const {
     const auto at = map();
@@ -51,7 +57,7 @@ void WorldView::mouseDown(const juce::MouseEvent& e) {
 void WorldView::mouseDrag(const juce::MouseEvent& e) {
     grip_.to = e.position;
     grip_.isOutside = !getLocalBounds().toFloat().contains(e.position);
-    if (grip_.enchanter >= 0 && onMove && !grip_.isOutside && e.mouseWasDraggedSinceMouseDown()) onMove(grip_.enchanter, map().shareAt(e.position));
+    if (grip_.enchanter >= 0 && onMove && !grip_.isOutside && isDrag(e)) onMove(grip_.enchanter, map().shareAt(e.position));
     if (grip_.body >= 0) repaint();
 }
 
@@ -59,8 +65,8 @@ void WorldView::mouseUp(const juce::MouseEvent& e) {
     const Grip grip = std::exchange(grip_, {});
     repaint();
     if (grip.enchanter >= 0 && grip.isOutside && onDetach) return onDetach(grip.enchanter);
-    if (onSpot && grip.enchanter < 0 && !e.mods.isPopupMenu() && !e.mouseWasDraggedSinceMouseDown() && map().field.contains(e.position)) return onSpot(map().shareAt(e.position));
-    if (grip.body < 0 || !onPull || !e.mouseWasDraggedSinceMouseDown()) return;
+    if (onSpot && grip.enchanter < 0 && !e.mods.isPopupMenu() && !isDrag(e) && map().field.contains(e.position)) return onSpot(map().shareAt(e.position));
+    if (grip.body < 0 || !onPull || !isDrag(e)) return;
     const auto at = map();
     const auto way = (e.position - grip.from) / at.pixelsPerMetre;
     onPull(cast_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, pointOf(grip));

@@ -31,6 +31,11 @@ public:
         press(at);
         release(at);
     }
+    void longClick(juce::Component& c, juce::Point<float> inIt) {
+        press(placeOf(c, inIt));
+        timeMs_ += 1000;
+        release(placeOf(c, inIt));
+    }
     void drag(juce::Point<float> from, juce::Point<float> to) {
         send(from, 0);
         press(from);
@@ -46,7 +51,7 @@ public:
 
 private:
     void send(juce::Point<float> at, int buttons) {
-        timeMs_ += 20;
+        timeMs_ = std::max(timeMs_ + 20, juce::Time::currentTimeMillis()); // not behind what JUCE itself tells of the mouse
         window_.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at, juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
         runFor(0.03);
     }
@@ -182,15 +187,17 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
 
     auto& world = window.view().world().view();
     hand.click(world, world.placeOfShare({0.25, 0.75}));
+    hand.longClick(world, world.placeOfShare({0.75, 0.25}));
     auto& feel = *find(tab, "Feel the material at the spot");
     feel.grabKeyboardFocus();
     hand.key(juce::KeyPress::returnKey);
     const auto& strikes = window.desk().saved().log.strikes;
-    ASSERT_EQ(strikes.size(), 2u);
+    ASSERT_EQ(strikes.size(), 3u);
     EXPECT_EQ(strikes[0].frequencyHz, concrete.frequencyHz);
     EXPECT_NEAR(strikes[0].x / window.desk().sceneNow().fieldWidthMetres, 0.25, 0.01);
     EXPECT_NEAR(strikes[0].y / window.desk().sceneNow().fieldHeightMetres, 0.75, 0.01);
-    EXPECT_EQ(strikes[1].x, strikes[0].x);
+    EXPECT_NEAR(strikes[1].x / window.desk().sceneNow().fieldWidthMetres, 0.75, 0.01) << "a long press is a click";
+    EXPECT_EQ(strikes[2].x, strikes[1].x);
     hand.key('z', juce::ModifierKeys::commandModifier);
     EXPECT_EQ(concrete.frequencyHz, 80.0);
     hand.key('z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
