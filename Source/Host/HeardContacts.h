@@ -32,16 +32,17 @@ public:
     /// The same frames as the enchanters' renderer, after it. R, wait-free.
     void render(float* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
-    /// Hits that found no room. Any thread.
-    std::uint64_t lost() const noexcept { return events_.overflows(); }
+    /// Hits and stops that found no room. Any thread.
+    std::uint64_t lost() const noexcept { return events_.overflows() + stops_.overflows(); }
 
 private:
     struct Source;
     void setContacts(int sampleRateHz);
 
-    // Both ends are R. The enchanters' renderer takes at most its pending store and what it plays in a block at a time.
+    // Both ends are R. The enchanters' renderer takes at most its pending store and what it plays in a block at a time,
+    // and all controls that wait in a session at once.
     EventQueue<CollisionEvent, 16384> events_;
-    EventQueue<std::int64_t, 64> stops_;
+    EventQueue<std::int64_t, 512> stops_;
     std::vector<ContactRecording> recordings_;
     ContactSounds contacts_;
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_ = std::make_unique<HapticRenderer<DesktopProfile>>();

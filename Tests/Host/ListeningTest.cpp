@@ -170,6 +170,27 @@ TEST(Listening, StopsWithWhatIsFelt) {
     EXPECT_LT(peakOf(rig.play(0.5)[1]), 1e-6f);
 }
 
+TEST(Listening, NoneOfManyStopsIsLost) {
+    HeardContacts heard{{}};
+    heard.prepare(48000);
+    CollisionEvent tone;
+    tone.timeNs = 1'000'000;
+    tone.frequencyHz = 200.0;
+    tone.amplitude = 0.5;
+    tone.durationNs = 5'000'000'000;
+    heard.tell(tone);
+    RenderControl stop;
+    for (int k = 0; k < 384; ++k) heard.tell(stop); // as many as a session's queues hold
+    stop.timeNs = 20'000'000;
+    heard.tell(stop);
+    EXPECT_EQ(heard.lost(), 0u);
+    std::vector<float> begun(4800), ended(4800);
+    heard.render(begun.data(), 4800);
+    heard.render(ended.data(), 4800);
+    EXPECT_GT(peakOf(begun), 0.4f);
+    EXPECT_LT(peakOf(ended), 1e-6f);
+}
+
 TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
     Rig rig{setupOn("phone4", false)};
     EXPECT_EQ(rig.open(noiseOn({3}, -40.0)), "output 4 is an enchanter's; expected another one to listen to");
