@@ -9,6 +9,8 @@
 
 namespace physvib {
 
+constexpr std::size_t mostCallBytes = 2000; // with its recordings: those of all parts of a trial stand in its row
+
 /// Letters (also those beyond ASCII), digits, and signs that a shell takes as they are.
 constexpr bool isPlainCharacter(char c) noexcept {
     const bool isLetter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;

@@ -2,6 +2,7 @@
 // What the parts of a protocol ask of each other, and the stimuli they name.
 #include "Study/Protocol.h"
 #include "Study/CallWords.h"
+#include "Study/Trial.h"
 #include <algorithm>
 #include <set>
 
@@ -69,8 +70,12 @@ std::string callsFault(const Protocol& p, const ConditionPlan& c, const CallSet&
     const auto parts = namesParts ? callPartsOf(p) : std::set<std::string>{""};
     if (!std::ranges::all_of(parts, isPlain)) return "call: expected alternatives and objects without braces";
     for (const StimulusItem& item : stimuliOf(c))
-        for (const std::string& part : parts)
-            if (std::string fault = callFault(callOf(calls, item, part, "0")); !fault.empty()) return "call: " + fault;
+        for (const std::string& part : parts) {
+            const std::string call = callOf(calls, item, part, "0");
+            if (std::string fault = callFault(call); !fault.empty()) return "call: " + fault;
+            if (const auto bytes = call.size() + soundWords(p, call).size(); bytes > mostCallBytes)
+                return "call: expected at most " + std::to_string(mostCallBytes) + " bytes with its recordings, found " + std::to_string(bytes);
+        }
     return {};
 }
 

@@ -21,17 +21,6 @@ struct Part {
     double levelDb = 0.0;
 };
 
-/// " --sound 80=ball.wav" and so on for a call that plays recordings; a path with spaces in quotes.
-std::string soundWords(const Protocol& protocol, const std::string& call) {
-    std::string words;
-    if (call.find("--method SV") == std::string::npos) return words;
-    for (const StudySoundFile& sound : protocol.sounds) {
-        const std::string quote = sound.file.find(' ') == std::string::npos ? "" : "\"";
-        words += " --sound " + quote + text(sound.frequencyHz) + "=" + sound.file + quote;
-    }
-    return words;
-}
-
 struct CallMaker {
     const Protocol& protocol;
     const ConditionPlan& condition;
@@ -60,6 +49,16 @@ struct CallMaker {
 };
 
 } // namespace
+
+std::string soundWords(const Protocol& protocol, const std::string& call) {
+    std::string words;
+    if (call.find("--method SV") == std::string::npos) return words;
+    for (const StudySoundFile& sound : protocol.sounds) {
+        const std::string quote = sound.file.find(' ') == std::string::npos ? "" : "\"";
+        words += " --sound " + quote + text(sound.frequencyHz) + "=" + sound.file + quote;
+    }
+    return words;
+}
 
 std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& trial) {
     return std::holds_alternative<GridSet>(condition.stimuli) ? parseGridCell(trial.stimulus) : std::nullopt;

@@ -49,6 +49,9 @@ std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& tr
 /// Whether the answer was right; none if the task knows no right. Any thread.
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record);
 
+/// What a call that plays recordings gets behind it: " --sound 80=ball.wav" and so on; a path with spaces in quotes. Any thread (allocates).
+std::string soundWords(const Protocol& protocol, const std::string& call);
+
 /// The arguments of `physvib` that render what was felt, one call for each part; of a trial without parts one. What is felt
 /// while a trial is not answered yet: give the answer as it stands. M only (allocates).
 std::vector<std::string> partCallsOf(const Protocol& protocol, const TrialRecord& record);

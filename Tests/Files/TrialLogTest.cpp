@@ -41,6 +41,22 @@ TEST(TrialLog, EveryProtocolsRowsAreTheExperimentAgain) {
     }
 }
 
+TEST(TrialLog, ManyLongCallsOfATrialAreReadBack) {
+    Protocol p = findProtocol("magnitudes").value;
+    p.conditions.resize(1);
+    p.conditions[0].stimuli = CallSet{{{"n", {"one"}}}, "render drop --set pair={object} --layout " + std::string(1500, 'l')};
+    p.sessions.resize(1);
+    p.sessions[0].task = StudyTask::rate;
+    p.sessions[0].scales = {"liking"};
+    for (int i = 0; i < 64; ++i) p.sessions[0].objects.push_back("object " + std::to_string(i));
+    ASSERT_EQ(validate(p), "");
+    const std::string text = wholeFile(p);
+    EXPECT_GT(text.size(), 64u * 1500);
+    const auto log = readTrialLog(text, "t.csv", p, participant);
+    ASSERT_TRUE(log) << log.error;
+    EXPECT_EQ(log.value.wholeBytes, text.size());
+}
+
 TEST(TrialLog, CutAnywhereTheWholeRowsRemain) {
     const Protocol protocol = findProtocol("level-steps").value;
     const std::string text = wholeFile(protocol);

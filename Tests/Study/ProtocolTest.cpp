@@ -64,6 +64,7 @@ TEST(Protocol, CallsRenderAndDoNothingElse) {
     EXPECT_EQ(fault("render /home/x/scene.json"), "conditions[0].call: expected files in the folder or below, found /home/x/scene.json");
     EXPECT_EQ(fault("render drop --layout a/../../x.json"), "conditions[0].call: expected files in the folder or below, found a/../../x.json");
     EXPECT_EQ(fault("render drop --sound 80=/x.wav"), "conditions[0].call: expected files in the folder or below, found 80=/x.wav");
+    EXPECT_EQ(fault("render {a}{a}", {std::string(1000, 'a')}), "conditions[0].call: expected at most 2000 bytes with its recordings, found 2007") << "it stands in every row";
     EXPECT_EQ(fault("render {a}", {"{b}{b}{b}"}), "conditions[0].factors: expected names and values without braces") << "sixteen of them would fill the memory";
 }
 
