@@ -4,7 +4,9 @@
 #include "Files/CsvText.h"
 #include "Files/EventColumns.h"
 #include "Files/ReadFile.h"
+#include "Files/TextLines.h"
 #include <algorithm>
+#include <cerrno>
 
 namespace physvib {
 namespace {
@@ -24,27 +26,34 @@ std::size_t cellsIn(std::string_view line) {
 
 class Reader {
 public:
-    Reader(std::string_view text, std::string_view name, std::size_t maxRows)
-        : rest_(text)
+    /// `from`: a text, or a file.
+    template <class From>
+    Reader(From from, std::string_view name, std::size_t maxRows)
+        : lines_(from)
         , name_(name)
-        , maxRows_(maxRows) {
-        dropByteOrderMark(rest_);
+        , maxRows_(maxRows) {}
+
+    /// How many events there are, none of which is kept.
+    Result<std::size_t> count() {
+        isKept_ = false;
+        if (!readAll()) return Failure{std::move(error_)};
+        return count_;
     }
 
-    Result<std::vector<CollisionEvent>> read() {
-        const bool isRead = readHeader() && readRows();
-        if (!isRead) return Failure{std::move(error_)};
+    /// Room for so many is made at once.
+    Result<std::vector<CollisionEvent>> read(std::size_t expected) {
+        events_.reserve(std::min(expected, maxRows_));
+        if (!readAll()) return Failure{std::move(error_)};
         return std::move(events_);
     }
 
 private:
+    bool readAll() { return readHeader() && readRows(); }
+
     bool readHeader() {
         std::string_view header;
-        while (header.empty() || header.starts_with('#')) {
-            if (rest_.empty())
-                return fail("expected a header line " + columnNames() + ", found the end of the file");
-            header = nextLine();
-        }
+        while (header.empty() || header.starts_with('#'))
+            if (!nextLine(header)) return failEnd("expected a header line " + columnNames() + ", found the end of the file");
         for (std::size_t left = cellsIn(header); left > 0; --left)
             if (!readName(trimmed(takeUntil(',', header)))) return false;
         for (std::size_t i = 0; i < requiredEventColumns; ++i)
@@ -65,16 +74,22 @@ private:
 
     bool has(const EventColumn& column) const { return std::ranges::find(order_, &column) != order_.end(); }
 
+    // Blank lines are none at the end only.
     bool readRows() {
-        const auto lines = static_cast<std::size_t>(std::ranges::count(rest_, '\n')) + 1;
-        events_.reserve(std::min(lines, maxRows_));
-        while (rest_.find_first_not_of(" \t\r\n") != std::string_view::npos)
-            if (!readRow(nextLine())) return false;
-        return !events_.empty() || fail("expected events after the header, found none");
+        std::string_view line;
+        std::size_t blank = 0;
+        while (nextLine(line)) {
+            if (!line.empty() && blank > 0) break;
+            if (line.empty()) ++blank;
+            else if (!readRow(line)) return false;
+        }
+        line_ -= blank;
+        if (!line.empty() && blank > 0) return readRow({});
+        return count_ == 0 ? failEnd("expected events after the header, found none") : !lines_.isTooLong() || failEnd({});
     }
 
     bool readRow(std::string_view line) {
-        if (events_.size() == maxRows_)
+        if (count_ == maxRows_)
             return fail("expected at most " + std::to_string(maxRows_) + " events");
         const std::size_t cells = cellsIn(line);
         if (cells != order_.size())
@@ -97,22 +112,32 @@ private:
     bool accept(const CollisionEvent& event) {
         if (event.decayPerSecond == 0.0 && event.durationNs == 0)
             return fail("column decay_per_s: expected a number > 0, or a duration_s > 0, found 0");
-        if (!events_.empty() && event.timeNs < events_.back().timeNs) return failOrder(event.timeNs);
-        events_.push_back(event);
+        if (count_ > 0 && event.timeNs < lastNs_) return failOrder(event.timeNs);
+        ++count_;
+        lastNs_ = event.timeNs;
+        if (isKept_) events_.push_back(event);
         return true;
     }
 
     bool failOrder(std::int64_t timeNs) {
         std::string message = "column time_s: expected a time >= ";
-        appendSeconds(message, events_.back().timeNs);
+        appendSeconds(message, lastNs_);
         message += " of the row above, found ";
         appendSeconds(message, timeNs);
         return fail(message);
     }
 
-    std::string_view nextLine() {
+    bool nextLine(std::string_view& line) {
+        if (!lines_.next(line)) return false;
+        if (++line_ == 1) dropByteOrderMark(line);
+        line = trimmed(line);
+        return true;
+    }
+
+    bool failEnd(std::string_view message) {
+        if (!lines_.isTooLong()) return fail(message);
         ++line_;
-        return trimmed(takeUntil('\n', rest_));
+        return fail("expected lines of at most " + std::to_string(TextLines::mostBytes) + " bytes");
     }
 
     /// Always false.
@@ -122,10 +147,13 @@ private:
         return false;
     }
 
-    std::string_view rest_;
+    TextLines lines_;
     std::string_view name_;
     std::size_t maxRows_;
     std::size_t line_ = 0; // of the line last taken, from 1
+    std::size_t count_ = 0;
+    std::int64_t lastNs_ = 0; // of the event last accepted
+    bool isKept_ = true;
     std::vector<const EventColumn*> order_;
     std::vector<CollisionEvent> events_;
     std::string error_;
@@ -135,13 +163,28 @@ private:
 
 Result<std::vector<CollisionEvent>> readEventsCsv(std::string_view text, std::string_view name,
                                                   std::size_t maxRows) {
-    return Reader(text, name, maxRows).read();
+    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
+    return Reader(text, name, maxRows).read(lines);
 }
 
+// A file is read twice, line by line: what is refused takes no memory, however long it is.
 Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& path) {
-    const Result<std::string> text = readFile(path, limits::maxEventsFileBytes);
-    if (!text) return Failure{text.error};
-    return readEventsCsv(text.value, path.string());
+    const std::string name = path.string();
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) { // a pipe can be read once only
+        const Result<std::string> text = readFile(path, limits::maxEventsFileBytes);
+        if (!text) return Failure{text.error};
+        return readEventsCsv(text.value, name);
+    }
+    const auto file = openRegular(path, limits::maxEventsFileBytes);
+    if (!file) return Failure{file.error};
+    std::FILE* const stream = file.value.stream.get();
+    const auto reader = [&] { return Reader(stream, name, limits::maxEventRows); };
+    const auto found = reader().count();
+    if (std::ferror(stream)) return unreadable(path, errno);
+    if (!found) return Failure{found.error};
+    std::rewind(stream);
+    return reader().read(found.value);
 }
 
 std::string eventsCsvHead(const Provenance& provenance) { return provenanceComment(provenance) + columnNames() + "\n"; }

@@ -22,7 +22,7 @@ namespace physvib {
 Result<std::vector<CollisionEvent>> readEventsCsv(std::string_view text, std::string_view name,
                                                   std::size_t maxRows = limits::maxEventRows);
 
-/// The same of a file. M only.
+/// The same of a file, of at most limits::maxEventsFileBytes and lines of a million bytes. M only.
 Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& path);
 
 /// Comment and header line, and the line of one event: what eventsCsv puts together. Any thread.

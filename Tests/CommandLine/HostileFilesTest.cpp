@@ -82,6 +82,12 @@ TEST_F(HostileFiles, TablesAreBoundedWhileTheyAreRead) {
     refusesInLittle("analyse confusion cells.csv", "cells.csv:11720: expected at most 3000000 cells in all", 1);
 }
 
+TEST_F(HostileFiles, AnEventListIsNotHeldBeforeItIsRefused) {
+    write("events.csv", "");
+    std::filesystem::resize_file(folder_ / "events.csv", 1'999'999'999);
+    refusesInLittle("render --from-events events.csv --out o.wav", "events.csv:1: expected lines of at most 1000000 bytes", 1);
+}
+
 TEST_F(HostileFiles, SessionsAreBoundedWhileTheyAreRead) {
     std::string text = "{\"physvib_session\": 1, \"takes\": [[]";
     for (int i = 0; i < 20'000'000; ++i) text += ",[]";

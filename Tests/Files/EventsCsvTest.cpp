@@ -283,6 +283,25 @@ TEST_F(EventsCsvFileTest, LoadsWhatWasWritten) {
     EXPECT_TRUE(loadEventsCsv(folder / "hits.csv").value == events);
 }
 
+// A file is read in blocks, a text at once.
+TEST_F(EventsCsvFileTest, AFileIsReadAsItsText) {
+    const std::string row = "1,2,3,0.4,5,6\n", many = shortHeader + [&] {
+        std::string rows;
+        for (int i = 0; i < 20'000; ++i) rows += row;
+        return rows;
+    }();
+    const std::string name = (folder / "hits.csv").string();
+    for (const std::string& text : {std::string{}, std::string{"\n"}, "\xEF\xBB\xBF# a\r\n\n" + shortHeader + row, shortHeader, shortHeader + "\n \n", shortHeader + row + "\n\n" + row, shortHeader + row + "\n\n",
+                                    many, many + "1,2", many + "0.5,2,3,0.4,5,6", many + "\n\n" + row, "# " + std::string(200'000, 'a') + "\n" + many}) {
+        ASSERT_EQ(writeFile(name, text), "");
+        const auto fromFile = loadEventsCsv(name), fromText = readEventsCsv(text, name);
+        EXPECT_EQ(fromFile.error, fromText.error);
+        EXPECT_TRUE(fromFile.value == fromText.value);
+    }
+    ASSERT_EQ(writeFile(name, many + std::string(2'000'000, '1')), "");
+    EXPECT_EQ(loadEventsCsv(name).error, name + ":20002: expected lines of at most 1000000 bytes");
+}
+
 TEST_F(EventsCsvFileTest, NamesTheFileInErrors) {
     ASSERT_EQ(writeFile(folder / "hits.csv", shortHeader + "1,2,-3,4,5,6\n"), "");
     EXPECT_EQ(loadEventsCsv(folder / "hits.csv").error,
