@@ -45,7 +45,7 @@ function(physvib_plugin target name code lv2uri buses channels)
         set_target_properties(${target}_LV2 PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY "${plugins}/${file}.lv2")
         target_sources(${target}_LV2 PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Entry.cpp)
         add_custom_command(TARGET ${target}_LV2 POST_BUILD VERBATIM # after JUCE's command, which writes it
-            COMMAND ${CMAKE_COMMAND} -DFILE=${plugins}/${file}.lv2/dsp.ttl -P ${CMAKE_CURRENT_SOURCE_DIR}/lv2-description.cmake)
+            COMMAND ${CMAKE_COMMAND} -DFOLDER=${plugins}/${file}.lv2 -P ${CMAKE_CURRENT_SOURCE_DIR}/lv2-description.cmake)
     endif()
     if(TARGET ${target}_AU)
         set_target_properties(${target}_AU PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${plugins})

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -DFILE=dsp.ttl -P lv2-description.cmake: what JUCE's generator of LV2 descriptions gets wrong, put right; and the option
+# cmake -DFOLDER=PhysVib.lv2 -P lv2-description.cmake: what JUCE's generator of LV2 descriptions gets wrong, put right; and the option
 # that our entry reads. Once done it finds nothing more to do.
-file(READ "${FILE}" text)
+file(READ "${FOLDER}/dsp.ttl" text)
 # Numbers of parameters are floats; without a point they are read as whole numbers, of another type than the range says.
 string(REGEX REPLACE "((lv2:default|lv2:minimum|lv2:maximum|rdf:value) -?[0-9]+)([ \t\n])" "\\1.0\\3" text "${text}")
 # Neither is known; an empty address is that of the file.
 string(REGEX REPLACE "\t\tfoaf:(homepage|mbox) <> ;\n" "" text "${text}")
+# What has a maintainer and releases is a project.
+string(REPLACE "\ta lv2:InstrumentPlugin ;\n" "\ta lv2:InstrumentPlugin , doap:Project ;\n" text "${text}")
 string(REPLACE "\t\tbufs:maxBlockLength .\n" "\t\tbufs:maxBlockLength , bufs:nominalBlockLength .\n" text "${text}")
 # Ports are called as the enchanters that they drive: A, B, ...
 foreach(number RANGE 1 26)
@@ -13,4 +15,17 @@ foreach(number RANGE 1 26)
     string(ASCII ${letter} label)
     string(REPLACE "lv2:name \"Audio Out ${number}\"" "lv2:name \"${label}\"" text "${text}")
 endforeach()
-file(WRITE "${FILE}" "${text}")
+file(WRITE "${FOLDER}/dsp.ttl" "${text}")
+
+# The window's: a feature that is named as data, and data that are named as a feature.
+file(READ "${FOLDER}/ui.ttl" text)
+string(REPLACE "\t\tui:noUserResize ,\n" "" text "${text}")
+string(REPLACE "lv2:optionalFeature\n\t\tui:resize ,\n\t\topts:interface ,\n" "lv2:optionalFeature\n\t\tui:resize ,\n" text "${text}")
+file(WRITE "${FOLDER}/ui.ttl" "${text}")
+
+# What presets set is a property with a name.
+file(READ "${FOLDER}/manifest.ttl" text)
+if(NOT text MATCHES ":Program>\n" AND text MATCHES "(<[^>]*:Program>)")
+    string(APPEND text "\n${CMAKE_MATCH_1}\n\ta <http://www.w3.org/1999/02/22-rdf-syntax-ns#Property> ;\n\trdfs:label \"Program\" .\n")
+    file(WRITE "${FOLDER}/manifest.ttl" "${text}")
+endif()

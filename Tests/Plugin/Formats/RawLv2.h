@@ -20,7 +20,7 @@ public:
     enum Port : std::uint32_t { input = channels, output, latencyOut, freeWheeling, isEnabled };
 
     /// `nominal` 0: not told, as some hosts do.
-    RawLv2(int largestBlock, int nominal) {
+    RawLv2(int largestBlock, int nominal, double rate = 48000.0) {
         module_ = dlopen(PHYSVIB_PLUGINS "/PhysVib.lv2/PhysVib.so", RTLD_NOW | RTLD_LOCAL);
         if (!module_) return;
         descriptor_ = reinterpret_cast<const LV2_Descriptor* (*)(std::uint32_t)>(dlsym(module_, "lv2_descriptor"))(0);
@@ -33,7 +33,7 @@ public:
         options_ = {largestOption, nominal > 0 ? nominalOption : end, end};
         features_ = {LV2_Feature{LV2_URID__map, &map_}, {LV2_BUF_SIZE__boundedBlockLength, nullptr}, {LV2_OPTIONS__options, options_.data()}};
         const LV2_Feature* const features[]{&features_[0], &features_[1], &features_[2], nullptr};
-        handle_ = descriptor_->instantiate(descriptor_, 48000.0, PHYSVIB_PLUGINS "/PhysVib.lv2/", features);
+        handle_ = descriptor_->instantiate(descriptor_, rate, PHYSVIB_PLUGINS "/PhysVib.lv2/", features);
         if (!handle_) return;
         for (std::uint32_t c = 0; c < channels; ++c) {
             out[c].assign(static_cast<std::size_t>(largestBlock), 0.0f);

@@ -72,6 +72,9 @@ TEST(RawLv2, DescriptionsHaveFloatsAndNoEmptyAddresses) {
         std::ifstream file{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/dsp.ttl"};
         const std::string text{std::istreambuf_iterator<char>{file}, {}};
         ASSERT_FALSE(text.empty()) << width;
+        EXPECT_NE(text.find(", doap:Project ;"), std::string::npos) << width << ": what has a maintainer";
+        std::ifstream presets{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/manifest.ttl"};
+        EXPECT_NE((std::string{std::istreambuf_iterator<char>{presets}, {}}).find("rdfs:label \"Program\""), std::string::npos) << width << ": what presets set";
         EXPECT_EQ(text.find("<>"), std::string::npos) << width << ": that is the file itself";
         EXPECT_NE(text.find("bufs:nominalBlockLength"), std::string::npos) << width;
         const std::regex number{"(lv2:default|lv2:minimum|lv2:maximum|rdf:value) ([^ \t\n]+)"};

@@ -121,12 +121,13 @@ public:
     int buses() { return component->getBusCount(vst::kAudio, vst::kOutput); }
 
     /// Buffers for every bus, active or not, as the standard wants.
-    void start(int block, bool activateBuses = true) {
+    void start(int block, bool activateBuses = true, double rate = 48000.0) {
         block_ = block;
+        rate_ = rate;
         if (activateBuses)
             for (int b = 0; b < buses(); ++b) component->activateBus(vst::kAudio, vst::kOutput, b, true);
         component->activateBus(vst::kEvent, vst::kInput, 0, true);
-        vst::ProcessSetup setup{mode, vst::kSample32, block, 48000.0};
+        vst::ProcessSetup setup{mode, vst::kSample32, block, rate};
         processor->setupProcessing(setup);
         component->setActive(true);
         processor->setProcessing(true);
@@ -158,7 +159,7 @@ public:
             outputs[b].channelBuffers32 = pointers[b].data();
         }
         vst::ProcessContext context{};
-        context.sampleRate = 48000.0;
+        context.sampleRate = rate_;
         context.state = vst::ProcessContext::kPlaying;
         vst::ProcessData data;
         data.processMode = mode;
@@ -183,6 +184,7 @@ private:
     Steinberg::IPluginFactory* factory_ = nullptr;
     Notes notes_;
     int block_ = 0;
+    double rate_ = 48000.0;
 };
 
 } // namespace physvib::test
