@@ -99,10 +99,8 @@ void Takes::prepare(int sampleRateHz, int blockFrames) {
 }
 
 void Takes::release() {
-    {
-        const std::lock_guard lock{mutex_}; // or the builder would sleep through it
-        stop_ = true;
-    }
+    stop_ = true; // first: who steps holds the mutex, and ends within a step
+    { const std::lock_guard lock{mutex_}; } // or the builder would sleep through it
     workToDo_.notify_all();
     if (stepper_.joinable()) stepper_.join();
     if (builder_.joinable()) builder_.join();

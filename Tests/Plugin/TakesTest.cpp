@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What takes owe each other: nothing is cut, settings travel inside, ended ones are used again, none is made in the way of others.
 #include "PluginTesting.h"
+#include "Support/Growth.h"
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <future>
 #include <new>
@@ -158,6 +160,54 @@ TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
     let.set_value();
     host.plugin->releaseResources();
     EXPECT_FALSE(hasWaitedInVain) << "the world stood still for as long as the other was made";
+}
+
+/// Many discs in one place: steps that take long.
+PluginState heap() {
+    PluginState state = newPluginState();
+    Scene& scene = state.scene;
+    scene.joints.clear();
+    scene.script.clear();
+    scene.bodies.clear();
+    for (int i = 0; i < 200; ++i) {
+        BodyDescription& body = scene.bodies.emplace_back();
+        body.name = "disc " + std::to_string(i);
+        body.positionMetres = {scene.fieldWidthMetres / 2, scene.fieldHeightMetres / 2};
+        FixtureDescription& fixture = body.fixtures.emplace_back();
+        fixture.material = 3;
+        fixture.shape = CircleShape{0.2};
+    }
+    return state;
+}
+
+/// The processor time of a tick that owes half a second of the heap's world, and is released after so much of it.
+double tickMicroseconds(double releasedAfter = HUGE_VAL) {
+    TestHost host;
+    EXPECT_TRUE(host.plugin->apply(heap()));
+    const std::atomic<std::int64_t> nowNs{0};
+    host.plugin->takes().driveByHand(nowNs);
+    host.prepare(48000, 480, false);
+    for (int b = 0; b < 50; ++b) host.block(480);
+    clockid_t mine{};
+    pthread_getcpuclockid(pthread_self(), &mine);
+    const double before = microsecondsOf(mine);
+    std::atomic<bool> isOver{false};
+    std::thread other{[&] {
+        while (!isOver && microsecondsOf(mine) - before < releasedAfter) std::this_thread::yield();
+        host.plugin->releaseResources();
+    }};
+    host.plugin->takes().tick();
+    const double took = microsecondsOf(mine) - before;
+    isOver = true;
+    other.join();
+    return took;
+}
+
+TEST(Takes, ReleaseWaitsForOneStepOfAHeavyWorldNotForAllThatAreOwed) {
+    const double whole = tickMicroseconds();
+    double least = whole;
+    for (int attempt = 0; attempt < 5 && least > 0.5 * whole; ++attempt) least = std::min(least, tickMicroseconds(0.1 * whole)); // on a busy machine it may come late
+    EXPECT_LT(least, 0.5 * whole) << "of " << whole << " us";
 }
 
 TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {

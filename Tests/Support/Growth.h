@@ -25,9 +25,10 @@ inline double memoryMb() {
     return static_cast<double>(now.uordblks + now.hblkhd) / 1e6;
 }
 
-inline double threadMicroseconds() {
+/// Of a clock of the system.
+inline double microsecondsOf(clockid_t clock) {
     timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    clock_gettime(clock, &now);
     return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
@@ -55,9 +56,9 @@ public:
 private:
     template <class Step>
     static double timed(Step& step) {
-        const double before = threadMicroseconds();
+        const double before = microsecondsOf(CLOCK_THREAD_CPUTIME_ID);
         step();
-        return threadMicroseconds() - before;
+        return microsecondsOf(CLOCK_THREAD_CPUTIME_ID) - before;
     }
     void endHour() {
         auto& sorted = microseconds_;
