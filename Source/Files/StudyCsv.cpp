@@ -3,6 +3,7 @@
 #include "Files/StudyCsv.h"
 #include "Files/FileLimits.h"
 #include "Files/StudyRows.h"
+#include "Study/Trial.h"
 #include <set>
 
 namespace physvib {
@@ -135,12 +136,11 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     const std::string& task = row.cells[rows.required("task")];
     LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")), StudyRows::textIf(row, rows.optional("condition")),
                      rows.text(row, rows.required("stimulus"))};
-    constexpr double most = 1e12;
     if (task == "adjust") trial.kind = LevelTrial::Kind::adjustment;
     else if (task == "estimate") trial.kind = LevelTrial::Kind::magnitude;
     else if (task != "choose" || row.cells[rows.required("correct")].empty()) return std::nullopt;
     if (trial.kind == LevelTrial::Kind::staircase) trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
-    else trial.value = rows.number(row, rows.required("value"), trial.kind == LevelTrial::Kind::magnitude ? 1e-12 : -most, most);
+    else trial.value = rows.number(row, rows.required("value"), trial.kind == LevelTrial::Kind::magnitude ? leastEstimate : -mostEstimate, mostEstimate);
     return trial;
 }
 

@@ -82,7 +82,7 @@ public:
         record.answer.plays = 1 + rows_.wholeNumber(row, rows_.required("replays"), 0, 1'000'000);
         record.answer.seconds = rows_.number(row, rows_.required("response_s"), 0.0, 1e9);
         if (!cell(row, "x").empty()) record.answer.place = FieldPlace{rows_.number(row, rows_.required("x"), 0.0, 1.0), rows_.number(row, rows_.required("y"), 0.0, 1.0)};
-        if (!cell(row, "value").empty()) record.answer.value = rows_.number(row, rows_.required("value"), -1e12, 1e12);
+        if (!cell(row, "value").empty()) record.answer.value = rows_.number(row, rows_.required("value"), -mostEstimate, mostEstimate);
         for (const auto& scale : session.scales) record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
         return record;
     }

@@ -2,7 +2,6 @@
 // Conditions contain sessions, sessions contain trials; every choice of order comes from the seed.
 #include "Study/Experiment.h"
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace physvib {
@@ -145,7 +144,7 @@ std::string Experiment::refusal(const Answer& answer) const {
         return answer.scores.size() == s.scales.size() && std::ranges::all_of(answer.scores, isScore) ? "" : "expected a score from 0 to 100 per scale";
     case StudyTask::adjust:
         return answer.value >= s.adjustment->leastDb && answer.value <= s.adjustment->mostDb ? "" : "expected a level within the adjustment's range";
-    case StudyTask::estimate: return answer.value > 0.0 && std::isfinite(answer.value) ? "" : "expected a number > 0";
+    case StudyTask::estimate: return answer.value >= leastEstimate && answer.value <= mostEstimate ? "" : "expected a number from 1e-12 to 1e12";
     }
     return "expected a task";
 }

@@ -49,7 +49,7 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
     case StudyTask::adjust:
         answer.value = std::clamp(roundedTo(settings_.levelNoiseDb * random.normal(), 1.0 / session.adjustment->stepDb), session.adjustment->leastDb, session.adjustment->mostDb);
         break;
-    case StudyTask::estimate: answer.value = magnitude(condition, trial, random); break;
+    case StudyTask::estimate: answer.value = std::clamp(magnitude(condition, trial, random), leastEstimate, mostEstimate); break;
     }
     return answer;
 }

@@ -26,12 +26,14 @@ struct Trial {
     double restSeconds = 0.0;        ///< break before it
 };
 
+constexpr double leastEstimate = 1e-12, mostEstimate = 1e12; // of how strong something was
+
 /// What a participant says. Each task uses some of it.
 struct Answer {
     std::string response;            ///< identify: a label; choose: an alternative; explore: the stimulus that was felt
     std::optional<FieldPlace> place; ///< locate; explore with free touches
     std::vector<double> scores;      ///< rate: one per scale
-    double value = 0.0;              ///< adjust: dB; estimate: a number > 0
+    double value = 0.0;              ///< adjust: dB; estimate: leastEstimate to mostEstimate
     int plays = 1;                   ///< how often it was felt
     double seconds = 0.0;            ///< from the first feel to the answer
     bool operator==(const Answer&) const = default;

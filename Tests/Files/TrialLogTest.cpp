@@ -7,6 +7,7 @@
 #include "Files/StudyCsv.h"
 #include "Study/Experiment.h"
 #include "Study/SimulatedObserver.h"
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 
@@ -55,6 +56,20 @@ TEST(TrialLog, ManyLongCallsOfATrialAreReadBack) {
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
     EXPECT_EQ(log.value.wholeBytes, text.size());
+}
+
+TEST(TrialLog, NumbersThatAnObserverGivesOfAnyLevelAreReadBack) {
+    Protocol p = findProtocol("magnitudes").value;
+    p.conditions.resize(1);
+    p.conditions[0].stimuli = CallSet{{{"level_g", {"1e-60", "0.1", "1e60"}}}, "stimulus phantom --level-g {level_g}"};
+    const auto log = readTrialLog(wholeFile(p), "t.csv", p, participant);
+    ASSERT_TRUE(log) << log.error;
+    Experiment experiment{p, participant};
+    for (const double number : {0.0, 1e-13, 1e13, std::nan(""), HUGE_VAL}) {
+        Answer answer;
+        answer.value = number;
+        EXPECT_EQ(experiment.refusal(answer), "expected a number from 1e-12 to 1e12");
+    }
 }
 
 TEST(TrialLog, CutAnywhereTheWholeRowsRemain) {
