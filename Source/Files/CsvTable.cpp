@@ -46,10 +46,18 @@ public:
         table_.name = name;
         dropByteOrderMark(rest_);
     }
-    Result<CsvTable> read() {
-        if (readHeader() && readRows()) return std::move(table_);
-        return Failure{table_.name + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": " + error_};
+    /// What is wrong. Rows are not kept: `take` gets each.
+    template <class Begin, class Take>
+    std::string read(Begin begin, Take take) {
+        if (!readHeader()) return placed();
+        if (std::string fault = begin(table_); !fault.empty()) return fault;
+        CsvRow row;
+        while (readRow(row))
+            if (std::string fault = take(row); !fault.empty()) return fault;
+        if (error_.empty() && row.line == 0) fail("expected rows after the header, found none");
+        return error_.empty() ? "" : placed();
     }
+    std::string placed() const { return table_.name + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": " + error_; }
 
 private:
     bool readHeader() {
@@ -68,20 +76,14 @@ private:
         }
         return true;
     }
-    bool readRows() {
-        while (rest_.find_first_not_of(" \t\r\n") != std::string_view::npos) {
-            const std::string_view line = nextLine();
-            if (table_.rows.size() == limits::maxTableRows) return fail("expected at most " + std::to_string(limits::maxTableRows) + " rows");
-            if ((table_.rows.size() + 1) * table_.columns.size() > limits::maxTableCells) return fail("expected at most " + std::to_string(limits::maxTableCells) + " cells in all");
-            CsvRow row{line_, {}};
-            row.cells.reserve(table_.columns.size());
-            if (!takeCells(line, row.cells)) return false;
-            if (row.cells.size() != table_.columns.size())
-                return fail("expected " + std::to_string(table_.columns.size()) + " cells, found " + std::to_string(row.cells.size()) +
-                            " (a cell with a comma stands in quotes)");
-            table_.rows.push_back(std::move(row));
-        }
-        return !table_.rows.empty() || fail("expected rows after the header, found none");
+    bool readRow(CsvRow& row) {
+        if (rest_.find_first_not_of(" \t\r\n") == std::string_view::npos) return false;
+        const std::string_view line = nextLine();
+        row.cells.clear();
+        row.line = line_;
+        if (!takeCells(line, row.cells)) return false;
+        return row.cells.size() == table_.columns.size() || fail("expected " + std::to_string(table_.columns.size()) + " cells, found " + std::to_string(row.cells.size()) +
+                                                                 " (a cell with a comma stands in quotes)");
     }
     bool takeCells(std::string_view line, std::vector<std::string>& cells) {
         for (bool another = !line.empty(); another;) {
@@ -123,7 +125,31 @@ std::string CsvTable::fault(const CsvRow& row, std::size_t at, std::string_view 
            inQuotes(row.cells[at]);
 }
 
-Result<CsvTable> readCsvTable(std::string_view text, std::string_view name) { return TableReader(text, name).read(); }
+Result<CsvTable> readCsvTable(std::string_view text, std::string_view name) {
+    CsvTable table;
+    TableReader reader{text, name};
+    const auto tooMany = [&](const CsvRow& row, std::size_t most, const char* what) {
+        return table.name + ":" + std::to_string(row.line) + ": expected at most " + std::to_string(most) + what;
+    };
+    const auto begin = [&](const CsvTable& head) {
+        table = head;
+        return std::string{};
+    };
+    const auto take = [&](CsvRow& row) {
+        if (table.rows.size() == limits::maxTableRows) return tooMany(row, limits::maxTableRows, " rows");
+        if ((table.rows.size() + 1) * table.columns.size() > limits::maxTableCells) return tooMany(row, limits::maxTableCells, " cells in all");
+        table.rows.push_back(std::move(row));
+        row.cells.reserve(table.columns.size());
+        return std::string{};
+    };
+    if (std::string error = reader.read(begin, take); !error.empty()) return Failure{std::move(error)};
+    return table;
+}
+
+std::string eachCsvRow(std::string_view text, std::string_view name, const std::function<std::string(const CsvTable&)>& begin,
+                       const std::function<std::string(const CsvRow&)>& take) {
+    return TableReader{text, name}.read(begin, take);
+}
 
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path) {
     const Result<std::string> text = readFile(path, limits::maxTableBytes);

@@ -4,6 +4,7 @@
 #include "Files/Result.h"
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +36,11 @@ Result<CsvTable> readCsvTable(std::string_view text, std::string_view name);
 
 /// The same of a file. M only.
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path);
+
+/// Row by row, for those who keep less than the table: `begin` gets it without rows, `take` one row at a time. What either says is wrong ends the
+/// reading; it, or what is wrong with the text, comes back: a whole line, empty if all is well. Any thread.
+std::string eachCsvRow(std::string_view text, std::string_view name, const std::function<std::string(const CsvTable&)>& begin,
+                       const std::function<std::string(const CsvRow&)>& take);
 
 /// Appends `text` as a cell, in quotes if it needs them, behind an apostrophe if a spreadsheet would take it for a formula (the reader
 /// takes it off); control characters become spaces. Any thread.

@@ -20,6 +20,7 @@ constexpr std::size_t maxCouplingFileBytes = 4'000'000; // four enchanters fill 
 constexpr std::size_t maxTableRows = 1'000'000;           // of the three columns that an analysis needs
 constexpr std::size_t maxTableCells = 3'000'000;          // 150,000 trials of twenty columns: a thousand participants
 constexpr std::size_t maxTableBytes = 64'000'000;         // those, usually of 200 bytes a trial
+constexpr std::size_t maxLongTableBytes = 256'000'000;    // read row by row, of which a number and some names stay: a million trials of 200 bytes
 constexpr std::size_t maxTableColumns = 256;              // a trial has twenty; an exported matrix one per response
 constexpr std::size_t maxConditions = 4096;               // of an analysis: each is looked for in a list
 constexpr std::size_t maxLabels = 2048;                   // of stimuli and responses: the patterns of five enchanters are 1240

@@ -56,7 +56,7 @@ void expectFewLabels(const std::string& file, const StudyData<IdentificationTria
 
 std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTrial>& data) {
     const auto stimulus = rows.required("stimulus"), response = rows.required("response");
-    const auto condition = rows.optional("condition");
+    const auto condition = rows.optional("condition"), participant = rows.optional("participant");
     data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0, missing = 0, firstMissing = 0;
     rows.each("identify", [&](const CsvRow& row) {
@@ -65,7 +65,7 @@ std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTr
             if (missing++ == 0) firstMissing = row.line;
             return;
         }
-        conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back({rows.text(row, stimulus), row.cells[response]});
+        conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back({rows.text(row, stimulus), row.cells[response], StudyRows::textIf(row, participant)});
     });
     if (missing > 0)
         data.warnings.push_back(rows.table().name + ":" + std::to_string(firstMissing) + ": no response; trials left out for that: " + std::to_string(missing));

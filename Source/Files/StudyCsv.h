@@ -45,7 +45,7 @@ struct NamedText {
 // trials of other tasks are left out. The first thing that is wrong is told as `name:17: column x: expected what, found
 // "cell"`. Any thread.
 
-/// Columns stimulus, response; condition if there. Trials without a response are left out and told.
+/// Columns stimulus, response; condition and participant if there. Trials without a response are left out and told.
 Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files);
 
 /// Columns target_column, target_row (1 to mostGridLines), x, y (0 to 1); condition if there.

@@ -66,13 +66,13 @@ std::string levelPicture(std::span<const LevelSummary> summaries, const PictureW
 
 std::string choicePicture(std::span<const ChoiceSummary> summaries, const PictureWords& words) {
     const auto& shares = summaries.front().shares;
-    StudyPage page{"Forced choices", "shares with 95 % intervals", shares.size(), 2, headHeight + rowHeight * static_cast<int>(summaries.size()), {}};
+    StudyPage page{"Forced choices", "mean shares with 95 % intervals over participants", shares.size(), 2, headHeight + rowHeight * static_cast<int>(summaries.size()), {}};
     page.draw = [&](const Canvas& canvas, std::size_t i, Area inside) {
-        canvas.heading(wordsOf(shares[i].alternative), "chosen, % of trials", inside.removeFromTop(24));
+        canvas.heading(wordsOf(shares[i].alternative), "chosen, %", inside.removeFromTop(24));
         inside.removeFromTop(8);
         const int names = nameWidth(summaries);
         for (const auto& summary : summaries) {
-            const Proportion& votes = summary.shares[i].votes;
+            const ChoiceShare& votes = summary.shares[i];
             drawBar(canvas, inside.removeFromTop(rowHeight), names, wordsOf(summary.condition), votes.share, votes.least, votes.most,
                     number(100.0 * votes.share, 1) + " %", palette::enchanter(static_cast<int>(i)));
         }

@@ -10,9 +10,9 @@
 
 namespace physvib {
 
-/// One trial of absolute identification: two labels.
+/// One trial of absolute identification: two labels, and by whom (may be empty).
 struct IdentificationTrial {
-    std::string stimulus, response;
+    std::string stimulus, response, participant{};
     bool operator==(const IdentificationTrial&) const = default;
 };
 

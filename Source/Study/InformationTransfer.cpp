@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sums over the occupied cells only: 0 log 0 is 0.
 #include "Study/InformationTransfer.h"
+#include "Study/Statistics/LongTable.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -49,6 +50,22 @@ InformationTransfer informationTransfer(const ConfusionMatrix& matrix) {
     it.mostBits = std::log2(static_cast<double>(matrix.stimuli()));
     it.trialsPerCell = n / static_cast<double>(matrix.stimuli() * matrix.responses());
     return it;
+}
+
+std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials) {
+    WordList participants;
+    std::vector<std::vector<IdentificationTrial>> own;
+    for (const auto& trial : trials) {
+        const std::size_t at = participants.indexOf(trial.participant);
+        own.resize(participants.size());
+        own[at].push_back(trial);
+    }
+    std::vector<ParticipantTransfer> transfers;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const ConfusionMatrix matrix{own[i]};
+        transfers.push_back({participants[i], matrix, informationTransfer(matrix)});
+    }
+    return transfers;
 }
 
 } // namespace physvib

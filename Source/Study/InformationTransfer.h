@@ -31,4 +31,14 @@ InformationTransfer informationTransfer(const ConfusionMatrix& matrix);
 /// Fano's bound for equally likely stimuli; 0 where it says nothing. Any thread.
 double fanoBits(double stimulusEntropyBits, double shareCorrect, std::size_t alternatives) noexcept;
 
+/// What one participant's own trials say.
+struct ParticipantTransfer {
+    std::string participant;
+    ConfusionMatrix matrix;
+    InformationTransfer transfer;
+};
+
+/// In the order of their first trial; one without a name if participants are unknown. Any thread (allocates).
+std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials);
+
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reversals from the sequence of levels; means in dB or in logarithms.
 #include "Study/LevelTrials.h"
+#include "Study/Statistics/Moments.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -30,13 +31,6 @@ double meanOf(const std::vector<double>& values, std::size_t from = 0) {
     return sum / static_cast<double>(values.size() - from);
 }
 
-double deviationOf(const std::vector<double>& values) {
-    if (values.size() < 2) return 0.0;
-    double squares = 0.0;
-    for (const double v : values) squares += (v - meanOf(values)) * (v - meanOf(values));
-    return std::sqrt(squares / static_cast<double>(values.size() - 1));
-}
-
 bool isSame(const LevelSummary& s, const LevelTrial& t) {
     return s.kind == t.kind && s.condition == t.condition && (t.kind == LevelTrial::Kind::staircase || s.stimulus == t.stimulus);
 }
@@ -57,7 +51,7 @@ void summariseStaircases(LevelSummary& summary, const std::map<std::string, std:
         thresholds.push_back(reversals.size() < 2 ? own.back() : meanOf(reversals, reversals.size() / 2));
     }
     summary.estimate = meanOf(thresholds);
-    summary.deviation = deviationOf(thresholds);
+    summary.deviation = Moments(thresholds).deviation;
 }
 
 } // namespace
@@ -82,7 +76,7 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
             summariseStaircases(summary, byParticipant);
             continue;
         }
-        summary.deviation = deviationOf(values);
+        summary.deviation = Moments(values).deviation;
         summary.estimate = summary.kind == LevelTrial::Kind::magnitude ? std::pow(10.0, meanOf(values)) : meanOf(values);
     }
     return summaries;

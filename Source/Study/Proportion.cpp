@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Wilson's interval; binomial tails by logarithms, so that thousands of trials do not underflow.
+// Wilson's interval.
 #include "Study/Proportion.h"
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace physvib {
 
@@ -19,18 +18,6 @@ Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept {
     result.least = std::max(0.0, (middle - half) / scale);
     result.most = std::min(1.0, (middle + half) / scale);
     return result;
-}
-
-double signTestP(std::uint64_t hits, std::uint64_t trials) noexcept {
-    const std::uint64_t fewer = std::min(hits, trials - hits);
-    if (2 * fewer == trials) return 1.0;
-    const auto n = static_cast<double>(trials);
-    double tail = 0.0, logTerm = -n * std::numbers::ln2; // of C(n, k) / 2^n, from k = 0 on
-    for (std::uint64_t k = 0; k <= fewer; ++k) {
-        tail += std::exp(logTerm);
-        logTerm += std::log((n - static_cast<double>(k)) / static_cast<double>(k + 1));
-    }
-    return std::min(1.0, 2.0 * tail);
 }
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A share of trials with its interval, and how unlikely it is by chance.
+// A share of trials with its interval.
 #pragma once
 #include <cstdint>
 
@@ -13,8 +13,5 @@ struct Proportion {
 
 /// `hits` <= `trials`. Any thread.
 Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept;
-
-/// Probability of a count at least as far from `trials` / 2, by chance (exact two-sided sign test). Any thread.
-double signTestP(std::uint64_t hits, std::uint64_t trials) noexcept;
 
 } // namespace physvib

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Grouping by name; means, medians and intervals.
 #include "Study/Votes.h"
+#include "Study/Proportion.h"
+#include "Study/Statistics/Moments.h"
+#include "Study/Statistics/RankTests.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,39 +31,36 @@ std::vector<std::string> factorsOf(const std::string& condition) {
     return parts;
 }
 
+ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uint64_t trials, const std::vector<double>& shares) {
+    const Moments moments{shares};
+    const Proportion pooled = proportion(hits, trials);
+    ChoiceShare share{alternative, hits, moments.mean, pooled.least, pooled.most, median(shares)};
+    if (shares.size() < 2) return share;
+    share.least = std::max(0.0, moments.mean - moments.halfInterval());
+    share.most = std::min(1.0, moments.mean + moments.halfInterval());
+    return share;
+}
+
 ChoiceSummary summarise(const std::string& condition, const std::vector<const ChoiceTrial*>& trials, const std::set<std::string>& alternatives) {
     std::map<std::string, std::map<std::string, std::uint64_t>> votes; // by participant and alternative
-    std::map<std::string, std::uint64_t> totals;
+    std::map<std::string, std::uint64_t> totals, trialsOf;
     for (const auto* trial : trials) {
         ++votes[trial->participant][trial->choice];
         ++totals[trial->choice];
+        ++trialsOf[trial->participant];
     }
-    ChoiceSummary summary{condition, votes.size(), {}, 1.0};
+    ChoiceSummary summary{condition, votes.size(), trials.size(), {}, {}};
     for (const auto& alternative : alternatives) {
-        std::vector<double> shares;
+        std::vector<double> shares, leads; // leads are as exact one way as the other, so that equal ones tie
         for (auto& [participant, own] : votes) {
-            std::uint64_t all = 0;
-            for (const auto& vote : own) all += vote.second;
-            shares.push_back(static_cast<double>(own[alternative]) / static_cast<double>(all));
+            const auto hits = static_cast<double>(own[alternative]), all = static_cast<double>(trialsOf[participant]);
+            shares.push_back(hits / all);
+            leads.push_back((2.0 * hits - all) / all);
         }
-        summary.shares.push_back({alternative, proportion(totals[alternative], trials.size()), median(std::move(shares))});
+        if (alternatives.size() == 2 && leads.size() > 1) summary.p = signedRank(leads).p;
+        summary.shares.push_back(shareOf(alternative, totals[alternative], trials.size(), shares));
     }
-    if (alternatives.size() == 2) summary.pByChance = signTestP(summary.shares[0].votes.hits, trials.size());
     return summary;
-}
-
-struct Moments {
-    double mean = 0.0, deviation = 0.0;
-    explicit Moments(const std::vector<double>& values) {
-        for (const double v : values) mean += v / static_cast<double>(values.size());
-        for (const double v : values) deviation += (v - mean) * (v - mean);
-        deviation = values.size() > 1 ? std::sqrt(deviation / static_cast<double>(values.size() - 1)) : 0.0;
-    }
-};
-
-double halfInterval(const std::vector<double>& values) {
-    if (values.size() < 2) return 0.0;
-    return studentPoint(values.size() - 1) * Moments(values).deviation / std::sqrt(static_cast<double>(values.size()));
 }
 
 using Chosen = std::vector<const RatingTrial*>;
@@ -83,7 +83,7 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials) {
         summary.participants = means.size();
         summary.means.push_back(moments.mean);
         summary.deviations.push_back(moments.deviation);
-        summary.halfIntervals.push_back(halfInterval(means.size() > 1 ? means : scores));
+        summary.halfIntervals.push_back(Moments(means.size() > 1 ? means : scores).halfInterval());
     }
     return summary;
 }
@@ -137,17 +137,6 @@ std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& tria
             if (!chosen.empty()) summaries.push_back(summarise(part, chosen));
         }
     return summaries;
-}
-
-double studentPoint(std::size_t degreesOfFreedom) noexcept {
-    constexpr std::array small{12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281};
-    if (degreesOfFreedom <= small.size()) return small[degreesOfFreedom - 1];
-    // Cornish-Fisher expansion (Hill 1970); at most 1.3e-4 off from eleven degrees of freedom on.
-    constexpr double z = 1.959963984540054;
-    const auto n = static_cast<double>(degreesOfFreedom);
-    const double g1 = (z * z * z + z) / 4.0, g2 = (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / 96.0;
-    const double g3 = (3.0 * std::pow(z, 7) + 19.0 * std::pow(z, 5) + 17.0 * z * z * z - 15.0 * z) / 384.0;
-    return z + g1 / n + g2 / (n * n) + g3 / (n * n * n);
 }
 
 } // namespace physvib

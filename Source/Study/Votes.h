@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Forced choices and slider ratings, summed up by condition (thesis 5.2, 5.3).
 #pragma once
-#include "Study/Proportion.h"
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,18 +14,21 @@ struct ChoiceTrial {
     std::string participant, condition, choice;
 };
 
-/// How often an alternative was chosen.
+/// How often an alternative was chosen: the unit is the participant, whose trials are one share.
 struct ChoiceShare {
     std::string alternative;
-    Proportion votes;
-    double participantsMedian = 0.0; ///< median over participants of their own shares
+    std::uint64_t hits = 0;
+    double share = 0.0;             ///< mean of the participants' own shares
+    double least = 0.0, most = 1.0; ///< 95 %: t over participants, within 0 and 1; of one (or unknown) participants Wilson's, over trials
+    double median = 0.0;            ///< of the participants' own shares
 };
 
 struct ChoiceSummary {
     std::string condition; ///< "all": every trial
     std::size_t participants = 0;
+    std::uint64_t trials = 0;
     std::vector<ChoiceShare> shares; ///< by name of the alternative
-    double pByChance = 1.0;          ///< of two alternatives: exact sign test over trials; 1 for others
+    std::optional<double> p;         ///< of two alternatives: signed ranks of the participants' shares against one half; none of one participant, or if all share equally
 };
 
 /// All trials together; then, if there are several conditions, each factor of names like "pair=wood size=small", and each
@@ -47,8 +51,5 @@ struct RatingSummary {
 /// Each condition by name, then, if every condition's name has the parts AV/AF, FV/FF, DRV/DRF of the thesis' methods,
 /// each of these parts. Every trial has as many scores. Any thread (allocates).
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials);
-
-/// 97.5 % point of Student's distribution. `degreesOfFreedom` >= 1. Any thread.
-double studentPoint(std::size_t degreesOfFreedom) noexcept;
 
 } // namespace physvib

@@ -3,6 +3,7 @@
 #include "CommandLine/AnalyseCommand.h"
 #include "CommandLine/AnalyseGrids.h"
 #include "CommandLine/AnalyseLabels.h"
+#include "CommandLine/AnalyseTests.h"
 #include "CommandLine/AnalyseVotes.h"
 #include "CommandLine/CallFiles.h"
 #include "CommandLine/StudyOutput.h"
@@ -30,6 +31,16 @@ constexpr Analysis analyses[] = {
     {"icons", "stimulus,response per trial: the patterns that are confused least", analyseIcons},
 };
 
+constexpr Analysis testsOverParticipants[] = {
+    {"anova", "analysis of variance with repeated measures", analyseAnova},
+    {"friedman", "levels of a within-factor, by ranks", analyseFriedman},
+    {"wilcoxon", "two levels of a within-factor, by signed ranks", analyseWilcoxon},
+    {"mann-whitney", "two groups, by ranks", analyseMannWhitney},
+    {"kruskal-wallis", "two or more groups, by ranks", analyseKruskalWallis},
+    {"shapiro", "whether values may be normal (Shapiro-Wilk)", analyseShapiro},
+    {"pairs", "every two levels, corrected for their number", analysePairs},
+};
+
 void declareOwn(CLI::App& command, std::string_view name, AnalyseOptions& o) {
     const bool isGrid = name == "resolution" || name == "percent-counts";
     if (name == "confusion" || name == "icons")
@@ -42,6 +53,15 @@ void declareOwn(CLI::App& command, std::string_view name, AnalyseOptions& o) {
     if (name == "icons")
         command.add_option("--meanings", o.meanings, "how many meanings the icons shall have")
             ->check(CLI::Range(std::size_t{2}, std::size_t{1000}))->capture_default_str();
+    if (name == "confusion")
+        command.add_option("--participants", o.participantsPath, "percent correct and IT of each participant and condition")->type_name("FILE.csv")->check(writtenFile);
+}
+
+CLI::App* declare(CLI::App& command, const Analysis& analysis, AnalyseOptions& o) {
+    CLI::App* const own = command.add_subcommand(std::string{analysis.name}, analysis.purpose);
+    own->add_option("files", o.files, "trials, or what the analysis is about; several are taken together")->required()->type_name("FILE.csv");
+    own->add_option("--export", o.exportPath, "the result as a table for a statistics package")->type_name("FILE.csv")->check(writtenFile);
+    return own;
 }
 
 } // namespace
@@ -49,12 +69,11 @@ void declareOwn(CLI::App& command, std::string_view name, AnalyseOptions& o) {
 void declareAnalyse(CLI::App& command, AnalyseOptions& o) {
     command.require_subcommand(1);
     for (const Analysis& analysis : analyses) {
-        CLI::App* const own = command.add_subcommand(std::string{analysis.name}, analysis.purpose);
-        own->add_option("files", o.files, "trials, or what the analysis is about; several are taken together")->required()->type_name("FILE.csv");
+        CLI::App* const own = declare(command, analysis, o);
         own->add_option("--picture", o.picturePath, "the result to look at")->type_name("FILE.png")->check(writtenFile);
-        own->add_option("--export", o.exportPath, "the result as a table for a statistics package")->type_name("FILE.csv")->check(writtenFile);
         declareOwn(*own, analysis.name, o);
     }
+    for (const Analysis& test : testsOverParticipants) declareTest(*declare(command, test, o), o);
 }
 
 std::vector<std::string> analysesFor(const CsvTable& table) {
@@ -90,14 +109,16 @@ AnalysisReport analyse(const std::string& name, const AnalyseOptions& options) {
 }
 
 int runAnalyse(const CLI::App& command, const AnalyseOptions& o) {
-    const auto asked = std::ranges::find_if(analyses, [&](const Analysis& a) { return command.got_subcommand(std::string{a.name}); });
-    if (asked == std::end(analyses)) return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
+    const auto isAsked = [&](const Analysis& a) { return command.got_subcommand(std::string{a.name}); };
+    const Analysis* asked = std::ranges::find_if(analyses, isAsked);
+    if (asked == std::end(analyses)) asked = std::ranges::find_if(testsOverParticipants, isAsked);
+    if (asked == std::end(testsOverParticipants)) return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
     const AnalysisReport report = asked->run(o);
     for (const auto& words : report.warnings) warn(words);
     if (report.error.empty() || !report.words.empty()) tellIfSimulated(report.isSimulated);
     std::cout << report.words;
     if (!report.error.empty()) return leave(exitFailed, report.error);
-    return writeStudyFiles({{o.exportPath, report.table}, {o.countsPath, report.counts}, {o.picturePath, report.picture}});
+    return writeStudyFiles({{o.exportPath, report.table}, {o.countsPath, report.counts}, {o.participantsPath, report.participants}, {o.picturePath, report.picture}});
 }
 
 } // namespace physvib

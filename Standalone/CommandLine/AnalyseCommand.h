@@ -3,8 +3,10 @@
 #pragma once
 #include "Files/CsvTable.h"
 #include "Study/PercentCounts.h"
+#include "Study/Statistics/Pairs.h"
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,13 @@ struct AnalyseOptions {
     double thresholdPercent = defaultPercentThreshold;   ///< resolution, percent-counts
     std::size_t meanings = 8;                            ///< icons
     std::string picturePath, exportPath, countsPath;     ///< empty: not wanted
+    std::string participantsPath;                        ///< confusion: a row per participant
+    // Tests over participants:
+    std::string measure, between, participant;
+    std::vector<std::string> within;
+    std::optional<Correction> correction;
+    PairTest pairTest = PairTest::student;
+    bool usesAlignedRanks = false;
 };
 
 /// What an analysis has found.
@@ -30,7 +39,7 @@ struct AnalysisReport {
     std::vector<std::string> warnings{};  ///< a line each
     std::string words{};                  ///< its figures, in lines
     std::function<std::string()> picture{}; ///< PNG bytes, watermarked if simulated; M, while JUCE is initialised
-    std::string table{}, counts{};        ///< CSV
+    std::string table{}, counts{}, participants{}; ///< CSV
 };
 
 /// The analyses that fit a table, by their names: of a trial file by the tasks in it, else by its columns. Any thread.

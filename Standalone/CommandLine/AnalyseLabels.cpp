@@ -7,6 +7,7 @@
 #include "Study/InformationTransfer.h"
 #include "Study/Proportion.h"
 #include "Study/PulsePattern.h"
+#include "Study/Statistics/Moments.h"
 #include "Study/TactileIcons.h"
 #include <algorithm>
 #include <cmath>
@@ -59,12 +60,34 @@ void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& m
     out << indent << "2^IT: " << fixedNumber(std::exp2(it.bestBits()), 1) << '\n';
 }
 
-void exportMatrix(ExportTable& table, const std::string& condition, const ConfusionMatrix& matrix) {
+void exportMatrix(ExportTable& table, const std::string& condition, const ParticipantTransfer& own) {
+    const ConfusionMatrix& matrix = own.matrix;
     for (std::size_t i = 0; i < matrix.stimuli(); ++i)
         for (std::size_t j = 0; j < matrix.responses(); ++j) {
-            table.cell(condition).cell(matrix.label(i)).cell(matrix.label(j)).cell(std::size_t{matrix.count(i, j)});
+            table.cell(condition).cell(own.participant).cell(matrix.label(i)).cell(matrix.label(j)).cell(std::size_t{matrix.count(i, j)});
             table.endRow();
         }
+}
+
+void exportTransfer(ExportTable& table, const std::string& condition, const ParticipantTransfer& own) {
+    const auto trials = static_cast<double>(own.matrix.trials());
+    table.cell(condition).cell(own.participant).cell(std::size_t{own.matrix.trials()}).cell(100.0 * static_cast<double>(own.matrix.correct()) / trials).cell(own.transfer.bits);
+    if (own.transfer.canBeCorrected()) table.cell(own.transfer.correctedBits());
+    else table.cell("");
+    table.endRow();
+}
+
+/// What participants transfer each by themselves: the mean in words, everyone in both tables.
+void tellAndExport(std::ostream& out, const std::string& indent, const StudyCondition<IdentificationTrial>& condition, ExportTable& counts, ExportTable& each) {
+    std::vector<double> transferred;
+    for (const auto& own : transferByParticipant(condition.trials)) {
+        exportMatrix(counts, condition.name, own);
+        exportTransfer(each, condition.name, own);
+        transferred.push_back(own.transfer.bestBits());
+    }
+    const Moments moments{transferred};
+    if (moments.n > 1)
+        out << indent << "IT of participants: mean " << bits(moments.mean) << ", standard error " << bits(moments.standardError()) << ", " << moments.n << " participants\n";
 }
 
 std::string patternsOf(const ConfusionMatrix& matrix) {
@@ -86,7 +109,8 @@ AnalysisReport analyseConfusion(const AnalyseOptions& o) {
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
-    ExportTable table{"confusion", data.value.isSimulated, "condition,stimulus,response,count"};
+    ExportTable table{"confusion", data.value.isSimulated, "condition,participant,stimulus,response,count"};
+    ExportTable each{"confusion-participants", data.value.isSimulated, "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
     std::vector<ConfusionPanel> panels;
     for (const auto& condition : data.value.conditions) {
         const ConfusionMatrix matrix{condition.trials};
@@ -95,11 +119,12 @@ AnalysisReport analyseConfusion(const AnalyseOptions& o) {
         for (const auto& words : matrixWarnings(matrix, it)) report.warnings.push_back(prefix + words);
         if (!condition.name.empty()) out << printable(condition.name) << '\n';
         tell(out, condition.name.empty() ? "" : "  ", matrix, it);
-        exportMatrix(table, condition.name, matrix);
+        tellAndExport(out, condition.name.empty() ? "" : "  ", condition, table, each);
         panels.push_back({nameOr(condition.name, "all trials"), matrix, it});
     }
     report.words = out.str();
     report.table = table.text();
+    report.participants = each.text();
     report.picture = [panels, words = pictureWords(o.files, data.value.isSimulated)] { return confusionPicture(panels, words); };
     return report;
 }

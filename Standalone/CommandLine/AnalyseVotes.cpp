@@ -9,15 +9,13 @@
 namespace physvib {
 namespace {
 
-std::string chance(double p) { return p < 0.001 ? "p < 0.001" : "p = " + fixedNumber(p, 3); }
-
 void tell(std::ostream& out, const ChoiceSummary& summary) {
     out << printable(summary.condition) << ':';
     for (const ChoiceShare& share : summary.shares)
-        out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' ' << percent(share.votes.share) << " % ("
-                  << percent(share.votes.least) << " to " << percent(share.votes.most) << ')';
-    out << " of " << summary.shares.front().votes.trials << " trials";
-    if (summary.shares.size() == 2) out << ", " << chance(summary.pByChance);
+        out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' ' << percent(share.share) << " % (" << percent(share.least) << " to "
+            << percent(share.most) << ')';
+    out << ", " << summary.trials << (summary.trials == 1 ? " trial of " : " trials of ") << summary.participants << (summary.participants == 1 ? " participant" : " participants");
+    if (summary.p) out << ", signed ranks " << chanceWords(*summary.p);
     out << '\n';
 }
 
@@ -42,16 +40,19 @@ AnalysisReport analyseChoices(const AnalyseOptions& o) {
     const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readChoices(files); });
     if (!data) return {data.error};
     const auto summaries = summariseChoices(data.value.conditions.front().trials);
-    ExportTable table{"choices", data.value.isSimulated, "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,participants_median_percent,p_sign_test"};
+    ExportTable table{"choices", data.value.isSimulated, "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,participants_median_percent,p_signed_ranks"};
     AnalysisReport report{{}, data.value.isSimulated};
     std::ostringstream out;
+    if (summaries.front().participants == 1) report.warnings.push_back("one participant, or no column participant: intervals are over trials, and say nothing about other people");
     if (summaries.front().shares.size() == 1) report.warnings.push_back("every choice is " + printable(summaries.front().shares.front().alternative) + ": nothing to compare");
     for (const auto& summary : summaries) {
         tell(out, summary);
         for (const auto& share : summary.shares) {
-            table.cell(summary.condition).cell(share.alternative).cell(std::size_t{share.votes.hits}).cell(std::size_t{share.votes.trials});
-            for (const double part : {share.votes.share, share.votes.least, share.votes.most}) table.cell(100.0 * part);
-            table.cell(summary.participants).cell(100.0 * share.participantsMedian).cell(summary.pByChance);
+            table.cell(summary.condition).cell(share.alternative).cell(std::size_t{share.hits}).cell(std::size_t{summary.trials});
+            for (const double part : {share.share, share.least, share.most}) table.cell(100.0 * part);
+            table.cell(summary.participants).cell(100.0 * share.median);
+            if (summary.p) table.cell(*summary.p);
+            else table.cell("");
             table.endRow();
         }
     }

@@ -20,14 +20,16 @@ namespace physvib {
 
 inline std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
 
+inline std::string chanceWords(double p) { return p < 0.001 ? "p < 0.001" : "p = " + fixedNumber(p, 3); }
+
 inline void warn(const std::string& words) { tell("warning: " + words); }
 
 /// Reads every file and gives the texts to `reader` at once.
 template <class Reader>
-auto readStudyFiles(const std::vector<std::string>& paths, Reader reader) -> decltype(reader(std::vector<NamedText>{})) {
+auto readStudyFiles(const std::vector<std::string>& paths, Reader reader, std::size_t mostBytes = limits::maxTableBytes) -> decltype(reader(std::vector<NamedText>{})) {
     std::vector<std::string> texts;
     for (const auto& path : paths) {
-        auto text = readFile(path, limits::maxTableBytes);
+        auto text = readFile(path, mostBytes);
         if (!text) return Failure{text.error};
         texts.push_back(std::move(text.value));
     }

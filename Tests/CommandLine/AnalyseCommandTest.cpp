@@ -65,9 +65,18 @@ TEST_F(Analyse, ToleranceCountsNeighboursAsTheStimulus) {
     EXPECT_NE(outcome.out.find("percent correct: 100.0"), std::string::npos);
     EXPECT_NE(outcome.out.find("corrected IT: 1.00 bit\n"), std::string::npos) << outcome.out;
     EXPECT_EQ(outcome.err, "");
-    EXPECT_NE(read("g-matrix.csv").find("\n,\"1,1\",\"1,1\",20\n"), std::string::npos);
+    EXPECT_NE(read("g-matrix.csv").find("\n,,\"1,1\",\"1,1\",20\n"), std::string::npos);
     write("s.csv", identity(3));
     refuses("analyse confusion s.csv --tolerance 1", 1, "s.csv: --tolerance: expected grid labels r,c, found \"s0\"", 4);
+}
+
+TEST_F(Analyse, ParticipantsTransferForThemselves) {
+    write("c.csv", "participant,condition,stimulus,response\nP1,PHONE,a,a\nP1,PHONE,b,b\nP2,PHONE,a,a\nP2,PHONE,b,a\n");
+    const auto outcome = call("analyse confusion c.csv --export m.csv --participants each.csv");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("\n  IT of participants: mean 0.50 bit, standard error 0.50 bit, 2 participants\n"), std::string::npos) << outcome.out;
+    EXPECT_NE(read("m.csv").find("\nPHONE,P2,b,a,1\n"), std::string::npos);
+    EXPECT_NE(read("each.csv").find("\nPHONE,P1,2,100,1,\nPHONE,P2,2,50,0,\n"), std::string::npos) << read("each.csv");
 }
 
 TEST_F(Analyse, BadTrialsAreNamedAndHandled) {
@@ -125,7 +134,7 @@ TEST_F(Analyse, ChoicesAndRatings) {
     write("c.csv", "participant,condition,choice\nP1,pair=wood,RM\nP1,pair=steel,SV\nP2,pair=wood,RM\nP2,pair=steel,RM\n");
     const auto choices = call("analyse choices c.csv --picture c.png --export c-out.csv");
     ASSERT_EQ(choices.exitCode, 0) << choices.err;
-    EXPECT_EQ(choices.out.rfind("all: RM 75.0 % (30.1 to 95.4), SV 25.0 % (4.6 to 69.9) of 4 trials, p = 0.625\n", 0), 0u) << choices.out;
+    EXPECT_EQ(choices.out.rfind("all: RM 75.0 % (0.0 to 100.0), SV 25.0 % (0.0 to 100.0), 4 trials of 2 participants, signed ranks p = 1.000\n", 0), 0u) << choices.out;
     write("r.csv", "participant,condition,realism,harmony,liking\nP1,AV-FV-DRV,76,68,71\nP2,AF-FF-DRF,36,42,36\n");
     const auto ratings = call("analyse ratings r.csv --picture r.png --export r-out.csv");
     ASSERT_EQ(ratings.exitCode, 0) << ratings.err;

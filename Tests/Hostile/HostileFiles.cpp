@@ -87,7 +87,8 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
             {"coupling", "json", filesIn(corpus / "coupling"), {"render shake-the-box --seconds 0.1 --layout phone2 --coupling FILE --out o.wav"}},
             {"protocol", "json", filesIn(corpus / "protocol"), {"study show FILE", "study run FILE --observer simulated --participant P --out ."}},
             {"study", "csv", filesIn(corpus / "study"),
-             {"analyse confusion" + table, "analyse resolution" + table, "analyse percent-counts" + table, "analyse choices" + table, "analyse ratings" + table, "analyse levels" + table}},
+             {"analyse confusion" + table, "analyse resolution" + table, "analyse percent-counts" + table, "analyse choices" + table, "analyse ratings" + table, "analyse levels" + table,
+              "analyse anova FILE --measure score --within condition --export e.csv", "analyse kruskal-wallis FILE --measure score --between condition --export e.csv"}},
             {"wav", "wav", {knock("wav", folder)}, recordingCalls},
             {"flac", "flac", {knock("flac", folder)}, recordingCalls},
             {"ogg", "ogg", {knock("ogg", folder)}, recordingCalls}};

@@ -125,5 +125,17 @@ TEST(InformationTransfer, EstimatesOnSimulatedDataOfKnownTruth) {
     }
 }
 
+TEST(InformationTransfer, ParticipantsTransferForThemselves) {
+    std::vector<IdentificationTrial> trials;
+    for (const char* stimulus : {"a", "b", "c", "d"}) trials.push_back({stimulus, stimulus, "P1"}), trials.push_back({stimulus, "a", "P2"});
+    const auto transfers = transferByParticipant(trials);
+    ASSERT_EQ(transfers.size(), 2u);
+    EXPECT_EQ(transfers[1].participant, "P2");
+    EXPECT_NEAR(transfers[0].transfer.bits, 2.0, 1e-12);
+    EXPECT_NEAR(transfers[1].transfer.bits, 0.0, 1e-12);
+    EXPECT_EQ(transfers[1].matrix.correct(), 1u);
+    EXPECT_LT(informationTransfer(ConfusionMatrix{trials}).bits, 1.0) << "pooled, one participant's guesses take from the other";
+}
+
 } // namespace
 } // namespace physvib

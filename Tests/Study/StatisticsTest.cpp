@@ -146,6 +146,12 @@ TEST(Statistics, BadDesignsAreRefusedByName) {
     EXPECT_NE(wilcoxon(oneFactor({{1, 2, 3}, {2, 4, 1}})).fault.find("expected two levels, found 3"), std::string::npos);
 }
 
+TEST(Statistics, TablesThatAreMostlyEmptyTakeNoMemory) {
+    LongTable table{"y", {"a"}, ""};
+    for (int p = 0; p < 20'000; ++p) table.add("P" + std::to_string(p), {std::to_string(p % 1000)}, "", p);
+    EXPECT_EQ(Design::of(table).fault, "expected at most 10000000 values, found 20000 participants with 1000 combinations of levels");
+}
+
 TEST(Statistics, WhatIsMissingIsNamed) {
     LongTable table{"y", {"a", "b"}, "g"};
     const auto add = [&](const char* p, const char* a, const char* b, const char* g, double y) { table.add(p, {a, b}, g, y); };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Intervals and tests against tabled values; grouping of choices and ratings; the choice of icons.
 #include "Study/LevelTrials.h"
+#include "Study/Proportion.h"
 #include "Study/TactileIcons.h"
 #include "Study/Votes.h"
 #include <algorithm>
@@ -19,32 +20,34 @@ TEST(Proportion, WilsonsIntervalAsTabled) {
     EXPECT_EQ(proportion(0, 0).most, 1.0);
 }
 
-TEST(Proportion, SignTestAsCountedByHand) {
-    EXPECT_NEAR(signTestP(0, 5), 2.0 / 32.0, 1e-12);
-    EXPECT_NEAR(signTestP(4, 5), 2.0 * 6.0 / 32.0, 1e-12);
-    EXPECT_EQ(signTestP(3, 6), 1.0);
-    EXPECT_EQ(signTestP(0, 0), 1.0);
-    EXPECT_LT(signTestP(1274, 2160), 1e-9); // 59 % of 20 participants' 108 trials
-    EXPECT_GT(signTestP(1274, 2160), 0.0);
-}
-
-TEST(Votes, StudentsPointsAsTabled) {
-    EXPECT_NEAR(studentPoint(1), 12.7062, 1e-4);
-    EXPECT_NEAR(studentPoint(11), 2.2010, 2e-4);
-    EXPECT_NEAR(studentPoint(19), 2.0930, 1e-4);
-    EXPECT_NEAR(studentPoint(100000), 1.95996, 1e-4);
-}
-
 TEST(Votes, ChoicesAreSharedOutByConditionAndFactor) {
     const auto summaries = summariseChoices({{"P1", "pair=wood size=small", "RM"}, {"P1", "pair=wood size=large", "SV"}, {"P2", "pair=wood size=small", "RM"}, {"P2", "pair=steel size=small", "RM"}});
     ASSERT_EQ(summaries.front().condition, "all");
     EXPECT_EQ(summaries.front().participants, 2u);
-    EXPECT_NEAR(summaries.front().shares[0].votes.share, 0.75, 1e-12);
-    EXPECT_NEAR(summaries.front().shares[0].participantsMedian, 0.75, 1e-12);
+    EXPECT_NEAR(summaries.front().shares[0].share, 0.75, 1e-12);
+    EXPECT_NEAR(summaries.front().shares[0].median, 0.75, 1e-12);
     const auto small = std::ranges::find(summaries, "size=small", &ChoiceSummary::condition);
     ASSERT_NE(small, summaries.end());
-    EXPECT_EQ(small->shares[0].votes.hits, 3u);
+    EXPECT_EQ(small->shares[0].hits, 3u);
     EXPECT_EQ(summaries.size(), 1u + 4u + 3u);
+}
+
+// One person's many trials must not outvote the others, nor be taken for as many people.
+TEST(Votes, ThirteenForAndSevenAgainstIsNoDecision) {
+    std::vector<ChoiceTrial> trials;
+    for (int p = 0; p < 20; ++p)
+        for (int t = 0; t < 100; ++t) trials.push_back({"P" + std::to_string(p), "", t < (p < 13 ? 60 + p : 30 - p) ? "RM" : "SV"});
+    const auto all = summariseChoices(trials).front();
+    EXPECT_EQ(all.participants, 20u);
+    EXPECT_EQ(all.trials, 2000u);
+    ASSERT_TRUE(all.p);
+    EXPECT_NEAR(*all.p, 0.62151, 1e-5); // R: wilcox.test(2 * c(60:72, 17:11) - 100)
+    EXPECT_LT(all.shares[0].least, 0.5);
+    EXPECT_GT(all.shares[0].most, 0.5);
+    trials.resize(100);
+    const auto one = summariseChoices(trials).front();
+    EXPECT_FALSE(one.p) << "one participant says nothing about others";
+    EXPECT_NEAR(one.shares[0].least, proportion(one.shares[0].hits, 100).least, 1e-12);
 }
 
 TEST(Votes, RatingsOfTheThesisMethodsAlsoShowTheirParts) {
@@ -53,7 +56,7 @@ TEST(Votes, RatingsOfTheThesisMethodsAlsoShowTheirParts) {
     EXPECT_EQ(summaries[1].condition, "AV-FV-DRV");
     EXPECT_NEAR(summaries[1].means[0], 75.0, 1e-12);
     EXPECT_NEAR(summaries[1].deviations[0], std::sqrt(50.0), 1e-9);
-    EXPECT_NEAR(summaries[1].halfIntervals[0], 12.7062 * 5.0, 1e-3);
+    EXPECT_NEAR(summaries[1].halfIntervals[0], 12.706204736174698 * 5.0, 1e-9);
     EXPECT_EQ(summaries[1].halfIntervals[1], 0.0);
     EXPECT_EQ(summaries[2].condition, "AV");
 }

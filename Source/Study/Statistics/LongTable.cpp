@@ -92,6 +92,8 @@ Design Design::of(const LongTable& table) {
         if ((cells *= factor.levels.size()) > mostDesignCells) return refuse("expected at most " + std::to_string(mostDesignCells) + " combinations of levels, found more");
 
     const std::size_t people = table.participants_.size();
+    if (people * cells > mostDesignValues) // participants who are complete have so many rows; most of these are not
+        return refuse("expected at most " + std::to_string(mostDesignValues) + " values, found " + std::to_string(people) + " participants with " + std::to_string(cells) + " combinations of levels");
     constexpr std::uint32_t nobodys = ~std::uint32_t{0};
     std::vector<std::uint32_t> groupOf(people, nobodys);
     CellMeans means{people * cells};

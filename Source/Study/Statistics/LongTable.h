@@ -31,11 +31,13 @@ private:
 
 constexpr std::size_t mostWithinFactors = 3;
 constexpr std::size_t mostDesignCells = 1024; // an effect's matrix has its square
+constexpr std::size_t mostDesignValues = 10'000'000; // of all participants and cells: a million rows leave most of them empty
 
 /// Rows of one measure. Any thread, one at a time (allocates).
 class LongTable {
 public:
-    /// `between` may be empty: no groups.
+    LongTable() = default;
+    /// `within`: at most mostWithinFactors; `between` may be empty: no groups.
     LongTable(std::string measure, std::vector<std::string> within, std::string between);
 
     /// `levels`: one per within-factor, in their order. A group is given with every row, or never.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Mean, spread and interval of values over participants.
+#pragma once
+#include <cstddef>
+#include <span>
+
+namespace physvib {
+
+struct Moments {
+    std::size_t n = 0;
+    double mean = 0.0;
+    double deviation = 0.0; ///< sample standard deviation; 0 of fewer than two
+    /// Any thread.
+    explicit Moments(std::span<const double> values) noexcept;
+    double standardError() const noexcept; ///< of the mean; 0 of fewer than two
+    double halfInterval() const;           ///< 95 %, by Student's t; 0 of fewer than two
+};
+
+} // namespace physvib

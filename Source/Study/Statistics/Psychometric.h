@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Psychometric functions: how likely an answer is at a level, fitted to trials by maximum likelihood.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+enum class PsychometricShape {
+    logistic,
+    normal, ///< cumulative
+    weibull ///< of levels in dB or another logarithm (Gumbel's in the level itself)
+};
+
+/// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and goes from 0.05 to 0.95 within the width.
+struct PsychometricFunction {
+    PsychometricShape shape = PsychometricShape::logistic;
+    double threshold = 0.0, width = 1.0; ///< in the unit of the levels; width > 0
+    double guess = 0.0, lapse = 0.0;     ///< guess: 1 / alternatives of a forced choice
+
+    /// Any thread.
+    double probability(double level) const noexcept;
+    double levelOf(double probability) const; ///< of a probability between guess and 1 - lapse
+    /// Just noticeable difference: half of what lies between F = 0.25 and F = 0.75.
+    double jnd() const noexcept;
+};
+
+/// Trials at one level.
+struct LevelCount {
+    double level = 0.0;
+    std::uint64_t hits = 0, trials = 0;
+};
+
+struct PsychometricFit {
+    std::string fault; ///< one line; then nothing else holds
+    PsychometricFunction function{};
+    double logLikelihood = 0.0;
+};
+
+constexpr double mostLapse = 0.1; // more than that is another task than the one that was asked for
+
+/// The likeliest function; `guess` is known, the lapse rate is fitted from 0 to `lapseUpTo` (0: it is 0). Faults: fewer than two levels, answers that do
+/// not change with the level. Any thread (allocates).
+PsychometricFit fitPsychometric(std::span<const LevelCount> counts, PsychometricShape shape, double guess, double lapseUpTo = mostLapse);
+
+} // namespace physvib

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Psychometric functions against R's glm and simulated observers, intervals by how often they hold, QUEST+ against a staircase.
+#include "Study/SeededRandom.h"
+#include "Study/Staircase.h"
+#include "Study/Statistics/Bootstrap.h"
+#include "Study/Statistics/Moments.h"
+#include "Study/Statistics/PowerLaw.h"
+#include "Study/Statistics/Psychometric.h"
+#include "Study/Statistics/QuestPlus.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <iostream>
+
+namespace physvib {
+namespace {
+
+constexpr PsychometricShape shapes[] = {PsychometricShape::logistic, PsychometricShape::normal, PsychometricShape::weibull};
+
+TEST(Psychometric, ThresholdAndWidthMeanTheSameForEveryShape) {
+    for (const auto shape : shapes) {
+        const PsychometricFunction f{shape, 3.0, 4.0, 0.5, 0.02};
+        EXPECT_NEAR(f.probability(3.0), 0.5 + 0.48 * 0.5, 1e-12);
+        EXPECT_NEAR(f.levelOf(0.5 + 0.48 * 0.95) - f.levelOf(0.5 + 0.48 * 0.05), 4.0, 1e-9);
+        EXPECT_NEAR(f.probability(f.levelOf(0.8)), 0.8, 1e-12);
+        EXPECT_NEAR(f.jnd(), 0.5 * (f.levelOf(0.5 + 0.48 * 0.75) - f.levelOf(0.5 + 0.48 * 0.25)), 1e-9);
+    }
+}
+
+TEST(Psychometric, WithoutGuessesItIsTheModelOfRsGlm) {
+    const std::vector<LevelCount> counts{{-6, 3, 30}, {-3, 8, 30}, {0, 14, 30}, {3, 25, 30}, {6, 29, 30}};
+    const double thresholds[] = {-0.429167327062, -0.465371305764, 0.0806596061844}, widths[] = {13.441199548498, 12.836988906085, 14.1962160473825};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto fit = fitPsychometric(counts, shapes[i], 0.0, 0.0);
+        ASSERT_EQ(fit.fault, "");
+        EXPECT_NEAR(fit.function.threshold, thresholds[i], 1e-4);
+        EXPECT_NEAR(fit.function.width, widths[i], 1e-3);
+    }
+}
+
+/// Trials of a two-alternative choice at eight levels.
+std::vector<LevelCount> observed(const PsychometricFunction& truth, std::uint64_t each, SeededRandom& random) {
+    std::vector<LevelCount> counts;
+    for (int i = 0; i < 8; ++i) {
+        LevelCount count{truth.threshold + truth.width * (0.25 * i - 0.8), 0, each};
+        for (std::uint64_t t = 0; t < each; ++t) count.hits += random.chance(truth.probability(count.level));
+        counts.push_back(count);
+    }
+    return counts;
+}
+
+TEST(Psychometric, SimulatedObserversAreFoundWithoutBias) {
+    SeededRandom random{7, "observers"};
+    for (const auto shape : shapes) {
+        std::vector<double> errors;
+        for (int observer = 0; observer < 500 / 3; ++observer) {
+            const PsychometricFunction truth{shape, 20.0 * random.uniform(), 2.0 + 6.0 * random.uniform(), 0.5, 0.04 * random.uniform()};
+            const auto fit = fitPsychometric(observed(truth, 60, random), shape, 0.5);
+            ASSERT_EQ(fit.fault, "");
+            errors.push_back((fit.function.threshold - truth.threshold) / truth.width);
+        }
+        EXPECT_LT(std::abs(Moments{errors}.mean), 0.02);
+    }
+}
+
+TEST(Psychometric, WhatCannotBeFittedIsNamed) {
+    EXPECT_EQ(fitPsychometric({}, shapes[0], 0.5).fault, "expected trials, found none");
+    const std::vector<LevelCount> one{{2, 3, 5}}, flat{{1, 5, 5}, {2, 7, 7}};
+    EXPECT_EQ(fitPsychometric(one, shapes[0], 0.5).fault, "expected trials at two or more levels, found one");
+    EXPECT_EQ(fitPsychometric(flat, shapes[0], 0.5).fault, "expected answers that change with the level, found the same share at every one");
+    for (const auto& steps : {std::vector<LevelCount>{{1, 0, 5}, {2, 5, 5}}, {{1, 5, 5}, {2, 0, 5}}}) { // no finite width is likeliest
+        const auto fit = fitPsychometric(steps, shapes[2], 0.5);
+        EXPECT_TRUE(std::isfinite(fit.function.threshold) && std::isfinite(fit.function.width) && std::isfinite(fit.logLikelihood));
+    }
+}
+
+TEST(Bootstrap, IntervalsOfTwelveParticipantsHoldAsOftenAsTheySay) {
+    SeededRandom random{3, "studies"};
+    int held = 0;
+    constexpr int studies = 500;
+    for (int study = 0; study < studies; ++study) {
+        std::vector<double> thresholds(12);
+        for (double& threshold : thresholds) threshold = 5.0 + random.normal();
+        const auto interval = bootstrapMean(thresholds, static_cast<std::uint64_t>(study));
+        held += interval.least < 5.0 && 5.0 < interval.most;
+    }
+    EXPECT_GE(held, 0.93 * studies);
+    EXPECT_LE(held, 0.97 * studies);
+}
+
+TEST(Bootstrap, FewParticipantsHaveAnIntervalToo) {
+    const std::vector<double> two{1, 3}, same{2, 2, 2};
+    const auto interval = bootstrapMean(two);
+    EXPECT_NEAR(interval.most - 2.0, 12.706204736174698, 1e-9) << "Student's t, where there is nothing to draw from";
+    EXPECT_EQ(bootstrapMean(same).least, 2.0);
+    EXPECT_EQ(bootstrapMean(std::span{two}.first(1)).most, 1.0);
+}
+
+QuestPlan questPlan() {
+    QuestPlan plan;
+    for (int i = 0; i <= 60; ++i) plan.levels.push_back(0.5 * i);
+    for (int i = 0; i <= 40; ++i) plan.thresholds.push_back(0.5 * i + 2.0);
+    plan.widths = {2, 4, 6, 8, 12};
+    plan.lapses = {0.0, 0.02, 0.05};
+    return plan;
+}
+
+TEST(QuestPlus, NeedsTwoThirdsOfAStaircasesTrialsForItsError) {
+    SeededRandom random{11, "observers"};
+    double questSquares = 0.0, staircaseSquares = 0.0;
+    int staircaseTrials = 0, questTrials = 0;
+    for (int observer = 0; observer < 150; ++observer) {
+        const PsychometricFunction truth{PsychometricShape::weibull, 6.0 + 10.0 * random.uniform(), 3.0 + 5.0 * random.uniform(), 0.5, 0.02};
+        const double wanted = truth.levelOf(std::sqrt(0.5)); // what two down, one up aims at
+        Staircase staircase{StaircasePlan{.alternative = "a", .startDb = 25.0, .stepDb = 4.0, .leastStepDb = 1.0, .leastDb = 0.0, .mostDb = 30.0, .down = 2, .reversals = 12}};
+        int trials = 0;
+        for (; !staircase.isDone(); ++trials) staircase.answer(random.chance(truth.probability(staircase.levelDb())));
+        QuestPlus quest{questPlan()};
+        while (quest.trials() < 2 * trials / 3) quest.answer(random.chance(truth.probability(quest.level())));
+        staircaseTrials += trials, questTrials += quest.trials();
+        staircaseSquares += std::pow(staircase.thresholdDb() - wanted, 2);
+        questSquares += std::pow(quest.estimate().levelOf(std::sqrt(0.5)) - wanted, 2);
+    }
+    EXPECT_LE(questTrials, 2 * staircaseTrials / 3);
+    EXPECT_LE(questSquares, staircaseSquares);
+    std::cout << "error, dB: QUEST+ " << std::sqrt(questSquares / 150) << " in " << questTrials / 150 << " trials, staircase " << std::sqrt(staircaseSquares / 150) << " in "
+              << staircaseTrials / 150 << '\n';
+}
+
+TEST(QuestPlus, BeliefGetsNarrower) {
+    QuestPlus quest{questPlan()};
+    const double before = quest.thresholdDeviation();
+    for (int i = 0; i < 30; ++i) quest.answer(quest.level() > 10.0 || i % 2);
+    EXPECT_LT(quest.thresholdDeviation(), 0.3 * before);
+    EXPECT_NEAR(quest.estimate().threshold, 10.0, 3.0);
+}
+
+TEST(PowerLaw, ExponentAndFactorComeBack) {
+    std::vector<MagnitudeTrial> trials;
+    for (const double level : {0.1, 0.3, 1.0, 3.0}) trials.push_back({level, 4.0 * std::pow(level, 0.55)});
+    const auto law = fitPowerLaw(trials);
+    EXPECT_NEAR(law.exponent, 0.55, 1e-12);
+    EXPECT_NEAR(law.factor, 4.0, 1e-12);
+    EXPECT_NEAR(law.determination, 1.0, 1e-12);
+    EXPECT_EQ(fitPowerLaw(std::span{trials}.first(1)).fault, "expected magnitudes of two or more levels");
+    trials[0].magnitude = 0.0;
+    EXPECT_EQ(fitPowerLaw(trials).fault, "expected levels and magnitudes > 0");
+}
+
+} // namespace
+} // namespace physvib
