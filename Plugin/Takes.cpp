@@ -13,9 +13,17 @@ namespace physvib {
 
 namespace {
 
+/// One look at the scene; one by one, each of a body's actions would look through all bodies.
+bool isValidAtOnce(Scene scene, const std::vector<Action>& group) {
+    const double now = scene.inputs.empty() ? 0.0 : scene.inputs.back().timeSeconds;
+    for (const Action& action : group) scene.inputs.push_back({now, action});
+    return validate(scene).empty();
+}
+
 void checkGroups(const SessionSetup& setup) {
     if (std::string fault = validate(setup.scene); !fault.empty()) throw std::invalid_argument(fault);
     for (const auto& group : setup.groups) {
+        if (isValidAtOnce(setup.scene, group)) continue;
         InputCheck check{setup.scene};
         for (const Action& action : group)
             if (std::string fault = check.take(action); !fault.empty()) throw std::invalid_argument(fault);

@@ -163,18 +163,19 @@ TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
 }
 
 /// Many discs in one place: steps that take long.
-PluginState heap() {
+PluginState heap(int discs) {
     PluginState state = newPluginState();
     Scene& scene = state.scene;
     scene.joints.clear();
     scene.script.clear();
     scene.bodies.clear();
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < discs; ++i) {
         BodyDescription& body = scene.bodies.emplace_back();
         body.name = "disc " + std::to_string(i);
         body.positionMetres = {scene.fieldWidthMetres / 2, scene.fieldHeightMetres / 2};
         FixtureDescription& fixture = body.fixtures.emplace_back();
         fixture.material = 3;
+        fixture.isCamera = true;
         fixture.shape = CircleShape{0.2};
     }
     return state;
@@ -183,7 +184,7 @@ PluginState heap() {
 /// The processor time of a tick that owes half a second of the heap's world, and is released after so much of it.
 double tickMicroseconds(double releasedAfter = HUGE_VAL) {
     TestHost host;
-    EXPECT_TRUE(host.plugin->apply(heap()));
+    EXPECT_TRUE(host.plugin->apply(heap(200)));
     const std::atomic<std::int64_t> nowNs{0};
     host.plugin->takes().driveByHand(nowNs);
     host.prepare(48000, 480, false);
@@ -208,6 +209,20 @@ TEST(Takes, ReleaseWaitsForOneStepOfAHeavyWorldNotForAllThatAreOwed) {
     double least = whole;
     for (int attempt = 0; attempt < 5 && least > 0.5 * whole; ++attempt) least = std::min(least, tickMicroseconds(0.1 * whole)); // on a busy machine it may come late
     EXPECT_LT(least, 0.5 * whole) << "of " << whole << " us";
+}
+
+double applyMicroseconds(int discs) {
+    TestHost host;
+    const PluginState state = heap(discs);
+    const double before = microsecondsOf(CLOCK_THREAD_CPUTIME_ID);
+    EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
+    return microsecondsOf(CLOCK_THREAD_CPUTIME_ID) - before;
+}
+
+TEST(Takes, AStateOfManyBodiesIsTakenInATimeThatGrowsAsTheyDo) {
+    double few = HUGE_VAL, many = HUGE_VAL;
+    for (int attempt = 0; attempt < 3; ++attempt) few = std::min(few, applyMicroseconds(100)), many = std::min(many, applyMicroseconds(800));
+    EXPECT_LT(many, 24.0 * few) << "eight times the bodies; by their square it would be 64 times";
 }
 
 TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {
