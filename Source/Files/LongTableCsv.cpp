@@ -2,7 +2,7 @@
 // Columns by name, rows one by one: of a million rows only numbers and the indices of names are kept.
 #include "Files/LongTableCsv.h"
 #include "Files/CsvTable.h"
-#include "Files/CsvText.h"
+#include "Files/FactorSource.h"
 #include "Files/NumberText.h"
 #include "Files/TrialColumns.h"
 #include <cmath>
@@ -11,30 +11,9 @@
 namespace physvib {
 namespace {
 
+using detail::FactorSource;
+
 constexpr double largestMeasure = 1e100; // squares and their sums stay finite
-
-/// Where a row says the level of a factor: in a column of that name, or as `name=level` among the words of a condition or stimulus.
-struct FactorSource {
-    std::size_t column = 0;
-    std::string mark{}; ///< "pair="; empty: the whole cell of `column`
-    std::optional<std::size_t> alsoIn{};
-
-    std::string_view level(const CsvRow& row) const {
-        if (mark.empty()) return row.cells[column];
-        const std::string_view found = markedIn(row.cells[column]);
-        return found.empty() && alsoIn ? markedIn(row.cells[*alsoIn]) : found;
-    }
-    std::string expected() const { return mark.empty() ? "a level" : "a word " + printable(mark) + "..."; }
-
-private:
-    std::string_view markedIn(std::string_view rest) const {
-        while (!rest.empty()) {
-            const std::string_view word = takeUntil(' ', rest);
-            if (word.starts_with(mark)) return word.substr(mark.size());
-        }
-        return {};
-    }
-};
 
 /// One file's rows on their way into the table.
 class LongTableReader {
@@ -62,11 +41,11 @@ private:
         if (!findMeasure()) return missing(wanted_.measure);
         within_.clear();
         for (const std::string& factor : wanted_.within) {
-            const auto source = sourceOf(factor);
+            const auto source = FactorSource::of(*head_, factor);
             if (!source) return missing(factor);
             within_.push_back(*source);
         }
-        between_ = wanted_.between.empty() ? std::nullopt : sourceOf(wanted_.between);
+        between_ = wanted_.between.empty() ? std::nullopt : FactorSource::of(*head_, wanted_.between);
         return between_ || wanted_.between.empty() ? "" : missing(wanted_.between);
     }
 
@@ -99,13 +78,6 @@ private:
         }
         measure_ = found.value_or(0);
         return found.has_value();
-    }
-
-    std::optional<FactorSource> sourceOf(const std::string& factor) const {
-        if (const auto column = head_->column(factor)) return FactorSource{*column};
-        const auto condition = head_->column("condition"), stimulus = head_->column("stimulus");
-        if (!condition && !stimulus) return std::nullopt;
-        return FactorSource{condition.value_or(stimulus.value_or(0)), factor + "=", stimulus};
     }
 
     std::string missing(const std::string& column) const { return head_->name + ": expected a column " + printable(column) + ", found none"; }

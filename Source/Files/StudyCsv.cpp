@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One function per kind of study file; the rows come from StudyRows.
 #include "Files/StudyCsv.h"
+#include "Files/FactorSource.h"
 #include "Files/FileLimits.h"
 #include "Files/StudyRows.h"
 #include "Study/Trial.h"
+#include <cmath>
 #include <set>
 
 namespace physvib {
@@ -158,6 +160,25 @@ std::size_t takeLevels(const StudyRows& rows, StudyData<LevelTrial>& data) {
     return taken;
 }
 
+std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data, const LevelAnswerColumns& columns) {
+    constexpr double largestLevel = 1e6;
+    const auto measure = rows.required(columns.measure);
+    const auto level = detail::FactorSource::of(rows.table(), columns.level);
+    if (!level) rows.required(columns.level);
+    const auto condition = rows.optional("condition"), participant = rows.optional("participant");
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(columns.isMagnitude ? "estimate" : "choose", [&](const CsvRow& row) {
+        if (row.cells[measure].empty()) return;
+        const auto at = parseNumber<double>(level->level(row));
+        if (!at || std::abs(*at) > largestLevel) throw StudyFault{rows.table().fault(row, level->column, level->expected() + " that is a number from -1e6 to 1e6")};
+        ++taken;
+        const double answer = columns.isMagnitude ? rows.number(row, measure, leastEstimate, mostEstimate) : rows.wholeNumber(row, measure, 0, 1);
+        conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back({StudyRows::textIf(row, participant), *at, answer});
+    });
+    return taken;
+}
+
 /// Columns c1, c2, ... of the table, at least one.
 std::vector<std::size_t> countColumns(const StudyRows& rows) {
     std::vector<std::size_t> columns;
@@ -207,6 +228,10 @@ Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) { r
 Result<RatingData> readRatings(std::span<const NamedText> files) { return readAll<RatingData>(files, takeRatings); }
 
 Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files) { return readAll<StudyData<LevelTrial>>(files, takeLevels); }
+
+Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files, const LevelAnswerColumns& columns) {
+    return readAll<StudyData<LevelAnswer>>(files, [&](const StudyRows& rows, auto& data) { return takeLevelAnswers(rows, data, columns); });
+}
 
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files) {
     return readAll<StudyData<PercentCounts>>(files, takePercentCounts);

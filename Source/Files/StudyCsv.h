@@ -7,6 +7,7 @@
 #include "Study/LevelTrials.h"
 #include "Study/PercentCounts.h"
 #include "Study/ResponseMap.h"
+#include "Study/Statistics/LevelFits.h"
 #include "Study/Votes.h"
 #include <filesystem>
 #include <span>
@@ -59,6 +60,16 @@ Result<RatingData> readRatings(std::span<const NamedText> files);
 
 /// A trial file's staircases, adjustments (training, too) and magnitude estimations. One condition holds them all.
 Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files);
+
+/// What a fit is made of, by the names of columns.
+struct LevelAnswerColumns {
+    std::string level;   ///< of numbers; if there is no such column, a word `level=...` of condition or stimulus
+    std::string measure; ///< of answers
+    bool isMagnitude = false; ///< else answers are 1 or 0
+};
+
+/// Columns as named, condition and participant if there; rows without an answer are left out.
+Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files, const LevelAnswerColumns& columns);
 
 /// Columns condition, row, c1 to cN; rows 1, 2, 3... of each condition, numbers from 0 to 100.
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files);

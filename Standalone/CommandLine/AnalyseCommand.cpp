@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options of the analyses, and which of them was asked for.
 #include "CommandLine/AnalyseCommand.h"
+#include "CommandLine/AnalyseFits.h"
 #include "CommandLine/AnalyseGrids.h"
 #include "CommandLine/AnalyseLabels.h"
 #include "CommandLine/AnalyseTests.h"
@@ -11,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <set>
+#include <span>
 
 namespace physvib {
 namespace {
@@ -57,6 +59,19 @@ void declareOwn(CLI::App& command, std::string_view name, AnalyseOptions& o) {
         command.add_option("--participants", o.participantsPath, "percent correct and IT of each participant and condition")->type_name("FILE.csv")->check(writtenFile);
 }
 
+constexpr Analysis fits[] = {
+    {"psychometric", "psychometric functions of each participant, thresholds and JNDs over participants", analysePsychometric},
+    {"power-law", "Stevens' exponent of magnitude estimations", analysePowerLaw},
+};
+
+/// Of any kind; none of that name.
+template <class Is>
+const Analysis* analysisThat(Is is) {
+    for (const auto kind : std::initializer_list<std::span<const Analysis>>{analyses, testsOverParticipants, fits})
+        if (const auto found = std::ranges::find_if(kind, is); found != kind.end()) return &*found;
+    return nullptr;
+}
+
 CLI::App* declare(CLI::App& command, const Analysis& analysis, AnalyseOptions& o) {
     CLI::App* const own = command.add_subcommand(std::string{analysis.name}, analysis.purpose);
     own->add_option("files", o.files, "trials, or what the analysis is about; several are taken together")->required()->type_name("FILE.csv");
@@ -74,6 +89,7 @@ void declareAnalyse(CLI::App& command, AnalyseOptions& o) {
         declareOwn(*own, analysis.name, o);
     }
     for (const Analysis& test : testsOverParticipants) declareTest(*declare(command, test, o), o);
+    for (const Analysis& fit : fits) declareFit(*declare(command, fit, o), o);
 }
 
 std::vector<std::string> analysesFor(const CsvTable& table) {
@@ -104,15 +120,13 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
 }
 
 AnalysisReport analyse(const std::string& name, const AnalyseOptions& options) {
-    const auto found = std::ranges::find(analyses, name, &Analysis::name);
-    return found != std::end(analyses) ? found->run(options) : AnalysisReport{"no analysis " + inQuotes(name)};
+    const Analysis* const found = analysisThat([&](const Analysis& a) { return a.name == name; });
+    return found ? found->run(options) : AnalysisReport{"no analysis " + inQuotes(name)};
 }
 
 int runAnalyse(const CLI::App& command, const AnalyseOptions& o) {
-    const auto isAsked = [&](const Analysis& a) { return command.got_subcommand(std::string{a.name}); };
-    const Analysis* asked = std::ranges::find_if(analyses, isAsked);
-    if (asked == std::end(analyses)) asked = std::ranges::find_if(testsOverParticipants, isAsked);
-    if (asked == std::end(testsOverParticipants)) return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
+    const Analysis* const asked = analysisThat([&](const Analysis& a) { return command.got_subcommand(std::string{a.name}); });
+    if (!asked) return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
     const AnalysisReport report = asked->run(o);
     for (const auto& words : report.warnings) warn(words);
     if (report.error.empty() || !report.words.empty()) tellIfSimulated(report.isSimulated);

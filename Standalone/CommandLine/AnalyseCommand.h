@@ -4,6 +4,7 @@
 #include "Files/CsvTable.h"
 #include "Study/PercentCounts.h"
 #include "Study/Statistics/Pairs.h"
+#include "Study/Statistics/Psychometric.h"
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -30,6 +31,10 @@ struct AnalyseOptions {
     std::optional<Correction> correction;
     PairTest pairTest = PairTest::student;
     bool usesAlignedRanks = false;
+    // Fits to each participant's trials:
+    std::string level;
+    PsychometricShape shape = PsychometricShape::logistic;
+    double guess = 0.5;
 };
 
 /// What an analysis has found.

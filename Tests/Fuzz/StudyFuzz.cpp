@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the readers of study files, and of the analyses on whatever they let through: no number may be missing.
+#include "Files/LongTableCsv.h"
 #include "Files/StudyCsv.h"
 #include "Fuzzing.h"
 #include "Study/InformationTransfer.h"
+#include "Study/Statistics/RankTests.h"
+#include "Study/Statistics/RepeatedMeasures.h"
+#include "Study/Statistics/ShapiroWilk.h"
 #include <cmath>
 
 namespace {
@@ -41,6 +45,21 @@ void analyse(const RatingData& ratings) {
         for (const double half : summary.halfIntervals) fuzz::demand(std::isfinite(half), "a number is missing");
 }
 
+void analyse(const StudyData<LevelAnswer>& data) {
+    for (const auto& own : psychometricByParticipant(data.conditions.front().trials, PsychometricShape::normal, 0.5))
+        fuzz::demand(!own.fit.fault.empty() || (std::isfinite(own.fit.function.threshold) && std::isfinite(own.fit.function.width)), "a number is missing");
+}
+
+void analyse(const LongTableData& data) {
+    const Design design = Design::of(data.table);
+    if (design.cells() > 16) return;
+    for (const auto test : {repeatedMeasures, alignedRanks, friedman, wilcoxon, mannWhitney, kruskalWallis, shapiroByCell})
+        for (const TestLine& line : test(design).lines)
+            for (const auto& number : {line.df1, line.df2, line.statistic, line.p, line.pCorrected, line.epsilon, line.effectSize}) fuzz::demand(std::isfinite(number.value_or(0.0)), "a number is missing");
+}
+
+bool isEmpty(const LongTableData& data) { return data.table.rows() == 0; }
+
 template <class T>
 bool isEmpty(const StudyData<T>& data) { return data.conditions.empty(); }
 bool isEmpty(const RatingData& ratings) { return isEmpty(ratings.data); }
@@ -63,5 +82,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tryOne(readRatings, text);
     tryOne(readLevels, text);
     tryOne(readPercentCounts, text);
+    tryOne([](const auto& files) { return readLevelAnswers(files, {"level_db", "correct", false}); }, text);
+    tryOne([](const auto& files) { return readLongTable(files, {"choice=RM", {"condition"}, "", ""}); }, text);
+    tryOne([](const auto& files) { return readLongTable(files, {"x", {}, "condition", ""}); }, text);
     return 0;
 }

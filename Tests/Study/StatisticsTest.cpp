@@ -152,6 +152,24 @@ TEST(Statistics, TablesThatAreMostlyEmptyTakeNoMemory) {
     EXPECT_EQ(Design::of(table).fault, "expected at most 10000000 values, found 20000 participants with 1000 combinations of levels");
 }
 
+TEST(Statistics, NoFigureIsMissingHoweverLargeOrSmallTheValues) {
+    for (const double scale : {1e100, 1.0, 1e-90, 1e-150, 1e-300})
+        for (const auto& [name, test] : testsByName) {
+            const bool isOfGroups = name == "mann-whitney" || name == "kruskal-wallis";
+            LongTable table{"y", isOfGroups ? std::vector<std::string>{} : std::vector<std::string>{"a"}, isOfGroups ? "g" : ""};
+            for (int p = 0; p < 8; ++p)
+                for (int c = 0; c < (isOfGroups ? 1 : 2); ++c) {
+                    const std::string level = std::to_string(c);
+                    const std::vector<std::string_view> levels(isOfGroups ? 0 : 1, level);
+                    table.add("P" + std::to_string(p), levels, isOfGroups ? (p % 2 ? "x" : "y") : "", scale * ((p * 5 + c * 3) % 7 + 0.5 * p * c));
+                }
+            const auto report = test(Design::of(table));
+            EXPECT_EQ(report.fault.empty(), !report.lines.empty()) << name;
+            for (const auto& line : report.lines)
+                for (const auto& number : numbersOf(line)) EXPECT_TRUE(std::isfinite(number.value_or(0.0))) << name << " at " << scale;
+        }
+}
+
 TEST(Statistics, WhatIsMissingIsNamed) {
     LongTable table{"y", {"a", "b"}, "g"};
     const auto add = [&](const char* p, const char* a, const char* b, const char* g, double y) { table.add(p, {a, b}, g, y); };

@@ -41,7 +41,7 @@ public:
     }
     void addAgain(std::size_t cell, double value) { sums_[cell] += value - means_[cell]; }
     bool has(std::size_t cell) const { return counts_[cell] > 0; }
-    bool isAverage(std::size_t cell) const { return counts_[cell] > 1; }
+    std::size_t filled() const { return counts_.size() - static_cast<std::size_t>(std::ranges::count(counts_, 0u)); }
     double mean(std::size_t cell) const { return static_cast<double>(means_[cell] + sums_[cell] / static_cast<long double>(counts_[cell])); }
 
 private:
@@ -57,6 +57,107 @@ std::string namedList(const std::vector<std::string>& names) {
 }
 
 } // namespace
+
+/// A design on its way: each step refuses, or leaves something for the next.
+class DesignMaker {
+public:
+    explicit DesignMaker(const LongTable& table)
+        : table_{table} {}
+
+    Design make() {
+        if (takeFactors() && takeRows() && hasEveryCell()) takeParticipants();
+        return std::move(design_);
+    }
+
+private:
+    bool refuse(std::string words) {
+        design_.fault = std::move(words);
+        return false;
+    }
+
+    bool takeFactors() {
+        design_.measure = table_.measure_;
+        if (table_.rows_.empty()) return refuse("column " + design_.measure + ": expected numbers, found none");
+        for (std::size_t i = 0; i < table_.within_.size(); ++i) {
+            design_.within.push_back({table_.within_[i], table_.levels_[i].words()});
+            const DesignFactor& factor = design_.within.back();
+            if (factor.levels.size() < 2) return refuse("column " + factor.name + ": expected two or more levels, found only " + factor.levels.front());
+            if ((cells_ *= factor.levels.size()) > mostDesignCells) return refuse("expected at most " + std::to_string(mostDesignCells) + " combinations of levels, found more");
+        }
+        if (people() * cells_ <= mostDesignValues) return true;
+        return refuse("expected at most " + std::to_string(mostDesignValues) + " values, found " + std::to_string(people()) + " participants with " + std::to_string(cells_) +
+                      " combinations of levels");
+    }
+
+    bool takeRows() {
+        means_ = CellMeans{people() * cells_};
+        groups_.assign(people(), nobodys);
+        for (const auto& row : table_.rows_) {
+            if (!takeGroup(row)) return false;
+            means_.add(cellOf(row), row.value);
+        }
+        means_.divide();
+        for (const auto& row : table_.rows_) means_.addAgain(cellOf(row), row.value);
+        return true;
+    }
+
+    bool takeGroup(const LongTable::Row& row) {
+        std::uint32_t& group = groups_[row.participant];
+        if (group == nobodys) group = row.group;
+        if (group == row.group) return true;
+        return refuse("participant " + table_.participants_[row.participant] + ": expected one value of " + table_.between_ + ", found " + table_.groups_[group] + " and " +
+                      table_.groups_[row.group]);
+    }
+
+    bool hasEveryCell() {
+        for (std::size_t c = 0; c < cells_; ++c) {
+            bool isThere = false;
+            for (std::size_t p = 0; p < people() && !isThere; ++p) isThere = means_.has(p * cells_ + c);
+            if (!isThere) return refuse("expected every combination of levels, found no value of " + design_.cellName(c));
+        }
+        return true;
+    }
+
+    bool isComplete(std::size_t participant) const {
+        for (std::size_t c = 0; c < cells_; ++c)
+            if (!means_.has(participant * cells_ + c)) return false;
+        return true;
+    }
+
+    bool takeParticipants() {
+        std::vector<std::string> incomplete;
+        WordList groups;
+        for (std::size_t p = 0; p < people(); ++p) {
+            if (!isComplete(p)) {
+                incomplete.push_back(table_.participants_[p]);
+                continue;
+            }
+            design_.participants.push_back(table_.participants_[p]);
+            design_.groups.push_back(hasGroups() ? groups.indexOf(table_.groups_[groups_[p]]) : 0);
+            for (std::size_t c = 0; c < cells_; ++c) design_.values.push_back(means_.mean(p * cells_ + c));
+        }
+        if (table_.rows_.size() > means_.filled()) design_.warnings.push_back("several rows of a participant" + std::string(design_.within.empty() ? "" : " and condition") + " are averaged");
+        if (!incomplete.empty()) design_.warnings.push_back("left out, because a combination of levels has no value: " + namedList(incomplete));
+        if (design_.participants.empty()) return refuse("expected participants with a value in every combination of levels, found none");
+        if (hasGroups()) design_.between = DesignFactor{table_.between_, groups.words()};
+        return !hasGroups() || groups.size() > 1 || refuse("column " + table_.between_ + ": expected two or more groups, found only " + groups[0]);
+    }
+
+    bool hasGroups() const { return !table_.between_.empty(); }
+    std::size_t people() const { return table_.participants_.size(); }
+    std::size_t cellOf(const LongTable::Row& row) const {
+        std::size_t cell = row.participant;
+        for (std::size_t i = 0; i < design_.within.size(); ++i) cell = cell * design_.within[i].levels.size() + row.levels[i];
+        return cell;
+    }
+
+    static constexpr std::uint32_t nobodys = ~std::uint32_t{0};
+    const LongTable& table_;
+    Design design_;
+    std::size_t cells_ = 1;
+    CellMeans means_{0};
+    std::vector<std::uint32_t> groups_; ///< of each participant
+};
 
 std::size_t Design::cells() const noexcept {
     std::size_t count = 1;
@@ -75,73 +176,7 @@ std::string Design::cellName(std::size_t cell) const {
     return name;
 }
 
-Design Design::of(const LongTable& table) {
-    Design design;
-    const auto refuse = [&](std::string words) {
-        design.fault = std::move(words);
-        return design;
-    };
-    design.measure = table.measure_;
-    for (std::size_t i = 0; i < table.within_.size(); ++i) design.within.push_back({table.within_[i], table.levels_[i].words()});
-    const bool hasGroups = !table.between_.empty();
-    if (table.rows_.empty()) return refuse("column " + design.measure + ": expected numbers, found none");
-    for (const DesignFactor& factor : design.within)
-        if (factor.levels.size() < 2) return refuse("column " + factor.name + ": expected two or more levels, found only " + factor.levels.front());
-    std::size_t cells = 1;
-    for (const DesignFactor& factor : design.within)
-        if ((cells *= factor.levels.size()) > mostDesignCells) return refuse("expected at most " + std::to_string(mostDesignCells) + " combinations of levels, found more");
-
-    const std::size_t people = table.participants_.size();
-    if (people * cells > mostDesignValues) // participants who are complete have so many rows; most of these are not
-        return refuse("expected at most " + std::to_string(mostDesignValues) + " values, found " + std::to_string(people) + " participants with " + std::to_string(cells) + " combinations of levels");
-    constexpr std::uint32_t nobodys = ~std::uint32_t{0};
-    std::vector<std::uint32_t> groupOf(people, nobodys);
-    CellMeans means{people * cells};
-    const auto cellOf = [&](const LongTable::Row& row) {
-        std::size_t cell = row.participant;
-        for (std::size_t i = 0; i < design.within.size(); ++i) cell = cell * design.within[i].levels.size() + row.levels[i];
-        return cell;
-    };
-    for (const auto& row : table.rows_) {
-        std::uint32_t& group = groupOf[row.participant];
-        if (group != nobodys && group != row.group)
-            return refuse("participant " + table.participants_[row.participant] + ": expected one value of " + table.between_ + ", found " + table.groups_[group] + " and " +
-                          table.groups_[row.group]);
-        group = row.group;
-        means.add(cellOf(row), row.value);
-    }
-    means.divide();
-    for (const auto& row : table.rows_) means.addAgain(cellOf(row), row.value);
-
-    for (std::size_t c = 0; c < cells; ++c) {
-        bool isThere = false;
-        for (std::size_t p = 0; p < people && !isThere; ++p) isThere = means.has(p * cells + c);
-        if (!isThere) return refuse("expected every combination of levels, found no value of " + design.cellName(c));
-    }
-    std::vector<std::string> incomplete;
-    WordList groups;
-    bool isAveraged = false;
-    for (std::size_t p = 0; p < people; ++p) {
-        std::size_t there = 0;
-        for (std::size_t c = 0; c < cells; ++c) there += means.has(p * cells + c);
-        if (there < cells) {
-            incomplete.push_back(table.participants_[p]);
-            continue;
-        }
-        design.participants.push_back(table.participants_[p]);
-        design.groups.push_back(hasGroups ? groups.indexOf(table.groups_[groupOf[p]]) : 0);
-        for (std::size_t c = 0; c < cells; ++c) {
-            design.values.push_back(means.mean(p * cells + c));
-            isAveraged |= means.isAverage(p * cells + c);
-        }
-    }
-    if (isAveraged) design.warnings.push_back("several rows of a participant" + std::string(design.within.empty() ? "" : " and condition") + " are averaged");
-    if (!incomplete.empty()) design.warnings.push_back("left out, because a combination of levels has no value: " + namedList(incomplete));
-    if (design.participants.empty()) return refuse("expected participants with a value in every combination of levels, found none");
-    if (hasGroups) design.between = DesignFactor{table.between_, groups.words()};
-    if (hasGroups && groups.size() < 2) return refuse("column " + table.between_ + ": expected two or more groups, found only " + groups[0]);
-    return design;
-}
+Design Design::of(const LongTable& table) { return DesignMaker{table}.make(); }
 
 Design Design::alone(std::size_t factor) const {
     Design one = *this;

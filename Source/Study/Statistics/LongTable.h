@@ -46,7 +46,7 @@ public:
     std::size_t rows() const noexcept { return rows_.size(); }
 
 private:
-    friend struct Design;
+    friend class DesignMaker; // in LongTable.cpp
     struct Row {
         std::uint32_t participant = 0, group = 0;
         std::array<std::uint32_t, mostWithinFactors> levels{};

@@ -3,6 +3,7 @@
 #include "Study/Statistics/Pairs.h"
 #include "Study/Statistics/Distributions.h"
 #include "Study/Statistics/RankTests.h"
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -17,7 +18,7 @@ struct Sample {
         for (const double v : values) variance += (v - mean) * (v - mean) / (n - 1.0);
     }
     /// Rounding apart, whether values differ at all.
-    bool varies(double size) const { return variance > 1e-28 * size * size; }
+    bool varies(double size) const { return variance > std::max(1e-200, 1e-28 * size * size); }
 };
 
 double largest(const std::vector<double>& values) {
@@ -45,9 +46,9 @@ TestLine welchT(const std::vector<double>& first, const std::vector<double>& sec
     line.n = first.size() + second.size();
     if (first.size() < 2 || second.size() < 2) return line;
     const Sample a{first}, b{second};
-    const double errorA = a.variance / a.n, errorB = b.variance / b.n, error = errorA + errorB;
+    const double error = a.variance / a.n + b.variance / b.n, share = a.variance / a.n / error;
     if (!a.varies(largest(first)) && !b.varies(largest(second))) return line;
-    line.df1 = error * error / (errorA * errorA / (a.n - 1.0) + errorB * errorB / (b.n - 1.0));
+    line.df1 = 1.0 / (share * share / (a.n - 1.0) + (1.0 - share) * (1.0 - share) / (b.n - 1.0));
     line.statistic = (a.mean - b.mean) / std::sqrt(error);
     line.p = studentTwoSided(*line.statistic, *line.df1);
     line.effectSize = (a.mean - b.mean) / std::sqrt(0.5 * (a.variance + b.variance));

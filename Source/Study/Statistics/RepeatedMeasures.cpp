@@ -105,6 +105,13 @@ void addSphericity(const Matrix& error, double df, double cells, TestLine& line)
     line.sphericity = sphericity;
 }
 
+/// A sum of squares that may be rounding alone; the least of all leaves room for what is divided by it.
+double roundingOf(const std::vector<double>& values) {
+    double largest = 0.0;
+    for (const double v : values) largest = std::max(largest, std::abs(v));
+    return std::max(1e-200, 1e-28 * static_cast<double>(values.size()) * largest * largest);
+}
+
 std::string faultOf(const Design& design) {
     if (!design.fault.empty()) return design.fault;
     if (design.within.empty() && !design.between) return "expected a within-factor or a between-factor";
@@ -121,7 +128,7 @@ TestReport repeatedMeasures(const Design& design) {
     if (design.groupCount() > 1) report.notes.push_back("Type III sums of squares: groups of different sizes count alike");
     const Groups groups{design};
     const double df = groups.errorDf();
-    const double nothing = 1e-28 * static_cast<double>(design.values.size()) * std::pow(std::abs(*std::ranges::max_element(design.values, {}, [](double v) { return std::abs(v); })), 2);
+    const double nothing = roundingOf(design.values);
     double allErrors = 0.0;
     std::vector<double> squares;
     for (const DesignEffect& effect : effectsOf(design)) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Where a row of a table says the level of a factor. For the .cpp files of Files.
+#pragma once
+#include "Files/CsvTable.h"
+#include "Files/CsvText.h"
+#include "Files/NumberText.h"
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace physvib::detail {
+
+/// A column of that name, or `name=level` among the words of a condition or stimulus.
+struct FactorSource {
+    std::size_t column = 0;
+    std::string mark{}; ///< "pair="; empty: the whole cell of `column`
+    std::optional<std::size_t> alsoIn{};
+
+    static std::optional<FactorSource> of(const CsvTable& table, const std::string& factor) {
+        if (const auto column = table.column(factor)) return FactorSource{*column};
+        const auto condition = table.column("condition"), stimulus = table.column("stimulus");
+        if (!condition && !stimulus) return std::nullopt;
+        return FactorSource{condition.value_or(stimulus.value_or(0)), factor + "=", stimulus};
+    }
+    /// Empty: the row does not say.
+    std::string_view level(const CsvRow& row) const {
+        if (mark.empty()) return row.cells[column];
+        const std::string_view found = markedIn(row.cells[column]);
+        return found.empty() && alsoIn ? markedIn(row.cells[*alsoIn]) : found;
+    }
+    std::string expected() const { return mark.empty() ? "a level" : "a word " + printable(mark) + "..."; }
+
+private:
+    std::string_view markedIn(std::string_view rest) const {
+        while (!rest.empty()) {
+            const std::string_view word = takeUntil(' ', rest);
+            if (word.starts_with(mark)) return word.substr(mark.size());
+        }
+        return {};
+    }
+};
+
+} // namespace physvib::detail
