@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A row of the parameter table as hosts see it; the value is one atomic float.
 #pragma once
-#include "Host/Parameters.h"
+#include "Parameters.h"
 #include <atomic>
 #include <juce_audio_processors/juce_audio_processors.h>
 

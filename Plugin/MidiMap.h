@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Files/PluginState.h"
-#include "Host/Parameters.h"
+#include "Parameters.h"
 #include <array>
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // Rows of words, and a form for each kind of rule. What a form asks for is checked by the reader of states.
 #include "MidiPanel.h"
 #include "EditorParts.h"
-#include "Host/PictureCanvas.h"
+#include "Host/Pictures/PictureCanvas.h"
 
 namespace physvib {
 

@@ -3,7 +3,7 @@
 #include "MixPanel.h"
 #include "EditorParts.h"
 #include "Files/ActuatorFile.h"
-#include "Host/PictureCanvas.h"
+#include "Host/Pictures/PictureCanvas.h"
 
 namespace physvib {
 

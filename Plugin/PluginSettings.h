@@ -2,8 +2,8 @@
 // From the state of an instance to what renders it.
 #pragma once
 #include "Files/PluginState.h"
-#include "Host/Parameters.h"
-#include "Host/Session.h"
+#include "Parameters.h"
+#include "Session/Session.h"
 #include <optional>
 #include <string>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One run of a session from its seed on, with the settings it was made for, until it has played what is owed.
 #pragma once
-#include "Core/GainRamp.h"
+#include "Core/Actuators/GainRamp.h"
 #include "Files/Mix.h"
-#include "Host/Session.h"
+#include "Session/Session.h"
 #include "TakeSettings.h"
 #include <array>
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The built-in scenes, materials, actuators and protocols where the Projucer embeds them (CMake does by Source/Files/embed.cmake).
 #include "BinaryData.h"
-#include "Files/Embedded.h"
+#include "Files/Disk/Embedded.h"
 
 namespace physvib {
 

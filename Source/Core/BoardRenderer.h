@@ -7,8 +7,8 @@
 // limits::limiterReleaseSeconds, so that a phantom stays where it is; the codes saturate.
 #pragma once
 #include "Core/BoardEvent.h"
-#include "Core/GainRamp.h"
-#include "Core/PhasorBank.h"
+#include "Core/Actuators/GainRamp.h"
+#include "Core/Modes/PhasorBank.h"
 #include "Core/TimeOrdered.h"
 #include <array>
 #include <cstdint>

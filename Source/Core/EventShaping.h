@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a collision before it is rendered: the method, then the frequencies that the actuators can play, then the level.
 #pragma once
-#include "Core/PerceivedLevel.h"
+#include "Core/Actuators/PerceivedLevel.h"
 #include "Core/RenderingMethod.h"
-#include "Core/Resonator.h"
+#include "Core/Actuators/Resonator.h"
 #include <algorithm>
 #include <cmath>
 

@@ -30,6 +30,12 @@ void HapticRenderer<P>::prepareLimiter() noexcept {
 }
 
 template <class P>
+void HapticRenderer<P>::setContacts(std::span<const RecordedContact> contacts, bool othersAreModes) noexcept {
+    player_.setContacts(contacts); // as a control can
+    othersAreModes_ = othersAreModes;
+}
+
+template <class P>
 void HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     bank_.moveTo(position_, sampleRateHz, frame);
     settings_.sampleRateHz = sampleRateHz;

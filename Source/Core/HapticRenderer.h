@@ -6,57 +6,23 @@
 // the last word. Controls (layout, gains, delays, ceilings, stop) wait for their frame in the same way. Work is cut at the tiles of the
 // absolute frame grid and at onsets, gate ends and controls, never at block borders: output does not depend on block size.
 #pragma once
-#include "Core/ActuatorStage.h"
+#include "Core/Actuators/ActuatorStage.h"
 #include "Core/DenormalGuard.h"
-#include "Core/DriveMatrices.h"
 #include "Core/EventQueue.h"
 #include "Core/FrameClock.h"
-#include "Core/LinkedLimiter.h"
-#include "Core/ModeBank.h"
+#include "Core/Actuators/LinkedLimiter.h"
+#include "Core/Modes/ModeBank.h"
 #include "Core/Nonblocking.h"
 #include "Core/PendingEvents.h"
 #include "Core/PhantomPanner.h"
 #include "Core/RenderControl.h"
+#include "Core/RendererSettings.h"
 #include "Core/SamplePlayer.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
 namespace physvib {
-
-/// What a renderer is set up with.
-struct RendererSettings {
-    int sampleRateHz = 48000; ///< limits::minSampleRateHz to limits::maxSampleRateHz
-    int channels = 0;         ///< outputs; 0: as many as the panner has enchanters. Without one an output is silent
-    PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
-    bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
-    std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
-    InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
-    EqualisedActuators equalised{}; ///< per channel; without figures it is played as it is
-    DriveMatrices drives{}; ///< of the panner's enchanters, against their coupling; empty: none. They outlive the renderer
-
-    int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
-
-    static constexpr std::array<float, limits::maxEnchanters> fullScale() {
-        std::array<float, limits::maxEnchanters> all{};
-        all.fill(1.0f);
-        return all;
-    }
-};
-
-/// Counts since prepare, and the state after the last call.
-struct RenderStatus {
-    std::int64_t framesRendered = 0;
-    std::uint64_t played = 0;   ///< events struck
-    std::uint64_t late = 0;     ///< of these: after their time, at once
-    std::uint64_t rejected = 0; ///< not playable, above half the sample rate, or no gate was free
-    std::uint64_t stolen = 0;   ///< modes faded out early to make room
-    std::uint64_t nonFinite = 0;
-    std::uint64_t untold = 0;     ///< played, but the played queue was full
-    int liveModes = 0;
-    int pending = 0;
-    float limiterGain = 1.0f;
-};
 
 /// All memory is inside the object (29 MB for the desktop: keep it on the heap).
 template <class Profile>
@@ -70,10 +36,7 @@ public:
     /// From now on events play these recordings instead of modes; none: modes. Events without one are rejected, or, with
     /// `othersAreModes`, play their mode. Both the list and its samples, at this rate, outlive the renderer. prepare and moveTo
     /// forget them. M, not while rendering.
-    void setContacts(std::span<const RecordedContact> contacts, bool othersAreModes = false) noexcept {
-        player_.setContacts(contacts); // as a control can
-        othersAreModes_ = othersAreModes;
-    }
+    void setContacts(std::span<const RecordedContact> contacts, bool othersAreModes = false) noexcept;
 
     /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains stay; the
     /// limiter starts afresh. M, not while rendering.

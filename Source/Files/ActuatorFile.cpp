@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Every field of an actuator profile, checked when read and in a fixed order when written.
 #include "Files/ActuatorFile.h"
-#include "Files/Embedded.h"
+#include "Files/Disk/Embedded.h"
 #include "Core/Limits.h"
-#include "Files/FileLimits.h"
-#include "Files/JsonField.h"
-#include "Files/JsonFile.h"
-#include "Files/JsonVersion.h"
-#include "Files/JsonWriter.h"
-#include "Files/NumberText.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Json/JsonField.h"
+#include "Files/Json/JsonFile.h"
+#include "Files/Json/JsonVersion.h"
+#include "Files/Json/JsonWriter.h"
+#include "Files/Text/NumberText.h"
 #include "Files/SceneCatalogue.h"
 #include <array>
 

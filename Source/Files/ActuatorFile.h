@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Actuator profiles as JSON: what is known of an actuator, and from where; what is not known is null.
 #pragma once
-#include "Core/Resonator.h"
+#include "Core/Actuators/Resonator.h"
 #include "Files/Result.h"
 #include <filesystem>
 #include <optional>

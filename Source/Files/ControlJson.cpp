@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fields of controls and panners, with their ranges.
 #include "Files/ControlJson.h"
-#include "Files/FileLimits.h"
+#include "Files/Disk/FileLimits.h"
 #include "Files/LayoutJson.h"
 #include <cmath>
 #include <string>

@@ -2,8 +2,8 @@
 // Render controls and panners as parts of JSON files and lines. For the .cpp files of Files.
 #pragma once
 #include "Core/RenderControl.h"
-#include "Files/JsonField.h"
-#include "Files/JsonLines.h"
+#include "Files/Json/JsonField.h"
+#include "Files/Json/JsonLines.h"
 #include <array>
 #include <string_view>
 

@@ -2,11 +2,11 @@
 // Every number of a coupling file, checked: what is driven by it is held by hands.
 #include "Files/CouplingFile.h"
 #include "Core/Limits.h"
-#include "Files/FileLimits.h"
-#include "Files/JsonField.h"
-#include "Files/JsonFile.h"
-#include "Files/JsonVersion.h"
-#include "Files/NumberText.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Json/JsonField.h"
+#include "Files/Json/JsonFile.h"
+#include "Files/Json/JsonVersion.h"
+#include "Files/Text/NumberText.h"
 #include <cmath>
 #include <numbers>
 #include <string>

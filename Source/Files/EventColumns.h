@@ -2,8 +2,8 @@
 // The columns of an event list, for reading and writing: name, field of the event, what a cell may hold.
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Files/DecimalSeconds.h"
-#include "Files/NumberText.h"
+#include "Files/Text/DecimalSeconds.h"
+#include "Files/Text/NumberText.h"
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Header, rows and order of an event list; the cells are in EventColumns.h.
 #include "Files/EventsCsv.h"
-#include "Files/CsvText.h"
+#include "Files/Text/CsvText.h"
 #include "Files/EventColumns.h"
-#include "Files/ReadFile.h"
-#include "Files/TextLines.h"
+#include "Files/Disk/ReadFile.h"
+#include "Files/Text/TextLines.h"
 #include <algorithm>
 #include <cerrno>
 

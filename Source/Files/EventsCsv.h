@@ -2,7 +2,7 @@
 // Event lists as CSV: collisions written by one session and read by another, to the bit.
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Files/FileLimits.h"
+#include "Files/Disk/FileLimits.h"
 #include "Files/Provenance.h"
 #include "Files/Result.h"
 #include <cstddef>

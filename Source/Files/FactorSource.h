@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Where a row of a table says the level of a factor. For the .cpp files of Files.
 #pragma once
-#include "Files/CsvTable.h"
-#include "Files/CsvText.h"
-#include "Files/NumberText.h"
+#include "Files/Text/CsvTable.h"
+#include "Files/Text/CsvText.h"
+#include "Files/Text/NumberText.h"
 #include <optional>
 #include <string>
 #include <string_view>

@@ -2,7 +2,7 @@
 // Which of the kinds a line is; their fields are read where those of files are.
 #include "Files/InputLine.h"
 #include "Files/ControlJson.h"
-#include "Files/JsonReader.h"
+#include "Files/Json/JsonReader.h"
 
 namespace physvib {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Every field of a layout file, checked when read and in a fixed order when written.
 #include "Files/LayoutFile.h"
-#include "Files/FileLimits.h"
-#include "Files/JsonField.h"
-#include "Files/JsonFile.h"
-#include "Files/JsonLines.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Json/JsonField.h"
+#include "Files/Json/JsonFile.h"
+#include "Files/Json/JsonLines.h"
 #include "Files/LayoutJson.h"
-#include "Files/NumberText.h"
-#include "Files/StrictJson.h"
+#include "Files/Text/NumberText.h"
+#include "Files/Json/StrictJson.h"
 
 namespace physvib {
 namespace {

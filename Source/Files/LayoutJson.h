@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A layout as part of another file. For the .cpp files of Files.
 #pragma once
-#include "Files/JsonField.h"
+#include "Files/Json/JsonField.h"
 #include "Files/LayoutFile.h"
 
 namespace physvib {

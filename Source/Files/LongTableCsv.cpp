@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Columns by name, rows one by one: of a million rows only numbers and the indices of names are kept.
 #include "Files/LongTableCsv.h"
-#include "Files/CsvTable.h"
+#include "Files/Text/CsvTable.h"
 #include "Files/FactorSource.h"
-#include "Files/NumberText.h"
+#include "Files/Text/NumberText.h"
 #include "Files/TrialColumns.h"
 #include <cmath>
 #include <optional>

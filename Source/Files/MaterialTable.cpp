@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The outer shape of a table of materials; a material's fields are those of a scene's.
 #include "Files/MaterialTable.h"
-#include "Files/Embedded.h"
-#include "Files/FileLimits.h"
-#include "Files/JsonFile.h"
-#include "Files/JsonReader.h"
-#include "Files/JsonVersion.h"
-#include "Files/JsonWriter.h"
+#include "Files/Disk/Embedded.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Json/JsonFile.h"
+#include "Files/Json/JsonReader.h"
+#include "Files/Json/JsonVersion.h"
+#include "Files/Json/JsonWriter.h"
 #include "Physics/SceneValidation.h"
 #include <stdexcept>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Fields of the desk, its strips and their equalisers, with their ranges.
 #include "Files/MixJson.h"
-#include "Files/FileLimits.h"
+#include "Files/Disk/FileLimits.h"
 #include "Files/LayoutJson.h"
-#include "Files/NumberText.h"
+#include "Files/Text/NumberText.h"
 #include "Core/Limits.h"
 
 namespace physvib {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The desk of a mixer, and its parts, as parts of other files. For the .cpp files of Files.
 #pragma once
-#include "Core/ActuatorEqualiser.h"
-#include "Files/JsonField.h"
-#include "Files/JsonLines.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
+#include "Files/Json/JsonField.h"
+#include "Files/Json/JsonLines.h"
 #include "Files/Mix.h"
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // What an instance of the plug-in plays, and as versioned JSON in its host's session: whole in itself, so that a
 // session sounds the same when the built-in scenes have changed.
 #pragma once
-#include "Core/ActuatorEqualiser.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
 #include "Files/Mix.h"
 #include "Files/Result.h"
 #include "Physics/Scene.h"

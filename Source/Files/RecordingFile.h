@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Recorded contacts as sessions and calls name them: where the samples are, and how to know that they are still the same.
 #pragma once
-#include "Files/ContentHash.h"
+#include "Files/Disk/ContentHash.h"
 #include "Files/Result.h"
 #include <charconv>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What reading a file gives: a value, or one line that says what is wrong with the file.
 #pragma once
-#include "Files/CleanText.h"
+#include "Files/Text/CleanText.h"
 #include <string>
 #include <utility>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The embedded scenes, read like any other.
 #include "Files/SceneCatalogue.h"
-#include "Files/Embedded.h"
-#include "Files/NumberText.h"
+#include "Files/Disk/Embedded.h"
+#include "Files/Text/NumberText.h"
 #include <algorithm>
 
 namespace physvib {

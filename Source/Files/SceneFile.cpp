@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The outer shape of a scene file; its fields are read and written after the table in SceneFields.h.
 #include "Files/SceneFile.h"
-#include "Files/FileLimits.h"
-#include "Files/JsonFile.h"
-#include "Files/JsonReader.h"
-#include "Files/JsonVariables.h"
-#include "Files/JsonVersion.h"
-#include "Files/JsonWriter.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Json/JsonFile.h"
+#include "Files/Json/JsonReader.h"
+#include "Files/Json/JsonVariables.h"
+#include "Files/Json/JsonVersion.h"
+#include "Files/Json/JsonWriter.h"
 #include "Physics/SceneValidation.h"
 
 namespace physvib {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Lines out and in.
 #include "Files/SessionJournalText.h"
-#include "Files/FileLimits.h"
-#include "Files/JsonFile.h"
-#include "Files/JsonReader.h"
-#include "Files/JsonVersion.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Json/JsonFile.h"
+#include "Files/Json/JsonReader.h"
+#include "Files/Json/JsonVersion.h"
 #include "Files/SessionJson.h"
 #include "Physics/SceneValidation.h"
 #include <algorithm>

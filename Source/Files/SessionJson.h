@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Parts that whole session files and journals have in common. For the .cpp files of Files.
 #pragma once
-#include "Files/JsonField.h"
-#include "Files/JsonLines.h"
+#include "Files/Json/JsonField.h"
+#include "Files/Json/JsonLines.h"
 #include "Files/SessionFile.h"
 #include <initializer_list>
 #include <string_view>

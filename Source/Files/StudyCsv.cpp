@@ -2,7 +2,7 @@
 // One function per kind of study file; the rows come from StudyRows.
 #include "Files/StudyCsv.h"
 #include "Files/FactorSource.h"
-#include "Files/FileLimits.h"
+#include "Files/Disk/FileLimits.h"
 #include "Files/StudyRows.h"
 #include "Study/Trial.h"
 #include <cmath>

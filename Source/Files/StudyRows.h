@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The rows that an analysis counts, from one or more tables. For the .cpp files of Files.
 #pragma once
-#include "Files/CsvTable.h"
-#include "Files/NumberText.h"
+#include "Files/Text/CsvTable.h"
+#include "Files/Text/NumberText.h"
 #include "Files/TrialColumns.h"
 #include <algorithm>
 #include <optional>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Rows out and in; the columns are in TrialColumns.h.
 #include "Files/TrialLog.h"
-#include "Files/CsvTable.h"
-#include "Files/FileLimits.h"
-#include "Files/NumberText.h"
+#include "Files/Text/CsvTable.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Text/NumberText.h"
 #include "Files/ProtocolFields.h"
 #include "Files/ProtocolFile.h"
-#include "Files/ReadFile.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/StudyRows.h"
 #include "Files/TrialColumns.h"
 #include <limits>

@@ -3,7 +3,7 @@
 #pragma once
 #include "Files/Provenance.h"
 #include "Files/Result.h"
-#include "Files/SystemFile.h"
+#include "Files/Disk/SystemFile.h"
 #include "Study/Trial.h"
 #include <cstddef>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Chunk by chunk; only format and data are looked at, and never more is asked of memory than the file has bytes for.
 #include "Files/WavFile.h"
-#include "Files/FileLimits.h"
-#include "Files/NumberText.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Text/NumberText.h"
 #include <algorithm>
 #include <bit>
 #include <span>

@@ -2,7 +2,7 @@
 # Turns text files into a C++ source: cmake -DOUT=FILE.cpp -DFILES=A.json,B.json -DNAME=embeddedScenes -P embed.cmake
 # A string literal longer than some compilers bear is written in pieces, which the compiler joins.
 string(REPLACE "," ";" files "${FILES}")
-set(text "// Made by Source/Files/embed.cmake.\n#include \"Files/Embedded.h\"\n\nnamespace physvib {\n")
+set(text "// Made by Source/Files/embed.cmake.\n#include \"Files/Disk/Embedded.h\"\n\nnamespace physvib {\n")
 string(APPEND text "\nconst std::vector<EmbeddedFile>& ${NAME}() {\n    static const std::vector<EmbeddedFile> files{\n")
 foreach(file ${files})
     get_filename_component(name ${file} NAME)

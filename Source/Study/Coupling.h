@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What enchanters make of each other's vibration, and drives that make up for it: Eq. 3.1 and 3.2, and beyond.
 #pragma once
-#include "Core/DriveMatrices.h"
+#include "Core/Actuators/DriveMatrices.h"
 #include "Study/SeededRandom.h"
 #include <complex>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Descriptors 0 to 2, signals, and the fate of standard output.
 #include "CommandLine/Process.h"
-#include "Files/SystemFile.h"
+#include "Files/Disk/SystemFile.h"
 #include <cerrno>
 #include <csignal>
 #include <cstdio>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The application `physvib-mixer`: its window, or pictures of it.
-#include "CommandLine/Interrupt.h"
+#include "CommandLine/Play/Interrupt.h"
 #include "CommandLine/Process.h"
-#include "Mixer/MixerWindow.h"
-#include "Mixer/Shots.h"
-#include "Host/NoDevice.h"
+#include "Mixer/Window/MixerWindow.h"
+#include "Mixer/Window/Shots.h"
+#include "Host/Devices/NoDevice.h"
 #include <iostream>
 
 namespace physvib {

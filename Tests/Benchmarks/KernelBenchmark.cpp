@@ -2,7 +2,7 @@
 // The mode bank alone, per instruction set, modes, channels and block: its rate in mode-sample-channels, and as a share
 // of the multiply-adds that the same core does at most, measured by turns in the same run. A share of 1 is the floor of
 // one multiply-add per mode, sample and channel; low rank goes above it.
-#include "Core/ModeBank.h"
+#include "Core/Modes/ModeBank.h"
 #include "PeakRate.h"
 #include "Timing.h"
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a core can do at most: single-precision multiply-adds per second with everything in registers.
 #pragma once
-#include "Core/InstructionSet.h"
+#include "Core/Modes/InstructionSet.h"
 
 namespace physvib::bench {
 

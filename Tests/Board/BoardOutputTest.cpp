@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One session on a device and a board: each hit leaves the device and the board's converters at the same moment.
-#include "Host/BoardOutput.h"
+#include "Session/BoardOutput.h"
+#include "Host/Devices/AudioOutput.h"
 #include "Host/FakeAudioDevice.h"
-#include "Host/SimulationDriver.h"
-#include "Host/WallsScene.h"
+#include "Host/Devices/SimulationDriver.h"
+#include "Session/WallsScene.h"
 #include "VirtualBoard.h"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boards that answer as none should, and one whose counter is over: what the link makes of them.
-#include "Host/BoardOutput.h"
+#include "Session/BoardOutput.h"
+#include "Host/Devices/AudioOutput.h"
 #include "Host/FakeAudioDevice.h"
-#include "Host/WallsScene.h"
+#include "Session/WallsScene.h"
 #include "VirtualBoard.h"
 #include "VirtualBoard/PseudoTerminal.h"
 #include "Wire/FrameDecoder.h"

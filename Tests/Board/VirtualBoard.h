@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A virtual board in a process of its own, as a person's would be: Unicorn's licence keeps it out of this program.
 #pragma once
-#include "Host/BoardLink.h"
+#include "Session/BoardLink.h"
 #include <cstdio>
 #include <csignal>
 #include <filesystem>

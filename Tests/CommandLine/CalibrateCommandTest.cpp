@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib calibrate` from two recordings, and how bad ones are told.
 #include "Calls.h"
-#include "Core/SimulatedActuator.h"
+#include "Core/Actuators/SimulatedActuator.h"
 #include "Files/ActuatorFile.h"
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The equaliser against the analogue resonator and against the simulated actuator, driven as hard as both allow.
-#include "Core/ActuatorEqualiser.h"
-#include "Core/SimulatedActuator.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
+#include "Core/Actuators/SimulatedActuator.h"
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>

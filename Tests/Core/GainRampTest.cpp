@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // GainRamp: straight lines between gains, exact at both ends.
-#include "Core/GainRamp.h"
+#include "Core/Actuators/GainRamp.h"
 #include <array>
 #include <gtest/gtest.h>
 #include <vector>

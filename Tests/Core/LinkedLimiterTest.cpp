@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // LinkedLimiter at 20 dB of random overload: ceilings, ratios, slopes, release to exactly 1, and what never passes.
-#include "Core/LinkedLimiter.h"
+#include "Core/Actuators/LinkedLimiter.h"
 #include "Support/ClosedForm.h"
 #include <gtest/gtest.h>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ModeBank: merging, gates, retirement and stealing, held against sums of single sinusoids.
-#include "Core/ModeBank.h"
+#include "Core/Modes/ModeBank.h"
 #include "Support/ClosedForm.h"
 #include "Support/Sets.h"
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // Actuator profiles survive writing and reading, say what is not known, and a bad one is named by its field.
 #include "Files/ActuatorFile.h"
 #include "FileTesting.h"
-#include "Files/AtomicFile.h"
-#include "Files/ReadFile.h"
+#include "Files/Disk/AtomicFile.h"
+#include "Files/Disk/ReadFile.h"
 #include <algorithm>
 
 namespace physvib {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A file appears whole or not at all, and nothing is left behind.
-#include "Files/AtomicFile.h"
+#include "Files/Disk/AtomicFile.h"
 #include "FileTesting.h"
-#include "Files/ReadFile.h"
+#include "Files/Disk/ReadFile.h"
 #include <csignal>
 #include <fstream>
 #include <sys/stat.h>

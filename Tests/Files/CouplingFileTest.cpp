@@ -2,7 +2,7 @@
 // A measured coupling is read as it was written, and a bad one is named by its place.
 #include "Files/CouplingFile.h"
 #include "FileTesting.h"
-#include "Files/AtomicFile.h"
+#include "Files/Disk/AtomicFile.h"
 
 namespace physvib {
 namespace {

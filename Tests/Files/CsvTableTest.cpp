@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tables of words: quotes, comments, and faults named by line.
-#include "Files/CsvTable.h"
+#include "Files/Text/CsvTable.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

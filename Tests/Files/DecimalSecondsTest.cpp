@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Seconds become nanoseconds exactly, whatever way they are written.
-#include "Files/DecimalSeconds.h"
+#include "Files/Text/DecimalSeconds.h"
 #include "FileTesting.h"
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // Event lists survive writing and reading to the bit, and a bad one is named by line and column.
 #include "Files/EventsCsv.h"
 #include "FileTesting.h"
-#include "Files/AtomicFile.h"
+#include "Files/Disk/AtomicFile.h"
 #include <algorithm>
 #include <limits>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Paths are compared by what they are.
-#include "Files/FileClash.h"
+#include "Files/Disk/FileClash.h"
 #include "FileTesting.h"
 #include <fstream>
 #include <vector>

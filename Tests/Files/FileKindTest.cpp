@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A file says what it is, wherever it says so.
-#include "Files/AtomicFile.h"
-#include "Files/FileKind.h"
+#include "Files/Disk/AtomicFile.h"
+#include "Files/Disk/FileKind.h"
 #include "Files/LayoutFile.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SceneFile.h"

@@ -2,8 +2,8 @@
 // Layouts survive writing and reading to the bit, and a bad one is named by its field.
 #include "Files/LayoutFile.h"
 #include "FileTesting.h"
-#include "Files/FileLimits.h"
-#include "Files/AtomicFile.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Disk/AtomicFile.h"
 #include <algorithm>
 #include <set>
 

@@ -2,7 +2,7 @@
 // Material libraries survive writing and reading, and Table 5.1 is what the thesis printed.
 #include "Files/MaterialTable.h"
 #include "FileTesting.h"
-#include "Files/AtomicFile.h"
+#include "Files/Disk/AtomicFile.h"
 
 namespace physvib {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The plug-in's state: round trips, what is refused and where, and that states written by version 1 stay readable.
 #include "Files/PluginState.h"
-#include "Files/ReadFile.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SceneFile.h"
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A file is read whole, up to a limit, or the reason is named.
-#include "Files/ReadFile.h"
+#include "Files/Disk/ReadFile.h"
 #include "FileTesting.h"
-#include "Files/AtomicFile.h"
+#include "Files/Disk/AtomicFile.h"
 
 namespace physvib {
 namespace {

@@ -2,8 +2,8 @@
 // Scenes survive writing and reading to the byte, and a bad one is named by its field.
 #include "Files/SceneFile.h"
 #include "FileTesting.h"
-#include "Files/AtomicFile.h"
-#include "Files/FileLimits.h"
+#include "Files/Disk/AtomicFile.h"
+#include "Files/Disk/FileLimits.h"
 #include "Files/SceneCatalogue.h"
 #include "Physics/Simulation.h"
 #include <algorithm>

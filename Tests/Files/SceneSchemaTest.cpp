@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The published schema says what the reader does: the same fields, ranges and words.
-#include "Files/ReadFile.h"
+#include "Files/Disk/ReadFile.h"
 #include "Physics/SceneFields.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

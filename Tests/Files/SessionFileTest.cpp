@@ -2,8 +2,8 @@
 // Sessions from anywhere: what is out of range is named by its place, not taken for something else.
 #include "Files/SessionFile.h"
 #include "FileTesting.h"
-#include "Files/AtomicFile.h"
-#include "Files/ReadFile.h"
+#include "Files/Disk/AtomicFile.h"
+#include "Files/Disk/ReadFile.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

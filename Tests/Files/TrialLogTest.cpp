@@ -3,7 +3,7 @@
 #include "Files/TrialLog.h"
 #include "FileTesting.h"
 #include "Files/ProtocolFile.h"
-#include "Files/ReadFile.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/StudyCsv.h"
 #include "Study/Experiment.h"
 #include "Study/SimulatedObserver.h"

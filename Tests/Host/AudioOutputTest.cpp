@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // AudioOutput on interfaces that vanish, change and misbehave: no other device, no loud moment, no event missing.
-#include "Host/AudioOutput.h"
+#include "Host/Devices/AudioOutput.h"
 #include "FakeAudioDevice.h"
-#include "FakeHost.h"
+#include "Session/FakeHost.h"
 #include "Physics/SceneRun.h"
 #include <cmath>
 #include <gtest/gtest.h>

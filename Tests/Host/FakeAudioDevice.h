@@ -2,7 +2,7 @@
 // Audio interfaces without hardware: they can be plugged in and out, come back with another rate, block and number of
 // outputs, fail, fall silent, and ask for blocks that they never announced.
 #pragma once
-#include "Host/AudioDevices.h"
+#include "Host/Devices/AudioDevices.h"
 #include <algorithm>
 #include <mutex>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is heard beside what is felt: on its outputs, at its level, in sync, and nowhere else.
 #include "FakeAudioDevice.h"
-#include "FakeHost.h"
-#include "Host/AudioOutput.h"
+#include "Session/FakeHost.h"
+#include "Host/Devices/AudioOutput.h"
 #include <cmath>
 #include <gtest/gtest.h>
 

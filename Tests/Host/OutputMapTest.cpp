@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An enchanter that rings while it gets another output is never cut off, and never heard with another one.
-#include "Host/OutputMap.h"
+#include "Host/Devices/OutputMap.h"
 #include <gtest/gtest.h>
 #include <array>
 #include <cmath>

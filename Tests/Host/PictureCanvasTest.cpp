@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Host/PictureCanvas.h"
+#include "Host/Pictures/PictureCanvas.h"
 #include <gtest/gtest.h>
 
 namespace physvib::picture {

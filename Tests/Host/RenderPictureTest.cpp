@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Host/RenderPicture.h"
-#include "Host/Palette.h"
+#include "Host/Pictures/RenderPicture.h"
+#include "Host/Pictures/Palette.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

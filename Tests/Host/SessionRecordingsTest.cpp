@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recorded contacts: at a level that is known, in a live session, and in the session that is rendered again from its file.
-#include "FakeHost.h"
-#include "Host/ReadRecording.h"
-#include "Host/SessionJournal.h"
-#include "Host/SessionRecordings.h"
-#include "Host/SessionRender.h"
-#include "Host/WavSink.h"
+#include "Session/FakeHost.h"
+#include "Host/Recordings/ReadRecording.h"
+#include "Session/SessionJournal.h"
+#include "Host/Recordings/LoadContact.h"
+#include "Host/Recordings/LoadRecordings.h"
+#include "Host/Recordings/SessionWav.h"
+#include "Host/Recordings/WavSink.h"
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -116,7 +117,7 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
     ASSERT_EQ(saved.value.log.recordings.size(), 3u);
     const std::string wav = (folder / "again.wav").string();
     const std::int64_t rendered = frames - session.playOutFrames();
-    ASSERT_EQ(renderSession(saved.value, wav, hostRate, static_cast<double>(rendered) / hostRate, "", [](double) { return true; }), "");
+    ASSERT_EQ(renderSessionWav(saved.value, {hostRate, static_cast<double>(rendered) / hostRate, [](double) { return true; }}, wav, ""), "");
     const auto again = readRecording(wav);
     ASSERT_TRUE(again) << again.error;
     float loudest = 0.0f;
@@ -131,7 +132,7 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
     writeHit("moved/second.wav", 9, 0.5f);
     const auto changed = loadRecordings(saved.value.log);
     EXPECT_NE(changed.error.find("second.wav: expected the recording with the hash "), std::string::npos) << changed.error;
-    EXPECT_NE(renderSession(saved.value, wav, hostRate, 1.0, "", [](double) { return true; }).find("it has changed since"), std::string::npos);
+    EXPECT_NE(renderSessionWav(saved.value, {hostRate, 1.0, [](double) { return true; }}, wav, "").find("it has changed since"), std::string::npos);
     std::filesystem::remove(folder / "moved" / "second.wav");
     EXPECT_NE(loadRecordings(saved.value.log).error.find("second.wav: cannot be read"), std::string::npos);
 }

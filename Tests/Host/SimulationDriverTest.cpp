@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drivers take over from each other at any moment, and from blocks that step the world themselves: nothing is missing.
-#include "Host/SimulationDriver.h"
-#include "FakeHost.h"
+#include "Host/Devices/SimulationDriver.h"
+#include "Session/FakeHost.h"
 #include "Host/MessageLoop.h"
 #include "Physics/SceneRun.h"
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Host/WavSink.h"
+#include "Host/Recordings/WavSink.h"
 #include "Files/FileTesting.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Host/WaveformEnvelope.h"
+#include "Host/Pictures/WaveformEnvelope.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <vector>

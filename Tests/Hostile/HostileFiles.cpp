@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mutated files of every kind through the program: physvib-hostile PROGRAM COUNT [SEED [SECONDS]]. Each call leaves with 0, or with 1 or 2
 // after one clean line, takes at most 300 MB and SECONDS of processor, and leaves nothing half-done. Ends with a table; the inputs of failures stay.
-#include "Files/CleanText.h"
+#include "Files/Text/CleanText.h"
 #include "Support/Mutations.h"
 #include "Support/WavBytes.h"
 #include <algorithm>

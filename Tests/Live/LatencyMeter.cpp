@@ -3,8 +3,8 @@
 // a client that records what it plays and notes which frame of the session each cycle is. Prints a row of a table.
 // Usage: physvib-latency-meter message|thread SECONDS
 #include "Files/SceneCatalogue.h"
-#include "Host/AudioOutput.h"
-#include "Host/SimulationDriver.h"
+#include "Host/Devices/AudioOutput.h"
+#include "Host/Devices/SimulationDriver.h"
 #include "Physics/SceneRun.h"
 #include "MeterClient.h"
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A JACK client in the session's own process: records what it plays and notes which frame of the session each cycle is.
 #pragma once
-#include "Host/OfflineRender.h"
-#include "Host/Session.h"
+#include "Session/OfflineRender.h"
+#include "Session/Session.h"
 #include "RecordingRuns.h"
 #include <atomic>
 #include <cmath>

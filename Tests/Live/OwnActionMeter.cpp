@@ -2,10 +2,10 @@
 // Measures how long after one's own push the hit comes out of a JACK server. A ball between two walls, 4 mm of way: each
 // push is a hit within the step. Prints a line; fails unless every hit is heard exactly L after its contact.
 // Usage: physvib-own-action-meter PUSHES
-#include "Host/AudioOutput.h"
-#include "Host/SimulationDriver.h"
+#include "Host/Devices/AudioOutput.h"
+#include "Host/Devices/SimulationDriver.h"
 #include "MeterClient.h"
-#include "Host/WallsScene.h"
+#include "Session/WallsScene.h"
 #include <cstdio>
 #include <random>
 #include <thread>

@@ -2,10 +2,10 @@
 // The materials: edited and taken back, measured from recordings, felt at a spot, saved and rendered again.
 #include "MixerTesting.h"
 #include "Files/SessionFile.h"
-#include "Host/SessionRender.h"
-#include "Host/WavSink.h"
-#include "Mixer/MaterialShots.h"
-#include "Mixer/MaterialsTab.h"
+#include "Host/Recordings/SessionWav.h"
+#include "Host/Recordings/WavSink.h"
+#include "Mixer/Materials/MaterialShots.h"
+#include "Mixer/Materials/MaterialsTab.h"
 
 namespace physvib {
 namespace {
@@ -220,7 +220,7 @@ TEST_F(Materials, ASavedSessionHasThemAndRendersTheSameBytes) {
     ASSERT_TRUE(read) << read.error;
     EXPECT_EQ(mixOf(read.value).scene->materials[wood].frequencyHz, 205.0);
     for (const auto& [session, name] : {std::pair{&saved, "one.wav"}, {&read.value, "two.wav"}})
-        EXPECT_EQ(renderSession(*session, folder(name).getFullPathName().toStdString(), 48000, 1.5, "test", [](double) { return true; }), "");
+        EXPECT_EQ(renderSessionWav(*session, {48000, 1.5, [](double) { return true; }}, folder(name).getFullPathName().toStdString(), "test"), "");
     juce::MemoryBlock one, two;
     folder("one.wav").loadFileAsData(one);
     folder("two.wav").loadFileAsData(two);

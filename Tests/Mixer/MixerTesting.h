@@ -2,7 +2,7 @@
 // The desk and its window in tests: a clock instead of a device, and JUCE's message loop for a while.
 #pragma once
 #include "Host/MessageManagerForTests.h"
-#include "Mixer/MixerView.h"
+#include "Mixer/Window/MixerView.h"
 #include "Mixer/OnlyNoDevice.h"
 #include <gtest/gtest.h>
 #include <juce_audio_formats/juce_audio_formats.h>

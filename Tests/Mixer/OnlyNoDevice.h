@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A clock instead of a device.
 #pragma once
-#include "Host/AudioDevices.h"
-#include "Host/NoDevice.h"
+#include "Host/Devices/AudioDevices.h"
+#include "Host/Devices/NoDevice.h"
 #include <memory>
 #include <vector>
 

@@ -2,8 +2,8 @@
 // Spectra, events and telemetry: what is played is what they show.
 #include "MixerTesting.h"
 #include "Host/FakeAudioDevice.h"
-#include "Mixer/SpectrumView.h"
-#include "Mixer/TelemetryTab.h"
+#include "Mixer/Strips/SpectrumView.h"
+#include "Mixer/Output/TelemetryTab.h"
 #include <cmath>
 #include <numbers>
 

@@ -2,8 +2,8 @@
 // The plug-in's mix: trims, mutes, solos, polarity, delays, ceilings and equalisers, in a bounce, live, and while it plays.
 #include "PluginTesting.h"
 #include "Files/ActuatorFile.h"
-#include "Files/ReadFile.h"
-#include "Host/OfflineRender.h"
+#include "Files/Disk/ReadFile.h"
+#include "Session/OfflineRender.h"
 #include "Physics/SceneRun.h"
 
 namespace physvib {

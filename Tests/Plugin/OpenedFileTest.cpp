@@ -2,7 +2,7 @@
 // Files of one's own in the plug-in: a scene, a layout, a mixer's session; what is wrong leaves everything as it was.
 #include "OpenedFile.h"
 #include "PluginTesting.h"
-#include "Files/AtomicFile.h"
+#include "Files/Disk/AtomicFile.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SceneFile.h"
 #include "Files/SessionFile.h"

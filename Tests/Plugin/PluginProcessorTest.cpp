@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The processor in its hosts' hands: bounces, rates, blocks, suspension, bypass, many instances.
 #include "PluginTesting.h"
-#include "Host/OfflineRender.h"
+#include "Session/OfflineRender.h"
 #include "Physics/SceneRun.h"
 
 namespace physvib {

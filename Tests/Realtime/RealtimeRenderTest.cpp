@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A million guarded blocks of a live session while another thread edits it ten thousand times.
-#include "Host/Session.h"
+#include "Session/Session.h"
 #include "Files/SceneCatalogue.h"
 #include "Realtime/RealtimeGuard.h"
 #include "Support/ClosedForm.h"

@@ -2,9 +2,9 @@
 // A participant with a mouse and a keyboard at the mixer's window, and a folder for the rows.
 #pragma once
 #include "Host/MessageLoop.h"
-#include "Mixer/MixerView.h"
+#include "Mixer/Window/MixerView.h"
 #include "Mixer/OnlyNoDevice.h"
-#include "Mixer/StudiesTab.h"
+#include "Mixer/Studies/StudiesTab.h"
 #include <filesystem>
 #include <fstream>
 #include <functional>

@@ -2,7 +2,7 @@
 // A scripted participant completes a short study of each kind by mouse and keyboard; the rows are what the script answered,
 // and `physvib analyse` takes them.
 #include "Participant.h"
-#include "Files/CsvTable.h"
+#include "Files/Text/CsvTable.h"
 #include "Files/ProtocolFile.h"
 #include <cstdlib>
 #include <iterator>

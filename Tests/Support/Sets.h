@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The instruction sets that a test is run on: those this processor has; the others are named once.
 #pragma once
-#include "Core/InstructionSet.h"
+#include "Core/Modes/InstructionSet.h"
 #include <gtest/gtest.h>
 #include <iostream>
 #include <ostream>

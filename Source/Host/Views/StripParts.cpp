@@ -2,7 +2,7 @@
 // The meter's scale is the ceiling's way.
 #include "Host/Views/StripParts.h"
 #include "Files/Mix.h"
-#include "Host/PictureCanvas.h"
+#include "Host/Pictures/PictureCanvas.h"
 #include <cmath>
 
 namespace physvib {

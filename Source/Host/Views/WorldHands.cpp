@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a hand does in the world: pulls bodies, moves, attaches and detaches enchanters.
-#include "Host/ShapeOutline.h"
+#include "Host/Pictures/ShapeOutline.h"
 #include "Host/Views/WorldView.h"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing the world within a frame of a software renderer: plain paths and gradients, nothing blurred.
 #include "Host/Views/WorldView.h"
-#include "Host/ShapeOutline.h"
+#include "Host/Pictures/ShapeOutline.h"
 #include "Physics/SceneCast.h"
 #include <juce_audio_basics/juce_audio_basics.h>
 #include <algorithm>

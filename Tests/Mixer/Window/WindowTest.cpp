@@ -4,11 +4,11 @@
 #include "../MixerTesting.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SceneFile.h"
-#include "Host/OfflineRender.h"
-#include "Host/SessionRender.h"
-#include "Mixer/MaterialShots.h"
-#include "Mixer/MaterialsTab.h"
-#include "Mixer/MixerWindow.h"
+#include "Session/OfflineRender.h"
+#include "Session/SessionRender.h"
+#include "Mixer/Materials/MaterialShots.h"
+#include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/Window/MixerWindow.h"
 #include <cmath>
 
 namespace physvib {

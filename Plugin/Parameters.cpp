@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table of parameters and its two mappings.
+#include "Parameters.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> lawNames{"linear", "log", "log-outer", "energy"}; // as PanningLaw
+constexpr std::array<std::string_view, 9> materialNames{"as the scene", "1", "2", "3", "4", "5", "6", "7", "8"};
+constexpr std::array<std::string_view, 2> switchNames{"off", "on"};
+constexpr double silentDb = -60.0; // below it nobody feels anything: full scale is some g
+
+using enum ParameterScale;
+constexpr std::array<ParameterRow, parameterCount> table{{
+    {"level", "Level", "dB", silentDb, 0.0, -12.0, linear, {}, 1, "Master level; the least is silence"},
+    {"law", "Panning law", "", 0, 3, 0, choice, lawNames, 1, "How a hit is spread over the enchanters"},
+    {"exponent", "Panning exponent", "", 0.25, 4.0, 1.0, log, {}, 1, "Exponent of the panning law"},
+    {"gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, {}, 1, "Gravity, times the scene's"},
+    {"tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, {}, 1, "How the device is held: gravity turns counter-clockwise"},
+    {"material", "Material", "", 0, 8, 0, choice, materialNames, 1, "Material of what is felt: the scene's own, or the n-th of its list"},
+    {"strike_level", "Strike level", "dB", silentDb, 12.0, -6.0, linear, {}, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
+    {"strike_x", "Strike shift x", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes to the right, in parts of the field's width"},
+    {"strike_y", "Strike shift y", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes upwards, in parts of the field's height"},
+    {"bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1, "Silence; the world goes on"},
+}};
+
+constexpr std::array panningGroup{Parameter::law, Parameter::exponent};
+constexpr std::array worldGroup{Parameter::gravity, Parameter::tilt, Parameter::material};
+constexpr std::array strikeGroup{Parameter::strikeLevel, Parameter::strikeX, Parameter::strikeY};
+constexpr std::array<ParameterGroup, 3> groups{{{"panning", "Panning", panningGroup}, {"world", "World", worldGroup}, {"strikes", "Strikes by notes", strikeGroup}}};
+
+std::string_view wordOf(const ParameterRow& row, double value) {
+    const auto index = static_cast<std::size_t>(std::lround(std::clamp(value, row.least, row.most) - row.least));
+    return row.choices[index];
+}
+
+bool hasWords(const ParameterRow& row) { return !row.choices.empty(); }
+
+} // namespace
+
+const std::array<ParameterRow, parameterCount>& allParameters() noexcept { return table; }
+std::span<const ParameterGroup> parameterGroups() noexcept { return groups; }
+const ParameterRow& rowOf(Parameter parameter) noexcept { return table[static_cast<std::size_t>(parameter)]; }
+
+int parameterOfId(std::string_view id) noexcept {
+    const auto found = std::ranges::find(table, id, &ParameterRow::id);
+    return found == table.end() ? -1 : static_cast<int>(found - table.begin());
+}
+
+double normalised(const ParameterRow& row, double value) noexcept {
+    const double v = std::clamp(value, row.least, row.most);
+    if (row.scale == log) return std::log(v / row.least) / std::log(row.most / row.least);
+    return (v - row.least) / (row.most - row.least);
+}
+
+double denormalised(const ParameterRow& row, double normal) noexcept {
+    const double n = std::clamp(normal, 0.0, 1.0);
+    if (row.scale == log) return row.least * std::pow(row.most / row.least, n);
+    const double value = row.least + n * (row.most - row.least);
+    return hasWords(row) ? std::round(value) : value;
+}
+
+std::string valueText(const ParameterRow& row, double value) {
+    if (hasWords(row)) return std::string{wordOf(row, value)};
+    if (row.unit == "dB" && value <= row.least) return "-inf dB";
+    std::array<char, 32> digits{};
+    const int decimals = row.unit == "x" || row.unit.empty() ? 2 : 1;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals).ptr;
+    const std::string number{digits.data(), end};
+    return row.unit.empty() ? number : number + " " + std::string{row.unit};
+}
+
+double valueOf(const ParameterRow& row, std::string_view text) {
+    const auto word = std::ranges::find(row.choices, text);
+    if (hasWords(row)) return word == row.choices.end() ? row.initial : row.least + static_cast<double>(word - row.choices.begin());
+    while (!text.empty() && (text.front() == ' ' || text.front() == '+')) text.remove_prefix(1);
+    if (text.starts_with("-inf")) return row.least;
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && std::isfinite(value) ? std::clamp(value, row.least, row.most) : row.initial;
+}
+
+double gainOfLevel(double levelDb) noexcept { return levelDb <= silentDb ? 0.0 : std::pow(10.0, levelDb / 20.0); }
+
+} // namespace physvib

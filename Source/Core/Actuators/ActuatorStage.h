@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// What is done to each enchanter's channel on its own, before the linked limiter: equaliser, delay, gain, polarity, mute.
+#pragma once
+#include "Core/Actuators/ActuatorEqualiser.h"
+#include "Core/Actuators/ChannelDelay.h"
+#include "Core/Actuators/GainRamp.h"
+#include "Core/Limits.h"
+#include <array>
+#include <cmath>
+
+namespace physvib {
+
+/// Per channel: out = gain * delayed, equalised in, every change in a ramp of limits::channelRampSeconds; before the first frame
+/// there is nothing to ramp from. R only, but for prepare: M.
+template <class Profile>
+class ActuatorStage {
+public:
+    /// All gains 1, nothing muted or delayed, equalisers at rest. M, not while rendering.
+    void prepare(int sampleRateHz, int channels, const EqualisedActuators& equalised = {}) noexcept {
+        channels_ = channels;
+        hasBegun_ = false;
+        actuators_ = equalised;
+        prepareEqualisers(sampleRateHz);
+        for (auto& ramp : ramps_) ramp.prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
+        gains_.fill(1.0f);
+        level_ = 1.0f;
+        muted_.fill(false);
+        delaySeconds_.fill(0.0f);
+        prepareDelays(sampleRateHz);
+    }
+
+    /// Goes on at another rate, all as it is, but what was on its way through an equaliser or a delay. M, not while rendering.
+    void changeRate(int sampleRateHz) noexcept {
+        prepareEqualisers(sampleRateHz);
+        for (int j = 0; j < channels_; ++j) ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, aimOf(j));
+        prepareDelays(sampleRateHz);
+    }
+
+    /// Negative gains turn the polarity.
+    void setGain(int channel, float gain) noexcept {
+        gains_[index(channel)] = gain;
+        aim(channel);
+    }
+
+    /// Of all channels, on top of their gains.
+    void setLevel(float level) noexcept {
+        level_ = level;
+        for (int j = 0; j < channels_; ++j) aim(j);
+    }
+
+    /// A muted channel is exactly silent after the ramp, and so has no say in the limiter.
+    void setMuted(int channel, bool muted) noexcept {
+        muted_[index(channel)] = muted;
+        aim(channel);
+    }
+
+    /// 0 to limits::maxChannelDelaySeconds.
+    void setDelay(int channel, float seconds) noexcept {
+        delaySeconds_[index(channel)] = seconds;
+        delays_[index(channel)].moveTo(framesOf(channel));
+    }
+
+    /// In place. `isSilent`: all of it is 0. True if all of it is 0 afterwards: an equaliser rings out.
+    bool process(float* const* io, int frames, bool isSilent) noexcept {
+        hasBegun_ = true;
+        bool allSilent = true;
+        for (int j = 0; j < channels_; ++j) {
+            const bool none = delays_[index(j)].process(io[j], frames, equalisers_[index(j)].process(io[j], frames, isSilent));
+            if (none) ramps_[index(j)].pass(frames);
+            else ramps_[index(j)].apply(io + j, 1, frames);
+            allSilent = allSilent && none;
+        }
+        return allSilent;
+    }
+
+private:
+    void prepareEqualisers(int sampleRateHz) noexcept {
+        for (int j = 0; j < channels_; ++j) equalisers_[index(j)] = {actuators_[index(j)], sampleRateHz};
+    }
+    static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
+    float aimOf(int channel) const noexcept { return muted_[index(channel)] ? 0.0f : level_ * gains_[index(channel)]; }
+    void aim(int channel) noexcept {
+        if (hasBegun_) ramps_[index(channel)].moveTo(aimOf(channel));
+        else ramps_[index(channel)].jumpTo(aimOf(channel));
+    }
+
+    int framesOf(int channel) const noexcept { return static_cast<int>(std::lround(delaySeconds_[index(channel)] * static_cast<float>(sampleRateHz_))); }
+    void prepareDelays(int sampleRateHz) noexcept {
+        sampleRateHz_ = sampleRateHz;
+        for (int j = 0; j < channels_; ++j) delays_[index(j)].prepare(static_cast<int>(limits::channelRampSeconds * sampleRateHz), framesOf(j));
+    }
+
+    static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
+    int channels_ = 0;
+    bool hasBegun_ = false;
+    int sampleRateHz_ = 48000;
+    std::array<ChannelDelay<Profile::maxDelayFrames>, width> delays_{};
+    std::array<float, width> delaySeconds_{};
+    EqualisedActuators actuators_{};
+    std::array<ActuatorEqualiser, width> equalisers_{};
+    std::array<GainRamp, width> ramps_{};
+    std::array<float, width> gains_{};
+    float level_ = 1.0f;
+    std::array<bool, width> muted_{};
+};
+
+} // namespace physvib

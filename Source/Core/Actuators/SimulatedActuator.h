@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// An actuator in numbers, to try equalisers and measurements on: drive in, acceleration out.
+#pragma once
+#include "Core/Actuators/Biquad.h"
+#include "Core/Actuators/Resonator.h"
+#include <algorithm>
+
+namespace physvib {
+
+/// Drive is cut at +-driveLimit, as an amplifier's supply does; what passes moves the resonator. One thread at a time.
+class SimulatedActuator {
+public:
+    /// `resonator` known; sample rate in Hz, above twice its resonance.
+    SimulatedActuator(const Resonator& resonator, double sampleRateHz, double driveLimit = 1.0) noexcept
+        : driveLimit_{driveLimit}
+        , response_{1.0, {-2.0, 1.0}, RootPair::of(resonator.resonanceHz, resonator.q, sampleRateHz)} {
+        response_.scale(1.0 / std::abs(response_.at(resonator.resonanceHz, sampleRateHz)));
+    }
+
+    /// Acceleration, in units of that at the resonance for a drive of 1; a frame of drive in units of full scale. Wait-free.
+    double process(double drive) noexcept { return response_.process(std::clamp(drive, -driveLimit_, driveLimit_)); }
+
+    std::complex<double> at(double frequencyHz, double sampleRateHz) const noexcept { return response_.at(frequencyHz, sampleRateHz); }
+
+private:
+    double driveLimit_;
+    Biquad response_;
+};
+
+} // namespace physvib

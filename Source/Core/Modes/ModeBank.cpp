@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: MIT
+// Striking, merging, gating, stealing and retiring of modes.
+#include "Core/Modes/ModeBank.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace physvib {
+
+template <class P>
+void ModeBank<P>::prepare(int sampleRateHz, int channels, InstructionSet set) noexcept {
+    channels_ = channels;
+    rate_ = sampleRateHz;
+    tileStart_ = 0;
+    activeCount_ = fadingCount_ = 0;
+    stolen_ = 0;
+    freeCount_ = slotCount;
+    for (int i = 0; i < slotCount; ++i) free_[static_cast<std::size_t>(i)] = slotCount - 1 - i;
+    nextEnd_ = Strike::never;
+    index_.clear();
+    tiles_.prepare(channels, set);
+    gates_.clear();
+    freeGateCount_ = P::maxGates;
+    for (int i = 0; i < P::maxGates; ++i) freeGates_[static_cast<std::size_t>(i)] = P::maxGates - 1 - i;
+}
+
+template <class P>
+void ModeBank<P>::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept {
+    enterTile(fromFrame);
+    const double ratio = sampleRateHz / rate_;
+    const auto moved = [=](std::int64_t frame) { // a frame before or after `fromFrame`, as far away in time
+        return frame == Strike::never ? frame : toFrame + static_cast<std::int64_t>(static_cast<double>(frame - fromFrame) * ratio);
+    };
+    tileStart_ = toFrame - toFrame % tile;
+    rate_ = sampleRateHz;
+    nextEnd_ = toFrame; // to be found anew
+    index_.clear();
+    for (int i = 0; i < activeCount_; ++i) {
+        const int slot = active_[static_cast<std::size_t>(i)];
+        Mode& m = mode(slot);
+        const auto sounding = unitPhasor<Real>(m.phaseIncrement * static_cast<std::uint64_t>(fromFrame)) *
+                              decayFactor<Real>(m.decayIncrement * (fromFrame - m.referenceFrame));
+        setIncrements(m);
+        const auto turn = sounding * unitPhasor<Real>(std::uint64_t{0} - m.phaseIncrement * static_cast<std::uint64_t>(toFrame)) *
+                          decayFactor<Real>(-m.decayIncrement * (toFrame - tileStart_));
+        for (int j = 0; j < channels_; ++j) {
+            auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
+            z = z * turn;
+        }
+        m.referenceFrame = tileStart_;
+        m.endFrame = moved(m.endFrame);
+        if (!m.isFading) index_.insert(m.hash(), slot);
+        if constexpr (P::hasTiles)
+            if (tiles_.isOn()) tiles_.remove(slot);
+        shape(slot);
+        refreshTile(slot);
+    }
+    if constexpr (P::hasTiles)
+        if (tiles_.isOn()) tiles_.begin();
+    gates_.retime([=](std::int64_t closeFrame, Gate& gate) {
+        gate.onset.frame = moved(gate.onset.frame);
+        return moved(closeFrame);
+    });
+}
+
+template <class P>
+bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
+    const bool isGated = strike.closeFrame != Strike::never;
+    if (isGated && strike.closeFrame <= strike.onset.frame) return true; // ends between two frames: no sample of it
+    if (isGated && freeGateCount_ == 0) return false;
+    enterTile(strike.onset.frame);
+    if constexpr (P::hasTiles) tiles_.settle();
+    const Mode wanted = modeFor(strike);
+    int slot = find(wanted);
+    if (slot < 0) {
+        if (activeCount_ - fadingCount_ == P::maxModes) {
+            fade(quietest(false), strike.onset.frame);
+            ++stolen_;
+        }
+        if (freeCount_ == 0) release(quietest(true));
+        slot = create(wanted);
+    }
+    Mode& struck = mode(slot);
+    rebase(slot);
+    const auto phasor = onsetPhasor(struck, strike.onset, strike.phase);
+    std::array<Real, width> scaled;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) {
+        scaled[j] = static_cast<Real>(strike.amplitude * gains[j]);
+        amplitudes_[row(slot) + j] += phasor * scaled[j];
+    }
+    refreshTile(slot);
+    if constexpr (P::hasTiles)
+        if (tiles_.isOn()) tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_), phasor, scaled.data());
+    const std::int64_t life = lifeFrames(struck.decayIncrement);
+    struck.endFrame = std::max(struck.endFrame, life == Strike::never ? life : strike.onset.frame + life);
+    nextEnd_ = std::min(nextEnd_, struck.endFrame);
+    return !isGated || openGate(slot, strike, gains);
+}
+
+template <class P>
+typename ModeBank<P>::Mode ModeBank<P>::modeFor(const Strike& strike) const noexcept {
+    Mode m;
+    m.frequencyHz = strike.frequencyHz;
+    m.decayPerSecond = strike.decayPerSecond;
+    setIncrements(m);
+    m.isGated = strike.closeFrame != Strike::never;
+    m.referenceFrame = tileStart_;
+    return m;
+}
+
+template <class P>
+void ModeBank<P>::setIncrements(Mode& m) const noexcept {
+    m.phaseIncrement = static_cast<std::uint64_t>(m.frequencyHz / rate_ * 18446744073709551616.0);
+    m.decayIncrement = static_cast<std::int64_t>(m.decayPerSecond / rate_ * (std::numbers::log2e * octaveUnit) + 0.5);
+}
+
+template <class P>
+int ModeBank<P>::find(const Mode& wanted) const noexcept {
+    if constexpr (P::hasTiles) return index_.find(wanted.hash(), [&](int slot) { return mode(slot).matches(wanted); });
+    for (int i = 0; i < activeCount_; ++i)
+        if (mode(active_[static_cast<std::size_t>(i)]).matches(wanted)) return active_[static_cast<std::size_t>(i)];
+    return -1;
+}
+
+template <class P>
+int ModeBank<P>::create(const Mode& m) noexcept {
+    const int slot = free_[static_cast<std::size_t>(--freeCount_)];
+    active_[static_cast<std::size_t>(activeCount_++)] = slot;
+    mode(slot) = m;
+    mode(slot).life = ++lives_;
+    std::fill_n(amplitudes_.begin() + static_cast<std::ptrdiff_t>(row(slot)), channels_, Complex<Real>{});
+    index_.insert(m.hash(), slot);
+    shape(slot);
+    return slot;
+}
+
+template <class P>
+void ModeBank<P>::release(int slot) noexcept {
+    const auto end = active_.begin() + activeCount_;
+    const auto at = std::find(active_.begin(), end, slot);
+    std::copy(at + 1, end, at);
+    --activeCount_;
+    recycle(slot);
+}
+
+template <class P>
+void ModeBank<P>::recycle(int slot) noexcept {
+    if (mode(slot).isFading) --fadingCount_;
+    else index_.erase(mode(slot).hash(), slot);
+    if constexpr (P::hasTiles)
+        if (tiles_.isOn()) tiles_.remove(slot);
+    mode(slot).life = 0; // gates that are still open find nothing to close
+    free_[static_cast<std::size_t>(freeCount_++)] = slot;
+}
+
+// From `frame` on the mode decays faster: same phase, no step, gone within milliseconds.
+template <class P>
+void ModeBank<P>::fade(int slot, std::int64_t frame, double perSecond) noexcept {
+    rebase(slot);
+    Mode& m = mode(slot);
+    index_.erase(m.hash(), slot);
+    const std::int64_t before = m.decayIncrement;
+    m.decayPerSecond += perSecond;
+    setIncrements(m);
+    m.isFading = true;
+    m.endFrame = std::min(m.endFrame, frame + lifeFrames(m.decayIncrement));
+    nextEnd_ = std::min(nextEnd_, m.endFrame);
+    const Real backwards = decayFactor<Real>((before - m.decayIncrement) * (frame - tileStart_)); // so that nothing changes at `frame`
+    for (int j = 0; j < channels_; ++j) {
+        auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
+        z = z * backwards;
+    }
+    if constexpr (P::hasTiles)
+        if (tiles_.isOn()) tiles_.remove(slot);
+    shape(slot);
+    refreshTile(slot);
+    redoTile(slot, frame);
+    ++fadingCount_;
+}
+
+template <class P>
+void ModeBank<P>::fadeAll(std::int64_t frame, double perSecond) noexcept {
+    enterTile(frame);
+    for (int i = 0; i < activeCount_; ++i)
+        if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading) fade(slot, frame, perSecond);
+}
+
+template <class P>
+int ModeBank<P>::quietest(bool fading) const noexcept {
+    int found = -1;
+    Real least = 0;
+    for (int i = 0; i < activeCount_; ++i) {
+        const int slot = active_[static_cast<std::size_t>(i)];
+        if (mode(slot).isFading != fading) continue;
+        Real level = 0;
+        for (int j = 0; j < channels_; ++j) {
+            const auto z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
+            level = std::max(level, z.re * z.re + z.im * z.im);
+        }
+        const Real decay = decayFactor<Real>(mode(slot).decayIncrement * (tileStart_ - mode(slot).referenceFrame));
+        level *= decay * decay;
+        if (found >= 0 && level >= least) continue;
+        found = slot;
+        least = level;
+    }
+    return found;
+}
+
+template <class P>
+void ModeBank<P>::fillPowers(int slot) noexcept {
+    const Mode& m = mode(slot);
+    for (int k = 0; k < tile; ++k) {
+        const auto power = unitPhasor<Real>(m.phaseIncrement * static_cast<std::uint64_t>(k)) *
+                           decayFactor<Real>(m.decayIncrement * k);
+        const std::size_t at = static_cast<std::size_t>(slot) * tileSize + static_cast<std::size_t>(k);
+        cosPowers_[at] = power.re;
+        sinPowers_[at] = power.im;
+    }
+}
+
+// What follows from a mode's increments.
+template <class P>
+void ModeBank<P>::shape(int slot) noexcept {
+    fillPowers(slot);
+    if constexpr (P::hasTiles) {
+        if (!tiles_.isOn()) return;
+        const Mode& m = mode(slot);
+        const double turn = static_cast<double>(m.phaseIncrement) * (2.0 * std::numbers::pi / 18446744073709551616.0);
+        const double decay = static_cast<double>(m.decayIncrement) * (std::numbers::ln2 / octaveUnit);
+        const std::size_t powers = static_cast<std::size_t>(slot) * tileSize;
+        tiles_.add(slot, {&cosPowers_[powers], &sinPowers_[powers], std::hypot(turn, decay),
+                          unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(tile)) * decayFactor<double>(m.decayIncrement * tile),
+                          m.isGated});
+        renewCarrier(slot);
+    }
+}
+
+// Brings the amplitudes' decay to the tile's first frame.
+template <class P>
+void ModeBank<P>::rebase(int slot) noexcept {
+    Mode& m = mode(slot);
+    if (m.referenceFrame == tileStart_) return;
+    const Real decay = decayFactor<Real>(m.decayIncrement * (tileStart_ - m.referenceFrame));
+    for (int j = 0; j < channels_; ++j) {
+        auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
+        z = z * decay;
+    }
+    m.referenceFrame = tileStart_;
+    renewCarrier(slot);
+}
+
+template <class P>
+Complex<typename ModeBank<P>::Real> ModeBank<P>::carrier(const Mode& m) const noexcept {
+    return unitPhasor<Real>(m.phaseIncrement * static_cast<std::uint64_t>(tileStart_)) *
+           decayFactor<Real>(m.decayIncrement * (tileStart_ - m.referenceFrame));
+}
+
+template <class P>
+void ModeBank<P>::renewCarrier([[maybe_unused]] int slot) noexcept {
+    if constexpr (P::hasTiles)
+        if (tiles_.isOn()) tiles_.setCarrier(slot, carrier(mode(slot)));
+}
+
+template <class P>
+void ModeBank<P>::refreshTile(int slot) noexcept {
+    if constexpr (P::hasTiles)
+        if (tiles_.isOn()) return tiles_.setAmplitudes(slot, &amplitudes_[row(slot)]);
+    const auto turn = carrier(mode(slot));
+    for (int j = 0; j < channels_; ++j) {
+        const std::size_t at = row(slot) + static_cast<std::size_t>(j);
+        tileAmplitudes_[at] = amplitudes_[at] * turn;
+    }
+}
+
+// A mode has changed other than by a strike: what is left of its tile is to be made again.
+template <class P>
+void ModeBank<P>::redoTile([[maybe_unused]] int slot, [[maybe_unused]] std::int64_t frame) noexcept {
+    if constexpr (P::hasTiles) tiles_.redoFrom(mode(slot).isGated, static_cast<int>(frame - tileStart_));
+}
+
+template <class P>
+void ModeBank<P>::enterTile(std::int64_t frame) noexcept {
+    const std::int64_t start = frame - frame % tile;
+    if (start == tileStart_) return;
+    const bool isNext = start == tileStart_ + tile;
+    tileStart_ = start;
+    if (start >= nextEnd_) retireModes();
+    refreshAll(isNext);
+}
+
+template <class P>
+void ModeBank<P>::retireModes() noexcept {
+    int kept = 0;
+    nextEnd_ = Strike::never;
+    for (int i = 0; i < activeCount_; ++i) {
+        const int slot = active_[static_cast<std::size_t>(i)];
+        if (mode(slot).endFrame > tileStart_) {
+            active_[static_cast<std::size_t>(kept++)] = slot;
+            nextEnd_ = std::min(nextEnd_, mode(slot).endFrame);
+        } else {
+            recycle(slot);
+        }
+    }
+    activeCount_ = kept;
+}
+
+// Carriers are multiplied on, and set from their integers every so many tiles, a few slots at a time.
+template <class P>
+void ModeBank<P>::refreshAll(bool isNextTile) noexcept {
+    if constexpr (P::hasTiles) {
+        if (tiles_.isOn()) {
+            if (isNextTile) tiles_.advance();
+            const int stride = isNextTile ? ModeTiles::renewalTiles : 1;
+            for (int slot = static_cast<int>(tileStart_ / tile % stride); slot < tiles_.slotsInUse(); slot += stride)
+                if (mode(slot).life != 0) renewCarrier(slot);
+            return tiles_.begin();
+        }
+    }
+    for (int i = 0; i < activeCount_; ++i) refreshTile(active_[static_cast<std::size_t>(i)]);
+}
+
+template <class P>
+bool ModeBank<P>::openGate(int slot, const Strike& strike, const double* gains) noexcept {
+    const int entry = freeGates_[static_cast<std::size_t>(--freeGateCount_)];
+    for (int j = 0; j < channels_; ++j)
+        gateGains_[static_cast<std::size_t>(entry * channels_ + j)] = static_cast<Real>(strike.amplitude * gains[j]);
+    ++mode(slot).openGates;
+    return gates_.push(strike.closeFrame, {slot, mode(slot).life, entry, strike.onset, strike.phase});
+}
+
+template <class P>
+void ModeBank<P>::closeNextGate() noexcept {
+    const Gate gate = gates_.next();
+    const std::int64_t closeFrame = gates_.nextTime();
+    enterTile(closeFrame);
+    gates_.pop();
+    freeGates_[static_cast<std::size_t>(freeGateCount_++)] = gate.entry;
+    Mode& m = mode(gate.slot);
+    if (m.life != gate.life) return;
+    rebase(gate.slot);
+    const auto phasor = onsetPhasor(m, gate.onset, gate.phase);
+    --m.openGates;
+    for (int j = 0; j < channels_; ++j) {
+        auto& z = amplitudes_[row(gate.slot) + static_cast<std::size_t>(j)];
+        if (m.openGates == 0) z = {}; // exact silence, whatever rounding has left
+        else z -= phasor * gateGains_[static_cast<std::size_t>(gate.entry * channels_ + j)];
+    }
+    if (m.openGates == 0) nextEnd_ = m.endFrame = tileStart_;
+    refreshTile(gate.slot);
+    redoTile(gate.slot, closeFrame);
+}
+
+template <class P>
+Complex<typename ModeBank<P>::Real> ModeBank<P>::onsetPhasor(const Mode& m, FramePosition onset, std::uint64_t phase) const noexcept {
+    const auto leadPhase = static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
+    const auto leadDecay = static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
+    // A gate may close long after its own strike has died away inside a mode that others keep alive.
+    constexpr std::int64_t inaudible = 120 * static_cast<std::int64_t>(octaveUnit);
+    const std::int64_t age = m.referenceFrame - onset.frame;
+    const bool hasDied = m.decayIncrement > 0 && age > inaudible / m.decayIncrement;
+    const std::int64_t decay = hasDied ? inaudible : m.decayIncrement * age + leadDecay;
+    return unitPhasor<Real>(phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame)) *
+           decayFactor<Real>(decay);
+}
+
+template <class P>
+std::int64_t ModeBank<P>::lifeFrames(std::int64_t decayIncrement) const noexcept {
+    constexpr auto octaves =
+        static_cast<std::int64_t>(limits::retireDecibels / (20.0 * (std::numbers::ln2 / std::numbers::ln10)) * octaveUnit);
+    return decayIncrement == 0 ? Strike::never : octaves / decayIncrement + 1;
+}
+
+template <class P>
+bool ModeBank<P>::render(float* const* out, std::int64_t first, int frames) noexcept {
+    enterTile(first);
+    const int from = static_cast<int>(first - tileStart_);
+    if constexpr (P::hasTiles)
+        if (tiles_.isOn()) return tiles_.render(out, from, frames);
+    const ModeTable<P> table{active_.data(), activeCount_, channels_, tileAmplitudes_.data(), cosPowers_.data(), sinPowers_.data()};
+    renderScalar(table, out, from, frames);
+    return activeCount_ > 0;
+}
+
+template class ModeBank<DesktopProfile>;
+template class ModeBank<BoardProfile>;
+
+} // namespace physvib

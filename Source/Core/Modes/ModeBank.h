@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// The sounding modes. Decaying sinusoids are linear, so strikes of equal (frequency, decay) merge exactly into one
+// mode with one complex amplitude per channel: cost is bounded by the number of materials, not of collisions.
+//
+// A mode's phase is an integer (2^64 = one turn) that is linear in the absolute frame number, its decay a fixed-point
+// number of octaves: neither drifts, both are the same bits on every machine, and together they are the merge key.
+// At each tile of the absolute frame grid the amplitudes are brought to the tile's first frame from these integers.
+// Where there are vector instructions, ModeTiles renders whole tiles; else the scalar kernel sums sample by sample.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Core/FrameClock.h"
+#include "Core/Modes/ModeIndex.h"
+#include "Core/Modes/ModeTable.h"
+#include "Core/Modes/ModeTiles.h"
+#include "Core/TimeOrdered.h"
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+namespace physvib {
+
+/// One strike, already on the frame grid and panned.
+struct Strike {
+    double frequencyHz = 0.0; ///< below half the sample rate
+    double decayPerSecond = 0.0;
+    double amplitude = 0.0;
+    FramePosition onset;
+    std::int64_t closeFrame = never; ///< first frame that is silent again; `never`: when it has decayed
+    std::uint64_t phase = 0;         ///< at the onset, in turns / 2^64: 0 is a sine
+    static constexpr std::int64_t never = INT64_MAX;
+};
+
+/// All memory is inside the object (megabytes for the desktop: keep it on the heap). R only, but for prepare: M.
+template <class Profile>
+class ModeBank {
+public:
+    using Real = typename Profile::Real;
+    static constexpr int tile = Profile::tileFrames;
+    static constexpr int slotCount = Profile::maxModes + Profile::maxFadingModes;
+
+    /// Silence, for this rate and number of channels (1 to Profile::maxChannels). A set of instructions that is not
+    /// available means the scalar kernel. M, not while rendering.
+    void prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best) noexcept;
+
+    /// What it runs on. Any thread after prepare.
+    InstructionSet instructionSet() const noexcept { return tiles_.set(); }
+
+    /// Goes on at another rate and frame: what sounded at the old `fromFrame` sounds on at the new `toFrame`, gates
+    /// close after the same time. M, not while rendering.
+    void moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept;
+
+    /// Frames only go forward. `gains`: one per channel. The strike's frame is the next one to be rendered, or, if
+    /// takesStrikesAhead(), a later one of the same tile, with no gate to be closed before it.
+    /// False if too many strikes with a duration are open: then nothing has changed.
+    bool strike(const Strike& strike, const double* gains) noexcept;
+
+    /// How many strikes with a duration find room now.
+    int freeGates() const noexcept { return freeGateCount_; }
+
+    bool takesStrikesAhead() const noexcept { return tiles_.isOn(); }
+
+    /// The frame at which the next open gate closes; Strike::never if none is open.
+    std::int64_t nextGateFrame() const noexcept { return gates_.empty() ? Strike::never : gates_.nextTime(); }
+
+    /// Closes that gate; to be called when its frame is the next one to be rendered.
+    void closeNextGate() noexcept;
+
+    /// From `frame` on, the next one to be rendered, everything fades: as a stolen mode does, unless it is to go faster.
+    void fadeAll(std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
+
+    /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. False if all are 0.
+    bool render(float* const* out, std::int64_t first, int frames) noexcept;
+
+    int liveModes() const noexcept { return activeCount_; }
+    std::uint64_t stolenModes() const noexcept { return stolen_; }
+
+private:
+    using Index = std::conditional_t<Profile::hasTiles, ModeIndex<slotCount>, NoIndex>;
+    using Tiles = std::conditional_t<Profile::hasTiles, ModeTiles, NoTiles>;
+    struct Mode {
+        double frequencyHz = 0.0;
+        double decayPerSecond = 0.0;
+        std::uint64_t phaseIncrement = 0; // turns / 2^64 per frame
+        std::int64_t decayIncrement = 0;  // octaves / 2^56 per frame
+        std::int64_t referenceFrame = 0;  // amplitudes are as of this frame's decay; their phase is absolute
+        std::int64_t endFrame = 0;        // over from here on
+        std::uint32_t life = 0;           // tells this use of the slot from earlier ones
+        int openGates = 0;
+        bool isGated = false; // gated strikes do not merge with free ones, so that closing can leave exact zeros
+        bool isFading = false;
+        std::uint64_t hash() const noexcept { return modeHash(phaseIncrement, decayIncrement, isGated); }
+        bool matches(const Mode& o) const noexcept {
+            return phaseIncrement == o.phaseIncrement && decayIncrement == o.decayIncrement &&
+                   isGated == o.isGated && !isFading;
+        }
+    };
+    struct Gate {
+        int slot = 0;
+        std::uint32_t life = 0;
+        int entry = 0; // where its gains stand
+        FramePosition onset;
+        std::uint64_t phase = 0;
+    };
+
+    Mode modeFor(const Strike& strike) const noexcept;
+    void setIncrements(Mode& mode) const noexcept;
+    int find(const Mode& wanted) const noexcept;
+    int create(const Mode& mode) noexcept;
+    void release(int slot) noexcept;
+    void recycle(int slot) noexcept;
+    void fade(int slot, std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
+    int quietest(bool fading) const noexcept;
+    void fillPowers(int slot) noexcept;
+    void rebase(int slot) noexcept;
+    void refreshTile(int slot) noexcept;
+    void refreshAll(bool isNextTile) noexcept;
+    void renewCarrier(int slot) noexcept;
+    void retireModes() noexcept;
+    void shape(int slot) noexcept;
+    void redoTile(int slot, std::int64_t frame) noexcept;
+    void enterTile(std::int64_t frame) noexcept;
+    bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
+    Complex<Real> carrier(const Mode& mode) const noexcept;
+    Complex<Real> onsetPhasor(const Mode& mode, FramePosition onset, std::uint64_t phase) const noexcept;
+    std::int64_t lifeFrames(std::int64_t decayIncrement) const noexcept;
+    Mode& mode(int slot) noexcept { return modes_[static_cast<std::size_t>(slot)]; }
+    const Mode& mode(int slot) const noexcept { return modes_[static_cast<std::size_t>(slot)]; }
+    std::size_t row(int slot) const noexcept { return static_cast<std::size_t>(slot * channels_); }
+
+    static constexpr auto slots = static_cast<std::size_t>(slotCount);
+    static constexpr auto tileSize = static_cast<std::size_t>(tile);
+    static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
+    static constexpr auto gateCount = static_cast<std::size_t>(Profile::maxGates);
+
+    int channels_ = 1;
+    double rate_ = 48000.0;
+    std::int64_t tileStart_ = 0;
+    std::array<int, slots> active_{}; // slots in the order of their first strike
+    std::array<int, slots> free_{};   // a stack
+    int activeCount_ = 0;
+    int freeCount_ = 0;
+    int fadingCount_ = 0;
+    std::int64_t nextEnd_ = Strike::never; // no mode ends earlier
+    std::uint64_t stolen_ = 0;
+    std::uint32_t lives_ = 0;
+    std::array<Mode, slots> modes_{};
+    [[no_unique_address]] Index index_; // of modes that do not fade
+    [[no_unique_address]] Tiles tiles_;
+    std::array<Complex<Real>, slots * width> amplitudes_{};     // as of the mode's reference frame
+    std::array<Complex<Real>, slots * width> tileAmplitudes_{}; // as of the tile's first frame; scalar kernel
+    std::array<Real, slots * tileSize> cosPowers_{};
+    std::array<Real, slots * tileSize> sinPowers_{};
+    TimeOrdered<Gate, Profile::maxGates> gates_;
+    std::array<Real, gateCount * width> gateGains_{}; // amplitude times gain, per channel
+    std::array<int, gateCount> freeGates_{};
+    int freeGateCount_ = 0;
+};
+
+extern template class ModeBank<DesktopProfile>;
+extern template class ModeBank<BoardProfile>;
+
+} // namespace physvib

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Packing rows, making tiles, adding strikes.
+#include "Core/Modes/ModeTiles.h"
+
+namespace physvib {
+
+#if !PHYSVIB_HIGHWAY // TileKernels.cpp is not part of this build
+const TileKernel* tileKernel(InstructionSet) noexcept { return nullptr; }
+#endif
+
+bool isAvailable(InstructionSet set) noexcept {
+    return set == InstructionSet::best || set == InstructionSet::scalar || tileKernel(set) != nullptr;
+}
+
+void ModeTiles::prepare(int channels, InstructionSet set) noexcept {
+    static const LowRankBasis basis;
+    basis_ = &basis;
+    kernel_ = tileKernel(set);
+    channels_ = channels;
+    floatsPerSlot_ = (channels + tiles::channelsPerLine - 1) / tiles::channelsPerLine * 4 * tiles::channelsPerLine;
+    highest_ = 0;
+    places_.fill({});
+    amplitudes_.fill(0.0f);
+    for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) values->fill(0.0);
+    for (auto& layer : layers_) {
+        layer.tails.fill(0.0);
+        layer.counts.fill(0);
+        layer.hasBase = layer.hasTails = false;
+    }
+    begin();
+}
+
+float* ModeTiles::rowAt(std::size_t rank, int row) noexcept {
+    return rows_.data() + rowOffsets[rank] + index(row) * 2 * index(tiles::ranks[rank]);
+}
+
+void ModeTiles::add(int slot, const TileMode& mode) noexcept {
+    const int wanted = LowRankBasis::rankFor(mode.radiansPerFrame);
+    const auto rank = index(static_cast<int>(std::find(tiles::ranks.begin(), tiles::ranks.end(), wanted) - tiles::ranks.begin()));
+    const int row = rowFor(mode.isGated, layers_[mode.isGated].counts[rank]++);
+    places_[index(slot)] = {static_cast<int>(rank), row, mode, true};
+    rowSlots_[rank][index(row)] = slot;
+    basis_->project(mode.cosPowers, mode.sinPowers, wanted, rowAt(rank, row));
+    stepRe_[index(slot)] = mode.tileFactor.re;
+    stepIm_[index(slot)] = mode.tileFactor.im;
+    highest_ = std::max(highest_, slot + 1);
+}
+
+// The last row of the layer takes the place of the one that goes.
+void ModeTiles::remove(int slot) noexcept {
+    Place& place = places_[index(slot)];
+    const auto rank = index(place.rank);
+    const int last = rowFor(place.mode.isGated, --layers_[place.mode.isGated].counts[rank]);
+    if (last != place.row) {
+        std::copy_n(rowAt(rank, last), 2 * tiles::ranks[rank], rowAt(rank, place.row));
+        const int moved = rowSlots_[rank][index(last)];
+        rowSlots_[rank][index(place.row)] = moved;
+        places_[index(moved)].row = place.row;
+    }
+    place.isUsed = false;
+    for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) (*values)[index(slot)] = 0.0;
+    while (highest_ > 0 && !places_[index(highest_ - 1)].isUsed) --highest_;
+}
+
+void ModeTiles::setCarrier(int slot, Complex<double> carrier) noexcept {
+    const auto s = index(slot);
+    re_[s] = carrier.re;
+    im_[s] = carrier.im;
+    roundedRe_[s] = static_cast<float>(carrier.re);
+    roundedIm_[s] = static_cast<float>(carrier.im);
+}
+
+void ModeTiles::setAmplitudes(int slot, const Complex<double>* amplitudes) noexcept {
+    // Whole lines: what stands behind the last channel is never summed.
+    float* line = amplitudes_.data() + index(slot) * index(floatsPerSlot_);
+    for (int j = 0; j < channels_; j += tiles::channelsPerLine, line += 16) {
+        for (int k = 0; k < tiles::channelsPerLine; ++k) {
+            line[2 * k] = static_cast<float>(amplitudes[j + k].re);
+            line[2 * k + 1] = static_cast<float>(amplitudes[j + k].im);
+        }
+        for (int k = 0; k < tiles::channelsPerLine; ++k) {
+            line[2 * k + 8] = -line[2 * k + 1];
+            line[2 * k + 9] = line[2 * k];
+        }
+    }
+}
+
+void ModeTiles::advance() noexcept {
+    kernel_->advance({highest_, re_.data(), im_.data(), stepRe_.data(), stepIm_.data(), roundedRe_.data(), roundedIm_.data()});
+}
+
+void ModeTiles::begin() noexcept {
+    redoFrom(false, 0);
+    redoFrom(true, 0);
+}
+
+void ModeTiles::redoFrom(bool isGated, int frame) noexcept { layers_[isGated].redo = std::min(layers_[isGated].redo, frame); }
+
+void ModeTiles::settle() noexcept {
+    if (layers_[0].redo < tiles::frames) make(layers_[0], false);
+    if (layers_[1].redo < tiles::frames) make(layers_[1], true);
+}
+
+// Frames before `redo` stay as they are.
+void ModeTiles::make(Layer& layer, bool isGated) noexcept {
+    const auto from = index(layer.redo);
+    layer.redo = tiles::frames;
+    const auto clear = [&](auto& values) {
+        for (std::size_t j = 0; j < index(channels_); ++j) std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(j * frames + from), frames - from, 0);
+    };
+    if (layer.hasTails) clear(layer.tails);
+    layer.hasTails = layer.hasTails && from > 0;
+    const bool hasModes = std::any_of(layer.counts.begin(), layer.counts.end(), [](int n) { return n > 0; });
+    if (!hasModes) {
+        if (layer.hasBase) clear(layer.base);
+        layer.hasBase = layer.hasBase && from > 0;
+    } else if (from == 0) {
+        kernel_->render(view(layer, isGated), layer.base.data());
+        layer.hasBase = true;
+    } else {
+        if (!layer.hasBase) layer.base.fill(0.0f);
+        alignas(64) std::array<float, width * frames> whole;
+        kernel_->render(view(layer, isGated), whole.data());
+        for (std::size_t at = from; at < index(channels_) * frames; at += frames)
+            std::copy_n(whole.begin() + static_cast<std::ptrdiff_t>(at), frames - from, layer.base.begin() + static_cast<std::ptrdiff_t>(at));
+        layer.hasBase = true;
+    }
+}
+
+TileLayer ModeTiles::view(const Layer& layer, bool isGated) noexcept {
+    TileLayer view{{}, channels_, floatsPerSlot_, amplitudes_.data(), roundedRe_.data(), roundedIm_.data(), basis_->halves()};
+    for (std::size_t r = 0; r < rankCount; ++r) {
+        const int first = isGated ? slotCount - layer.counts[r] : 0;
+        view.modes[r] = {rowAt(r, first), rowSlots_[r].data() + first, layer.counts[r], tiles::ranks[r]};
+    }
+    return view;
+}
+
+void ModeTiles::strike(int slot, int from, Complex<double> phasor, const double* gains) noexcept {
+    const TileMode& mode = places_[index(slot)].mode;
+    Layer& layer = layers_[mode.isGated];
+    kernel_->strike({mode.cosPowers, mode.sinPowers, gains, phasor * carrier(slot), from, channels_}, layer.tails.data());
+    layer.hasTails = true;
+}
+
+bool ModeTiles::render(float* const* out, int first, int count) noexcept {
+    settle();
+    const bool isPlain = !layers_[0].hasTails && !layers_[1].hasTails && !layers_[1].hasBase;
+    const bool isStruckOnly = layers_[0].hasBase && layers_[0].hasTails && !layers_[1].hasBase && !layers_[1].hasTails;
+    if (isStruckOnly)
+        for (std::size_t j = 0; j < index(channels_); ++j)
+            kernel_->sum(layers_[0].base.data() + j * frames + index(first), layers_[0].tails.data() + j * frames + index(first), count, out[j]);
+    else if (!isPlain) sum(out, first, count);
+    else if (layers_[0].hasBase)
+        for (std::size_t j = 0; j < index(channels_); ++j) std::copy_n(layers_[0].base.data() + j * frames + index(first), count, out[j]);
+    else
+        for (int j = 0; j < channels_; ++j) std::fill_n(out[j], count, 0.0f);
+    return !isPlain || layers_[0].hasBase;
+}
+
+void ModeTiles::sum(float* const* out, int first, int count) const noexcept {
+    for (std::size_t j = 0; j < index(channels_); ++j) {
+        std::array<double, frames> all{};
+        for (const auto& layer : layers_) {
+            const std::size_t at = j * frames + index(first);
+            for (std::size_t k = 0; layer.hasBase && k < index(count); ++k) all[k] += static_cast<double>(layer.base[at + k]);
+            for (std::size_t k = 0; layer.hasTails && k < index(count); ++k) all[k] += layer.tails[at + k];
+        }
+        std::transform(all.begin(), all.begin() + count, out[j], [](double y) { return static_cast<float>(y); });
+    }
+}
+
+} // namespace physvib

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The mode bank's memory for vector kernels: rows by rank, rounded amplitudes, carriers, and the tile being played.
+//
+// A tile is made whole when its first frame is due; a strike inside it adds its own tail to the frames that are left,
+// so it costs O(channels), not O(modes). Gated modes are a layer of their own: closing a gate renders that layer again
+// and leaves the bits of the other alone (Docs/decisions/0002).
+#pragma once
+#include "Core/Modes/InstructionSet.h"
+#include "Core/Modes/LowRankBasis.h"
+#include "Core/Modes/TileKernel.h"
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace physvib {
+
+/// What a slot's mode is, as far as tiles need it. Powers: 64 of each, double precision, for as long as the mode lives.
+struct TileMode {
+    const double* cosPowers = nullptr;
+    const double* sinPowers = nullptr;
+    double radiansPerFrame = 0.0; ///< |log p|
+    Complex<double> tileFactor;   ///< p^64
+    bool isGated = false;
+};
+
+/// For DesktopProfile. All memory is inside the object. R only, but for prepare: M. Off when there is no kernel.
+class ModeTiles {
+public:
+    static constexpr int slotCount = DesktopProfile::maxModes + DesktopProfile::maxFadingModes;
+    static_assert(DesktopProfile::tileFrames == tiles::frames);
+
+    /// Nothing sounds; off if the set has no kernel here.
+    void prepare(int channels, InstructionSet set) noexcept;
+    bool isOn() const noexcept { return kernel_ != nullptr; }
+    InstructionSet set() const noexcept { return isOn() ? kernel_->set : InstructionSet::scalar; }
+
+    void add(int slot, const TileMode& mode) noexcept;
+    void remove(int slot) noexcept;
+
+    /// The mode's phase and decay at the tile's first frame; its amplitudes, one per channel (readable in whole lines of
+    /// tiles::channelsPerLine).
+    void setCarrier(int slot, Complex<double> carrier) noexcept;
+    Complex<double> carrier(int slot) const noexcept { return {re_[index(slot)], im_[index(slot)]}; }
+    void setAmplitudes(int slot, const Complex<double>* amplitudes) noexcept;
+
+    /// The next tile: all carriers move on by one tile. Their errors grow by 1e-11 each time, so renew them in between.
+    void advance() noexcept;
+    /// Nothing of this tile is made yet.
+    void begin() noexcept;
+    /// How often: then an error is at most 3e-9.
+    static constexpr int renewalTiles = 256;
+    int slotsInUse() const noexcept { return highest_; }
+
+    /// What this layer plays from that frame of the tile on follows from the amplitudes as they are when it is next needed.
+    void redoFrom(bool isGated, int frame) noexcept;
+
+    /// To be called before amplitudes change by a strike at `from`: what is to be redone is redone without it.
+    void settle() noexcept;
+    /// Adds a strike from frame `from` of the tile on; its amplitude is gains[j] * phasor.
+    void strike(int slot, int from, Complex<double> phasor, const double* gains) noexcept;
+
+    /// out[j][0..frames) = frames [first, first + frames) of the tile. False if all of them are zero.
+    bool render(float* const* out, int first, int frames) noexcept;
+
+private:
+    static constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+    static constexpr auto slots = static_cast<std::size_t>(slotCount);
+    static constexpr auto padded = (slots + 7) / 8 * 8; // for the widest vector of doubles
+    static constexpr auto width = static_cast<std::size_t>(DesktopProfile::maxChannels);
+    static constexpr auto frames = static_cast<std::size_t>(tiles::frames);
+    static constexpr auto rankCount = tiles::ranks.size();
+    using PerSlot = std::array<double, padded>;
+    using RoundedPerSlot = std::array<float, padded>;
+
+    // Rows of one rank: those of free modes from the front, of gated ones from the back, each without gaps.
+    struct Place {
+        int rank = 0;
+        int row = 0;
+        TileMode mode;
+        bool isUsed = false;
+    };
+    struct Layer {
+        alignas(64) std::array<float, width * frames> base{};   // modes as of the tile's first frame
+        alignas(64) std::array<double, width * frames> tails{}; // strikes since then
+        std::array<int, rankCount> counts{};
+        int redo = tiles::frames; // frames from here on are not made yet
+        bool hasBase = false, hasTails = false;
+    };
+    float* rowAt(std::size_t rank, int row) noexcept;
+    static int rowFor(bool isGated, int place) noexcept { return isGated ? slotCount - 1 - place : place; }
+    void make(Layer& layer, bool isGated) noexcept;
+    TileLayer view(const Layer& layer, bool isGated) noexcept;
+    void sum(float* const* out, int first, int count) const noexcept;
+
+    static constexpr std::array<std::size_t, rankCount> rowOffsets = [] {
+        std::array<std::size_t, rankCount> offsets{};
+        for (std::size_t r = 1; r < rankCount; ++r) offsets[r] = offsets[r - 1] + slots * 2 * static_cast<std::size_t>(tiles::ranks[r - 1]);
+        return offsets;
+    }();
+    static constexpr std::size_t rowFloats = rowOffsets.back() + slots * 2 * static_cast<std::size_t>(tiles::ranks.back());
+
+    const TileKernel* kernel_ = nullptr;
+    const LowRankBasis* basis_ = nullptr;
+    int channels_ = 0, floatsPerSlot_ = 0, highest_ = 0;
+    std::array<Place, slots> places_{};
+    std::array<Layer, 2> layers_{}; // free, gated
+    alignas(64) PerSlot re_{}, im_{}, stepRe_{}, stepIm_{};
+    alignas(64) RoundedPerSlot roundedRe_{}, roundedIm_{};
+    alignas(64) std::array<float, slots * width * 4> amplitudes_{};
+    alignas(64) std::array<float, rowFloats> rows_{};
+    std::array<std::array<std::int32_t, slots>, rankCount> rowSlots_{};
+};
+
+/// For profiles without vector kernels: never on, no memory.
+struct NoTiles {
+    static constexpr void prepare(int, InstructionSet) noexcept {}
+    static constexpr bool isOn() noexcept { return false; }
+    static constexpr InstructionSet set() noexcept { return InstructionSet::scalar; }
+};
+
+} // namespace physvib

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What a vector kernel does for one tile of 64 frames, and where it finds the modes. Written once in TileKernels.cpp,
+// compiled once per instruction set.
+//
+// Low rank: inside a tile any decaying sinusoid of less than a turn or so is a combination of a few polynomials
+// (LowRankBasis.h). A mode is a row of complex coefficients, fixed for life; a tile is the product of the modes'
+// amplitudes with these rows, summed over modes, and one expansion per channel at the end, whatever the number of modes.
+#pragma once
+#include "Core/Modes/InstructionSet.h"
+#include "Core/Limits.h"
+#include "Core/Trigonometry.h"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace physvib {
+
+namespace tiles {
+constexpr int frames = 64;                        // DesktopProfile::tileFrames; one mode's share stays in registers
+constexpr std::array<int, 4> ranks{8, 16, 32, 64}; // coefficients of a row; 64: the tile's frames themselves
+constexpr int maxRank = 32;                       // of the polynomials
+constexpr int channelsPerLine = 4;                // amplitudes of four channels share a cache line
+} // namespace tiles
+
+/// Modes of one rank, packed. Row i: `rank` pairs (sine, cosine part) of mode slots[i].
+struct TileModes {
+    const float* rows = nullptr;
+    const std::int32_t* slots = nullptr;
+    int count = 0;
+    int rank = 0;
+};
+
+/// All modes of one layer. A mode's amplitudes: per four channels eight floats z = (re, im)... and eight floats
+/// i z = (-im, re)..., so that multiplying by the carrier needs no shuffle.
+struct TileLayer {
+    std::array<TileModes, tiles::ranks.size()> modes;
+    int channels = 0;
+    int floatsPerSlot = 0;
+    const float* amplitudes = nullptr;
+    const float* carrierRe = nullptr; ///< by slot: the mode's phase and decay at the tile's first frame
+    const float* carrierIm = nullptr;
+    const float* basis = nullptr; ///< LowRankBasis::halves
+};
+
+/// Carriers of slots [0, count) and their factors for one tile.
+struct TileCarriers {
+    int count = 0;
+    double *re = nullptr, *im = nullptr;
+    const double *stepRe = nullptr, *stepIm = nullptr;
+    float *roundedRe = nullptr, *roundedIm = nullptr;
+};
+
+/// One strike inside a tile: channel j of frame k >= from gains gains[j] * im(z p^k).
+struct TileStrike {
+    const double* cosPowers = nullptr; ///< p^k, 64 of each
+    const double* sinPowers = nullptr;
+    const double* gains = nullptr;
+    Complex<double> z;
+    int from = 0;
+    int channels = 0;
+};
+
+/// One instruction set's functions. R, wait-free.
+struct TileKernel {
+    InstructionSet set = InstructionSet::scalar;
+    void (*advance)(const TileCarriers& carriers) = nullptr;
+    void (*render)(const TileLayer& layer, float* out) = nullptr;         ///< out[channel * 64 + frame]
+    void (*strike)(const TileStrike& strike, double* tails) = nullptr;    ///< tails[channel * 64 + frame], on a line
+    void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr; ///< out = base + tails
+};
+
+/// Null for scalar and for sets that this program or processor lacks. Any thread.
+const TileKernel* tileKernel(InstructionSet set) noexcept;
+
+} // namespace physvib

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+// The vector kernels: one text, compiled once per instruction set by Highway, chosen at run time.
+//
+// Lanes hold polynomial coefficients as (sine, cosine) pairs, so one 64-bit broadcast of an amplitude (re, im) serves
+// both products. A panel of 16 floats times a few channels stays in registers while modes stream by; after 64 modes it
+// is added to sums in double precision. Every lane does the same operations in the same order whatever the vector's
+// width: sets with fused multiply-adds agree to the bit.
+#include "Core/Modes/TileKernel.h"
+
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "Core/Modes/TileKernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128 // for those there is renderScalar
+HWY_BEFORE_NAMESPACE();
+namespace physvib::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Panel = hn::CappedTag<float, 16>; // eight coefficients
+using Line = hn::CappedTag<float, 8>;   // the amplitudes of four channels
+using Doubles = hn::CappedTag<double, 8>;
+constexpr std::size_t frames = tiles::frames, panelFloats = 16;
+constexpr std::size_t chunkModes = 64;    // amplitudes and rows of so many stay in the first-level cache
+constexpr std::size_t chunkChannels = 16; // channels of one pass over the rows
+
+// Channels whose sums stay in registers: 8 sums hide the latency of a multiply-add.
+constexpr std::size_t group = HWY_TARGET == HWY_AVX3 ? 8 : HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_NEON ? 4 : 2;
+
+struct Rows {
+    const float* first = nullptr; // this panel of the first mode
+    std::size_t stride = 0;
+    std::size_t count = 0;
+};
+
+// sums[channel * sumStride + k] += coefficient k of the panel, over all rows.
+template <std::size_t channels, std::size_t floats>
+HWY_INLINE void addPanel(const Rows& rows, const float* amplitudes, std::size_t amplitudeStride, double* sums, std::size_t sumStride) {
+    const Panel d;
+    const hn::Repartition<double, Panel> pairs;
+    constexpr std::size_t lanes = hn::MaxLanes(Panel()), vectors = floats / lanes;
+    hn::Vec<Panel> sum[channels][vectors];
+    for (std::size_t j = 0; j < channels; ++j)
+        for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = hn::Zero(d);
+    const float* row = rows.first;
+    for (std::size_t i = 0; i < rows.count; ++i, row += rows.stride, amplitudes += amplitudeStride) {
+        hn::Vec<Panel> part[vectors];
+        for (std::size_t v = 0; v < vectors; ++v) part[v] = hn::Load(d, row + v * lanes);
+        for (std::size_t j = 0; j < channels; ++j) {
+            double pair; // two floats as one value, never computed with
+            hwy::CopySameSize(reinterpret_cast<const double*>(amplitudes + 2 * j), &pair);
+            const auto z = hn::BitCast(d, hn::Set(pairs, pair));
+            for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = hn::MulAdd(z, part[v], sum[j][v]);
+        }
+    }
+    const hn::Half<Panel> half;
+    const hn::Rebind<double, hn::Half<Panel>> wide;
+    for (std::size_t j = 0; j < channels; ++j)
+        for (std::size_t v = 0; v < vectors; ++v) {
+            const auto both = hn::Add(sum[j][v], hn::Shuffle2301(sum[j][v]));
+            double* at = sums + j * sumStride + v * lanes / 2;
+            hn::StoreU(hn::Add(hn::LoadU(wide, at), hn::PromoteTo(wide, hn::LowerHalf(half, hn::ConcatEven(d, both, both)))), wide, at);
+        }
+}
+
+// z = amplitude * carrier for `count` modes and the channels of `lines` lines.
+HWY_INLINE void turn(const TileLayer& layer, const std::int32_t* slots, std::size_t count, std::size_t firstLine, std::size_t lines, float* z) {
+    const Line d;
+    constexpr std::size_t lanes = hn::MaxLanes(Line());
+    for (std::size_t i = 0; i < count; ++i, z += lines * 8) {
+        const auto slot = static_cast<std::size_t>(slots[i]);
+        const auto re = hn::Set(d, layer.carrierRe[slot]), im = hn::Set(d, layer.carrierIm[slot]);
+        const float* from = layer.amplitudes + slot * static_cast<std::size_t>(layer.floatsPerSlot) + firstLine * 16;
+        for (std::size_t l = 0; l < lines; ++l)
+            for (std::size_t k = 0; k < 8; k += lanes)
+                hn::Store(hn::MulAdd(im, hn::Load(d, from + l * 16 + 8 + k), hn::Mul(re, hn::Load(d, from + l * 16 + k))), d, z + l * 8 + k);
+    }
+}
+
+// One panel (of `floats`) of a chunk, for all channels.
+template <std::size_t floats>
+HWY_INLINE void addToAll(const Rows& panel, const float* z, std::size_t zStride, std::size_t channels, double* sums, std::size_t sumStride) {
+    std::size_t j = 0;
+    if constexpr (group >= 8)
+        for (; j + 8 <= channels; j += 8) addPanel<8, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+    if constexpr (group >= 4)
+        for (; j + 4 <= channels; j += 4) addPanel<4, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+    for (; j + 2 <= channels; j += 2) addPanel<2, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+    if (j < channels) addPanel<1, floats>(panel, z + 2 * j, zStride, sums + j * sumStride, sumStride);
+}
+
+// One chunk, panel by panel; two at once where there are registers for it.
+void addChunk(const Rows& rows, std::size_t rowFloats, const float* z, std::size_t zStride, std::size_t channels, double* sums, std::size_t sumStride) {
+    std::size_t p = 0;
+    if constexpr (HWY_TARGET == HWY_AVX3)
+        for (; p + 2 * panelFloats <= rowFloats; p += 2 * panelFloats)
+            addToAll<2 * panelFloats>({rows.first + p, rows.stride, rows.count}, z, zStride, channels, sums + p / 2, sumStride);
+    for (; p < rowFloats; p += panelFloats) addToAll<panelFloats>({rows.first + p, rows.stride, rows.count}, z, zStride, channels, sums + p / 2, sumStride);
+}
+
+void addModes(const TileLayer& layer, const TileModes& modes, std::size_t firstChannel, std::size_t channels, double* sums, std::size_t sumStride) {
+    HWY_ALIGN float z[chunkModes * chunkChannels * 2];
+    const std::size_t lines = (channels + 3) / 4, rowFloats = 2 * static_cast<std::size_t>(modes.rank);
+    for (std::size_t first = 0; first < static_cast<std::size_t>(modes.count); first += chunkModes) {
+        const std::size_t count = HWY_MIN(chunkModes, static_cast<std::size_t>(modes.count) - first);
+        turn(layer, modes.slots + first, count, firstChannel / 4, lines, z);
+        addChunk({modes.rows + first * rowFloats, rowFloats, count}, rowFloats, z, lines * 8, channels, sums, sumStride);
+    }
+}
+
+// out[t] = sum over k of c[k] U_k(t): even and odd polynomials apart, so that half the frames give the other half.
+template <std::size_t channels>
+HWY_INLINE void expand(const double* coefficients, std::size_t rank, const float* basis, float* out) {
+    const Panel d;
+    const Doubles wide;
+    const hn::Rebind<float, Doubles> narrow;
+    constexpr std::size_t lanes = hn::MaxLanes(Panel()), half = frames / 2, vectors = HWY_MIN(4, half / lanes), most = tiles::maxRank;
+    HWY_ALIGN float c[channels * most];
+    for (std::size_t j = 0; j < channels; ++j)
+        for (std::size_t k = 0; k < rank; k += hn::MaxLanes(Doubles()))
+            hn::Store(hn::DemoteTo(narrow, hn::Load(wide, coefficients + j * most + k)), narrow, c + j * most + k);
+    for (std::size_t t = 0; t < half; t += vectors * lanes) {
+        hn::Vec<Panel> even[channels][vectors], odd[channels][vectors];
+        for (std::size_t j = 0; j < channels; ++j)
+            for (std::size_t v = 0; v < vectors; ++v) even[j][v] = odd[j][v] = hn::Zero(d);
+        for (std::size_t k = 0; k < rank; k += 2)
+            for (std::size_t v = 0; v < vectors; ++v) {
+                const auto ue = hn::Load(d, basis + k * half + t + v * lanes), uo = hn::Load(d, basis + (k + 1) * half + t + v * lanes);
+                for (std::size_t j = 0; j < channels; ++j) {
+                    even[j][v] = hn::MulAdd(hn::Set(d, c[j * most + k]), ue, even[j][v]);
+                    odd[j][v] = hn::MulAdd(hn::Set(d, c[j * most + k + 1]), uo, odd[j][v]);
+                }
+            }
+        for (std::size_t j = 0; j < channels; ++j)
+            for (std::size_t v = 0; v < vectors; ++v) {
+                float* at = out + j * frames + t + v * lanes;
+                hn::StoreU(hn::Add(even[j][v], odd[j][v]), d, at);
+                hn::StoreU(hn::Reverse(d, hn::Sub(even[j][v], odd[j][v])), d, out + (j + 1) * frames - lanes - t - v * lanes);
+            }
+    }
+}
+
+void render(const TileLayer& layer, float* out) {
+    constexpr std::size_t most = tiles::maxRank;
+    HWY_ALIGN double sums[chunkChannels * most];
+    HWY_ALIGN double direct[chunkChannels * frames];
+    const bool hasDirect = layer.modes.back().count > 0;
+    std::size_t rank = 0;
+    for (const auto& modes : layer.modes)
+        if (modes.count > 0 && modes.rank <= tiles::maxRank) rank = static_cast<std::size_t>(modes.rank);
+    const auto all = static_cast<std::size_t>(layer.channels);
+    for (std::size_t first = 0; first < all; first += chunkChannels) {
+        const std::size_t channels = HWY_MIN(chunkChannels, all - first);
+        for (std::size_t i = 0; i < channels * most; ++i) sums[i] = 0.0;
+        for (std::size_t i = 0; hasDirect && i < channels * frames; ++i) direct[i] = 0.0;
+        for (const auto& modes : layer.modes) {
+            const bool isDirect = modes.rank > tiles::maxRank;
+            if (modes.count > 0) addModes(layer, modes, first, channels, isDirect ? direct : sums, isDirect ? frames : most);
+        }
+        constexpr std::size_t together = hn::MaxLanes(Panel()) == 16 ? 2 : 1; // eight sums in either case
+        std::size_t j = 0;
+        for (; j + together <= channels; j += together) expand<together>(sums + j * most, rank, layer.basis, out + (first + j) * frames);
+        for (; j < channels; ++j) expand<1>(sums + j * most, rank, layer.basis, out + (first + j) * frames);
+        for (std::size_t i = 0; hasDirect && i < channels * frames; ++i) out[first * frames + i] += static_cast<float>(direct[i]);
+    }
+}
+
+void advance(const TileCarriers& carriers) {
+    const Doubles d;
+    const hn::Rebind<float, Doubles> narrow;
+    const auto count = static_cast<std::size_t>(carriers.count);
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) { // arrays are padded
+        const auto re = hn::Load(d, carriers.re + i), im = hn::Load(d, carriers.im + i);
+        const auto stepRe = hn::Load(d, carriers.stepRe + i), stepIm = hn::Load(d, carriers.stepIm + i);
+        const auto nextRe = hn::NegMulAdd(im, stepIm, hn::Mul(re, stepRe));
+        const auto nextIm = hn::MulAdd(im, stepRe, hn::Mul(re, stepIm));
+        hn::Store(nextRe, d, carriers.re + i);
+        hn::Store(nextIm, d, carriers.im + i);
+        hn::Store(hn::DemoteTo(narrow, nextRe), narrow, carriers.roundedRe + i);
+        hn::Store(hn::DemoteTo(narrow, nextIm), narrow, carriers.roundedIm + i);
+    }
+}
+
+// Eight frames stay in registers while the channels pass by.
+void strike(const TileStrike& s, double* tails) {
+    const Doubles d;
+    constexpr std::size_t lanes = hn::MaxLanes(Doubles()), vectors = 8 / lanes;
+    const auto channels = static_cast<std::size_t>(s.channels);
+    const auto re = hn::Set(d, s.z.re), im = hn::Set(d, s.z.im), from = hn::Set(d, static_cast<double>(s.from));
+    for (auto k = static_cast<std::size_t>(s.from) / 8 * 8; k < frames; k += 8) {
+        hn::Vec<Doubles> y[vectors];
+        for (std::size_t v = 0; v < vectors; ++v) {
+            const std::size_t at = k + v * lanes;
+            const auto sounds = hn::Ge(hn::Iota(d, static_cast<double>(at)), from);
+            y[v] = hn::IfThenElseZero(sounds, hn::MulAdd(re, hn::LoadU(d, s.sinPowers + at), hn::Mul(im, hn::LoadU(d, s.cosPowers + at))));
+        }
+        double* at = tails + k;
+        const double* gain = s.gains;
+#if defined(__GNUC__)
+#pragma GCC unroll 4
+#endif
+        for (const double* end = gain + channels; gain != end; ++gain, at += frames) {
+            const auto g = hn::Set(d, *gain);
+            for (std::size_t v = 0; v < vectors; ++v) hn::Store(hn::MulAdd(g, y[v], hn::Load(d, at + v * lanes)), d, at + v * lanes);
+        }
+    }
+}
+
+void sum(const float* base, const double* tails, int count, float* out) {
+    const Doubles d;
+    const hn::Rebind<float, Doubles> narrow;
+    constexpr std::size_t lanes = hn::MaxLanes(Doubles());
+    const auto all = static_cast<std::size_t>(count);
+    std::size_t k = 0;
+    for (; k + lanes <= all; k += lanes)
+        hn::StoreU(hn::DemoteTo(narrow, hn::Add(hn::PromoteTo(d, hn::LoadU(narrow, base + k)), hn::LoadU(d, tails + k))), narrow, out + k);
+    for (; k < all; ++k) out[k] = static_cast<float>(static_cast<double>(base[k]) + tails[k]);
+}
+
+TileKernel kernel(InstructionSet set) { return {set, advance, render, strike, sum}; }
+
+} // namespace physvib::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
+
+#if HWY_ONCE
+#include <hwy/targets.h>
+
+namespace physvib {
+namespace {
+
+const TileKernel* ifSupported(std::int64_t target, const TileKernel& kernel) noexcept {
+    static const std::int64_t here = hwy::SupportedTargets();
+    return (here & target) != 0 ? &kernel : nullptr;
+}
+
+} // namespace
+
+const TileKernel* tileKernel(InstructionSet set) noexcept {
+    using enum InstructionSet;
+    switch (set) {
+#if HWY_TARGETS & HWY_SSE4
+    case sse4: {
+        static const TileKernel kernel = N_SSE4::kernel(sse4);
+        return ifSupported(HWY_SSE4, kernel);
+    }
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    case avx2: {
+        static const TileKernel kernel = N_AVX2::kernel(avx2);
+        return ifSupported(HWY_AVX2, kernel);
+    }
+#endif
+#if HWY_TARGETS & HWY_AVX3
+    case avx512: {
+        static const TileKernel kernel = N_AVX3::kernel(avx512);
+        return ifSupported(HWY_AVX3, kernel);
+    }
+#endif
+#if HWY_TARGETS & HWY_NEON
+    case neon: {
+        static const TileKernel kernel = N_NEON::kernel(neon);
+        return ifSupported(HWY_NEON, kernel);
+    }
+#endif
+    case best:
+        for (const auto s : {avx512, avx2, neon, sse4})
+            if (const auto* kernel = tileKernel(s)) return kernel;
+        return nullptr;
+    default: return nullptr;
+    }
+}
+
+} // namespace physvib
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What a HapticRenderer is set up with, and what it counts.
+#pragma once
+#include "Core/Actuators/ActuatorStage.h"
+#include "Core/Actuators/DriveMatrices.h"
+#include "Core/Limits.h"
+#include "Core/Modes/InstructionSet.h"
+#include "Core/PhantomPanner.h"
+#include <array>
+#include <cstdint>
+
+namespace physvib {
+
+/// What a renderer is set up with.
+struct RendererSettings {
+    int sampleRateHz = 48000; ///< limits::minSampleRateHz to limits::maxSampleRateHz
+    int channels = 0;         ///< outputs; 0: as many as the panner has enchanters. Without one an output is silent
+    PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
+    bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
+    std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
+    InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
+    EqualisedActuators equalised{}; ///< per channel; without figures it is played as it is
+    DriveMatrices drives{}; ///< of the panner's enchanters, against their coupling; empty: none. They outlive the renderer
+
+    int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
+
+    static constexpr std::array<float, limits::maxEnchanters> fullScale() {
+        std::array<float, limits::maxEnchanters> all{};
+        all.fill(1.0f);
+        return all;
+    }
+};
+
+/// Counts since prepare, and the state after the last call.
+struct RenderStatus {
+    std::int64_t framesRendered = 0;
+    std::uint64_t played = 0;   ///< events struck
+    std::uint64_t late = 0;     ///< of these: after their time, at once
+    std::uint64_t rejected = 0; ///< not playable, above half the sample rate, or no gate was free
+    std::uint64_t stolen = 0;   ///< modes faded out early to make room
+    std::uint64_t nonFinite = 0;
+    std::uint64_t untold = 0;     ///< played, but the played queue was full
+    int liveModes = 0;
+    int pending = 0;
+    float limiterGain = 1.0f;
+};
+
+} // namespace physvib

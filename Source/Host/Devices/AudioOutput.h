@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A session on a multichannel audio device, with hands in mind: a device that is not there means silence and a
+// message, never another device; levels come up in a ramp; one switch silences everything within a block.
+//
+// It uses JUCE's devices themselves and not its AudioDeviceManager, which opens the default device (the speakers)
+// when the chosen one disappears.
+#pragma once
+#include "Core/Actuators/GainRamp.h"
+#include "Core/Limits.h"
+#include "Core/Nonblocking.h"
+#include "Host/Devices/AudioDevices.h"
+#include "Host/Devices/AudioOutputSettings.h"
+#include "Session/FeltOutput.h"
+#include "Host/Devices/OutputMap.h"
+#include "Host/Recordings/PlayedRecorder.h"
+#include "Session/Session.h"
+#include "Host/Devices/SignalTap.h"
+#include "Study/PinkNoise.h"
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+class AudioOutput final : public FeltOutput, private juce::AudioIODeviceCallback {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// A device that calls for no block for this long has gone; the longest block lasts 1.6 s (8192 frames at 5 kHz).
+    static constexpr std::chrono::seconds patience{2};
+
+    /// `session` outlives the output; `types` is where devices are looked for. `silence`, if there is one, outlives it too: while
+    /// it is true, as setSilent. M.
+    explicit AudioOutput(Session& session, AudioDeviceTypes types = systemAudioDeviceTypes, const std::atomic<bool>* silence = nullptr);
+    ~AudioOutput() override;
+
+    /// Opens that device and no other; empty, or one line with the reason. The session is prepared by the first
+    /// device and resumed by later ones. M.
+    std::string open(const AudioOutputSettings& settings);
+
+    /// Another map of outputs and number of enchanters, while it plays if the device's outputs are open; empty, or one
+    /// line with the reason, and all is as before. M.
+    std::string assign(const std::vector<int>& channelMap, int enchanters);
+
+    /// What is listened to, while it plays as assign(); empty, or one line with the reason, and all is as before. M.
+    std::string hear(const ListeningSettings& listening);
+
+    /// Silent within two blocks, then stops and closes; what is left of the session stays. M.
+    void close();
+
+    /// Tries to get back a device that has gone, follows one that has changed its block; empty while all is well, else
+    /// what is missing. M, about once a second.
+    std::string maintain(Clock::time_point now = Clock::now());
+
+    /// Silent within a block, back in a ramp. Any thread, wait-free.
+    void setSilent(bool silent) noexcept { silent_.store(silent, std::memory_order_relaxed); }
+    bool isSilent() const noexcept override { return silent_.load(std::memory_order_relaxed) || (silence_ && silence_->load(std::memory_order_relaxed)); }
+    float level() const noexcept override { return level_.load(std::memory_order_relaxed); }
+    void setLevel(float level) noexcept { level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed); }
+
+    /// From now on `recorder` takes all that is played, until the output is closed, or comes back at another rate: a
+    /// file has one rate, so it ends there. Null ends it: R has let go of the old one when a further block has come, or
+    /// the output does not run. M.
+    void record(PlayedRecorder* recorder) noexcept { recorder_.store(recorder, std::memory_order_release); }
+    bool isRecording() const noexcept { return recorder_.load(std::memory_order_relaxed) != nullptr; }
+
+    /// `tap` takes all that is played until the output is closed; it outlives the output. M, before open().
+    void listen(SignalTap* tap) noexcept { tap_ = tap; }
+
+    /// The device that is wanted, as type:name once it was found; empty: none. M.
+    const std::string& device() const noexcept { return settings_.device; }
+
+    FeltMoment felt() noexcept override { return felt_.read(); }
+
+    /// M.
+    AudioOutputStatus status();
+    int sampleRateHz() const noexcept { return rate_; }
+    int blockFrames() const noexcept { return block_; }
+    int deviceLatencyFrames() const;
+    int deviceOutputs() const; ///< that it offers; 0: there is none
+
+private:
+    void audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outputs, int frames,
+                                          const juce::AudioIODeviceCallbackContext&) override;
+    void audioDeviceAboutToStart(juce::AudioIODevice* device) override;
+    void audioDeviceStopped() override { running_ = false; }
+    void audioDeviceError(const juce::String&) override { running_ = false; }
+
+    std::string remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening);
+    void setHeardLevels();
+    std::string listeningFault() const;
+    std::string openDevice();
+    std::string startDevice();
+    void fadeOut();
+    void stopDevice();
+    bool hasGone(Clock::time_point now);
+    std::string unfelt() const;
+    void prepareBuffers(int block);
+    void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
+    void renderPart(float* const* out, int outputs, int first, int frames) noexcept;
+    void renderHeard(float* const* out, int outputs, int first, int frames) noexcept;
+    void addTo(Heard source, const float* samples, float* const* out, int outputs, int first, int frames) noexcept;
+    void measure(juce::int64 startTicks, int frames) noexcept;
+
+    struct Load {
+        std::uint64_t blocks = 0;
+        float last = 0.0f, worst = 0.0f;
+    };
+
+    Session& session_;
+    AudioDeviceTypes types_;
+    const std::atomic<bool>* const silence_;
+    AudioOutputSettings settings_;
+    FoundDevice found_;
+    std::atomic<bool> running_{false}, silent_{false}, ending_{false};
+    std::atomic<float> level_{0.0f}, noiseGain_{0.0f}, contactGain_{0.0f};
+    std::atomic<int> largestBlock_{0}; // that the device has asked for
+    std::atomic<PlayedRecorder*> recorder_{nullptr};
+    SignalTap* tap_ = nullptr;
+    LatestValue<Load> load_;
+    LatestValue<FeltMoment> felt_;
+
+    // M
+    int losses_ = 0;
+    std::uint64_t seenBlocks_ = 0;
+    Clock::time_point seenAt_;
+
+    // R, set while the device is stopped
+    int rate_ = 0, block_ = 0;
+    std::int64_t latencyNs_ = 0; // of the device
+    OutputMap map_;
+    std::vector<std::vector<float>> scratch_;
+    std::vector<float*> scratchAt_;
+    GainRamp master_, noiseRamp_, contactRamp_;
+    PinkNoise noise_;
+    std::vector<float> noiseScratch_;
+    Load measured_;
+};
+
+} // namespace physvib

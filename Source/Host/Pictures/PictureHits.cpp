@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The lane of hits: stems, their scale, and the legend of their colours.
+#include "Host/Pictures/PictureParts.h"
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace physvib::picture {
+namespace {
+
+using J = juce::Justification;
+
+constexpr double floorDecibels = -60.0;
+constexpr std::size_t mostDots = 600; // more heads of stems hide each other
+constexpr int headRoom = 6;
+
+/// Amplitude to height: floorDecibels at the bottom, 0 dBFS or the next ten above the strongest at the top.
+struct LevelAxis {
+    double ceiling;
+    Area lane;
+    float height(double level) const {
+        const double share = (level - floorDecibels) / (ceiling - floorDecibels);
+        return static_cast<float>(
+            std::max(share * (lane.getHeight() - headRoom), 2.0)); // the quietest still shows
+    }
+};
+
+std::vector<const CollisionEvent*> loudestFirst(std::span<const CollisionEvent> events) {
+    std::vector<const CollisionEvent*> order;
+    for (const auto& event : events) order.push_back(&event);
+    std::ranges::stable_sort(order, std::greater{}, [](const auto* e) { return std::abs(e->amplitude); });
+    return order;
+}
+
+void drawStem(const Canvas& canvas, float x, float bottom, float height, juce::Colour colour, bool dot) {
+    canvas.graphics.setColour(dot ? colour.withAlpha(0.75f) : colour);
+    canvas.graphics.fillRect(dot ? x - 0.75f : std::floor(x), bottom - height, dot ? 1.5f : 1.0f, height);
+    canvas.graphics.setColour(colour);
+    if (dot) canvas.graphics.fillEllipse(x - 2.5f, bottom - height - 2.5f, 5.0f, 5.0f);
+}
+
+void drawLevelLabels(const Canvas& canvas, const LevelAxis& levels) {
+    const Area lane = levels.lane;
+    for (const double level : {0.0, -20.0, -40.0, -60.0}) {
+        const int y = lane.getBottom() - juce::roundToInt(levels.height(level));
+        const Area row(lane.getX() - 60, juce::jlimit(lane.getY() - 4, lane.getBottom() - 16, y - 9), 52, 18);
+        canvas.text(number(level, 0), row, J::centredRight, palette::muted);
+    }
+}
+
+int entryWidth(const HitColours::Class& c) {
+    return textWidth(c.name, smallText) + 40;
+}
+
+} // namespace
+
+// Strong ones first, so that weaker stems at the same pixel stand before them; the strongest again on top.
+void drawHits(const Canvas& canvas, const PictureInput& input, const HitColours& colours, const Axis& axis) {
+    const auto order = loudestFirst(input.events);
+    const double loudest = order.empty() ? 0.0 : decibels(order.front()->amplitude);
+    const LevelAxis levels{std::max(0.0, 10.0 * std::ceil(loudest / 10.0)), axis.lane};
+    drawLevelLabels(canvas, levels);
+    if (order.empty()) return canvas.text("no hits", axis.lane, J::centred, palette::muted);
+    const auto draw = [&](const CollisionEvent& event, juce::Colour colour, bool dot) {
+        const double seconds = static_cast<double>(event.timeNs) * 1e-9;
+        if (seconds < axis.from || seconds > axis.to) return;
+        drawStem(canvas, axis.x(seconds), static_cast<float>(axis.lane.getBottom()),
+                 levels.height(decibels(event.amplitude)), colour, dot);
+    };
+    for (const auto* event : order) draw(*event, colours.of(*event), order.size() <= mostDots);
+    draw(*order.front(), palette::now, true);
+}
+
+void drawLegend(const Canvas& canvas, const HitColours& colours, Area row) {
+    int width = -20; // nothing behind the last
+    for (const auto& c : colours.classes()) width += entryWidth(c);
+    const int share = row.getWidth() / std::max(static_cast<int>(colours.classes().size()), 1);
+    const bool fits = width <= row.getWidth();
+    if (fits) row = row.withLeft(row.getRight() - width);
+    for (const auto& c : colours.classes()) {
+        Area entry = row.removeFromLeft(fits ? entryWidth(c) : share);
+        canvas.graphics.setColour(c.colour);
+        canvas.graphics.fillEllipse(entry.removeFromLeft(18).withSizeKeepingCentre(11, 11).toFloat());
+        canvas.text(c.name, fits ? entry : entry.withTrimmedRight(10), J::centredLeft, palette::muted);
+    }
+}
+
+} // namespace physvib::picture

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One lane per channel: waveforms, or strips of brightness when there are too many.
+#include "Host/Pictures/PictureParts.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib::picture {
+namespace {
+
+using J = juce::Justification;
+
+constexpr int mostWaves = 16; // above, a lane is too low for a waveform and becomes a strip of brightness
+constexpr double stripFloorDecibels = -60.0; // of the loudest
+
+// The filled outline between the highest and lowest samples, at least a line thick and without gaps.
+void drawWave(const Canvas& canvas, const WaveformEnvelope& wave, int channel, Area lane) {
+    const float scale = wave.peak();
+    const auto middle = static_cast<float>(lane.getY()) + 0.5f * static_cast<float>(lane.getHeight());
+    const float gain = scale > 0.0f ? (0.5f * static_cast<float>(lane.getHeight()) - 1.0f) / scale : 0.0f;
+    const float step = static_cast<float>(lane.getWidth()) / WaveformEnvelope::columns;
+    std::vector<juce::Point<float>> below;
+    juce::Path outline;
+    SampleRange before = wave.column(channel, 0);
+    for (int i = 0; i < WaveformEnvelope::columns; ++i) {
+        const auto now = wave.column(channel, i);
+        const float high = std::max(now.highest, before.lowest), low = std::min(now.lowest, before.highest);
+        const float x = static_cast<float>(lane.getX()) + (static_cast<float>(i) + 0.5f) * step;
+        const juce::Point<float> top(x, middle - gain * high - 0.4f);
+        below.emplace_back(x, middle - gain * low + 0.4f);
+        i == 0 ? outline.startNewSubPath(top) : outline.lineTo(top);
+        before = now;
+    }
+    for (auto point = below.rbegin(); point != below.rend(); ++point) outline.lineTo(*point);
+    outline.closeSubPath();
+    canvas.graphics.setColour(palette::enchanter(channel));
+    canvas.graphics.fillPath(outline);
+    canvas.graphics.strokePath(outline,
+                               juce::PathStrokeType(0.8f)); // steep slopes stay as visible as flat ones
+}
+
+// Rows `from` to `to` of `count` that share the height without gaps.
+Area part(Area whole, int from, int to, int count) {
+    const int top = whole.getHeight() * from / count, bottom = whole.getHeight() * to / count;
+    return whole.withY(whole.getY() + top).withHeight(bottom - top);
+}
+
+void drawStrip(const Canvas& canvas, const WaveformEnvelope& wave, int channel, Area lane) {
+    const float step = static_cast<float>(lane.getWidth()) / WaveformEnvelope::columns;
+    if (wave.peak() == 0.0f) return;
+    for (int i = 0; i < WaveformEnvelope::columns; ++i) {
+        const auto range = wave.column(channel, i);
+        const double level =
+            decibels(std::max(std::abs(range.lowest), std::abs(range.highest)) / wave.peak());
+        const auto alpha = static_cast<float>(std::pow(std::max(0.0, 1.0 - level / stripFloorDecibels), 1.5));
+        canvas.graphics.setColour(palette::enchanter(channel).withAlpha(std::min(alpha, 1.0f)));
+        canvas.graphics.fillRect(static_cast<float>(lane.getX()) + static_cast<float>(i) * step,
+                                 static_cast<float>(lane.getY()), step, static_cast<float>(lane.getHeight()));
+    }
+}
+
+void drawBeside(const Canvas& canvas, const juce::String& label, juce::Colour colour, bool bold, float peak,
+                Area panelRow, Area lane) {
+    const Area row = panelRow.withSizeKeepingCentre(panelRow.getWidth(), std::max(panelRow.getHeight(), 18));
+    canvas.text(label, row.withRight(lane.getX() - 8), J::centredLeft, colour, smallText, bold);
+    canvas.text(decibelText(peak), row.withLeft(lane.getRight()), J::centredRight,
+                peak > 1.0f ? palette::limit : palette::muted);
+}
+
+Area besides(const PictureInput& input, Area lane) {
+    return {lane.getX() - laneOf(input, {}).getX(), lane.getY(),
+            laneOf(input, {}).getX() + lane.getWidth() + peakWidth, lane.getHeight()};
+}
+
+void drawWaves(const Canvas& canvas, const PictureInput& input, const WaveformEnvelope& wave,
+               const std::vector<int>& channels, const Axis& axis, const std::vector<double>& grid) {
+    const int count = static_cast<int>(channels.size());
+    for (int i = 0; i < count; ++i) {
+        const int channel = channels[static_cast<std::size_t>(i)];
+        const Area row = part(axis.lane, i, i + 1, count);
+        const Area lane = row.reduced(0, row.getHeight() >= 20 ? 2 : 1);
+        canvas.well(lane);
+        Axis{axis.from, axis.to, lane}.drawGrid(canvas, grid, palette::line);
+        drawWave(canvas, wave, channel, lane);
+        drawBeside(canvas, labelOf(input, channel), palette::enchanter(channel), true, wave.peak(channel),
+                   besides(input, row), lane);
+    }
+}
+
+// A label and the peak of its group stand where there is room for a line of text.
+void drawStrips(const Canvas& canvas, const PictureInput& input, const WaveformEnvelope& wave,
+                const std::vector<int>& channels, const Axis& axis) {
+    const int count = static_cast<int>(channels.size());
+    const int group = (count * 18 + axis.lane.getHeight() - 1) / axis.lane.getHeight();
+    canvas.well(axis.lane);
+    for (int i = 0; i < count; ++i)
+        drawStrip(canvas, wave, channels[static_cast<std::size_t>(i)],
+                  part(axis.lane, i, i + 1, count).withTrimmedBottom(1));
+    for (int i = 0; i < count; i += group) {
+        const int end = std::min(i + group, count);
+        float peak = 0.0f;
+        for (int k = i; k < end; ++k) peak = std::max(peak, wave.peak(channels[static_cast<std::size_t>(k)]));
+        const auto first = labelOf(input, channels[static_cast<std::size_t>(i)]);
+        const auto last = labelOf(input, channels[static_cast<std::size_t>(end) - 1]);
+        drawBeside(canvas, end - i > 1 ? first + juce::String::charToString(0x2013) + last : first,
+                   palette::muted, false, peak, besides(input, part(axis.lane, i, end, count)), axis.lane);
+    }
+}
+
+} // namespace
+
+void drawLanes(const Canvas& canvas, const PictureInput& input, const WaveformEnvelope& wave,
+               const std::vector<int>& channels, const Axis& axis, const std::vector<double>& grid) {
+    if (static_cast<int>(channels.size()) <= mostWaves)
+        return drawWaves(canvas, input, wave, channels, axis, grid);
+    drawStrips(canvas, input, wave, channels, axis);
+}
+
+juce::String fullHeight(const WaveformEnvelope& wave) {
+    if (wave.peak() == 0.0f) return "silence";
+    return "full height " + juce::String::charToString(0x00b1) + number(wave.peak(), 3) + " = " +
+           decibelText(wave.peak());
+}
+
+juce::String labelOf(const PictureInput& input, int channel) {
+    const auto index = static_cast<std::size_t>(channel);
+    if (index < input.labels.size()) return wordsOf(input.labels[index]);
+    return input.layout.count <= 26 ? juce::String::charToString(static_cast<juce::juce_wchar>('A' + channel))
+                                    : juce::String(channel + 1);
+}
+
+Area laneOf(const PictureInput& input, Area row) {
+    int widest = 38;
+    for (int c = 0; c < input.layout.count; ++c)
+        widest = std::max(widest, textWidth(labelOf(input, c), smallText, true));
+    return row.withTrimmedLeft(std::min(widest, 130) + 14).withTrimmedRight(peakWidth);
+}
+
+int lanesHeight(int channels) noexcept {
+    return channels <= 1 ? 100 : channels == 2 ? 140 : channels <= 8 ? 196 : 256;
+}
+
+} // namespace physvib::picture

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The panel that shows the world: field, bodies, hits as light, enchanters.
+#include "Host/Pictures/PictureLight.h"
+#include "Host/Pictures/PictureParts.h"
+#include "Host/Pictures/ShapeOutline.h"
+#include "Physics/SceneCast.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib::picture {
+namespace {
+
+using J = juce::Justification;
+
+/// Metres of the field, origin lower left, to pixels.
+struct FieldMap {
+    juce::Rectangle<float> field;
+    double pixelsPerMetre;
+    Spot at(double xMetres, double yMetres) const {
+        return {field.getX() + length(xMetres), field.getBottom() - length(yMetres)};
+    }
+    float length(double metres) const { return static_cast<float>(metres * pixelsPerMetre); }
+};
+
+FieldMap fitField(const PictureInput& input, Area room) {
+    const double width = std::max(input.fieldWidthMetres, 1e-9),
+                 height = std::max(input.fieldHeightMetres, 1e-9);
+    const double scale = std::min(room.getWidth() / width, room.getHeight() / height);
+    const auto w = static_cast<float>(width * scale), h = static_cast<float>(height * scale);
+    return {room.toFloat().withSizeKeepingCentre(std::max(w, 1.0f), std::max(h, 1.0f)), scale};
+}
+
+Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
+    const auto& place = input.layout.places[static_cast<std::size_t>(channel)];
+    const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.5; };
+    return map.at(share(place.xMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres,
+                  share(place.yMetres, input.layout.extentHeightMetres) * input.fieldHeightMetres);
+}
+
+// ---- bodies
+
+// What stands outside the field (walls, as a rule) shows as a frame of at most this width.
+constexpr float wallPixels = 12.0f;
+
+// A chain is a line: it is stroked, the others are filled.
+void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, bool isDynamic,
+                 const juce::AffineTransform& body, const FieldMap& map) {
+    const auto move = juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
+                          .translated(map.length(fixture.offsetMetres.x), -map.length(fixture.offsetMetres.y))
+                          .followedBy(body);
+    const auto outline = shapeOutline(fixture.shape, map.pixelsPerMetre);
+    const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
+    canvas.graphics.setColour(
+        palette::material(fixture.material).withMultipliedBrightness(isDynamic ? 0.9f : 0.6f));
+    isLine ? canvas.graphics.strokePath(outline, juce::PathStrokeType(3.0f), move)
+           : canvas.graphics.fillPath(outline, move);
+    if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) {
+        juce::Path spoke; // shows the rotation
+        spoke.startNewSubPath(0.0f, 0.0f);
+        spoke.lineTo(map.length(circle->radiusMetres), 0.0f);
+        canvas.graphics.setColour(palette::well.withAlpha(0.5f));
+        canvas.graphics.strokePath(spoke, juce::PathStrokeType(1.5f), move);
+    }
+    if (!fixture.isCamera) return;
+    canvas.graphics.setColour(palette::camera);
+    canvas.graphics.strokePath(outline, juce::PathStrokeType(isLine ? 1.0f : 2.0f), move);
+}
+
+void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyMark& mark, const FieldMap& map) {
+    const auto move = juce::AffineTransform::rotation(static_cast<float>(-mark.angleRadians))
+                          .translated(map.at(mark.xMetres, mark.yMetres));
+    for (const auto& fixture : body.fixtures)
+        drawFixture(canvas, fixture, body.type == BodyType::dynamicBody, move, map);
+}
+
+void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
+    if (input.scene == nullptr) return;
+    const juce::Graphics::ScopedSaveState whole(canvas.graphics);
+    canvas.graphics.reduceClipRegion(map.field.expanded(wallPixels).toNearestInt());
+    const auto cast = sceneCast(*input.scene);
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        const auto& at = cast[i].positionMetres;
+        const BodyMark start{at.x, at.y, cast[i].angleRadians, i < input.scene->bodies.size()};
+        const BodyMark& mark = i < input.bodies.size() ? input.bodies[i] : start;
+        if (mark.isPresent) drawBody(canvas, cast[i], mark, map);
+    }
+}
+
+// ---- hits
+
+void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours& colours,
+               const FieldMap& map, Area spill) {
+    const auto strongest = strongestEvent(input.events);
+    if (strongest < 0) return;
+    const double loudest = decibels(input.events[static_cast<std::size_t>(strongest)].amplitude);
+    Light light(spill);
+    for (const auto& event : input.events) {
+        const auto level = static_cast<float>(1.0 + (decibels(event.amplitude) - loudest) / 40.0);
+        if (level > 0.0f)
+            light.add(map.at(event.x, event.y), 5.0f + 33.0f * level * level, 0.05f + 0.9f * level * level,
+                      colours.of(event));
+    }
+    light.draw(canvas.graphics);
+}
+
+/// What a channel plays of the strongest hit, 1 for the loudest; 0 if the picture has no sound of it.
+float shareOf(const PictureInput& input, int channel) {
+    const bool known = input.zoom != nullptr && channel < input.zoom->channels() && input.zoom->peak() > 0.0f;
+    return known ? input.zoom->peak(channel) / input.zoom->peak() : 0.0f;
+}
+
+void drawHalos(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
+    for (int c = 0; c < input.layout.count; ++c) {
+        const auto centre = placeOf(input, map, c);
+        const float share = shareOf(input, c) * shareOf(input, c), radius = 20.0f + 60.0f * share;
+        const auto colour = palette::enchanter(c);
+        canvas.graphics.setGradientFill({colour.withAlpha(0.45f * share), centre, colour.withAlpha(0.0f),
+                                         centre.translated(radius, 0.0f), true});
+        canvas.graphics.fillEllipse(juce::Rectangle<float>(2.0f * radius, 2.0f * radius).withCentre(centre));
+    }
+}
+
+// Rings where it struck, and a line to each enchanter as wide and bright as what it plays of it.
+void drawStrongest(const Canvas& canvas, const PictureInput& input, const FieldMap& map,
+                   const CollisionEvent& hit) {
+    const auto centre = map.at(hit.x, hit.y);
+    for (int c = 0; c < input.layout.count; ++c) {
+        const float share = shareOf(input, c);
+        if (share <= 0.0f) continue;
+        canvas.graphics.setColour(palette::enchanter(c).withAlpha(0.65f * share));
+        canvas.graphics.drawLine({centre, placeOf(input, map, c)}, 0.8f + 2.2f * share);
+    }
+    for (int ring = 1; ring <= 3; ++ring) {
+        const auto r = 9.0f * static_cast<float>(ring);
+        canvas.graphics.setColour(palette::now.withAlpha(1.0f - 0.27f * static_cast<float>(ring)));
+        canvas.graphics.drawEllipse(juce::Rectangle<float>(2.0f * r, 2.0f * r).withCentre(centre), 1.6f);
+    }
+    canvas.graphics.setColour(juce::Colours::white);
+    canvas.graphics.fillEllipse(juce::Rectangle<float>(8.0f, 8.0f).withCentre(centre));
+}
+
+juce::String sentenceOn(const CollisionEvent& hit) {
+    return "Strongest hit at " + number(static_cast<double>(hit.timeNs) * 1e-9, 3) +
+           " s: " + shortNumber(hit.frequencyHz) + " Hz, " + juce::String::charToString(0x03c4) + " " +
+           shortNumber(hit.decayPerSecond) + " /s, " + decibelText(hit.amplitude) + ", at (" +
+           number(hit.x, 2) + ", " + number(hit.y, 2) + ") m";
+}
+
+// "wall right, struck by ball 3", as far as the event and the scene know.
+juce::String whoHitWhom(const PictureInput& input, const CollisionEvent& hit) {
+    const auto cast = input.scene != nullptr ? sceneCast(*input.scene) : std::vector<BodyDescription>{};
+    const auto name = [&](std::int32_t fixture) {
+        const auto body = bodyOfFixture(cast, fixture);
+        return body < cast.size() ? wordsOf(cast[body].name) : juce::String();
+    };
+    const auto felt = name(hit.source.fixture), by = name(hit.source.other);
+    return felt.isEmpty() || by.isEmpty() ? felt : felt + ", struck by " + by;
+}
+
+// ---- enchanters
+
+float closestPair(const PictureInput& input, const FieldMap& map) {
+    float closest = 400.0f; // alone
+    for (int a = 0; a < input.layout.count; ++a)
+        for (int b = a + 1; b < input.layout.count; ++b)
+            closest = std::min(closest, placeOf(input, map, a).getDistanceFrom(placeOf(input, map, b)));
+    return closest;
+}
+
+void drawDot(const Canvas& canvas, Spot centre, float size, juce::Colour colour) {
+    canvas.graphics.setColour(colour);
+    canvas.graphics.fillEllipse(juce::Rectangle<float>(size, size).withCentre(centre));
+}
+
+void drawBadge(const Canvas& canvas, const juce::String& label, juce::Rectangle<float> badge,
+               juce::Colour colour) {
+    canvas.graphics.setColour(palette::well);
+    canvas.graphics.fillRoundedRectangle(badge, 6.0f);
+    canvas.graphics.setColour(colour);
+    canvas.graphics.drawRoundedRectangle(badge, 6.0f, 2.0f);
+    canvas.text(label, badge.toNearestInt(), J::centred, colour, smallText, true);
+}
+
+// As large as the closest pair allows; too close for a label, it is a dot.
+void drawEnchanters(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel) {
+    const float closest = closestPair(input, map), size = juce::jlimit(7.0f, 32.0f, 0.8f * closest);
+    for (int c = 0; c < input.layout.count; ++c) {
+        const auto centre = placeOf(input, map, c);
+        const auto label = labelOf(input, c);
+        const float width = std::max(size, static_cast<float>(textWidth(label, smallText, true)) + 14.0f);
+        const bool room = size >= 21.0f && width <= std::max(size, 0.8f * closest);
+        const auto badge = juce::Rectangle<float>(width, size).withCentre(centre);
+        room ? drawBadge(canvas, label, badge.constrainedWithin(panel.reduced(6).toFloat()),
+                         palette::enchanter(c))
+             : drawDot(canvas, centre, 0.7f * size, palette::enchanter(c));
+    }
+}
+
+juce::String remarkOn(const PictureInput& input) {
+    const juce::String times = juce::String::charToString(0x00d7);
+    const auto size =
+        shortNumber(input.fieldWidthMetres) + " " + times + " " + shortNumber(input.fieldHeightMetres) + " m";
+    return input.scene != nullptr && strongestEvent(input.events) >= 0
+               ? size + ", bodies as at the strongest hit"
+               : size;
+}
+
+} // namespace
+
+void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours& colours, Area panel) {
+    canvas.panel(panel);
+    const Area spill = panel;
+    panel.reduce(20, 12);
+    const auto heading = panel.removeFromTop(24), second = panel.removeFromBottom(20),
+               first = panel.removeFromBottom(26);
+    const auto map = fitField(input, panel.reduced(22, 22));
+    const auto strongest = strongestEvent(input.events);
+    {
+        const juce::Graphics::ScopedSaveState whole(canvas.graphics);
+        canvas.graphics.reduceClipRegion(spill);
+        canvas.well(map.field.toNearestInt());
+        canvas.graphics.setColour(palette::line);
+        canvas.graphics.drawRoundedRectangle(map.field, 3.0f, 1.0f);
+        drawHalos(canvas, input, map);
+        drawBodies(canvas, input, map);
+        drawGlows(canvas, input, colours, map, spill);
+        if (strongest >= 0)
+            drawStrongest(canvas, input, map, input.events[static_cast<std::size_t>(strongest)]);
+        drawEnchanters(canvas, input, map, spill);
+    }
+    canvas.heading("WORLD", remarkOn(input), heading);
+    if (strongest < 0)
+        return canvas.text("Nothing was struck.", first, J::centredLeft, palette::muted, mediumText);
+    const auto& hit = input.events[static_cast<std::size_t>(strongest)];
+    canvas.text(sentenceOn(hit), first, J::centredLeft, palette::now, mediumText);
+    canvas.text(whoHitWhom(input, hit), second, J::centredLeft, palette::muted);
+}
+
+} // namespace physvib::picture

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Panels on a page as high as they need.
+#include "Host/Pictures/StudyPage.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib::picture {
+namespace {
+
+using J = juce::Justification;
+
+constexpr int width = 1600, margin = 24, gap = 14, headerHeight = 84, footerHeight = 42, padding = 20;
+
+void drawWatermark(const Canvas& canvas, Area page) {
+    constexpr float size = 150.0f;
+    juce::Graphics& g = canvas.graphics;
+    for (int y = page.getY() + 260; y < page.getBottom() - 100; y += 420) {
+        const juce::Graphics::ScopedSaveState state(g);
+        g.addTransform(juce::AffineTransform::rotation(-0.25f, static_cast<float>(page.getCentreX()), static_cast<float>(y)));
+        canvas.text("SIMULATED", Area(page.getX(), y - 100, page.getWidth(), 200), J::centred, palette::text.withAlpha(0.13f), size, true);
+    }
+}
+
+std::string pngOf(const juce::Image& image) {
+    juce::MemoryOutputStream out;
+    juce::PNGImageFormat().writeImageToStream(image, out);
+    return {static_cast<const char*>(out.getData()), out.getDataSize()};
+}
+
+} // namespace
+
+std::string studyPagePng(const StudyPage& page, const PictureWords& words) {
+    const int across = static_cast<int>(std::min(page.acrossMost, page.count));
+    const int rows = (static_cast<int>(page.count) + across - 1) / across;
+    const int height = headerHeight + rows * (page.panelHeight + gap) + footerHeight;
+    juce::Image image(juce::Image::RGB, width, height, true, juce::SoftwareImageType());
+    juce::Graphics graphics(image);
+    graphics.fillAll(palette::ground);
+    const Canvas canvas{graphics};
+    Area header(margin, 16, width - 2 * margin, 60);
+    const juce::String mark = words.isSimulated ? "simulated observer, no person" : "";
+    canvas.text(mark, header, J::topRight, palette::now, mediumText, true);
+    canvas.text(wordsOf(page.title), header.removeFromTop(36), J::centredLeft, palette::text, largeText, true);
+    canvas.text(page.subtitle, header, J::centredLeft, palette::muted);
+    const int panelWidth = (width - 2 * margin - (across - 1) * gap) / across;
+    for (int i = 0; i < static_cast<int>(page.count); ++i) {
+        const Area panel(margin + i % across * (panelWidth + gap), headerHeight + i / across * (page.panelHeight + gap), panelWidth, page.panelHeight);
+        canvas.panel(panel);
+        page.draw(canvas, static_cast<std::size_t>(i), panel.reduced(padding, 12));
+    }
+    if (words.isSimulated) drawWatermark(canvas, Area(0, headerHeight - 60, width, height - headerHeight));
+    Area footer(margin, height - footerHeight, width - 2 * margin, footerHeight - 6);
+    canvas.text(wordsOf(words.source), footer.removeFromLeft(footer.getWidth() * 3 / 5), J::centredLeft, palette::text);
+    canvas.text(wordsOf(words.provenance), footer, J::centredRight, palette::muted);
+    return pngOf(image);
+}
+
+juce::Colour shareColour(double share) {
+    if (share <= 0.0) return palette::well;
+    const auto level = static_cast<float>(0.12 + 0.88 * std::sqrt(share)); // a single wrong answer in a hundred is visible
+    return palette::well.interpolatedWith(palette::enchanter(0), std::min(level, 1.0f));
+}
+
+void drawBar(const Canvas& canvas, Area row, int nameWidth, const juce::String& name, double share, double least, double most,
+             const juce::String& value, juce::Colour colour, double from) {
+    canvas.text(name, row.removeFromLeft(nameWidth).withTrimmedRight(12), J::centredRight, palette::text);
+    canvas.text(value, row.removeFromRight(76), J::centredRight, palette::text);
+    const Area lane = row.reduced(0, 2).withTrimmedRight(8);
+    canvas.well(lane);
+    const auto x = [&](double at) { return static_cast<float>(lane.getX() + at * lane.getWidth()); };
+    const auto top = static_cast<float>(lane.getY()), height = static_cast<float>(lane.getHeight());
+    canvas.graphics.setColour(colour.withMultipliedAlpha(0.85f));
+    const auto [left, right] = std::minmax({x(from), x(share)}); // by value
+    canvas.graphics.fillRoundedRectangle(left, top, right - left, height, 3.0f);
+    if (!(most > least)) return;
+    canvas.graphics.setColour(palette::text);
+    canvas.graphics.fillRect(x(least), top + 0.5f * height - 1.0f, x(most) - x(least), 2.0f);
+    for (const double end : {least, most}) canvas.graphics.fillRect(x(end) - 1.0f, top + 0.25f * height, 2.0f, 0.5f * height);
+}
+
+} // namespace physvib::picture

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Read, cut, normalised.
+#include "Host/Recordings/LoadContact.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Disk/ReadFile.h"
+#include "Measure/HitExcerpt.h"
+#include "Host/Recordings/ReadRecording.h"
+#include "Measure/RecordingFaults.h"
+#include "Host/Recordings/SyntheticContact.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+float peakOf(const std::vector<float>& x) {
+    float peak = 0.0f;
+    for (const float s : x) peak = std::max(peak, std::isfinite(s) ? std::abs(s) : HUGE_VALF);
+    return peak;
+}
+
+void normalise(std::vector<float>& samples) {
+    const float peak = peakOf(samples);
+    for (float& x : samples) x /= peak;
+}
+
+constexpr int syntheticRateHz = 48000;
+constexpr double assumedDecayPerSecond = 40.0; // of what is synthetic, where no material says
+
+Result<ContactRecording> readContact(const RecordingFile& file) {
+    constexpr double shortestSeconds = 0.001;
+    const std::string& path = file.path;
+    if (const auto seed = syntheticSeed(path)) {
+        const double decay = file.decayPerSecond > 0.0 ? file.decayPerSecond : assumedDecayPerSecond;
+        return ContactRecording{file.frequencyHz, syntheticRateHz, syntheticContact(file.frequencyHz, decay, *seed, syntheticRateHz), file};
+    }
+    const auto read = readRecording(path);
+    if (!read) return Failure{read.error};
+    const std::vector<float>& heard = *std::ranges::max_element(read.value.channels, {}, peakOf);
+    const double rateHz = read.value.sampleRateHz;
+    std::string fault = recordingFault(heard, rateHz, shortestSeconds);
+    if (fault.empty() && isSilent(heard)) fault = "expected a hit, found silence";
+    if (fault.empty()) fault = clippingFault(heard, rateHz);
+    if (!fault.empty()) return Failure{path + ": " + fault};
+    const HitExcerpt hit = strongestHit(heard, rateHz);
+    ContactRecording contact{file.frequencyHz, read.value.sampleRateHz, {heard.begin() + static_cast<std::ptrdiff_t>(hit.begin), heard.begin() + static_cast<std::ptrdiff_t>(hit.end)}, file};
+    for (float& x : contact.samples) x -= static_cast<float>(hit.offset);
+    if (!(peakOf(contact.samples) > 0.0f)) return Failure{path + ": expected a hit, found silence"};
+    return contact;
+}
+
+/// Empty, or that the file is not what it was.
+std::string takeHash(RecordingFile& file) {
+    if (syntheticSeed(file.path)) return {};
+    const auto bytes = readFile(file.path, limits::maxRecordingFileBytes);
+    if (!bytes) return bytes.error;
+    const std::string hash = contentHash(bytes.value);
+    if (!file.hash.empty() && file.hash != hash) return file.path + ": expected the recording with the hash " + file.hash + ", found " + hash + ": it has changed since";
+    file.hash = hash;
+    return {};
+}
+
+double energyOf(const std::vector<float>& samples, int rateHz) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < std::min(samples.size(), static_cast<std::size_t>(matchedSeconds * rateHz)); ++n) sum += double{samples[n]} * samples[n];
+    return sum / rateHz;
+}
+
+/// Of the mode whose envelope begins at 1.
+double energyOfMode(double frequencyHz, double decayPerSecond, int rateHz) {
+    std::vector<float> mode(static_cast<std::size_t>(matchedSeconds * rateHz));
+    for (std::size_t n = 0; n < mode.size(); ++n) {
+        const double t = static_cast<double>(n) / rateHz;
+        mode[n] = static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * t) * std::exp(-decayPerSecond * t));
+    }
+    return energyOf(mode, rateHz);
+}
+
+} // namespace
+
+Result<ContactRecording> loadContact(const RecordingFile& file) {
+    auto contact = readContact(file);
+    if (!contact) return contact;
+    if (auto fault = takeHash(contact.value.file); !fault.empty()) return Failure{fault};
+    auto& [frequencyHz, rateHz, samples, source] = contact.value;
+    normalise(samples);
+    if (!file.isMatched || !(file.decayPerSecond > 0.0)) return contact;
+    const auto gain = static_cast<float>(std::sqrt(energyOfMode(frequencyHz, file.decayPerSecond, rateHz) / energyOf(samples, rateHz)));
+    for (float& x : samples) x *= gain;
+    return contact;
+}
+
+} // namespace physvib

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a live session plays, to a WAV file: the render role fills a ring, the message thread empties it to disk.
+#pragma once
+#include "Host/Devices/SignalTap.h"
+#include "Host/Recordings/WavSink.h"
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+namespace physvib {
+
+/// Every channel of the session, or the first ones, in their own level (before the output's master gain).
+class PlayedRecorder {
+public:
+    /// Room for `seconds` until drain() is called. M.
+    PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds = 4.0)
+        : sampleRateHz_{sampleRateHz}
+        , wav_{path, channels, sampleRateHz}
+        , tap_{channels, static_cast<int>(seconds * sampleRateHz)} {}
+
+    /// Empty, or one line with the reason. M.
+    const std::string& error() const noexcept { return wav_.error(); }
+
+    int sampleRateHz() const noexcept { return sampleRateHz_; }
+
+    /// `sessionFrame`: that of the first one. R, wait-free. Frames that find no room are lost and counted.
+    void take(const float* const* channels, int frames, std::int64_t sessionFrame) noexcept PHYSVIB_NONBLOCKING {
+        if (firstFrame_.load(std::memory_order_relaxed) < 0) firstFrame_.store(sessionFrame, std::memory_order_relaxed);
+        tap_.take(channels, frames);
+    }
+
+    /// Writes what has come. M, often enough.
+    void drain();
+
+    /// The last samples, the header, and the file is in its place; empty or one line with the reason. M, after R stopped.
+    const std::string& finish();
+
+    std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); } ///< of the session; -1: nothing yet
+    std::int64_t frames() const noexcept { return written_; }                                       ///< in the file. M
+    std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
+
+private:
+    int sampleRateHz_;
+    WavSink wav_;
+    SignalTap tap_;
+    std::atomic<std::int64_t> firstFrame_{-1};
+    std::int64_t written_ = 0;
+};
+
+} // namespace physvib

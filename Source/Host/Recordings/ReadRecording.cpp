@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// WAV by our own reader, FLAC and Ogg Vorbis by JUCE's, which believe what a file says of itself: so it is looked at first.
+#include "Host/Recordings/ReadRecording.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Disk/ReadFile.h"
+#include "Files/WavFile.h"
+#include "Host/Recordings/RecordingStream.h"
+#include <algorithm>
+#include <array>
+#include <juce_audio_formats/juce_audio_formats.h>
+#include <string_view>
+
+namespace physvib {
+namespace {
+
+constexpr int blockFrames = 1 << 16;
+constexpr int vorbisReadsAhead = 4096; // JUCE's reader does, also where no samples are
+
+constexpr const char* notASound = "expected a WAV, FLAC or Ogg Vorbis file";
+
+/// Empty, or why JUCE's reader must not see the file: it takes what the last of several descriptions says, scans all for a
+/// length that is not told, and cuts its highest bits off.
+std::string flacFault(std::FILE& file) {
+    std::array<unsigned char, 42> head{}; // "fLaC", a block's header, its description of the stream
+    if (std::fread(head.data(), 1, head.size(), &file) != head.size() || (head[4] & 0x7f) != 0) return notASound;
+    const auto at = [&](std::size_t i) { return static_cast<std::int64_t>(head[i]); };
+    const SoundShape shape{at(18) << 12 | at(19) << 4 | at(20) >> 4, (at(20) >> 1 & 7) + 1, (at(21) & 15) << 32 | at(22) << 24 | at(23) << 16 | at(24) << 8 | at(25)};
+    if (shape.frames == 0) return "expected a FLAC file that says how long it is";
+    bool isLast = (head[4] & 0x80) != 0;
+    for (std::array<unsigned char, 4> block{}; !isLast && std::fread(block.data(), 1, block.size(), &file) == block.size();) {
+        if ((block[0] & 0x7f) == 0) return "expected one description of the stream";
+        isLast = (block[0] & 0x80) != 0;
+        if (std::fseek(&file, block[1] << 16 | block[2] << 8 | block[3], SEEK_CUR) != 0) break;
+    }
+    return soundFault(shape);
+}
+
+/// Empty, or that several streams follow one another: JUCE's reader takes all for as wide as the last.
+std::string oggFault(std::FILE& file) {
+    constexpr std::string_view page{"OggS\0", 5};
+    constexpr char begins = 2;
+    std::string block(page.size(), '\0');
+    int streams = 0;
+    for (std::array<char, 65536> bytes; const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), &file);) {
+        block.erase(0, block.size() - page.size()).append(bytes.data(), count); // a page may begin in one block and go on in the next
+        for (std::size_t i = block.find(page); i != std::string::npos && i + page.size() < block.size(); i = block.find(page, i + 1))
+            streams += (block[i + page.size()] & begins) != 0;
+    }
+    return streams == 1 ? "" : streams == 0 ? notASound : "expected one stream of sound, found several";
+}
+
+std::unique_ptr<juce::AudioFormatReader> openReader(std::unique_ptr<juce::InputStream> stream) {
+    juce::AudioFormatManager formats;
+    formats.registerBasicFormats();
+    return std::unique_ptr<juce::AudioFormatReader>{formats.createReaderFor(std::move(stream))};
+}
+
+Result<SampledSound> decode(std::FILE& file, std::size_t fileBytes, bool isOgg) {
+    auto owned = std::make_unique<RecordingStream>(file, static_cast<std::int64_t>(fileBytes));
+    RecordingStream& stream = *owned;
+    const auto reader = openReader(std::move(owned));
+    if (!reader) return Failure{notASound};
+    const SoundShape shape{juce::roundToInt(reader->sampleRate), static_cast<std::int64_t>(reader->numChannels), reader->lengthInSamples};
+    if (auto fault = soundFault(shape); !fault.empty()) return Failure{fault};
+    SampledSound sound{static_cast<int>(shape.sampleRateHz), std::vector<std::vector<float>>(reader->numChannels)};
+    juce::AudioBuffer<float> block(static_cast<int>(shape.channels), blockFrames);
+    stream.forget();
+    for (std::int64_t at = 0; at < shape.frames;) {
+        const auto count = static_cast<int>(std::min<std::int64_t>(blockFrames, shape.frames - at));
+        const bool isRead = reader->read(&block, 0, count, at, true, true);
+        at += count;
+        if (!isRead || (stream.isAskedTooMuch() && !(isOgg && shape.frames - at < vorbisReadsAhead)))
+            return Failure{"expected " + std::to_string(shape.frames) + " samples in each channel, as its header says: it ends early"};
+        for (int j = 0; j < block.getNumChannels(); ++j)
+            sound.channels[static_cast<std::size_t>(j)].insert(sound.channels[static_cast<std::size_t>(j)].end(), block.getReadPointer(j), block.getReadPointer(j) + count);
+    }
+    return sound;
+}
+
+Result<SampledSound> readSound(std::FILE& file, std::size_t fileBytes) {
+    std::array<char, 4> head{};
+    const std::string_view kind{head.data(), std::fread(head.data(), 1, head.size(), &file)};
+    std::rewind(&file);
+    if (kind == "RIFF" || kind == "RF64") return readWav(file);
+    if (kind != "fLaC" && kind != "OggS") return Failure{notASound};
+    const bool isOgg = kind == "OggS";
+    if (auto fault = isOgg ? oggFault(file) : flacFault(file); !fault.empty()) return Failure{fault};
+    std::rewind(&file);
+    return decode(file, fileBytes, isOgg);
+}
+
+} // namespace
+
+Result<SampledSound> readRecording(const std::filesystem::path& path) {
+    const auto file = openRegular(path, limits::maxRecordingFileBytes);
+    if (!file) return Failure{file.error};
+    auto sound = readSound(*file.value.stream, file.value.bytes);
+    if (!sound) return Failure{path.string() + ": " + sound.error};
+    return sound;
+}
+
+} // namespace physvib

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// JUCE's WAV writer with the extensible header it leaves out, into a file that is not JUCE's: that one swallows errors of
+// writing, takes descriptor 0 for none, and opens by name.
+#include "Host/Recordings/WavSink.h"
+#include "Files/Text/CleanText.h"
+#include <juce_audio_formats/juce_audio_formats.h>
+
+namespace physvib {
+namespace {
+
+constexpr size_t bufferBytes = 1 << 18;  // a quarter of a megabyte per system call
+constexpr std::int64_t junkChunkAt = 12; // behind RIFF, size and WAVE
+constexpr std::int64_t rf64Bytes = std::int64_t{1} << 32;
+
+/// What JUCE's writer writes to; the file, which outlives it, remembers errors.
+class FileStream final : public juce::OutputStream {
+public:
+    explicit FileStream(AtomicFile& file)
+        : file_{file} {
+        waiting_.reserve(bufferBytes);
+    }
+    ~FileStream() override { empty(); }
+    void flush() override {} // the writer's wish at its end; then the buffer is emptied anyway
+    juce::int64 getPosition() override { return at_ + static_cast<juce::int64>(waiting_.size()); }
+    bool setPosition(juce::int64 position) override {
+        empty();
+        at_ = position;
+        return file_.error().empty();
+    }
+    bool write(const void* data, size_t bytes) override {
+        if (waiting_.size() + bytes > bufferBytes) empty();
+        waiting_.append(static_cast<const char*>(data), bytes);
+        return file_.error().empty();
+    }
+
+private:
+    void empty() {
+        file_.writeAt(at_, waiting_);
+        at_ += static_cast<juce::int64>(waiting_.size());
+        waiting_.clear();
+    }
+
+    AtomicFile& file_;
+    juce::int64 at_ = 0;
+    std::string waiting_;
+};
+
+juce::StringPairArray infoChunk(const std::string& comment) {
+    juce::StringPairArray info;
+    if (!comment.empty())
+        info.set(juce::WavAudioFormat::riffInfoComment2, juce::String::fromUTF8(cleanLine(comment).c_str()));
+    return info;
+}
+
+} // namespace
+
+WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRateHz, const std::string& comment)
+    : file_{path}
+    , channels_(channels)
+    , sampleRateHz_(sampleRateHz) {
+    auto stream = std::make_unique<FileStream>(file_);
+    writer_.reset(juce::WavAudioFormat().createWriterFor(stream.get(), sampleRateHz,
+                                                         juce::AudioChannelSet::discreteChannels(channels),
+                                                         32, infoChunk(comment), 0));
+    stream.release(); // now the writer's, which there is for 32 bits
+}
+
+WavSink::~WavSink() = default;
+
+bool WavSink::write(const float* const* channels, int frames) {
+    if (!error().empty() || writer_ == nullptr) return false;
+    if (frames <= 0) return true;
+    writer_->writeFromFloatArrays(channels, channels_, frames);
+    dataBytes_ += std::int64_t{frames} * channels_ * 4;
+    return error().empty();
+}
+
+const std::string& WavSink::complete() {
+    if (writer_ == nullptr) return error();
+    writer_.reset(); // its destructor writes the sizes into the header
+    if (channels_ > 2 && dataBytes_ < rf64Bytes) file_.writeAt(junkChunkAt, extensibleHeader());
+    return error();
+}
+
+const std::string& WavSink::finish() { return complete().empty() ? file_.commit() : error(); }
+
+// JUCE writes the extensible form for speaker layouts and RF64 only. Its JUNK chunk (kept for RF64) is 24
+// bytes longer before a plain format chunk, so the extensible pair fits into the same 84 bytes.
+std::string WavSink::extensibleHeader() const {
+    constexpr juce::uint8 floatFormat[] = {3, 0, 0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71};
+    const int frameBytes = channels_ * 4;
+    juce::MemoryOutputStream header;
+    header.write("JUNK", 4);
+    header.writeInt(28);
+    header.writeRepeatedByte(0, 28);
+    header.write("fmt ", 4);
+    header.writeInt(40);
+    header.writeShort(static_cast<short>(0xfffe));
+    header.writeShort(static_cast<short>(channels_));
+    header.writeInt(sampleRateHz_);
+    header.writeInt(sampleRateHz_ * frameBytes);
+    header.writeShort(static_cast<short>(frameBytes));
+    header.writeShort(32);
+    header.writeShort(22); // bytes that follow
+    header.writeShort(32); // valid bits
+    header.writeInt(0);    // no speakers
+    header.write(floatFormat, sizeof(floatFormat));
+    return {static_cast<const char*>(header.getData()), header.getDataSize()};
+}
+
+} // namespace physvib

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Partials of one hit whose onset is not known exactly: both are found together.
+#pragma once
+#include "Measure/PartialFit.h"
+#include "Measure/StruckFit.h"
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace physvib {
+
+/// Takes partial after partial into the fit, as long as each explains more than noise would, and moves the onset to where
+/// the model explains most. Partials that overlap are looked for from other starts as well, and where Eq. 5.1 (all begin at
+/// one moment, at rest) explains the hit as well as free phases do, it is taken: it needs fewer numbers. M only.
+class HitFit {
+public:
+    /// `guess`: the onset in `samples`, to begin with; it moves by onsetReachSeconds per partial at most.
+    HitFit(std::vector<double> samples, std::size_t guess, double rateHz);
+    HitFit(const HitFit&) = delete; // the fits refer to the samples
+    HitFit& operator=(const HitFit&) = delete;
+
+    std::vector<Partial> partials() const { return struck_ ? struck_->partials() : fit_.partials(); } ///< time 0 is the onset
+    PartialError errorOf(std::size_t partial) const; ///< Cramer-Rao bound in noise of the residual's density about the partial
+    double onsetSeconds() const noexcept { return struck_ ? struck_->onsetSeconds() : static_cast<double>(onset_) / rateHz_; }
+    double seconds() const noexcept { return static_cast<double>(samples_.size()) / rateHz_ - onsetSeconds(); } ///< after the onset
+    double energy() const noexcept { return energy_; }
+    double unexplainedEnergy() const { return struck_ ? struck_->residualEnergy() : energyBeforeOnset() + fit_.residualEnergy(); }
+
+private:
+    void addPartials();
+    void tryOtherStarts();
+    void tryFree(const std::vector<Partial>& starts);
+    void tryStruck(const std::vector<Partial>& starts);
+    bool moveOnset();
+    void restart(std::size_t onset, const std::vector<Partial>& partials);
+    double energyBeforeOnset() const;
+    double noiseAbout(const Partial& partial) const;
+    double costOf(double unexplained, std::size_t numbers) const;
+    std::span<const double> rest() const { return std::span(samples_).subspan(onset_); }
+
+    std::vector<double> samples_;
+    std::size_t onset_;
+    double rateHz_;
+    double energy_;
+    PartialFit fit_;
+    std::optional<StruckFit> struck_; ///< if it is the better one
+    double cost_ = 0.0;
+};
+
+} // namespace physvib

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Checks, then the excerpt, then one of the two rules.
+#include "Measure/MaterialExtractor.h"
+#include "Files/Text/NumberText.h"
+#include "Measure/HitExcerpt.h"
+#include "Measure/HitFit.h"
+#include "Measure/RecordingFaults.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace physvib {
+namespace {
+
+constexpr double shortestSeconds = 0.01; // half a period of the lowest frequency that is felt
+constexpr double slowestTau = 0.5;        // a partial that lasts longer was there before the hit: hum
+
+double power(std::span<const double> samples) {
+    double sum = 0.0;
+    for (const double x : samples) sum += x * x;
+    return samples.empty() ? 0.0 : sum / static_cast<double>(samples.size());
+}
+
+std::string faultOf(const std::vector<float>& x, double rateHz, ExtractionBand band) {
+    if (!(rateHz > 0.0) || !(band.lowHz > 0.0) || !(band.highHz > band.lowHz)) return "expected a band of two rising frequencies";
+    if (band.highHz > 0.5 * rateHz) return "expected a band below half the rate of " + fixedNumber(rateHz, 0) + " Hz, found " + numberText(band.highHz) + " Hz";
+    if (auto fault = recordingFault(x, rateHz, shortestSeconds); !fault.empty()) return fault;
+    if (isSilent(x)) return "expected a hit, found silence";
+    return clippingFault(x, rateHz);
+}
+
+std::string noneIn(ExtractionBand band) { return "expected a decaying sound from " + numberText(band.lowHz) + " to " + numberText(band.highHz) + " Hz, found none"; }
+
+std::vector<double> cut(const std::vector<float>& samples, std::size_t begin, std::size_t end, double offset) {
+    std::vector<double> all(samples.begin() + static_cast<std::ptrdiff_t>(begin), samples.begin() + static_cast<std::ptrdiff_t>(end));
+    for (double& x : all) x -= offset;
+    return all;
+}
+
+Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& hit, double rateHz, ExtractionBand band) {
+    const std::size_t begin = hit.begin - std::min(hit.begin, samplesIn(onsetReachSeconds, rateHz));
+    const HitFit hitFit{cut(samples, begin, hit.end, hit.offset), hit.begin - begin, rateHz};
+    const std::vector<Partial> partials = hitFit.partials();
+    std::size_t best = partials.size();
+    for (std::size_t k = 0; k < partials.size(); ++k) {
+        const double hz = partials[k].omega / (2.0 * std::numbers::pi);
+        const bool isWanted = hz >= band.lowHz && hz <= band.highHz && partials[k].tau >= slowestTau;
+        const auto height = [&](std::size_t at) { return partials[at].spectralPeak(hitFit.seconds()); };
+        if (isWanted && (best == partials.size() || height(k) > height(best))) best = k;
+    }
+    if (best == partials.size()) return Failure{noneIn(band)};
+    const PartialError error = hitFit.errorOf(best);
+    const Partial& p = partials[best];
+    ContactSound sound;
+    sound.frequencyHz = p.omega / (2.0 * std::numbers::pi);
+    sound.decayPerSecond = p.tau;
+    sound.frequencyErrorHz = error.omega / (2.0 * std::numbers::pi);
+    sound.decayErrorPerSecond = error.tau;
+    sound.residualShare = hitFit.unexplainedEnergy() / hitFit.energy();
+    sound.partials = static_cast<int>(partials.size());
+    double own = 0.0;
+    for (double t = 0.0; t < hitFit.seconds(); t += 1.0 / rateHz) own += p.at(t) * p.at(t);
+    sound.ownShare = own / hitFit.energy();
+    sound.beginSeconds = static_cast<double>(begin) / rateHz + hitFit.onsetSeconds();
+    sound.lengthSeconds = hitFit.seconds();
+    return sound;
+}
+
+struct TimePeak {
+    double seconds, height;
+};
+
+/// The local maxima of |x|, between samples, highest first; of those nearer than `apart` only the highest.
+std::vector<TimePeak> twoHighest(std::span<const double> x, double rateHz, double apart) {
+    std::vector<TimePeak> all;
+    for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+        const double a = std::abs(x[i - 1]), b = std::abs(x[i]), c = std::abs(x[i + 1]);
+        if (!(b > a && b >= c)) continue;
+        const double bend = a - 2.0 * b + c, at = 0.5 * (a - c) / bend; // the vertex of the parabola through them
+        all.push_back({(static_cast<double>(i) + at) / rateHz, b - 0.25 * (a - c) * at});
+    }
+    std::ranges::sort(all, std::greater{}, &TimePeak::height);
+    std::vector<TimePeak> two;
+    for (const TimePeak& peak : all)
+        if (two.size() < 2 && (two.empty() || std::abs(peak.seconds - two.front().seconds) >= apart)) two.push_back(peak);
+    return two;
+}
+
+Result<ContactSound> byTwoPeaks(const std::vector<float>& samples, const HitExcerpt& hit, double rateHz, ExtractionBand band) {
+    const std::vector<double> x = cut(samples, hit.begin, hit.end, hit.offset);
+    ContactSound sound;
+    sound.frequencyHz = highestPeakHz(x, rateHz, band.lowHz, band.highHz);
+    const auto two = twoHighest(x, rateHz, 0.25 / sound.frequencyHz);
+    if (two.size() < 2) return Failure{"two-peaks: expected two peaks in time, found " + std::to_string(two.size())};
+    sound.decayPerSecond = std::log(two[0].height / two[1].height) / (two[1].seconds - two[0].seconds);
+    if (!(sound.decayPerSecond > 0.0)) return Failure{"two-peaks: expected the higher peak before the lower one, found it after"};
+    sound.partials = 1;
+    PartialFit fit{x, rateHz};
+    fit.add({2.0 * std::numbers::pi * sound.frequencyHz, sound.decayPerSecond, 0.0, 0.0});
+    fit.solveLinear();
+    const double energy = power(x) * static_cast<double>(x.size());
+    sound.residualShare = fit.residualEnergy() / energy;
+    sound.ownShare = 1.0 - sound.residualShare;
+    sound.beginSeconds = static_cast<double>(hit.begin) / rateHz;
+    sound.lengthSeconds = static_cast<double>(x.size()) / rateHz;
+    return sound;
+}
+
+} // namespace
+
+bool ContactSound::isConfident() const noexcept {
+    return frequencyErrorHz > 0.0 && frequencyErrorHz < 0.005 * frequencyHz && decayErrorPerSecond < 0.05 * decayPerSecond && residualShare < 0.5;
+}
+
+Result<ContactSound> extractMaterial(const std::vector<float>& samples, double rateHz, ExtractionBand band, MaterialRule rule) {
+    if (auto fault = faultOf(samples, rateHz, band); !fault.empty()) return Failure{std::move(fault)};
+    const HitExcerpt hit = strongestHit(samples, rateHz);
+    if (static_cast<double>(hit.end - hit.begin) < shortestSeconds * rateHz)
+        return Failure{"expected a hit and " + numberText(shortestSeconds) + " s after it, found its end" + placeOf(hit.end, rateHz)};
+    return rule == MaterialRule::fit ? byFit(samples, hit, rateHz, band) : byTwoPeaks(samples, hit, rateHz, band);
+}
+
+} // namespace physvib

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Start values from the residual's spectrum and matched filters; then all four numbers of every partial at once.
+#include "Measure/PartialFit.h"
+#include "Measure/DecayingPhasor.h"
+#include "Measure/Spectrum.h"
+#include <algorithm>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double lowestHz = 10.0;     // below: drift, not vibration
+constexpr double leastTau = 0.01, mostTau = 5000.0; // a hum; a click
+
+/// Numbers of one partial in the order in which they stand in the equations.
+constexpr std::size_t numbersEach = 4;
+
+void subtract(std::vector<double>& samples, const Partial& p, double rateHz) {
+    DecayingPhasor phasor{p.omega, p.tau, rateHz};
+    for (double& x : samples) {
+        x -= p.cosine * phasor.cosine() + p.sine * phasor.sine();
+        phasor.next();
+    }
+}
+
+double energyOf(std::span<const double> samples) {
+    double sum = 0.0;
+    for (const double x : samples) sum += x * x;
+    return sum;
+}
+
+/// The amplitudes that fit best at p's frequency and decay; the energy that this takes away.
+double solveAmplitudes(std::span<const double> samples, double rateHz, Partial& p) {
+    const Complex<double> point = pointOfSpectrum(samples, rateHz, p.omega, p.tau);
+    double cc = 0.0, ss = 0.0, cs = 0.0;
+    DecayingPhasor phasor{p.omega, p.tau, rateHz};
+    for (std::size_t i = 0; i < samples.size(); ++i, phasor.next()) {
+        cc += phasor.cosine() * phasor.cosine();
+        ss += phasor.sine() * phasor.sine();
+        cs += phasor.cosine() * phasor.sine();
+    }
+    const double c = point.re, s = -point.im, determinant = cc * ss - cs * cs;
+    if (!(determinant > 1e-12 * cc * ss)) return 0.0;
+    p.cosine = (c * ss - s * cs) / determinant;
+    p.sine = (s * cc - c * cs) / determinant;
+    return p.cosine * c + p.sine * s;
+}
+
+} // namespace
+
+Partial Partial::shifted(double seconds) const noexcept {
+    const double decay = std::exp(-tau * seconds), c = decay * std::cos(omega * seconds), s = decay * std::sin(omega * seconds);
+    return {omega, tau, cosine * c + sine * s, sine * c - cosine * s};
+}
+
+double Partial::spectralPeak(double seconds) const noexcept { return amplitude() * -std::expm1(-tau * seconds) / (2.0 * tau); }
+
+PartialFit::PartialFit(std::span<const double> samples, double rateHz)
+    : samples_{samples}
+    , rateHz_{rateHz} {}
+
+NormalEquations PartialFit::equationsOf(const std::vector<Partial>& partials) const {
+    NormalEquations equations(numbersEach * partials.size());
+    const std::vector<double> rest = residualOf(partials);
+    std::vector<DecayingPhasor> phasors;
+    for (const Partial& p : partials) phasors.emplace_back(p.omega, p.tau, rateHz_);
+    std::vector<NormalEquations::Column> columns(equations.size());
+    for (std::size_t first = 0; first < rest.size(); first += NormalEquations::block) {
+        const std::size_t count = std::min(NormalEquations::block, rest.size() - first);
+        for (std::size_t k = 0; k < partials.size(); ++k)
+            for (std::size_t i = 0; i < count; ++i, phasors[k].next()) {
+                const Partial& p = partials[k];
+                const double t = static_cast<double>(first + i) / rateHz_, c = phasors[k].cosine(), s = phasors[k].sine();
+                columns[numbersEach * k][i] = c;
+                columns[numbersEach * k + 1][i] = s;
+                columns[numbersEach * k + 2][i] = t * (p.sine * c - p.cosine * s);
+                columns[numbersEach * k + 3][i] = -t * (p.cosine * c + p.sine * s);
+            }
+        equations.add(columns, std::span(rest).subspan(first, count));
+    }
+    return equations;
+}
+
+std::vector<double> PartialFit::residualOf(const std::vector<Partial>& partials) const {
+    std::vector<double> rest(samples_.begin(), samples_.end());
+    for (const Partial& p : partials) subtract(rest, p, rateHz_);
+    return rest;
+}
+
+double PartialFit::energyWith(const std::vector<Partial>& partials) const { return energyOf(residualOf(partials)); }
+
+// The spectrum of a decaying sine peaks at omega_p^2 = omega^2 - tau^2: below its frequency.
+void PartialFit::addHighest() {
+    const std::vector<double> rest = residualOf(partials_);
+    const double peak = 2.0 * pi * highestPeakHz(rest, rateHz_, lowestHz, 0.5 * rateHz_);
+    Partial best;
+    double most = -1.0;
+    for (double tau = 2.0; tau < 2000.0; tau *= 1.6)
+        for (const double omega : {peak, std::hypot(peak, tau)}) {
+            Partial p{std::min(omega, pi * rateHz_), tau, 0.0, 0.0};
+            if (const double taken = solveAmplitudes(rest, rateHz_, p); taken > most) {
+                most = taken;
+                best = p;
+            }
+        }
+    partials_.push_back(best);
+}
+
+void PartialFit::solveLinear() {
+    for (Partial& p : partials_) p.cosine = p.sine = 0.0;
+    const std::vector<double> amplitudes = equationsOf(partials_).each(0, numbersEach, 2).step(1e-12);
+    for (std::size_t k = 0; k < partials_.size() && !amplitudes.empty(); ++k) partials_[k].cosine = amplitudes[2 * k], partials_[k].sine = amplitudes[2 * k + 1];
+}
+
+double PartialFit::allowedOmega(double omega, double rateHz) noexcept { return std::clamp(omega, 2.0 * pi * lowestHz, pi * rateHz); }
+double PartialFit::allowedTau(double tau) noexcept { return std::clamp(tau, leastTau, mostTau); }
+
+bool PartialFit::refine() {
+    const auto moved = [this](std::vector<Partial> partials, const std::vector<double>& step) {
+        for (std::size_t k = 0; k < partials.size(); ++k) {
+            const double* const by = &step[numbersEach * k];
+            Partial& p = partials[k];
+            p = {allowedOmega(p.omega + by[2], rateHz_), allowedTau(p.tau + by[3]), p.cosine + by[0], p.sine + by[1]};
+        }
+        return partials;
+    };
+    return descend(partials_, [this](const auto& partials) { return energyWith(partials); }, [this](const auto& partials) { return equationsOf(partials); }, moved);
+}
+
+PartialError PartialFit::errorOf(std::size_t partial) const {
+    const NormalEquations equations = equationsOf(partials_);
+    if (samples_.size() <= equations.size()) return {HUGE_VAL, HUGE_VAL};
+    const double variance = residualEnergy() / static_cast<double>(samples_.size() - equations.size());
+    return {equations.errorOf(numbersEach * partial + 2, variance), equations.errorOf(numbersEach * partial + 3, variance)};
+}
+
+double highestPeakHz(std::span<const double> samples, double rateHz, double lowHz, double highHz) {
+    const std::vector<double> all = magnitudes(samples);
+    const double binHz = 0.5 * rateHz / static_cast<double>(all.size() - 1);
+    const auto bin = [&](double hz) { return std::clamp<std::ptrdiff_t>(std::lround(hz / binHz), 1, static_cast<std::ptrdiff_t>(all.size()) - 2); };
+    const auto highest = std::max_element(all.begin() + bin(lowHz), all.begin() + bin(highHz) + 1) - all.begin();
+    double low = static_cast<double>(highest - 1) * binHz, high = static_cast<double>(highest + 1) * binHz;
+    const auto height = [&](double hz) {
+        const auto point = pointOfSpectrum(samples, rateHz, 2.0 * pi * hz, 0.0);
+        return std::hypot(point.re, point.im);
+    };
+    while (high - low > 1e-3 * binHz) { // one maximum between neighbours of the highest bin
+        const double third = (high - low) / 3.0;
+        if (height(low + third) < height(high - third)) low += third;
+        else high -= third;
+    }
+    return std::clamp(0.5 * (low + high), lowHz, highHz);
+}
+
+} // namespace physvib

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Ports by libserialport, pseudo-terminals by the system's own calls.
+#include "Session/SerialLine.h"
+#include "Wire/Messages.h"
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <libserialport.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+namespace physvib {
+namespace {
+
+constexpr int stLinkVendor = 0x0483;
+
+struct PortDeleter {
+    void operator()(sp_port* port) const { sp_free_port(port); }
+};
+using Port = std::unique_ptr<sp_port, PortDeleter>;
+
+class PortLine final : public SerialLine {
+public:
+    explicit PortLine(Port port) : port_{std::move(port)} {}
+    ~PortLine() override { sp_close(port_.get()); }
+    int read(std::span<std::uint8_t> bytes, int milliseconds) override {
+        return sp_blocking_read_next(port_.get(), bytes.data(), bytes.size(), static_cast<unsigned>(milliseconds));
+    }
+    bool write(std::span<const std::uint8_t> bytes) override {
+        return sp_blocking_write(port_.get(), bytes.data(), bytes.size(), 50) == static_cast<int>(bytes.size());
+    }
+
+private:
+    Port port_;
+};
+
+class TerminalLine final : public SerialLine {
+public:
+    explicit TerminalLine(int file) : file_{file} {}
+    ~TerminalLine() override { close(file_); }
+    int read(std::span<std::uint8_t> bytes, int milliseconds) override {
+        pollfd wait{file_, POLLIN, 0};
+        if (poll(&wait, 1, milliseconds) <= 0) return 0;
+        const auto n = ::read(file_, bytes.data(), bytes.size());
+        if (n < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
+        return n > 0 ? static_cast<int>(n) : -1;
+    }
+    bool write(std::span<const std::uint8_t> bytes) override { return ::write(file_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()); }
+
+private:
+    int file_;
+};
+
+std::unique_ptr<SerialLine> openTerminal(const std::string& path, std::string& error) {
+    const int file = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    termios raw{};
+    if (file < 0 || tcgetattr(file, &raw) != 0) {
+        error = path + ": " + std::strerror(errno);
+        if (file >= 0) close(file);
+        return nullptr;
+    }
+    cfmakeraw(&raw);
+    tcsetattr(file, TCSANOW, &raw);
+    return std::make_unique<TerminalLine>(file);
+}
+
+// Also by another name, as links give one that stays.
+bool isTerminal(const std::string& path) {
+    std::error_code none;
+    return std::filesystem::weakly_canonical(path, none).string().starts_with("/dev/pts/");
+}
+
+std::string textOr(const char* text, const char* otherwise) { return text != nullptr ? text : otherwise; }
+
+} // namespace
+
+std::vector<SerialPortName> listSerialPorts() {
+    std::vector<SerialPortName> names;
+    sp_port** ports = nullptr;
+    if (sp_list_ports(&ports) != SP_OK) return names;
+    for (sp_port** port = ports; *port != nullptr; ++port) {
+        int vendor = 0, product = 0;
+        const bool isUsb = sp_get_port_usb_vid_pid(*port, &vendor, &product) == SP_OK;
+        names.push_back({textOr(sp_get_port_name(*port), ""), textOr(sp_get_port_description(*port), "serial port"), isUsb && vendor == stLinkVendor});
+    }
+    sp_free_port_list(ports);
+    return names;
+}
+
+std::unique_ptr<SerialLine> openSerialLine(const std::string& path, std::string& error) {
+    if (isTerminal(path)) return openTerminal(path, error);
+    sp_port* found = nullptr;
+    if (sp_get_port_by_name(path.c_str(), &found) != SP_OK) {
+        error = path + ": no such serial port";
+        return nullptr;
+    }
+    Port port{found};
+    const bool isReady = sp_open(found, SP_MODE_READ_WRITE) == SP_OK && sp_set_baudrate(found, wire::lineBitsPerSecond) == SP_OK && sp_set_bits(found, 8) == SP_OK &&
+                         sp_set_parity(found, SP_PARITY_NONE) == SP_OK && sp_set_stopbits(found, 1) == SP_OK && sp_set_flowcontrol(found, SP_FLOWCONTROL_NONE) == SP_OK;
+    if (isReady) return std::make_unique<PortLine>(std::move(port));
+    char* reason = sp_last_error_message();
+    error = path + ": " + textOr(reason, "cannot be opened");
+    sp_free_error_message(reason);
+    return nullptr;
+}
+
+} // namespace physvib

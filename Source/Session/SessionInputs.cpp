@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// What comes from outside while a session plays: inputs, controls, other scenes, and the log of it all.
+#include "Session/Session.h"
+#include "Physics/SceneValidation.h"
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace physvib {
+
+std::string Session::act(Action action) {
+    const std::lock_guard inputs{inputMutex_};
+    for (;;) { // again if a new take began since the check
+        if (const std::lock_guard lock{worldMutex_}; !check_ || checkedTake_ != world_.takeCount()) {
+            check_.emplace(*world_.take().scene, setup_.log == LogUse::document ? sceneLimits::maxLiveInputs : InputCheck::endless);
+            checkedTake_ = world_.takeCount();
+        }
+        if (std::string fault = check_->take(action); !fault.empty()) return fault;
+        const std::lock_guard lock{worldMutex_};
+        if (checkedTake_ != world_.takeCount()) continue;
+        world_.addInput(nowNs(), std::move(action));
+        return {};
+    }
+}
+
+// The world mutex is held.
+void Session::takeOwnInputs() {
+    for (RenderInput input; ownInputs_.pop(input);) {
+        if (input.group == RenderInput::device) world_.addInput(input.timeNs, input.hold);
+        if (input.group < 0 || input.group >= static_cast<int>(setup_.groups.size())) continue;
+        for (Action action : setup_.groups[static_cast<std::size_t>(input.group)]) {
+            const auto scale = [&input](Vector& v) { v = {v.x * input.scale, v.y * input.scale}; };
+            if (auto* impulse = std::get_if<ImpulseAction>(&action)) scale(impulse->newtonSeconds);
+            if (auto* spawn = std::get_if<SpawnAction>(&action)) {
+                scale(spawn->body.velocityMetresPerSecond);
+                spawnOwn(input.timeNs, *spawn);
+            } else {
+                world_.addInput(input.timeNs, std::move(action));
+            }
+        }
+    }
+}
+
+// Each is a body of its own; the oldest makes room.
+void Session::spawnOwn(std::int64_t timeNs, SpawnAction action) {
+    std::string& name = ownNames_[ownSpawns_ % ownNames_.size()];
+    if (!name.empty()) world_.addInput(timeNs, RemoveAction{name});
+    name = action.body.name += " #" + std::to_string(++ownSpawns_);
+    world_.addInput(timeNs, std::move(action));
+}
+
+std::int64_t Session::post(RenderControl control) {
+    const std::lock_guard lock{inputMutex_};
+    control.timeNs = nowNs();
+    if (!controls_.push(control)) return -1;
+    if (told_) told_->controls.push(control);
+    if (control.kind == RenderControl::Kind::ceiling && control.channel >= 0 && control.channel < setup_.channels) {
+        auto& most = ceilings_[static_cast<std::size_t>(control.channel)];
+        most = std::max(most.load(), control.value);
+    }
+    if (setup_.log == LogUse::none) return control.timeNs;
+    if (control.kind == RenderControl::Kind::panner)
+        controlLog_.panners.push_back({control.timeNs, control.panner});
+    else
+        controlLog_.channels.push_back({control.timeNs, control.kind, control.channel, control.value});
+    return control.timeNs;
+}
+
+std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
+    const std::lock_guard lock{inputMutex_};
+    const std::int64_t now = nowNs();
+    if (recordings == setup_.recordings) return now;
+    RenderControl control;
+    control.timeNs = now;
+    control.kind = RenderControl::Kind::recordings;
+    control.recordings = recordingSet(recordings).sounds.contacts();
+    if (!controls_.push(control)) return -1;
+    if (setup_.log != LogUse::none) controlLog_.recordings.push_back({now, filesOf(recordings)});
+    setup_.recordings = std::move(recordings);
+    return now;
+}
+
+bool Session::play(std::span<const CollisionEvent> strikes) {
+    const std::scoped_lock lock{inputMutex_, worldMutex_};
+    const std::int64_t now = nowNs();
+    const auto isTimely = [](const CollisionEvent& e) { return isPlayable(e) && e.timeNs < limits::maxTimeNs / 2; };
+    if (!std::ranges::all_of(strikes, isTimely)) return false;
+    for (CollisionEvent strike : strikes) {
+        strike.timeNs += now;
+        made_.push_back(setup_.shaping(strike));
+        if (setup_.log != LogUse::none) controlLog_.strikes.push_back(strike);
+    }
+    handOver();
+    return true;
+}
+
+std::string Session::setState(SessionState state) {
+    if (std::string fault = validate(*state.scene); !fault.empty()) return fault;
+    const std::lock_guard lock{stateMutex_};
+    if (state == state_) return {};
+    state_ = std::move(state);
+    isStateNew_ = true;
+    return {};
+}
+
+SessionState Session::state() const {
+    const std::lock_guard lock{stateMutex_};
+    return state_;
+}
+
+void Session::restart(int offset) noexcept {
+    restartFrame_.store(sessionFrames_.load(std::memory_order_relaxed) + offset, std::memory_order_release);
+}
+
+std::int64_t Session::readLog(SessionLog& log) {
+    const std::scoped_lock lock{inputMutex_, worldMutex_};
+    if (setup_.log == LogUse::none) return nowNs();
+    const auto move = [](auto& from, auto& to) {
+        std::ranges::move(from, std::back_inserter(to));
+        from.clear();
+    };
+    move(controlLog_.panners, log.panners);
+    move(controlLog_.channels, log.channels);
+    move(controlLog_.recordings, log.recordings);
+    move(controlLog_.strikes, log.strikes);
+    world_.moveLog(log.takes);
+    return std::min(nowNs(), world_.timeNs());
+}
+
+SessionSize Session::size() const {
+    const std::lock_guard lock{worldMutex_};
+    return world_.size();
+}
+
+std::int64_t Session::readPoses(std::vector<BodyPose>& poses) const {
+    const std::lock_guard lock{worldMutex_};
+    world_.readPoses(poses);
+    return world_.timeNs();
+}
+
+} // namespace physvib

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// A live session on disk while it plays: what it takes to render it again, and what was played.
+//
+// A thread of the journal's own adds to both files what is new, twice a second: the cost does not grow with the session, and
+// whatever ends the program, what was played is there up to a second before. At the end the journal becomes an ordinary
+// session file; one that was cut off is read as it is.
+#pragma once
+#include "Files/Disk/AtomicFile.h"
+#include "Files/EventsCsv.h"
+#include "Files/SessionJournalText.h"
+#include "Session/GrowingFile.h"
+#include "Session/Session.h"
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace physvib {
+
+/// All methods: M only.
+class SessionJournal {
+public:
+    /// Saves `session`, which outlives this object and has its log read by nobody else, as `path` (.json), and the events played
+    /// beside it as .events.csv. `setup` is what the session was made with, `provenance` stands in the list of events.
+    SessionJournal(std::filesystem::path path, Session& session, const SessionSetup& setup, const Provenance& provenance);
+    ~SessionJournal();
+
+    /// Empty, or why one of the files cannot be made; then neither has been touched.
+    const std::string& error() const noexcept { return error_; }
+
+    /// An event that was played.
+    void take(const PlayedEvent& played);
+
+    /// Empty, or one line: what keeps a file from growing now, or that it grows no more; the last one stands until there is
+    /// another.
+    std::string news() const;
+
+    /// Adds all until now, which is session time `sessionNs`; nothing is added after that.
+    void end(std::int64_t sessionNs);
+
+    /// Makes the journal, which has ended, an ordinary session file. Empty, or why not all that was played is on disk.
+    std::string finish();
+
+    const std::filesystem::path& eventsPath() const noexcept { return eventsPath_; }
+
+private:
+    void begin(const Provenance& provenance);
+    void run();
+    void write(std::optional<std::int64_t> endNs);
+    void tell();
+
+    std::filesystem::path path_, eventsPath_;
+    Session& session_;
+    std::string error_;
+    std::optional<AtomicFile> whole_; // the session file to be; nobody else writes one of that name until then
+
+    // The thread's; M's once that has ended.
+    JournalLines lines_;
+    SessionLog log_;
+    GrowingFile file_, events_;
+    std::int64_t lastNs_ = 0;
+    std::size_t rows_ = 0;
+    bool wasHeldUp_ = false;
+
+    mutable std::mutex mutex_; // guards what follows
+    std::condition_variable ends_;
+    bool isEnding_ = false;
+    std::vector<CollisionEvent> played_;
+    std::string news_;
+
+    std::thread thread_;
+};
+
+} // namespace physvib

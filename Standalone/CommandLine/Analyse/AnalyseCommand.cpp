@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Options of the analyses, and which of them was asked for.
+#include "CommandLine/Analyse/AnalyseCommand.h"
+#include "CommandLine/Analyse/AnalyseFits.h"
+#include "CommandLine/Analyse/AnalyseGrids.h"
+#include "CommandLine/Analyse/AnalyseLabels.h"
+#include "CommandLine/Analyse/AnalyseTests.h"
+#include "CommandLine/Analyse/AnalyseVotes.h"
+#include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/Study/StudyOutput.h"
+#include "Files/TrialColumns.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <set>
+#include <span>
+
+namespace physvib {
+namespace {
+
+struct Analysis {
+    std::string_view name;
+    const char* purpose;
+    AnalysisReport (*run)(const AnalyseOptions&);
+};
+
+constexpr Analysis analyses[] = {
+    {"confusion", "stimulus,response per trial: percent correct and information transfer", analyseConfusion},
+    {"resolution", "pointing responses: normals, likelihood map, percent counts, perceptual resolution", analyseResolution},
+    {"percent-counts", "percent counts: the largest grid that merging makes of them", analysePercentCounts},
+    {"choices", "forced choices: shares of the alternatives", analyseChoices},
+    {"ratings", "slider ratings: means by condition", analyseRatings},
+    {"levels", "staircases, adjustments and magnitude estimations: thresholds and means", analyseLevels},
+    {"icons", "stimulus,response per trial: the patterns that are confused least", analyseIcons},
+};
+
+constexpr Analysis testsOverParticipants[] = {
+    {"anova", "analysis of variance with repeated measures", analyseAnova},
+    {"friedman", "levels of a within-factor, by ranks", analyseFriedman},
+    {"wilcoxon", "two levels of a within-factor, by signed ranks", analyseWilcoxon},
+    {"mann-whitney", "two groups, by ranks", analyseMannWhitney},
+    {"kruskal-wallis", "two or more groups, by ranks", analyseKruskalWallis},
+    {"shapiro", "whether values may be normal (Shapiro-Wilk)", analyseShapiro},
+    {"pairs", "every two levels, corrected for their number", analysePairs},
+};
+
+void declareOwn(CLI::App& command, std::string_view name, AnalyseOptions& o) {
+    const bool isGrid = name == "resolution" || name == "percent-counts";
+    if (name == "confusion" || name == "icons")
+        command.add_option("--tolerance", o.tolerance, "grid steps (rows + columns) that still count as correct")
+            ->check(CLI::Range(0, 1000))->capture_default_str();
+    if (isGrid)
+        command.add_option("--threshold", o.thresholdPercent, "percent count that a cell must reach, inclusive")
+            ->check(CLI::Range(0.0, 100.0))->capture_default_str();
+    if (name == "resolution") command.add_option("--counts", o.countsPath, "the percent counts")->type_name("FILE.csv")->check(writtenFile);
+    if (name == "icons")
+        command.add_option("--meanings", o.meanings, "how many meanings the icons shall have")
+            ->check(CLI::Range(std::size_t{2}, std::size_t{1000}))->capture_default_str();
+    if (name == "confusion")
+        command.add_option("--participants", o.participantsPath, "percent correct and IT of each participant and condition")->type_name("FILE.csv")->check(writtenFile);
+}
+
+constexpr Analysis fits[] = {
+    {"psychometric", "psychometric functions of each participant, thresholds and JNDs over participants", analysePsychometric},
+    {"power-law", "Stevens' exponent of magnitude estimations", analysePowerLaw},
+};
+
+/// Of any kind; none of that name.
+template <class Is>
+const Analysis* analysisThat(Is is) {
+    for (const auto kind : std::initializer_list<std::span<const Analysis>>{analyses, testsOverParticipants, fits})
+        if (const auto found = std::ranges::find_if(kind, is); found != kind.end()) return &*found;
+    return nullptr;
+}
+
+CLI::App* declare(CLI::App& command, const Analysis& analysis, AnalyseOptions& o) {
+    CLI::App* const own = command.add_subcommand(std::string{analysis.name}, analysis.purpose);
+    own->add_option("files", o.files, "trials, or what the analysis is about; several are taken together")->required()->type_name("FILE.csv");
+    own->add_option("--export", o.exportPath, "the result as a table for a statistics package")->type_name("FILE.csv")->check(writtenFile);
+    return own;
+}
+
+} // namespace
+
+void declareAnalyse(CLI::App& command, AnalyseOptions& o) {
+    command.require_subcommand(1);
+    for (const Analysis& analysis : analyses) {
+        CLI::App* const own = declare(command, analysis, o);
+        own->add_option("--picture", o.picturePath, "the result to look at")->type_name("FILE.png")->check(writtenFile);
+        declareOwn(*own, analysis.name, o);
+    }
+    for (const Analysis& test : testsOverParticipants) declareTest(*declare(command, test, o), o);
+    for (const Analysis& fit : fits) declareFit(*declare(command, fit, o), o);
+}
+
+std::vector<std::string> analysesFor(const CsvTable& table) {
+    std::set<std::string> found;
+    const auto has = [&](std::string_view column) { return table.column(column).has_value(); };
+    if (const auto task = table.column(trialColumns::task)) {
+        const auto phase = table.column(trialColumns::phase), correct = table.column("correct");
+        for (const CsvRow& row : table.rows) {
+            const std::string& did = row.cells[*task];
+            const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
+            if (did == "adjust" || did == "estimate" || (did == "choose" && correct && !row.cells[*correct].empty())) found.insert("levels");
+            else if (isTraining) continue;
+            else if (did == "identify") found.insert("confusion");
+            else if (did == "locate") found.insert("resolution");
+            else if (did == "choose") found.insert("choices");
+            else if (did == "rate") found.insert("ratings");
+        }
+    } else {
+        if (has("stimulus") && has("response")) found.insert("confusion");
+        if (has("target_column") && has("x")) found.insert("resolution");
+        if (has("c1")) found.insert("percent-counts");
+        if (has("choice")) found.insert("choices");
+    }
+    std::vector<std::string> names;
+    for (const Analysis& analysis : analyses)
+        if (found.contains(std::string{analysis.name})) names.emplace_back(analysis.name);
+    return names;
+}
+
+AnalysisReport analyse(const std::string& name, const AnalyseOptions& options) {
+    const Analysis* const found = analysisThat([&](const Analysis& a) { return a.name == name; });
+    return found ? found->run(options) : AnalysisReport{"no analysis " + inQuotes(name)};
+}
+
+int runAnalyse(const CLI::App& command, const AnalyseOptions& o) {
+    const Analysis* const asked = analysisThat([&](const Analysis& a) { return command.got_subcommand(std::string{a.name}); });
+    if (!asked) return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
+    const AnalysisReport report = asked->run(o);
+    for (const auto& words : report.warnings) warn(words);
+    if (report.error.empty() || !report.words.empty()) tellIfSimulated(report.isSimulated);
+    std::cout << report.words;
+    if (!report.error.empty()) return leave(exitFailed, report.error);
+    return writeStudyFiles({{o.exportPath, report.table}, {o.countsPath, report.counts}, {o.participantsPath, report.participants}, {o.picturePath, report.picture}});
+}
+
+} // namespace physvib

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A fit per participant, a mean with its interval per condition.
+#include "CommandLine/Analyse/AnalyseFits.h"
+#include "CommandLine/Analyse/AnalyseCommand.h"
+#include "CommandLine/Study/StudyOutput.h"
+#include "Study/Statistics/Bootstrap.h"
+#include "Study/Statistics/LevelFits.h"
+#include <CLI/CLI.hpp>
+#include <map>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+using Data = StudyData<LevelAnswer>;
+
+Result<Data> readTrials(const AnalyseOptions& o, LevelAnswerColumns columns) {
+    if (!o.level.empty()) columns.level = o.level;
+    if (!o.measure.empty()) columns.measure = o.measure;
+    return readStudyFiles(o.files, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
+}
+
+/// "threshold 12.3 (11.0 to 13.4)".
+std::string meanWords(const char* name, const std::vector<double>& values, int decimals) {
+    const BootstrapInterval mean = bootstrapMean(values);
+    std::string words = std::string(name) + " " + fixedNumber(mean.mean, decimals);
+    if (values.size() > 1) words += " (" + fixedNumber(mean.least, decimals) + " to " + fixedNumber(mean.most, decimals) + ")";
+    return words;
+}
+
+std::string peopleWords(std::size_t n) { return std::to_string(n) + (n == 1 ? " participant" : " participants"); }
+
+std::string prefixOf(const std::string& condition) { return condition.empty() ? "" : printable(condition) + ": "; }
+
+void leaveOut(AnalysisReport& report, const std::string& condition, const std::string& participant, const std::string& fault) {
+    report.warnings.push_back(prefixOf(condition) + "participant " + printable(participant) + " left out: " + fault);
+}
+
+/// With the warnings that say why.
+AnalysisReport refused(AnalysisReport report, const AnalyseOptions& o, const std::string& condition, const char* what) {
+    report.error = o.files.front() + ": " + prefixOf(condition) + "expected a participant whose " + what + " can be fitted, found none";
+    return report;
+}
+
+} // namespace
+
+AnalysisReport analysePsychometric(const AnalyseOptions& o) {
+    const auto data = readTrials(o, {"level_db", "correct", false});
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    ExportTable table{"psychometric", report.isSimulated, "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood"};
+    for (const auto& condition : data.value.conditions) {
+        std::vector<double> thresholds, jnds;
+        for (const auto& own : psychometricByParticipant(condition.trials, o.shape, o.guess)) {
+            if (!own.fit.fault.empty()) {
+                leaveOut(report, condition.name, own.participant, own.fit.fault);
+                continue;
+            }
+            const PsychometricFunction& f = own.fit.function;
+            thresholds.push_back(f.threshold);
+            jnds.push_back(f.jnd());
+            table.cell(condition.name).cell(own.participant).cell(own.trials);
+            for (const double number : {f.threshold, f.width, f.jnd(), f.guess, f.lapse, own.fit.logLikelihood}) table.cell(number);
+            table.endRow();
+        }
+        if (thresholds.empty()) return refused(std::move(report), o, condition.name, "answers");
+        out << prefixOf(condition.name) << meanWords("threshold", thresholds, 2) << ", " << meanWords("JND", jnds, 2) << ", " << peopleWords(thresholds.size()) << '\n';
+    }
+    report.words = out.str();
+    report.table = table.text();
+    return report;
+}
+
+AnalysisReport analysePowerLaw(const AnalyseOptions& o) {
+    const auto data = readTrials(o, {"level_g", "value", true});
+    if (!data) return {data.error};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    std::ostringstream out;
+    ExportTable table{"power-law", report.isSimulated, "condition,participant,trials,exponent,factor,r_squared"};
+    for (const auto& condition : data.value.conditions) {
+        std::vector<double> exponents;
+        for (const auto& own : powerLawByParticipant(condition.trials)) {
+            if (!own.law.fault.empty()) {
+                leaveOut(report, condition.name, own.participant, own.law.fault);
+                continue;
+            }
+            exponents.push_back(own.law.exponent);
+            table.cell(condition.name).cell(own.participant).cell(own.trials).cell(own.law.exponent).cell(own.law.factor).cell(own.law.determination);
+            table.endRow();
+        }
+        if (exponents.empty()) return refused(std::move(report), o, condition.name, "magnitudes");
+        out << prefixOf(condition.name) << meanWords("exponent", exponents, 3) << ", " << peopleWords(exponents.size()) << '\n';
+    }
+    report.words = out.str();
+    report.table = table.text();
+    return report;
+}
+
+void declareFit(CLI::App& command, AnalyseOptions& o) {
+    const bool isPsychometric = command.get_name() == "psychometric";
+    command.add_option("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (level_g)")->type_name("COLUMN");
+    command.add_option("--measure", o.measure, isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)")->type_name("COLUMN");
+    if (!isPsychometric) return;
+    const std::map<std::string, PsychometricShape> shapes{{"logistic", PsychometricShape::logistic}, {"normal", PsychometricShape::normal}, {"weibull", PsychometricShape::weibull}};
+    command.add_option("--shape", o.shape, "of the function (logistic)")->transform(CLI::CheckedTransformer(shapes))->type_name("logistic|normal|weibull");
+    command.add_option("--guess", o.guess, "share of right answers without a percept: 1 / alternatives")->check(CLI::Range(0.0, 0.9))->capture_default_str();
+}
+
+} // namespace physvib

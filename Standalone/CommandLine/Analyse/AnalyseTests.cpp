@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A line per effect, in words and as a tidy table.
+#include "CommandLine/Analyse/AnalyseTests.h"
+#include "CommandLine/Analyse/AnalyseCommand.h"
+#include "CommandLine/Study/StudyOutput.h"
+#include "Files/LongTableCsv.h"
+#include "Study/Statistics/Pairs.h"
+#include "Study/Statistics/RankTests.h"
+#include "Study/Statistics/RepeatedMeasures.h"
+#include "Study/Statistics/ShapiroWilk.h"
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+std::string degrees(double df) { return fixedNumber(df, df == std::round(df) ? 0 : 2); }
+
+std::string statisticWords(const TestReport& report, const TestLine& line) {
+    std::string words = report.statistic;
+    if (line.df1) words += "(" + degrees(*line.df1) + (line.df2 ? ", " + degrees(*line.df2) : "") + ")";
+    return words + " = " + fixedNumber(*line.statistic, 3) + ", " + chanceWords(*line.p);
+}
+
+std::string sphericityWords(const TestLine& line) {
+    const Sphericity& s = *line.sphericity;
+    std::string words = " (epsilon " + fixedNumber(*line.epsilon, 3) + "), Huynh-Feldt " + chanceWords(s.pHuynhFeldt) + " (epsilon " + fixedNumber(s.epsilonHuynhFeldt, 3) + ")";
+    if (s.mauchlyW) return words + ", Mauchly W = " + fixedNumber(*s.mauchlyW, 3) + " " + chanceWords(*s.mauchlyP);
+    return words + ", too few participants for Mauchly's test";
+}
+
+void tell(std::ostream& out, const TestReport& report, const TestLine& line) {
+    out << cleanLine(line.effect) << ": " << statisticWords(report, line);
+    const bool isCorrected = line.pCorrected && !report.correction.empty() && (line.sphericity || report.statistic != "F");
+    if (isCorrected) out << ", " << report.correction << ' ' << chanceWords(*line.pCorrected);
+    if (line.sphericity) out << sphericityWords(line);
+    if (line.effectSize) out << ", " << report.effectSize << " = " << fixedNumber(*line.effectSize, 3);
+    out << ", n = " << line.n << '\n';
+}
+
+std::string exported(const std::string& name, bool isSimulated, const TestReport& report) {
+    ExportTable table{name, isSimulated, "effect,df1,df2,statistic,p,p_corrected,epsilon,effect_size,n"};
+    for (const TestLine& line : report.lines) {
+        table.cell(line.effect);
+        for (const auto& number : {line.df1, line.df2, line.statistic, line.p, line.pCorrected, line.epsilon, line.effectSize})
+            if (number) table.cell(*number);
+            else table.cell("");
+        table.cell(line.n);
+        table.endRow();
+    }
+    return table.text();
+}
+
+/// Reads the design, runs `test` on it, and tells its lines.
+template <class Test>
+AnalysisReport analyseDesign(const AnalyseOptions& o, const std::string& name, Test test) {
+    const LongTableColumns columns{o.measure, o.within, o.between, o.participant};
+    const auto data = readStudyFiles(o.files, [&](const std::vector<NamedText>& files) { return readLongTable(files, columns); }, limits::maxLongTableBytes);
+    if (!data) return {data.error};
+    const Design design = Design::of(data.value.table);
+    TestReport tested = test(design);
+    if (!tested.fault.empty()) return {o.files.front() + ": " + cleanLine(tested.fault)};
+    if (tested.correction.empty() && o.correction) correctForNumber(tested, *o.correction);
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
+    for (const auto& words : design.warnings) report.warnings.push_back(cleanLine(words));
+    std::ostringstream out;
+    for (const auto& note : tested.notes) out << note << '\n';
+    for (const TestLine& line : tested.lines) tell(out, tested, line);
+    report.words = out.str();
+    report.table = exported(name, report.isSimulated, tested);
+    return report;
+}
+
+} // namespace
+
+AnalysisReport analyseAnova(const AnalyseOptions& o) { return analyseDesign(o, "anova", o.usesAlignedRanks ? alignedRanks : repeatedMeasures); }
+AnalysisReport analyseFriedman(const AnalyseOptions& o) { return analyseDesign(o, "friedman", friedman); }
+AnalysisReport analyseWilcoxon(const AnalyseOptions& o) { return analyseDesign(o, "wilcoxon", wilcoxon); }
+AnalysisReport analyseMannWhitney(const AnalyseOptions& o) { return analyseDesign(o, "mann-whitney", mannWhitney); }
+AnalysisReport analyseKruskalWallis(const AnalyseOptions& o) { return analyseDesign(o, "kruskal-wallis", kruskalWallis); }
+AnalysisReport analyseShapiro(const AnalyseOptions& o) { return analyseDesign(o, "shapiro", shapiroByCell); }
+
+AnalysisReport analysePairs(const AnalyseOptions& o) {
+    return analyseDesign(o, "pairs", [&](const Design& design) { return pairs(design, o.pairTest, o.correction.value_or(Correction::holm)); });
+}
+
+void declareTest(CLI::App& command, AnalyseOptions& o) {
+    const std::string name = command.get_name();
+    command.add_option("--measure", o.measure, "column of numbers to test; COLUMN=WORD counts 1 where the column says so, else 0")->required()->type_name("COLUMN");
+    if (name != "mann-whitney" && name != "kruskal-wallis")
+        command.add_option("--within", o.within, "factors that every participant has all levels of")->type_name("A[,B[,C]]")->delimiter(',')->expected(1, mostWithinFactors);
+    if (name != "friedman" && name != "wilcoxon") command.add_option("--between", o.between, "column of the participants' groups")->type_name("G");
+    command.add_option("--participant", o.participant, "column that names the participant (participant)")->type_name("COLUMN");
+    if (name == "anova") {
+        command.add_flag("--aligned-ranks", o.usesAlignedRanks, "of aligned ranks, for ratings");
+        return; // its correction is of sphericity
+    }
+    const std::map<std::string, Correction> corrections{{"none", Correction::none}, {"holm", Correction::holm}, {"bonferroni", Correction::bonferroni}};
+    command.add_option("--correction", o.correction, "of p, for so many lines (none; pairs: holm)")->transform(CLI::CheckedTransformer(corrections))->type_name("holm|bonferroni|none");
+    const std::map<std::string, PairTest> pairTests{{"t", PairTest::student}, {"ranks", PairTest::ranks}};
+    if (name == "pairs") command.add_option("--test", o.pairTest, "of two levels (t)")->transform(CLI::CheckedTransformer(pairTests))->type_name("t|ranks");
+}
+
+} // namespace physvib

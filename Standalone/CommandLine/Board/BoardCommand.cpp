@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A board link for the length of a call.
+#include "CommandLine/Board/BoardCommand.h"
+#include "CommandLine/Board/BoardStatus.h"
+#include "CommandLine/ExitCode.h"
+#include "CommandLine/Render/RenderJob.h"
+#include "Files/EventsCsv.h"
+#include "Physics/Simulation.h"
+#include "Wire/SelfTest.h"
+#include <CLI/CLI.hpp>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+namespace physvib {
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+
+void nap(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
+
+void setLevel(BoardLink& link, double levelDb) {
+    const double level = std::pow(10.0, levelDb / 20.0);
+    link.setGains({level, level, level, level});
+}
+
+/// Each channel alone, a quarter of a second of 205 Hz at a quarter of full scale.
+void playScale(BoardLink& link) {
+    const std::int64_t start = BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 50 * ms;
+    for (std::size_t j = 0; j < limits::board::channels; ++j) {
+        std::array<double, limits::board::channels> gains{};
+        gains[j] = 1.0;
+        CollisionEvent tone;
+        tone.frequencyHz = 205.0;
+        tone.decayPerSecond = 1.0;
+        tone.amplitude = 0.25;
+        tone.durationNs = 250 * ms;
+        link.push({start + static_cast<std::int64_t>(j) * 400 * ms, boardEventOf(tone, gains)});
+    }
+    waitFor([&] { return BoardLink::nowNs() > start + 1600 * ms; }, 5000);
+}
+
+int test(BoardLink& link) {
+    link.requestSelfTest();
+    if (!waitFor([&] { return link.status().selfTest.has_value(); }, 3000)) return leave(exitFailed, link.status().port + ": no answer to the self-test");
+    const auto reply = *link.status().selfTest;
+    const auto here = std::make_unique<BoardRenderer>();
+    const bool isEqual = reply.hash == wire::expectedSelfTest(*here).hash;
+    std::cout << reply.modes << " modes: " << reply.blockCycles << " of " << reply.cyclesPerBlock << " cycles (" << std::fixed << std::setprecision(1)
+              << 100.0 * reply.blockCycles / reply.cyclesPerBlock << " %); the bits are " << (isEqual ? "those of this computer" : "NOT those of this computer") << '\n';
+    std::cout << "channels 1 to 4 in turn, 205 Hz" << std::endl;
+    playScale(link);
+    return isEqual ? exitDone : leave(exitFailed, link.status().port + ": the board computes other bits");
+}
+
+/// Hands the events over as their time comes; the last onset on the link's clock.
+std::int64_t playAll(BoardLink& link, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
+    PhantomPanner::Gains gains{};
+    const std::int64_t start = BoardLink::nowNs() + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + 20 * ms;
+    std::int64_t end = start;
+    for (const CollisionEvent& event : events) {
+        const std::int64_t onset = start + event.timeNs;
+        if (!waitFor([&] { return onset < BoardLink::nowNs() + 2 * BoardLink::sendAheadMs * ms; }, 1'000'000'000)) break;
+        panner.gainsAt(event.x, event.y, gains);
+        link.push({onset, boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
+        end = onset + event.durationNs + (event.decayPerSecond > 0 ? static_cast<std::int64_t>(7.0 / event.decayPerSecond * 1e9) : 0);
+    }
+    return std::min(end, BoardLink::nowNs() + 5000 * ms);
+}
+
+int finish(const BoardLink& link, const wire::Telemetry& before) {
+    const std::string trouble = reportBoard(link, before);
+    return trouble.empty() ? exitDone : leave(exitFailed, trouble);
+}
+
+int play(BoardLink& link, const std::vector<CollisionEvent>& events, const PhantomPanner& panner) {
+    const auto before = link.status().telemetry; // the board counts on from call to call
+    const std::int64_t end = playAll(link, events, panner);
+    waitFor([&] { return BoardLink::nowNs() > end; }, 60'000);
+    if (interrupted) link.stopAll();
+    return finish(link, before);
+}
+
+/// Steps the world up to this computer's clock; a collision at world time w is felt at w + `delayNs`. The time given up after stalls.
+std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t delayNs, const PhantomPanner& panner, BoardLink& link) {
+    constexpr std::int64_t mostBehind = 500 * ms;
+    PhantomPanner::Gains gains{};
+    std::vector<CollisionEvent> made;
+    std::int64_t start = BoardLink::nowNs(), slipped = 0;
+    while (!interrupted && world.timeNs() < endNs) {
+        const std::int64_t behind = BoardLink::nowNs() - start - world.timeNs();
+        if (behind > mostBehind) start += behind, slipped += behind;
+        if (behind < 0) {
+            nap(1);
+            continue;
+        }
+        made.clear();
+        world.step(made);
+        for (const CollisionEvent& event : made) {
+            panner.gainsAt(event.x, event.y, gains);
+            link.push({start + event.timeNs + delayNs, boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
+        }
+    }
+    return slipped;
+}
+
+} // namespace
+
+void declareBoardOptions(CLI::App& command, BoardOptions& o) {
+    command.add_option("port", o.port, "serial port, or auto: the first on which a board answers")->required();
+    command.add_option("action", o.action, "info, play or test")->required()->check(CLI::IsMember({"info", "play", "test"}));
+    command.add_option("events", o.eventsPath, "event list to play")->type_name("EVENTS.csv");
+    command.add_option("--layout", o.layout, "layout of at most four enchanters: preset or file")->capture_default_str();
+    command.add_option("--level", o.levelDb, "master level of play in dB")->check(CLI::Range(-90.0, 0.0))->capture_default_str();
+}
+
+int runBoard(const BoardOptions& o) {
+    if ((o.action == "play") != !o.eventsPath.empty()) return leave(exitUsage, "board: an event list goes with play, and only with it");
+    std::vector<CollisionEvent> events;
+    PhantomPanner panner;
+    if (o.action == "play") {
+        auto list = loadEventsCsv(o.eventsPath);
+        if (!list) return leave(exitFailed, list.error);
+        events = std::move(list.value);
+        const auto layout = layoutNamed(o.layout);
+        if (!layout) return leave(exitFailed, layout.error);
+        const auto& geometry = layout.value.geometry;
+        if (geometry.count > limits::board::channels) return leave(exitUsage, "--layout: the board has four channels, this layout " + std::to_string(geometry.count));
+        panner = {geometry, PanningLaw::linear, 1.0, geometry.extentWidthMetres, geometry.extentHeightMetres};
+    }
+    heedInterrupts();
+    BoardLink link{boardPort(o.port)};
+    if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
+    if (o.action == "info") return printBoardInfo(link.status()), exitDone;
+    setLevel(link, o.action == "test" ? 0.0 : o.levelDb);
+    return o.action == "test" ? test(link) : play(link, events, panner);
+}
+
+int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelDb) {
+    const SceneRun run = job.run();
+    Simulation world(*job.scene, run.seed, run.stepsPerSecond, run.timing, run.location);
+    heedInterrupts();
+    BoardLink link{boardPort(port)};
+    if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
+    setLevel(link, levelDb);
+    const auto before = link.status().telemetry;
+    const std::int64_t steps = 2'000'000'000 / run.stepsPerSecond, spare = 5 * ms; // a contact is known two steps later
+    const std::int64_t delay = steps + static_cast<std::int64_t>(link.status().playOutMs * 1e6) + spare;
+    const std::int64_t slipped = followClock(world, job.endNs(), delay, job.panner(), link);
+    if (interrupted) link.stopAll();
+    else waitFor([] { return false; }, static_cast<int>(delay / ms) + 500); // what is on its way
+    std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(delay) * 1e-6 << " ms after the contact; " << static_cast<double>(slipped) * 1e-6
+              << " ms of stalls\n";
+    return finish(link, before);
+}
+
+} // namespace physvib

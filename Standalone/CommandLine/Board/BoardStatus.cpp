@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A link's status as text.
+#include "CommandLine/Board/BoardStatus.h"
+#include <iomanip>
+#include <iostream>
+
+namespace physvib {
+namespace {
+
+using State = BoardLinkStatus::State;
+
+std::string troubleOf(const BoardLinkStatus& status, const std::string& otherwise) { return status.trouble.empty() ? otherwise : status.trouble; }
+
+} // namespace
+
+std::string connectBoard(const BoardLink& link) {
+    const std::int64_t patience = BoardLink::nowNs() + 2'000'000'000;
+    bool isReady = false;
+    waitFor(
+        [&] {
+            const BoardLinkStatus s = link.status();
+            isReady = s.state == State::ready && s.telemetry.good > 0;
+            return isReady || (s.port.empty() && !s.trouble.empty() && BoardLink::nowNs() > patience);
+        },
+        20'000);
+    return isReady ? "" : troubleOf(link.status(), "no board answers");
+}
+
+void printBoardInfo(const BoardLinkStatus& s) {
+    const auto& b = s.board;
+    const auto& t = s.telemetry;
+    std::cout << s.port << ": " << int(b.channels) << " channels at " << b.sampleRateHz << " Hz, " << b.maxModes << " modes, protocol " << int(b.version) << ", clock "
+              << (b.crystal ? "72 MHz from the crystal" : "64 MHz, internal") << ", " << int(b.resets) << " restarts by the watchdog\n"
+              << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call at the earliest; drift " << s.driftPpm << " ppm\n"
+              << t.played << " strikes played, " << t.late << " late, " << t.dropped << " dropped, " << t.stolen << " modes stolen; link: " << t.good << " good, " << t.bad
+              << " bad, " << t.lost << " lost, " << t.overruns << " overruns; " << t.missedFrames << " frames missed; " << t.stackFree << " bytes of stack never used\n";
+}
+
+std::string reportBoard(const BoardLink& link, const wire::Telemetry& before) {
+    waitFor([&, seen = link.status().telemetry.frame] { return link.status().telemetry.frame != seen; }, 1500);
+    const auto s = link.status();
+    std::cout << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call; " << s.sent << " strikes sent, " << s.thinned << " thinned, " << s.refused
+              << " refused; the board played " << s.telemetry.played - before.played << ", " << s.telemetry.late - before.late << " late, " << s.telemetry.dropped - before.dropped
+              << " dropped, " << s.telemetry.lost << " lost\n";
+    return s.state == State::ready ? "" : troubleOf(s, "the board is gone");
+}
+
+} // namespace physvib

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Waiting for a board, and what it says of itself.
+#pragma once
+#include "CommandLine/Play/Interrupt.h"
+#include "Session/BoardLink.h"
+#include <chrono>
+#include <string>
+#include <thread>
+
+namespace physvib {
+
+/// False if it does not come true in time or the user interrupts.
+template <class Condition>
+bool waitFor(Condition isTrue, int milliseconds) {
+    for (const std::int64_t end = BoardLink::nowNs() + milliseconds * std::int64_t{1'000'000}; !isTrue();
+         std::this_thread::sleep_for(std::chrono::milliseconds(5)))
+        if (interrupted || BoardLink::nowNs() > end) return false;
+    return true;
+}
+
+/// The port of the option: a path, or "auto".
+inline std::string boardPort(const std::string& option) { return option == "auto" ? "" : option; }
+
+/// Waits until the board is ready and has told how it does; empty, or why not. A port that could never be opened is
+/// not waited for long, a board that starts is.
+std::string connectBoard(const BoardLink& link);
+
+void printBoardInfo(const BoardLinkStatus& status);
+
+/// One line on what was sent and played since `before`; empty, or what is wrong with the board now.
+std::string reportBoard(const BoardLink& link, const wire::Telemetry& before);
+
+} // namespace physvib

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a device or two files to a profile in its place.
+#include "CommandLine/Measure/CalibrateCommand.h"
+#include "CommandLine/Measure/BandText.h"
+#include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/ExitCode.h"
+#include "Files/ActuatorFile.h"
+#include "Files/Disk/AtomicFile.h"
+#include "Files/Text/NumberText.h"
+#include "Measure/ActuatorMeasurement.h"
+#include "Host/Devices/AudioOutput.h"
+#include "Host/Recordings/ReadRecording.h"
+#include "Host/Devices/SweepRecorder.h"
+#include "Host/Recordings/WavSink.h"
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr double bandDecibels = 10.0; // what a profile declares unless told: the equaliser then costs that much level
+
+SweepSettings sweepSettings(const CalibrateOptions& o) { return {.seconds = o.seconds, .level = std::pow(10.0, o.levelDb / 20.0)}; }
+
+/// Channel 1 of each file.
+Result<RecordedSweep> readPair(const CalibrateOptions& o) {
+    auto played = readRecording(o.playedPath);
+    if (!played) return Failure{played.error};
+    auto recorded = readRecording(o.recordedPath);
+    if (!recorded) return Failure{recorded.error};
+    if (played.value.sampleRateHz != recorded.value.sampleRateHz)
+        return Failure{o.recordedPath + ": expected the rate of " + o.playedPath + ", " + std::to_string(played.value.sampleRateHz) + " Hz, found " +
+                       std::to_string(recorded.value.sampleRateHz) + " Hz"};
+    return RecordedSweep{static_cast<double>(played.value.sampleRateHz), std::move(played.value.channels.front()), std::move(recorded.value.channels.front()), -1};
+}
+
+Result<RecordedSweep> measure(const CalibrateOptions& o) {
+    if (o.device.empty()) return readPair(o);
+    const juce::ScopedJuceInitialiser_GUI juce;
+    return recordSweep({o.device, o.channel - 1, o.input - 1, o.sampleRateHz}, [&](double rateHz) { return sweepOf(sweepSettings(o), rateHz); });
+}
+
+ActuatorProfile profileOf(const CalibrateOptions& o, const MeasuredActuator& m) {
+    ActuatorProfile p;
+    p.name = o.name;
+    p.description = "measured";
+    p.source = "physvib calibrate " PHYSVIB_VERSION ": sweep at " + numberText(m.rateHz) + " Hz, " + fixedNumber(100.0 * (1.0 - m.residualShare), 2) + " % explained";
+    p.resonanceHz = m.resonator.resonanceHz;
+    p.q = m.resonator.q;
+    p.band = m.bandWithin(bandDecibels, SweepSettings{}.band);
+    if (!o.band.empty()) p.band = *parseBand(o.band);
+    if (!p.band->isKnown()) p.band.reset();
+    if (o.gPerUnit > 0.0) p.fullScaleG = std::abs(m.gain) * o.gPerUnit;
+    if (o.driveVolts > 0.0) p.driveLimitVolts = o.driveVolts;
+    p.delaySeconds = std::max(0.0, m.delaySeconds);
+    return p;
+}
+
+int writeSweep(const CalibrateOptions& o) {
+    const int rate = o.sampleRateHz > 0 ? o.sampleRateHz : 48000;
+    WavSink wav(o.sweepPath, 1, rate, "physvib " PHYSVIB_VERSION " sweep");
+    const auto samples = sweepOf(sweepSettings(o), rate);
+    for (std::size_t at = 0; at < samples.size(); at += 4096) {
+        const float* const from = samples.data() + at;
+        wav.write(&from, static_cast<int>(std::min<std::size_t>(4096, samples.size() - at)));
+    }
+    if (const std::string& error = wav.finish(); !error.empty()) return leave(exitFailed, error);
+    std::cout << o.sweepPath << "  play it, record what the actuator does, and give both to physvib calibrate\n";
+    return exitDone;
+}
+
+std::string sourceOf(const CalibrateOptions& o) { return o.device.empty() ? o.recordedPath : o.device; }
+
+/// What was played and recorded, its faults told.
+Result<RecordedSweep> measureAndTell(const CalibrateOptions& o) {
+    auto sweep = measure(o);
+    if (sweep && sweep.value.xruns > 0) std::cerr << "physvib: warning: xruns of the device during the sweep: " << sweep.value.xruns << '\n';
+    return sweep;
+}
+
+int tellLoopback(const CalibrateOptions& o) {
+    const auto sweep = measureAndTell(o);
+    if (!sweep) return leave(exitFailed, sweep.error);
+    const auto found = fitLoopback(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
+    if (!found) return leave(exitFailed, sourceOf(o) + ": " + found.error);
+    const MeasuredLoopback& m = found.value;
+    std::cout << "latency of the loop " << fixedNumber(1e3 * m.delaySeconds, 3) << " ms, " << fixedNumber(m.delaySeconds * sweep.value.rateHz, 2) << " frames at " << numberText(sweep.value.rateHz)
+              << " Hz; gain " << fixedNumber(m.gain, 4) << "; " << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
+    return exitDone;
+}
+
+std::string fault(const CalibrateOptions& o) {
+    const bool isPair = !o.playedPath.empty() || !o.recordedPath.empty();
+    if (!o.sweepPath.empty()) return isPair || !o.device.empty() || !o.profilePath.empty() ? "calibrate: --sweep stands alone" : "";
+    if (isPair == !o.device.empty()) return "calibrate: expected --device, or --played and --recorded, or --sweep";
+    if (isPair && (o.playedPath.empty() || o.recordedPath.empty())) return "calibrate: expected both --played and --recorded";
+    if (o.isLoopback) return o.profilePath.empty() ? "" : "calibrate: --loopback measures a cable and writes no profile";
+    if (o.profilePath.empty()) return "calibrate: expected --out FILE.json";
+    if (!o.profilePath.ends_with(".json")) return "--out: expected a name that ends with .json, found " + inQuotes(o.profilePath);
+    return o.band.empty() || parseBand(o.band) ? std::string{} : "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band);
+}
+
+} // namespace
+
+void declareCalibrate(CLI::App& command, CalibrateOptions& o) {
+    command.add_option("--device", o.device, "device that plays and records (see physvib devices)");
+    command.add_option("--channel", o.channel, "output of the enchanter, from 1")->check(CLI::Range(1, 256))->capture_default_str();
+    command.add_option("--input", o.input, "input of the accelerometer or microphone, from 1")->check(CLI::Range(1, 256))->capture_default_str();
+    command.add_option("--rate", o.sampleRateHz, "sample rate; left out: as the device stands, 48000 for a file")->check(CLI::Range(limits::minSampleRateHz, limits::maxSampleRateHz));
+    command.add_option("--played", o.playedPath, "what was played elsewhere")->type_name("FILE.wav");
+    command.add_option("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment")->type_name("FILE.wav");
+    command.add_option("--sweep", o.sweepPath, "only write the sweep")->type_name("FILE.wav")->check(writtenFile);
+    command.add_option("--out", o.profilePath, "the profile")->type_name("FILE.json")->check(writtenFile);
+    command.add_flag("--loopback", o.isLoopback, "a cable from the output to the input: tell the latency of the loop");
+    command.add_option("--name", o.name, "of the profile")->capture_default_str();
+    command.add_option("--band", o.band, "to declare; left out: where it is within 10 dB of its peak")->type_name("LO-HI");
+    command.add_option("--level", o.levelDb, "peak of the sweep in dB of full scale")->check(CLI::Range(-60.0, 0.0))->capture_default_str();
+    command.add_option("--seconds", o.seconds, "length of the sweep")->check(CLI::Range(1.0, 60.0))->capture_default_str();
+    command.add_option("--g-per-unit", o.gPerUnit, "acceleration in g that a recorded sample of 1 stands for")->check(CLI::PositiveNumber);
+    command.add_option("--drive-volts", o.driveVolts, "voltage that a played sample of 1 becomes")->check(CLI::PositiveNumber);
+}
+
+int runCalibrate(const CalibrateOptions& o) {
+    if (const auto why = fault(o); !why.empty()) return leave(exitUsage, why);
+    if (!o.sweepPath.empty()) return writeSweep(o);
+    if (o.isLoopback) return tellLoopback(o);
+    AtomicFile file(o.profilePath); // before anything vibrates
+    if (!file.error().empty()) return leave(exitFailed, file.error());
+    const auto sweep = measureAndTell(o);
+    if (!sweep) return leave(exitFailed, sweep.error);
+    const auto measured = fitActuator(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
+    if (!measured) return leave(exitFailed, sourceOf(o) + ": " + measured.error);
+    const ActuatorProfile profile = profileOf(o, measured.value);
+    if (const auto read = readActuator(actuatorJson(profile), o.profilePath); !read) return leave(exitFailed, read.error);
+    file.write(actuatorJson(profile));
+    if (const std::string& error = file.commit(); !error.empty()) return leave(exitFailed, error);
+    const MeasuredActuator& m = measured.value;
+    std::cout << o.profilePath << "  " << fixedNumber(m.resonator.resonanceHz, 2) << " Hz, Q " << fixedNumber(m.resonator.q, 2) << ", gain " << fixedNumber(m.gain, 4) << ", delay "
+              << fixedNumber(1e3 * m.delaySeconds, 2) << " ms; " << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
+    return exitDone;
+}
+
+} // namespace physvib

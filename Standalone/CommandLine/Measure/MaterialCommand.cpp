@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a file to two numbers, and how far they can be trusted.
+#include "CommandLine/Measure/MaterialCommand.h"
+#include "CommandLine/Measure/BandText.h"
+#include "CommandLine/ExitCode.h"
+#include "Files/MaterialTable.h"
+#include "Files/Text/NumberText.h"
+#include "Measure/LoudestChannel.h"
+#include "Measure/MaterialExtractor.h"
+#include "Host/Recordings/ReadRecording.h"
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+int listMaterials() {
+    const MaterialTable& table = builtInMaterials();
+    std::string text = "# " + table.source + "\nmaterial,frequency_hz,decay_per_s\n";
+    for (const Material& m : table.materials)
+        if (m.frequencyHz > 0.0) text += m.name + "," + numberText(m.frequencyHz) + "," + numberText(m.decayPerSecond) + "\n";
+    std::cout << text;
+    return exitDone;
+}
+
+std::string significant(double number) { return fixedNumber(number, number < 0.1 ? 4 : 2); }
+
+std::string howSure(const ContactSound& s) {
+    std::string words = fixedNumber(s.frequencyHz, 2) + " Hz";
+    if (s.frequencyErrorHz > 0.0) words += " +- " + significant(s.frequencyErrorHz);
+    words += ", " + fixedNumber(s.decayPerSecond, 2) + " /s";
+    if (s.decayErrorPerSecond > 0.0) words += " +- " + significant(s.decayErrorPerSecond);
+    words += "; residual " + (s.residualShare > 0.0 ? fixedNumber(10.0 * std::log10(s.residualShare), 1) + " dB" : std::string{"none"});
+    return words + "; " + std::to_string(s.partials) + (s.partials == 1 ? " partial" : " partials") + " in " + fixedNumber(s.lengthSeconds, 3) + " s from " +
+           fixedNumber(s.beginSeconds, 4) + " s; confidence " + (s.isConfident() ? "high" : "low");
+}
+
+} // namespace
+
+void declareMaterial(CLI::App& command, MaterialOptions& o) {
+    command.add_option("recording", o.path, "one contact; of several, the strongest is taken")->type_name("FILE.wav");
+    command.add_option("--band", o.band, "Hz within which the frequency is looked for")->type_name("LO-HI")->capture_default_str();
+    command.add_option("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks")->check(CLI::IsMember({"fit", "two-peaks"}))->capture_default_str();
+    command.add_flag("--list", o.lists, "the built-in materials that sound, and where their numbers are from");
+}
+
+int runMaterial(const MaterialOptions& o) {
+    if (o.lists == !o.path.empty()) return leave(exitUsage, "material: give either FILE.wav or --list");
+    if (o.lists) return listMaterials();
+    const auto band = parseBand(o.band);
+    if (!band) return leave(exitUsage, "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band));
+    const auto recording = readRecording(o.path);
+    if (!recording) return leave(exitFailed, recording.error);
+    const auto sound = extractMaterial(loudestOf(recording.value.channels), recording.value.sampleRateHz, {band->lowHz, band->highHz},
+                                       o.rule == "fit" ? MaterialRule::fit : MaterialRule::twoPeaks);
+    if (!sound) return leave(exitFailed, o.path + ": " + sound.error);
+    std::cout << "frequency_hz,decay_per_s\n" << numberText(sound.value.frequencyHz) << ',' << numberText(sound.value.decayPerSecond) << '\n';
+    std::cerr << "physvib: " << howSure(sound.value) << '\n';
+    return exitDone;
+}
+
+} // namespace physvib

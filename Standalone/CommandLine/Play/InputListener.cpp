@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Polls standard input, cuts it into lines, and hands each to the session.
+#include "CommandLine/Play/InputListener.h"
+#include "CommandLine/ExitCode.h"
+#include "Files/InputLine.h"
+#include <poll.h>
+#include <type_traits>
+#include <unistd.h>
+
+namespace physvib {
+
+namespace {
+
+constexpr int pollMilliseconds = 50; // only the end of the program waits for it
+
+} // namespace
+
+InputListener::InputListener(Session& session, AudioOutput& output)
+    : session_{session}
+    , output_{output}
+    , thread_{[this] { run(); }} {}
+
+InputListener::~InputListener() {
+    stop_ = true;
+    thread_.join();
+}
+
+void InputListener::run() {
+    LineCutter lines;
+    const auto takeLine = [this](std::string_view line, bool isWhole) { take(line, isWhole); };
+    char bytes[4096];
+    while (!stop_) {
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        if (poll(&input, 1, pollMilliseconds) <= 0) continue;
+        const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
+        if (count <= 0) return lines.end(takeLine);
+        lines.add({bytes, static_cast<std::size_t>(count)}, takeLine);
+    }
+}
+
+void InputListener::take(std::string_view line, bool isWhole) {
+    const std::string name = "standard input:" + std::to_string(++lines_);
+    const std::string fault = isWhole ? act(line, name) : name + ": expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out";
+    if (!fault.empty()) tell(fault);
+}
+
+std::string InputListener::act(std::string_view line, const std::string& name) {
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) return {};
+    const auto read = readInputLine(line, name, session_.state().scene->materials, session_.channels());
+    if (!read) return read.error;
+    if (const auto* action = std::get_if<Action>(&read.value)) {
+        const std::string fault = session_.act(*action);
+        return fault.empty() ? fault : name + ": " + fault;
+    }
+    if (const auto* control = std::get_if<RenderControl>(&read.value)) return session_.post(*control) < 0 ? name + ": too many controls at once" : "";
+    output_.setSilent(std::get<SilenceControl>(read.value).isOn);
+    return {};
+}
+
+} // namespace physvib

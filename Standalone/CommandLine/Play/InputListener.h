@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lines of standard input that act on a live session as they come.
+#pragma once
+#include "Host/Devices/AudioOutput.h"
+#include "Session/Session.h"
+#include "CommandLine/Play/LineCutter.h"
+#include <atomic>
+#include <string>
+#include <thread>
+
+namespace physvib {
+
+/// Reads on a thread of its own, so that an input waits for nothing; refusals are told on stderr, a line each.
+class InputListener {
+public:
+    /// Both outlive the listener. M.
+    InputListener(Session& session, AudioOutput& output);
+    ~InputListener();
+
+private:
+    void run();
+    void take(std::string_view line, bool isWhole);
+    std::string act(std::string_view line, const std::string& name);
+
+    Session& session_;
+    AudioOutput& output_;
+    std::uint64_t lines_ = 0;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+} // namespace physvib

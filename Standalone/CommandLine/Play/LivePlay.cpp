@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Session, driver, device, board, recorder, journal and listener for the length of a call.
+#include "CommandLine/Play/LivePlay.h"
+#include "CommandLine/Board/BoardStatus.h"
+#include "CommandLine/ExitCode.h"
+#include "CommandLine/Play/InputListener.h"
+#include "Session/BoardOutput.h"
+#include "Host/Recordings/PlayedRecorder.h"
+#include "Session/SessionJournal.h"
+#include "Host/Devices/SimulationDriver.h"
+#include <cmath>
+#include <cstdio>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <unistd.h>
+
+namespace physvib {
+
+namespace {
+
+// What the message thread does while the session plays: empties the queues, keeps device and journal, ends the call.
+class Watch final : private juce::Timer {
+public:
+    Watch(Session& session, AudioOutput& output, const BoardLink* board, PlayedRecorder* recorder, SessionJournal* journal, double seconds)
+        : session_{session}, output_{output}, board_{board}, recorder_{recorder}, journal_{journal}, endNs_{std::llround(seconds * 1e9)} {
+        startTimer(milliseconds);
+    }
+    ~Watch() override {
+        stopTimer();
+        drain();
+        if (journal_) journal_->end(session_.status().sessionNs);
+    }
+    std::uint64_t played() const noexcept { return played_; }
+
+private:
+    static constexpr int milliseconds = 20;
+
+    void timerCallback() override {
+        drain();
+        if (recorder_) recorder_->drain();
+        const SessionStatus status = session_.status();
+        if (++ticks_ % (1000 / milliseconds) == 0) everySecond(status);
+        if (interrupted || status.sessionNs >= endNs_) juce::MessageManager::getInstance()->stopDispatchLoop();
+    }
+
+    void drain() {
+        for (PlayedEvent e; session_.played().pop(e); ++played_)
+            if (journal_) journal_->take(e);
+    }
+
+    void everySecond(const SessionStatus& status) {
+        std::string trouble = output_.maintain();
+        if (board_ && trouble.empty()) trouble = board_->status().trouble;
+        if (journal_ && trouble.empty()) trouble = journal_->news();
+        report(trouble);
+        static const bool isTerminal = isatty(STDERR_FILENO) != 0;
+        if (isTerminal) show(status);
+    }
+
+    void show(const SessionStatus& status) {
+        const AudioOutputStatus o = output_.status();
+        const double rate = output_.sampleRateHz() / 1e3;
+        const auto margin = status.leastMarginFrames == noMargin ? 0 : status.leastMarginFrames;
+        std::fprintf(stderr, "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  %llu dropped   ",
+                     static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
+                     static_cast<double>(session_.playOutFrames()) / rate, static_cast<double>(margin) / rate, status.render.liveModes,
+                     static_cast<unsigned long long>(status.render.late), static_cast<unsigned long long>(session_.drops() + status.render.untold));
+    }
+
+    void report(const std::string& trouble) {
+        if (!trouble.empty() && trouble != lastTrouble_) tell(trouble);
+        lastTrouble_ = trouble;
+    }
+
+    Session& session_;
+    AudioOutput& output_;
+    const BoardLink* board_;
+    PlayedRecorder* recorder_;
+    SessionJournal* journal_;
+    std::int64_t endNs_;
+    std::uint64_t played_ = 0;
+    int ticks_ = 0;
+    std::string lastTrouble_;
+};
+
+void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
+    const SessionStatus status = session.status();
+    const RenderStatus& r = status.render;
+    const AudioOutputStatus o = output.status();
+    const double framesPerMs = output.sampleRateHz() / 1e3;
+    std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(session.playOutFrames()) / framesPerMs
+              << " ms after the contact; " << played << " collisions played, " << r.late << " late, " << session.drops() + r.untold
+              << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.slippedNs()) * 1e-6 << " ms of stalls; ";
+    if (status.leastMarginFrames != noMargin) std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs << " ms; ";
+    std::cout << "worst load " << 100 * o.worstLoad << " %, " << o.deviceXruns << " xruns of the device\n";
+    if (o.losses > 0) std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
+}
+
+std::unique_ptr<SimulationDriver> makeDriver(const LivePlay& wanted, Session& session) {
+    if (wanted.ownThread) return std::make_unique<ThreadDriver>(session, wanted.setup.stepsPerSecond);
+    return std::make_unique<MessageTimerDriver>(session);
+}
+
+} // namespace
+
+std::string playLive(LivePlay wanted) {
+    const juce::ScopedJuceInitialiser_GUI juce; // the message loop
+    heedInterrupts();
+    std::optional<BoardLink> board;
+    if (!wanted.board.empty()) {
+        board.emplace(boardPort(wanted.board));
+        if (auto error = connectBoard(*board); !error.empty()) return error;
+        wanted.setup.boardSeconds = board->status().playOutMs * 1e-3;
+    }
+    const wire::Telemetry before = board ? board->status().telemetry : wire::Telemetry{};
+    wanted.setup.log = wanted.savePath.empty() ? LogUse::none : LogUse::stream;
+    Session session{wanted.setup};
+    std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
+    std::optional<SessionJournal> journal;
+    AudioOutput output{session, systemAudioDeviceTypes, &interrupted};
+    if (auto error = output.open(wanted.output); !error.empty()) return error;
+    if (!wanted.recordPath.empty()) {
+        recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
+        if (!recording->error().empty()) return recording->error();
+        output.record(&*recording);
+    }
+    if (!wanted.savePath.empty()) {
+        const Provenance provenance{PHYSVIB_VERSION, {{"scene", wanted.setup.scene.name}, {"session", wanted.savePath}}};
+        journal.emplace(wanted.savePath, session, wanted.setup, provenance);
+        if (!journal->error().empty()) return journal->error();
+    }
+    std::uint64_t played = 0;
+    {
+        std::optional<BoardOutput> onBoard;
+        if (board) onBoard.emplace(session, output, *board, wanted.setup.panner);
+        const auto driver = makeDriver(wanted, session);
+        std::optional<InputListener> listener;
+        if (wanted.listens) listener.emplace(session, output);
+        Watch watch{session, output, board ? &*board : nullptr, recording ? &*recording : nullptr, journal ? &*journal : nullptr, wanted.seconds};
+        juce::MessageManager::getInstance()->runDispatchLoop();
+        played = watch.played();
+    }
+    summarise(session, output, played);
+    if (recording && !output.isRecording()) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
+    output.close();
+    const std::string trouble = board ? reportBoard(*board, before) : "";
+    if (recording && recording->framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
+    const std::string saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : ""; // each, whatever becomes of the other
+    return !saved.empty() ? saved : !recorded.empty() ? recorded : trouble;
+}
+
+} // namespace physvib

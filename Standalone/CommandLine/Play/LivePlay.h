@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A session live on a device until its time is over or the user interrupts, with all that goes along.
+#pragma once
+#include "Host/Devices/AudioOutput.h"
+#include "Session/Session.h"
+#include <string>
+
+namespace physvib {
+
+struct LivePlay {
+    SessionSetup setup;
+    AudioOutputSettings output;
+    std::string board;      ///< as of --board, to be felt together with the device; empty: none
+    bool ownThread = false; ///< steps the world; else the message thread's timer
+    double seconds = 10.0;
+    std::string recordPath; ///< WAV; empty: none
+    std::string savePath;   ///< session as JSON; empty: none
+    bool listens = false;   ///< to standard input, line by line (see readInputLine)
+};
+
+/// Empty, or one line with the reason. M.
+std::string playLive(LivePlay wanted);
+
+} // namespace physvib

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The options of `physvib play`, from words to a session's setup.
+#include "CommandLine/Play/PlayCommand.h"
+#include "CommandLine/Board/BoardCommand.h"
+#include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/Play/LivePlay.h"
+#include "CommandLine/Study/NumberList.h"
+#include "CommandLine/Render/RenderJob.h"
+#include "Files/Disk/FileClash.h"
+#include "Host/Devices/AudioOutput.h"
+#include "Session/SerialLine.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+namespace physvib {
+
+namespace {
+
+/// "1,2,3" to {0, 1, 2}; empty means an empty map. False if it is anything else.
+bool parseMap(const std::string& text, std::vector<int>& map) {
+    if (text.empty()) return true;
+    if (!parseNumbers(text, map) || *std::min_element(map.begin(), map.end()) < 1) return false;
+    for (int& output : map) --output;
+    return true;
+}
+
+float gainOf(double decibels) { return static_cast<float>(std::pow(10.0, decibels / 20.0)); }
+
+/// "-6" for all channels, or "-6,-12,-6,-6", one each; false if it is anything else.
+bool parseCeilings(const std::string& text, int channels, std::array<float, limits::maxEnchanters>& ceilings) {
+    std::vector<double> decibels;
+    if (!parseNumbers(text, decibels)) return false;
+    if (decibels.size() == 1) decibels.resize(static_cast<std::size_t>(channels), decibels[0]);
+    const auto isCeiling = [](double dB) { return dB >= leastCeilingDb && dB <= 0.0; };
+    if (decibels.size() != static_cast<std::size_t>(channels) || !std::all_of(decibels.begin(), decibels.end(), isCeiling)) return false;
+    std::transform(decibels.begin(), decibels.end(), ceilings.begin(), gainOf);
+    return true;
+}
+
+/// What its materials sound like: which of them meet, nobody knows yet.
+std::vector<CollisionEvent> soundsOf(const Scene& scene) {
+    std::vector<CollisionEvent> sounds;
+    for (const Material& m : scene.materials) {
+        CollisionEvent& sound = sounds.emplace_back();
+        sound.frequencyHz = m.frequencyHz;
+        sound.decayPerSecond = m.decayPerSecond;
+    }
+    std::erase_if(sounds, [](const CollisionEvent& sound) { return !(sound.frequencyHz > 0.0); });
+    return sounds;
+}
+
+SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
+    SessionSetup setup;
+    setup.scene = *job.scene;
+    const SceneRun run = job.run();
+    setup.seed = run.seed;
+    setup.stepsPerSecond = run.stepsPerSecond;
+    setup.timing = run.timing;
+    setup.location = run.location;
+    setup.channels = job.channels();
+    setup.panner = job.panner();
+    setup.equalised = job.equalised();
+    setup.shaping = job.shaping();
+    setup.recordings = job.feltRecordings();
+    if (!o.scene.contactSound.empty()) setup.contactSound = job.recordings;
+    setup.limiterEnabled = o.scene.limiter == "on";
+    setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
+    return setup;
+}
+
+} // namespace
+
+void declarePlayOptions(CLI::App& command, PlayOptions& o) {
+    declareSceneOptions(command, o.scene);
+    command.add_option("--device", o.device, "output device (see physvib devices)");
+    command.add_option("--board", o.board, "four-channel board: serial port, or auto; alone, or together with a device")->type_name("PORT");
+    command.add_option("--map", o.map, "device outputs of the enchanters, from 1")->type_name("1,2,3,4");
+    command.add_option("--driver", o.driver, "who steps the world: message or thread")->check(CLI::IsMember({"message", "thread"}))->capture_default_str();
+    command.add_option("--level", o.levelDb, "master level in dB")->check(CLI::Range(-90.0, 0.0))->capture_default_str();
+    command.add_option("--ceiling", o.ceilings, "drive ceiling in dB of full scale, before the master level: one for all, or one per enchanter")
+        ->type_name("DB[,DB...]")->capture_default_str();
+    command.add_option("--noise", o.noise, "other outputs of the device that play pink noise, from 1: masks what actuators sound like")->type_name("5,6");
+    command.add_option("--noise-db", o.noiseDb, "its root mean square, in dB of full scale")->check(CLI::Range(PinkNoise::leastDb, PinkNoise::mostDb))->capture_default_str();
+    command.add_option("--contact-sound", o.scene.contactSound, "other outputs of the device on which each hit is heard, from 1")->type_name("5,6");
+    command.add_option("--block", o.blockFrames, "frames per block; 0: as the device stands")->check(CLI::Range(0, limits::maxBlockFrames));
+    command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav")->check(writtenFile);
+    command.add_option("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv")->type_name("FILE.json")->check(writtenFile);
+    command.add_flag("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
+}
+
+int runPlay(PlayOptions& o) {
+    if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
+    if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
+    if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
+    const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.perceivedLevel == "off";
+    if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --perceived-level and --actuator; render --events, then board PORT play, has them");
+    RenderJob job{o.scene, {}, {}, {}, {}};
+    if (const int code = takeScene(job); code != exitDone) return code;
+    if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");
+    auto layout = layoutNamed(o.scene.layout);
+    if (!layout) return leave(exitFailed, layout.error);
+    job.layout = std::move(layout.value);
+    if (!o.board.empty() && job.channels() > limits::board::channels)
+        return leave(exitUsage, "--board: the board has four channels, this layout " + std::to_string(job.channels()));
+    if (auto fault = fixedLevelFault(job); !fault.empty()) return leave(exitFailed, fault);
+    auto actuators = chooseActuators(o.scene, job.layout);
+    if (!actuators) return leave(exitFailed, actuators.error);
+    job.actuators = std::move(actuators.value);
+    for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) tell("warning: " + line);
+    if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty()) return leave(exitFailed, fault);
+    for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
+    if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty())) return leave(exitUsage, "--noise, --contact-sound: expected a --device that they are heard on");
+    if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
+    if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
+        return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
+    const std::vector<std::string> written{o.recordPath, o.savePath, o.savePath.empty() ? "" : std::filesystem::path{o.savePath}.replace_extension(".events.csv").string()};
+    if (auto clash = fileClash(written, job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
+    AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
+    if (!parseMap(o.map, settings.channelMap)) return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
+    settings.listening.noiseDb = o.noiseDb;
+    settings.listening.contactDb = o.scene.contactSoundDb;
+    if (!parseMap(o.noise, settings.listening.noise)) return leave(exitUsage, "--noise: expected outputs like 5,6, found \"" + o.noise + "\"");
+    if (!parseMap(o.scene.contactSound, settings.listening.contacts))
+        return leave(exitUsage, "--contact-sound: expected outputs like 5,6, found \"" + o.scene.contactSound + "\"");
+    SessionSetup setup = setupOf(o, job);
+    if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
+        return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (" + std::to_string(setup.channels) + "), found \"" +
+                                    o.ceilings + "\"");
+    const std::string error = playLive({setup, settings, o.board, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens});
+    return error.empty() ? exitDone : leave(exitFailed, error);
+}
+
+int runDevices() {
+    const juce::ScopedJuceInitialiser_GUI juce;
+    for (const auto& device : listAudioDevices()) std::cout << device.type << ':' << device.name << "  " << device.channels << " outputs\n";
+    for (const auto& port : listSerialPorts()) std::cout << port.path << "  " << port.description << '\n';
+    return exitDone;
+}
+
+} // namespace physvib

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib play`: a scene felt live on an audio device, without a window; `physvib devices`: where that can be.
+#pragma once
+#include "CommandLine/Render/RenderOptions.h"
+#include "Host/Devices/AudioOutput.h"
+#include <string>
+
+namespace physvib {
+
+/// The scene options, and where to play.
+struct PlayOptions {
+    RenderOptions scene;
+    std::string device;
+    std::string board;              ///< serial port of a four-channel board, alone or beside a device
+    std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
+    std::string noise;              ///< as map: outputs that play pink noise; empty: none
+    double noiseDb = PinkNoise::safeDb;   ///< its root mean square, of full scale
+    std::string driver = "message"; ///< or "thread"
+    std::string recordPath;         ///< WAV of what was played; empty: not wanted
+    std::string savePath;           ///< the session as JSON; empty: not wanted
+    bool listens = false;           ///< to standard input
+    double levelDb = safeStartDecibels; ///< master level
+    std::string ceilings = "0";     ///< dB of full scale: one for all enchanters, or one each
+    int blockFrames = 0;            ///< 0: as the device stands
+};
+
+void declarePlayOptions(CLI::App& command, PlayOptions& options);
+
+/// Plays until the time is over or the user interrupts; an exit code.
+int runPlay(PlayOptions& options);
+
+/// A line per output device; an exit code.
+int runDevices();
+
+} // namespace physvib

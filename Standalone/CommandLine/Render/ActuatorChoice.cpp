@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Profiles looked up, checked and weighed.
+#include "CommandLine/Render/ActuatorChoice.h"
+#include "CommandLine/ExitCode.h"
+#include "Files/ActuatorFile.h"
+#include "Files/Text/NumberText.h"
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace physvib {
+namespace {
+
+/// Share by which two frequencies must differ to be told apart (Pongrac 2008; others found 20 to 30 %).
+constexpr double frequencyJnd = 0.18;
+
+/// One per enchanter; empty with --actuator none.
+Result<std::vector<ActuatorProfile>> profilesOf(const RenderOptions& o, const LayoutDescription& layout) {
+    std::vector<ActuatorProfile> profiles;
+    if (o.actuator == "none") return profiles;
+    for (const EnchanterDescription& enchanter : layout.enchanters) {
+        const bool isNamedThere = o.actuator == "layout";
+        const std::string& name = isNamedThere ? enchanter.actuator : o.actuator;
+        auto profile = name == "none" ? Result<ActuatorProfile>{ActuatorProfile{}} : findActuator(name);
+        if (!profile) return Failure{(isNamedThere ? o.layout + ": enchanter " + enchanter.label : "--actuator") + ": " + profile.error};
+        profiles.push_back(std::move(profile.value));
+    }
+    return profiles;
+}
+
+std::string hertz(double frequencyHz) { return fixedNumber(frequencyHz, 0) + " Hz"; }
+
+/// Where all can play.
+Result<FrequencyBand> commonBand(const std::vector<ActuatorProfile>& profiles) {
+    FrequencyBand common;
+    for (const ActuatorProfile& p : profiles) {
+        if (p.name.empty()) continue; // none
+        if (!p.band) return Failure{p.name + ": band_hz is not known: nothing to remap into"};
+        common = common.isKnown() ? FrequencyBand{std::max(common.lowHz, p.band->lowHz), std::min(common.highHz, p.band->highHz)} : *p.band;
+        if (!common.isKnown()) return Failure{"--remap: the layout's actuators have no band in common"};
+    }
+    return common;
+}
+
+/// A sample of 1 is to become the actuator's drive limit, on an interface that gives `interfaceVolts` at its full scale.
+std::string scaleVoltages(const std::vector<ActuatorProfile>& profiles, double interfaceVolts, ActuatorChoice& choice) {
+    for (std::size_t j = 0; j < profiles.size(); ++j) {
+        const ActuatorProfile& p = profiles[j];
+        if (!p.driveLimitVolts) return (p.name.empty() ? "an enchanter without an actuator" : p.name) + ": drive_limit_v is not known: no voltage to scale to";
+        if (*p.driveLimitVolts > interfaceVolts)
+            return p.name + ": expected an interface of at least " + numberText(*p.driveLimitVolts) + " V, found --interface-volts " + numberText(interfaceVolts);
+        choice.voltageScale[j] = *p.driveLimitVolts / interfaceVolts;
+    }
+    return {};
+}
+
+} // namespace
+
+Result<ActuatorChoice> chooseActuators(const RenderOptions& o, const LayoutDescription& layout) {
+    auto profiles = profilesOf(o, layout);
+    if (!profiles) return Failure{profiles.error};
+    ActuatorChoice choice;
+    for (std::size_t j = 0; j < profiles.value.size() && o.equalise == "on"; ++j) {
+        const ActuatorProfile& p = profiles.value[j];
+        if (p.name.empty()) continue;
+        if (const std::string fault = equaliserFault(p); !fault.empty()) return Failure{"--actuator " + o.actuator + ": " + p.name + ": " + fault};
+        choice.equalised[j] = {p.resonator(), *p.band};
+        if (p.band->highHz >= 0.5 * o.sampleRateHz) return Failure{"--actuator " + o.actuator + ": " + p.name + ": expected a band below half of the sample rate"};
+    }
+    if (o.interfaceVolts > 0.0)
+        if (auto fault = scaleVoltages(profiles.value, o.interfaceVolts, choice); !fault.empty()) return Failure{fault};
+    if (o.remap == "off") return choice;
+    const auto band = commonBand(profiles.value);
+    if (!band) return Failure{band.error};
+    choice.remap.band = band.value;
+    return choice;
+}
+
+std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRateHz) {
+    std::vector<std::string> notes;
+    for (auto at = choice.equalised.begin(); at != choice.equalised.end(); ++at) {
+        if (!at->isKnown() || std::find(choice.equalised.begin(), at, *at) != at) continue;
+        const double level = ActuatorEqualiser{*at, sampleRateHz}.flatLevel();
+        notes.push_back("equalised from " + hertz(at->band.lowHz) + " to " + hertz(at->band.highHz) + ": flat up to " + fixedNumber(20.0 * std::log10(level), 1) +
+                        " dB of the level at " + hertz(at->resonator.resonanceHz) + "; above it the limiter holds the drive");
+    }
+    return notes;
+}
+
+std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<const CollisionEvent> before, const LayoutDescription& layout, const RenderOptions& o) {
+    std::vector<std::string> warnings;
+    if (!remap.band.isKnown()) return warnings;
+    std::set<double> frequencies, decays;
+    for (const CollisionEvent& e : before) frequencies.insert(e.frequencyHz), decays.insert(e.decayPerSecond);
+    for (auto low = frequencies.begin(), high = low; high != frequencies.end(); low = high) {
+        if (++high == frequencies.end()) break;
+        const double ratio = remap(*high) / remap(*low);
+        if (ratio < 1.0 + frequencyJnd)
+            warnings.push_back("--remap: " + hertz(*low) + " and " + hertz(*high) + " end at " + hertz(remap(*low)) + " and " + hertz(remap(*high)) + ", nearer than one JND of " +
+                               fixedNumber(100.0 * frequencyJnd, 0) + " % (Pongrac 2008)");
+    }
+    const auto profiles = profilesOf(o, layout);
+    for (std::size_t j = 0; o.equalise == "off" && profiles && j < profiles.value.size(); ++j) {
+        const Resonator r = profiles.value[j].resonator();
+        if (!r.isKnown() || decays.empty() || *decays.rbegin() <= r.ringDownPerSecond()) continue;
+        warnings.push_back("--remap: " + profiles.value[j].name + " rings down with " + fixedNumber(r.ringDownPerSecond(), 1) + " /s; a decay of up to " +
+                           fixedNumber(*decays.rbegin(), 1) + " /s is felt as that");
+        break;
+    }
+    return warnings;
+}
+
+int listActuators() {
+    const auto orUnknown = [](const std::optional<double>& figure) { return figure ? numberText(*figure) : std::string{}; };
+    std::string text = "actuator,resonance_hz,q,band_low_hz,band_high_hz,drive_limit_v,rise_time_s,full_scale_g,source\n";
+    for (const ActuatorProfile& p : builtInActuators()) {
+        text += p.name + ',' + orUnknown(p.resonanceHz) + ',' + orUnknown(p.q) + ',' + (p.band ? numberText(p.band->lowHz) + ',' + numberText(p.band->highHz) : ",") + ',';
+        text += orUnknown(p.driveLimitVolts) + ',' + orUnknown(p.riseSeconds) + ',' + orUnknown(p.fullScaleG) + ",\"" + p.source + "\"\n";
+    }
+    std::cout << text;
+    return exitDone;
+}
+
+} // namespace physvib

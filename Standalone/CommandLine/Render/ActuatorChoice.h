@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What --actuator, --equalise and --remap mean for a layout; `physvib actuators`.
+#pragma once
+#include "CommandLine/Render/RenderOptions.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
+#include "Core/CollisionEvent.h"
+#include "Core/EventShaping.h"
+#include "Files/LayoutFile.h"
+#include <span>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// What is wanted of the actuators of a layout.
+struct ActuatorChoice {
+    EqualisedActuators equalised{}; ///< per enchanter
+    std::array<double, limits::maxEnchanters> voltageScale{}; ///< from a sample to the interface's full scale; 0: not wanted
+    FrequencyRemap remap;           ///< one for all: an event has one frequency
+};
+
+/// By the options: --actuator none, a profile for all enchanters, or `layout`: those that it names. One line if a profile
+/// is unknown or lacks what is wanted of it. M only.
+Result<ActuatorChoice> chooseActuators(const RenderOptions& options, const LayoutDescription& layout);
+
+/// Lines for people on what the choice costs: the highest level that is flat in the band, per distinct actuator.
+std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRateHz);
+
+/// Lines for people on what remapping loses: materials that end nearer to each other than one JND, and those that the
+/// actuator's own ring-down outlasts. `before`: the collisions, not remapped yet.
+std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<const CollisionEvent> before, const LayoutDescription& layout, const RenderOptions& options);
+
+/// A line of CSV per built-in profile on stdout; an exit code.
+int listActuators();
+
+} // namespace physvib

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One render from its inputs to its events: what the renderer and the outputs need to know.
+#pragma once
+#include "CommandLine/Render/ActuatorChoice.h"
+#include "CommandLine/Render/CouplingChoice.h"
+#include "CommandLine/ExitCode.h"
+#include "CommandLine/Render/LayoutNamed.h"
+#include "CommandLine/Render/RenderOptions.h"
+#include "Host/Recordings/LoadContact.h"
+#include "Host/Recordings/LoadRecordings.h"
+#include "Files/Disk/Embedded.h"
+#include "Files/LayoutFile.h"
+#include "Files/Text/NumberText.h"
+#include "Files/SceneCatalogue.h"
+#include "Files/SessionFile.h"
+#include "Physics/SceneRun.h"
+#include "Physics/SceneValidation.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <optional>
+
+namespace physvib {
+
+struct RenderJob {
+    const RenderOptions& options;
+    std::optional<Scene> scene; ///< none: events come from a list
+    LayoutDescription layout;
+    std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
+    SceneEvents made;
+    std::vector<ContactRecording> recordings{}; ///< of --sound
+    LoadedRecordings sessionRecordings{}; ///< of a session
+    ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
+    CouplingChoice coupling{};  ///< by the options
+
+    /// Those that are played instead of modes.
+    std::vector<ContactRecording> feltRecordings() const { return options.playsRecordings() ? recordings : std::vector<ContactRecording>{}; }
+
+    SceneRun run() const {
+        if (session) return session->run;
+        const auto timing = options.timing == "release" ? ImpactTiming::release : ImpactTiming::onset;
+        const auto location = options.location == "fixture" ? ImpactLocation::fixture : ImpactLocation::contact;
+        return {options.seed, options.stepsPerSecond, timing, location};
+    }
+    /// Whether the session's layouts are kept, or replaced by one of the options.
+    bool keepsLayouts() const {
+        constexpr const char* panning[] = {"--layout", "--law", "--exponent", "--field"};
+        return session && std::ranges::none_of(panning, [&](const char* name) { return options.given.contains(name); });
+    }
+    /// Files that are read because others name them: a session its recordings, a layout its actuators.
+    std::vector<std::string> namedInputs() const {
+        auto paths = session ? recordingPaths(session->log) : std::vector<std::string>{};
+        for (const EnchanterDescription& enchanter : layout.enchanters) paths.push_back(enchanter.actuator);
+        return paths;
+    }
+    int channels() const { return keepsLayouts() ? session->channels : layout.geometry.count; }
+    double seconds() const {
+        return session && !options.given.contains("--seconds") ? static_cast<double>(session->lengthNs) * 1e-9 : options.seconds;
+    }
+    /// Those of a saved session belong to its actuators: on other layouts they say nothing.
+    std::array<float, limits::maxEnchanters> ceilings() const {
+        return keepsLayouts() ? session->ceilings : RendererSettings::fullScale();
+    }
+    /// Whether a session's actuators are kept, as its layouts.
+    bool keepsActuators() const {
+        constexpr const char* own[] = {"--actuator", "--equalise", "--remap", "--layout"};
+        return session && std::ranges::none_of(own, [&](const char* name) { return options.given.contains(name); });
+    }
+    EqualisedActuators equalised() const { return keepsActuators() ? session->equalised : actuators.equalised; }
+    EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain(), perceived()}; }
+    double gain() const { return session && !options.given.contains("--level-db") ? session->shaping.gain : std::pow(10.0, options.levelDb / 20.0); }
+    PerceivedLevel perceived() const {
+        return session && !options.given.contains("--perceived-level") ? session->shaping.perceived : PerceivedLevel{options.perceivedLevel == "on"};
+    }
+    /// Whether what a session played of recordings is kept: its own method.
+    bool keepsRecordings() const { return session && !options.given.contains("--method"); }
+    bool isLimited() const { return session ? session->limiterEnabled : options.limiter == "on"; }
+    std::int64_t frames() const { return std::llround(seconds() * options.sampleRateHz); }
+    std::int64_t endNs() const { return std::llround(seconds() * 1e9); }
+    double fieldWidthMetres() const {
+        if (options.fieldWidthMetres > 0) return options.fieldWidthMetres;
+        if (session) return session->panner.fieldWidthMetres();
+        return scene ? scene->fieldWidthMetres : layout.geometry.extentWidthMetres;
+    }
+    double fieldHeightMetres() const {
+        if (options.fieldHeightMetres > 0) return options.fieldHeightMetres;
+        if (session) return session->panner.fieldHeightMetres();
+        return scene ? scene->fieldHeightMetres : layout.geometry.extentHeightMetres;
+    }
+    /// The wanted method, its fixed level in shares of the enchanters' full scale.
+    RenderingMethod method() const {
+        if (session && !options.given.contains("--method")) return session->shaping.method;
+        RenderingMethod wanted = options.renderingMethod;
+        wanted.fixedAmplitude = RenderingMethod::fixedLevelG / fullScaleG();
+        return wanted;
+    }
+    /// Of the first enchanter; a fixed level needs it to be that of all.
+    double fullScaleG() const { return layout.enchanters.front().fullScaleG; }
+    PhantomPanner panner() const {
+        if (keepsLayouts()) return session->panner;
+        return {layout.geometry, options.panningLaw, options.exponent, fieldWidthMetres(), fieldHeightMetres()};
+    }
+};
+
+/// Why the method's fixed level cannot be had, or empty; a warning where it is high. An event has one amplitude: 1.5 g on every
+/// enchanter is one only if their full scales are one.
+inline std::string fixedLevelFault(const RenderJob& job) {
+    if (!job.method().fixesAmplitude) return {};
+    for (const auto& enchanter : job.layout.enchanters)
+        if (enchanter.fullScaleG != job.fullScaleG())
+            return job.options.layout + ": --method " + job.options.method + ": expected one full_scale_g for all enchanters, found " +
+                   numberText(job.fullScaleG()) + " and " + numberText(enchanter.fullScaleG);
+    if (job.method().fixedAmplitude > 1.0)
+        std::cerr << "physvib: warning: --method " << job.options.method << ": the fixed level of " << numberText(RenderingMethod::fixedLevelG)
+                  << " g is above the enchanters' full scale of " << numberText(job.fullScaleG()) << " g"
+                  << (job.isLimited() ? "; the limiter lowers it\n" : "\n");
+    return {};
+}
+
+/// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty, or one line.
+inline std::string takeRecordings(RenderJob& job, const std::vector<CollisionEvent>& events, const std::string& source) {
+    for (const auto& [hz, path] : job.options.recordings) {
+        const auto struck = std::ranges::find(events, hz, &CollisionEvent::frequencyHz);
+        auto contact = loadContact({hz, path, struck != events.end() ? struck->decayPerSecond : 0.0, job.options.soundMatch == "rms"});
+        if (!contact) return contact.error;
+        job.recordings.push_back(std::move(contact.value));
+    }
+    for (const CollisionEvent& e : events)
+        if (job.options.playsRecordings() && std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) == job.recordings.end())
+            return source + ": expected a --sound for " + numberText(e.frequencyHz) + " Hz, found none";
+    return {};
+}
+
+/// Takes the saved session that the options name into `job`: exitDone, or the code to leave with after a line on stderr.
+inline int takeSession(RenderJob& job) {
+    for (const char* own : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--limiter"})
+        if (job.options.given.contains(own)) return leave(exitUsage, std::string{own} + ": a saved session brings its own");
+    auto session = loadSession(job.options.scene);
+    if (!session) return leave(exitFailed, session.error);
+    job.session = std::move(session.value);
+    job.scene = job.session->log.takes.front().whole();
+    if (!job.keepsRecordings() || job.session->log.recordings.empty()) return exitDone;
+    if (job.options.remap == "on") return leave(exitUsage, std::string{recordingsHaveNoFrequency});
+    if (job.perceived().isWeighted) return leave(exitUsage, std::string{recordingsHaveNoWeight});
+    auto recordings = loadRecordings(job.session->log);
+    if (!recordings) return leave(exitFailed, job.options.scene + ": " + recordings.error);
+    job.sessionRecordings = std::move(recordings.value);
+    return exitDone;
+}
+
+/// Takes the scene that the options name into `job`, with warnings on what it simulates badly: exitDone, or
+/// the code to leave with after a line on stderr.
+inline int takeScene(RenderJob& job) {
+    const std::string& name = job.options.scene;
+    auto scene = findScene(name, job.options.settings);
+    if (!scene) return leave(isJsonPath(name) ? exitFailed : exitUsage, scene.error);
+    job.scene = std::move(scene.value);
+    for (const std::string& warning : sceneWarnings(*job.scene))
+        tell("warning: " + name + ": " + warning);
+    return exitDone;
+}
+
+} // namespace physvib

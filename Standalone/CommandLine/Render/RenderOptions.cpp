@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Names, ranges and help texts of the options of `physvib render`.
+#include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/Render/RenderOptions.h"
+#include "Files/Text/NumberText.h"
+#include "Physics/Simulation.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+// A range check whose message names the value and the range.
+template <class T>
+CLI::Validator between(T low, T high, const std::string& unit) {
+    const std::string range = CLI::detail::to_string(low) + " to " + CLI::detail::to_string(high) + unit;
+    return {[=](std::string& text) {
+                T value{};
+                const bool isNumber = CLI::detail::lexical_cast(text, value);
+                return isNumber && value >= low && value <= high ? std::string{} : "expected " + range + ", found \"" + text + "\"";
+            },
+            range};
+}
+
+bool parseMetres(std::string_view text, double& metres) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
+    return error == std::errc{} && end == text.data() + text.size() && metres >= 1e-3 && metres <= 1e6;
+}
+
+bool parseField(RenderOptions& o) {
+    const auto comma = o.field.find(',');
+    if (comma == std::string::npos) return false;
+    const std::string_view text{o.field};
+    return parseMetres(text.substr(0, comma), o.fieldWidthMetres) && parseMetres(text.substr(comma + 1), o.fieldHeightMetres);
+}
+
+bool parseSettings(RenderOptions& o) {
+    for (const std::string& text : o.sets) {
+        const auto equals = text.find('=');
+        if (equals == 0 || equals == std::string::npos) return false;
+        o.settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    return true;
+}
+
+} // namespace
+
+bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<double, std::string>>& recordings) {
+    for (const std::string& text : sounds) {
+        const auto equals = text.find('=');
+        const auto hz = parseNumber<double>(std::string_view{text}.substr(0, equals));
+        if (equals == std::string::npos || !hz || !(*hz > 0.0) || equals + 1 == text.size()) return false;
+        recordings.emplace_back(*hz, text.substr(equals + 1));
+    }
+    return true;
+}
+
+void declareSceneOptions(CLI::App& command, RenderOptions& o) {
+    command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or a saved SESSION.json (render)");
+    command.add_option("--set", o.sets, "a variable of the scene; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
+    command.add_option("--seconds", o.seconds, "length of the render")->check(between(0.001, 86400.0, " s"))->capture_default_str();
+    command.add_option("--seed", o.seed, "seed of the scene")->check(between(0u, 4294967295u, ""))->capture_default_str();
+    command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")->capture_default_str();
+    command.add_option("--field", o.field, "metres that x and y span (scene: its field; events: the layout's extent)")->type_name("W,H");
+    command.add_option("--law", o.law, "panning law: linear, log, log-outer, energy")->capture_default_str();
+    command.add_option("--exponent", o.exponent, "exponent of the law")->check(between(0.01, 100.0, ""))->capture_default_str();
+    command.add_option("--limiter", o.limiter, "on or off")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+    command.add_option("--steps-per-second", o.stepsPerSecond, "physics steps per second")
+        ->check(between(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s"))->capture_default_str();
+    command.add_option("--location", o.location, "place of a hit: contact, or centre of the fixture")
+        ->check(CLI::IsMember({"contact", "fixture"}))->capture_default_str();
+    command.add_option("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)")
+        ->check(CLI::IsMember({"onset", "release"}))->capture_default_str();
+    command.add_option("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed; or SV, recorded contacts")->capture_default_str();
+    command.add_option("--sound", o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency, or synthetic-SEED; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
+    command.add_option("--sound-match", o.soundMatch, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)")
+        ->check(CLI::IsMember({"peak", "rms"}))->capture_default_str();
+    command.add_option("--level-db", o.levelDb, "all hits so much stronger or weaker")->check(between(-limits::maxLevelDb, limits::maxLevelDb, " dB"))->capture_default_str();
+    command.add_option("--perceived-level", o.perceivedLevel, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)")
+        ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+    command.add_option("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
+        ->check(between(leastContactDb, mostContactDb, " dB"))->capture_default_str();
+    command.add_option("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file")->capture_default_str();
+    command.add_option("--equalise", o.equalise, "with an actuator: make it flat within its band (on or off)")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+    command.add_option("--remap", o.remap, "with an actuator: move all frequencies into its band, in their order (on or off)")
+        ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
+    command.add_option("--coupling", o.coupling, "measured coupling of the layout's enchanters, made up for with at most 3 dB more drive (render)")->type_name("FILE.json");
+}
+
+void declareRenderOptions(CLI::App& command, RenderOptions& o) {
+    declareSceneOptions(command, o);
+    command.add_option("--from-events", o.fromEvents, "render this event list instead of a scene")->type_name("EVENTS.csv");
+    command.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav")->check(writtenFile);
+    command.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv")->check(writtenFile);
+    command.add_option("--picture", o.picturePath, "world, waveforms and event marks")->type_name("FILE.png")->check(writtenFile);
+    command.add_option("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel")->type_name("FILE.csv")->check(writtenFile);
+    command.add_option("--threshold", o.threshold, "of the pattern, in full scale")->check(between(0.0, 1.0, ""))->capture_default_str();
+    command.add_option("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
+        ->check(between(0.001, 1000.0, " V"));
+    command.add_option("--contact-sound", o.contactSound, "what is heard of each hit, for headphones: one channel, in sync with --out")->type_name("FILE.wav")->check(writtenFile);
+    command.add_option("--rate", o.sampleRateHz, "sample rate")
+        ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
+    command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
+        ->check(between(1, limits::maxBlockFrames, " frames"))->capture_default_str();
+    command.add_option("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds more")
+        ->check(between(0.0, 1e7, " s"))->capture_default_str();
+}
+
+void noteGiven(const CLI::App& command, RenderOptions& o) {
+    for (const CLI::Option* option : command.get_options())
+        if (option->count() > 0) o.given.insert(option->get_name());
+}
+
+std::string checkSceneOptions(RenderOptions& o) {
+    if (!parseSettings(o)) return "--set: expected NAME=VALUE";
+    if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
+    if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
+    if (!parseSounds(o.sounds, o.recordings)) return std::string{soundExpectation};
+    if (o.playsRecordings() && o.sounds.empty()) return "--method SV: expected a --sound for each material";
+    if (!o.playsRecordings() && !o.sounds.empty() && o.contactSound.empty()) return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
+    if (o.playsRecordings() && o.remap == "on") return std::string{recordingsHaveNoFrequency};
+    if (o.playsRecordings() && o.perceivedLevel == "on") return std::string{recordingsHaveNoWeight};
+    if (!o.playsRecordings() && !renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"" + o.method + "\"";
+    if (!o.sounds.empty() && (o.remap == "on" || o.renderingMethod.fixesFrequency)) return "--sound: expected hits at their material's own frequency, found " + (o.remap == "on" ? "--remap" : "--method " + o.method);
+    if (o.remap == "on" && o.actuator == "none") return "--remap: expected an --actuator, whose band is to be used";
+    return {};
+}
+
+std::string checkRenderOptions(RenderOptions& o) {
+    if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
+    if (!o.sets.empty() && o.scene.empty()) return "--set: only a scene has variables";
+    if (std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return "render: nothing to write; give --out, --events, --picture, --pattern or --contact-sound";
+    if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";
+    if (!o.coupling.empty() && o.playsRecordings()) return "--coupling: expected a --method of modes; a recording has no one frequency";
+    return checkSceneOptions(o);
+}
+
+} // namespace physvib

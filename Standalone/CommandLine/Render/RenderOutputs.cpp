@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writing beside, then renaming; progress on a terminal only.
+#include "CommandLine/Render/RenderOutputs.h"
+#include "CommandLine/Render/LevelReport.h"
+#include "Host/Pictures/RenderPicture.h"
+#include <cmath>
+#include <cstdio>
+#include <iomanip>
+#include <ostream>
+#include <unistd.h>
+
+namespace physvib {
+
+namespace {
+
+std::string open(std::optional<AtomicFile>& file, const std::string& path) {
+    if (path.empty()) return {};
+    file.emplace(path);
+    return file->error();
+}
+
+std::string open(std::unique_ptr<WavSink>& wav, const std::string& path, int channels, int sampleRateHz, const std::string& provenance) {
+    if (path.empty()) return {};
+    wav = std::make_unique<WavSink>(path, channels, sampleRateHz, provenance);
+    return wav->error();
+}
+
+} // namespace
+
+RenderOutputs::RenderOutputs(const RenderJob& job)
+    : job_{job}
+    , pattern_{job.channels(), job.options.sampleRateHz, job.options.threshold}
+    , whole_{job.channels(), 0, job.frames()} {}
+
+std::string RenderOutputs::open() {
+    const RenderOptions& o = job_.options;
+    std::string error = physvib::open(wav_, o.wavPath, job_.channels(), o.sampleRateHz, provenanceText());
+    if (error.empty()) error = physvib::open(contactWav_, o.contactSound, 1, o.sampleRateHz, provenanceText() + " heard=contact_sound");
+    for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}})
+        if (error.empty()) error = physvib::open(*file, *path);
+    return error;
+}
+
+void RenderOutputs::begin() {
+    const FrameWindow window = zoomWindow(job_.made.events, job_.options.sampleRateHz);
+    zoom_.emplace(job_.channels(), window.firstFrame, window.frameCount);
+}
+
+bool RenderOutputs::take(const float* const* channels, int frames) {
+    framesTaken_ += frames;
+    whole_.add(channels, frames);
+    zoom_->add(channels, frames);
+    showProgress();
+    if (patternFile_) pattern_.convert(channels, frames);
+    return !wav_ || writeWav(channels, frames);
+}
+
+bool RenderOutputs::writeWav(const float* const* channels, int frames) {
+    if (!(job_.options.interfaceVolts > 0.0)) return wav_->write(channels, frames);
+    std::vector<const float*> at;
+    scaled_.resize(static_cast<std::size_t>(job_.channels()));
+    for (std::size_t j = 0; j < scaled_.size(); ++j) {
+        const auto scale = static_cast<float>(job_.actuators.voltageScale[j]);
+        scaled_[j].assign(channels[j], channels[j] + frames);
+        for (float& sample : scaled_[j]) sample *= scale;
+        at.push_back(scaled_[j].data());
+    }
+    return wav_->write(at.data(), frames);
+}
+
+bool RenderOutputs::takeContactSound(const float* samples, int frames) {
+    const auto gain = static_cast<float>(std::pow(10.0, job_.options.contactSoundDb / 20.0));
+    heard_.assign(samples, samples + frames);
+    for (float& sample : heard_) sample *= gain;
+    const float* const at = heard_.data();
+    return contactWav_->write(&at, frames);
+}
+
+std::string RenderOutputs::finish() {
+    std::string error;
+    for (auto* wav : {wav_.get(), contactWav_.get()})
+        if (error.empty() && wav) error = wav->complete();
+    if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
+    if (error.empty() && pictureFile_) error = writePictureFile();
+    if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
+    for (auto* wav : {wav_.get(), contactWav_.get()})
+        if (error.empty() && wav) error = wav->finish();
+    for (auto* file : {&eventsFile_, &pictureFile_, &patternFile_})
+        if (error.empty() && *file) error = (*file)->commit();
+    return error;
+}
+
+Provenance RenderOutputs::provenance() const {
+    const RenderOptions& o = job_.options;
+    Provenance p = inputProvenance();
+    if (!job_.method().fixesNothing() || o.playsRecordings()) p.entries.emplace_back("method", o.method);
+    if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
+    if (o.perceivedLevel == "on") p.entries.emplace_back("perceived_level", "on");
+    for (const auto& [hz, path] : o.recordings)
+        p.entries.emplace_back("sound", numberText(hz) + '=' + std::filesystem::path{path}.filename().string() + (o.soundMatch == "rms" ? ":rms" : ""));
+    if (o.actuator != "none") p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());
+    if (o.actuator != "none" && o.equalise == "off") p.entries.emplace_back("equalise", "off");
+    if (o.interfaceVolts > 0.0) p.entries.emplace_back("interface_volts", numberText(o.interfaceVolts));
+    if (o.remap == "on") p.entries.emplace_back("remap", "on");
+    if (!o.coupling.empty()) p.entries.emplace_back("coupling", std::filesystem::path{o.coupling}.filename().string());
+    return p;
+}
+
+Provenance RenderOutputs::inputProvenance() const {
+    const RenderOptions& o = job_.options;
+    if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
+    Provenance p{PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(job_.session ? job_.session->log.takes.front().seed : o.seed)},
+                                   {"steps_per_second", std::to_string(job_.run().stepsPerSecond)}}};
+    if (job_.session) p.entries.emplace_back("session", std::filesystem::path{o.scene}.filename().string());
+    if (job_.run().timing != ImpactTiming::onset) p.entries.emplace_back("timing", "release");
+    if (job_.run().location != ImpactLocation::contact) p.entries.emplace_back("location", "fixture");
+    for (const SceneVariable& variable : job_.scene->variables) p.entries.emplace_back(variable.name, variable.value);
+    return p;
+}
+
+std::string RenderOutputs::provenanceText() const {
+    const Provenance p = provenance();
+    std::string text = "physvib " + p.version;
+    for (const auto& [key, value] : p.entries) text += ' ' + key + '=' + value;
+    return text;
+}
+
+std::string RenderOutputs::writePictureFile() {
+    const auto& events = job_.made.events;
+    PictureInput picture;
+    picture.title = job_.scene ? job_.scene->name : std::filesystem::path{job_.options.fromEvents}.filename().string();
+    picture.subtitle = job_.scene ? job_.scene->description : "an event list";
+    picture.fieldWidthMetres = job_.fieldWidthMetres();
+    picture.fieldHeightMetres = job_.fieldHeightMetres();
+    picture.scene = job_.scene ? &*job_.scene : nullptr;
+    if (const auto strongest = strongestEvent(events); job_.scene && strongest >= 0)
+        for (const BodyPose& pose : posesAt(*job_.scene, job_.run(), events[static_cast<std::size_t>(strongest)].timeNs))
+            picture.bodies.push_back({pose.xMetres, pose.yMetres, pose.angleRadians, pose.isPresent});
+    picture.events = events;
+    picture.layout = job_.layout.geometry;
+    for (const auto& enchanter : job_.layout.enchanters) picture.labels.push_back(enchanter.label);
+    picture.waveform = &whole_;
+    picture.zoom = &*zoom_;
+    picture.sampleRateHz = job_.options.sampleRateHz;
+    picture.durationSeconds = job_.seconds();
+    picture.law = job_.options.law + " law";
+    picture.provenance = provenanceText();
+    const juce::ScopedJuceInitialiser_GUI juce; // fonts
+    const juce::MemoryBlock png = picturePng(picture);
+    return pictureFile_->write({static_cast<const char*>(png.getData()), png.getSize()});
+}
+
+void RenderOutputs::showProgress() {
+    static const bool isTerminal = isatty(STDERR_FILENO) != 0;
+    const int percent = static_cast<int>(100 * framesTaken_ / job_.frames());
+    if (!isTerminal || percent == percentShown_) return;
+    percentShown_ = percent;
+    std::fprintf(stderr, percent < 100 ? "\rrendering %d %%" : "\r                \r", percent);
+}
+
+void RenderOutputs::summarise(std::ostream& out) const {
+    const RenderOptions& o = job_.options;
+    out << std::fixed << std::setprecision(1);
+    if (wav_) {
+        out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ") << job_.seconds() << " s at "
+            << o.sampleRateHz << " Hz, " << peakWords(job_, whole_) << '\n';
+    }
+    if (eventsFile_) out << o.eventsPath << "  " << collisionWords(job_) << '\n';
+    if (patternFile_) out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
+    if (contactWav_) out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale " << numberText(o.contactSoundDb) << " dBFS\n";
+    if (pictureFile_) out << o.picturePath << "  the world, every channel and every hit\n";
+}
+
+} // namespace physvib

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The files a render leaves: WAV, event list, picture, pattern. They appear together at the end, or not at all.
+#pragma once
+#include "CommandLine/Render/OnOffPattern.h"
+#include "CommandLine/Render/RenderJob.h"
+#include "Files/Disk/AtomicFile.h"
+#include "Files/EventsCsv.h"
+#include "Host/Recordings/WavSink.h"
+#include "Host/Pictures/WaveformEnvelope.h"
+#include <iosfwd>
+#include <memory>
+#include <optional>
+
+namespace physvib {
+
+/// Errors are one line each; after one, nothing is left behind. M only.
+class RenderOutputs {
+public:
+    /// `job` outlives this object; its layout is known, its events need not be.
+    explicit RenderOutputs(const RenderJob& job);
+
+    /// Makes sure that every wanted file can be written.
+    std::string open();
+
+    /// The events are known now: the picture enlarges the strongest.
+    void begin();
+
+    /// The next frames; false after an error.
+    bool take(const float* const* channels, int frames);
+
+    /// The next frames of what is heard, if that is wanted; false after an error.
+    bool takeContactSound(const float* samples, int frames);
+
+    /// Completes all files and puts them in place.
+    std::string finish();
+
+    /// A line per file: what it is.
+    void summarise(std::ostream& out) const;
+
+private:
+    Provenance provenance() const;
+    Provenance inputProvenance() const;
+    std::string provenanceText() const;
+    std::string writePictureFile();
+    void showProgress();
+    bool writeWav(const float* const* channels, int frames);
+
+    const RenderJob& job_;
+    std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_;
+    std::unique_ptr<WavSink> wav_, contactWav_;
+    std::vector<std::vector<float>> scaled_; // for the interface's voltage
+    std::vector<float> heard_;
+    OnOffPattern pattern_;
+    WaveformEnvelope whole_;
+    std::optional<WaveformEnvelope> zoom_;
+    std::int64_t framesTaken_ = 0;
+    int percentShown_ = -1;
+};
+
+} // namespace physvib

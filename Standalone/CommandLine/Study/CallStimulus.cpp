@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The same parsers as the program's.
+#include "CommandLine/Study/CallStimulus.h"
+#include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Study/StimulusOptions.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+
+namespace physvib {
+namespace {
+
+Result<CallStimulus> ofScene(RenderOptions& o) {
+    if (o.actuator != "none") return Failure{"--actuator is not yet felt here, only rendered"};
+    if (!o.coupling.empty()) return Failure{"--coupling is not yet felt here, only rendered"};
+    if (auto fault = checkSceneOptions(o); !fault.empty()) return Failure{fault};
+    if (o.scene.empty()) return Failure{"expected a scene"};
+    RenderJob job{o, {}, {}, {}, {}};
+    auto layout = layoutNamed(o.layout);
+    if (!layout) return Failure{layout.error};
+    job.layout = std::move(layout.value);
+    auto scene = findScene(o.scene, o.settings);
+    if (!scene) return Failure{scene.error};
+    job.scene = std::move(scene.value);
+    Patience patience{Patience::usualSeconds}; // whatever the call says: it may be a stranger's
+    job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
+    if (auto fault = patience.fault(); !fault.empty()) return Failure{fault};
+    std::ranges::transform(job.made.events, job.made.events.begin(), job.shaping());
+    if (auto fault = takeRecordings(job, job.made.events, o.scene); !fault.empty()) return Failure{fault};
+    return CallStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f), job.feltRecordings()};
+}
+
+Result<CallStimulus> ofStimulus(const CLI::App& command, const StimulusOptions& o, int sampleRateHz) {
+    const auto layout = layoutNamed(o.layout);
+    if (!layout) return Failure{layout.error};
+    MadeStimulus made = makeStimulus(command, o, layout.value);
+    if (!made.usage.empty()) return Failure{made.usage};
+    if (!made.error.empty()) return Failure{made.error};
+    if (!o.recording.empty()) return Failure{"a recording is rendered to a file; a live session plays events"};
+    if (const auto sound = renderStimulus(made.stimulus, layout.value, sampleRateHz); !sound) return Failure{sound.error};
+    CallStimulus call{std::move(made.stimulus), layout.value, {}, {}};
+    for (const auto& enchanter : layout.value.enchanters) call.gains.push_back(static_cast<float>(1.0 / enchanter.fullScaleG));
+    return call;
+}
+
+/// A call in its parts; `error` if its words are none.
+struct ParsedCall {
+    explicit ParsedCall(const std::string& call) {
+        declareRenderOptions(*render, renderOptions);
+        declareStimulus(*stimulus, stimulusOptions);
+        words.require_subcommand(1);
+        try {
+            words.parse(call, false);
+        } catch (const CLI::ParseError& fault) {
+            error = call + ": " + fault.what();
+        }
+    }
+    CLI::App words;
+    RenderOptions renderOptions;
+    StimulusOptions stimulusOptions;
+    CLI::App* const render = words.add_subcommand("render");
+    CLI::App* const stimulus = words.add_subcommand("stimulus");
+    std::string error;
+};
+
+} // namespace
+
+std::string wordsFault(const std::string& call) { return ParsedCall{call}.error; }
+
+Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz) {
+    ParsedCall parsed{call};
+    if (!parsed.error.empty()) return Failure{parsed.error};
+    auto made = parsed.words.got_subcommand(parsed.render) ? ofScene(parsed.renderOptions) : ofStimulus(*parsed.stimulus, parsed.stimulusOptions, sampleRateHz);
+    if (!made) return Failure{call + ": " + made.error};
+    return made;
+}
+
+} // namespace physvib

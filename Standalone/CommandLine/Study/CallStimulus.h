@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a call of the program renders, as events for a live session: a trial is felt by the words that its row keeps.
+#pragma once
+#include "Files/LayoutFile.h"
+#include "Files/Result.h"
+#include "Session/ContactSounds.h"
+#include "Study/Stimulus.h"
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+struct CallStimulus {
+    Stimulus stimulus;            ///< times from 0
+    LayoutDescription layout;
+    std::vector<float> gains;     ///< of each enchanter: from the events' unit (g, or shares of full scale) to full scale
+    std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
+};
+
+/// Empty, or what the program would find wrong with the words of a call. M only.
+std::string wordsFault(const std::string& call);
+
+/// The stimulus of `render SCENE ...` or `stimulus ...`, without the name of the program; or one line with what is wrong.
+/// What `physvib stimulus` would refuse as too strong for the layout at `sampleRateHz` is refused here, and so is `stimulus
+/// wav`, which is samples and no events. M only.
+Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz);
+
+} // namespace physvib

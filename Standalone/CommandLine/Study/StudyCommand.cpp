@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every participant, one after the other, answered by the observer.
+#include "CommandLine/Study/StudyCommand.h"
+#include "CommandLine/Render/RenderOptions.h"
+#include "CommandLine/Study/StudyOutput.h"
+#include "CommandLine/Study/StudyRun.h"
+#include "Files/ProtocolFile.h"
+#include "Host/Recordings/LoadContact.h"
+#include "Study/SimulatedObserver.h"
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <thread>
+#include <unistd.h>
+
+namespace physvib {
+namespace {
+
+int list() {
+    for (const Protocol& protocol : builtInProtocols()) std::cout << protocol.name << "  " << protocol.title << '\n';
+    return exitDone;
+}
+
+std::string codeOf(const StudyOptions& o, int number) {
+    if (!o.participant.empty()) return o.participant;
+    const std::string digits = std::to_string(number);
+    return std::string("P").append(digits.size() < 2 ? "0" : "").append(digits);
+}
+
+void showProgress(const Participant& participant, int trials) {
+    static const bool isTerminal = isatty(STDERR_FILENO) != 0;
+    if (isTerminal && trials % 50 == 0) std::cerr << '\r' << participant.code << " trial " << trials << "   \r";
+}
+
+/// One participant from the first trial without an answer to the last; the reason if it fails.
+std::string runParticipant(const Protocol& protocol, const Participant& participant, const ObserverSettings& settings, const StudyOptions& o) {
+    StudyRun study{o.folder, protocol, participant};
+    if (!study.error().empty()) return study.error();
+    const Experiment& experiment = study.experiment();
+    const SimulatedObserver observer{settings, protocol, participant};
+    while (!experiment.isDone()) {
+        if (o.paceSeconds > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(o.paceSeconds));
+        if (!study.take(observer.answer(experiment))) return study.error();
+        showProgress(participant, experiment.trialsTaken());
+    }
+    const int before = study.trialsBefore();
+    std::cout << study.path().string() << "  " << experiment.trialsTaken() << " trials" << (before > 0 ? ", " + std::to_string(before) + " of them there before" : std::string{}) << '\n';
+    return {};
+}
+
+/// The protocol with the sounds of the call; one line if one of either is no recording.
+std::string takeSounds(const std::vector<std::string>& sounds, Protocol& protocol) {
+    std::vector<std::pair<double, std::string>> recordings;
+    if (!parseSounds(sounds, recordings)) return std::string{soundExpectation};
+    for (const auto& [hz, path] : recordings) {
+        std::erase_if(protocol.sounds, [hz = hz](const StudySoundFile& sound) { return sound.frequencyHz == hz; });
+        protocol.sounds.push_back({hz, path});
+    }
+    for (const StudySoundFile& sound : protocol.sounds)
+        if (auto contact = loadContact({sound.frequencyHz, sound.file}); !contact) return contact.error;
+    return {};
+}
+
+int run(const StudyOptions& o) {
+    if (o.observer.empty()) return leave(exitUsage, "study run: --observer: expected simulated, simulated-PHONE or simulated-RING; a person answers in the mixer");
+    const auto settings = observerNamed(o.observer);
+    if (!settings) return leave(exitUsage, "study run: --observer: expected simulated, simulated-PHONE or simulated-RING, found " + inQuotes(o.observer));
+    if (!isStudyCode(o.participant)) return leave(exitUsage, "study run: --participant: expected at most 32 letters, digits, - and _, found " + inQuotes(o.participant));
+    if (!o.participant.empty() && o.participants > 1) return leave(exitUsage, "study run: --participant: expected one participant with a code, found several");
+    auto protocol = findProtocol(o.protocol);
+    if (!protocol) return leave(exitFailed, protocol.error);
+    if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
+    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return leave(exitFailed, fault);
+    for (int number = o.number; number < o.number + o.participants; ++number) {
+        const Participant participant{codeOf(o, number), number, o.observer};
+        if (auto error = runParticipant(protocol.value, participant, *settings, o); !error.empty()) return leave(exitFailed, error);
+    }
+    tellIfSimulated(true);
+    return exitDone;
+}
+
+} // namespace
+
+void declareStudy(CLI::App& command, StudyOptions& o) {
+    command.require_subcommand(1);
+    command.add_subcommand("list", "the built-in protocols, one per line");
+    CLI::App* const show = command.add_subcommand("show", "a protocol as JSON, to start your own from");
+    CLI::App* const run = command.add_subcommand("run", "runs a study, or goes on with it where it was cut off");
+    for (CLI::App* one : {show, run}) one->add_option("protocol", o.protocol, "a built-in protocol or PROTOCOL.json")->required();
+    run->add_option("--observer", o.observer, "who answers: simulated, simulated-PHONE, simulated-RING");
+    run->add_option("--participant", o.participant, "code of the participant; no other personal data is kept")->type_name("CODE");
+    run->add_option("--number", o.number, "number of the (first) participant: decides orders")->check(CLI::Range(1, 100000))->capture_default_str();
+    run->add_option("--participants", o.participants, "how many, one after the other")->check(CLI::Range(1, 1000))->capture_default_str();
+    run->add_option("--sound", o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
+    run->add_option("--out", o.folder, "folder of the trial files, NAME-CODE.csv")->type_name("FOLDER")->capture_default_str();
+    run->add_option("--pace", o.paceSeconds, "seconds per trial of a simulated observer")->check(CLI::Range(0.0, 60.0))->capture_default_str();
+}
+
+int runStudy(const CLI::App& command, const StudyOptions& o) {
+    if (command.got_subcommand("list")) return list();
+    if (command.got_subcommand("run")) return run(o);
+    const auto protocol = findProtocol(o.protocol);
+    if (!protocol) return leave(exitFailed, protocol.error);
+    std::cout << protocolJson(protocol.value);
+    return exitDone;
+}
+
+} // namespace physvib

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tables and pictures appear together, or not at all.
+#include "CommandLine/Study/StudyOutput.h"
+#include <juce_events/juce_events.h>
+#include <memory>
+
+namespace physvib {
+
+int writeStudyFiles(const std::vector<StudyFile>& files) {
+    const juce::ScopedJuceInitialiser_GUI juce; // fonts
+    std::vector<std::unique_ptr<AtomicFile>> open;
+    for (const StudyFile& file : files) {
+        if (file.path.empty()) continue;
+        open.push_back(std::make_unique<AtomicFile>(file.path));
+        if (const auto& error = open.back()->write(file.bytes()); !error.empty()) return leave(exitFailed, error);
+    }
+    for (const auto& file : open)
+        if (const auto& error = file->commit(); !error.empty()) return leave(exitFailed, error);
+    return exitDone;
+}
+
+PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated) {
+    PictureWords words{{}, "physvib " PHYSVIB_VERSION, isSimulated};
+    words.source = std::filesystem::path{files.front()}.filename().string();
+    if (files.size() > 1) words.source += " and " + std::to_string(files.size() - 1) + " more";
+    return words;
+}
+
+} // namespace physvib

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From the mix to the session's controls; the output.
+#include "Mixer/Desk/Desk.h"
+#include "Files/SceneCatalogue.h"
+#include "Mixer/Window/Parts.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr int stepsPerSecond = 100;
+constexpr double gapSeconds = 0.005; // the driver's thread shares the machine with painting
+constexpr double boardSeconds = 0.05; // the link needs 20 to 40 ms; more than that is told as trouble
+constexpr double maintainMs = 1000.0, boardPatienceMs = 3000.0; // greeting and clock take half a second
+constexpr double newStripDb = -12.0; // hands are attached
+
+Mix shakeTheBox() {
+    Mix mix;
+    mix.scene = std::make_shared<const Scene>(*findBuiltInScene("shake-the-box"));
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    mix.layout = describeLayout("phone4", layout);
+    mix.resizeStrips();
+    return mix;
+}
+
+SessionSetup setupOf(const Mix& mix, bool hasBoard) {
+    SessionSetup setup;
+    setup.scene = *mix.scene;
+    setup.seed = mix.seed;
+    setup.stepsPerSecond = stepsPerSecond;
+    setup.channels = Desk::channels;
+    setup.panner = mix.panner();
+    setup.longestGapSeconds = gapSeconds;
+    if (hasBoard) setup.boardSeconds = boardSeconds;
+    return setup;
+}
+
+bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
+    return a.law() == b.law() && a.exponent() == b.exponent() && a.fieldWidthMetres() == b.fieldWidthMetres() && a.fieldHeightMetres() == b.fieldHeightMetres() &&
+           isSame(a.layout(), b.layout());
+}
+
+} // namespace
+
+Mix Desk::firstMix() { return shakeTheBox(); }
+
+juce::String titleOf(const std::string& name) {
+    const auto words = juce::String::fromUTF8(name.c_str()).replaceCharacter('-', ' ');
+    return words.substring(0, 1).toUpperCase() + words.substring(1);
+}
+
+/// One thing to undo; edits of a held fader grow into one.
+class Desk::MixEdit final : public juce::UndoableAction {
+public:
+    MixEdit(Desk& desk, Mix before, Mix after)
+        : desk_{desk}
+        , before_{std::move(before)}
+        , after_{std::move(after)} {}
+    bool perform() override { return desk_.apply(after_), true; }
+    bool undo() override { return desk_.apply(before_), true; }
+    int getSizeInUnits() override { return 1; }
+    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override {
+        const auto* other = dynamic_cast<MixEdit*>(next);
+        return other != nullptr ? new MixEdit{desk_, before_, other->after_} : nullptr;
+    }
+
+private:
+    Desk& desk_;
+    Mix before_, after_;
+};
+
+Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
+    : types_{std::move(types)}
+    , mix_{std::move(mix)}
+    , session_{setupOf(mix_, !device.board.empty())}
+    , tap_{channels, 1 << 14}
+    , output_{session_, types_}
+    , undo_{1000, 30}
+    , sceneNow_{*mix_.scene}
+    , told_{mix_.panner(), {}} {
+    saved_.run = setupOf(mix_, false).run();
+    saved_.panner = mix_.panner();
+    mostEnchanters_ = mix_.count();
+    tap_.hear(mix_.count());
+    output_.listen(&tap_);
+    open(device);
+    tellSession();
+    edits_ = 0;
+    if (!device.board.empty()) {
+        link_ = std::make_unique<BoardLink>(device.board == anyBoard ? std::string{} : device.board);
+        onBoard_ = std::make_unique<BoardOutput>(session_, output_, *link_, mix_.panner());
+        boardWantedAtMs_ = nowMs();
+    }
+    driver_ = std::make_unique<ThreadDriver>(session_, stepsPerSecond);
+}
+
+Desk::~Desk() {
+    driver_.reset();
+    onBoard_.reset();
+    output_.close();
+    if (recording_) closeRecording(); // whoever closes the window while it runs wants what is there
+}
+
+void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
+    if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
+    undo_.perform(new MixEdit{*this, mix_, next});
+}
+
+void Desk::apply(const Mix& next) {
+    const Mix before = std::exchange(mix_, next);
+    ++edits_;
+    mostEnchanters_ = std::max(mostEnchanters_, mix_.count());
+    if (mix_.scene != before.scene || mix_.seed != before.seed) takeScene(mix_.scene == before.scene);
+    tap_.hear(mix_.count());
+    tellSession();
+    if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output)))
+        if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8(error));
+    output_.setLevel(masterGain(mix_));
+    sendChangeMessage();
+}
+
+// What the session plays by, as little as it does not know yet. What finds no room is told later: watchOutput asks again.
+void Desk::tellSession() {
+    using Kind = RenderControl::Kind;
+    const auto post = [this](Kind kind, const PhantomPanner& panner) { return session_.post({0, kind, 0, 0.0f, panner}) >= 0; };
+    if (const auto panner = mix_.panner(); !isSame(told_.panner, panner)) {
+        if (panner.channels() < told_.panner.channels() && !post(Kind::stopAll, {})) return; // a channel may be another enchanter's now
+        if (!post(Kind::panner, panner)) return;
+        told_.panner = panner;
+    }
+    tellStrips(told_.strips, mix_.strips, [this](const RenderControl& control) { return session_.post(control) >= 0; });
+}
+
+std::vector<int> Desk::outputMap() const {
+    std::vector<int> map;
+    for (const Strip& strip : mix_.strips) map.push_back(strip.output);
+    return map;
+}
+
+bool Desk::attach(double shareX, double shareY) {
+    if (mix_.count() >= limits::maxEnchanters) return false;
+    change("Attach an enchanter", [&](Mix& mix) {
+        auto& layout = mix.layout;
+        const auto label = [&layout](int n) { return describeLayout("", EnchanterLayout{1, 1, n + 1, {}}).enchanters.back().label; };
+        int n = 0;
+        while (std::ranges::any_of(layout.enchanters, [&](const auto& e) { return e.label == label(n); })) ++n;
+        layout.name = "own";
+        layout.enchanters.push_back({label(n), layout.enchanters.back().actuator, layout.enchanters.back().fullScaleG});
+        layout.geometry.places[static_cast<std::size_t>(layout.geometry.count++)] = {shareX * layout.geometry.extentWidthMetres, shareY * layout.geometry.extentHeightMetres};
+        mix.strips.push_back(nextStrip(mix.strips));
+        mix.strips.back().gainDb = newStripDb;
+    });
+    return true;
+}
+
+void Desk::detach(int enchanter) {
+    if (mix_.count() < 2) return;
+    change("Detach " + juce::String::fromUTF8(mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()), [&](Mix& mix) {
+        auto& layout = mix.layout;
+        auto& places = layout.geometry.places;
+        std::copy(places.begin() + enchanter + 1, places.begin() + layout.geometry.count, places.begin() + enchanter);
+        --layout.geometry.count;
+        layout.name = "own";
+        layout.enchanters.erase(layout.enchanters.begin() + enchanter);
+        mix.strips.erase(mix.strips.begin() + enchanter);
+    });
+}
+
+const SavedSession& Desk::saved() {
+    saved_.channels = mostEnchanters_;
+    saved_.lengthNs = session_.status().sessionNs;
+    session_.readLog(saved_.log);
+    saved_.mix = mix_;
+    return saved_;
+}
+
+std::string Desk::open(const DeviceChoice& device) {
+    AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, masterGain(mix_), mix_.count(), true, listening_};
+    const auto error = output_.open(settings);
+    device_ = device;
+    report(outputTrouble_ = deviceTrouble_ = utf8(error));
+    scope_.setRate(output_.sampleRateHz());
+    spectrum_.setRate(output_.sampleRateHz());
+    return error;
+}
+
+std::string Desk::hear(const ListeningSettings& listening) {
+    auto error = output_.hear(listening);
+    if (error.empty()) listening_ = listening;
+    return error;
+}
+
+void Desk::watchOutput() {
+    tellSession();
+    if (const double now = nowMs(); now - maintainedAtMs_ > maintainMs) {
+        maintainedAtMs_ = now;
+        deviceTrouble_ = utf8(output_.maintain());
+    }
+    const auto board = boardTrouble(), both = deviceTrouble_.isEmpty() || board.isEmpty() ? deviceTrouble_ + board : deviceTrouble_ + "; " + board;
+    if (both != outputTrouble_) report(outputTrouble_ = both);
+}
+
+// Without a port of its own the link tries one after the other: what it says of each would only flicker.
+juce::String Desk::boardTrouble() {
+    const auto status = board();
+    if (!status) return {};
+    if (status->state == BoardLinkStatus::State::ready) {
+        wasBoardReady_ = true;
+        if (status->playOutMs <= 1e3 * boardSeconds) return {};
+        return "The board needs its strikes more than " + juce::String{1e3 * boardSeconds, 0} + " ms before they are felt: some come late there";
+    }
+    if (!wasBoardReady_ && nowMs() - boardWantedAtMs_ < boardPatienceMs) return {};
+    if (device_.board == anyBoard) return wasBoardReady_ ? "The board is gone; it is looked for on every serial port" : "No board answers on any serial port";
+    return "The board at " + utf8(device_.board) + (wasBoardReady_ ? " is gone" : " does not answer") + "; it is looked for twice a second";
+}
+
+void Desk::setSilent(bool silent) {
+    isSilent_ = silent;
+    output_.setSilent(silent);
+    sendChangeMessage();
+}
+
+double Desk::playOutSeconds() const noexcept {
+    return output_.sampleRateHz() > 0 ? static_cast<double>(session_.playOutFrames()) / output_.sampleRateHz() : 0.0;
+}
+
+void Desk::report(const juce::String& trouble) {
+    if (trouble == trouble_ && !isNews_) return;
+    trouble_ = trouble;
+    isNews_ = false;
+    sendChangeMessage();
+}
+
+void Desk::tell(const juce::String& news) {
+    trouble_ = news;
+    isNews_ = true;
+    sendChangeMessage();
+}
+
+} // namespace physvib

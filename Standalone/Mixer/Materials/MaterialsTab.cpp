@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list, two numbers, a spot, and a thread that measures.
+#include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/Materials/MaterialColumns.h"
+#include "Mixer/Window/Parts.h"
+#include "Physics/SceneLimits.h"
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr int rowPixels = 28, headPixels = 20;
+constexpr double arrowRatio = 1.01;
+
+/// The middle nine tenths of the slider are what is felt; the rest of what can be played is at its ends.
+juce::NormalisableRange<double> rangeOf(double least, double low, double high, double most) {
+    constexpr double end = 0.05;
+    const auto part = [](double from, double to, double share) { return from * std::pow(to / from, share); };
+    const auto shareOf = [](double from, double to, double value) { return std::log(value / from) / std::log(to / from); };
+    return {least, most,
+            [=](double, double, double s) { return s < end ? part(least, low, s / end) : s > 1.0 - end ? part(high, most, (s - 1.0 + end) / end) : part(low, high, (s - end) / (1.0 - 2.0 * end)); },
+            [=](double, double, double v) { return v < low ? end * shareOf(least, low, v) : v > high ? 1.0 - end + end * shareOf(high, most, v) : end + (1.0 - 2.0 * end) * shareOf(low, high, v); }};
+}
+
+} // namespace
+
+/// One recording on a thread of its own.
+class MaterialsTab::Measuring final : public juce::Thread {
+public:
+    Measuring(Job wanted, juce::AsyncUpdater& isDone)
+        : juce::Thread{"physvib material"}
+        , job{std::move(wanted)}
+        , isDone_{isDone} {
+        startThread();
+    }
+    ~Measuring() override { stopThread(-1); }
+    void run() override {
+        hit = measureHit(job.file.getFullPathName().toStdString());
+        isDone_.triggerAsyncUpdate();
+    }
+
+    const Job job;
+    std::optional<Result<RecordedHit>> hit; ///< when the thread has ended
+
+private:
+    juce::AsyncUpdater& isDone_;
+};
+
+bool MaterialsTab::RatioSlider::keyPressed(const juce::KeyPress& key) {
+    using juce::KeyPress;
+    const bool isUp = key == KeyPress::upKey || key == KeyPress::rightKey, isDown = key == KeyPress::downKey || key == KeyPress::leftKey;
+    if (!isUp && !isDown) return juce::Slider::keyPressed(key);
+    setValue(isUp ? getValue() * arrowRatio : getValue() / arrowRatio, juce::sendNotificationSync);
+    return true;
+}
+
+MaterialsTab::MaterialsTab(Desk& desk, WorldView& world)
+    : desk_{desk}
+    , world_{world} {
+    setTitle("Materials");
+    list_.setTitle("List of materials");
+    list_.setRowHeight(rowPixels);
+    caption(frequencyName_, "Frequency");
+    caption(decayName_, "Decay");
+    caption(spotXName_, "x");
+    caption(spotYName_, "y");
+    prepareSlider(frequency_, "Frequency", sceneLimits::minSoundHz, FrequencyAxis::lowHz, FrequencyAxis::highHz, limits::maxFrequencyHz);
+    prepareSlider(decay_, "Decay", sceneLimits::minSoundDecayPerSecond, 1.0, 500.0, limits::maxDecayPerSecond);
+    frequency_.textFromValueFunction = [this](double hz) { return frequency_.isEnabled() ? frequencyText(hz) + " Hz" : juce::String{"silent"}; };
+    decay_.textFromValueFunction = [this](double perSecond) { return decay_.isEnabled() ? decayText(perSecond) + " /s" : juce::String{"silent"}; };
+    onSlide(frequency_, [this](bool goesOn) { setSound(true, goesOn); });
+    onSlide(decay_, [this](bool goesOn) { setSound(false, goesOn); });
+    for (auto* slider : {&spotX_, &spotY_}) {
+        slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
+        slider->setSliderStyle(juce::Slider::LinearHorizontal);
+        slider->setTextBoxStyle(juce::Slider::TextBoxRight, false, 46, 24);
+        slider->setRange(0.0, 100.0, 1.0);
+        slider->setTextValueSuffix(" %");
+        slider->onValueChange = [this] {
+            spot_ = {0.01 * spotX_.getValue(), 0.01 * spotY_.getValue()};
+            showSpot();
+        };
+    }
+    spotX_.setTitle("Spot from the left");
+    spotY_.setTitle("Spot from below");
+    feel_.setTitle("Feel the material at the spot");
+    feel_.setTooltip("Plays one hit of the material at the cross in the world; a click in the world plays it there");
+    feel_.onClick = [this] { feelAt(spot_); };
+    browse_ = quietButton(juce::String::fromUTF8("Recording\xe2\x80\xa6"), "Measure frequency and decay from a recording of one hit; it can be dropped here as well");
+    browse_->onClick = [this] { browse(); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&list_, &frequencyName_, &frequency_, &decayName_, &decay_, &feel_, &spotXName_, &spotX_, &spotYName_, &spotY_, browse_.get(), &spectrum_, &course_})
+        addAndMakeVisible(c);
+    showSpot();
+    takeMix();
+}
+
+MaterialsTab::~MaterialsTab() {
+    measuring_.reset();
+    cancelPendingUpdate();
+    world_.onSpot = nullptr;
+}
+
+void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title, double least, double low, double high, double most) {
+    slider.setTitle(title);
+    slider.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
+    slider.setSliderStyle(juce::Slider::LinearHorizontal);
+    slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 74, 24);
+    slider.setNormalisableRange(rangeOf(least, low, high, most));
+    slider.valueFromTextFunction = [](const juce::String& words) { return words.trim().replaceCharacter(',', '.').getDoubleValue(); };
+}
+
+const Material* MaterialsTab::chosen() const {
+    const int index = chosenIndex();
+    return index < 0 ? nullptr : &desk_.sceneNow().materials[static_cast<std::size_t>(index)];
+}
+
+int MaterialsTab::chosenIndex() const {
+    const int row = list_.getSelectedRow();
+    return row >= 0 && row < static_cast<int>(order_.size()) ? order_[static_cast<std::size_t>(row)] : -1;
+}
+
+void MaterialsTab::choose(int material) {
+    if (const auto at = std::ranges::find(order_, material); at != order_.end()) list_.selectRow(static_cast<int>(at - order_.begin()));
+}
+
+const RecordedHit* MaterialsTab::recordingOf(int material) const {
+    const auto found = recordings_.find(material);
+    return found == recordings_.end() ? nullptr : &found->second;
+}
+
+void MaterialsTab::takeMix() {
+    const auto& materials = desk_.sceneNow().materials;
+    if (scene_ != desk_.mix().scene) {
+        scene_ = desk_.mix().scene;
+        recordings_.clear();
+        shown_.reset();
+        order_.resize(materials.size());
+        for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<int>(i);
+        std::stable_partition(order_.begin(), order_.end(), [&](int i) { return materials[static_cast<std::size_t>(i)].frequencyHz > 0.0; });
+        list_.updateContent();
+        list_.selectRow(0);
+    }
+    for (auto* label : {&frequencyName_, &decayName_, &spotXName_, &spotYName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    list_.repaint();
+    showChosen();
+}
+
+void MaterialsTab::showChosen() {
+    const auto* material = chosen();
+    const bool sounds = material != nullptr && material->frequencyHz > 0.0;
+    for (auto* control : std::initializer_list<juce::Component*>{&frequency_, &decay_, &feel_, browse_.get()}) control->setEnabled(sounds);
+    if (sounds && !frequency_.isMouseButtonDown()) frequency_.setValue(material->frequencyHz, juce::dontSendNotification);
+    if (sounds && !decay_.isMouseButtonDown()) decay_.setValue(material->decayPerSecond, juce::dontSendNotification);
+    frequency_.updateText();
+    decay_.updateText();
+    ShownHit shown;
+    const auto* recording = recordingOf(chosenIndex());
+    if (sounds) shown = {material->frequencyHz, material->decayPerSecond, palette::material(chosenIndex()), recording};
+    if (shown == shown_) return;
+    shown_ = shown;
+    const auto course = recording ? recording->course : sounds ? courseOf(material->frequencyHz, material->decayPerSecond) : HitCourse{};
+    spectrum_.show(shown, course);
+    course_.show(shown, course);
+}
+
+void MaterialsTab::setSound(bool isFrequency, bool goesOn) {
+    const auto* material = chosen();
+    if (material == nullptr || !(material->frequencyHz > 0.0)) return;
+    SoundAction sound{chosenIndex(), material->frequencyHz, material->decayPerSecond};
+    (isFrequency ? sound.frequencyHz : sound.decayPerSecond) = isFrequency ? frequency_.getValue() : decay_.getValue();
+    const auto name = (isFrequency ? "Frequency of " : "Decay of ") + utf8(material->name);
+    if (const auto fault = desk_.editWorld(name, sound, goesOn); !fault.empty()) desk_.report(utf8(fault));
+}
+
+void MaterialsTab::typeFrequency() {
+    for (auto* child : frequency_.getChildren())
+        if (auto* box = dynamic_cast<juce::Label*>(child); box != nullptr && frequency_.isEnabled()) box->showEditor();
+}
+
+void MaterialsTab::feelAt(FieldShare spot) {
+    spot_ = spot;
+    showSpot();
+    if (chosenIndex() < 0) return;
+    if (const auto fault = desk_.audition(chosenIndex(), spot.x, spot.y); !fault.empty()) desk_.report(utf8(fault));
+}
+
+void MaterialsTab::showSpot() {
+    spotX_.setValue(100.0 * spot_.x, juce::dontSendNotification);
+    spotY_.setValue(100.0 * spot_.y, juce::dontSendNotification);
+    if (isVisible()) world_.showSpot(spot_);
+}
+
+void MaterialsTab::visibilityChanged() {
+    world_.showSpot(isVisible() ? std::optional{spot_} : std::nullopt);
+    if (isVisible()) world_.onSpot = [this](FieldShare at) { feelAt(at); };
+    else world_.onSpot = nullptr;
+}
+
+void MaterialsTab::browse() {
+    chooser_ = std::make_unique<juce::FileChooser>("A recording of one hit", juce::File::getCurrentWorkingDirectory(), "*.wav;*.flac;*.ogg", false);
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
+        if (const auto file = chooser.getResult(); file != juce::File{}) measure(file);
+    });
+}
+
+void MaterialsTab::measure(const juce::File& file) {
+    const auto* material = chosen();
+    if (material == nullptr || !(material->frequencyHz > 0.0)) return desk_.report("Choose a material that sounds, then drop the recording");
+    waiting_.push_back({file, chosenIndex(), scene_});
+    if (!isMeasuring()) measureNext();
+}
+
+void MaterialsTab::measureNext() {
+    if (!waiting_.empty()) {
+        measuring_.reset(new Measuring{waiting_.front(), *this});
+        waiting_.pop_front();
+    }
+    repaint();
+}
+
+void MaterialsTab::finishMeasuring() {
+    while (isMeasuring()) handleAsyncUpdate();
+}
+
+void MaterialsTab::handleAsyncUpdate() {
+    if (!isMeasuring()) return;
+    measuring_->waitForThreadToExit(-1);
+    const auto done = std::move(measuring_);
+    measureNext();
+    take(done->job, *done->hit);
+}
+
+void MaterialsTab::take(const Job& job, const Result<RecordedHit>& hit) {
+    if (!hit) return desk_.report(utf8(hit.error));
+    if (job.scene != desk_.mix().scene) return desk_.report(job.file.getFileName() + ": another scene is played now; drop it again");
+    const auto& sound = hit.value.sound;
+    const auto name = utf8(desk_.sceneNow().materials[static_cast<std::size_t>(job.material)].name);
+    if (const auto fault = desk_.editWorld("Recording of " + name, SoundAction{job.material, sound.frequencyHz, sound.decayPerSecond}); !fault.empty())
+        return desk_.report(job.file.getFileName() + ": " + utf8(fault));
+    recordings_.insert_or_assign(job.material, hit.value);
+    shown_.reset();
+    showChosen();
+}
+
+void MaterialsTab::setDropping(bool isDropping) {
+    isDropping_ = isDropping;
+    repaint();
+}
+
+void MaterialsTab::fileDragMove(const juce::StringArray&, int x, int y) {
+    if (const auto at = list_.getLocalPoint(this, juce::Point<int>{x, y}); list_.getLocalBounds().contains(at))
+        if (const int row = list_.getRowContainingPosition(at.x, at.y); row >= 0) list_.selectRow(row);
+    setDropping(true);
+}
+
+void MaterialsTab::filesDropped(const juce::StringArray& files, int x, int y) {
+    fileDragMove(files, x, y);
+    setDropping(false);
+    if (files.size() != 1) return desk_.report("Expected one recording, found " + juce::String{files.size()} + " files");
+    measure(juce::File{files[0]});
+}
+
+void MaterialsTab::paint(juce::Graphics& g) {
+    const MaterialColumns at{headArea_.withWidth(list_.getVisibleRowWidth())};
+    g.setFont(juce::Font{text::small});
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText("Material", at.name, juce::Justification::centredLeft, false);
+    g.drawText("f Hz", at.frequency, juce::Justification::centredRight, false);
+    g.drawText(juce::String::charToString(0x03c4) + " 1/s", at.decay, juce::Justification::centredRight, false);
+    g.drawText(juce::String::charToString(0x2212) + "60 dB in", at.length, juce::Justification::centredRight, false);
+}
+
+void MaterialsTab::paintOverChildren(juce::Graphics& g) {
+    if (!isDropping_ && !isMeasuring()) return;
+    const auto* material = chosen();
+    const auto plots = spectrum_.getBounds().getUnion(course_.getBounds());
+    g.setColour(shade(*this, Shade::panel).withAlpha(0.85f));
+    g.fillRect(plots);
+    g.setColour(shade(*this, Shade::accent));
+    g.drawRoundedRectangle(plots.toFloat().reduced(1.0f), 5.0f, 2.0f);
+    g.setFont(juce::Font{text::medium});
+    const auto name = material ? utf8(material->name) : juce::String{};
+    g.drawText(isMeasuring() ? juce::String::fromUTF8("Measuring\xe2\x80\xa6") : "Drop it: the sound of " + name, plots, juce::Justification::centred, true);
+}
+
+void MaterialsTab::resized() {
+    auto area = getLocalBounds();
+    headArea_ = area.removeFromTop(headPixels);
+    const int controls = 2 * (rowHeight + 6) + 6, least = 3 * rowPixels, plots = std::max(70, std::min(230, (area.getHeight() - controls) * 52 / 100));
+    const int rows = std::max(least, std::min(static_cast<int>(order_.size()) * rowPixels, area.getHeight() - controls - plots));
+    list_.setBounds(area.removeFromTop(rows));
+    area.removeFromTop(6);
+    auto row = area.removeFromTop(rowHeight);
+    const auto place = [&row](juce::Label& name, juce::Component& control, int nameWidth, int width) {
+        auto both = row.removeFromLeft(width);
+        name.setBounds(both.removeFromLeft(nameWidth));
+        control.setBounds(both);
+        row.removeFromLeft(gap);
+    };
+    const int half = (row.getWidth() - gap) / 2;
+    place(frequencyName_, frequency_, 64, half + 12);
+    place(decayName_, decay_, 42, row.getWidth());
+    area.removeFromTop(6);
+    row = area.removeFromTop(rowHeight);
+    feel_.setBounds(row.removeFromLeft(70));
+    row.removeFromLeft(gap);
+    browse_->setBounds(row.removeFromRight(84));
+    row.removeFromRight(4);
+    const int each = (row.getWidth() - gap) / 2;
+    place(spotXName_, spotX_, 12, each);
+    place(spotYName_, spotY_, 12, row.getWidth());
+    area.removeFromTop(6);
+    if (area.getHeight() >= 150) {
+        spectrum_.setBounds(area.removeFromTop((area.getHeight() - 6) / 2));
+        area.removeFromTop(6);
+    } else {
+        spectrum_.setBounds(area.removeFromLeft((area.getWidth() - 6) / 2));
+        area.removeFromLeft(6);
+    }
+    course_.setBounds(area);
+}
+
+} // namespace physvib

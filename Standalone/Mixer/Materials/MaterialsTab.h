@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The materials of the scene: frequency and decay to be set, measured from a recording that is dropped here, and felt at a spot
+// of the field.
+#pragma once
+#include "Host/Views/WorldView.h"
+#include "Mixer/Materials/HitPlots.h"
+#include "Mixer/Window/TabPanel.h"
+#include <deque>
+#include <map>
+
+namespace physvib {
+
+class MaterialsTab final : public Tab, public juce::FileDragAndDropTarget, private juce::AsyncUpdater {
+public:
+    /// While the tab is shown, a click in `world` feels the chosen material there.
+    MaterialsTab(Desk& desk, WorldView& world);
+    ~MaterialsTab() override;
+
+    /// Takes frequency and decay of the chosen material from a recording, a moment later. What is wrong with it is reported.
+    void measure(const juce::File& file);
+    bool isMeasuring() const noexcept { return measuring_ != nullptr; }
+    void finishMeasuring(); ///< waits for it
+    void choose(int material); ///< index in the scene
+    void feelAt(FieldShare spot);
+    /// What was measured of a material; null: nothing.
+    const RecordedHit* recordingOf(int material) const;
+
+    bool isInterestedInFileDrag(const juce::StringArray& files) override { return !files[0].endsWithIgnoreCase(".json"); } // sessions are the window's
+    void fileDragEnter(const juce::StringArray&, int, int) override { setDropping(true); }
+    void fileDragMove(const juce::StringArray&, int x, int y) override;
+    void fileDragExit(const juce::StringArray&) override { setDropping(false); }
+    void filesDropped(const juce::StringArray& files, int x, int y) override;
+
+    void takeMix() override;
+    void visibilityChanged() override;
+    void paint(juce::Graphics& g) override;
+    void paintOverChildren(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    /// A row per material, those that sound first.
+    class Rows final : public juce::ListBoxModel {
+    public:
+        explicit Rows(MaterialsTab& tab)
+            : tab_{tab} {}
+        int getNumRows() override { return static_cast<int>(tab_.order_.size()); }
+        void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
+        void listBoxItemClicked(int row, const juce::MouseEvent& e) override;
+        void listBoxItemDoubleClicked(int, const juce::MouseEvent&) override { tab_.typeFrequency(); }
+        void returnKeyPressed(int) override { tab_.typeFrequency(); }
+        void selectedRowsChanged(int) override { tab_.showChosen(); }
+        juce::String getNameForRow(int row) override;
+
+    private:
+        MaterialsTab& tab_;
+    };
+    /// Arrow keys turn it by a hundredth of its value.
+    class RatioSlider final : public juce::Slider {
+    public:
+        bool keyPressed(const juce::KeyPress& key) override;
+    };
+    class Measuring;
+    struct Job {
+        juce::File file;
+        int material;
+        std::shared_ptr<const Scene> scene;
+    };
+
+    const Material* chosen() const;
+    int chosenIndex() const;
+    void prepareSlider(RatioSlider& slider, const juce::String& title, double least, double low, double high, double most);
+    void setSound(bool isFrequency, bool goesOn);
+    void setDropping(bool isDropping);
+    void typeFrequency();
+    void showChosen();
+    void showSpot();
+    void browse();
+    void measureNext();
+    void handleAsyncUpdate() override;
+    void take(const Job& job, const Result<RecordedHit>& hit);
+
+    Desk& desk_;
+    WorldView& world_;
+    std::shared_ptr<const Scene> scene_; // whose recordings are kept
+    std::vector<int> order_;
+    std::map<int, RecordedHit> recordings_;
+    FieldShare spot_{0.5, 0.5};
+    bool isDropping_ = false;
+
+    Rows rows_{*this};
+    juce::ListBox list_{"Materials", &rows_};
+    RatioSlider frequency_, decay_;
+    juce::Slider spotX_, spotY_;
+    juce::Label frequencyName_, decayName_, spotXName_, spotYName_;
+    juce::TextButton feel_{juce::String::fromUTF8("Feel it \xe2\x96\xb8")};
+    std::unique_ptr<juce::TextButton> browse_;
+    std::optional<ShownHit> shown_;
+    SpectrumPlot spectrum_;
+    CoursePlot course_;
+    juce::Rectangle<int> headArea_;
+    std::unique_ptr<juce::FileChooser> chooser_;
+    std::deque<Job> waiting_;
+    std::unique_ptr<Measuring> measuring_;
+};
+
+} // namespace physvib

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of enchanters and the settings of the panner.
+#include "Mixer/Output/EnchantersTab.h"
+#include "Files/ActuatorFile.h"
+#include "Mixer/Window/Parts.h"
+
+namespace physvib {
+namespace {
+
+constexpr int rowPixels = 34;
+
+// Whoever named it what; -1: a layout of its own.
+int presetOf(const EnchanterLayout& layout) {
+    const auto isThat = [&layout](std::string_view name) {
+        EnchanterLayout preset;
+        return layoutPreset(name, preset) && isSame(preset, layout);
+    };
+    const auto found = std::ranges::find_if(layoutPresetNames, isThat);
+    return found == layoutPresetNames.end() ? -1 : static_cast<int>(found - layoutPresetNames.begin());
+}
+
+} // namespace
+
+EnchantersTab::Module::Module()
+    : juce::Button{"New enchanter"} {
+    setTitle("New enchanter");
+    setTooltip("Drag it onto the field to attach it there; pressed, it is attached in the middle");
+}
+
+void EnchantersTab::Module::paintButton(juce::Graphics& g, bool isOver, bool) {
+    const auto area = getLocalBounds().toFloat().reduced(1.0f);
+    g.setColour(shade(*this, isOver ? Shade::raised : Shade::well));
+    g.fillRoundedRectangle(area, 6.0f);
+    const auto badge = area.withWidth(26.0f).withSizeKeepingCentre(26.0f, 26.0f).translated(8.0f, 0.0f);
+    g.setColour(shade(*this, Shade::accent));
+    g.drawRoundedRectangle(badge, 6.0f, 2.0f);
+    g.setFont(juce::Font{text::large});
+    g.drawText("+", badge, juce::Justification::centred, false);
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{text::medium});
+    g.drawText("Drag onto the field to attach", area.withTrimmedLeft(46.0f), juce::Justification::centredLeft, true);
+}
+
+void EnchantersTab::Module::mouseDrag(const juce::MouseEvent& e) {
+    auto* container = juce::DragAndDropContainer::findParentDragContainerFor(this);
+    if (container == nullptr || container->isDragAndDropActive() || e.getDistanceFromDragStart() < 6) return;
+    setState(buttonNormal);
+    container->startDragging(WorldView::newEnchanter, this);
+}
+
+juce::String EnchantersTab::Rows::getNameForRow(int row) {
+    return row < getNumRows() ? "Enchanter " + utf8(tab_.desk_.mix().layout.enchanters[static_cast<std::size_t>(row)].label) : juce::String{};
+}
+
+void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
+    const auto& mix = tab_.desk_.mix();
+    if (row >= mix.count()) return;
+    const auto i = static_cast<std::size_t>(row);
+    const auto& e = mix.layout.enchanters[i];
+    const auto& place = mix.layout.geometry.places[i];
+    if (isSelected) {
+        g.setColour(shade(tab_, Shade::accent).withAlpha(0.16f));
+        g.fillRect(0, 0, width, height);
+    }
+    auto area = juce::Rectangle<int>{width, height}.reduced(10, 0);
+    const auto colour = enchanterColour(tab_, row);
+    g.setColour(colour);
+    g.fillEllipse(area.removeFromLeft(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
+    area.removeFromLeft(12);
+    const auto cell = [&](const juce::String& words, int w, Shade which, juce::Justification where = juce::Justification::centredLeft) {
+        g.setColour(shade(tab_, which));
+        g.drawText(words, area.removeFromLeft(w), where, true);
+    };
+    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    cell(utf8(e.label), 44, Shade::text);
+    g.setFont(juce::Font{text::medium});
+    const int rest = area.getWidth();
+    cell(number(1e3 * place.xMetres, 0) + ", " + number(1e3 * place.yMetres, 0) + " mm", rest * 34 / 100, Shade::text);
+    cell(e.actuator == "none" ? juce::String{"no profile"} : utf8(e.actuator), rest * 36 / 100, Shade::muted);
+    cell(number(e.fullScaleG, 2) + " g", area.getWidth(), Shade::muted, juce::Justification::centredRight);
+}
+
+EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
+    : desk_{desk}
+    , world_{world} {
+    setTitle("Enchanters");
+    module_.onClick = [this] { desk_.attach(0.5, 0.5); };
+    preset_.setTitle("Preset");
+    for (int id = 1; const auto name : layoutPresetNames) preset_.addItem(juce::String{name.data()}.toUpperCase(), id++);
+    preset_.setTextWhenNothingSelected("own");
+    preset_.onChange = [this] { takePreset(); };
+    law_.setTitle("Panning law");
+    for (int id = 1; const auto name : panningLawNames) law_.addItem(juce::String{name.data()}, id++);
+    law_.onChange = [this] { desk_.change("Panning law", [this](Mix& mix) { mix.law = static_cast<PanningLaw>(law_.getSelectedItemIndex()); }); };
+    exponent_.setTitle("Exponent");
+    exponent_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack); // asked for when the box is made
+    exponent_.setSliderStyle(juce::Slider::LinearHorizontal);
+    exponent_.setTextBoxStyle(juce::Slider::TextBoxRight, false, 46, 24);
+    exponent_.setRange(0.25, 4.0, 0.05);
+    exponent_.setSkewFactorFromMidPoint(1.0);
+    exponent_.setDoubleClickReturnValue(true, 1.0);
+    onSlide(exponent_, [this](bool goesOn) { desk_.change("Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, goesOn); });
+    list_.setTitle("List of enchanters");
+    list_.setRowHeight(rowPixels);
+    maps_.setTitle("Map of the chosen enchanter");
+    maps_.onClick = [this] { visibilityChanged(); };
+    detach_ = quietButton("Detach", "Detach the chosen enchanter (Delete)");
+    detach_->onClick = [this] { if (chosen_ >= 0) desk_.detach(chosen_); };
+    edit_ = quietButton(juce::String::fromUTF8("Name, actuator\xe2\x80\xa6"), "Name, actuator and full scale of the chosen enchanter (Return)");
+    edit_->onClick = [this] { if (chosen_ >= 0) editRow(chosen_); };
+    caption(presetName_, "Preset");
+    caption(lawName_, "Law");
+    caption(exponentName_, "Exponent");
+    caption(hint_, "Drag a badge to move it; out of the field: detached.");
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&module_, &presetName_, &preset_, &lawName_, &law_, &exponentName_, &exponent_, &list_, edit_.get(), detach_.get(), &maps_, &hint_})
+        addAndMakeVisible(c);
+    world_.onSelect = [this](int enchanter) { if (enchanter >= 0) list_.selectRow(enchanter); };
+    takeMix();
+}
+
+void EnchantersTab::choose(int enchanter) {
+    chosen_ = enchanter;
+    world_.select(enchanter);
+    visibilityChanged();
+    detach_->setEnabled(chosen_ >= 0 && desk_.mix().count() > 1);
+    edit_->setEnabled(chosen_ >= 0);
+}
+
+void EnchantersTab::editRow(int enchanter) {
+    const auto i = static_cast<std::size_t>(enchanter);
+    const auto& e = desk_.mix().layout.enchanters[i];
+    auto* window = new juce::AlertWindow{"Enchanter " + utf8(e.label), {}, juce::MessageBoxIconType::NoIcon, this};
+    window->addTextEditor("label", utf8(e.label), "Label");
+    juce::StringArray profiles{"none"};
+    for (const auto& profile : builtInActuators()) profiles.add(utf8(profile.name));
+    window->addComboBox("actuator", profiles, "Actuator");
+    auto* actuator = window->getComboBoxComponent("actuator");
+    actuator->setText(utf8(e.actuator), juce::dontSendNotification);
+    actuator->onChange = [window, actuator] {
+        const auto profile = findActuator(actuator->getText().toStdString());
+        if (profile && profile.value.fullScaleG) window->getTextEditor("g")->setText(juce::String{*profile.value.fullScaleG}, false);
+    };
+    window->addTextEditor("g", juce::String{e.fullScaleG}, "Full scale in g");
+    window->addButton("Take", 1, juce::KeyPress{juce::KeyPress::returnKey});
+    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
+    window->enterModalState(true, juce::ModalCallbackFunction::create([this, i, window](int answer) {
+        const auto label = window->getTextEditorContents("label").trim().toStdString();
+        const auto profile = window->getComboBoxComponent("actuator")->getText().toStdString();
+        const double g = window->getTextEditorContents("g").getDoubleValue();
+        const auto& all = desk_.mix().layout.enchanters;
+        if (answer == 0 || i >= all.size()) return;
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (label.empty() || (k != i && all[k].label == label)) return desk_.report("Label: expected one that no other enchanter has");
+        if (!(g > 0.0 && g <= 100.0)) return desk_.report("Full scale: expected a number of g above 0, at most 100");
+        desk_.change("Enchanter " + utf8(label), [&](Mix& mix) {
+            mix.layout.enchanters[i].label = label;
+            mix.layout.enchanters[i].actuator = profile;
+            mix.layout.enchanters[i].fullScaleG = g;
+        });
+    }), true);
+}
+
+void EnchantersTab::takePreset() {
+    const int index = preset_.getSelectedItemIndex();
+    if (index < 0) return;
+    const auto name = layoutPresetNames[static_cast<std::size_t>(index)];
+    desk_.change("Preset " + juce::String{name.data()}.toUpperCase(), [name](Mix& mix) {
+        EnchanterLayout layout;
+        layoutPreset(name, layout);
+        auto described = describeLayout(std::string{name}, layout);
+        for (std::size_t j = 0; j < std::min(described.enchanters.size(), mix.layout.enchanters.size()); ++j) {
+            described.enchanters[j].actuator = mix.layout.enchanters[j].actuator;
+            described.enchanters[j].fullScaleG = mix.layout.enchanters[j].fullScaleG;
+        }
+        mix.layout = std::move(described);
+        mix.resizeStrips();
+    });
+}
+
+void EnchantersTab::takeMix() {
+    const auto& mix = desk_.mix();
+    preset_.setSelectedItemIndex(presetOf(mix.layout.geometry), juce::dontSendNotification);
+    law_.setSelectedItemIndex(static_cast<int>(mix.law), juce::dontSendNotification);
+    if (!exponent_.isMouseButtonDown()) exponent_.setValue(mix.exponent, juce::dontSendNotification);
+    list_.updateContent();
+    list_.repaint();
+    if (chosen_ >= mix.count()) list_.deselectAllRows();
+    choose(list_.getSelectedRow());
+    for (auto* label : {&presetName_, &lawName_, &exponentName_, &hint_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+}
+
+void EnchantersTab::paint(juce::Graphics&) {}
+
+void EnchantersTab::resized() {
+    auto area = getLocalBounds();
+    module_.setBounds(area.removeFromTop(44));
+    area.removeFromTop(12);
+    auto names = area.removeFromTop(18), row = area.removeFromTop(rowHeight);
+    const int third = (row.getWidth() - 2 * gap) / 3;
+    const auto place = [&](juce::Label& name, juce::Component& control, int w) {
+        name.setBounds(names.removeFromLeft(w));
+        control.setBounds(row.removeFromLeft(w));
+        names.removeFromLeft(gap);
+        row.removeFromLeft(gap);
+    };
+    place(presetName_, preset_, third);
+    place(lawName_, law_, third - 20);
+    place(exponentName_, exponent_, row.getWidth());
+    area.removeFromTop(12);
+    auto bottom = area.removeFromBottom(28);
+    maps_.setBounds(area.removeFromBottom(28));
+    detach_->setBounds(bottom.removeFromRight(80));
+    edit_->setBounds(bottom.removeFromRight(140));
+    hint_.setBounds(bottom);
+    area.removeFromBottom(8);
+    list_.setBounds(area);
+}
+
+} // namespace physvib

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the enchanters sit and how a hit is spread over them: presets, law, exponent, and a map of what each would play.
+#pragma once
+#include "Mixer/Window/TabPanel.h"
+#include "Host/Views/WorldView.h"
+
+namespace physvib {
+
+class EnchantersTab final : public Tab {
+public:
+    /// `world` shows the map of the enchanter that is chosen here.
+    EnchantersTab(Desk& desk, WorldView& world);
+    void takeMix() override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    void visibilityChanged() override { world_.showGainsOf(isVisible() && maps_.getToggleState() ? chosen_ : -1); }
+
+private:
+    /// The module that is dragged onto the field.
+    class Module final : public juce::Button {
+    public:
+        Module();
+        void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
+        void mouseDrag(const juce::MouseEvent& e) override;
+    };
+    /// A row per enchanter.
+    class Rows final : public juce::ListBoxModel {
+    public:
+        explicit Rows(EnchantersTab& tab)
+            : tab_{tab} {}
+        int getNumRows() override { return tab_.desk_.mix().count(); }
+        void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
+        void selectedRowsChanged(int row) override { tab_.choose(row); }
+        void deleteKeyPressed(int row) override { tab_.desk_.detach(row); }
+        void listBoxItemDoubleClicked(int row, const juce::MouseEvent&) override { tab_.editRow(row); }
+        void returnKeyPressed(int row) override { tab_.editRow(row); }
+        juce::String getNameForRow(int row) override;
+
+    private:
+        EnchantersTab& tab_;
+    };
+    void choose(int enchanter);
+    void editRow(int enchanter);
+    void takePreset();
+
+    Desk& desk_;
+    WorldView& world_;
+    int chosen_ = -1;
+    Module module_;
+    juce::ComboBox preset_, law_;
+    juce::Slider exponent_;
+    juce::Label presetName_, lawName_, exponentName_, hint_;
+    juce::ToggleButton maps_{"Show on the field what it plays of a hit at each place"};
+    Rows rows_{*this};
+    juce::ListBox list_{"Enchanters", &rows_};
+    std::unique_ptr<juce::TextButton> detach_, edit_;
+};
+
+} // namespace physvib

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Choices of a device, and what it says of itself.
+#include "Mixer/Output/OutputTab.h"
+#include "Host/Devices/NoDevice.h"
+#include "Session/SerialLine.h"
+#include "Mixer/Window/Parts.h"
+
+namespace physvib {
+namespace {
+
+constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
+constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
+constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
+
+} // namespace
+
+OutputTab::OutputTab(Desk& desk)
+    : desk_{desk} {
+    setTitle("Output");
+    caption(deviceName_, "Device");
+    caption(rateName_, "Rate");
+    caption(blockName_, "Block");
+    caption(boardName_, "Four-channel board");
+    board_.setTitle("Board");
+    board_.onChange = [this] { connectBoard(); };
+    device_.setTitle("Device");
+    rate_.setTitle("Rate");
+    block_.setTitle("Block");
+    rate_.addItem("as it stands", 1);
+    for (const int hz : rates) rate_.addItem(juce::String{hz} + " Hz", hz);
+    block_.addItem("as it stands", 1);
+    for (const int frames : blocks) block_.addItem(juce::String{frames} + " frames", frames);
+    scan_ = quietButton("Look again", "Look for devices again");
+    scan_->onClick = [this] { scan(); };
+    for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &facts_}) addAndMakeVisible(c);
+    takeMix();
+}
+
+void OutputTab::visibilityChanged() {
+    if (isVisible() && !isScanned_) scan();
+}
+
+void OutputTab::scan() {
+    found_ = listAudioDevices(desk_.deviceTypes());
+    listPorts();
+    isScanned_ = true;
+    takeMix();
+}
+
+// The one that is wanted stands there even if it does not.
+void OutputTab::listPorts() {
+    const auto& wanted = desk_.device().board;
+    ports_.clear();
+    board_.clear(juce::dontSendNotification);
+    board_.addItem("none", noBoardId);
+    board_.addItem("the first that answers", anyBoardId);
+    const auto add = [this](const std::string& path, const std::string& about) {
+        board_.addItem(utf8(path) + "  " + utf8(about), firstPortId + static_cast<int>(ports_.size()));
+        ports_.push_back(path);
+    };
+    for (const auto& port : listSerialPorts()) add(port.path, port.description);
+    if (!wanted.empty() && wanted != anyBoard && std::ranges::find(ports_, wanted) == ports_.end()) add(wanted, "");
+    board_.addItem("another port" + juce::String::charToString(0x2026), otherPortId);
+    const auto at = std::ranges::find(ports_, wanted);
+    board_.setSelectedId(wanted.empty() ? noBoardId : wanted == anyBoard ? anyBoardId : firstPortId + static_cast<int>(at - ports_.begin()), juce::dontSendNotification);
+}
+
+void OutputTab::open() {
+    const int index = device_.getSelectedId() - 1;
+    DeviceChoice choice = desk_.device();
+    if (index >= 0 && index < static_cast<int>(found_.size())) choice.name = found_[static_cast<std::size_t>(index)].type + ":" + found_[static_cast<std::size_t>(index)].name;
+    choice.sampleRateHz = rate_.getSelectedId() > 1 ? rate_.getSelectedId() : 0;
+    choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
+    desk_.open(choice);
+    takeMix();
+}
+
+void OutputTab::connectBoard() {
+    const int id = board_.getSelectedId();
+    if (id == otherPortId) return askPort();
+    useBoard(id == anyBoardId ? std::string{anyBoard} : id >= firstPortId ? ports_[static_cast<std::size_t>(id - firstPortId)] : std::string{});
+}
+
+void OutputTab::askPort() {
+    listPorts(); // shows what is still so
+    auto* window = new juce::AlertWindow{"Four-channel board", {}, juce::MessageBoxIconType::NoIcon, this};
+    window->addTextEditor("port", utf8(desk_.device().board), "Serial port");
+    window->addButton("Connect", 1, juce::KeyPress{juce::KeyPress::returnKey});
+    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
+    window->enterModalState(true, juce::ModalCallbackFunction::create([safe = juce::Component::SafePointer<OutputTab>{this}, window](int answer) {
+        const auto port = window->getTextEditorContents("port").trim().toStdString();
+        if (answer == 1 && safe != nullptr && !port.empty()) safe->useBoard(port);
+    }), true);
+}
+
+void OutputTab::useBoard(const std::string& port) {
+    DeviceChoice choice = desk_.device();
+    choice.board = port;
+    if (choice.board != desk_.device().board && desk_.onBoardWanted) desk_.onBoardWanted(choice);
+}
+
+juce::String OutputTab::boardState(Shade& state) const {
+    using State = BoardLinkStatus::State;
+    state = Shade::muted;
+    const auto status = desk_.board();
+    if (!status) return "none";
+    const auto& s = *status;
+    state = s.state == State::ready ? Shade::text : Shade::now;
+    if (s.state == State::ready)
+        return utf8(s.port) + ": ready, needs " + number(s.playOutMs, 0) + " ms, " + juce::String{static_cast<juce::int64>(s.sent)} + " sent, " +
+               juce::String{static_cast<juce::int64>(s.thinned)} + " thinned" + (desk_.mix().count() > limits::board::channels ? "; the first 4 enchanters" : "");
+    if (!s.trouble.empty()) return utf8(s.trouble);
+    return s.state == State::searching ? "looking for a board" : utf8(s.port) + ": connecting";
+}
+
+void OutputTab::takeMix() {
+    const auto& choice = desk_.device();
+    device_.clear(juce::dontSendNotification);
+    int chosen = 0;
+    for (int id = 1; const auto& d : found_) {
+        const bool isNone = d.type == noDeviceType;
+        device_.addItem(isNone ? juce::String{"No device: seen, not felt"} : utf8(d.type + ": " + d.name) + " (" + juce::String{d.channels} + " outputs)", id);
+        if (d.type + ":" + d.name == choice.name) chosen = id;
+        ++id;
+    }
+    device_.setSelectedId(chosen, juce::dontSendNotification);
+    if (chosen == 0) device_.setText(utf8(choice.name), juce::dontSendNotification);
+    rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
+    block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
+    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+}
+
+void OutputTab::refresh(const DeskMoment& moment) {
+    const auto& output = desk_.output();
+    const double rate = std::max(1, output.sampleRateHz());
+    const bool isNone = juce::String{utf8(output.device())}.startsWith(noDeviceType);
+    const auto& r = moment.session.render;
+    int connected = 0;
+    for (const Strip& strip : desk_.mix().strips) connected += strip.output >= 0 && strip.output < desk_.outputs() ? 1 : 0;
+    const int all = desk_.mix().count();
+    Shade boardShade = Shade::muted;
+    const auto board = boardState(boardShade);
+    const double slipped = 1e-6 * static_cast<double>(desk_.session().slippedNs());
+    facts_.set({{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
+               !moment.device.isRunning ? Shade::limit : isNone ? Shade::now : Shade::text},
+              {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" + number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
+              {"Felt", number(1e3 * desk_.playOutSeconds(), 1) + " ms after the contact, and the device's own " + number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
+              {"Enchanters", juce::String{connected} + " of " + juce::String{all} + " have an output there", connected < all ? Shade::now : Shade::text},
+              {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " + number(100.0 * moment.device.worstLoad, 1) + " % at most"},
+              {"Late", juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls", r.late > 0 ? Shade::now : Shade::text},
+              {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}},
+              {"Opened again", juce::String{moment.device.losses} + " times"},
+              {"Board", board, boardShade}});
+}
+
+void OutputTab::resized() {
+    auto area = getLocalBounds();
+    deviceName_.setBounds(area.removeFromTop(18));
+    auto row = area.removeFromTop(rowHeight);
+    scan_->setBounds(row.removeFromRight(90));
+    row.removeFromRight(gap);
+    device_.setBounds(row);
+    area.removeFromTop(10);
+    auto names = area.removeFromTop(18);
+    row = area.removeFromTop(rowHeight);
+    const int half = (row.getWidth() - gap) / 2;
+    rateName_.setBounds(names.removeFromLeft(half));
+    names.removeFromLeft(gap);
+    blockName_.setBounds(names);
+    rate_.setBounds(row.removeFromLeft(half));
+    row.removeFromLeft(gap);
+    block_.setBounds(row);
+    area.removeFromTop(10);
+    boardName_.setBounds(area.removeFromTop(18));
+    board_.setBounds(area.removeFromTop(rowHeight));
+    area.removeFromTop(12);
+    facts_.setBounds(area);
+}
+
+} // namespace physvib

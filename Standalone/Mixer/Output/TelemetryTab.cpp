@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Counters in words; amber where something was lost.
+#include "Mixer/Output/TelemetryTab.h"
+#include "Host/Devices/NoDevice.h"
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+constexpr std::size_t mostLoads = 300; // ten seconds of looks
+constexpr double showMs = 500.0;       // figures that change faster cannot be read
+
+juce::String count(std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; }
+juce::String percent(float share) { return number(100.0 * static_cast<double>(share), 1) + " %"; }
+Shade noneIsGood(std::uint64_t n) { return n > 0 ? Shade::now : Shade::text; }
+
+Fact clockFact(const Desk& desk, const DeskMoment& moment) {
+    const auto& output = desk.output();
+    if (!moment.device.isRunning) return {"Clock", "none runs: the world waits", Shade::limit};
+    const auto name = utf8(output.device());
+    const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
+    return {"Clock", (isNone ? juce::String{"no device"} : name) + ", " + juce::String{output.sampleRateHz()} + " Hz", isNone ? Shade::now : Shade::text};
+}
+
+Fact marginFact(const DeskMoment& moment, int rateHz) {
+    const auto frames = moment.session.leastMarginFrames;
+    if (frames == noMargin || rateHz == 0) return {"Margin", "no hit yet", Shade::muted};
+    return {"Margin", number(1e3 * static_cast<double>(frames) / rateHz, 1) + " ms at least", frames < 0 ? Shade::now : Shade::text};
+}
+
+void addBoard(std::vector<Fact>& facts, const std::optional<BoardLinkStatus>& board) {
+    using State = BoardLinkStatus::State;
+    if (!board) return facts.push_back({"Board", "none", Shade::muted});
+    const auto& t = board->telemetry;
+    if (board->state != State::ready) return facts.push_back({"Board", board->trouble.empty() ? juce::String{"looking for it"} : utf8(board->trouble), Shade::now});
+    facts.push_back({"Board", "ready, its clock " + number(board->driftPpm, 0) + " ppm off"});
+    facts.push_back({"Link", count(board->sent) + " sent, " + count(board->thinned) + " thinned, " + count(board->refused) + " refused", noneIsGood(board->thinned + board->refused)});
+    facts.push_back({"On board", count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost", noneIsGood(t.late + t.dropped + t.lost)});
+}
+
+} // namespace
+
+std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, float medianLoad) {
+    const auto& output = desk.output();
+    const auto& r = moment.session.render;
+    const auto& session = desk.session();
+    const auto refused = moment.session.refused + r.rejected;
+    const double reduction = 20.0 * std::log10(std::max(static_cast<double>(r.limiterGain), 1e-6));
+    std::vector<Fact> facts{
+        {"Played", count(r.played) + " hits, " + juce::String{r.pending} + " waiting"},
+        {"Late", count(r.late) + " hits", noneIsGood(r.late)},
+        {"Dropped", count(session.drops()) + " hits in a step", noneIsGood(session.drops())},
+        {"Refused", count(moment.session.refused) + " without room, " + count(r.rejected) + " unplayable", noneIsGood(refused)},
+        marginFact(moment, output.sampleRateHz()),
+        {"Stalls", number(1e-6 * static_cast<double>(session.slippedNs()), 0) + " ms of the world"},
+        {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early", noneIsGood(r.stolen)},
+        {"Limiter", number(reduction, 1) + " dB", reduction < -0.05 ? Shade::limit : Shade::text},
+        clockFact(desk, moment),
+        {"Render call", "median " + percent(medianLoad) + ", worst " + percent(moment.device.worstLoad), moment.device.worstLoad > 1.0f ? Shade::now : Shade::text},
+        {"Blocks", count(moment.device.blocks) + " of " + juce::String{output.blockFrames()} + " frames"},
+        {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}, moment.device.deviceXruns > 0 ? Shade::now : Shade::text},
+        {"Not told", count(r.untold) + " hits, " + count(desk.scopeFramesLost()) + " frames", noneIsGood(r.untold)},
+        {"Not finite", count(r.nonFinite) + " samples", noneIsGood(r.nonFinite)}};
+    addBoard(facts, desk.board());
+    return facts;
+}
+
+TelemetryTab::TelemetryTab(Desk& desk)
+    : desk_{desk} {
+    setTitle("Telemetry");
+    addAndMakeVisible(facts_);
+}
+
+float TelemetryTab::medianLoad() const {
+    std::vector<float> sorted(loads_.begin(), loads_.end());
+    if (sorted.empty()) return 0.0f;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::ranges::nth_element(sorted, middle);
+    return *middle;
+}
+
+void TelemetryTab::refresh(const DeskMoment& moment) {
+    if (moment.device.isRunning) loads_.push_back(moment.device.load);
+    if (loads_.size() > mostLoads) loads_.pop_front();
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    if (now - shownAtMs_ < showMs) return;
+    shownAtMs_ = now;
+    facts_.set(telemetryFacts(desk_, moment, medianLoad()));
+}
+
+} // namespace physvib

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The last moments of every channel, as the lowest and highest sample of each column of a scope.
+#pragma once
+#include "Core/Limits.h"
+#include "Host/Pictures/WaveformEnvelope.h"
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// M only.
+class ScopeTrace {
+public:
+    static constexpr int columns = 800;
+    static constexpr double seconds = 1.0;
+
+    ScopeTrace() { clear(); }
+
+    void setRate(int sampleRateHz) { framesPerColumn_ = std::max(1, static_cast<int>(seconds * sampleRateHz / columns)); }
+    void clear() {
+        for (auto& lane : lanes_) lane.assign(columns, {});
+        newest_ = 0;
+        filled_ = 0;
+        begun_ = 0;
+    }
+
+    /// Appends frames of the first `heard` channels.
+    void add(const float* const* channels, int heard, int frames) {
+        for (int done = 0; done < frames;) {
+            const int part = std::min(frames - done, framesPerColumn_ - filled_);
+            for (int j = 0; j < heard; ++j) {
+                const auto [low, high] = std::minmax_element(channels[j] + done, channels[j] + done + part);
+                SampleRange& column = lanes_[static_cast<std::size_t>(j)][static_cast<std::size_t>(newest_)];
+                column = filled_ == 0 ? SampleRange{*low, *high} : SampleRange{std::min(column.lowest, *low), std::max(column.highest, *high)};
+            }
+            done += part;
+            filled_ += part;
+            if (filled_ < framesPerColumn_) continue;
+            filled_ = 0;
+            newest_ = (newest_ + 1) % columns;
+            ++begun_;
+        }
+    }
+
+    /// Column `index` of a lane, 0 the oldest.
+    SampleRange at(int channel, int index) const { return lanes_[static_cast<std::size_t>(channel)][static_cast<std::size_t>((newest_ + 1 + index) % columns)]; }
+
+    /// Grows with every column that was begun.
+    std::int64_t columnsBegun() const noexcept { return begun_; }
+
+private:
+    std::array<std::vector<SampleRange>, limits::maxEnchanters> lanes_;
+    int framesPerColumn_ = 60, newest_ = 0, filled_ = 0;
+    std::int64_t begun_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lanes as columns from the lowest to the highest sample; a square root of the level lets weak hits be seen.
+#include "Mixer/Strips/ScopeView.h"
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+constexpr int footHeight = 16, mostLanes = SpectrumView::mostCurves, labelWidth = 26, between = 6;
+
+float shownLevel(float sample) { return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample); }
+
+} // namespace
+
+ScopeView::ScopeView(Desk& desk)
+    : desk_{desk}
+    , spectrum_{desk} {
+    addAndMakeVisible(spectrum_);
+    setTitle("Played now");
+    setDescription("Waveforms of the last second, one lane per enchanter");
+}
+
+bool ScopeView::isQuiet() const {
+    for (int j = 0; j < desk_.mix().count(); ++j)
+        for (int i = 0; i < ScopeTrace::columns; i += 8) {
+            const auto range = desk_.scope().at(j, i);
+            if (range.highest - range.lowest > 1e-5f) return false;
+        }
+    return true;
+}
+
+void ScopeView::refresh(const DeskMoment&) {
+    spectrum_.refresh();
+    if (desk_.scope().columnsBegun() == shown_) return;
+    shown_ = desk_.scope().columnsBegun();
+    const bool quiet = isQuiet();
+    if (quiet && wasQuiet_) return; // a line stays a line
+    wasQuiet_ = quiet;
+    repaint(lanes_);
+}
+
+void ScopeView::drawLane(juce::Graphics& g, juce::Rectangle<int> lane, int channel) const {
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(lane.toFloat(), 3.0f);
+    const auto middle = static_cast<float>(lane.getCentreY()), reach = 0.5f * static_cast<float>(lane.getHeight()) - 2.0f;
+    g.setColour(enchanterColour(*this, channel).withMultipliedAlpha(desk_.mix().isSilent(channel) ? 0.35f : 1.0f));
+    juce::RectangleList<float> columns;
+    const int width = lane.getWidth() - 4;
+    for (int x = 0; x < width; ++x) {
+        const auto range = desk_.scope().at(channel, x * (ScopeTrace::columns - 1) / std::max(1, width));
+        const float top = middle - reach * shownLevel(range.highest), bottom = middle - reach * shownLevel(range.lowest);
+        columns.addWithoutMerging({static_cast<float>(lane.getX() + 2 + x), top - 0.5f, 1.0f, std::max(1.2f, bottom - top + 1.0f)});
+    }
+    g.fillRectList(columns);
+}
+
+void ScopeView::paint(juce::Graphics& g) {
+    const auto& mix = desk_.mix();
+    auto area = lanes_;
+    const int lanes = std::min(mix.count(), mostLanes);
+    const auto foot = area.removeFromBottom(footHeight).withTrimmedLeft(labelWidth);
+    g.setFont(juce::Font{text::small});
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText(mix.count() > lanes ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()} : juce::String{juce::CharPointer_UTF8{"\xe2\x88\x92" "1 s"}}, foot, juce::Justification::centredLeft, false);
+    g.drawText("now", foot, juce::Justification::centredRight, false);
+    area.removeFromBottom(2);
+    const int height = (area.getHeight() + between) / lanes;
+    for (int j = 0; j < lanes; ++j) {
+        auto lane = area.removeFromTop(height).withTrimmedBottom(j + 1 < lanes ? between : 0);
+        g.setColour(enchanterColour(*this, j));
+        g.setFont(juce::Font{text::medium, juce::Font::bold});
+        g.drawText(utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label), lane.removeFromLeft(labelWidth), juce::Justification::centredLeft, false);
+        drawLane(g, lane, j);
+    }
+}
+
+void ScopeView::resized() {
+    auto area = getLocalBounds();
+    spectrum_.setBounds(area.removeFromRight(std::max(220, area.getWidth() * 36 / 100)));
+    area.removeFromRight(gap);
+    lanes_ = area;
+}
+
+} // namespace physvib

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Strips and what they change on the desk.
+#include "Mixer/Strips/StripView.h"
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+constexpr int metersTop = 56;
+
+/// What that peak of a strip is felt as, behind the master.
+double gOf(const Desk& desk, std::size_t strip, float peak) { return peak * masterGain(desk.mix()) * desk.mix().layout.enchanters[strip].fullScaleG; }
+
+double mostG(const Desk& desk, std::size_t strip) { return gOf(desk, strip, ceilingOf(desk.mix().strips[strip])); }
+juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
+
+} // namespace
+
+StripView::StripView(Desk& desk, int strip)
+    : desk_{desk}
+    , index_{static_cast<std::size_t>(strip)}
+    , meter_{"Level of " + utf8(desk.mix().layout.enchanters[index_].label)}
+    , ceiling_{utf8(desk.mix().layout.enchanters[index_].label)}
+    , sweep_{Sign::sweep, "Sweep on " + utf8(desk.mix().layout.enchanters[index_].label)} {
+    const auto label = utf8(desk.mix().layout.enchanters[index_].label);
+    setTitle("Strip " + label);
+    setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
+    onSlide(fader_, [this](bool goesOn) { change("Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn); });
+    ceiling_.textFromValueFunction = [this](double db) {
+        return "at most " + number(db, 1) + " dB, " + inG(gOf(desk_, index_, static_cast<float>(std::pow(10.0, db / 20.0)))) + " g";
+    };
+    onSlide(ceiling_, [this](bool goesOn) { change("Ceiling", [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }, goesOn); });
+    const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint, bool Strip::*what) {
+        button.setTitle(name + " " + label);
+        button.setTooltip(name);
+        button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB()));
+        button.onClick = [this, what, name] { change(name, [what](Strip& s) { s.*what = !(s.*what); }); };
+        addAndMakeVisible(button);
+    };
+    toggle(mute_, "Mute", palette::limit, &Strip::isMuted);
+    toggle(solo_, "Solo", palette::now, &Strip::isSolo);
+    toggle(polarity_, "Polarity", palette::enchanter(4), &Strip::isInverted);
+    delay_.setTitle("Delay of " + label);
+    delay_.onClick = [this] { askDelay(); };
+    level_.setFont(juce::Font{text::small, juce::Font::bold});
+    level_.setJustificationType(juce::Justification::centredRight);
+    level_.setTitle("Level of " + label + " in g");
+    most_.setFont(juce::Font{text::small});
+    most_.setTitle("Ceiling of " + label + " in g");
+    level_.setBorderSize({0, 0, 0, 0});
+    most_.setBorderSize({0, 4, 0, 0});
+    output_.setTitle("Output of " + label);
+    output_.setJustificationType(juce::Justification::centred);
+    output_.onChange = [this] { change("Output", [this](Strip& s) { s.output = output_.getSelectedId() - 2; }); };
+    test_ = quietButton(juce::String::fromUTF8("Test \xe2\x96\xb8"), "Test pulse on " + label);
+    test_->setTooltip("A pulse at the actuator's resonance (T)");
+    test_->onClick = [this] { desk_.testPulse(static_cast<int>(index_)); };
+    sweep_.getProperties().set(quietProperty, true);
+    sweep_.setTooltip("A sweep from 40 to 400 Hz (Shift+T)");
+    sweep_.onClick = [this] { desk_.testSweep(static_cast<int>(index_)); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&meter_, &fader_, &ceiling_, &delay_, &level_, &most_, &output_, test_.get(), &sweep_}) addAndMakeVisible(c);
+    takeMix();
+}
+
+template <class Change>
+void StripView::change(const juce::String& name, Change change, bool goesOn) {
+    const auto label = utf8(desk_.mix().layout.enchanters[index_].label);
+    desk_.change(name + " of " + label, [&](Mix& mix) { change(mix.strips[index_]); }, goesOn);
+}
+
+void StripView::fillOutputs() {
+    output_.clear(juce::dontSendNotification);
+    output_.addItem("none", 1);
+    for (int k = 0; k < desk_.outputs(); ++k) output_.addItem("out " + juce::String{k + 1}, k + 2);
+    if (strip().output >= desk_.outputs()) output_.addItem("out " + juce::String{strip().output + 1} + " (not there)", strip().output + 2);
+}
+
+void StripView::takeMix() {
+    const Strip& s = strip();
+    if (!fader_.isMouseButtonDown()) fader_.setValue(s.gainDb, juce::dontSendNotification);
+    mute_.setToggleState(s.isMuted, juce::dontSendNotification);
+    solo_.setToggleState(s.isSolo, juce::dontSendNotification);
+    polarity_.setToggleState(s.isInverted, juce::dontSendNotification);
+    if (!ceiling_.isMouseButtonDown()) ceiling_.setValue(s.ceilingDb, juce::dontSendNotification);
+    most_.setText("/ " + inG(mostG(desk_, index_)) + " g", juce::dontSendNotification);
+    most_.setTooltip("Ceiling: " + number(s.ceilingDb, 1) + " dB of full scale");
+    most_.setColour(juce::Label::textColourId, shade(*this, s.ceilingDb < 0.0 ? Shade::text : Shade::muted));
+    delay_.setButtonText(s.delayMs > 0.0 ? number(s.delayMs, s.delayMs < 1.0 ? 1 : 0) : juce::String{"ms"});
+    delay_.setToggleState(s.delayMs > 0.0, juce::dontSendNotification);
+    delay_.setTooltip("Delay: " + number(s.delayMs, 1) + " ms");
+    fillOutputs();
+    output_.setSelectedId(s.output + 2, juce::dontSendNotification);
+    repaint();
+}
+
+void StripView::askDelay() {
+    juce::PopupMenu menu;
+    menu.addSectionHeader("Delay");
+    for (const double ms : {0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0})
+        menu.addItem(number(ms, ms < 1.0 && ms > 0.0 ? 1 : 0) + " ms", true, strip().delayMs == ms, [this, ms] { change("Delay", [ms](Strip& s) { s.delayMs = ms; }); });
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_));
+}
+
+void StripView::refresh(const DeskMoment& moment) {
+    meter_.set(moment.meters.peaks[index_], moment.holds[index_]);
+    level_.setText(inG(desk_.isSilent() ? 0.0 : gOf(desk_, index_, moment.holds[index_])), juce::dontSendNotification);
+}
+
+bool StripView::keyPressed(const juce::KeyPress& key) {
+    if (key == juce::KeyPress{'t'}) return desk_.testPulse(static_cast<int>(index_)), true;
+    if (key == juce::KeyPress{'t', juce::ModifierKeys::shiftModifier, 0}) return desk_.testSweep(static_cast<int>(index_)), true;
+    return false;
+}
+
+void StripView::paint(juce::Graphics& g) {
+    auto area = getLocalBounds();
+    const auto& enchanter = desk_.mix().layout.enchanters[index_];
+    const bool isSilent = desk_.mix().isSilent(static_cast<int>(index_));
+    g.setColour(enchanterColour(*this, static_cast<int>(index_)).withMultipliedAlpha(isSilent ? 0.35f : 1.0f));
+    g.fillRoundedRectangle(area.removeFromTop(4).toFloat(), 2.0f);
+    area.removeFromTop(4);
+    g.setColour(shade(*this, isSilent ? Shade::muted : Shade::text));
+    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.drawText(utf8(enchanter.label), area.removeFromTop(20), juce::Justification::centred, true);
+    g.setColour(shade(*this, Shade::muted));
+    g.setFont(juce::Font{text::small});
+    g.drawText(enchanter.actuator == "none" ? juce::String{"no profile"} : utf8(enchanter.actuator), area.removeFromTop(18), juce::Justification::centred, true);
+    g.setFont(juce::Font{11.0f});
+    for (const int db : {0, -20, -40, -60}) { // the meter's scale, right of the fader
+        const auto y = static_cast<float>(meter_.getY()) + static_cast<float>(meter_.getHeight()) * static_cast<float>(db) / meterFloorDb;
+        g.drawText(number(db, 0), juce::Rectangle<float>{static_cast<float>(getWidth()) - 25.0f, y - 7.0f, 24.0f, 14.0f}, juce::Justification::centredRight, false);
+    }
+}
+
+void StripView::resized() {
+    auto area = getLocalBounds().withTrimmedTop(metersTop);
+    auto row = area.removeFromBottom(22).reduced(2, 0);
+    test_->setBounds(row.removeFromLeft(row.getWidth() * 6 / 10));
+    sweep_.setBounds(row);
+    output_.setBounds(area.removeFromBottom(26).reduced(2, 1));
+    row = area.removeFromBottom(22);
+    level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
+    most_.setBounds(row);
+    row = area.removeFromBottom(24);
+    const int each = row.getWidth() / 4;
+    for (auto* button : {&mute_, &solo_, &polarity_, &delay_}) button->setBounds(row.removeFromLeft(each).reduced(1, 0));
+    area.removeFromBottom(8);
+    meter_.setBounds(area.withWidth(12).withX(10));
+    ceiling_.placeOver(meter_.getBounds());
+    fader_.setBounds(area.withX(24).withWidth(32).expanded(0, 8));
+}
+
+MasterStrip::MasterStrip(Desk& desk)
+    : desk_{desk} {
+    setTitle("Master");
+    setUpFader(fader_, leastStripDb, 0.0, "Master gain");
+    fader_.setDoubleClickReturnValue(true, -12.0);
+    onSlide(fader_, [this](bool goesOn) { desk_.change("Master gain", [this](Mix& mix) { mix.levelDb = fader_.getValue(); }, goesOn); });
+    addAndMakeVisible(meter_);
+    addAndMakeVisible(fader_);
+    takeMix();
+}
+
+void MasterStrip::takeMix() {
+    if (!fader_.isMouseButtonDown()) fader_.setValue(desk_.mix().levelDb, juce::dontSendNotification);
+    repaint();
+}
+
+void MasterStrip::refresh(const DeskMoment& moment) {
+    meter_.set(moment.masterPeak, moment.masterPeak);
+    const float db = juce::Decibels::gainToDecibels(moment.meters.limiterGain);
+    if (std::abs(db - limiterDb_) < 0.05f) return;
+    limiterDb_ = db;
+    repaint();
+}
+
+void MasterStrip::paint(juce::Graphics& g) {
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{text::medium, juce::Font::bold});
+    g.drawText("Master", getLocalBounds().withTrimmedTop(8).removeFromTop(20), juce::Justification::centred, false);
+    g.setFont(juce::Font{text::small});
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText(number(desk_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(28).removeFromTop(18), juce::Justification::centred, false);
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(limiterBar_.toFloat(), 3.0f);
+    const float reduction = juce::jlimit(0.0f, 1.0f, -limiterDb_ / 20.0f);
+    g.setColour(shade(*this, Shade::limit));
+    if (reduction > 0.004f) g.fillRoundedRectangle(limiterBar_.toFloat().withHeight(std::max(3.0f, reduction * static_cast<float>(limiterBar_.getHeight()))), 3.0f);
+    g.setColour(shade(*this, limiterDb_ < -0.05f ? Shade::limit : Shade::muted));
+    g.drawText("limiter " + number(limiterDb_ < -0.05f ? limiterDb_ : 0.0, 1), limiterText_, juce::Justification::centred, false);
+    g.setColour(shade(*this, Shade::muted));
+    g.drawText("at most", ceilingName_, juce::Justification::centred, false);
+    double most = 0.0;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(desk_.mix().count()); ++j)
+        most = std::max(most, mostG(desk_, j));
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{text::small, juce::Font::bold});
+    g.drawText(inG(most) + " g", ceiling_, juce::Justification::centred, false);
+}
+
+void MasterStrip::resized() {
+    auto area = getLocalBounds().withTrimmedTop(metersTop);
+    ceiling_ = area.removeFromBottom(22);
+    ceilingName_ = area.removeFromBottom(22);
+    area.removeFromBottom(4);
+    limiterText_ = area.removeFromBottom(22);
+    area.removeFromBottom(32);
+    meter_.setBounds(area.withX(10).withWidth(14));
+    limiterBar_ = area.withX(31).withWidth(8);
+    fader_.setBounds(area.withX(46).withWidth(40).expanded(0, 8));
+}
+
+} // namespace physvib

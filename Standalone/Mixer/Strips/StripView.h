@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A channel strip: meter with held peak and ceiling, fader, mute, solo, polarity, delay, the level in g, output, tests.
+#pragma once
+#include "Mixer/Desk/Desk.h"
+#include "Mixer/Window/Parts.h"
+#include "Host/Views/StripParts.h"
+
+namespace physvib {
+
+class StripView final : public juce::Component {
+public:
+    static constexpr int width = 78;
+
+    StripView(Desk& desk, int strip);
+    void takeMix();
+    void refresh(const DeskMoment& moment);
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    const Strip& strip() const { return desk_.mix().strips[index_]; }
+    template <class Change>
+    void change(const juce::String& name, Change change, bool goesOn = false);
+    void fillOutputs();
+    void askDelay();
+
+    Desk& desk_;
+    const std::size_t index_;
+    PeakMeter meter_;
+    juce::Slider fader_;
+    CeilingHandle ceiling_;
+    juce::TextButton mute_{"M"}, solo_{"S"}, polarity_{juce::String::charToString(0x00f8)}, delay_{"ms"};
+    juce::Label level_, most_;
+    juce::ComboBox output_;
+    std::unique_ptr<juce::TextButton> test_;
+    SignButton sweep_;
+};
+
+/// All enchanters together: level, limiter, ceiling.
+class MasterStrip final : public juce::Component {
+public:
+    static constexpr int width = 90;
+
+    explicit MasterStrip(Desk& desk);
+    void takeMix();
+    void refresh(const DeskMoment& moment);
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    Desk& desk_;
+    PeakMeter meter_{"Master level"};
+    juce::Slider fader_;
+    float limiterDb_ = 0.0f;
+    juce::Rectangle<int> limiterBar_, limiterText_, ceilingName_, ceiling_;
+};
+
+} // namespace physvib

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Strips come and go with their enchanters.
+#include "Mixer/Strips/StripsPanel.h"
+#include "Host/Views/WorldView.h"
+
+namespace physvib {
+
+StripsPanel::AttachPlace::AttachPlace()
+    : juce::Button{"Attach an enchanter"} {
+    setTitle("Attach an enchanter");
+    setTooltip("Attach an enchanter: press, or drag it onto the field");
+}
+
+void StripsPanel::AttachPlace::paintButton(juce::Graphics& g, bool isOver, bool) {
+    const auto area = getLocalBounds().toFloat().reduced(1.0f);
+    juce::Path outline, dashed;
+    outline.addRoundedRectangle(area, 6.0f);
+    constexpr float dashes[]{5.0f, 5.0f};
+    juce::PathStrokeType{1.2f}.createDashedStroke(dashed, outline, dashes, 2);
+    g.setColour(shade(*this, isOver ? Shade::accent : Shade::line));
+    g.fillPath(dashed);
+    g.setColour(shade(*this, isOver ? Shade::accent : Shade::muted));
+    g.setFont(juce::Font{text::large});
+    g.drawText("+", area.withTrimmedBottom(24.0f), juce::Justification::centred, false);
+    g.setFont(juce::Font{text::small});
+    g.drawText("attach", area.withTrimmedTop(24.0f), juce::Justification::centred, false);
+}
+
+void StripsPanel::AttachPlace::mouseDrag(const juce::MouseEvent& e) {
+    auto* container = juce::DragAndDropContainer::findParentDragContainerFor(this);
+    if (container == nullptr || container->isDragAndDropActive() || e.getDistanceFromDragStart() < 6) return;
+    setState(buttonNormal);
+    container->startDragging(WorldView::newEnchanter, this);
+}
+
+StripsPanel::StripsPanel(Desk& desk)
+    : desk_{desk}
+    , master_{desk} {
+    setTitle("Mixer");
+    viewport_.setViewedComponent(&row_, false);
+    viewport_.setScrollBarsShown(false, true);
+    viewport_.setScrollBarThickness(8);
+    addAndMakeVisible(viewport_);
+    addAndMakeVisible(master_);
+    row_.addAndMakeVisible(attach_);
+    attach_.onClick = [this] { desk_.attach(0.5, 0.5); };
+    takeMix();
+}
+
+void StripsPanel::takeMix() {
+    juce::StringArray labels;
+    for (const auto& e : desk_.mix().layout.enchanters) labels.add(utf8(e.label));
+    if (labels != labels_) {
+        strips_.clear();
+        for (int j = 0; j < desk_.mix().count(); ++j) {
+            strips_.push_back(std::make_unique<StripView>(desk_, j));
+            row_.addAndMakeVisible(*strips_.back());
+        }
+        labels_ = labels;
+        for (auto& strip : strips_) prepareControls(*strip), strip->takeMix(); // the shades are those of where it stands
+        attach_.toFront(false); // last in the order of the Tab key
+        resized();
+    } else {
+        for (auto& strip : strips_) strip->takeMix();
+    }
+    attach_.setVisible(desk_.mix().count() < limits::maxEnchanters);
+    master_.takeMix();
+}
+
+void StripsPanel::refresh(const DeskMoment& moment) {
+    for (auto& strip : strips_) strip->refresh(moment);
+    master_.refresh(moment);
+}
+
+void StripsPanel::focusOfChildComponentChanged(FocusChangeType) {
+    auto* focused = getCurrentlyFocusedComponent();
+    if (focused == nullptr || !row_.isParentOf(focused)) return;
+    const auto at = row_.getLocalArea(focused, focused->getLocalBounds());
+    if (!viewport_.getViewArea().contains(at)) viewport_.setViewPosition(std::max(0, at.getCentreX() - viewport_.getViewWidth() / 2), 0);
+}
+
+void StripsPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
+
+void StripsPanel::resized() {
+    auto area = getLocalBounds().reduced(panelInset, 10);
+    master_.setBounds(area.removeFromRight(MasterStrip::width));
+    area.removeFromRight(8);
+    viewport_.setBounds(area);
+    const int needed = (static_cast<int>(strips_.size()) + 1) * (StripView::width + 6);
+    row_.setSize(std::max(needed, area.getWidth()), area.getHeight() - (needed > area.getWidth() ? 10 : 0));
+    auto places = row_.getLocalBounds();
+    for (auto& strip : strips_) strip->setBounds(places.removeFromLeft(StripView::width)), places.removeFromLeft(6);
+    attach_.setBounds(places.removeFromLeft(StripView::width).withTrimmedTop(2).withTrimmedBottom(2));
+}
+
+} // namespace physvib

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The same functions as the program's; only where their words and their picture go is another place.
+#include "Mixer/Studies/AnalysisScreen.h"
+
+namespace physvib {
+
+namespace {
+
+constexpr int inset = 40, headHeight = 56, wordsWidth = 430;
+
+std::vector<std::string> pathsOf(const std::vector<juce::File>& files) {
+    std::vector<std::string> paths;
+    for (const auto& file : files) paths.push_back(file.getFullPathName().toStdString());
+    return paths;
+}
+
+/// Those that fit every file; one line if there are none.
+Result<std::vector<std::string>> fitting(const std::vector<juce::File>& files) {
+    std::vector<std::string> names;
+    bool isFirst = true;
+    for (const auto& path : pathsOf(files)) {
+        const auto table = loadCsvTable(path);
+        if (!table) return Failure{table.error};
+        const auto these = analysesFor(table.value);
+        if (isFirst) names = these;
+        isFirst = false;
+        std::erase_if(names, [&](const std::string& name) { return std::ranges::find(these, name) == these.end(); });
+        if (names.empty()) return Failure{path + ": expected trials of a study, or a table that physvib analyse takes"};
+    }
+    return names;
+}
+
+} // namespace
+
+AnalysisScreen::AnalysisScreen(Desk& desk, const std::vector<juce::File>& files)
+    : desk_{desk} {
+    setTitle("Analysis");
+    setOpaque(true);
+    setWantsKeyboardFocus(true);
+    setFocusContainerType(FocusContainerType::keyboardFocusContainer);
+    kind_.setTitle("Kind of analysis");
+    kind_.onChange = [this] { run(kind_.getText().toLowerCase().replaceCharacter(' ', '-').toStdString()); };
+    choose_ = quietButton("Choose files", "Choose the files to be analysed");
+    choose_->onClick = [this] { browse(); };
+    close_ = quietButton("Close", "Close the analysis");
+    close_->onClick = [this] {
+        if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); }); // it ends with this component
+    };
+    silence_.setTitle("Silence");
+    silence_.getProperties().set(stopProperty, true);
+    silence_.onClick = [this] { desk_.setSilent(!desk_.isSilent()), refresh(); };
+    words_.setTitle("Figures");
+    words_.setMultiLine(true);
+    words_.setReadOnly(true);
+    words_.setCaretVisible(false);
+    words_.setColour(juce::TextEditor::outlineColourId, juce::Colours::transparentBlack);
+    words_.setEscapeAndReturnKeysConsumed(false);
+    words_.setFont(juce::Font{text::medium});
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&kind_, choose_.get(), close_.get(), &silence_, &words_}) addAndMakeVisible(c);
+    prepareControls(*this);
+    analyse(files);
+    refresh();
+}
+
+void AnalysisScreen::refresh() {
+    silence_.setButtonText(desk_.isSilent() ? "SILENT  Esc: feel" : "SILENCE  Esc");
+    silence_.setToggleState(desk_.isSilent(), juce::dontSendNotification);
+}
+
+AnalysisScreen::~AnalysisScreen() = default;
+
+void AnalysisScreen::parentSizeChanged() {
+    if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
+}
+
+void AnalysisScreen::parentHierarchyChanged() { showWords(); }
+
+bool AnalysisScreen::keyPressed(const juce::KeyPress& key) {
+    if (!key.isKeyCode(juce::KeyPress::returnKey)) return false;
+    close_->triggerClick();
+    return true;
+}
+
+void AnalysisScreen::browse() {
+    const auto folder = files_.empty() ? juce::File::getSpecialLocation(juce::File::userDocumentsDirectory) : files_.front().getParentDirectory();
+    chooser_ = std::make_unique<juce::FileChooser>("Trials of a study", folder, "*.csv");
+    constexpr int which = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles | juce::FileBrowserComponent::canSelectMultipleItems;
+    chooser_->launchAsync(which, [this](const juce::FileChooser& chooser) {
+        const auto chosen = chooser.getResults();
+        if (!chosen.isEmpty()) analyse({chosen.begin(), chosen.end()});
+    });
+}
+
+void AnalysisScreen::analyse(const std::vector<juce::File>& files) {
+    files_ = files;
+    kind_.clear(juce::dontSendNotification);
+    const auto names = fitting(files);
+    for (int id = 1; const auto& name : names.value) kind_.addItem(titleOf(name), id++);
+    kind_.setEnabled(!names.value.empty());
+    if (!names.value.empty()) return kind_.setSelectedId(1, juce::sendNotificationSync);
+    report_ = {names.error};
+    run({});
+}
+
+void AnalysisScreen::run(const std::string& name) {
+    picture_ = {};
+    if (!name.empty()) {
+        AnalyseOptions options;
+        options.files = pathsOf(files_);
+        report_ = physvib::analyse(name, options);
+    }
+    if (report_.error.empty() && report_.picture) {
+        const std::string png = report_.picture();
+        picture_ = juce::ImageFileFormat::loadFrom(png.data(), png.size());
+    }
+    showWords();
+    repaint();
+}
+
+// In the look of the window that it is in.
+void AnalysisScreen::showWords() {
+    words_.clear();
+    const auto say = [this](const juce::String& words, Shade tone) {
+        words_.setColour(juce::TextEditor::textColourId, shade(*this, tone));
+        words_.insertTextAtCaret(words);
+    };
+    if (report_.isSimulated) say("SIMULATED: a simulated observer answered, not a person\n\n", Shade::now);
+    if (!report_.error.empty()) say(utf8(report_.error) + "\n", Shade::limit);
+    say(utf8(report_.words), Shade::text);
+    for (const auto& warning : report_.warnings) say("\n" + utf8(warning) + "\n", Shade::now);
+    words_.setCaretPosition(0);
+}
+
+void AnalysisScreen::paint(juce::Graphics& g) {
+    g.fillAll(shade(*this, Shade::ground));
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{text::large, juce::Font::bold});
+    auto title = files_.empty() ? juce::String{"Analysis"} : files_.front().getFileName();
+    if (files_.size() > 1) title << " and " << static_cast<int>(files_.size() - 1) << " more";
+    g.drawText(title, titleArea_, juce::Justification::centredLeft, true);
+    if (picture_.isNull()) return;
+    g.setImageResamplingQuality(juce::Graphics::highResamplingQuality);
+    g.drawImage(picture_, pictureArea_.toFloat(), juce::RectanglePlacement::centred | juce::RectanglePlacement::yTop | juce::RectanglePlacement::onlyReduceInSize);
+}
+
+void AnalysisScreen::resized() {
+    auto area = getLocalBounds().reduced(inset, 16);
+    auto head = area.removeFromTop(headHeight - 16);
+    silence_.setBounds(head.removeFromRight(160).translated(0, -8));
+    head.removeFromRight(16);
+    close_->setBounds(head.removeFromRight(90));
+    choose_->setBounds(head.removeFromRight(130));
+    kind_.setBounds(head.removeFromRight(200).withSizeKeepingCentre(190, rowHeight));
+    titleArea_ = head;
+    area.removeFromTop(16);
+    words_.setBounds(area.removeFromLeft(std::min(wordsWidth, area.getWidth() / 2)));
+    pictureArea_ = area.withTrimmedLeft(24);
+}
+
+} // namespace physvib

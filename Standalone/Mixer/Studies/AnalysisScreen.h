@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the trials of a study say, over the whole window: the figures of `physvib analyse`, its warnings and its picture.
+#pragma once
+#include "CommandLine/Analyse/AnalyseCommand.h"
+#include "Mixer/Window/TabPanel.h"
+
+namespace physvib {
+
+/// Fills its parent. M.
+class AnalysisScreen final : public juce::Component {
+public:
+    AnalysisScreen(Desk& desk, const std::vector<juce::File>& files);
+    ~AnalysisScreen() override;
+
+    std::function<void()> onClose;
+
+    /// Trial files of one study, or any table that `physvib analyse` takes: the first analysis that fits is shown.
+    void analyse(const std::vector<juce::File>& files);
+    const AnalysisReport& report() const noexcept { return report_; }
+    const juce::Image& picture() const noexcept { return picture_; }
+
+    void refresh(); ///< the desk may have been silenced
+
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    void parentSizeChanged() override;
+    void parentHierarchyChanged() override;
+
+private:
+    void browse();
+    void run(const std::string& name);
+    void showWords();
+
+    Desk& desk_;
+    std::vector<juce::File> files_;
+    AnalysisReport report_;
+    juce::Image picture_;
+    juce::ComboBox kind_;
+    juce::TextEditor words_;
+    std::unique_ptr<juce::TextButton> choose_, close_;
+    juce::TextButton silence_; // the world goes on behind this
+    std::unique_ptr<juce::FileChooser> chooser_;
+    juce::Rectangle<int> titleArea_, pictureArea_;
+};
+
+} // namespace physvib

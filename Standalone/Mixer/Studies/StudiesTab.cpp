@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Choices, checks, and the way to the screen and back.
+#include "Mixer/Studies/StudiesTab.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Text/NumberText.h"
+#include "Files/ProtocolFile.h"
+#include "Files/Disk/ReadFile.h"
+#include "Host/Devices/NoDevice.h"
+#include "Mixer/Window/MixerView.h"
+#include "Mixer/Window/Parts.h"
+
+namespace physvib {
+namespace {
+
+constexpr int fileId = 1000, noNoiseId = 1;
+constexpr std::array<int, 8> noiseLevels{-70, -60, -50, -45, -40, -35, -30, -25};
+
+std::filesystem::path pathOf(const juce::String& words) {
+    return std::filesystem::path{juce::File::getCurrentWorkingDirectory().getChildFile(words).getFullPathName().toStdString()};
+}
+
+juce::String aboutText(const Protocol& protocol) {
+    juce::StringArray conditions, sessions;
+    for (const auto& condition : protocol.conditions) conditions.add(utf8(condition.name));
+    for (const auto& session : protocol.sessions) sessions.add(utf8(session.name));
+    const juce::String noise = protocol.hasPinkNoise ? "\nAsks for pink noise on headphones: choose their outputs." : "";
+    const auto title = utf8(protocol.title);
+    return title.substring(0, 1).toUpperCase() + title.substring(1) + ".\nConditions: " + conditions.joinIntoString(", ") + ".\nIn each: " + sessions.joinIntoString(", ") + "." + noise;
+}
+
+} // namespace
+
+StudiesTab::StudiesTab(Desk& desk)
+    : desk_{desk} {
+    setTitle("Studies");
+    caption(choiceName_, "Protocol");
+    caption(codeName_, "Participant's code");
+    caption(numberName_, "Number");
+    caption(folderName_, "Folder of the trial files");
+    caption(noiseName_, "Pink noise on");
+    caption(noiseLevelName_, "At");
+    noise_.setTitle("Outputs of the pink noise");
+    noise_.setTooltip("Headphones on outputs of the same device; louder or softer by their own knob");
+    noiseLevel_.setTitle("Level of the pink noise");
+    noiseLevel_.setTooltip("Root mean square, in dB of full scale: start low");
+    for (const int db : noiseLevels) noiseLevel_.addItem(number(db, 0) + " dBFS", -db);
+    choice_.setTitle("Protocol");
+    for (int id = 1; const Protocol& protocol : builtInProtocols()) choice_.addItem(titleOf(protocol.name), id++);
+    choice_.addSeparator();
+    choice_.addItem(juce::String::fromUTF8("Protocol file\xe2\x80\xa6"), fileId);
+    choice_.onChange = [this] { pickProtocol(); };
+    code_.setTitle("Participant's code");
+    code_.setTooltip("The only personal datum that is kept");
+    code_.setInputRestrictions(32, "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_");
+    number_.setTitle("Participant's number");
+    number_.setTooltip("Decides the orders: 1 for the first participant, 2 for the second");
+    number_.setInputRestrictions(6, "0123456789");
+    folder_.setTitle("Folder of the trial files");
+    browse_ = quietButton("Choose", "Choose the folder of the trial files");
+    browse_->onClick = [this] { browseFolder(); };
+    analyse_ = quietButton("Analyse", "Analyse the participant's trials, or other files");
+    analyse_->onClick = [this] { analyse(); };
+    begin_.setTitle("Begin the study");
+    begin_.onClick = [this] { begin(); };
+    for (auto* editor : {&code_, &number_, &folder_}) {
+        editor->setFont(juce::Font{text::medium});
+        editor->setEscapeAndReturnKeysConsumed(false); // Esc silences, also from here
+        editor->onTextChange = [this] { look(); };
+    }
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_, browse_.get(), &noiseName_, &noise_, &noiseLevelName_, &noiseLevel_, &begin_, analyse_.get()})
+        addAndMakeVisible(c);
+    setFolder(juce::File::getSpecialLocation(juce::File::userDocumentsDirectory));
+    setParticipant("P01", 1);
+    chooseProtocol(builtInProtocols().front().name);
+}
+
+StudiesTab::~StudiesTab() { end(); }
+
+std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
+    auto protocol = findProtocol(nameOrPath);
+    auto fault = protocol ? protocolFault(protocol.value, nameOrPath) : protocol.error;
+    if (!fault.empty()) return say(utf8(fault), Shade::limit), fault;
+    protocol_ = std::move(protocol.value);
+    const auto& all = builtInProtocols();
+    const auto known = std::ranges::find(all, nameOrPath, &Protocol::name);
+    if (known != all.end()) choice_.setSelectedId(1 + static_cast<int>(known - all.begin()), juce::dontSendNotification);
+    else choice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
+    about_ = aboutText(*protocol_);
+    noiseLevel_.setSelectedId(-juce::roundToInt(protocol_->pinkNoiseDb), juce::dontSendNotification);
+    if (noiseLevel_.getSelectedId() == 0) noiseLevel_.setText(number(protocol_->pinkNoiseDb, 1) + " dBFS", juce::dontSendNotification);
+    look();
+    repaint();
+    return {};
+}
+
+void StudiesTab::pickProtocol() {
+    const int id = choice_.getSelectedId();
+    if (id == fileId) browseProtocol();
+    else if (id > 0) chooseProtocol(builtInProtocols()[static_cast<std::size_t>(id - 1)].name);
+}
+
+void StudiesTab::browseProtocol() {
+    chooser_ = std::make_unique<juce::FileChooser>("A protocol", juce::File{}, "*.json");
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
+        if (const auto file = chooser.getResult(); file != juce::File{}) chooseProtocol(file.getFullPathName().toStdString());
+        else if (protocol_) choice_.setText(titleOf(protocol_->name), juce::dontSendNotification);
+    });
+}
+
+void StudiesTab::browseFolder() {
+    chooser_ = std::make_unique<juce::FileChooser>("The folder of the trial files", juce::File{folder_.getText()});
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectDirectories, [this](const juce::FileChooser& chooser) {
+        if (const auto file = chooser.getResult(); file != juce::File{}) setFolder(file);
+    });
+}
+
+void StudiesTab::setParticipant(const juce::String& code, int number) {
+    code_.setText(code, false);
+    number_.setText(juce::String{number}, false);
+    look();
+}
+
+void StudiesTab::setFolder(const juce::File& folder) {
+    folder_.setText(folder.getFullPathName(), false);
+    look();
+}
+
+std::vector<std::vector<int>> StudiesTab::noiseChoices() const {
+    std::vector<int> free;
+    const auto& strips = desk_.mix().strips;
+    for (int k = 0; k < desk_.outputs(); ++k)
+        if (std::ranges::find(strips, k, &Strip::output) == strips.end()) free.push_back(k);
+    std::vector<std::vector<int>> all;
+    for (std::size_t i = 0; i + 1 < free.size(); ++i)
+        if (free[i] % 2 == 0 && free[i + 1] == free[i] + 1) all.push_back({free[i], free[i + 1]});
+    for (const int k : free) all.push_back({k});
+    return all;
+}
+
+void StudiesTab::listNoise() {
+    const auto chosen = listening().noise;
+    noiseOutputs_ = noiseChoices();
+    noise_.clear(juce::dontSendNotification);
+    noise_.addItem("no output", noNoiseId);
+    int id = noNoiseId;
+    for (const auto& outputs : noiseOutputs_)
+        noise_.addItem(outputs.size() > 1 ? "outputs " + juce::String{outputs[0] + 1} + " and " + juce::String{outputs[1] + 1} : "output " + juce::String{outputs[0] + 1}, ++id);
+    const auto at = std::ranges::find(noiseOutputs_, chosen);
+    noise_.setSelectedId(at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1, juce::dontSendNotification);
+}
+
+void StudiesTab::setNoise(const std::vector<int>& outputs, double db) {
+    const auto at = std::ranges::find(noiseOutputs_, outputs);
+    noise_.setSelectedId(at == noiseOutputs_.end() ? noNoiseId : static_cast<int>(at - noiseOutputs_.begin()) + noNoiseId + 1, juce::dontSendNotification);
+    noiseLevel_.setSelectedId(-juce::roundToInt(db), juce::dontSendNotification);
+}
+
+ListeningSettings StudiesTab::listening() const {
+    ListeningSettings l;
+    if (const int index = noise_.getSelectedId() - noNoiseId - 1; index >= 0 && index < static_cast<int>(noiseOutputs_.size())) l.noise = noiseOutputs_[static_cast<std::size_t>(index)];
+    l.noiseDb = noiseLevel_.getSelectedId() > 0 ? -noiseLevel_.getSelectedId() : protocol_ ? protocol_->pinkNoiseDb : PinkNoise::safeDb;
+    return l;
+}
+
+Participant StudiesTab::participant() const { return {code_.getText().toStdString(), std::clamp(number_.getText().getIntValue(), 1, 100000), "person"}; }
+
+/// Whether there is something to go on with.
+void StudiesTab::look() {
+    if (!protocol_) return;
+    const auto path = trialFile(pathOf(folder_.getText()), *protocol_, participant());
+    std::error_code none;
+    begin_.setEnabled(!code_.isEmpty());
+    if (code_.isEmpty()) return begin_.setButtonText("Begin"), say("Expected a code", Shade::muted);
+    if (!std::filesystem::exists(path, none)) return begin_.setButtonText("Begin"), say("The rows will be in " + utf8(path.filename().string()), Shade::muted);
+    const auto text = readFile(path, limits::maxTableBytes);
+    const auto log = text ? readTrialLog(text.value, path.string(), *protocol_, participant()) : Result<TrialLog>{Failure{text.error}};
+    begin_.setButtonText("Go on");
+    if (log) say(utf8(path.filename().string()) + " has " + juce::String{static_cast<int>(log.value.records.size())} + " trials: it goes on behind them", Shade::text);
+    else say(utf8(log.error), Shade::limit);
+}
+
+void StudiesTab::say(const juce::String& words, Shade shade) {
+    words_ = words;
+    wordsShade_ = shade;
+    repaint();
+}
+
+std::string StudiesTab::begin() {
+    const auto refuse = [this](const std::string& why) { return say(utf8(why), Shade::limit), why; };
+    auto* view = findParentComponentOfClass<MixerView>();
+    if (screen_ || analysis_ || !protocol_ || view == nullptr) return "expected a mixer without a study";
+    if (code_.isEmpty()) return refuse("expected a participant's code");
+    if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
+    auto study = std::make_unique<StudyRun>(pathOf(folder_.getText()), *protocol_, participant());
+    if (!study->error().empty()) return refuse(study->error());
+    if (auto fault = desk_.hear(listening()); !fault.empty()) return refuse(fault);
+    screen_ = std::make_unique<StudyScreen>(desk_, std::move(study));
+    screen_->onClose = [this] { end(); };
+    cover(*view, *screen_);
+    return {};
+}
+
+void StudiesTab::cover(MixerView& view, juce::Component& screen) {
+    for (auto* child : view.getChildren())
+        if (child->isVisible()) hidden_.emplace_back(child);
+    screen.setBounds(view.getLocalBounds());
+    view.addAndMakeVisible(screen);
+    for (auto& child : hidden_) child->setVisible(false);
+    if (screen.isShowing()) screen.grabKeyboardFocus();
+}
+
+void StudiesTab::analyse(std::vector<juce::File> files) {
+    auto* view = findParentComponentOfClass<MixerView>();
+    if (screen_ || analysis_ || !protocol_ || view == nullptr) return;
+    if (files.empty()) files.emplace_back(trialFile(pathOf(folder_.getText()), *protocol_, participant()).string());
+    analysis_ = std::make_unique<AnalysisScreen>(desk_, files);
+    analysis_->onClose = [this] { end(); };
+    cover(*view, *analysis_);
+}
+
+void StudiesTab::end() {
+    if (!screen_ && !analysis_) return;
+    screen_.reset();
+    analysis_.reset();
+    desk_.hear({});
+    for (auto& child : hidden_)
+        if (child) child->setVisible(true);
+    hidden_.clear();
+    look();
+    desk_.sendChangeMessage();
+}
+
+void StudiesTab::takeMix() {
+    for (auto* label : {&choiceName_, &codeName_, &numberName_, &folderName_, &noiseName_, &noiseLevelName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
+    const auto& mix = desk_.mix();
+    const bool isFelt = !utf8(desk_.output().device()).startsWith(noDeviceType);
+    level_ = mix.levelDb < 0.0 ? "The master level stays as it is: all is felt " + number(-mix.levelDb, 1) + " dB below the protocol's g. Set it to 0 dB if those are meant." : juce::String{};
+    if (!isFelt) level_ = "There is no device: the study can be seen, and is felt by nobody.";
+    repaint();
+}
+
+void StudiesTab::paint(juce::Graphics& g) {
+    g.setFont(juce::Font{text::medium});
+    g.setColour(shade(*this, Shade::muted));
+    g.drawFittedText(about_, aboutArea_, juce::Justification::topLeft, 6, 1.0f);
+    g.setColour(shade(*this, Shade::now));
+    g.drawFittedText(level_, levelArea_, juce::Justification::topLeft, 2, 1.0f);
+    g.setColour(shade(*this, wordsShade_));
+    g.drawFittedText(words_, wordsArea_, juce::Justification::centredLeft, 3, 1.0f);
+}
+
+void StudiesTab::resized() {
+    auto area = getLocalBounds();
+    const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(18)); };
+    caption(choiceName_);
+    choice_.setBounds(area.removeFromTop(rowHeight));
+    area.removeFromTop(8);
+    constexpr int controlsHeight = 270; // in a small window they stay, and the words go
+    aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - 42, 0, 98));
+    auto names = area.removeFromTop(18), row = area.removeFromTop(rowHeight);
+    const int wide = row.getWidth() * 3 / 5;
+    codeName_.setBounds(names.removeFromLeft(wide));
+    code_.setBounds(row.removeFromLeft(wide - gap));
+    row.removeFromLeft(gap);
+    numberName_.setBounds(names);
+    number_.setBounds(row);
+    area.removeFromTop(8);
+    caption(folderName_);
+    row = area.removeFromTop(rowHeight);
+    browse_->setBounds(row.removeFromRight(80));
+    folder_.setBounds(row.withTrimmedRight(gap));
+    area.removeFromTop(8);
+    names = area.removeFromTop(18);
+    row = area.removeFromTop(rowHeight);
+    noiseName_.setBounds(names.removeFromLeft(wide));
+    noise_.setBounds(row.removeFromLeft(wide - gap));
+    row.removeFromLeft(gap);
+    noiseLevelName_.setBounds(names);
+    noiseLevel_.setBounds(row);
+    area.removeFromTop(10);
+    levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - 44, 0, 42));
+    row = area.removeFromTop(std::min(44, area.getHeight()));
+    begin_.setBounds(row.removeFromLeft(140));
+    analyse_->setBounds(row.removeFromRight(80));
+    wordsArea_ = row.withTrimmedLeft(gap);
+}
+
+} // namespace physvib

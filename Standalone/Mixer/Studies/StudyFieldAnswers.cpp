@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where it was: a cell of a grid, or any place of the field.
+#include "Mixer/Studies/StudyAnswer.h"
+#include "Mixer/Studies/StudyParts.h"
+#include <cmath>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr float margin = 24.0f;
+
+/// A point of the grid and the ground around it that means it.
+class Cell final : public juce::Button {
+public:
+    explicit Cell(const GridCell& c)
+        : juce::Button{utf8(gridLabel(c))}
+        , cell{c} {
+        setTitle("Row " + juce::String{c.row} + ", column " + juce::String{c.column});
+    }
+    const GridCell cell;
+    bool isFelt = false;
+    void paintButton(juce::Graphics& g, bool isOver, bool isDown) override {
+        drawTarget(g, *this, isOver, isDown);
+        const auto centre = getLocalBounds().toFloat().getCentre();
+        g.setColour(shade(*this, isFelt || isOver ? Shade::accent : Shade::muted).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
+        g.fillEllipse(juce::Rectangle<float>{14.0f, 14.0f}.withCentre(centre));
+    }
+};
+
+class CellAnswer final : public ChosenAnswer {
+public:
+    CellAnswer(const GridSet& grid, const LayoutDescription& layout)
+        : grid_{grid.grid()}
+        , layout_{layout} {
+        setTitle("Grid");
+        for (const GridCell& cell : grid_.cells()) {
+            auto& button = cells_.emplace_back(std::make_unique<Cell>(cell));
+            button->onClick = [this, cell] { choose(gridLabel(cell)); };
+            addAndMakeVisible(*button);
+        }
+    }
+    juce::String keys() const override { return "Arrows and Enter: place."; }
+    bool takeKey(const juce::KeyPress& key) override { return moveFocus(*this, key); }
+    void begin() override { cells_[cells_.size() / 2]->grabKeyboardFocus(); }
+    void mark(const std::set<std::string>& felt) override {
+        for (auto& cell : cells_) cell->isFelt = felt.contains(gridLabel(cell->cell));
+        repaint();
+    }
+    void resized() override {
+        const auto field = fieldIn(getLocalBounds().toFloat().reduced(margin), layout_.geometry);
+        // Every point has the same ground around it, also where the outer ones lie on the corners.
+        const int width = static_cast<int>(field.getWidth()) / grid_.columns, height = static_cast<int>(field.getHeight()) / grid_.rows;
+        for (auto& cell : cells_)
+            cell->setBounds(juce::Rectangle<int>{width, height}.withPosition(static_cast<int>(field.getX()) + width * (cell->cell.column - 1), static_cast<int>(field.getY()) + height * (cell->cell.row - 1)).reduced(4));
+    }
+
+private:
+    PhantomGrid grid_;
+    const LayoutDescription layout_;
+    std::vector<std::unique_ptr<Cell>> cells_;
+};
+
+/// The mark follows the mouse and the arrows; a click or Enter answers.
+class PlaceAnswer final : public StudyAnswer {
+public:
+    explicit PlaceAnswer(const LayoutDescription& layout)
+        : layout_{layout} {
+        setTitle("Field");
+        setHelpText("Arrows move the mark, with Shift in large steps; Enter answers");
+        setWantsKeyboardFocus(true);
+        setMouseCursor(juce::MouseCursor::CrosshairCursor);
+    }
+    Answer answer() const override {
+        Answer answer;
+        answer.place = answered_;
+        return answer;
+    }
+    bool isComplete() const override { return answered_.has_value(); }
+    juce::String keys() const override { return "Arrows (Shift: far) and Enter: place."; }
+    void begin() override { grabKeyboardFocus(); }
+
+    bool takeKey(const juce::KeyPress& key) override {
+        if (!isEnabled()) return false;
+        const double step = key.getModifiers().isShiftDown() ? 0.1 : 0.01;
+        if (key.isKeyCode(juce::KeyPress::leftKey)) return moveMark({mark_.x - step, mark_.y}), true;
+        if (key.isKeyCode(juce::KeyPress::rightKey)) return moveMark({mark_.x + step, mark_.y}), true;
+        if (key.isKeyCode(juce::KeyPress::upKey)) return moveMark({mark_.x, mark_.y - step}), true;
+        if (key.isKeyCode(juce::KeyPress::downKey)) return moveMark({mark_.x, mark_.y + step}), true;
+        if (key.isKeyCode(juce::KeyPress::returnKey)) return take(), true;
+        return false;
+    }
+    bool keyPressed(const juce::KeyPress& key) override { return takeKey(key); }
+    void mouseMove(const juce::MouseEvent& e) override { // JUCE also tells of a mouse that lies still, when what is under it changes: no hand moved the mark
+        if (std::exchange(seenAt_, e.position).value_or(e.position) != e.position) follow(e);
+    }
+    void mouseDrag(const juce::MouseEvent& e) override { follow(e); }
+    void mouseDown(const juce::MouseEvent& e) override { follow(e); }
+    void mouseUp(const juce::MouseEvent& e) override {
+        if (!isEnabled() || !field().expanded(margin).contains(e.position)) return;
+        follow(e);
+        take();
+    }
+
+    void paint(juce::Graphics& g) override {
+        drawField(g, *this, field(), layout_);
+        if (!isEnabled()) return;
+        const auto at = pointOn(field(), mark_);
+        g.setColour(shade(*this, Shade::accent));
+        g.drawEllipse(juce::Rectangle<float>{30.0f, 30.0f}.withCentre(at), 2.0f);
+        g.drawLine({at.translated(-22.0f, 0.0f), at.translated(22.0f, 0.0f)}, 1.5f);
+        g.drawLine({at.translated(0.0f, -22.0f), at.translated(0.0f, 22.0f)}, 1.5f);
+    }
+    void enablementChanged() override { repaint(); }
+
+private:
+    juce::Rectangle<float> field() const { return fieldIn(getLocalBounds().toFloat().reduced(margin), layout_.geometry); }
+    void follow(const juce::MouseEvent& e) {
+        const auto f = field();
+        moveMark({(e.position.x - f.getX()) / f.getWidth(), (e.position.y - f.getY()) / f.getHeight()});
+    }
+    void moveMark(const FieldPlace& to) {
+        const auto rounded = [](double share) { return std::round(1e4 * std::clamp(share, 0.0, 1.0)) / 1e4; };
+        mark_ = {rounded(to.x), rounded(to.y)};
+        setDescription("Mark at " + juce::String{100.0 * mark_.x, 0} + " % to the right, " + juce::String{100.0 * mark_.y, 0} + " % down");
+        repaint();
+    }
+    void take() {
+        answered_ = mark_;
+        if (onAnswer) onAnswer();
+    }
+
+    const LayoutDescription layout_;
+    FieldPlace mark_{0.5, 0.5};
+    std::optional<FieldPlace> answered_;
+    std::optional<juce::Point<float>> seenAt_; // the mouse
+};
+
+} // namespace
+
+std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDescription& layout) { return std::make_unique<CellAnswer>(grid, layout); }
+std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout) { return std::make_unique<PlaceAnswer>(layout); }
+
+} // namespace physvib

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How they are drawn, and where arrows lead.
+#include "Mixer/Studies/StudyParts.h"
+#include <cmath>
+
+namespace physvib {
+
+BigButton::BigButton(const juce::String& words, const juce::String& name)
+    : juce::Button{name}
+    , words_{words} {
+    setTitle(name);
+}
+
+void BigButton::setWords(const juce::String& words, const juce::String& remark) {
+    if (words == words_ && remark == remark_) return;
+    words_ = words;
+    remark_ = remark;
+    setDescription(remark);
+    repaint();
+}
+
+void BigButton::setShare(double share) {
+    if (std::abs(share - share_) < 1e-3) return;
+    share_ = share;
+    repaint();
+}
+
+void BigButton::setMain(bool isMain) {
+    isMain_ = isMain;
+    repaint();
+}
+
+void BigButton::setMarked(bool isMarked) {
+    if (isMarked == isMarked_) return;
+    isMarked_ = isMarked;
+    setDescription(isMarked ? "was felt" : "");
+    repaint();
+}
+
+void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
+    const float light = isEnabled() || getToggleState() ? 1.0f : 0.4f;
+    auto ink = shade(*this, Shade::text);
+    if (isMain_) {
+        g.setColour(shade(*this, Shade::accent).withMultipliedAlpha(isEnabled() ? 1.0f : 0.25f).brighter(isOver && isEnabled() ? 0.1f : 0.0f));
+        g.fillRoundedRectangle(getLocalBounds().toFloat().reduced(1.0f), 8.0f);
+        if (isEnabled()) ink = shade(*this, Shade::accent).getPerceivedBrightness() > 0.55f ? juce::Colour{palette::Argb{0xff101218}} : juce::Colours::white;
+    } else {
+        drawTarget(g, *this, isOver, isDown);
+    }
+    auto area = getLocalBounds().reduced(12, 8);
+    if (share_ >= 0.0) {
+        auto bar = area.removeFromBottom(5).toFloat();
+        area.removeFromBottom(3);
+        g.setColour(shade(*this, Shade::line));
+        g.fillRoundedRectangle(bar, 2.5f);
+        g.setColour(shade(*this, Shade::accent));
+        g.fillRoundedRectangle(bar.withWidth(bar.getWidth() * static_cast<float>(std::min(1.0, share_))), 2.5f);
+    }
+    const int line = 24, lines = remark_.isEmpty() ? line : line + 20;
+    area = area.withSizeKeepingCentre(area.getWidth(), std::min(lines, area.getHeight()));
+    g.setColour(ink.withMultipliedAlpha(light));
+    g.setFont(juce::Font{getHeight() >= 48 && words_.length() < 24 ? text::large : text::medium});
+    g.drawText(words_, area.removeFromTop(line), juce::Justification::centred, true);
+    g.setColour((isMain_ ? ink : shade(*this, Shade::muted)).withMultipliedAlpha(light));
+    g.setFont(juce::Font{text::small});
+    g.drawText(remark_, area, juce::Justification::centred, true);
+    if (!isMarked_) return;
+    g.setColour(shade(*this, Shade::accent));
+    g.fillEllipse(juce::Rectangle<float>{8.0f, 8.0f}.withCentre({static_cast<float>(getWidth()) - 11.0f, 11.0f}));
+}
+
+void drawTarget(juce::Graphics& g, const juce::Button& button, bool isOver, bool isDown, float corner) {
+    const auto area = button.getLocalBounds().toFloat().reduced(1.0f);
+    auto colour = button.getToggleState() ? shade(button, Shade::accent).withMultipliedAlpha(0.35f) : shade(button, Shade::raised);
+    if (isOver && button.isEnabled()) colour = colour.brighter(0.1f);
+    if (isDown) colour = colour.darker(0.15f);
+    g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.5f));
+    g.fillRoundedRectangle(area, corner);
+    g.setColour(shade(button, button.getToggleState() ? Shade::accent : Shade::line));
+    g.drawRoundedRectangle(area, corner, button.getToggleState() ? 2.0f : 1.0f);
+}
+
+juce::Rectangle<float> fieldIn(juce::Rectangle<float> area, const EnchanterLayout& layout) {
+    const auto wide = static_cast<float>(layout.extentWidthMetres / layout.extentHeightMetres);
+    const float width = std::min(area.getWidth(), area.getHeight() * wide);
+    return area.withSizeKeepingCentre(width, width / wide);
+}
+
+FieldPlace placeOf(const EnchanterLayout& layout, int enchanter) {
+    const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
+    return {place.xMetres / layout.extentWidthMetres, 1.0 - place.yMetres / layout.extentHeightMetres};
+}
+
+juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace& place) {
+    return {field.getX() + field.getWidth() * static_cast<float>(place.x), field.getY() + field.getHeight() * static_cast<float>(place.y)};
+}
+
+void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field, const LayoutDescription& layout) {
+    g.setColour(shade(component, Shade::well));
+    g.fillRoundedRectangle(field, 10.0f);
+    g.setColour(shade(component, Shade::line));
+    g.drawRoundedRectangle(field, 10.0f, 1.5f);
+    for (int j = 0; j < layout.geometry.count; ++j) {
+        const auto ring = juce::Rectangle<float>{26.0f, 26.0f}.withCentre(pointOn(field, placeOf(layout.geometry, j)));
+        g.setColour(shade(component, Shade::panel));
+        g.fillEllipse(ring);
+        g.setColour(enchanterColour(component, j));
+        g.drawEllipse(ring, 2.0f);
+        g.setFont(juce::Font{text::small, juce::Font::bold});
+        g.drawText(utf8(layout.enchanters[static_cast<std::size_t>(j)].label), ring, juce::Justification::centred, false);
+    }
+}
+
+bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
+    juce::Point<int> way;
+    if (key.isKeyCode(juce::KeyPress::leftKey)) way = {-1, 0};
+    if (key.isKeyCode(juce::KeyPress::rightKey)) way = {1, 0};
+    if (key.isKeyCode(juce::KeyPress::upKey)) way = {0, -1};
+    if (key.isKeyCode(juce::KeyPress::downKey)) way = {0, 1};
+    if (way.isOrigin()) return false;
+    juce::Component* from = nullptr;
+    for (auto* child : parent.getChildren())
+        if (child->hasKeyboardFocus(true)) from = child;
+    juce::Component* best = nullptr;
+    double least = 1e9;
+    for (auto* child : parent.getChildren()) {
+        if (child == from || !child->isVisible() || !child->isEnabled() || !child->getWantsKeyboardFocus()) continue;
+        const auto step = from != nullptr ? child->getBounds().getCentre() - from->getBounds().getCentre() : juce::Point<int>{way};
+        const int along = step.x * way.x + step.y * way.y, aside = std::abs(step.x * way.y) + std::abs(step.y * way.x);
+        if (along <= 0 || along < aside / 2) continue;
+        if (const double far = along + 2.0 * aside; far < least) {
+            least = far;
+            best = child;
+        }
+    }
+    if (best != nullptr) best->grabKeyboardFocus();
+    return true;
+}
+
+} // namespace physvib

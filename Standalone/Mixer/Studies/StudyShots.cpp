@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A study is brought to a screen by answers of the simulated observer, and felt there as by a person.
+#include "Mixer/Studies/StudyShots.h"
+#include "Files/ProtocolFile.h"
+#include "Mixer/Studies/StudiesTab.h"
+#include "Study/SimulatedObserver.h"
+
+namespace physvib {
+
+namespace {
+
+template <class Wanted>
+Wanted* find(juce::Component& root, const juce::String& title) {
+    if (auto* wanted = dynamic_cast<Wanted*>(&root); wanted != nullptr && root.getTitle() == title) return wanted;
+    for (auto* child : root.getChildren())
+        if (auto* wanted = find<Wanted>(*child, title)) return wanted;
+    return nullptr;
+}
+
+void press(juce::Component& root, const juce::String& title) {
+    if (auto* button = find<juce::Button>(root, title); button != nullptr && button->isEnabled() && button->onClick) button->onClick();
+}
+
+void wait(MixerView& view, double seconds) {
+    for (const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds; juce::Time::getMillisecondCounterHiRes() < end; juce::Thread::sleep(30)) view.refresh();
+}
+
+/// Removed when the program ends.
+juce::File folder() {
+    struct Folder {
+        juce::File file = juce::File::createTempFile("study");
+        Folder() { file.createDirectory(); }
+        ~Folder() { file.deleteRecursively(); }
+    };
+    static const Folder folder;
+    return folder.file;
+}
+
+/// The trials before the wanted one are answered by the observer.
+void answerUntil(const Protocol& protocol, StudyTask task, int trial) {
+    const Participant participant{"P01", 1, "person"};
+    StudyRun study{folder().getFullPathName().toStdString(), protocol, participant};
+    const SimulatedObserver observer{{}, protocol, participant};
+    const auto isThere = [&] { return study.experiment().isDone() || (study.experiment().trial().task == task && study.experiment().trial().number == trial); };
+    while (!isThere() && study.take(observer.answer(study.experiment()))) {}
+}
+
+StudiesTab& studies(MixerView& view) {
+    view.tabs().choose("Studies");
+    return *find<StudiesTab>(view, "Studies");
+}
+
+/// The screen of that trial, behind its pause.
+StudyScreen* show(MixerView& view, const std::string& protocol, StudyTask task, int trial, bool isPauseSeen = false) {
+    auto& tab = studies(view);
+    tab.setFolder(folder());
+    if (!tab.chooseProtocol(protocol).empty()) return nullptr;
+    answerUntil(findProtocol(protocol).value, task, trial);
+    if (!tab.begin().empty()) return nullptr;
+    wait(view, 0.3);
+    if (!isPauseSeen) press(*tab.screen(), "Next");
+    return tab.screen();
+}
+
+/// Whole files of the simulated observer.
+std::vector<juce::File> simulatedTrials(const std::string& name, int participants) {
+    const auto protocol = findProtocol(name).value;
+    std::vector<juce::File> files;
+    for (int number = 1; number <= participants; ++number) {
+        const Participant participant{"S0" + std::to_string(number), number, "simulated-RING"};
+        StudyRun study{folder().getFullPathName().toStdString(), protocol, participant};
+        const SimulatedObserver observer{*observerNamed(participant.observer), protocol, participant};
+        while (!study.experiment().isDone() && study.take(observer.answer(study.experiment()))) {}
+        files.emplace_back(study.path().string());
+    }
+    return files;
+}
+
+void feel(MixerView& view, StudyScreen* screen, double seconds) {
+    if (screen == nullptr) return;
+    screen->keyPressed(juce::KeyPress{juce::KeyPress::spaceKey});
+    wait(view, seconds);
+}
+
+void type(StudyScreen* screen, char key) {
+    if (screen != nullptr) screen->keyPressed(juce::KeyPress{key, juce::ModifierKeys{}, static_cast<juce::juce_wchar>(key)});
+}
+
+/// Two ways to render a drop, matched and compared.
+std::string matching() {
+    Protocol p;
+    p.name = "two-methods";
+    p.conditions = {{"drop", "", "phone1", 205.0, 1.0, CallSet{{{"level_db", {"0"}}}, "stimulus phantom --at 0.5,0.5 --layout phone1 --level-g 0.3 --frequency {alternative}"}}};
+    SessionPlan match, main;
+    match.name = "matching";
+    match.isTraining = true;
+    match.task = StudyTask::adjust;
+    match.question = "Make the second as strong as the first.";
+    match.repetitions = 3;
+    match.alternatives = {{"150"}, {"250"}};
+    match.adjustment = Adjustment{"250", 3.0, 1.0, -20.0, 10.0};
+    main.name = "main";
+    main.task = StudyTask::choose;
+    main.question = "Which of the two fits the collision better?";
+    main.repetitions = 8;
+    main.mostPlays = 3;
+    main.alternatives = match.alternatives;
+    p.sessions = {match, main};
+    const auto file = folder().getChildFile("two-methods.json");
+    return file.replaceWithText(utf8(protocolJson(p))) ? file.getFullPathName().toStdString() : std::string{};
+}
+
+} // namespace
+
+const std::vector<StudyShot>& studyShots() {
+    static const std::vector<StudyShot> shots{
+        {"studies-tab", [](Desk&, MixerView& v) { studies(v).setFolder(juce::File{"/home/lab/studies"}); }},
+        {"studies-training", [](Desk&, MixerView& v) { type(show(v, "patterns", StudyTask::explore, 60), 'a'); }},
+        {"studies-pattern", [](Desk&, MixerView& v) {
+             auto* screen = show(v, "patterns", StudyTask::identify, 12);
+             feel(v, screen, 1.6);
+             type(screen, 'b');
+         }},
+        {"studies-grid", [](Desk&, MixerView& v) { feel(v, show(v, "phantom-grids", StudyTask::identify, 31), 1.8); }},
+        {"studies-place", [](Desk&, MixerView& v) { feel(v, show(v, "phantom-places", StudyTask::locate, 48), 1.8); }},
+        {"studies-match", [](Desk&, MixerView& v) {
+             auto* screen = show(v, matching(), StudyTask::adjust, 2);
+             feel(v, screen, 1.6);
+             feel(v, screen, 1.6);
+         }},
+        {"studies-choice", [](Desk&, MixerView& v) {
+             auto* screen = show(v, matching(), StudyTask::choose, 4);
+             feel(v, screen, 1.6);
+             feel(v, screen, 1.6);
+         }},
+        {"studies-ratings", [](Desk&, MixerView& v) {
+             auto* screen = show(v, "eight-methods", StudyTask::rate, 5);
+             feel(v, screen, 10.8);
+             feel(v, screen, 4.0);
+         }},
+        {"studies-number", [](Desk&, MixerView& v) { feel(v, show(v, "magnitudes", StudyTask::estimate, 7), 1.2); }},
+        {"studies-analysis", [](Desk&, MixerView& v) { studies(v).analyse(simulatedTrials("phantom-places", 2)); }},
+        {"studies-break", [](Desk&, MixerView& v) { show(v, "eight-methods", StudyTask::rate, 9, true); }},
+    };
+    return shots;
+}
+
+} // namespace physvib

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Controls first, then the strikes, a moment later.
+#include "Mixer/Studies/StudySound.h"
+#include "Mixer/Window/Parts.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+using Kind = RenderControl::Kind;
+constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may come behind a strike; gains are ramped
+
+constexpr const char* noControls = "The session took no more controls: expected a device that plays";
+
+} // namespace
+
+StudySound::StudySound(Desk& desk)
+    : desk_{desk}
+    , slowness_{desk.slowness()} {
+    desk_.setSlowness(0);
+    post(Kind::stopAll, 0, 0.0f);
+    for (int j = 0; j < desk_.mix().count(); ++j) post(Kind::mute, j, 0.0f);
+}
+
+StudySound::~StudySound() {
+    const Mix& mix = desk_.mix();
+    if (isPlaying()) post(Kind::stopAll, 0, 0.0f);
+    post(Kind::panner, 0, 0.0f, mix.panner());
+    useRecordings({});
+    for (int j = 0; j < mix.count(); ++j) {
+        post(Kind::gain, j, channelGain(mix.strips[static_cast<std::size_t>(j)]));
+        post(Kind::mute, j, mix.isSilent(j) ? 1.0f : 0.0f);
+    }
+    desk_.setSlowness(slowness_);
+}
+
+void StudySound::post(Kind kind, int channel, float value, const PhantomPanner& panner) {
+    RenderControl control;
+    control.kind = kind;
+    control.channel = channel;
+    control.value = value;
+    control.panner = panner;
+    if (desk_.session().post(control) < 0) desk_.report(noControls);
+}
+
+void StudySound::useRecordings(const std::vector<ContactRecording>& recordings) {
+    if (desk_.session().useRecordings(recordings) < 0) desk_.report(noControls);
+}
+
+Result<CallStimulus> StudySound::make(Desk& desk, const std::string& call) {
+    auto stimulus = stimulusOfCall(call, desk.output().sampleRateHz() > 0 ? desk.output().sampleRateHz() : 48000);
+    if (!stimulus) return stimulus;
+    if (auto fault = refusal(desk, stimulus.value); !fault.empty()) return Failure{fault};
+    return stimulus;
+}
+
+std::string StudySound::refusal(const Desk& desk, const CallStimulus& stimulus) {
+    const int wanted = stimulus.layout.geometry.count, there = desk.mix().count();
+    if (!stimulus.recordings.empty() && desk.board()) return "--method SV: expected a mixer without the board, which plays no recordings";
+    if (wanted <= there) return {};
+    return stimulus.layout.name + ": expected " + std::to_string(wanted) + " enchanters in the mixer, found " + std::to_string(there);
+}
+
+std::string StudySound::play(const CallStimulus& stimulus) {
+    if (auto fault = refusal(desk_, stimulus); !fault.empty()) return fault;
+    const auto& strips = desk_.mix().strips;
+    gains_.resize(strips.size());
+    post(Kind::panner, 0, 0.0f, stimulus.stimulus.panner);
+    useRecordings(stimulus.recordings);
+    for (std::size_t j = 0; j < stimulus.gains.size(); ++j) {
+        const float gain = strips[j].isInverted ? -stimulus.gains[j] : stimulus.gains[j];
+        if (gain != std::exchange(gains_[j], gain)) post(Kind::gain, static_cast<int>(j), gain);
+    }
+    auto strikes = stimulus.stimulus.events;
+    for (auto& strike : strikes) strike.timeNs += leadNs;
+    if (!desk_.session().play(strikes)) return "expected strikes that can be played";
+    beganAtMs_ = nowMs() + 1e-6 * static_cast<double>(leadNs) + 1e3 * desk_.playOutSeconds();
+    seconds_ = stimulus.stimulus.seconds;
+    return {};
+}
+
+bool StudySound::isPlaying() const { return seconds_ > 0.0 && nowMs() < beganAtMs_ + 1e3 * seconds_; }
+
+double StudySound::feltSeconds() const { return std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_); }
+
+void StudySound::stop() {
+    post(Kind::stopAll, 0, 0.0f);
+    for (int j = 0; j < desk_.mix().count(); ++j) post(Kind::mute, j, 1.0f);
+}
+
+} // namespace physvib

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sessions, scenes and layouts from files and into them; recordings and renders; what is asked before anything is lost.
+#include "Mixer/Window/MixerWindow.h"
+#include "Files/Disk/AtomicFile.h"
+#include "Files/Disk/FileKind.h"
+#include "Files/SceneFile.h"
+#include "Mixer/Window/Parts.h"
+#include "Mixer/Window/RenderTask.h"
+
+namespace physvib {
+namespace {
+
+constexpr const char* sessionPattern = "*.json";
+constexpr double longestRender = 86'400.0; // as `physvib render` makes at most
+
+std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
+
+/// `mix` with the scene or the layout of that file.
+Result<Mix> mixWith(Mix mix, const juce::File& file) {
+    const FileKind kind = fileKind(pathOf(file));
+    if (kind == FileKind::scene) {
+        const auto scene = loadScene(pathOf(file));
+        if (!scene) return Failure{scene.error};
+        mix.scene = std::make_shared<const Scene>(scene.value);
+    } else if (kind == FileKind::layout) {
+        const auto layout = loadLayout(pathOf(file));
+        if (!layout) return Failure{layout.error};
+        mix.layout = layout.value;
+        mix.resizeStrips();
+    } else return Failure{pathOf(file) + ": expected a session, a scene or a layout"};
+    return mix;
+}
+
+} // namespace
+
+bool MixerWindow::load(const juce::File& file, const juce::File& document) {
+    auto session = loadSession(pathOf(file));
+    if (session) {
+        play(mixOf(session.value), document);
+        return true;
+    }
+    if (!desk_) play(Desk::firstMix(), {});
+    say(utf8(session.error));
+    return false;
+}
+
+// What the command line names is not an edit: there is nothing to save yet.
+void MixerWindow::start(const juce::File& file) {
+    if (!file.existsAsFile()) return play(Desk::firstMix(), file);
+    if (fileKind(pathOf(file)) == FileKind::session) return void(load(file, file));
+    const auto mix = mixWith(Desk::firstMix(), file);
+    play(mix ? mix.value : Desk::firstMix(), {});
+    if (!mix) say(utf8(mix.error));
+}
+
+juce::File MixerWindow::folderOfDocuments() const {
+    return document_ != juce::File{} ? document_.getParentDirectory() : juce::File::getCurrentWorkingDirectory();
+}
+
+void MixerWindow::chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving, std::function<void(const juce::File&)> use) {
+    using B = juce::FileBrowserComponent;
+    chooser_ = std::make_unique<juce::FileChooser>(title, folderOfDocuments(), pattern, false);
+    chooser_->launchAsync((isSaving ? B::saveMode | B::warnAboutOverwriting : B::openMode) | B::canSelectFiles, [use = std::move(use)](const juce::FileChooser& c) {
+        if (c.getResult() != juce::File{}) use(c.getResult());
+    });
+}
+
+void MixerWindow::askThen(std::function<void()> goOn) {
+    if (!isChanged()) return goOn();
+    juce::AlertWindow::showYesNoCancelBox(juce::MessageBoxIconType::QuestionIcon, "Save the session?", "What was changed since it was saved would be lost.", "Save", "Do not save",
+                                          "Cancel", view_.get(), juce::ModalCallbackFunction::create([this, goOn = std::move(goOn)](int answer) {
+                                              if (answer == 0) return;
+                                              if (answer == 1) save();
+                                              if (answer == 2 || !isChanged()) goOn();
+                                          }));
+}
+
+void MixerWindow::newDocument() {
+    askThen([this] {
+        files_.forget();
+        play(Desk::firstMix(), {});
+    });
+}
+
+void MixerWindow::openDocument() {
+    chooseFile("Open a session, a scene or a layout", sessionPattern, false, [this](const juce::File& file) { openFile(file); });
+}
+
+void MixerWindow::openDocument(const juce::File& file) {
+    askThen([this, file] {
+        if (!load(file, file)) return;
+        files_.forget();
+        files_.addRecent(file);
+    });
+}
+
+void MixerWindow::openFile(const juce::File& file) {
+    if (fileKind(pathOf(file)) == FileKind::session) return openDocument(file);
+    const auto mix = mixWith(desk_->mix(), file);
+    if (!mix) return say(utf8(mix.error));
+    desk_->edit(file.getFileName(), mix.value);
+}
+
+void MixerWindow::save() {
+    if (document_ == juce::File{}) saveAs();
+    else saveTo(document_);
+}
+
+void MixerWindow::saveAs() {
+    chooseFile("Save the session", sessionPattern, true, [this](const juce::File& file) { saveTo(file.withFileExtension("json")); });
+}
+
+void MixerWindow::saveTo(const juce::File& file) {
+    const auto edits = desk_->edits();
+    if (const auto error = writeFile(pathOf(file), sessionJson(desk_->saved(), std::filesystem::path{pathOf(file)}.parent_path())); !error.empty()) return say(utf8(error));
+    document_ = file;
+    savedEdits_ = edits;
+    files_.forget();
+    files_.addRecent(file);
+    nameWindow();
+}
+
+void MixerWindow::record() {
+    if (desk_->isRecording()) return desk_->stopRecording();
+    const auto name = document_ == juce::File{} ? juce::String{"session"} : document_.getFileNameWithoutExtension();
+    const auto file = folderOfDocuments().getNonexistentChildFile(name + "-take", ".wav", false);
+    const auto error = desk_->startRecording(file);
+    view_->topBar().setRecording(error.empty());
+    if (!error.empty()) say(utf8(error));
+}
+
+void MixerWindow::renderOffline() {
+    const double played = 1e-9 * static_cast<double>(desk_->saved().lengthNs);
+    auto* window = new juce::AlertWindow{"Render the session", "It was played for " + number(played, 1) + " s. Beyond that its last scene goes on by itself.", juce::MessageBoxIconType::NoIcon, view_.get()};
+    window->addTextEditor("seconds", juce::String{std::ceil(10.0 * played) / 10.0, 1}, "Seconds"); // without what parts thousands
+    window->getTextEditor("seconds")->setInputRestrictions(8, "0123456789.");
+    window->addButton("Choose a file" + dots(), 1, juce::KeyPress{juce::KeyPress::returnKey});
+    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
+    window->enterModalState(true, juce::ModalCallbackFunction::create([this, window](int answer) {
+        const double seconds = window->getTextEditorContents("seconds").getDoubleValue();
+        if (answer == 0) return;
+        if (!(seconds >= 0.1 && seconds <= longestRender)) return say("Seconds to render: expected 0.1 to " + number(longestRender, 0));
+        chooseFile("Render the session to", "*.wav", true, [this, seconds](const juce::File& file) { renderTo(file.withFileExtension("wav"), seconds); });
+    }), true);
+}
+
+void MixerWindow::renderTo(const juce::File& file, double seconds) {
+    rendering_ = std::make_unique<RenderTask>(desk_->saved(), seconds, file, std::max(8000, desk_->output().sampleRateHz()),
+                                              [this](const juce::String& words, bool isGood) { isGood ? desk_->tell(words) : say(words); }, *view_);
+}
+
+void MixerWindow::exportLayout() {
+    chooseFile("Save the layout to", sessionPattern, true, [this](const juce::File& file) {
+        if (const auto error = writeFile(pathOf(file.withFileExtension("json")), layoutJson(desk_->mix().layout)); !error.empty()) say(utf8(error));
+    });
+}
+
+void MixerWindow::import(const juce::String& title) {
+    chooseFile(title, sessionPattern, false, [this](const juce::File& file) { openFile(file); });
+}
+
+void MixerWindow::offerRecovery() {
+    const auto copies = files_.leftBehind();
+    if (copies.empty()) return;
+    const auto file = copies.front();
+    juce::AlertWindow::showOkCancelBox(juce::MessageBoxIconType::QuestionIcon, "Take up the last session?",
+                                       "The mixer ended without being closed. A copy of its session was kept at " + file.getLastModificationTime().toString(true, true, false, true) + ".",
+                                       "Take it up", "Discard it", view_.get(), juce::ModalCallbackFunction::create([this, copies](int answer) {
+                                           if (answer == 1 && load(copies.front(), {})) savedEdits_ = desk_->edits() + 1; // to be saved
+                                           for (const auto& copy : copies)
+                                               if (copy != copies.front() || answer != 1 || desk_->trouble().isEmpty()) copy.deleteFile();
+                                       }));
+}
+
+} // namespace physvib

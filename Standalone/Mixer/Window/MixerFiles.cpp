@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files in one folder; a copy bears the number of its process.
+#include "Mixer/Window/MixerFiles.h"
+#include "Files/Disk/AtomicFile.h"
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <unistd.h>
+
+namespace physvib {
+
+namespace {
+
+constexpr const char* copyPrefix = "recovery-";
+constexpr double keepMs = 2'000.0, longestKeepMs = 20'000.0;
+
+juce::PropertiesFile::Options options() {
+    juce::PropertiesFile::Options o;
+    o.storageFormat = juce::PropertiesFile::storeAsXML;
+    o.millisecondsBeforeSaving = 500;
+    return o;
+}
+
+bool isRunning(int process) { return process > 0 && (kill(process, 0) == 0 || errno == EPERM); }
+
+} // namespace
+
+juce::File mixerFolder() {
+    const char* configured = std::getenv("XDG_CONFIG_HOME");
+    const juce::File base = configured != nullptr && *configured == '/' ? juce::File{configured} : juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile(".config");
+    return base.getChildFile("physvib");
+}
+
+MixerFiles::MixerFiles(const juce::File& folder)
+    : folder_{folder}
+    , copy_{folder.getChildFile(copyPrefix + juce::String{static_cast<int>(getpid())} + ".json")}
+    , settings_{folder.getChildFile("mixer.settings"), options()} {
+    folder_.createDirectory();
+    recent_.setMaxNumberOfItems(8);
+    recent_.restoreFromString(settings_.getValue("recent"));
+    recent_.removeNonExistentFiles();
+}
+
+MixerFiles::~MixerFiles() { settings_.saveIfNeeded(); }
+
+void MixerFiles::addRecent(const juce::File& file) {
+    recent_.addFile(file);
+    settings_.setValue("recent", recent_.toString());
+    settings_.saveIfNeeded();
+}
+
+std::vector<juce::File> MixerFiles::leftBehind() const {
+    std::vector<juce::File> found;
+    for (const auto& file : folder_.findChildFiles(juce::File::findFiles, false, juce::String{copyPrefix} + "*.json"))
+        if (!isRunning(file.getFileNameWithoutExtension().fromFirstOccurrenceOf(copyPrefix, false, false).getIntValue())) found.push_back(file);
+    std::ranges::sort(found, std::greater{}, [](const juce::File& f) { return f.getLastModificationTime().toMilliseconds(); });
+    return found;
+}
+
+std::string MixerFiles::keep(Desk& desk, bool isChanged) {
+    const double now = juce::Time::getMillisecondCounterHiRes(), passed = now - keptAtMs_;
+    if (!isChanged || passed < (desk.edits() != keptEdits_ ? keepMs : longestKeepMs)) return {};
+    keptAtMs_ = now;
+    keptEdits_ = desk.edits();
+    return writeFile(copy_.getFullPathName().toStdString(), sessionJson(desk.saved(), std::filesystem::path{folder_.getFullPathName().toStdString()}));
+}
+
+void MixerFiles::forget() { copy_.deleteFile(); }
+
+} // namespace physvib

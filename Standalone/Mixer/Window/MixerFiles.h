@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the mixer keeps between its runs: settings, recent documents, and a copy of the session in case it ends badly.
+#pragma once
+#include "Mixer/Desk/Desk.h"
+#include <juce_gui_extra/juce_gui_extra.h>
+
+namespace physvib {
+
+/// $XDG_CONFIG_HOME/physvib, or ~/.config/physvib.
+juce::File mixerFolder();
+
+/// M only.
+class MixerFiles {
+public:
+    explicit MixerFiles(const juce::File& folder = mixerFolder());
+    ~MixerFiles();
+
+    juce::PropertiesFile& settings() noexcept { return settings_; }
+    juce::RecentlyOpenedFilesList& recent() noexcept { return recent_; }
+    void addRecent(const juce::File& file);
+
+    /// Copies that runs which have ended left behind; the newest first.
+    std::vector<juce::File> leftBehind() const;
+
+    /// Writes the copy of this run if there is something new, as often as it is worth. Empty, or why it cannot be written.
+    std::string keep(Desk& desk, bool isChanged);
+    /// The run ends well, or its document was saved: no copy is needed.
+    void forget();
+
+private:
+    juce::File folder_, copy_;
+    juce::PropertiesFile settings_;
+    juce::RecentlyOpenedFilesList recent_;
+    std::uint64_t keptEdits_ = 0;
+    double keptAtMs_ = 0.0;
+};
+
+} // namespace physvib

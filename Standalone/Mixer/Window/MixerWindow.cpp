@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The window, what plays in it, its keys and its menu.
+#include "Mixer/Window/MixerWindow.h"
+#include "Host/Devices/NoDevice.h"
+#include "Mixer/Window/Parts.h"
+
+namespace physvib {
+namespace {
+
+constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
+
+} // namespace
+
+MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file, const juce::File& folder)
+    : juce::DocumentWindow{"PhysVib mixer", palette::ground, allButtons, false}
+    , types_{std::move(types)}
+    , files_{folder} {
+    auto& settings = files_.settings();
+    device_ = {device.isNotEmpty() ? device.toStdString() : settings.getValue("device", juce::String{noDeviceType} + ":" + noDeviceName).toStdString(),
+               settings.getIntValue("rate"), settings.getIntValue("block"), settings.getValue("board").toStdString()};
+    setUsingNativeTitleBar(true);
+    start(file);
+    setResizable(true, false);
+    setResizeLimits(MixerView::leastWidth, MixerView::leastHeight, 7680, 4320);
+    if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
+        const auto room = display->userArea;
+        centreWithSize(std::min(1440, room.getWidth()), std::min(900, room.getHeight()));
+    }
+    addToDesktop();
+    setVisible(true);
+    view_->grabKeyboardFocus();
+    if (!settings.getBoolValue("hint-seen")) view_->setHint(true);
+    settings.setValue("hint-seen", true);
+    offerRecovery();
+    startTimer(500);
+}
+
+MixerWindow::~MixerWindow() {
+    stopTimer();
+    rendering_.reset();
+    clearContentComponent();
+    view_.reset();
+    desk_.reset();
+}
+
+// Another document is another desk: its session begins at 0, with nothing to undo.
+void MixerWindow::play(Mix mix, const juce::File& document) {
+    clearContentComponent();
+    view_.reset();
+    desk_.reset();
+    desk_ = std::make_unique<Desk>(types_, device_, std::move(mix));
+    view_ = std::make_unique<MixerView>(*desk_);
+    setContentNonOwned(view_.get(), getWidth() == 0);
+    document_ = document;
+    savedEdits_ = desk_->edits();
+    view_->topBar().onMenu = [this](juce::Component& from) { showMenu(from); };
+    view_->topBar().onRecord = [this] { record(); };
+    desk_->onBoardWanted = [safe = juce::Component::SafePointer<MixerWindow>{this}](const DeviceChoice& choice) {
+        juce::MessageManager::callAsync([safe, choice] { // the tab that asked goes with its desk
+            if (safe != nullptr) safe->useBoard(choice);
+        });
+    };
+    view_->topBar().onOpenScene = [this] { import("Scene"); };
+    desk_->onRecorded = [this](const juce::File& file, const juce::String& error) {
+        lastRecording_ = file;
+        view_->topBar().setRecording(false);
+        if (error.isEmpty()) desk_->tell("Recorded " + file.getFullPathName() + ", and its events beside it");
+        else say(file.getFileName() + ": " + error);
+    };
+    view_->setGround(files_.settings().getValue("look") == "light" ? Ground::light : Ground::dark);
+    view_->grabKeyboardFocus();
+    nameWindow();
+}
+
+void MixerWindow::useBoard(const DeviceChoice& choice) {
+    askThen([this, choice] {
+        device_ = choice;
+        files_.settings().setValue("board", utf8(choice.board));
+        play(Mix{desk_->mix()}, document_);
+        view_->tabs().choose("Output"); // where it was chosen
+    });
+}
+
+void MixerWindow::nameWindow() {
+    const auto name = document_ == juce::File{} ? juce::String{"new session"} : document_.getFileNameWithoutExtension();
+    const auto title = name + (isChanged() ? " *" : "") + juce::String::fromUTF8(" \xe2\x80\x93 PhysVib mixer");
+    if (title != getName()) setName(title);
+}
+
+void MixerWindow::timerCallback() {
+    nameWindow();
+    device_ = desk_->device();
+    auto& settings = files_.settings();
+    settings.setValue("device", utf8(device_.name));
+    settings.setValue("rate", device_.sampleRateHz);
+    settings.setValue("block", device_.blockFrames);
+    if (const auto error = files_.keep(*desk_, isChanged()); !error.empty()) say(utf8(error));
+}
+
+// Not while a study covers the desk: its stimuli are felt through it.
+bool MixerWindow::isInterestedInFileDrag(const juce::StringArray& files) {
+    return files.size() == 1 && juce::File{files[0]}.hasFileExtension("json") && view_->world().isVisible();
+}
+
+void MixerWindow::filesDropped(const juce::StringArray& files, int, int) {
+    view_->setDropShown(false);
+    openFile(juce::File{files[0]});
+}
+
+void MixerWindow::requestQuit() {
+    askThen([this] {
+        files_.forget();
+        juce::JUCEApplicationBase::quit();
+    });
+}
+
+void MixerWindow::setGround(Ground ground) {
+    view_->setGround(ground);
+    files_.settings().setValue("look", ground == Ground::light ? "light" : "dark");
+}
+
+bool MixerWindow::keyPressed(const juce::KeyPress& key) {
+    using juce::KeyPress;
+    if (key == KeyPress{'n', command, 0}) return newDocument(), true;
+    if (key == KeyPress{'o', command, 0}) return openDocument(), true;
+    if (key == KeyPress{'s', command, 0}) return save(), true;
+    if (key == KeyPress{'s', command | shift, 0}) return saveAs(), true;
+    if (key == KeyPress{'r', command, 0}) return record(), true;
+    if (key == KeyPress{'e', command, 0}) return renderOffline(), true;
+    if (key == KeyPress{'q', command, 0}) return requestQuit(), true;
+    if (key == KeyPress::F10Key) return showMenu(view_->topBar()), true;
+    return view_->keyPressed(key);
+}
+
+void MixerWindow::showMenu(juce::Component& from) {
+    auto& undo = desk_->undoManager();
+    juce::PopupMenu menu, look, recent;
+    const auto item = [&menu](const juce::String& name, const juce::String& keys, std::function<void()> act, bool isEnabled = true) {
+        juce::PopupMenu::Item i{name};
+        i.shortcutKeyDescription = keys;
+        i.action = std::move(act);
+        i.isEnabled = isEnabled;
+        menu.addItem(i);
+    };
+    for (int k = 0; k < files_.recent().getNumFiles(); ++k) {
+        const auto file = files_.recent().getFile(k);
+        recent.addItem(file.getFileName(), [this, file] { openDocument(file); });
+    }
+    item("New", "Ctrl+N", [this] { newDocument(); });
+    item("Open" + dots(), "Ctrl+O", [this] { openDocument(); });
+    menu.addSubMenu("Recent", recent, recent.getNumItems() > 0);
+    item("Save", "Ctrl+S", [this] { save(); });
+    item("Save as" + dots(), "Ctrl+Shift+S", [this] { saveAs(); });
+    menu.addSeparator();
+    item(undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z", [&undo] { undo.undo(); }, undo.canUndo());
+    item(undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z", [&undo] { undo.redo(); }, undo.canRedo());
+    menu.addSeparator();
+    item("Scene" + dots(), {}, [this] { import("Scene"); });
+    item("Layout" + dots(), {}, [this] { import("Layout of enchanters"); });
+    item("Save the layout" + dots(), {}, [this] { exportLayout(); });
+    menu.addSeparator();
+    item(desk_->isRecording() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
+    item("Render" + dots(), "Ctrl+E", [this] { renderOffline(); });
+    menu.addSeparator();
+    const auto isLight = view_->ground() == Ground::light;
+    look.addItem("Dark", true, !isLight, [this] { setGround(Ground::dark); });
+    look.addItem("Light", true, isLight, [this] { setGround(Ground::light); });
+    menu.addSubMenu("Look", look);
+    item("Hint", {}, [this] { view_->setHint(true); });
+    item("Quit", "Ctrl+Q", [this] { requestQuit(); });
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from).withMinimumWidth(240));
+}
+
+} // namespace physvib

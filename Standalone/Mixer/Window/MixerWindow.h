@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The window on the screen with its document: open, save, record, render, and what is asked before anything is lost.
+#pragma once
+#include "Mixer/Window/MixerFiles.h"
+#include "Mixer/Window/MixerView.h"
+
+namespace physvib {
+
+class MixerWindow final : public juce::DocumentWindow, public juce::FileDragAndDropTarget, private juce::Timer {
+public:
+    /// `file` is opened (see openFile), or will be made when it is saved; none: a new session. A device that is named replaces the one
+    /// of the settings.
+    MixerWindow(AudioDeviceTypes types, const juce::String& device, const juce::File& file, const juce::File& folder = mixerFolder());
+    ~MixerWindow() override;
+
+    // What the menu does. M.
+    void newDocument();
+    void openDocument();
+    void openDocument(const juce::File& file); ///< asks first if something would be lost
+    /// A session is opened, a scene or layout taken over; what is neither is told.
+    void openFile(const juce::File& file);
+    void save();
+    void saveAs();
+    void record(); ///< starts or ends
+    void renderOffline();            ///< asks for the length and the file
+    void renderTo(const juce::File& file, double seconds);
+    void import(const juce::String& title); ///< a scene or a layout
+    void exportLayout();
+    /// Asks if something would be lost, then quits.
+    void requestQuit();
+
+    bool isChanged() const { return desk_->edits() != savedEdits_; }
+    const juce::File& document() const noexcept { return document_; }
+    const juce::File& lastRecording() const noexcept { return lastRecording_; }
+    Desk& desk() noexcept { return *desk_; }
+    MixerView& view() noexcept { return *view_; }
+
+    void closeButtonPressed() override { requestQuit(); }
+    bool keyPressed(const juce::KeyPress& key) override;
+    bool isInterestedInFileDrag(const juce::StringArray& files) override;
+    void fileDragEnter(const juce::StringArray&, int, int) override { view_->setDropShown(true); }
+    void fileDragExit(const juce::StringArray&) override { view_->setDropShown(false); }
+    void filesDropped(const juce::StringArray& files, int, int) override;
+
+private:
+    void timerCallback() override;
+    void start(const juce::File& file);
+    void play(Mix mix, const juce::File& document);
+    bool load(const juce::File& file, const juce::File& document);
+    void useBoard(const DeviceChoice& choice);
+    void saveTo(const juce::File& file);
+    void askThen(std::function<void()> goOn);
+    void chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving, std::function<void(const juce::File&)> use);
+    void offerRecovery();
+    void showMenu(juce::Component& from);
+    void setGround(Ground ground);
+    void nameWindow();
+    void say(const juce::String& words) { desk_->report(words); }
+    juce::File folderOfDocuments() const;
+
+    AudioDeviceTypes types_;
+    MixerFiles files_;
+    DeviceChoice device_;
+    std::unique_ptr<Desk> desk_;
+    std::unique_ptr<MixerView> view_;
+    juce::File document_, lastRecording_;
+    std::uint64_t savedEdits_ = 0;
+    std::unique_ptr<juce::FileChooser> chooser_;
+    std::unique_ptr<juce::Thread> rendering_;
+};
+
+} // namespace physvib

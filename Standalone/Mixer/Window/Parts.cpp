@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Signs as paths, text on grounds.
+#include "Mixer/Window/Parts.h"
+#include "Host/Pictures/PictureCanvas.h"
+
+namespace physvib {
+namespace {
+
+juce::Path pathOf(Sign sign) {
+    juce::Path p;
+    switch (sign) {
+    case Sign::play: p.addTriangle(-4.0f, -6.0f, -4.0f, 6.0f, 6.0f, 0.0f); break;
+    case Sign::pause:
+        p.addRectangle(-5.0f, -6.0f, 3.5f, 12.0f);
+        p.addRectangle(1.5f, -6.0f, 3.5f, 12.0f);
+        break;
+    case Sign::step:
+        p.addTriangle(-6.0f, -5.5f, -6.0f, 5.5f, 2.0f, 0.0f);
+        p.addRectangle(3.5f, -5.5f, 2.5f, 11.0f);
+        break;
+    case Sign::restart: {
+        juce::Path arc;
+        arc.addCentredArc(0.0f, 0.0f, 5.5f, 5.5f, 0.0f, -2.2f, 2.6f, true);
+        juce::PathStrokeType{2.0f}.createStrokedPath(p, arc);
+        p.addTriangle(-8.2f, -1.0f, -1.6f, -2.2f, -5.6f, -7.0f);
+        break;
+    }
+    case Sign::plus:
+        p.addRectangle(-6.0f, -1.0f, 12.0f, 2.0f);
+        p.addRectangle(-1.0f, -6.0f, 2.0f, 12.0f);
+        break;
+    case Sign::sweep: { // waves that become shorter
+        juce::Path wave;
+        wave.startNewSubPath(-9.0f, 0.0f);
+        for (int k = 1; k <= 54; ++k) {
+            const float t = static_cast<float>(k) / 54.0f;
+            wave.lineTo(-9.0f + 18.0f * t, -4.5f * std::sin(juce::MathConstants<float>::twoPi * (0.7f * t + 2.0f * t * t)));
+        }
+        juce::PathStrokeType{1.6f}.createStrokedPath(p, wave);
+    }
+    }
+    return p;
+}
+
+} // namespace
+
+SignButton::SignButton(Sign sign, const juce::String& name)
+    : juce::Button{name}
+    , sign_{sign} {
+    setSign(sign, name);
+}
+
+void SignButton::setSign(Sign sign, const juce::String& name) {
+    if (sign == sign_ && name == getTitle()) return;
+    sign_ = sign;
+    setTitle(name);
+    setTooltip(name);
+    repaint();
+}
+
+void SignButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
+    getLookAndFeel().drawButtonBackground(g, *this, {}, isOver, isDown);
+    const bool isQuiet = getProperties()[quietProperty];
+    g.setColour(shade(*this, getToggleState() ? Shade::well : isQuiet ? Shade::accent : Shade::text).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
+    g.fillPath(pathOf(sign_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
+}
+
+void TwoLines::set(const juce::String& first, const juce::String& second, Shade firstShade) {
+    if (first == first_ && second == second_ && firstShade == shade_) return;
+    first_ = first;
+    second_ = second;
+    shade_ = firstShade;
+    setDescription(first + ", " + second);
+    repaint();
+}
+
+void TwoLines::paint(juce::Graphics& g) {
+    auto area = getLocalBounds();
+    const auto line = [&](const juce::String& words, juce::Rectangle<int> row, Shade which) {
+        g.setColour(shade(*this, which));
+        g.setFont(juce::Font{text::small});
+        g.drawText(words, row, juce::Justification::centredLeft, true);
+    };
+    line(first_, area.removeFromTop(getHeight() / 2), shade_);
+    line(second_, area, Shade::muted);
+}
+
+void drawPanel(juce::Graphics& g, const juce::Component& component) {
+    g.setColour(shade(component, Shade::panel));
+    g.fillRoundedRectangle(component.getLocalBounds().toFloat(), 8.0f);
+}
+
+std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name) {
+    auto button = std::make_unique<juce::TextButton>(words);
+    button->setTitle(name);
+    button->setTooltip(name);
+    button->getProperties().set(quietProperty, true);
+    return button;
+}
+
+void onSlide(juce::Slider& slider, std::function<void(bool)> use) {
+    const auto isFirst = std::make_shared<bool>(true);
+    slider.onDragStart = [isFirst] { *isFirst = true; };
+    slider.onValueChange = [&slider, isFirst, use = std::move(use)] { use(slider.isMouseButtonDown() && !std::exchange(*isFirst, false)); };
+}
+
+void prepareControls(juce::Component& root) {
+    auto* slider = dynamic_cast<juce::Slider*>(&root);
+    if (slider != nullptr) slider->setWantsKeyboardFocus(true);
+    const bool isControl = slider != nullptr || root.getWantsKeyboardFocus() || dynamic_cast<juce::Button*>(&root) != nullptr;
+    if (isControl && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
+    if (slider == nullptr && dynamic_cast<juce::ComboBox*>(&root) == nullptr) // their parts are theirs
+        for (auto* child : root.getChildren()) prepareControls(*child);
+}
+
+void caption(juce::Label& label, const juce::String& words) {
+    label.setText(words, juce::dontSendNotification);
+    label.setFont(juce::Font{text::small});
+    label.setBorderSize({0, 0, 0, 0});
+}
+
+juce::String number(double value, int decimals) { return picture::number(value, decimals); }
+juce::String utf8(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
+
+} // namespace physvib

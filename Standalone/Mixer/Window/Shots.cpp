@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// States are reached as a person would reach them, with a clock instead of a device.
+#include "Mixer/Window/Shots.h"
+#include "Files/Disk/AtomicFile.h"
+#include "Mixer/Materials/MaterialShots.h"
+#include "Mixer/Window/MixerView.h"
+#include "Mixer/Window/Parts.h"
+#include "Mixer/Studies/StudyShots.h"
+#include "Host/Devices/NoDevice.h"
+#include <functional>
+
+namespace physvib {
+
+namespace {
+
+struct State {
+    const char* name;
+    int width, height;
+    double seconds; // until the picture is taken
+    std::function<void(Desk&, MixerView&)> reach;
+    std::string board{}; // serial port of one that is wanted
+};
+
+AudioDeviceTypes onlyNoDevice() {
+    return [] {
+        std::vector<std::unique_ptr<juce::AudioIODeviceType>> types;
+        types.push_back(std::make_unique<NoDeviceType>());
+        return types;
+    };
+}
+
+juce::Component* find(juce::Component& root, const juce::String& title) {
+    if (root.getTitle() == title) return &root;
+    for (auto* child : root.getChildren())
+        if (auto* found = find(*child, title)) return found;
+    return nullptr;
+}
+
+std::vector<State> mixerStates() {
+    return {
+        {"first-start", 1440, 900, 2.0, [](Desk&, MixerView& v) { v.setHint(true); }},
+        {"four-enchanters", 1440, 900, 4.0, [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
+        {"materials", 1440, 900, 0.2, showMaterials},
+        {"materials-small", MixerView::leastWidth, MixerView::leastHeight, 0.2, [](Desk& d, MixerView& v) { v.setGround(Ground::light), showMaterials(d, v); }},
+        {"events", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Events"); }},
+        {"telemetry", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Telemetry"); }},
+        {"output", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }},
+        {"board", 1440, 900, 4.5, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }, "/dev/ttyACM0"},
+        {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
+        {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},
+        {"error", 1440, 900, 2.0, [](Desk& d, MixerView&) { d.report("session.json: takes[0].scene.bodies[4].fixtures[0].radius_m: expected 0.01 to 100, found 0"); }},
+        {"six-enchanters", 1440, 900, 3.0, [](Desk& d, MixerView& v) {
+             d.attach(0.5, 0.5);
+             d.attach(0.5, 1.0);
+             d.change("Mute", [](Mix& m) { m.strips[2].isMuted = true, m.strips[3].isInverted = true, m.strips[1].delayMs = 5.0; });
+             d.dispatchPendingMessages();
+             if (auto* list = dynamic_cast<juce::ListBox*>(find(v, "List of enchanters"))) list->selectRow(4);
+             if (auto* maps = dynamic_cast<juce::Button*>(find(v, "Map of the chosen enchanter"))) maps->setToggleState(true, juce::sendNotificationSync);
+         }},
+    };
+}
+
+const std::vector<State>& states() {
+    static const std::vector<State> all = [] {
+        auto states = mixerStates();
+        for (const StudyShot& shot : studyShots()) states.push_back({shot.name, 1440, 900, 0.2, shot.reach});
+        return states;
+    }();
+    return all;
+}
+
+// For so long, and then until something has been struck: a picture without a hit says little.
+void runFor(double seconds, MixerView& view) {
+    const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds;
+    bool isStruck = false;
+    while (juce::Time::getMillisecondCounterHiRes() < end || (!isStruck && juce::Time::getMillisecondCounterHiRes() < end + 10e3)) {
+        juce::Thread::sleep(33);
+        view.refresh();
+        isStruck = std::ranges::any_of(view.latest().hits, [](const CollisionEvent& e) { return std::abs(e.amplitude) > 0.15; });
+    }
+    for (int k = 0; k < 2; ++k) juce::Thread::sleep(33), view.refresh();
+}
+
+} // namespace
+
+juce::StringArray shotStates() {
+    juce::StringArray names;
+    for (const auto& state : states()) names.add(state.name);
+    return names;
+}
+
+juce::String takeShot(const juce::File& file, const juce::String& name) {
+    const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
+    if (state == states().end()) return "--state: expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
+    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->board}};
+    MixerView view{desk};
+    view.setSize(state->width, state->height);
+    state->reach(desk, view);
+    desk.dispatchPendingMessages();
+    runFor(state->seconds, view);
+    desk.dispatchPendingMessages(); // what has been told meanwhile
+    const auto image = view.createComponentSnapshot(view.getLocalBounds(), true, 1.0f);
+    juce::MemoryOutputStream png;
+    juce::PNGImageFormat{}.writeImageToStream(image, png);
+    return utf8(writeFile(file.getFullPathName().toStdString(), {static_cast<const char*>(png.getData()), png.getDataSize()}));
+}
+
+} // namespace physvib

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is not needed all the time: a row of names, and the tab whose name is chosen.
+#pragma once
+#include "Mixer/Desk/Desk.h"
+#include "Mixer/Window/Parts.h"
+
+namespace physvib {
+
+/// A page of the panel. To add one, derive from it and name it in MixerView's constructor.
+class Tab : public juce::Component {
+public:
+    virtual void takeMix() {}                     ///< the desk has changed
+    virtual void refresh(const DeskMoment&) {} ///< while it is shown, at most about 30 times a second
+};
+
+class TabPanel final : public juce::Component {
+public:
+    /// `title` for screen readers.
+    explicit TabPanel(const juce::String& title);
+    void add(const juce::String& name, std::unique_ptr<Tab> tab);
+    void choose(const juce::String& name);
+    juce::StringArray names() const;
+    Tab* find(const juce::String& name) const; ///< null: there is none
+    void takeMix();
+    void refresh(const DeskMoment& moment);
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    class Name;
+    struct Page {
+        std::unique_ptr<Name> name;
+        std::unique_ptr<Tab> tab;
+    };
+    std::vector<Page> pages_;
+    std::size_t chosen_ = 0;
+
+public:
+    ~TabPanel() override;
+};
+
+} // namespace physvib

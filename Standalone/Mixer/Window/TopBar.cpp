@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bar's controls and its numbers.
+#include "Mixer/Window/TopBar.h"
+#include "Files/SceneCatalogue.h"
+#include "Host/Devices/NoDevice.h"
+
+namespace physvib {
+
+namespace {
+
+constexpr int looksPerTime = 3, looksPerNumbers = 12;
+constexpr std::array<int, 4> paces{1, 2, 4, 8};
+
+juce::String clock(std::int64_t ns) {
+    const auto hundredths = ns / 10'000'000;
+    return juce::String{hundredths / 6000}.paddedLeft('0', 2) + ":" + juce::String{hundredths / 100 % 60}.paddedLeft('0', 2) + "." + juce::String{hundredths % 100}.paddedLeft('0', 2);
+}
+
+juce::String count(std::uint64_t n, const char* what) { return number(static_cast<double>(n), 0) + " " + what; }
+
+const juce::String disc = juce::String::charToString(0x25cf) + " ";
+const juce::String dot = juce::String::charToString(0x00b7);
+juce::String dotted(const juce::StringArray& parts) { return parts.joinIntoString("  " + dot + "  "); }
+
+} // namespace
+
+TopBar::TopBar(Desk& desk)
+    : desk_{desk} {
+    setTitle("Transport and device");
+    menu_.setTitle("Menu");
+    menu_.setTooltip("Open, save, record, render (F10)");
+    menu_.getProperties().set(quietProperty, true);
+    menu_.getProperties().set(titleProperty, true);
+    menu_.onClick = [this] { if (onMenu) onMenu(menu_); };
+    scene_.setTitle("Scene");
+    for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(titleOf(scene.name), id++);
+    scene_.addSeparator();
+    scene_.addItem(juce::String::fromUTF8("Scene file\xe2\x80\xa6"), 1000);
+    scene_.onChange = [this] { chooseScene(); };
+    pause_.onClick = [this] { togglePause(); };
+    pause_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::enchanter(0).getARGB()));
+    step_.onClick = [this] { desk_.stepOnce(); };
+    slow_.setTitle("Slow motion");
+    slow_.setTooltip("Slow motion: each press halves the speed of the world");
+    slow_.onClick = [this] {
+        const auto at = std::ranges::find(paces, std::max(1, desk_.slowness()));
+        desk_.setSlowness(at + 1 < paces.end() ? at[1] : 1);
+    };
+    restart_.onClick = [this] { desk_.restart(desk_.mix().seed); };
+    seedName_.setText("seed", juce::dontSendNotification);
+    seedName_.setFont(juce::Font{text::small});
+    seed_.setTitle("Seed");
+    seed_.setTooltip("Seed of the scene: another seed is another course");
+    seed_.setFont(juce::Font{text::medium});
+    seed_.setEditable(true);
+    seed_.setWantsKeyboardFocus(true);
+    seed_.onTextChange = [this] {
+        const auto typed = seed_.getText().retainCharacters("0123456789").getLargeIntValue();
+        desk_.restart(static_cast<std::uint32_t>(juce::jlimit<juce::int64>(0, 0xffffffffll, typed)));
+        takeMix();
+    };
+    time_.setTitle("Time");
+    time_.setFont(juce::Font{text::medium, juce::Font::bold});
+    record_.setTitle("Record");
+    record_.setTooltip("Record what is played, and every event (Ctrl+R)");
+    record_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::limit.getARGB()));
+    record_.onClick = [this] { if (onRecord) onRecord(); };
+    silence_.getProperties().set(stopProperty, true);
+    silence_.setTitle("Silence");
+    silence_.setTooltip("Silence every enchanter at once; again: play on (Esc)");
+    silence_.onClick = [this] { toggleSilence(); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&menu_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_, &seed_, &time_, &record_, &device_, &board_, &load_, &silence_})
+        addAndMakeVisible(c);
+    setRecording(false);
+    takeMix();
+}
+
+void TopBar::togglePause() { desk_.setSlowness(desk_.slowness() == 0 ? 1 : 0); }
+void TopBar::toggleSilence() { desk_.setSilent(!desk_.isSilent()); }
+
+void TopBar::chooseScene() {
+    const int id = scene_.getSelectedId();
+    if (id == 1000) {
+        takeMix();
+        if (onOpenScene) onOpenScene();
+    } else if (id > 0) {
+        const auto& scene = builtInScenes()[static_cast<std::size_t>(id - 1)];
+        if (scene == *desk_.mix().scene) return;
+        desk_.change("Scene", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });
+    }
+}
+
+void TopBar::takeMix() {
+    const auto& mix = desk_.mix();
+    scene_.setText(titleOf(mix.scene->name), juce::dontSendNotification);
+    seed_.setText(juce::String{static_cast<juce::int64>(mix.seed)}, juce::dontSendNotification);
+    const int slowness = desk_.slowness();
+    pause_.setSign(slowness == 0 ? Sign::play : Sign::pause, slowness == 0 ? "Let the world go on (Space)" : "Pause the world (Space)");
+    pause_.setToggleState(slowness == 0, juce::dontSendNotification);
+    step_.setEnabled(slowness == 0);
+    slow_.setButtonText(slowness < 2 ? juce::String::fromUTF8("1\xc3\x97") : "1/" + juce::String{slowness});
+    slow_.setToggleState(slowness > 1, juce::dontSendNotification);
+    silence_.setToggleState(desk_.isSilent(), juce::dontSendNotification);
+    silence_.setButtonText(desk_.isSilent() ? "SILENT  Esc: play" : "SILENCE  Esc");
+    seedName_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+}
+
+void TopBar::setRecording(bool isRecording) {
+    record_.setToggleState(isRecording, juce::dontSendNotification);
+    record_.setButtonText(disc + (isRecording ? "Recording" : "Record"));
+}
+
+void TopBar::refresh(const DeskMoment& moment) {
+    const int turn = looks_++ % looksPerNumbers; // nobody reads thirty numbers a second
+    if (turn % looksPerTime == 0) time_.setText(clock(moment.session.sessionNs), juce::dontSendNotification);
+    if (turn != 0) return;
+    const auto& output = desk_.output();
+    const auto name = juce::String::fromUTF8(output.device().c_str());
+    const bool isNone = name.startsWith(juce::String{noDeviceType} + ":");
+    const auto numbers = number(output.sampleRateHz() / 1000.0, output.sampleRateHz() % 1000 == 0 ? 0 : 1) + " kHz";
+    if (!moment.device.isRunning) device_.set("No sound", desk_.trouble(), Shade::limit);
+    else
+        device_.set(dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
+                    "felt " + number(1e3 * desk_.playOutSeconds(), 0) + " ms after the contact", isNone ? Shade::now : Shade::text);
+    device_.setTooltip(name);
+    const auto& r = moment.session.render;
+    const auto lost = desk_.session().drops() + r.untold;
+    load_.set("Load " + number(100.0 * moment.device.load, 1) + " %", dotted({count(r.late, "late"), count(lost, "dropped")}), r.late + lost > 0 ? Shade::now : Shade::text);
+    const auto board = desk_.board();
+    const bool isBoardReady = board && board->state == BoardLinkStatus::State::ready;
+    board_.set(!board ? "Board: none" : isBoardReady ? "Board: ready" : "Board: not there", count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
+               !board ? Shade::muted : isBoardReady ? Shade::accent : Shade::limit);
+}
+
+void TopBar::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::panel)); }
+
+void TopBar::resized() {
+    auto area = getLocalBounds().reduced(gap, 9);
+    const bool isWide = getWidth() > 1240;
+    const int between = isWide ? gap : 8;
+    silence_.setBounds(area.removeFromRight(isWide ? 150 : 124));
+    area.removeFromRight(between);
+    menu_.setBounds(area.removeFromLeft(94));
+    area.removeFromLeft(between);
+    scene_.setBounds(area.removeFromLeft(isWide ? 176 : 128));
+    area.removeFromLeft(between);
+    for (juce::Component* button : std::initializer_list<juce::Component*>{&pause_, &step_, &slow_, &restart_}) button->setBounds(area.removeFromLeft(isWide ? 36 : 32)), area.removeFromLeft(isWide ? 6 : 4);
+    area.removeFromLeft(isWide ? 6 : 0);
+    seedName_.setBounds(area.removeFromLeft(isWide ? 40 : 0));
+    seed_.setBounds(area.removeFromLeft(isWide ? 44 : 34));
+    time_.setBounds(area.removeFromLeft(isWide ? 86 : 78));
+    record_.setBounds(area.removeFromLeft(isWide ? 92 : 84));
+    area.removeFromLeft(isWide ? 18 : between);
+    const int load = isWide ? 130 : 112, board = getWidth() > 1360 ? 116 : 0;
+    load_.setBounds(area.removeFromRight(load));
+    board_.setBounds(area.removeFromRight(board));
+    device_.setBounds(area.withTrimmedRight(8));
+}
+
+} // namespace physvib

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What hands do in the world becomes inputs of the session.
+#include "Mixer/World/WorldPanel.h"
+#include "Mixer/Materials/HitWords.h"
+#include "Contacts/ImpactModel.h"
+#include "Physics/BodyMass.h"
+#include "Physics/SceneCast.h"
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+constexpr double tellMs = 900.0; // a sentence stays at least so long, unless a stronger hit comes
+constexpr int lawNeeds = 700; // pixels of the panel; else there is no room for what the tab says as well
+const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
+const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
+
+void setUpKnob(juce::Slider& knob, const juce::String& title, const juce::String& tip) {
+    knob.setTitle(title);
+    knob.setTooltip(tip);
+    knob.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
+    knob.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
+}
+
+} // namespace
+
+WorldPanel::WorldPanel(Desk& desk)
+    : desk_{desk} {
+    setTitle("World");
+    setWantsKeyboardFocus(true);
+    view_.onPull = [this](const std::string& body, Vector metres, Vector point) { pull(body, metres, point); };
+    view_.pullText = [this](const std::string& body, double metres, Vector point) { return "drag " + number(1e-3 * push(body, metres, point), 2) + " " + kiloNewtonSeconds; };
+    view_.onAttach = [this](FieldShare at) { desk_.attach(at.x, at.y); };
+    view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
+    view_.onMove = [this](int enchanter, FieldShare to) {
+        desk_.change("Move " + utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label), [&](Mix& mix) {
+            auto& layout = mix.layout.geometry;
+            layout.places[static_cast<std::size_t>(enchanter)] = {to.x * layout.extentWidthMetres, to.y * layout.extentHeightMetres};
+            mix.layout.name = "own";
+        }, std::exchange(isMoving_, true));
+    };
+    view_.addMouseListener(this, false);
+    view_.onMenu = [this](const std::string& body, FieldShare at) { showMenu(body, at); };
+    sentence_.setTitle("Strongest hit");
+    sentence_.setFont(juce::Font{text::medium});
+    sentence_.setMinimumHorizontalScale(0.8f);
+    law_.setFont(juce::Font{text::small});
+    law_.setJustificationType(juce::Justification::centredRight);
+    tiltName_.setText("gravity", juce::dontSendNotification);
+    setUpKnob(tilt_, "Tilt", "Tilt: which way gravity pulls; double click: down (arrow keys in the world)");
+    tilt_.setRotaryParameters(0.0f, juce::MathConstants<float>::twoPi, false);
+    tilt_.setRange(-180.0, 180.0, 1.0);
+    tilt_.setValue(0.0, juce::dontSendNotification);
+    tilt_.setDoubleClickReturnValue(true, 0.0);
+    tilt_.onValueChange = [this] { desk_.act(TiltAction{juce::degreesToRadians(-tilt_.getValue())}); };
+    setUpKnob(drag_, "Drag strength", "Drag strength: how hard a body is pushed per metre that it is dragged, up to the speed of a field's width a second; double click: as in the thesis");
+    drag_.setRange(leastDrag, mostDrag, 1'000.0);
+    drag_.setSkewFactorFromMidPoint(10'000.0);
+    drag_.setDoubleClickReturnValue(true, thesisDrag);
+    drag_.textFromValueFunction = [](double push) { return number(1e-3 * push, 0) + " " + kiloNewtonSeconds + "/m"; };
+    onSlide(drag_, [this](bool goesOn) { desk_.change("Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerMetre = drag_.getValue(); }, goesOn); });
+    for (auto* name : {&tiltName_, &dragName_}) name->setFont(juce::Font{text::small});
+    view_.setFootRoom(44);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_}) addAndMakeVisible(c);
+    takeMix();
+}
+
+void WorldPanel::takeMix() {
+    const auto& mix = desk_.mix();
+    const auto& scene = desk_.sceneNow();
+    if (shown_ != mix.scene || shownEdits_ != desk_.worldEdits()) view_.show(scene);
+    shown_ = mix.scene;
+    shownEdits_ = desk_.worldEdits();
+    view_.show(mix.layout, mix.panner());
+    law_.setText(juce::String{panningLawNames[static_cast<std::size_t>(mix.law)].data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
+    law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    if (!drag_.isMouseButtonDown()) drag_.setValue(mix.dragNewtonSecondsPerMetre, juce::dontSendNotification);
+    dragName_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);
+    for (auto* name : {&tiltName_, &dragName_}) name->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    sentence_.setColour(juce::Label::textColourId, shade(*this, Shade::now));
+}
+
+void WorldPanel::tilt(double degrees) {
+    while (degrees > 180.0) degrees -= 360.0;
+    while (degrees < -180.0) degrees += 360.0;
+    tilt_.setValue(degrees);
+}
+
+bool WorldPanel::keyPressed(const juce::KeyPress& key) {
+    if (key == juce::KeyPress::leftKey) return tilt(tiltDegrees() + 5.0), true;
+    if (key == juce::KeyPress::rightKey) return tilt(tiltDegrees() - 5.0), true;
+    if (key == juce::KeyPress::downKey) return tilt(0.0), true;
+    if (key == juce::KeyPress::upKey) return tilt(180.0), true;
+    return false;
+}
+
+void WorldPanel::pull(const std::string& body, Vector metres, Vector point) {
+    const double way = std::hypot(metres.x, metres.y), each = way > 0.0 ? push(body, way, point) / way : 0.0;
+    const auto fault = desk_.act(ImpulseAction{body, {each * metres.x, each * metres.y}, point});
+    if (!fault.empty()) desk_.report(utf8(fault));
+}
+
+// Screen metres are meant by the thesis' figure, the field's are larger: no drag moves the point that it pulls off faster
+// than v_max (Eq. 5.7), for which amplitudes are made.
+double WorldPanel::push(const std::string& body, double metres, Vector point) const {
+    const auto& scene = desk_.sceneNow();
+    const auto cast = sceneCast(scene);
+    const auto pulled = std::ranges::find(cast, body, &BodyDescription::name);
+    const double wanted = desk_.mix().dragNewtonSecondsPerMetre * metres;
+    return pulled == cast.end() ? wanted : std::min(wanted, largestSpeed(scene.fieldWidthMetres) * pushedMassKg(*pulled, scene, point));
+}
+
+juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
+    const auto& scene = desk_.sceneNow();
+    return materialName(scene, hit) + dot + number(hit.frequencyHz, 0) + " Hz" + dot + juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
+           number(feltMost(desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
+}
+
+void WorldPanel::refresh(const DeskMoment& moment) {
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    for (const auto& hit : moment.hits)
+        if (now - hitAtMs_ > tellMs || std::abs(hit.amplitude) > std::abs(told_.amplitude)) {
+            told_ = hit;
+            hitAtMs_ = now;
+            sentence_.setText(sentenceOn(hit), juce::dontSendNotification);
+        }
+    view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits, std::span{moment.meters.peaks}.first(static_cast<std::size_t>(desk_.mix().count()))});
+}
+
+void WorldPanel::showMenu(const std::string& body, FieldShare at) {
+    juce::PopupMenu menu, balls, boxes, materials;
+    const auto& scene = desk_.sceneNow();
+    for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
+        const auto name = utf8(scene.materials[static_cast<std::size_t>(i)].name);
+        balls.addItem(name, [this, at, i] { addBody(at, i, false); });
+        boxes.addItem(name, [this, at, i] { addBody(at, i, true); });
+        materials.addItem(name, [this, body, i] { edit("Material of " + utf8(body), MaterialAction{body, everyFixture, i}); });
+    }
+    if (!body.empty()) {
+        menu.addSectionHeader(utf8(body));
+        menu.addSubMenu("Material", materials);
+        menu.addItem("Remove", [this, body] { edit("Remove " + utf8(body), RemoveAction{body}); });
+        menu.addSeparator();
+    }
+    menu.addSubMenu("Add a ball", balls);
+    menu.addSubMenu("Add a box", boxes);
+    menu.addItem("Attach an enchanter here", desk_.mix().count() < limits::maxEnchanters, false, [this, at] { desk_.attach(at.x, at.y); });
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
+}
+
+void WorldPanel::addBody(FieldShare at, int material, bool isBox) {
+    const auto& scene = desk_.sceneNow();
+    const double size = 0.06 * scene.fieldHeightMetres;
+    BodyDescription body;
+    body.positionMetres = {at.x * scene.fieldWidthMetres, at.y * scene.fieldHeightMetres};
+    FixtureDescription fixture;
+    fixture.material = material;
+    if (isBox) fixture.shape = BoxShape{2.2 * size, 1.6 * size};
+    else fixture.shape = CircleShape{size};
+    body.fixtures.push_back(fixture);
+    edit("Add a body", SpawnAction{body, {}});
+}
+
+void WorldPanel::edit(const juce::String& name, const Action& action) {
+    if (const auto fault = desk_.editWorld(name, action); !fault.empty()) desk_.report(utf8(fault));
+}
+
+void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
+
+void WorldPanel::resized() {
+    auto area = getLocalBounds().reduced(panelInset, 10);
+    auto row = area.removeFromBottom(38);
+    law_.setVisible(getWidth() >= lawNeeds);
+    if (law_.isVisible()) law_.setBounds(row.removeFromRight(174));
+    dragName_.setBounds(row.removeFromRight(104));
+    drag_.setBounds(row.removeFromRight(38));
+    tiltName_.setBounds(row.removeFromRight(58));
+    tilt_.setBounds(row.removeFromRight(38));
+    sentence_.setBounds(row);
+    view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
+}
+
+} // namespace physvib

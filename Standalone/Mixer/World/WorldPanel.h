@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The world with what belongs to it: one sentence on the strongest hit, the way down, how hard a drag pushes, how hits are
+// spread.
+#pragma once
+#include "Host/Views/WorldView.h"
+#include "Mixer/Desk/Desk.h"
+#include "Mixer/Window/Parts.h"
+
+namespace physvib {
+
+class WorldPanel final : public juce::Component {
+public:
+    explicit WorldPanel(Desk& desk);
+
+    void refresh(const DeskMoment& moment);
+    void takeMix();
+    WorldView& view() noexcept { return view_; }
+    void tilt(double degrees); ///< turns gravity to that angle
+    double tiltDegrees() const { return tilt_.getValue(); }
+
+    bool keyPressed(const juce::KeyPress& key) override;
+    void mouseDown(const juce::MouseEvent&) override { isMoving_ = false; }
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    void pull(const std::string& body, Vector metres, Vector point);
+    double push(const std::string& body, double metres, Vector point) const;
+    void showMenu(const std::string& body, FieldShare at);
+    void addBody(FieldShare at, int material, bool isBox);
+    void edit(const juce::String& name, const Action& action);
+    juce::String sentenceOn(const CollisionEvent& hit) const;
+
+    Desk& desk_;
+    WorldView view_;
+    juce::Label sentence_, law_, tiltName_, dragName_;
+    juce::Slider tilt_, drag_;
+    bool isMoving_ = false; // a badge, since the mouse was pressed
+    double hitAtMs_ = 0.0;
+    CollisionEvent told_;
+    std::shared_ptr<const Scene> shown_;
+    std::uint64_t shownEdits_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// What a mixer does to a session while it plays is saved, and rendered again to the bit.
+#include "FakeHost.h"
+#include "Files/SessionFile.h"
+#include "Session/OfflineRender.h"
+#include "Session/Session.h"
+#include "Session/SessionRender.h"
+#include "Physics/SceneEdits.h"
+#include <functional>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+constexpr int rate = hostRate, room = 8; // more channels than enchanters, as the mixer has
+using Kind = RenderControl::Kind;
+using Script = std::multimap<double, std::function<void(Session&)>>; // by seconds
+
+SessionSetup deskSetup() {
+    auto s = shakeTheBoxSetup(0.02);
+    s.channels = room;
+    return s;
+}
+
+RenderControl controlOf(Kind kind, int channel, float value) { return {0, kind, channel, value, {}}; }
+
+using Signal = std::vector<std::vector<float>>; // [channel][frame]
+
+Signal play(Session& session, double seconds, Script script, int block = 300) {
+    session.prepare(rate, block);
+    Signal signal(room);
+    std::vector<std::vector<float>> part(room, std::vector<float>(static_cast<std::size_t>(block)));
+    std::vector<float*> at;
+    for (auto& channel : part) at.push_back(channel.data());
+    for (std::int64_t done = 0; done < static_cast<std::int64_t>(seconds * rate); done += block) {
+        session.advance();
+        while (!script.empty() && script.begin()->first * rate <= static_cast<double>(done)) {
+            script.begin()->second(session);
+            script.erase(script.begin());
+        }
+        session.render(at.data(), block, RenderMode::realtime);
+        for (std::size_t j = 0; j < room; ++j) signal[j].insert(signal[j].end(), part[j].begin(), part[j].end());
+        drain(session);
+    }
+    return signal;
+}
+
+SavedSession savedOf(Session& session, const SessionSetup& setup, int channels) {
+    SavedSession saved{setup.run(), setup.panner, channels, setup.limiterEnabled, setup.ceilings, 0, {}, {}};
+    session.readLog(saved.log);
+    saved.lengthNs = 10'000'000'000;
+    auto again = readSession(sessionJson(saved), "session");
+    EXPECT_TRUE(again) << again.error;
+    return again ? again.value : saved;
+}
+
+/// How many samples of the saved session, rendered again, are not those that were played L earlier.
+int differences(const Signal& live, const SavedSession& saved, std::int64_t playOutFrames) {
+    const auto frames = static_cast<std::int64_t>(live[0].size()) - playOutFrames;
+    const auto events = sessionEvents(saved, frames * 1'000'000'000 / rate).events;
+    const auto controls = controlsOf(saved.log, true, saved.channels);
+    int wrong = 0;
+    std::int64_t done = playOutFrames;
+    renderOffline(events, {{rate, saved.channels, saved.panner, saved.limiterEnabled, saved.ceilings}, frames, 256, controls},
+                  [&](const float* const* block, int n) {
+                      for (int j = 0; j < saved.channels; ++j)
+                          for (int k = 0; k < n; ++k) wrong += block[j][k] != live[static_cast<std::size_t>(j)][static_cast<std::size_t>(done + k)] ? 1 : 0;
+                      done += n;
+                      return true;
+                  });
+    return wrong;
+}
+
+double energyOf(const std::vector<float>& samples, double from, double to) {
+    double sum = 0.0;
+    for (auto n = static_cast<std::size_t>(from * rate); n < static_cast<std::size_t>(to * rate); ++n) sum += static_cast<double>(samples[n]) * static_cast<double>(samples[n]);
+    return sum;
+}
+
+CollisionEvent pulse(double seconds) {
+    CollisionEvent e;
+    e.timeNs = static_cast<std::int64_t>(seconds * 1e9);
+    e.frequencyHz = 205.0;
+    e.decayPerSecond = 30.0;
+    e.amplitude = 0.5;
+    return e;
+}
+
+TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
+    const auto setup = deskSetup();
+    Session session{setup};
+    EnchanterLayout five = setup.panner.layout();
+    five.places[static_cast<std::size_t>(five.count++)] = {0.5 * five.extentWidthMetres, 0.5 * five.extentHeightMetres};
+    const PhantomPanner wider{five, PanningLaw::energy, 1.3, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
+    const Script script{{0.5, [](Session& s) { s.post(controlOf(Kind::gain, 0, -0.5f)); }},
+                        {0.7, [](Session& s) { s.post(controlOf(Kind::delay, 1, 0.013f)); }},
+                        {0.9, [](Session& s) { s.post(controlOf(Kind::ceiling, 2, 0.05f)); }},
+                        {1.0, [](Session& s) { s.setSlowness(0); }},
+                        {1.2, [](Session& s) { s.stepOnce(); }},
+                        {1.4, [](Session& s) { s.stepOnce(); s.stepOnce(); }},
+                        {1.6, [](Session& s) { s.setSlowness(4); }},
+                        {2.5, [](Session& s) { s.setSlowness(1); }},
+                        {2.7, [&](Session& s) { s.post({0, Kind::panner, 0, 0.0f, wider}); }},
+                        {3.0, [](Session& s) { const std::array strikes{pulse(0.2), pulse(0.0)}; EXPECT_TRUE(s.play(strikes)); }},
+                        {3.2, [](Session& s) { s.post(controlOf(Kind::delay, 1, 0.0f)); }},
+                        {3.4, [](Session& s) { s.post(controlOf(Kind::mute, 3, 1.0f)); s.setSlowness(2); }},
+                        {4.0, [](Session& s) { s.restart(); }},
+                        {4.5, [](Session& s) { s.setSlowness(1); }}};
+    const auto live = play(session, 6.0, script);
+    EXPECT_EQ(session.status().render.late, 0u);
+    const auto saved = savedOf(session, setup, 5);
+    ASSERT_EQ(saved.log.takes.size(), 2u);
+    EXPECT_EQ(saved.log.strikes.size(), 2u);
+    EXPECT_LT(saved.log.takes[0].stalls.size(), 12u) << "slow motion is one entry, however long it lasts";
+    EXPECT_GT(energyOf(live[4], 2.8, 5.9), 0.0);
+    EXPECT_EQ(differences(live, saved, session.playOutFrames()), 0);
+}
+
+TEST(SessionDesk, AWorldThatStandsStillMakesNoHitsAndTellsThemAllLater) {
+    const auto setup = deskSetup();
+    Session one{setup}, other{setup};
+    const auto live = play(one, 6.0, {});
+    const auto paused = play(other, 9.0, {{2.0, [](Session& s) { s.setSlowness(0); }}, {5.0, [](Session& s) { s.setSlowness(1); }}});
+    EXPECT_EQ(energyOf(paused[2], 4.5, 5.0), 0.0);
+    SessionLog log;
+    other.readLog(log);
+    EXPECT_EQ(log.takes[0].stalls.size(), 1u);
+    EXPECT_NEAR(static_cast<double>(log.takes[0].stalls[0].lengthNs) * 1e-9, 3.0, 0.02);
+    EXPECT_NEAR(energyOf(paused[2], 5.5, 9.0), energyOf(live[2], 2.5, 6.0), 0.2 * energyOf(live[2], 2.5, 6.0));
+}
+
+TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
+    auto setup = deskSetup();
+    setup.scene = Scene{};
+    setup.scene.name = "empty";
+    setup.scene.fieldWidthMetres = 6.4;
+    setup.scene.fieldHeightMetres = 3.6;
+    Session session{setup};
+    const auto live = play(session, 1.0, {{0.3, [](Session& s) { const std::array strikes{pulse(0.0)}; s.play(strikes); }}}, 480);
+    const auto& c = live[2]; // (0, 0) is its corner
+    const auto first = std::ranges::find_if(c, [](float x) { return std::abs(x) > 0.001f; }) - c.begin();
+    EXPECT_NEAR(static_cast<double>(first - session.playOutFrames()) / rate, 0.3, 0.011); // a block
+    EXPECT_EQ(energyOf(live[1], 0.0, 1.0), 0.0);
+    const std::array bad{pulse(0.0), CollisionEvent{}};
+    EXPECT_FALSE(session.play(bad)) << "one that cannot be played, and none is";
+}
+
+TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
+    const auto setup = deskSetup();
+    Session session{setup};
+    play(session, 0.2, {});
+    SavedSession saved{setup.run(), setup.panner, 4, true, setup.ceilings, 0, {}, {}};
+    session.readLog(saved.log);
+    Mix mix;
+    mix.layout = describeLayout("phone4", setup.panner.layout());
+    mix.layout.enchanters[1].label = "thumb";
+    mix.resizeStrips();
+    mix.strips[2] = {-7.5, true, false, true, 12.5, -3.0, 6};
+    mix.law = PanningLaw::energy;
+    mix.levelDb = -20.0;
+    mix.dragNewtonSecondsPerMetre = 12'000.0;
+    saved.mix = mix;
+    const auto again = readSession(sessionJson(saved), "s.json");
+    ASSERT_TRUE(again) << again.error;
+    const Mix read = mixOf(again.value);
+    EXPECT_EQ(read.strips, mix.strips);
+    EXPECT_EQ(read.layout.enchanters, mix.layout.enchanters);
+    EXPECT_EQ(read.levelDb, -20.0);
+    EXPECT_EQ(read.dragNewtonSecondsPerMetre, 12'000.0);
+    EXPECT_EQ(*read.scene, setup.scene);
+    saved.mix->strips[1].delayMs = 70.0;
+    EXPECT_EQ(readSession(sessionJson(saved), "s.json").error, "s.json: desk.strips[1].delay_ms: expected 0 to 50, found 70");
+    saved.mix.reset(); // as `physvib play` saves
+    saved.log.channels = {{0, Kind::gain, 1, -0.5f}, {0, Kind::mute, 3, 1.0f}, {0, Kind::ceiling, 0, 0.25f}};
+    saved.ceilings[2] = 0.1f;
+    const Mix made = mixOf(saved);
+    EXPECT_TRUE(made.strips[1].isInverted);
+    EXPECT_NEAR(made.strips[1].gainDb, -6.02, 0.01);
+    EXPECT_TRUE(made.strips[3].isMuted);
+    EXPECT_NEAR(made.strips[0].ceilingDb, -12.04, 0.01);
+    EXPECT_NEAR(made.strips[2].ceilingDb, -20.0, 0.01) << "a bound that hands rely on";
+}
+
+TEST(SessionDesk, BodiesThatCameAndWentAreInTheSceneAsItWasLeft) {
+    SceneTake take;
+    take.scene = std::make_shared<const Scene>(*findBuiltInScene("shake-the-box"));
+    BodyDescription ball;
+    ball.name = "added 1";
+    ball.fixtures.push_back({CircleShape{0.2}, {}, 0.0, 1, false, Voice::own});
+    ball.positionMetres = {3.0, 3.0};
+    take.inputs = {{0.5, SpawnAction{ball, {}}}, {0.6, MaterialAction{"added 1", everyFixture, 2}}, {0.7, RemoveAction{"large rubber ball"}}, {0.8, SoundAction{3, 90.0, 20.0}}};
+    const Scene left = sceneAsLeft(take);
+    EXPECT_EQ(left.bodies.size(), take.scene->bodies.size());
+    EXPECT_EQ(left.bodies.back().name, "added 1");
+    EXPECT_EQ(left.bodies.back().fixtures[0].material, 2);
+    EXPECT_EQ(left.materials[3].frequencyHz, 90.0);
+    EXPECT_TRUE(left.inputs.empty());
+    EXPECT_NO_THROW(Session{[&] { auto s = deskSetup(); s.scene = left; return s; }()});
+}
+
+} // namespace
+} // namespace physvib

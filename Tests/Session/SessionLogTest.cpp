@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// What is done to a session while it plays is logged; the log, saved and read again, renders to what was felt, to the bit.
+#include "FakeHost.h"
+#include "Files/SessionFile.h"
+#include "Files/SessionJournalText.h"
+#include "Session/OfflineRender.h"
+#include "Session/Session.h"
+#include <atomic>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+constexpr int rate = hostRate, channels = hostChannels;
+
+Action anyInput(Random& random, int& stones) {
+    const std::string body = "ball " + std::to_string(1 + random.below(3));
+    switch (random.below(5)) {
+    case 0: return TiltAction{random.uniform(-3, 3)};
+    case 1: return GravityAction{{random.uniform(-20, 20), random.uniform(-20, 20)}};
+    case 2: {
+        BodyDescription stone{"stone " + std::to_string(stones++), BodyType::dynamicBody, {{CircleShape{0.15}, {}, 0.0, 0, true}}, {random.uniform(2, 4), random.uniform(1, 3)}};
+        return SpawnAction{stone, {}};
+    }
+    case 3: return SoundAction{random.below(2), random.uniform(50, 300), random.uniform(20, 90)};
+    default: return CameraAction{"no such body", everyFixture, true}; // refused
+    }
+}
+
+RenderControl anyControl(Random& random) {
+    RenderControl control;
+    control.kind = static_cast<RenderControl::Kind>(random.below(20) == 0 ? 3 : random.below(3));
+    control.channel = random.below(channels);
+    control.value = static_cast<float>(control.kind == RenderControl::Kind::mute ? random.below(2) : random.uniform(0, 1));
+    if (control.kind == RenderControl::Kind::panner) {
+        EnchanterLayout layout{1, 1, 1 + random.below(channels), {}};
+        for (int j = 0; j < layout.count; ++j) layout.places[static_cast<std::size_t>(j)] = {random.uniform(0, 1), random.uniform(0, 1)};
+        control.panner = {layout, static_cast<PanningLaw>(random.below(4)), 1.5, 6.4, 3.6};
+    }
+    return control;
+}
+
+struct Felt {
+    Interleaved signal;
+    SessionLog log;
+    int refused = 0;
+};
+
+// A host that edits, restarts, exchanges the scene, stalls, and has the log read now and then.
+template <class Read>
+Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames, Read read) {
+    Felt felt;
+    Random random{11};
+    Block block;
+    session.prepare(rate, 512);
+    session.advance(); // time begins
+    int stones = 0;
+    for (std::int64_t done = 0, sinceTick = 0; done < frames; ++sinceTick) {
+        const int size = 1 + random.below(512);
+        const bool stalls = random.below(4000) == 0;
+        if (stalls)
+            for (int i = 0; i < 60; ++i) {
+                session.render(block.at.data(), 512, RenderMode::realtime);
+                append(felt.signal, block.at.data(), 512);
+                done += 512;
+            }
+        if (sinceTick > random.below(3)) {
+            session.advance();
+            sinceTick = 0;
+        }
+        if (random.below(60) == 0) felt.refused += session.act(anyInput(random, stones)).empty() ? 0 : 1;
+        if (random.below(90) == 0) session.post(anyControl(random));
+        if (random.below(2000) == 0) session.restart(random.below(size));
+        if (random.below(2000) == 0) session.setState({std::make_shared<const Scene>(*findBuiltInScene("fruit-basket")), 4});
+        if (random.below(1500) == 0) session.setState({std::make_shared<const Scene>(setup.scene), static_cast<std::uint32_t>(random.below(3))});
+        if (random.below(50) == 0) read(felt.log);
+        session.render(block.at.data(), size, RenderMode::realtime);
+        append(felt.signal, block.at.data(), size);
+        done += size;
+        while (drain(session).size() > 100) {}
+    }
+    read(felt.log);
+    return felt;
+}
+
+Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames) {
+    return playEdited(session, setup, frames, [&](SessionLog& log) { session.readLog(log); });
+}
+
+SavedSession saved(const SessionSetup& setup, const SessionLog& log, std::int64_t frames) {
+    return {setup.run(), setup.panner, setup.channels, setup.limiterEnabled, setup.ceilings, frames * 1'000'000'000 / rate, log, {}, setup.equalised, setup.shaping};
+}
+
+Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, std::int64_t frames) {
+    auto made = runTakes(session.log.takes, session.run, session.lengthNs);
+    std::ranges::transform(made.events, made.events.begin(), session.shaping);
+    const auto controls = controlsOf(session.log, true, channels);
+    Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
+    renderOffline(made.events, {{rate, channels, session.panner, session.limiterEnabled, session.ceilings, InstructionSet::best, session.equalised}, frames - delayFrames, 333, controls},
+                  [&](const float* const* block, int n) { append(signal, block, n); return true; });
+    return signal;
+}
+
+TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
+    auto setup = shakeTheBoxSetup(0.05);
+    setup.ceilings = {0.2f, 0.1f, 0.3f, 1.0f};
+    setup.equalised[2] = {{205, 8}, {180, 230}};
+    ASSERT_TRUE(renderingMethodNamed("AV-FV-DRF", setup.shaping.method));
+    setup.shaping.remap.band = {150, 600};
+    setup.shaping.perceived.isWeighted = true;
+    Session session{setup};
+    const Felt felt = playEdited(session, setup, 60 * rate);
+    const auto frames = static_cast<std::int64_t>(felt.signal.size()) / channels;
+    ASSERT_GT(felt.log.takes.size(), 3u);
+    ASSERT_GT(felt.log.panners.size(), 10u);
+    ASSERT_GT(felt.refused, 5);
+    ASSERT_GT(session.slippedNs(), 0);
+    std::size_t inputs = 0;
+    for (const auto& take : felt.log.takes) inputs += take.inputs.size();
+    ASSERT_GT(inputs, 50u);
+
+    const std::string text = sessionJson(saved(setup, felt.log, frames));
+    const auto read = readSession(text, "session.json");
+    ASSERT_EQ(read.error, "");
+    EXPECT_EQ(sessionJson(read.value), text);
+    EXPECT_EQ(session.status().render.late, 0u);
+    const auto again = renderedAgain(read.value, session.playOutFrames(), frames);
+    ASSERT_EQ(again.size(), felt.signal.size());
+    const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
+    EXPECT_TRUE(differs.first == again.end()) << "at frame " << (differs.first - again.begin()) / channels << " of " << frames;
+}
+
+std::int64_t nsOf(const Felt& felt) { return static_cast<std::int64_t>(felt.signal.size()) / channels * 1'000'000'000 / rate; }
+
+TEST(SessionLog, AsLinesOfAJournalIsTheSameSession) {
+    auto setup = shakeTheBoxSetup(0.05);
+    setup.ceilings = {0.2f, 0.1f, 0.3f, 1.0f};
+    setup.shaping.perceived.isWeighted = true;
+    Session whole{setup}, told{setup};
+    const Felt felt = playEdited(whole, setup, 40 * rate);
+    ASSERT_GT(felt.log.takes.size(), 2u);
+    ASSERT_GT(whole.slippedNs(), 0);
+    JournalLines lines{saved(setup, {}, 0), {}};
+    std::string text = lines.head();
+    std::vector<std::size_t> ends;
+    const Felt same = playEdited(told, setup, 40 * rate, [&](SessionLog& log) {
+        text += lines.take(log, told.readLog(log));
+        ends.push_back(text.size());
+        EXPECT_TRUE(log.takes.size() == 1 && log.takes[0].inputs.empty() && log.channels.empty()) << "it is on disk";
+    });
+    SessionLog rest = same.log;
+    text += lines.take(rest, nsOf(same));
+    ASSERT_TRUE(isJournal(text));
+    const auto read = readSession(text, "monday.json");
+    ASSERT_EQ(read.error, "");
+    EXPECT_EQ(sessionJson(read.value), sessionJson(saved(setup, felt.log, static_cast<std::int64_t>(felt.signal.size()) / channels)));
+
+    Random random{3};
+    for (int i = 0; i < 40; ++i) { // cut off anywhere: all that was told before
+        const std::size_t cut = ends[0] + static_cast<std::size_t>(random.below(static_cast<int>(text.size() - ends[0])));
+        const auto part = readSession(std::string_view{text}.substr(0, cut), "monday.json");
+        ASSERT_EQ(part.error, "") << cut;
+        const auto last = std::ranges::upper_bound(ends, cut) - 1;
+        EXPECT_EQ(sessionJson(part.value), sessionJson(readSession(std::string_view{text}.substr(0, *last), "monday.json").value)) << cut;
+    }
+}
+
+TEST(SessionLog, AJournalEndsWhereAFileIsFullAndTheSessionPlaysOn) {
+    auto setup = shakeTheBoxSetup(0.05);
+    setup.log = LogUse::stream;
+    Session session{setup};
+    session.prepare(rate, 480);
+    session.advance();
+    Block block;
+    JournalLines lines{saved(setup, {}, 0), {}};
+    std::string text = lines.head();
+    SessionLog log;
+    for (int i = 0; i < 102; ++i) {
+        session.render(block.at.data(), 480, RenderMode::realtime);
+        session.advance();
+        for (int k = 0; k < 1000; ++k) ASSERT_EQ(session.act(TiltAction{0.0001 * k}), "");
+        text += lines.take(log, session.readLog(log));
+    }
+    EXPECT_EQ(lines.full(), "100000 inputs");
+    EXPECT_NEAR(static_cast<double>(lines.toldNs()) * 1e-9, 1.0, 0.02);
+    EXPECT_LT(session.size().inputs, 3000u);
+    const auto read = readSession(text, "monday.json");
+    ASSERT_EQ(read.error, "");
+    EXPECT_EQ(read.value.log.takes[0].inputs.size(), 100'000u);
+    EXPECT_EQ(read.value.lengthNs, lines.toldNs());
+}
+
+TEST(SessionLog, AJournalIsReadAsStrictlyAsAFile) {
+    const auto setup = shakeTheBoxSetup(0.05);
+    JournalLines lines{saved(setup, {}, 0), {}};
+    SessionLog log;
+    log.takes.push_back({0, 0, 1, std::make_shared<const Scene>(setup.scene), {{0.5, TiltAction{1.0}}}, {{200'000'000, 10'000'000}}});
+    const std::string text = lines.head() + lines.take(log, 1'000'000'000);
+    ASSERT_EQ(readSession(text, "s.json").error, "");
+    const auto refuses = [&](const std::string& from, const std::string& to, const std::string& why) {
+        std::string other = text;
+        const auto at = other.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        other.replace(at, from.size(), to);
+        EXPECT_EQ(readSession(other, "s.json").error, why);
+    };
+    refuses("\"journal\": 1", "\"journal\": 2", "s.json:1: journal: made for a newer PhysVib: expected a version up to 1, found 2");
+    refuses("{ \"time_s\": 0.5, \"input\": \"tilt\"", "{ \"angle\": 1, \"time_s\": 0.5, \"input\": \"tilt\"", "s.json:3: input: unknown field \"angle\"");
+    refuses("{ \"stall\"", "{ \"stop\"", "s.json:4: unknown field \"stop\"");
+    refuses("{ \"take\": ", "{ \"take\": 1, \"x\": ", "s.json:2: unknown field \"x\"");
+    EXPECT_EQ(readSession(lines.head(), "s.json").error, "s.json:1: expected at least 1 take, found none");
+}
+
+TEST(SessionLog, StatesFromAThirdThreadDisturbNothing) {
+    const auto setup = shakeTheBoxSetup(0.05);
+    Session session{setup};
+    session.prepare(rate, 8192);
+    std::atomic<bool> stop{false};
+    std::atomic<int> exchanges{0};
+    std::thread third{[&] {
+        while (!stop) { // what a host does when it saves
+            SessionState copy = session.state();
+            copy.scene = std::make_shared<const Scene>(*copy.scene);
+            EXPECT_EQ(session.setState(copy), "");
+            ++exchanges;
+            SessionState bad{std::make_shared<const Scene>(), 1};
+            EXPECT_NE(session.setState(bad), "");
+        }
+    }};
+    Random random{5};
+    Block block;
+    std::vector<CollisionEvent> played;
+    RenderMode mode = RenderMode::offline;
+    for (int done = 0, left = 10; done < 30 * rate || exchanges < 100; --left) {
+        if (left <= 0) {
+            left = 1 + random.below(50);
+            mode = mode == RenderMode::realtime ? RenderMode::offline : RenderMode::realtime;
+        }
+        const int size = 1 + random.below(mode == RenderMode::offline ? 8192 : 512);
+        if (mode == RenderMode::realtime) session.advance();
+        session.render(block.at.data(), size, mode);
+        done += size;
+        for (const auto& e : drain(session)) played.push_back(e);
+    }
+    stop = true;
+    third.join();
+    const auto made = runScene(setup.scene, {setup.seed, setup.stepsPerSecond}, played.back().timeNs + 1);
+    EXPECT_TRUE(played == made.events);
+}
+
+TEST(SessionLog, TakesOfOneSceneAreAlikeAndShareIt) {
+    const auto setup = shakeTheBoxSetup(0.02);
+    Session session{setup};
+    session.prepare(rate, 480);
+    Block block;
+    std::vector<CollisionEvent> played;
+    for (int take = 0; take < 5; ++take) {
+        if (take > 0) session.restart();
+        for (int i = 0; i < 300; ++i) { // 3 s
+            session.advance();
+            session.render(block.at.data(), 480, RenderMode::realtime);
+            for (const auto& e : drain(session)) played.push_back(e);
+        }
+    }
+    SessionLog log;
+    session.readLog(log);
+    ASSERT_EQ(log.takes.size(), 5u);
+    const std::string text = sessionJson(saved(setup, log, 15 * rate));
+    EXPECT_EQ(text.find("\"bodies\""), text.rfind("\"bodies\""));
+    std::vector<std::vector<CollisionEvent>> takes(5);
+    for (CollisionEvent e : played) {
+        const auto take = static_cast<std::size_t>(e.timeNs / 3'000'000'000);
+        e.timeNs -= static_cast<std::int64_t>(take) * 3'000'000'000;
+        takes[take].push_back(e);
+    }
+    EXPECT_GT(takes[0].size(), 20u);
+    for (const auto& take : {takes[1], takes[2], takes[3]}) EXPECT_TRUE(take == takes[0]);
+}
+
+TEST(Session, ARefusedInputSaysWhyAndIsNotLogged) {
+    Session session{shakeTheBoxSetup(0.02)};
+    session.prepare(rate, 64);
+    EXPECT_EQ(session.act(RemoveAction{"nobody"}), "body: expected the name of a body, found \"nobody\"");
+    SessionLog log;
+    session.readLog(log);
+    EXPECT_TRUE(log.takes[0].inputs.empty());
+}
+
+TEST(Session, TellsByHowMuchTheTightestEventCameInTime) {
+    Session session{shakeTheBoxSetup(0.05)};
+    std::vector<CollisionEvent> played;
+    playLive(session, 20 * rate, 64, 0.05, 3, played);
+    const auto margin = session.status().leastMarginFrames;
+    EXPECT_GE(margin, 0);
+    EXPECT_LT(margin, session.playOutFrames());
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+// Session: live is the rendered file, L later, to the bit; and nothing is lost when hosts and timers misbehave.
+#include "FakeHost.h"
+#include "Session/Session.h"
+#include "Session/OfflineRender.h"
+#include "Physics/SceneRun.h"
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+constexpr int rate = hostRate, channels = hostChannels;
+
+/// What a render of the scene gives, L later.
+Interleaved rendered(const SessionSetup& s, std::int64_t delayFrames, std::int64_t frames) {
+    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / rate);
+    Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
+    renderOffline(made.events, {{rate, channels, s.panner, s.limiterEnabled}, frames - delayFrames, 256},
+                  [&](const float* const* block, int n) { append(signal, block, n); return true; });
+    return signal;
+}
+
+TEST(Session, LiveIsTheRenderedFileLLaterToTheBit) {
+    const auto s = shakeTheBoxSetup(0.05);
+    Session session{s};
+    std::vector<CollisionEvent> played;
+    const auto signal = playLive(session, 20 * rate, 2048, 0.05, 1, played);
+    EXPECT_EQ(session.status().render.late, 0u);
+    EXPECT_EQ(session.status().render.untold, 0u);
+    EXPECT_GT(played.size(), 300u);
+    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 20 * rate));
+}
+
+TEST(Session, ADriverThatShallEndIsHeardAfterEachStep) {
+    const auto s = shakeTheBoxSetup(0.5);
+    Session session{s};
+    session.prepare(rate, 4800);
+    session.advance();
+    Block block;
+    for (int i = 0; i < 4; ++i) session.render(block.at.data(), 4800, RenderMode::realtime);
+    EXPECT_EQ(session.advance([](std::int64_t) { return false; }), 1);
+    EXPECT_EQ(session.advance(), 39) << "the rest, if it goes on after all";
+}
+
+TEST(Session, ABoardBesideItIsToldTheSameEventsAndLCoversIt) {
+    auto s = shakeTheBoxSetup(0.02);
+    Session alone{s};
+    alone.prepare(rate, 512);
+    EXPECT_EQ(alone.told(), nullptr);
+    s.boardSeconds = 0.030;
+    Session session{s};
+    std::vector<CollisionEvent> played, told;
+    const auto signal = playLive(session, 5 * rate, 512, 0.02, 9, played);
+    EXPECT_EQ(session.playOutFrames() - alone.playOutFrames(), 0.030 * rate - HapticRenderer<DesktopProfile>::latencyFramesAt(rate));
+    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 5 * rate));
+    for (CollisionEvent e; session.told()->events.pop(e);) told.push_back(e);
+    ASSERT_GT(played.size(), 50u);
+    ASSERT_GE(told.size(), played.size()) << "those of the last L are not played yet";
+    told.resize(played.size());
+    EXPECT_TRUE(told == played);
+    const auto at = session.post({.kind = RenderControl::Kind::mute, .channel = 2, .value = 1.0f});
+    RenderControl control;
+    ASSERT_TRUE(session.told()->controls.pop(control));
+    EXPECT_EQ(control.timeNs, at);
+    EXPECT_EQ(control.channel, 2);
+}
+
+TEST(Session, AThousandStepsPerSecondAndSmallBlocksStayBelowSixMilliseconds) {
+    const auto s = shakeTheBoxSetup(driverThreadGapSeconds, 1000);
+    Session session{s};
+    session.prepare(rate, 64);
+    EXPECT_LE(static_cast<double>(session.playOutFrames()) / rate, 0.006);
+    std::vector<CollisionEvent> played;
+    const auto signal = playLive(session, 5 * rate, 40, driverThreadGapSeconds, 2, played);
+    EXPECT_EQ(session.status().render.late, 0u);
+    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 5 * rate));
+}
+
+TEST(Session, ADriverThatIsSlowerThanPromisedMakesTheWorldWaitAndNoEventLate) {
+    Session session{shakeTheBoxSetup(0.01)};
+    std::vector<CollisionEvent> played;
+    playLive(session, 20 * rate, 64, 0.05, 3, played);
+    EXPECT_EQ(session.status().render.late, 0u);
+    EXPECT_GT(session.slippedNs(), 1'000'000'000);
+    EXPECT_GT(played.size(), 100u);
+}
+
+TEST(Session, OfflineBlocksPlayTheSameEventsAsLiveOnes) {
+    const auto s = shakeTheBoxSetup(0.05);
+    Session session{s};
+    session.prepare(rate, 8192);
+    Block block;
+    Interleaved signal;
+    for (std::int64_t done = 0; done < 20 * rate;) {
+        const int size = static_cast<int>(std::min<std::int64_t>(20 * rate - done, 8192));
+        session.render(block.at.data(), size, RenderMode::offline);
+        append(signal, block.at.data(), size);
+        done += size;
+    }
+    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 20 * rate));
+}
+
+TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
+    const auto s = shakeTheBoxSetup(0.6); // this host is a thousand times faster than time; no stall is meant here
+    Session session{s};
+    session.prepare(rate, 8192);
+    std::atomic<bool> stop{false};
+    std::atomic<int> ticks{0};
+    std::thread driver{[&] {
+        while (!stop) {
+            session.advance();
+            ++ticks;
+            std::this_thread::sleep_for(std::chrono::microseconds{200});
+        }
+    }};
+    test::Random random{4};
+    Block block;
+    std::vector<CollisionEvent> played;
+    std::int64_t done = 0, atLastTick = 0;
+    RenderMode mode = RenderMode::realtime;
+    for (int left = 0; done < 60 * rate; --left) {
+        if (left <= 0) {
+            left = 1 + random.below(50);
+            mode = mode == RenderMode::realtime ? RenderMode::offline : RenderMode::realtime;
+        }
+        const int size = 1 + random.below(mode == RenderMode::offline ? 8192 : 512);
+        if (done - atLastTick > rate / 4) {
+            for (const int before = ticks; ticks < before + 2;) std::this_thread::yield();
+            atLastTick = done;
+        }
+        session.render(block.at.data(), size, mode);
+        done += size;
+        for (const auto& e : drain(session)) played.push_back(e);
+    }
+    stop = true;
+    driver.join();
+    session.render(block.at.data(), 8192, RenderMode::offline); // whatever is still under way
+    for (const auto& e : drain(session)) played.push_back(e);
+    ASSERT_EQ(session.slippedNs(), 0);
+    std::stable_sort(played.begin(), played.end(), [](const auto& a, const auto& b) { return a.timeNs < b.timeNs; });
+    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, played.back().timeNs + 1);
+    ASSERT_EQ(played.size(), made.events.size());
+    EXPECT_TRUE(played == made.events);
+}
+
+TEST(Session, AnotherRateAndBlockLoseNoEventAndNoSound) {
+    const auto s = shakeTheBoxSetup(0.02);
+    Session session{s};
+    Block block;
+    std::vector<CollisionEvent> played;
+    float loudest = 0;
+    session.prepare(44100, 32);
+    for (const auto& [newRate, size] : {std::pair{44100, 32}, {96000, 2048}, {48000, 64}, {192000, 512}}) {
+        session.resume(newRate, size);
+        for (int done = 0; done < 5 * newRate; done += size) {
+            session.advance();
+            session.render(block.at.data(), size, RenderMode::realtime);
+            for (const auto& e : drain(session)) played.push_back(e);
+            for (int n = 0; n < size; ++n) loudest = std::max(loudest, std::abs(block.at[0][n]));
+        }
+    }
+    EXPECT_LE(loudest, 1.0f);
+    EXPECT_EQ(session.status().render.rejected, 0u);
+    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, played.back().timeNs + 1);
+    EXPECT_TRUE(played == made.events);
+}
+
+TEST(Session, ControlsThatComeWithAChangeOfRateNeverGoBackInTime) {
+    Session session{shakeTheBoxSetup(0.02)};
+    session.prepare(44100, 64);
+    session.advance();
+    std::atomic<bool> stop{false};
+    std::vector<std::int64_t> times;
+    std::thread hand{[&] {
+        while (!stop)
+            if (const auto time = session.post({.kind = RenderControl::Kind::gain, .value = 0.5f}); time >= 0) times.push_back(time);
+            else std::this_thread::yield();
+    }};
+    Block block;
+    for (int i = 0; i < 1000; ++i) {
+        session.resume(i % 2 == 0 ? 192000 : 8000, 64);
+        for (int k = 0; k < 20; ++k) session.render(block.at.data(), 64, RenderMode::realtime);
+        session.advance();
+        drain(session);
+    }
+    stop = true;
+    hand.join();
+    ASSERT_GT(times.size(), 300u);
+    EXPECT_TRUE(std::ranges::is_sorted(times));
+}
+
+TEST(Session, ARestartThatWaitsKeepsItsTimeAtAnotherRate) {
+    Session session{shakeTheBoxSetup(0.02)};
+    session.prepare(48000, 480);
+    session.advance();
+    Block block;
+    for (int i = 0; i < 100; ++i) {
+        session.render(block.at.data(), 480, RenderMode::realtime);
+        session.advance();
+    }
+    session.restart(240); // at 1.005 s
+    session.resume(96000, 960);
+    session.advance();
+    SessionLog log;
+    session.readLog(log);
+    ASSERT_EQ(log.takes.size(), 2u);
+    EXPECT_EQ(log.takes[1].startNs, 1'005'000'000);
+}
+
+// As a host with automation and notes, and nobody who reads a log.
+TEST(Session, HoldsNoMoreBodiesAndInputsTheLongerItPlays) {
+    auto setup = shakeTheBoxSetup(0.02);
+    const BodyDescription note{"note", BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 0, true}}, {3.0, 2.0}};
+    setup.groups = {{SpawnAction{note, {}}}};
+    for (const auto use : {LogUse::none, LogUse::stream}) {
+        setup.log = use;
+        Session session{setup};
+        session.prepare(rate, 480);
+        Block block;
+        SessionLog log;
+        std::size_t mostBodies = 0, mostInputs = 0, notes = 0;
+        for (int i = 0; i < 3000; ++i) { // half a minute
+            session.perform({.hold = {1.0, 0.001 * (i % 500)}}, i % 480);
+            if (i % 7 == 0 && session.perform({.group = 0}, 0)) ++notes;
+            session.render(block.at.data(), 480, RenderMode::offline);
+            drain(session);
+            if (i % 100 == 0) session.readLog(log);
+            const auto size = session.size();
+            mostBodies = std::max(mostBodies, size.bodies);
+            mostInputs = std::max(mostInputs, size.inputs);
+        }
+        ASSERT_GT(notes, 400u);
+        EXPECT_LE(mostBodies, setup.scene.bodies.size() + 64 + 8) << "the newest notes, and those of the last half second";
+        EXPECT_LE(mostInputs, use == LogUse::none ? 8u : 140u);
+        session.readLog(log);
+        EXPECT_EQ(log.takes.size(), use == LogUse::none ? 0u : 1u);
+        if (use == LogUse::stream) EXPECT_EQ(log.takes[0].inputs.size(), 3000u + 2 * notes - 64);
+    }
+}
+
+TEST(Session, AfterAStallTheWorldGoesOnWithoutASpiral) {
+    Session session{shakeTheBoxSetup(0.02)};
+    session.prepare(rate, 480);
+    Block block;
+    for (int i = 0; i < 100; ++i) session.render(block.at.data(), 480, RenderMode::realtime); // time has not begun
+    session.advance();
+    for (int i = 0; i < 500; ++i) session.render(block.at.data(), 480, RenderMode::realtime); // 5 s without a driver
+    EXPECT_LE(session.advance(), 4);
+    EXPECT_NEAR(static_cast<double>(session.slippedNs()) * 1e-9, 4.97, 0.001);
+    session.render(block.at.data(), 480, RenderMode::realtime);
+    EXPECT_LE(session.advance(), 2) << "caught up";
+    for (int i = 0; i < 500; ++i) {
+        session.render(block.at.data(), 480, RenderMode::realtime);
+        session.advance();
+    }
+    EXPECT_EQ(session.status().render.late, 0u);
+    EXPECT_EQ(session.status().render.rejected, 0u);
+}
+
+TEST(Session, StrikesOfTheRenderCallAreFeltLLaterAtTheirFrame) {
+    auto setup = shakeTheBoxSetup(0.02);
+    setup.scene.bodies.clear(); // nothing else is felt
+    setup.scene.joints.clear();
+    setup.scene.script.clear();
+    setup.limiterEnabled = false;
+    for (const auto mode : {RenderMode::realtime, RenderMode::offline}) {
+        Session session{setup};
+        session.prepare(44100, 512);
+        session.advance(); // time begins
+        Block block;
+        Interleaved signal;
+        for (int done = 0; done < 44100; done += 512) {
+            if (done == 5120) session.strike({.frequencyHz = 11025, .decayPerSecond = 10, .amplitude = 0.5, .y = 3.6}, 77);
+            session.render(block.at.data(), 512, mode);
+            append(signal, block.at.data(), 512);
+        }
+        const auto onset = static_cast<std::size_t>(5120 + 77 + session.playOutFrames());
+        for (std::size_t n = 0; n <= onset; ++n) ASSERT_NEAR(signal[n * channels], 0.0f, 1e-3f) << n; // sin 0 at the onset
+        EXPECT_NEAR(signal[(onset + 1) * channels], 0.5f, 1e-3f); // a quarter period later
+        const auto played = drain(session);
+        ASSERT_EQ(played.size(), 1u);
+        EXPECT_EQ(FrameClock{44100}.at(played[0].timeNs).frame, 5120 + 77);
+    }
+}
+
+TEST(Session, AControlOfTheRenderCallMutesTheWorldAtItsFrame) {
+    const auto setup = shakeTheBoxSetup(0.05);
+    Session session{setup};
+    session.prepare(rate, 480);
+    Block block;
+    for (int done = 0; done < 10 * rate; done += 480) {
+        if (done == 5 * rate)
+            for (int j = 0; j < channels; ++j) session.control({.kind = RenderControl::Kind::mute, .channel = j, .value = 1.0f}, 0);
+        session.render(block.at.data(), 480, RenderMode::offline);
+        const std::int64_t silentFrom = 5 * rate + session.playOutFrames() + rate / 100;
+        const bool silent = std::all_of(block.at[0], block.at[0] + 480, [](float x) { return x == 0.0f; });
+        if (done >= silentFrom) EXPECT_TRUE(silent) << done;
+    }
+    EXPECT_EQ(session.status().refused, 0u);
+}
+
+TEST(Session, PosesAreThoseOfTheSceneAtTheirTime) {
+    const auto setup = shakeTheBoxSetup(0.05);
+    Session session{setup};
+    session.prepare(rate, 480);
+    Block block;
+    std::vector<BodyPose> poses;
+    for (int i = 0; i < 150; ++i) session.render(block.at.data(), 480, RenderMode::offline);
+    const auto time = session.readPoses(poses);
+    EXPECT_EQ(time, 1'500'000'000);
+    const auto expected = posesAt(setup.scene, {setup.seed, setup.stepsPerSecond}, time);
+    ASSERT_EQ(poses.size(), expected.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].xMetres, expected[i].xMetres) << i;
+}
+
+} // namespace
+} // namespace physvib
