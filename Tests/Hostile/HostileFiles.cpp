@@ -88,7 +88,7 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
             {"protocol", "json", filesIn(corpus / "protocol"), {"study show FILE", "study run FILE --observer simulated --participant P --out ."}},
             {"study", "csv", filesIn(corpus / "study"),
              {"analyse confusion" + table, "analyse resolution" + table, "analyse percent-counts" + table, "analyse choices" + table, "analyse ratings" + table, "analyse levels" + table,
-              "analyse anova FILE --measure score --within condition --export e.csv", "analyse kruskal-wallis FILE --measure score --between condition --export e.csv"}},
+              "analyse anova FILE --measure choice=RM --within condition --export e.csv", "analyse kruskal-wallis FILE --measure x --between condition --export e.csv", "analyse psychometric FILE --level x --measure y --export e.csv"}},
             {"wav", "wav", {knock("wav", folder)}, recordingCalls},
             {"flac", "flac", {knock("flac", folder)}, recordingCalls},
             {"ogg", "ogg", {knock("ogg", folder)}, recordingCalls}};

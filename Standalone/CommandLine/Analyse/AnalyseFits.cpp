@@ -12,9 +12,9 @@
 namespace physvib {
 namespace {
 
-using Data = StudyData<LevelAnswer>;
+using LevelAnswers = StudyData<LevelAnswer>;
 
-Result<Data> readTrials(const AnalyseOptions& o, LevelAnswerColumns columns) {
+Result<LevelAnswers> readAnswers(const AnalyseOptions& o, LevelAnswerColumns columns) {
     if (!o.level.empty()) columns.level = o.level;
     if (!o.measure.empty()) columns.measure = o.measure;
     return readStudyFiles(o.files, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
@@ -36,16 +36,13 @@ void leaveOut(AnalysisReport& report, const std::string& condition, const std::s
     report.warnings.push_back(prefixOf(condition) + "participant " + printable(participant) + " left out: " + fault);
 }
 
-/// With the warnings that say why.
-AnalysisReport refused(AnalysisReport report, const AnalyseOptions& o, const std::string& condition, const char* what) {
-    report.error = o.files.front() + ": " + prefixOf(condition) + "expected a participant whose " + what + " can be fitted, found none";
-    return report;
-}
+/// One line for all who were left out.
+AnalysisReport nobodyFitted(const AnalyseOptions& o, const AnalysisReport& report) { return {o.files.front() + ": nobody can be fitted; " + report.warnings.back()}; }
 
 } // namespace
 
 AnalysisReport analysePsychometric(const AnalyseOptions& o) {
-    const auto data = readTrials(o, {"level_db", "correct", false});
+    const auto data = readAnswers(o, {"level_db", "correct", false});
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
@@ -64,7 +61,7 @@ AnalysisReport analysePsychometric(const AnalyseOptions& o) {
             for (const double number : {f.threshold, f.width, f.jnd(), f.guess, f.lapse, own.fit.logLikelihood}) table.cell(number);
             table.endRow();
         }
-        if (thresholds.empty()) return refused(std::move(report), o, condition.name, "answers");
+        if (thresholds.empty()) return nobodyFitted(o, report);
         out << prefixOf(condition.name) << meanWords("threshold", thresholds, 2) << ", " << meanWords("JND", jnds, 2) << ", " << peopleWords(thresholds.size()) << '\n';
     }
     report.words = out.str();
@@ -73,7 +70,7 @@ AnalysisReport analysePsychometric(const AnalyseOptions& o) {
 }
 
 AnalysisReport analysePowerLaw(const AnalyseOptions& o) {
-    const auto data = readTrials(o, {"level_g", "value", true});
+    const auto data = readAnswers(o, {"level_g", "value", true});
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
@@ -89,7 +86,7 @@ AnalysisReport analysePowerLaw(const AnalyseOptions& o) {
             table.cell(condition.name).cell(own.participant).cell(own.trials).cell(own.law.exponent).cell(own.law.factor).cell(own.law.determination);
             table.endRow();
         }
-        if (exponents.empty()) return refused(std::move(report), o, condition.name, "magnitudes");
+        if (exponents.empty()) return nobodyFitted(o, report);
         out << prefixOf(condition.name) << meanWords("exponent", exponents, 3) << ", " << peopleWords(exponents.size()) << '\n';
     }
     report.words = out.str();
