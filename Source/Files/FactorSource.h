@@ -4,13 +4,15 @@
 #include "Files/Text/CsvTable.h"
 #include "Files/Text/CsvText.h"
 #include "Files/Text/NumberText.h"
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace physvib::detail {
 
-/// A column of that name, or `name=level` among the words of a condition or stimulus.
+/// A column of that name, or `name=level` among the words of a condition or stimulus, or one letter in the name of one of the thesis' methods (5.3): of A, F and
+/// DR, AV-FF-DRV says V, F and V.
 struct FactorSource {
     std::size_t column = 0;
     std::string mark{}; ///< "pair="; empty: the whole cell of `column`
@@ -35,6 +37,15 @@ private:
         while (!rest.empty()) {
             const std::string_view word = takeUntil(' ', rest);
             if (word.starts_with(mark)) return word.substr(mark.size());
+            if (const std::string_view letter = methodLetterIn(word); !letter.empty()) return letter;
+        }
+        return {};
+    }
+    std::string_view methodLetterIn(std::string_view word) const {
+        const std::string_view factor = std::string_view{mark}.substr(0, mark.size() - 1);
+        while (!word.empty()) {
+            const std::string_view part = takeUntil('-', word), letter = part.substr(std::min(factor.size(), part.size()));
+            if (part.starts_with(factor) && (letter == "V" || letter == "F")) return letter;
         }
         return {};
     }

@@ -69,8 +69,9 @@ TEST_F(AnalyseTests, FunctionsAreFittedToEachParticipant) {
     EXPECT_NE(fitted.out.find(", 3 participants\n"), std::string::npos) << fitted.out;
     EXPECT_NE(read("f.csv").find("\ncondition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood\nring,P0,120,"), std::string::npos) << read("f.csv");
     write("m.csv", magnitudes);
-    EXPECT_EQ(call("analyse power-law m.csv").out, "exponent 2.000, 1 participant\n");
+    EXPECT_EQ(call("analyse power-law m.csv --level level_g").out, "exponent 2.000, 1 participant\n");
     refuses("analyse power-law c.csv", 1, "c.csv: expected a column value, found none", 3);
+    refuses("analyse power-law m.csv", 1, "m.csv:2: column stimulus: expected a level that is a number from -1e6 to 1e6, found \"level_g=1\"", 3);
     refuses("analyse psychometric c.csv --level participant", 1, "c.csv:2: column participant: expected a level that is a number", 3);
     refuses("analyse psychometric c.csv --shape square", 2, "--shape", 3);
     write("c.csv", "participant,level_db,correct\nP,1,1\nP,2,1\n");

@@ -34,6 +34,18 @@ TEST(LongTableCsv, TrialFilesOfStudiesAreTables) {
     EXPECT_EQ(design.warnings.size(), 1u) << "averaging is told";
 }
 
+TEST(LongTableCsv, MethodsOfTheThesisAreThreeFactors) {
+    std::string text = "participant,stimulus,realism\n";
+    for (const char* p : {"P1", "P2"})
+        for (const char* method : {"AV-FV-DRV", "AV-FV-DRF", "AV-FF-DRV", "AV-FF-DRF", "AF-FV-DRV", "AF-FV-DRF", "AF-FF-DRV", "AF-FF-DRF"}) text += std::string(p) + "," + method + "," + p[1] + "\n";
+    const auto data = read(text, {"realism", {"A", "F", "DR"}, "", ""});
+    ASSERT_EQ(data.error, "");
+    const Design design = Design::of(data.value.table);
+    EXPECT_EQ(design.cells(), 8u);
+    EXPECT_EQ(design.cellName(3), "A=V:F=F:DR=F");
+    EXPECT_EQ(read(text, {"realism", {"R"}, "", ""}).error, "t.csv:2: column stimulus: expected a word R=..., found \"AV-FV-DRV\"");
+}
+
 TEST(LongTableCsv, RefusalsNameFileLineAndColumn) {
     const std::string table = "participant,law,score\nA,lin,1\nA,,2\n";
     EXPECT_EQ(read(table, {"score", {"law"}, "", ""}).error, "t.csv:3: column law: expected a level, found \"\"");

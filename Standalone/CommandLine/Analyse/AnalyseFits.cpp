@@ -70,7 +70,7 @@ AnalysisReport analysePsychometric(const AnalyseOptions& o) {
 }
 
 AnalysisReport analysePowerLaw(const AnalyseOptions& o) {
-    const auto data = readAnswers(o, {"level_g", "value", true});
+    const auto data = readAnswers(o, {"stimulus", "value", true});
     if (!data) return {data.error};
     AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
@@ -96,7 +96,7 @@ AnalysisReport analysePowerLaw(const AnalyseOptions& o) {
 
 void declareFit(CLI::App& command, AnalyseOptions& o) {
     const bool isPsychometric = command.get_name() == "psychometric";
-    command.add_option("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (level_g)")->type_name("COLUMN");
+    command.add_option("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (stimulus)")->type_name("COLUMN");
     command.add_option("--measure", o.measure, isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)")->type_name("COLUMN");
     if (!isPsychometric) return;
     const std::map<std::string, PsychometricShape> shapes{{"logistic", PsychometricShape::logistic}, {"normal", PsychometricShape::normal}, {"weibull", PsychometricShape::weibull}};
