@@ -6,6 +6,6 @@
 set -eu
 bin=${2:-$(cd "$(dirname "$0")/.." && pwd)/build/release/bin}
 export PHYSVIB_HOURS="${1:-10}"
-for tests in physvib-host-tests physvib-plugin-tests; do
+for tests in physvib-session-tests physvib-plugin-tests; do
     "$bin/$tests" --gtest_also_run_disabled_tests --gtest_brief=1 --gtest_filter='*ForHours.DISABLED*'
 done
