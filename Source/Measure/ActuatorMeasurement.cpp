@@ -3,6 +3,7 @@
 #include "Measure/ActuatorMeasurement.h"
 #include "Files/Text/NumberText.h"
 #include "Measure/RecordingFaults.h"
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,22 +51,19 @@ FrequencyBand peakOf(const Resonator& r, const FrequencyBand& band) {
 
 /// f^4 / |H|^2 is a parabola in f^2 for the model; weighted so that all points count by their magnitude.
 Resonator firstGuess(const std::vector<Point>& points) {
-    double strongestHz = 0.0, strongest = -1.0, m[3][4]{};
+    double strongestHz = 0.0, strongest = -1.0;
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const Point& p : points) {
         const double power = std::norm(p.response), square = p.hz * p.hz, target = square * square / power, weight = power * power / (square * square);
         if (power > strongest) strongest = power, strongestHz = p.hz;
-        const double basis[] = {1.0, square, square * square};
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) m[i][j] += weight * basis[i] * basis[j];
-            m[i][3] += weight * basis[i] * target;
-        }
+        const Eigen::Vector3d basis{1.0, square, square * square};
+        matrix += weight * basis * basis.transpose();
+        right += weight * target * basis;
     }
-    for (int i = 0; i < 3; ++i) // elimination without pivoting: the matrix is positive definite
-        for (int r = i + 1; r < 3; ++r)
-            for (int c = 3; c >= i; --c) m[r][c] -= m[r][i] / m[i][i] * m[i][c];
-    const double c2 = m[2][3] / m[2][2], c1 = (m[1][3] - m[1][2] * c2) / m[1][1], c0 = (m[0][3] - m[0][1] * c1 - m[0][2] * c2) / m[0][0];
+    const Eigen::Vector3d c = matrix.ldlt().solve(right);
     // c2 (f0^4 + (f0^2 / Q^2 - 2 f0^2) f^2 + f^4)
-    const double square = std::sqrt(c0 / c2), loss = c1 / (c2 * square) + 2.0;
+    const double square = std::sqrt(c[0] / c[2]), loss = c[1] / (c[2] * square) + 2.0;
     if (!(square > 0.0) || !(loss > 0.0)) return {strongestHz, 3.0};
     return {std::sqrt(square), 1.0 / std::sqrt(loss)};
 }

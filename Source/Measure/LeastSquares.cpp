@@ -1,31 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Cholesky's decomposition solves what products have gathered.
+// Products and Cholesky's decomposition, by Eigen.
 #include "Measure/LeastSquares.h"
+#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace physvib {
 namespace {
 
-/// False if `a` (n x n, by rows) is not positive. `b` becomes the solution.
-bool solve(std::vector<double> a, std::vector<double>& b) {
-    const std::size_t n = b.size();
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j <= i; ++j) {
-            double sum = a[i * n + j];
-            for (std::size_t k = 0; k < j; ++k) sum -= a[i * n + k] * a[j * n + k];
-            if (i == j && !(sum > 0.0)) return false;
-            a[i * n + j] = i == j ? std::sqrt(sum) : sum / a[j * n + j];
-        }
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < i; ++k) b[i] -= a[i * n + k] * b[k];
-        b[i] /= a[i * n + i];
-    }
-    for (std::size_t i = n; i-- > 0;) {
-        for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[k * n + i] * b[k];
-        b[i] /= a[i * n + i];
-    }
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Rows = Eigen::Map<const Eigen::MatrixXd, Eigen::Unaligned, Eigen::OuterStride<>>;
+
+/// Solves a x = b, of which the lower triangle of `a` counts; false if it is not positive definite.
+bool solve(const Matrix& a, Eigen::Ref<Eigen::VectorXd> b) {
+    const Eigen::LLT<Matrix> decomposed(a);
+    if (decomposed.info() != Eigen::Success) return false;
+    decomposed.solveInPlace(b);
     return true;
 }
+
+Eigen::Index index(std::size_t i) noexcept { return static_cast<Eigen::Index>(i); }
+
+Matrix square(const std::vector<double>& byRows, std::size_t size) { return Eigen::Map<const Matrix>(byRows.data(), index(size), index(size)); }
+Eigen::Map<Eigen::VectorXd> vectorOf(std::vector<double>& numbers) { return {numbers.data(), index(numbers.size())}; }
 
 } // namespace
 
@@ -34,20 +30,17 @@ NormalEquations::NormalEquations(std::size_t size)
     , right_(size) {}
 
 void NormalEquations::add(const std::vector<Column>& columns, std::span<const double> rest) {
-    for (std::size_t a = 0; a < size(); ++a) {
-        for (std::size_t b = 0; b <= a; ++b) {
-            double sum = 0.0;
-            for (std::size_t i = 0; i < rest.size(); ++i) sum += columns[a][i] * columns[b][i];
-            matrix_[a * size() + b] += sum;
-        }
-        for (std::size_t i = 0; i < rest.size(); ++i) right_[a] += columns[a][i] * rest[i];
-    }
+    const Rows derivatives(columns.front().data(), index(rest.size()), index(size()), Eigen::OuterStride<>(index(block)));
+    Eigen::Map<Matrix> matrix(matrix_.data(), index(size()), index(size()));
+    matrix.triangularView<Eigen::Lower>() += derivatives.transpose() * derivatives;
+    vectorOf(right_) += derivatives.transpose() * Eigen::Map<const Eigen::VectorXd>(rest.data(), index(rest.size()));
 }
 
 std::vector<double> NormalEquations::step(double lambda) const {
-    std::vector<double> damped = matrix_, b = right_;
-    for (std::size_t i = 0; i < size(); ++i) damped[i * size() + i] *= 1.0 + lambda;
-    return solve(std::move(damped), b) ? b : std::vector<double>{};
+    Matrix damped = square(matrix_, size());
+    damped.diagonal() *= 1.0 + lambda;
+    std::vector<double> b = right_;
+    return solve(damped, vectorOf(b)) ? b : std::vector<double>{};
 }
 
 NormalEquations NormalEquations::each(std::size_t first, std::size_t stride, std::size_t width) const {
@@ -65,7 +58,7 @@ NormalEquations NormalEquations::each(std::size_t first, std::size_t stride, std
 double NormalEquations::errorOf(std::size_t number, double variance) const {
     std::vector<double> unit(size());
     unit[number] = 1.0;
-    return solve(matrix_, unit) ? std::sqrt(variance * unit[number]) : HUGE_VAL;
+    return solve(square(matrix_, size()), vectorOf(unit)) ? std::sqrt(variance * unit[number]) : HUGE_VAL;
 }
 
 } // namespace physvib

@@ -1,29 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Coefficients by least squares, their polynomial's roots all at once (Durand 1960, Kerner 1966).
+// Coefficients by least squares, their polynomial's roots as the eigenvalues of its companion matrix (Eigen).
 #include "Measure/LinearPrediction.h"
 #include "Measure/LeastSquares.h"
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <unsupported/Eigen/Polynomials>
 
 namespace physvib {
 namespace {
 
-using Complex = std::complex<double>;
-
-/// Roots of z^n + c[0] z^(n-1) + ... + c[n-1].
-std::vector<Complex> rootsOf(const std::vector<double>& c) {
-    std::vector<Complex> roots;
-    for (std::size_t k = 0; k < c.size(); ++k) roots.push_back(std::pow(Complex{0.4, 0.9}, static_cast<double>(k)));
-    for (int round = 0; round < 200; ++round)
-        for (std::size_t k = 0; k < roots.size(); ++k) {
-            Complex value = 1.0, others = 1.0;
-            for (const double factor : c) value = value * roots[k] + factor;
-            for (std::size_t j = 0; j < roots.size(); ++j)
-                if (j != k) others *= roots[k] - roots[j];
-            roots[k] -= value / others;
-        }
-    return roots;
+/// Roots of z^n + c[0] z^(n-1) + ... + c[n-1]; none if there are no coefficients.
+std::vector<std::complex<double>> rootsOf(std::vector<double> c) {
+    if (c.empty()) return {};
+    c.insert(c.begin(), 1.0);
+    const Eigen::VectorXd rising = Eigen::Map<const Eigen::VectorXd>(c.data(), static_cast<Eigen::Index>(c.size())).reverse();
+    const auto roots = Eigen::PolynomialSolver<double, Eigen::Dynamic>(rising).roots();
+    return {roots.begin(), roots.end()};
 }
 
 std::vector<double> meansOf(std::span<const double> samples, std::size_t blocks) {
@@ -51,7 +44,7 @@ std::vector<PredictedPartial> predictPartials(std::span<const double> samples, d
     std::vector<PredictedPartial> found;
     if (samples.size() < blocks || blocks < 4 * partials) return found;
     const double blockRateHz = rateHz / static_cast<double>(samples.size() / blocks);
-    for (const Complex root : rootsOf(predictionOf(meansOf(samples, blocks), 2 * partials)))
+    for (const std::complex<double> root : rootsOf(predictionOf(meansOf(samples, blocks), 2 * partials)))
         if (root.imag() > 1e-6 && std::isfinite(root.real()))
             found.push_back({std::arg(root) * blockRateHz, std::max(-std::log(std::abs(root)) * blockRateHz, 1.0)});
     std::ranges::sort(found, {}, &PredictedPartial::omega);

@@ -6,7 +6,7 @@ set(Study_may "Study/|Core/|Eigen/|boost/")
 set(Contacts_may "Contacts/|Core/")
 set(Physics_may "Physics/|Contacts/|Core/|box2d/")
 set(Files_may "Files/|Physics/|Contacts/|Study/|Core/|nlohmann/")
-set(Measure_may "Measure/|Files/(Result|Text/NumberText)\\.h|Core/") # one line of words for what a recording lacks
+set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Files/(Result|Text/NumberText)\\.h|Core/") # one line of words for what a recording lacks
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
 set(Host_may "Host/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
 set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
@@ -21,7 +21,7 @@ foreach(room Core Wire Study Contacts Physics Files Measure Session Host Plugin)
         foreach(line ${includes})
             if(line MATCHES "include *\"" AND NOT line MATCHES "\"(${${room}_may})")
                 list(APPEND bad "${file}: ${line}")
-            elseif(line MATCHES "<(box2d|juce_|nlohmann|Eigen/|boost/)" AND NOT line MATCHES "<(${${room}_may})")
+            elseif(line MATCHES "<(box2d|juce_|nlohmann|Eigen/|unsupported/|boost/)" AND NOT line MATCHES "<(${${room}_may})")
                 list(APPEND bad "${file}: ${line}")
             elseif(room STREQUAL "Core" AND line MATCHES "${Core_never}")
                 list(APPEND bad "${file}: ${line}")
