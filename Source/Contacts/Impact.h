@@ -17,9 +17,10 @@ struct StepSpan {
     Vector2 gravityMetresPerSecond2;
 
     double seconds() const noexcept { return static_cast<double>(endNs - startNs) * 1.0e-9; }
-    /// Time of a moment given in steps after the start, -1 to 1.
+    /// Time of a moment given in steps after the start: below 0 in parts of the step before, which may have had another length.
     std::int64_t timeNs(double fraction) const noexcept {
-        const double sinceStart = fraction * static_cast<double>(endNs - startNs);
+        const std::int64_t lengthNs = fraction < 0.0 ? startNs - earliestNs : endNs - startNs;
+        const double sinceStart = fraction * static_cast<double>(lengthNs);
         return std::max(earliestNs, startNs + static_cast<std::int64_t>(std::llround(sinceStart)));
     }
 
@@ -47,7 +48,7 @@ struct Blow {
     std::int32_t order = 0; // of blows and ends within the step
     float gravityScale = 1.0F; // the larger one of the two bodies
     Vector2 point;         // world
-    double fraction = 0.0; // moment of touch in steps after the start of this step, -1 to 1
+    double fraction = 0.0; // moment of touch in steps after the start of this step, -1 (start of the one before) to 1
     double lighterMassKg = 0.0;
     BodyMotion motionA, motionB;                         // before the solver
     Vector2 armA, armB;                                  // from the centre of mass to the point

@@ -85,10 +85,17 @@ void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manif
     blow.armA = blow.point - toVector(bodyA(contact).GetWorldCenter());
     blow.armB = blow.point - toVector(bodyB(contact).GetWorldCenter());
 
-    const double perStep = approach(contact, touch, manifold.normal) * sweeps_.stepSeconds();
+    const double speed = approach(contact, touch, manifold.normal);
     const double depth = std::max(0.0, -static_cast<double>(manifold.separations[deepest]));
-    const double stepsAgo = perStep > 0.0 ? std::min(1.0, depth / perStep) : 0.0;
-    blow.fraction = fractionOf(contact) - stepsAgo;
+    blow.fraction = momentOf(contact, speed > 0.0 ? depth / speed : 0.0);
+}
+
+// Surfaces sink into each other in the step before, whose length counts. What is not told has no time of its own.
+double BlowFinder::momentOf(const b2Contact& contact, double secondsAgo) const noexcept {
+    if (!events_.catcher().isStepping()) return 0.0;
+    const double seconds = fractionOf(contact) * sweeps_.stepSeconds() - secondsAgo;
+    const double length = seconds < 0.0 ? sweeps_.lastStepSeconds() : sweeps_.stepSeconds();
+    return length > 0.0 ? std::max(-1.0, seconds / length) : 0.0;
 }
 
 double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {

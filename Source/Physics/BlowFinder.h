@@ -41,6 +41,7 @@ private:
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const;
     void noteMoved(const b2Body& body, std::int32_t slot);
     double fractionOf(const b2Contact& contact) const noexcept;
+    double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
     ContactEvents& events_;
     BodySweeps& sweeps_;

@@ -3,11 +3,12 @@
 #include "Physics/BodySweeps.h"
 #include "Physics/WorldNames.h"
 #include <algorithm>
+#include <utility>
 
 namespace physvib {
 
 void BodySweeps::beginStep(const b2World& world, double stepSeconds) {
-    stepSeconds_ = stepSeconds;
+    lastStepSeconds_ = std::exchange(stepSeconds_, stepSeconds);
     largestMassKg_ = 0.0;
     std::size_t count = 0;
     bool isKnown = true; // the same bodies in the same order as in the last step, which is the rule

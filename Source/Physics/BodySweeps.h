@@ -21,6 +21,7 @@ public:
     void beginStep(const b2World& world, double stepSeconds);
 
     double stepSeconds() const noexcept { return stepSeconds_; }
+    double lastStepSeconds() const noexcept { return lastStepSeconds_; } ///< of the one before; 0: there was none
 
     /// The largest mass of an enabled dynamic body, kg (m_max of Eq. 5.7).
     double largestMassKg() const noexcept { return largestMassKg_; }
@@ -44,7 +45,7 @@ private:
     const Sweep* find(const b2Body& body) const noexcept;
     void index();
 
-    double stepSeconds_ = 0.0;
+    double stepSeconds_ = 0.0, lastStepSeconds_ = 0.0;
     double largestMassKg_ = 0.0;
     std::vector<Sweep> sweeps_; // of what is not static
     IntegerMap indices_;        // of the sweeps, by their bodies

@@ -230,6 +230,32 @@ TEST_P(OnsetImpactsDestroyed, BodyOfTheRowTakesWhatIsHandedOnAlongUnlessItIsKept
 }
 INSTANTIATE_TEST_SUITE_P(StrikerNeighbourCamera, OnsetImpactsDestroyed, testing::Values(0, 1, 2));
 
+/// Five pendulums that touch; the first falls from 57 degrees. Box2D solves the row at once: the others leave together.
+TEST_F(OnsetImpactsWorld, LastPendulumOfANewtonsCradleFeelsItsOwnImpulseOnce) {
+    constexpr float length = 2.0F, radius = 0.25F;
+    world.SetGravity({0.0F, -10.0F});
+    const b2BodyDef def;
+    b2Body* const beam = world.CreateBody(&def);
+    std::vector<b2Fixture*> balls;
+    for (int i = 0; i < 5; ++i) {
+        const float x = 0.499F * static_cast<float>(i), angle = i == 0 ? -1.0F : 0.0F;
+        balls.push_back(&ball(x + length * std::sin(angle), -length * std::cos(angle), 0.0F, 0.0F, 1.0F));
+        balls.back()->SetFriction(0.0F);
+        b2RevoluteJointDef hinge;
+        hinge.Initialize(beam, balls.back()->GetBody(), {x, 0.0F});
+        world.CreateJoint(&hinge);
+        attachment.set(*balls.back(), i == 4 ? camera : object, i);
+    }
+    const auto events = run(76); // the strike, and the step in which it has come through
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_EQ(events[0].source.other, 3);
+    const double spin = static_cast<double>(balls[4]->GetBody()->GetAngularVelocity());
+    const double inertia = massKg(*balls[4]) * static_cast<double>(length * length + 0.5F * radius * radius); // about the hinge
+    const double own = inertia * spin / static_cast<double>(length);
+    EXPECT_GT(own, 1.0);
+    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, own, 0.02 * own);
+}
+
 TEST_F(OnsetImpactsWorld, BulletsAreHandedOnToo) {
     b2Fixture& last = ball(0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
     attachment.set(last, camera);
