@@ -29,22 +29,22 @@ public:
     /// The value of `key` (not 0), or `none`.
     std::int32_t find(std::uint64_t key) const noexcept {
         const Entry& entry = entries_[locate(key)];
-        return entry.key == key ? entry.value : none;
+        return isTaken(entry) ? entry.value : none;
     }
 
     /// Sets the value of `key` (not 0).
     void set(std::uint64_t key, std::int32_t value) {
         if (2 * (size_ + 1) > entries_.size()) grow();
         Entry& entry = entries_[locate(key)];
-        if (entry.key == 0) ++size_;
-        entry = {key, value};
+        if (!isTaken(entry)) ++size_;
+        entry = {key, value, age_};
     }
 
     /// Forgets `key`, if it is there. Later keys of the same run move up, so no lookup ever meets a gap.
     void erase(std::uint64_t key) noexcept {
         std::size_t hole = locate(key);
-        if (entries_[hole].key != key) return;
-        for (std::size_t next = after(hole); entries_[next].key != 0; next = after(next)) {
+        if (!isTaken(entries_[hole])) return;
+        for (std::size_t next = after(hole); isTaken(entries_[next]); next = after(next)) {
             const std::size_t fromHome = (next - home(entries_[next].key)) & mask();
             if (fromHome < ((next - hole) & mask())) continue;
             entries_[hole] = entries_[next];
@@ -54,10 +54,12 @@ public:
         --size_;
     }
 
-    /// Forgets all keys, and keeps the room.
+    /// Forgets all keys, and keeps the room. Costs nothing: entries of another age are free.
     void clear() noexcept {
-        std::fill(entries_.begin(), entries_.end(), Entry{});
         size_ = 0;
+        if (++age_ != 0) return;
+        std::fill(entries_.begin(), entries_.end(), Entry{});
+        age_ = 1;
     }
 
     std::size_t size() const noexcept { return size_; }
@@ -66,7 +68,9 @@ private:
     struct Entry {
         std::uint64_t key = 0;
         std::int32_t value = none;
+        std::uint32_t age = 0;
     };
+    bool isTaken(const Entry& entry) const noexcept { return entry.age == age_; }
 
     std::size_t mask() const noexcept { return entries_.size() - 1; }
     std::size_t after(std::size_t place) const noexcept { return (place + 1) & mask(); }
@@ -76,7 +80,7 @@ private:
     }
     std::size_t locate(std::uint64_t key) const noexcept {
         std::size_t place = home(key);
-        while (entries_[place].key != 0 && entries_[place].key != key) place = after(place);
+        while (isTaken(entries_[place]) && entries_[place].key != key) place = after(place);
         return place;
     }
     void allocate(std::size_t places) {
@@ -89,11 +93,12 @@ private:
         before.swap(entries_);
         allocate(2 * before.size());
         for (const Entry& entry : before)
-            if (entry.key != 0) set(entry.key, entry.value);
+            if (isTaken(entry)) set(entry.key, entry.value);
     }
 
     std::vector<Entry> entries_;
     std::size_t size_ = 0;
+    std::uint32_t age_ = 1;
     int shift_ = 0;
 };
 

@@ -59,12 +59,12 @@ void BlowFinder::end(const b2Contact& contact) {
 }
 
 void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
-    if (!fresh_.look(contact, before, events_.catcher().isStepping()) || !contact.IsEnabled()) return;
+    const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping());
+    if (fresh == 0 || !contact.IsEnabled()) return;
     const Pair pair = know(contact);
     if (events_.catcher().blow(pair.a, pair.b) != nullptr) return;
     b2WorldManifold manifold;
     contact.GetWorldManifold(&manifold);
-    const unsigned fresh = fresh_.mask(contact);
     double fastest = 0.0;
     for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
         if (isIn(fresh, i)) fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
@@ -93,8 +93,9 @@ void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manif
 // Surfaces sink into each other in the step before, whose length counts. What is not told has no time of its own.
 double BlowFinder::momentOf(const b2Contact& contact, double secondsAgo) const noexcept {
     if (!events_.catcher().isStepping()) return 0.0;
-    const double seconds = fractionOf(contact) * sweeps_.stepSeconds() - secondsAgo;
-    const double length = seconds < 0.0 ? sweeps_.lastStepSeconds() : sweeps_.stepSeconds();
+    const double now = sweeps_.stepSeconds(), before = sweeps_.lastStepSeconds();
+    const double seconds = fractionOf(contact) * now - std::min(secondsAgo, std::max(now, before)); // deeper than that: it was made there
+    const double length = seconds < 0.0 ? before : now;
     return length > 0.0 ? std::max(-1.0, seconds / length) : 0.0;
 }
 

@@ -15,7 +15,7 @@ bool hasPoint(const b2Manifold& manifold, std::uint32_t id) noexcept {
 
 } // namespace
 
-bool FreshPoints::look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
+unsigned FreshPoints::look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
     const b2Manifold& now = *contact.GetManifold();
     int known = find(contact);
     if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
@@ -34,12 +34,7 @@ bool FreshPoints::look(const b2Contact& contact, const b2Manifold& before, bool 
         Entry& entry = entries_[static_cast<std::size_t>(known)];
         if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size())) entry.ids[static_cast<std::size_t>(entry.count++)] = id;
     }
-    return known >= 0 && maskOf(entries_[static_cast<std::size_t>(known)], now) != 0;
-}
-
-unsigned FreshPoints::mask(const b2Contact& contact) const noexcept {
-    const int known = find(contact);
-    return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], *contact.GetManifold());
+    return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
 }
 
 unsigned FreshPoints::solved(const b2Contact& contact) noexcept {

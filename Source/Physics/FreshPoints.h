@@ -17,12 +17,9 @@ class FreshPoints {
 public:
     FreshPoints() { entries_.reserve(expectedContacts); }
 
-    /// In PreSolve: brings a contact up to date; true if any of its points is fresh. Outside a step that is told, nobody
-    /// knows where one ends: what has been pushed is old at once.
-    bool look(const b2Contact& contact, const b2Manifold& before, bool isStepping);
-
-    /// Which points of a contact are fresh, a bit for each.
-    unsigned mask(const b2Contact& contact) const noexcept;
+    /// In PreSolve: brings a contact up to date; which of its points are fresh, a bit for each. Outside a step that is told,
+    /// nobody knows where one ends: what has been pushed is old at once.
+    unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping);
 
     /// In PostSolve: the same, and its points have been pushed.
     unsigned solved(const b2Contact& contact) noexcept;

@@ -73,8 +73,9 @@ def other_rows(runs):
     for run in starting("queue/"):
         yield f"| {run['name'].split('/real_time')[0]} | {1e9 / run['items_per_second']:.1f} ns an event |"
     for run in starting("stepOfAShakenBox"):
-        bodies, cameras = re.findall(r":(\d+)", run["name"])[:2]
-        yield (f"| physics step, {bodies} bodies, {cameras} cameras and the walls | Box2D {run['box2d_us']:.0f} us, "
+        bodies, cameras, release = re.findall(r":(\d+)", run["name"])[:3]
+        who = {"0": "no camera", "4": "four cameras"}.get(cameras, "all are cameras")
+        yield (f"| physics step, {bodies} bodies, {who}, {'release' if release == '1' else 'onset'} | Box2D {run['box2d_us']:.0f} us, "
                f"with the catcher {run['overhead_%']:+.1f} % |")
     for run in starting("sceneToWav"):
         yield f"| {run['name'].split('/')[1]}, 4 channels, from the scene to a WAV file | {run['times_real_time']:,.0f} times real time |"

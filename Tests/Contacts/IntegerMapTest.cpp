@@ -21,6 +21,10 @@ TEST(IntegerMap, EqualsAStandardMapThroughRandomEdits) {
             map.erase(key);
             reference.erase(key);
         }
+        if (random() % 1000 == 0) {
+            map.clear();
+            reference.clear();
+        }
         const std::uint64_t asked = (1 + random() % 200) << 40U;
         const auto found = reference.find(asked);
         ASSERT_EQ(map.find(asked), found == reference.end() ? IntegerMap::none : found->second);
