@@ -40,8 +40,9 @@ void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSecon
     Passed& passed = passed_[index];
     if (passed.other == FixtureTable::none) receivers_.push_back(slot);
     passed.newtonSeconds += newtonSeconds;
-    if (newtonSeconds.length() <= passed.strongest) return;
-    passed.strongest = newtonSeconds.length();
+    const float size = newtonSeconds.length();
+    if (size <= passed.strongest) return;
+    passed.strongest = size;
     passed.other = other;
     passed.point = point;
 }

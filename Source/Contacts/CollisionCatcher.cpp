@@ -20,7 +20,7 @@ void CollisionCatcher::beginStep(const StepSpan& span) noexcept {
 
 void CollisionCatcher::settle() {
     isStepping_ = false;
-    loads_.settle();
+    if (!blows_.empty() || !last_.empty()) loads_.settle(); // else there is nothing to hand on
 }
 
 void CollisionCatcher::endStep() {
@@ -106,7 +106,7 @@ Blow* CollisionCatcher::blow(std::int32_t a, std::int32_t b) noexcept {
 }
 
 bool CollisionCatcher::isFelt(std::int32_t a, std::int32_t b) const noexcept {
-    return table_[a].values.isCamera || table_[b].values.isCamera;
+    return table_.isCamera(a) || table_.isCamera(b);
 }
 
 } // namespace physvib

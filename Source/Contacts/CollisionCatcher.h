@@ -58,6 +58,9 @@ public:
     Blow* strike(std::int32_t a, std::int32_t b);
     Blow* blow(std::int32_t a, std::int32_t b) noexcept;
 
+    /// Whether anybody could feel anything. A camera that comes later feels from the step after on.
+    bool isHearing() const noexcept { return table_.hasCameras(); }
+
     /// Whether a camera is one of the two.
     bool isFelt(std::int32_t a, std::int32_t b) const noexcept;
 
@@ -89,8 +92,8 @@ private:
     std::vector<Blow> blows_; // of the present step
     std::vector<ContactEnd> ends_;
     std::vector<Vector2> last_; // of the blows of the last step: what they have pushed in this one
-    IntegerMap lastOf_{256};
-    IntegerMap blowOf_{256}; // by the pair; small, to stay in the nearest cache
+    IntegerMap lastOf_;
+    IntegerMap blowOf_; // by the pair; no larger than need be, to stay in the nearest cache
     std::size_t directBlows_ = 0;
     std::int32_t order_ = 0;
     bool isStepping_ = false, hasHeard_ = false;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Insertion into a sorted array: stable, and nothing is allocated, as std::stable_sort would.
+// Events stay where they arrive; only their places are sorted, when they are let go.
 #include "Contacts/EventSorter.h"
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace physvib {
 
 EventSorter::EventSorter(std::size_t capacity)
     : capacity_(capacity) {
     held_.reserve(capacity);
+    order_.reserve(capacity);
 }
 
 void EventSorter::push(const CollisionEvent& event) noexcept {
@@ -20,22 +20,17 @@ void EventSorter::push(const CollisionEvent& event) noexcept {
         if (weakest == held_.end() || !isWeaker(*weakest, event)) return;
         held_.erase(weakest);
     }
-    const auto isBefore = [](const CollisionEvent& a, const CollisionEvent& b) {
-        return std::tie(a.timeNs, a.source.fixture) < std::tie(b.timeNs, b.source.fixture);
-    };
-    held_.insert(std::upper_bound(held_.begin(), held_.end(), event, isBefore), event);
+    held_.push_back(event);
 }
 
 void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished) {
-    const auto isEarly = [beforeNs](const CollisionEvent& event) { return event.timeNs < beforeNs; };
-    const auto end = std::partition_point(held_.begin(), held_.end(), isEarly);
-    finished.insert(finished.end(), held_.begin(), end);
-    held_.erase(held_.begin(), end);
-}
-
-void EventSorter::flush(std::vector<CollisionEvent>& finished) {
-    finished.insert(finished.end(), held_.begin(), held_.end());
-    held_.clear();
+    order_.clear();
+    for (std::uint32_t i = 0; i < held_.size(); ++i)
+        if (held_[i].timeNs < beforeNs) order_.push_back({held_[i].timeNs, held_[i].source.fixture, i});
+    if (order_.empty()) return;
+    std::sort(order_.begin(), order_.end());
+    for (const Place& place : order_) finished.push_back(held_[place.index]);
+    std::erase_if(held_, [beforeNs](const CollisionEvent& event) { return event.timeNs < beforeNs; });
 }
 
 void EventSorter::withdraw(std::int32_t fixture, bool asOther) noexcept {

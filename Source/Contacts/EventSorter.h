@@ -3,7 +3,9 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include <cstddef>
+#include <compare>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace physvib {
@@ -21,7 +23,7 @@ public:
     void release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished);
 
     /// All of them, whatever their time.
-    void flush(std::vector<CollisionEvent>& finished);
+    void flush(std::vector<CollisionEvent>& finished) { release(std::numeric_limits<std::int64_t>::max(), finished); }
 
     /// Forgets the events of a fixture (by its id), and if `asOther`, those it gave to others.
     void withdraw(std::int32_t fixture, bool asOther) noexcept;
@@ -29,9 +31,16 @@ public:
     std::uint64_t drops() const noexcept { return drops_; }
 
 private:
+    struct Place {
+        std::int64_t timeNs;
+        std::int32_t fixture;
+        std::uint32_t index; // in held_
+        auto operator<=>(const Place&) const = default;
+    };
     std::size_t capacity_;
     std::uint64_t drops_ = 0;
-    std::vector<CollisionEvent> held_;
+    std::vector<CollisionEvent> held_; // in the order of arrival
+    std::vector<Place> order_;
 };
 
 } // namespace physvib

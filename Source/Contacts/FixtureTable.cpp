@@ -20,6 +20,7 @@ std::int32_t FixtureTable::know(std::uint64_t fixture, const BodyFacts& body) {
     if (free_.empty()) {
         free_.push_back(size());
         known_.emplace_back();
+        isCamera_.push_back(0);
         free_.reserve(known_.capacity()); // releasing a slot never allocates
     }
     const std::int32_t slot = free_.back();
@@ -42,6 +43,7 @@ std::int32_t FixtureTable::set(std::int32_t slot, const HapticFixture& values, V
     slotOfId_.set(keyOf(id), slot);
     nextId_ = std::max(nextId_, id + 1);
     weigh(known);
+    noteCamera(slot, values.isCamera);
     return id;
 }
 
@@ -49,13 +51,21 @@ void FixtureTable::unset(std::int32_t slot) {
     lose(slot);
     at(slot).id = nextNameless_--;
     at(slot).values = {};
+    noteCamera(slot, false);
 }
 
 void FixtureTable::release(std::int32_t slot) {
     lose(slot);
     slots_.erase(at(slot).fixture);
     at(slot) = {};
+    noteCamera(slot, false);
     free_.push_back(slot);
+}
+
+void FixtureTable::noteCamera(std::int32_t slot, bool isCamera) noexcept {
+    std::uint8_t& flag = isCamera_[static_cast<std::size_t>(slot)];
+    cameras_ += (isCamera ? 1 : 0) - flag;
+    flag = isCamera ? 1 : 0;
 }
 
 // What the slot has been given so far counts no more.

@@ -55,6 +55,8 @@ public:
     const KnownFixture& operator[](std::int32_t slot) const noexcept {
         return known_[static_cast<std::size_t>(slot)];
     }
+    bool isCamera(std::int32_t slot) const noexcept { return isCamera_[static_cast<std::size_t>(slot)] != 0; }
+    bool hasCameras() const noexcept { return cameras_ > 0; }
     std::int32_t size() const noexcept {
         return static_cast<std::int32_t>(known_.size());
     } ///< slots, free ones too
@@ -65,9 +67,12 @@ public:
 private:
     KnownFixture& at(std::int32_t slot) noexcept { return known_[static_cast<std::size_t>(slot)]; }
     void lose(std::int32_t slot);
+    void noteCamera(std::int32_t slot, bool isCamera) noexcept;
     void weigh(const KnownFixture& known);
 
     std::vector<KnownFixture> known_;
+    std::vector<std::uint8_t> isCamera_; // by slot: asked of each contact in each step, so it is kept close together
+    std::int32_t cameras_ = 0;
     std::vector<std::int32_t> free_;
     IntegerMap slots_;   // by the engine's name of the fixture
     IntegerMap slotOfId_; // by id + 1

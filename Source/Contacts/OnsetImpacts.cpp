@@ -48,7 +48,7 @@ void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
         const double impulse = blow.impulse();
         if (!span.isStrike(impulse, blow.lighterMassKg, blow.gravityScale)) continue;
         const std::int64_t timeNs = span.timeNs(blow.fraction);
-        strikes_.add({blow.a, blow.b, timeNs, impulse, 0.0, 0, 0});
+        strikes_.add({blow.a, blow.b, timeNs, impulse, 0.0, 0, 0, IntegerMap::none, IntegerMap::none});
         if (table_[blow.a].values.isCamera) impacts.push_back({blow.a, blow.b, timeNs, impulse, blow.point});
         if (table_[blow.b].values.isCamera) impacts.push_back({blow.b, blow.a, timeNs, impulse, blow.point});
     }
@@ -58,7 +58,6 @@ void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
 void OnsetImpacts::findLate() {
     if (before_.isEmpty()) return;
     before_.follow(catcher_);
-    before_.locate(graph_);
     for (const HandedOn& handedOn : waiting_) stamp(waitingSince_, handedOn.camera) = steps_;
     for (const std::int32_t camera : catcher_.loads().receivers())
         if (stamp(waitingSince_, camera) != steps_) wait(camera, before_, {});
@@ -91,7 +90,6 @@ void OnsetImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector
 
 void OnsetImpacts::begin() {
     if (strikes_.isEmpty()) return;
-    strikes_.locate(graph_);
     for (const std::int32_t camera : catcher_.loads().receivers())
         if (stamp(usedIn_, camera) != steps_) wait(camera, strikes_, catcher_.loads().passed(camera));
 }

@@ -2,6 +2,7 @@
 // Sums of strikes by component.
 #include "Contacts/StrikeCauses.h"
 #include <algorithm>
+#include <utility>
 
 namespace physvib {
 
@@ -20,11 +21,18 @@ StrikeCauses::StrikeCauses() {
 
 void StrikeCauses::clear() noexcept { strikes_.clear(); }
 
+void StrikeCauses::add(const HardBlow& strike) {
+    strikes_.push_back(strike);
+    isLocated_ = false;
+}
+
 void StrikeCauses::follow(const CollisionCatcher& catcher) {
+    isLocated_ = false;
     for (HardBlow& strike : strikes_) strike.aftermath = catcher.aftermath(strike.a, strike.b);
 }
 
 void StrikeCauses::locate(ContactGraph& graph) {
+    if (std::exchange(isLocated_, true)) return;
     std::sort(strikes_.begin(), strikes_.end(), [](const HardBlow& one, const HardBlow& two) {
         return one.newtonSeconds != two.newtonSeconds ? one.newtonSeconds > two.newtonSeconds : one.timeNs < two.timeNs;
     });
@@ -37,7 +45,13 @@ void StrikeCauses::locate(ContactGraph& graph) {
         strike.componentB = graph.component(strike.b);
         sum(strike.componentA, i);
         if (strike.componentB != strike.componentA) sum(strike.componentB, i);
-        for (const std::int32_t slot : {strike.a, strike.b}) struck_.set(keyOf(slot), 0);
+    }
+    for (std::size_t i = strikes_.size(); i-- > 0;) {
+        HardBlow& strike = strikes_[i];
+        for (auto [slot, next] : {std::pair{strike.a, &strike.nextA}, {strike.b, &strike.nextB}}) {
+            *next = struck_.find(keyOf(slot));
+            struck_.set(keyOf(slot), static_cast<std::int32_t>(i));
+        }
     }
 }
 
@@ -54,8 +68,10 @@ void StrikeCauses::sum(std::int32_t component, std::size_t strike) {
 }
 
 StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph) {
-    graph.reach(camera, reached_);
     Found found;
+    if (strikes_.empty()) return found;
+    locate(graph);
+    graph.reach(camera, reached_);
     std::size_t strongest = strikes_.size();
     for (const std::int32_t component : reached_) {
         const std::int32_t at = sumOf_.find(keyOf(component));
@@ -65,10 +81,12 @@ StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph)
         found.newtonSeconds += sum.newtonSeconds;
         found.aftermath += sum.aftermath;
     }
-    if (struck_.find(keyOf(camera)) != IntegerMap::none) {
+    if (std::int32_t own = struck_.find(keyOf(camera)); own != IntegerMap::none) {
         const auto isOwn = [camera](const HardBlow& strike) { return strike.a == camera || strike.b == camera; };
-        for (const HardBlow& strike : strikes_) {
-            if (!isOwn(strike) || !isReached(strike)) continue;
+        while (own != IntegerMap::none) {
+            const HardBlow& strike = strikes_[static_cast<std::size_t>(own)];
+            own = strike.a == camera ? strike.nextA : strike.nextB;
+            if (!isReached(strike)) continue;
             found.newtonSeconds -= strike.newtonSeconds;
             found.aftermath -= strike.aftermath;
         }
@@ -80,6 +98,7 @@ StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph)
 }
 
 void StrikeCauses::forget(std::int32_t slot) noexcept {
+    isLocated_ = false; // places in the list are others
     std::erase_if(strikes_, [slot](const HardBlow& strike) { return strike.a == slot || strike.b == slot; });
 }
 

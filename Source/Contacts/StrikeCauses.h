@@ -16,6 +16,7 @@ struct HardBlow {
     double newtonSeconds;
     double aftermath; // N s that the pair went on to push in the next step
     std::int32_t componentA, componentB;
+    std::int32_t nextA, nextB; // the next weaker blow of the same slot
 };
 
 /// Sums are kept per component of the graph, so that a question costs the same however many strikes there are: in a
@@ -25,16 +26,14 @@ public:
     StrikeCauses();
 
     void clear() noexcept;
-    void add(const HardBlow& strike) { strikes_.push_back(strike); }
+    void add(const HardBlow& strike);
     bool isEmpty() const noexcept { return strikes_.empty(); }
 
-    /// All are added: where they are in the graph as it is now. May be called again when it has changed.
-    void locate(ContactGraph& graph);
-
-    /// Looks up what the pairs have gone on to push. Before locate().
+    /// Looks up what the pairs have gone on to push, in a step after which the graph is another.
     void follow(const CollisionCatcher& catcher);
 
-    /// What reaches a camera, its own strikes left out.
+    /// What reaches a camera in the graph as it is now, its own strikes left out. The first question since the last add()
+    /// or follow() costs a look at each strike.
     struct Found {
         const HardBlow* strongest = nullptr; // nullptr: nothing does
         double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
@@ -49,13 +48,15 @@ private:
         std::size_t strongest;
         double newtonSeconds, aftermath;
     };
+    void locate(ContactGraph& graph);
     void sum(std::int32_t component, std::size_t strike);
     bool isReached(const HardBlow& strike) const noexcept;
 
     std::vector<HardBlow> strikes_; // the strongest first, once located
     std::vector<Sum> sums_;
-    IntegerMap sumOf_{64};              // by component + 1
-    IntegerMap struck_{256};            // by slot + 1: has strikes of its own
+    bool isLocated_ = false;
+    IntegerMap sumOf_;                  // by component + 1
+    IntegerMap struck_;                 // by slot + 1: the strongest of its own strikes
     std::vector<std::int32_t> reached_; // components at the camera in question
 };
 

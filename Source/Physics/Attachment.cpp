@@ -91,6 +91,7 @@ void Attachment::endStep() {
 
 // What was destroyed while nobody told us. Not often: a game has set a listener of its own.
 void Attachment::releaseUnseen() {
+    listener_->finder().forgetContacts();
     IntegerMap bodies;
     for (const b2Body* body = world_->GetBodyList(); body != nullptr; body = body->GetNext()) bodies.set(nameOf(*body), 0);
     for (std::int32_t slot = 0; slot < events_.fixtures().size(); ++slot)

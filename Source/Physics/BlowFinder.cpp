@@ -28,14 +28,54 @@ double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
 std::int32_t BlowFinder::find(const b2Fixture& fixture) {
     const std::int32_t slot = events_.fixtures().find(nameOf(fixture));
     if (slot == FixtureTable::none || events_.fixtures()[slot].body.body == nameOf(*fixture.GetBody())) return slot;
+    forgetContacts();
     events_.release(slot);
     return FixtureTable::none;
 }
 
+BlowFinder::Pair BlowFinder::find(const b2Contact& contact) {
+    if (const std::int32_t at = knownAt_.find(nameOf(contact)); at != IntegerMap::none) {
+        const Known& known = known_[static_cast<std::size_t>(at)];
+        if (known.fixtureA == contact.GetFixtureA() && known.fixtureB == contact.GetFixtureB()) return known.pair;
+    }
+    const Pair pair{find(*contact.GetFixtureA()), find(*contact.GetFixtureB())};
+    if (pair.isKnown()) remember(contact, pair);
+    return pair;
+}
+
+void BlowFinder::remember(const b2Contact& contact, Pair pair) {
+    std::int32_t at = knownAt_.find(nameOf(contact));
+    if (at == IntegerMap::none) {
+        at = static_cast<std::int32_t>(known_.size());
+        known_.emplace_back();
+        knownAt_.set(nameOf(contact), at);
+    }
+    known_[static_cast<std::size_t>(at)] = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair};
+}
+
+void BlowFinder::forget(const b2Contact& contact) noexcept {
+    const std::int32_t at = knownAt_.find(nameOf(contact));
+    if (at == IntegerMap::none) return;
+    knownAt_.erase(nameOf(contact));
+    Known& hole = known_[static_cast<std::size_t>(at)];
+    if (&hole != &known_.back()) {
+        hole = known_.back();
+        knownAt_.set(nameOf(*hole.contact), at);
+    }
+    known_.pop_back();
+}
+
+void BlowFinder::forgetContacts() noexcept {
+    known_.clear();
+    knownAt_.clear();
+}
+
 BlowFinder::Pair BlowFinder::know(const b2Contact& contact) {
-    find(contact);
-    return {events_.know(nameOf(*contact.GetFixtureA()), factsOf(bodyA(contact))),
-            events_.know(nameOf(*contact.GetFixtureB()), factsOf(bodyB(contact)))};
+    for (const b2Fixture* fixture : {contact.GetFixtureA(), contact.GetFixtureB()}) find(*fixture); // an heir of an address starts anew
+    const Pair pair{events_.know(nameOf(*contact.GetFixtureA()), factsOf(bodyA(contact))),
+                    events_.know(nameOf(*contact.GetFixtureB()), factsOf(bodyB(contact)))};
+    remember(contact, pair);
+    return pair;
 }
 
 void BlowFinder::begin(const b2Contact& contact) {
@@ -47,6 +87,7 @@ void BlowFinder::begin(const b2Contact& contact) {
 void BlowFinder::end(const b2Contact& contact) {
     fresh_.forget(contact);
     const Pair pair = find(contact);
+    forget(contact);
     if (!pair.isKnown()) return;
     const BodyMotion motionA = motionOf(bodyA(contact)), motionB = motionOf(bodyB(contact));
     if (!bodyA(contact).GetWorld()->IsLocked()) {
@@ -60,7 +101,7 @@ void BlowFinder::end(const b2Contact& contact) {
 
 void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
     const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping());
-    if (fresh == 0 || !contact.IsEnabled()) return;
+    if (fresh == 0 || !contact.IsEnabled() || !events_.catcher().isHearing()) return;
     const Pair pair = know(contact);
     if (events_.catcher().blow(pair.a, pair.b) != nullptr) return;
     b2WorldManifold manifold;
@@ -115,6 +156,7 @@ void BlowFinder::noteMoved(const b2Body& body, std::int32_t slot) {
 // What fresh points push is part of the blow, if it is one; everything else is load.
 void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const unsigned fresh = fresh_.solved(contact); // old from the next step on
+    if (!events_.catcher().isHearing()) return;
     const Pair pair = find(contact);
     if (!pair.isKnown()) return;
     noteMoved(bodyA(contact), pair.a);

@@ -17,11 +17,15 @@ public:
         : events_(events)
         , sweeps_(sweeps) {
         sweepHints_.reserve(CollisionCatcher::maxDirectBlows);
+        known_.reserve(expectedContacts);
     }
 
     /// The slot of a fixture, FixtureTable::none if it is not known. One that has taken the address of another, on
     /// another body, is not that one.
     std::int32_t find(const b2Fixture& fixture);
+
+    /// Which fixtures contacts have is asked anew: some may have ended unheard, or their fixtures have gone.
+    void forgetContacts() noexcept;
 
     void begin(const b2Contact& contact);                                 ///< in BeginContact
     void end(const b2Contact& contact);                                   ///< in EndContact
@@ -32,12 +36,21 @@ public:
     void endStep() noexcept { fresh_.endStep(); }
 
 private:
+    static constexpr std::size_t expectedContacts = 1024;
+
     struct Pair {
         std::int32_t a, b;
         bool isKnown() const noexcept { return a != FixtureTable::none && b != FixtureTable::none; }
     };
-    Pair find(const b2Contact& contact) { return {find(*contact.GetFixtureA()), find(*contact.GetFixtureB())}; }
+    struct Known { // spares a search for both fixtures in every step
+        const b2Contact* contact;
+        const b2Fixture *fixtureA, *fixtureB;
+        Pair pair;
+    };
+    Pair find(const b2Contact& contact);
     Pair know(const b2Contact& contact);
+    void remember(const b2Contact& contact, Pair pair);
+    void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const;
     void noteMoved(const b2Body& body, std::int32_t slot);
     double fractionOf(const b2Contact& contact) const noexcept;
@@ -46,6 +59,8 @@ private:
     ContactEvents& events_;
     BodySweeps& sweeps_;
     FreshPoints fresh_;
+    std::vector<Known> known_; // that touch
+    IntegerMap knownAt_{expectedContacts}; // by contact
     std::vector<std::int32_t> sweepHints_; // by slot
 };
 

@@ -45,7 +45,7 @@ private:
     void drop(std::size_t entry) noexcept;
 
     std::vector<Entry> entries_;
-    IntegerMap indices_{256}; // small, to stay in the nearest cache
+    IntegerMap indices_; // no larger than need be, to stay in the nearest cache
 };
 
 } // namespace physvib

@@ -61,7 +61,10 @@ void WorldListener::SayGoodbye(b2Joint* joint) {
 void WorldListener::SayGoodbye(b2Fixture* fixture) {
     const Call call{*this, fixture};
     if (!call) return;
-    if (const std::int32_t slot = finder_ ? finder_->find(*fixture) : FixtureTable::none; slot != FixtureTable::none) events_.vanish(slot);
+    if (const std::int32_t slot = finder_ ? finder_->find(*fixture) : FixtureTable::none; slot != FixtureTable::none) {
+        finder_->forgetContacts();
+        events_.vanish(slot);
+    }
     if (chainedEnds_ != nullptr) chainedEnds_->SayGoodbye(fixture);
 }
 
@@ -85,6 +88,7 @@ void WorldListener::install(b2World& world) {
     if (b2ContactListener* found = world.GetContactManager().m_contactListener; !isReachedBy(found, &WorldListener::chained_)) {
         chained_ = behindDeaf(found, &WorldListener::chained_);
         world.SetContactListener(this);
+        if (finder_) finder_->forgetContacts();
     }
     if (b2DestructionListener* found = destructionListenerOf(world); !isReachedBy(found, &WorldListener::chainedEnds_)) {
         chainedEnds_ = behindDeaf(found, &WorldListener::chainedEnds_);
