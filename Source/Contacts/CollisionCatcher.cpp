@@ -81,23 +81,39 @@ double CollisionCatcher::aftermath(std::int32_t a, std::int32_t b) const noexcep
     return i == IntegerMap::none ? 0.0 : static_cast<double>(last_[static_cast<std::size_t>(i)].length());
 }
 
-Blow* CollisionCatcher::strike(std::int32_t a, std::int32_t b) {
+Blow* CollisionCatcher::strike(std::int32_t a, std::int32_t b, double approachMetresPerSecond) {
     hasHeard_ = true;
     const bool isDirect = isFelt(a, b);
     const std::size_t count = isDirect ? directBlows_ : blows_.size() - directBlows_;
-    if (count == (isDirect ? maxDirectBlows : maxDistantBlows)) {
+    const double lighterMassKg = std::min(table_[a].movableMassKg(), table_[b].movableMassKg());
+    const double expected = lighterMassKg * approachMetresPerSecond;
+    Blow* made = nullptr;
+    if (count < (isDirect ? maxDirectBlows : maxDistantBlows)) {
+        made = &blows_.emplace_back();
+        directBlows_ += isDirect ? 1 : 0;
+    } else {
         ++drops_;
-        return nullptr;
+        made = weakest(isDirect);
+        if (made->expectedNewtonSeconds >= expected) return nullptr;
+        blowOf_.erase(pairKey(made->a, made->b));
+        *made = {};
     }
-    directBlows_ += isDirect ? 1 : 0;
-    blowOf_.set(pairKey(a, b), static_cast<std::int32_t>(blows_.size()));
-    Blow& made = blows_.emplace_back();
-    made.a = a;
-    made.b = b;
-    made.order = order_++;
-    made.gravityScale = gravityScaleOf(a, b);
-    made.lighterMassKg = std::min(table_[a].movableMassKg(), table_[b].movableMassKg());
-    return &made;
+    blowOf_.set(pairKey(a, b), static_cast<std::int32_t>(made - blows_.data()));
+    made->a = a;
+    made->b = b;
+    made->order = order_++;
+    made->gravityScale = gravityScaleOf(a, b);
+    made->lighterMassKg = lighterMassKg;
+    made->expectedNewtonSeconds = expected;
+    return made;
+}
+
+// A walk through all of them: there is no room only where hundreds meet at once.
+Blow* CollisionCatcher::weakest(bool isDirect) noexcept {
+    Blow* found = nullptr;
+    for (Blow& blow : blows_)
+        if (isFelt(blow.a, blow.b) == isDirect && (found == nullptr || blow.expectedNewtonSeconds < found->expectedNewtonSeconds)) found = &blow;
+    return found;
 }
 
 Blow* CollisionCatcher::blow(std::int32_t a, std::int32_t b) noexcept {

@@ -54,8 +54,8 @@ public:
     bool isBlow(std::int32_t a, std::int32_t b, double approachMetresPerSecond) const noexcept;
 
     /// The blow of a pair in this step, if there is one. `strike` makes it, to be filled in (its fixtures, mass and
-    /// place in the order are); nullptr, and counted, without room.
-    Blow* strike(std::int32_t a, std::int32_t b);
+    /// place in the order are). Without room the weakest goes, by mass and approach, and is counted: nullptr, if that is this one.
+    Blow* strike(std::int32_t a, std::int32_t b, double approachMetresPerSecond);
     Blow* blow(std::int32_t a, std::int32_t b) noexcept;
 
     /// Whether anybody could feel anything. A camera that comes later feels from the step after on.
@@ -84,6 +84,8 @@ private:
     float gravityScaleOf(std::int32_t a, std::int32_t b) const noexcept {
         return std::max(table_[a].gravityScale(), table_[b].gravityScale());
     }
+
+    Blow* weakest(bool isDirect) noexcept;
 
     const FixtureTable& table_;
     ContactGraph& graph_;

@@ -28,6 +28,7 @@ const ImpactSettings& checked(const ImpactSettings& settings) {
     if (!isAmount(settings.driveGain)) throw std::invalid_argument("drive gain: expected 0 or more");
     if (!isAmount(settings.thresholdMetresPerSecond))
         throw std::invalid_argument("threshold: expected 0 m/s or more");
+    if (settings.hitsPerStep.value_or(0) < 0) throw std::invalid_argument("hits per step: expected 0 or more");
     return settings;
 }
 
@@ -132,11 +133,22 @@ void ContactEvents::finish() {
         onset_.collect(span_, impacts_);
     else
         release_.collect(span_, impacts_);
+    if (settings_.hitsPerStep) keepStrongest(static_cast<std::size_t>(*settings_.hitsPerStep));
     addImpacts();
 }
 
+void ContactEvents::keepStrongest(std::size_t count) {
+    if (impacts_.size() <= count) return;
+    const auto isStronger = [this](const Impact& a, const Impact& b) {
+        return amplitudeOf(a, table_, bodies_, model_) > amplitudeOf(b, table_, bodies_, model_);
+    };
+    std::nth_element(impacts_.begin(), impacts_.begin() + static_cast<std::ptrdiff_t>(count), impacts_.end(), isStronger);
+    overBudget_ += impacts_.size() - count;
+    impacts_.erase(impacts_.begin() + static_cast<std::ptrdiff_t>(count), impacts_.end());
+}
+
 void ContactEvents::addImpacts() {
-    for (const Impact& impact : impacts_) addEvents(impact, table_, bodies_, model_, settings_, held_);
+    for (const Impact& impact : impacts_) addEvents(impact, table_, pairs_, bodies_, model_, settings_, held_);
 }
 
 void ContactEvents::take(std::vector<CollisionEvent>& events) {

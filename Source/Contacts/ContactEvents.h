@@ -10,6 +10,7 @@
 #include "Contacts/ImpactModel.h"
 #include "Contacts/ImpactSettings.h"
 #include "Contacts/OnsetImpacts.h"
+#include "Contacts/PairSounds.h"
 #include "Contacts/ReleaseImpacts.h"
 #include "Core/CollisionEvent.h"
 #include <cstdint>
@@ -37,6 +38,9 @@ public:
     /// Gives values to a fixture, now with this body and with its centre of mass there in the body's frame; see
     /// FixtureTable::set. Values that faultOf() finds fault with, and an id that another has, are refused.
     SetResult set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values, std::int32_t id);
+
+    /// How two kinds of surfaces sound together (HapticFixture::surface); what is wrong with it, empty: it is set.
+    std::string_view setPair(int surface, int other, const PairSound& sound) { return pairs_.set(surface, other, sound); }
 
     const FixtureTable& fixtures() const noexcept { return table_; }
     CollisionCatcher& catcher() noexcept { return catcher_; }
@@ -86,12 +90,16 @@ public:
     /// Contacts and events lost so far because more came in one step than there is room for.
     std::uint64_t drops() const noexcept { return catcher_.drops() + release_.drops() + held_.drops(); }
 
+    /// Hits left out so far because they were more than ImpactSettings::hitsPerStep.
+    std::uint64_t overBudget() const noexcept { return overBudget_; }
+
     /// The constants of Eq. 5.4 in the last step begun.
     const ImpactModel& impactModel() const noexcept { return model_; }
 
 private:
     void finish();
     void addImpacts();
+    void keepStrongest(std::size_t count);
     void forget(std::int32_t slot, bool isWithdrawn, bool othersToo);
     static void name(std::vector<CollisionEvent>& events, std::size_t first);
 
@@ -106,6 +114,8 @@ private:
     EventSorter held_;
     StepSpan span_;
     std::vector<Impact> impacts_;
+    PairSounds pairs_;
+    std::uint64_t overBudget_ = 0;
     bool isConcluded_ = true;
 };
 

@@ -3,10 +3,20 @@
 #pragma once
 #include "Contacts/Voice.h"
 #include "Core/Limits.h"
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace physvib {
+
+/// A mode that sounds together with a first one.
+struct Overtone {
+    double frequencyHz = 0.0; ///< 0: none
+    double decayPerSecond = 0.0;
+    double relativeAmplitude = 1.0; ///< to the first mode's
+};
+using Overtones = std::array<Overtone, 3>; ///< more of them, struck at once, are felt as one anyway
 
 /// Contact sound and camera flag of one fixture. The engine's user data stay the user's.
 struct HapticFixture {
@@ -15,6 +25,10 @@ struct HapticFixture {
     bool isCamera = false;
     double staticMassKg = 0.0; ///< mass for Eq. 5.4 if the body is not dynamic; a dynamic body has its own
     Voice voice = Voice::own;  ///< of a camera; without a partner that sounds: own
+    Overtones overtones{};
+    int surface = 0;           ///< its kind, for sounds of pairs (see PairSounds); 0: none
+    double gain = 1.0;         ///< of what it sends out as a camera; 0: muted, and it may be felt again at any time
+    std::optional<double> handMassKg{}; ///< m_h of Eq. 5.4 for this camera, instead of the settings'
 };
 
 /// What is wrong with values, and what was expected; empty if they can be used. Any thread.
@@ -23,6 +37,13 @@ inline std::string_view faultOf(const HapticFixture& values) noexcept {
     if (!isWithin(values.frequencyHz, limits::maxFrequencyHz)) return "frequency: expected 0 to 20000 Hz";
     if (!isWithin(values.decayPerSecond, limits::maxDecayPerSecond)) return "decay: expected 0 to 2000 per second";
     if (!isWithin(values.staticMassKg, 1.0e12)) return "mass: expected 0 to 10^12 kg";
+    for (const Overtone& mode : values.overtones) {
+        if (!isWithin(mode.frequencyHz, limits::maxFrequencyHz)) return "overtone's frequency: expected 0 to 20000 Hz";
+        if (!isWithin(mode.decayPerSecond, limits::maxDecayPerSecond)) return "overtone's decay: expected 0 to 2000 per second";
+        if (!isWithin(mode.relativeAmplitude, 1000.0)) return "overtone's amplitude: expected 0 to 1000 of the first mode's";
+    }
+    if (!isWithin(values.gain, 1.0e6)) return "gain: expected 0 to 10^6";
+    if (!isWithin(values.handMassKg.value_or(0.0), 1.0e12)) return "hand mass: expected 0 to 10^12 kg";
     return {};
 }
 

@@ -50,6 +50,7 @@ struct Blow {
     Vector2 point;         // world
     double fraction = 0.0; // moment of touch in steps after the start of this step, -1 (start of the one before) to 1
     double lighterMassKg = 0.0;
+    double expectedNewtonSeconds = 0.0; // by approach and lighter mass, before the solver
     BodyMotion motionA, motionB;                         // before the solver
     Vector2 armA, armB;                                  // from the centre of mass to the point
     double normalImpulse = 0.0, tangentialImpulse = 0.0; // N s, of the parts that met, summed over the passes of the step

@@ -7,10 +7,20 @@ namespace physvib {
 
 namespace {
 
-void push(CollisionEvent event, const HapticFixture& sound, EventSorter& events) {
-    event.frequencyHz = sound.frequencyHz;
-    event.decayPerSecond = sound.decayPerSecond;
-    if (isPlayable(event)) events.push(event);
+/// Of a HapticFixture or a PairSound.
+template <class Sound>
+void push(CollisionEvent event, const Sound& sound, EventSorter& events) {
+    const double amplitude = event.amplitude;
+    const auto add = [&](double frequencyHz, double decayPerSecond) {
+        event.frequencyHz = frequencyHz;
+        event.decayPerSecond = decayPerSecond;
+        if (isPlayable(event)) events.push(event);
+    };
+    add(sound.frequencyHz, sound.decayPerSecond);
+    for (const Overtone& mode : sound.overtones) {
+        event.amplitude = mode.relativeAmplitude * amplitude;
+        if (mode.frequencyHz > 0.0) add(mode.frequencyHz, mode.decayPerSecond);
+    }
 }
 
 Vector2 toField(Vector2 world, const ImpactSettings& settings) noexcept {
@@ -19,24 +29,39 @@ Vector2 toField(Vector2 world, const ImpactSettings& settings) noexcept {
     return {c * from.x + s * from.y, c * from.y - s * from.x};
 }
 
+double massOf(const KnownFixture& camera, const BodyReader& bodies) {
+    const BodyFacts body = bodies.facts(camera.body.body);
+    return body.isDynamic ? body.massKg : camera.values.staticMassKg;
+}
+
 } // namespace
 
-void addEvents(const Impact& impact, const FixtureTable& table, const BodyReader& bodies, const ImpactModel& model,
+double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies, const ImpactModel& model) {
+    const KnownFixture& camera = table[impact.camera];
+    ImpactModel own = model;
+    own.handMassKg = camera.values.handMassKg.value_or(model.handMassKg);
+    return camera.values.gain * own.amplitude(impact.newtonSeconds, massOf(camera, bodies));
+}
+
+void addEvents(const Impact& impact, const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies, const ImpactModel& model,
                const ImpactSettings& settings, EventSorter& events) {
     const KnownFixture& camera = table[impact.camera];
+    if (settings.isMuted || camera.values.gain == 0.0) return;
     const KnownFixture* other = impact.other == FixtureTable::none ? nullptr : &table[impact.other];
     const bool isAtContact = settings.location == ImpactLocation::contact;
     const Vector2 place = toField(isAtContact ? impact.point : bodies.toWorld(camera.body.body, camera.centre), settings);
-    const BodyFacts body = bodies.facts(camera.body.body);
-    const double massKg = body.isDynamic ? body.massKg : camera.values.staticMassKg;
 
     CollisionEvent event;
     event.timeNs = impact.timeNs;
-    event.amplitude = model.amplitude(impact.newtonSeconds, massKg);
+    event.amplitude = amplitudeOf(impact, table, bodies, model);
     event.x = static_cast<double>(place.x);
     event.y = static_cast<double>(place.y);
-    event.source = {camera.id, other == nullptr ? -1 : other->id, impact.newtonSeconds, massKg};
+    event.source = {camera.id, other == nullptr ? -1 : other->id, impact.newtonSeconds, massOf(camera, bodies)};
 
+    if (const PairSound* pair = other == nullptr ? nullptr : pairs.find(camera.values.surface, other->values.surface)) {
+        event.amplitude *= pair->gain;
+        return push(event, *pair, events);
+    }
     const Voice voice = camera.values.voice;
     const bool othersSounds = voice != Voice::own && other != nullptr && other->values.frequencyHz > 0.0;
     if (voice != Voice::other || !othersSounds) push(event, camera.values, events);

@@ -18,7 +18,7 @@ enum class ImpactLocation { contact, fixture };
 struct ImpactSettings {
     double fieldWidthMetres = 1.0;       ///< v_max of Eq. 5.7 is one field width per second
     std::optional<double> normalisation; ///< A* in s/m, instead of Eq. 5.7's
-    std::optional<double> handMassKg;    ///< m_h, instead of the largest mass in the world (Eq. 5.7)
+    std::optional<double> handMassKg;    ///< m_h, instead of the largest mass in the world (Eq. 5.7); a camera may have its own
     double driveGain = 1.0;              ///< on top of Eq. 5.4 (SPEC erratum 15)
     ImpactTiming timing = ImpactTiming::onset;
     ImpactLocation location = ImpactLocation::contact;
@@ -32,6 +32,12 @@ struct ImpactSettings {
     /// True: what a body struck, or felt as a camera, before it was destroyed is felt (a shell that bursts, a jar that
     /// breaks). False: events not yet handed out go with either body.
     bool keepsHitsOfDestroyed = true;
+
+    /// Nothing is sent out; contacts are followed all the same, so that what comes after is right at once.
+    bool isMuted = false;
+
+    /// At most so many hits become events in one step, those that would be the strongest; the others are counted.
+    std::optional<int> hitsPerStep;
 
     /// Where the field is in the world, now: its lower left corner and how it is turned. Events tell places in the
     /// field. It may move at any time, as a camera that scrolls does.

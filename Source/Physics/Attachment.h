@@ -10,6 +10,7 @@
 #include <box2d/box2d.h>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
@@ -42,9 +43,13 @@ public:
     const ImpactSettings& settings() const noexcept { return events_.settings(); }
 
     /// Gives a fixture its values, at first or again (the camera may come and go). Its id in events is `id` (>= 0), if
-    /// given, else 0, 1, 2... in order of first calls, never used twice. Refused, told by the result, are values that
+    /// given (a number of the game's own for it), else 0, 1, 2... in order of first calls, never used twice. Refused, told by the result, are values that
     /// cannot be played, a fixture of another world, and an id that another fixture has.
     SetResult set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id = FixtureTable::none);
+
+    /// How two kinds of surfaces sound together (HapticFixture::surface), in any order, whatever the voice of the camera is.
+    /// What is wrong with it, and nothing is changed; empty: it is set.
+    std::string_view setPair(int surface, int other, const PairSound& sound) { return events_.setPair(surface, other, sound); }
 
     /// The values of a fixture; nullptr if it has none. Valid until the next call of anything.
     const HapticFixture* find(const b2Fixture& fixture) const noexcept;
@@ -79,6 +84,9 @@ public:
 
     /// Hits and events lost so far because more came than there is room for. The weakest events go first.
     std::uint64_t drops() const noexcept { return events_.drops(); }
+
+    /// Hits left out so far because they were more than ImpactSettings::hitsPerStep.
+    std::uint64_t overBudget() const noexcept { return events_.overBudget(); }
 
     /// The constants of Eq. 5.4 in the last step begun.
     const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }

@@ -110,7 +110,7 @@ void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
     for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
         if (isIn(fresh, i)) fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
     if (!events_.catcher().isBlow(pair.a, pair.b, fastest)) return;
-    if (Blow* blow = events_.catcher().strike(pair.a, pair.b)) describe(contact, manifold, fresh, *blow);
+    if (Blow* blow = events_.catcher().strike(pair.a, pair.b, fastest)) describe(contact, manifold, fresh, *blow);
 }
 
 void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// How two kinds of surfaces sound when they meet, where that is not the sound of either.
+#pragma once
+#include "Contacts/HapticFixture.h"
+#include "Contacts/IntegerMap.h"
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// What a camera sends out when a fixture of another kind strikes it, whatever its voice is.
+struct PairSound {
+    double frequencyHz = 0.0; ///< 0: silent
+    double decayPerSecond = 0.0;
+    Overtones overtones{};
+    double gain = 1.0; ///< on top of the camera's
+};
+
+/// By the numbers of two kinds (HapticFixture::surface), in any order. M only.
+class PairSounds {
+public:
+    /// Sets the sound of a pair, at first or again. What is wrong with it, and nothing is changed; empty: it is set. Allocates.
+    std::string_view set(int surface, int other, const PairSound& sound) {
+        if (surface <= 0 || other <= 0) return "surface: expected more than 0";
+        if (const std::string_view fault = faultOf({.frequencyHz = sound.frequencyHz, .decayPerSecond = sound.decayPerSecond,
+                                                    .overtones = sound.overtones, .gain = sound.gain});
+            !fault.empty())
+            return fault;
+        if (const std::int32_t known = indices_.find(pairKey(surface, other)); known != IntegerMap::none) {
+            sounds_[static_cast<std::size_t>(known)] = sound;
+        } else {
+            indices_.set(pairKey(surface, other), static_cast<std::int32_t>(sounds_.size()));
+            sounds_.push_back(sound);
+        }
+        return {};
+    }
+
+    /// nullptr: the pair has no sound of its own.
+    const PairSound* find(int surface, int other) const noexcept {
+        if (sounds_.empty() || surface <= 0 || other <= 0) return nullptr;
+        const std::int32_t known = indices_.find(pairKey(surface, other));
+        return known == IntegerMap::none ? nullptr : &sounds_[static_cast<std::size_t>(known)];
+    }
+
+private:
+    std::vector<PairSound> sounds_;
+    IntegerMap indices_;
+};
+
+} // namespace physvib
