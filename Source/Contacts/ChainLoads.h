@@ -16,7 +16,7 @@ namespace physvib {
 /// contact's load, the smallest of its impulses in the last three steps (so that a hit, which may take two,
 /// is no load). What a contact pushes beyond its load has been handed on by it; less than its load is a
 /// relief, not a strike. The contacts' sum is the whole impulse, whatever it does to the spin, so nothing is
-/// added for that (SPEC erratum 3). Allocates when the world grows. M only.
+/// added for that, as Eq. 5.2 would. Allocates when the world grows. M only.
 class ChainLoads {
 public:
     struct Passed {

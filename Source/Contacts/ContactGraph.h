@@ -10,8 +10,8 @@
 namespace physvib {
 
 /// Undirected graph over small indices, changed edge by edge as contacts begin and end. The two breadth-first
-/// trees of a new contact (v1, v2) visit exactly the nodes of component(v1), as both cross the new edge (SPEC
-/// erratum 14); so there is no search, only a union-find, rebuilt at most once between two removals and the
+/// trees of a new contact (v1, v2) visit exactly the nodes of component(v1), as both cross the
+/// new edge; so there is no search, only a union-find, rebuilt at most once between two removals and the
 /// next question. A node that is not passing (an immovable body: it takes an impulse, but hands none on) may
 /// end a path and never continues one. Allocates only when it outgrows what it has had. M only.
 class ContactGraph {

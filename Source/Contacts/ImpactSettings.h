@@ -7,11 +7,12 @@
 namespace physvib {
 
 /// onset: the solver's impulses, when a contact begins. release: the thesis' velocities at begin and end of a
-/// contact (Eq. 5.2, 5.3), up to 50 ms later (SPEC erratum 3).
+/// contact (Eq. 5.2, 5.3), up to 50 ms later. m dv alone is the whole impulse of a
+/// contact, so Eq. 5.2, which adds the spin, tells too much of oblique hits.
 enum class ImpactTiming { onset, release };
 
-/// Where an event is felt: at the point of contact, or at the centre of the camera's fixture (SPEC erratum
-/// 11).
+/// Where an event is felt: at the point of contact, or at the centre of the camera's fixture, as
+/// the thesis has it, which makes a whole wall one point.
 enum class ImpactLocation { contact, fixture };
 
 /// For an Attachment. All can be changed while it runs.
@@ -19,7 +20,7 @@ struct ImpactSettings {
     double fieldWidthMetres = 1.0;       ///< v_max of Eq. 5.7 is one field width per second
     std::optional<double> normalisation; ///< A* in s/m, instead of Eq. 5.7's
     std::optional<double> handMassKg;    ///< m_h, instead of the largest mass in the world (Eq. 5.7); a camera may have its own
-    double driveGain = 1.0;              ///< on top of Eq. 5.4 (SPEC erratum 15)
+    double driveGain = 1.0;              ///< on top of Eq. 5.4, which leaves most hits far below full scale
     ImpactTiming timing = ImpactTiming::onset;
     ImpactLocation location = ImpactLocation::contact;
 

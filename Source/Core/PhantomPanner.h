@@ -10,7 +10,7 @@ namespace physvib {
 /// How a gain falls with the distance ratio u = d/D from an enchanter, u in [0, 1].
 enum class PanningLaw {
     linear,   ///< 1 - u (Eq. 4.2)
-    log,      ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear (SPEC erratum 1)
+    log,      ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear
     logOuter, ///< log2(2 - u): the other reconstruction, stays above linear
     energy    ///< sqrt(1 - u): squares sum to one wherever linear gains do
 };

@@ -11,7 +11,7 @@ struct BodyMoments {
     double inertiaKgSquareMetres = 0.0; ///< about the centre
 };
 
-/// Moments by density and area of the fixtures (SPEC erratum 10), scaled to the body's own mass where it
+/// Moments by density and area of the fixtures, not the rounded masses of Table 5.1, scaled to the body's own mass where it
 /// states one. Any thread.
 BodyMoments bodyMoments(const BodyDescription& body, const Scene& scene) noexcept;
 

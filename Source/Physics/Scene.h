@@ -249,7 +249,7 @@ struct Scene {
     double fieldWidthMetres = 0.0;
     double fieldHeightMetres = 0.0;
     Vector gravityMetresPerSecond2; ///< until the script says otherwise
-    double driveGain = 1.0; ///< on top of Eq. 5.7, which leaves most hits near -40 dBFS (SPEC erratum 15)
+    double driveGain = 1.0; ///< on top of Eq. 5.7, which leaves most hits near -40 dBFS
     Normalisation normalisation;
     std::vector<Material> materials;
     std::vector<BodyDescription> bodies; ///< those it starts with; fixture numbers: see sceneCast()

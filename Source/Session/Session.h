@@ -2,9 +2,9 @@
 // A world that is felt while it moves: simulation, renderer and the time between them.
 // Who may call what when, and why: Docs/threads.md, the threading model.
 #pragma once
+#include "Core/ClockLaw.h"
 #include "Core/HapticRenderer.h"
 #include "Core/LatestValue.h"
-#include "Session/ClockLaw.h"
 #include "Session/HeardContacts.h"
 #include "Files/SessionLog.h"
 #include "Session/SessionSetup.h"

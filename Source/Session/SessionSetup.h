@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a session is made of, what can be exchanged while it plays, and what it tells of itself.
 #pragma once
+#include "Core/ClockLaw.h"
 #include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"
-#include "Session/ClockLaw.h"
 #include "Session/ContactSounds.h"
 #include "Physics/SceneRun.h"
 #include <array>
