@@ -122,13 +122,13 @@ TEST(Desk, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
     TestFolder folder;
     Desk desk{onlyNoDevice(), noDevice};
     bool isDone = false;
-    desk.onRecorded = [&](const juce::File&, const juce::String& error) {
+    desk.recording().onEnd = [&](const juce::File&, const juce::String& error) {
         isDone = true;
         EXPECT_TRUE(error.isEmpty()) << error;
     };
-    ASSERT_EQ(desk.startRecording(folder("take.wav")), "");
-    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.recordedSeconds() > 2.0; }));
-    desk.stopRecording();
+    ASSERT_EQ(desk.recording().start(folder("take.wav")), "");
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.recording().seconds() > 2.0; }));
+    desk.recording().stop();
     EXPECT_TRUE(runUntil([&] { return desk.look(), isDone; }));
     juce::AudioFormatManager formats;
     formats.registerBasicFormats();
@@ -140,15 +140,15 @@ TEST(Desk, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
     ASSERT_TRUE(events) << events.error;
     ASSERT_FALSE(events.value.empty());
     EXPECT_LT(events.value.back().timeNs, static_cast<std::int64_t>(1e9 * static_cast<double>(wav->lengthInSamples) / 48000.0));
-    EXPECT_NE(desk.startRecording(folder("no/such/folder/take.wav")), "");
+    EXPECT_NE(desk.recording().start(folder("no/such/folder/take.wav")), "");
 }
 
 TEST(Desk, ARecordingThatRunsWhenTheDeskIsClosedIsKept) {
     TestFolder folder;
     {
         Desk desk{onlyNoDevice(), noDevice};
-        ASSERT_EQ(desk.startRecording(folder("take.wav")), "");
-        EXPECT_TRUE(runUntil([&] { return desk.look(), desk.recordedSeconds() > 0.1; }));
+        ASSERT_EQ(desk.recording().start(folder("take.wav")), "");
+        EXPECT_TRUE(runUntil([&] { return desk.look(), desk.recording().seconds() > 0.1; }));
     }
     EXPECT_GT(folder("take.wav").getSize(), 4 * 4 * 4800);
     EXPECT_TRUE(folder("take.csv").existsAsFile());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the mix to the session's controls; the output.
+// The mix, the session that plays it, and the output.
 #include "Mixer/Desk/Desk.h"
 #include "Files/SceneCatalogue.h"
 #include "Mixer/Window/Parts.h"
@@ -11,8 +11,7 @@ namespace {
 
 constexpr int stepsPerSecond = 100;
 constexpr double gapSeconds = 0.005; // the driver's thread shares the machine with painting
-constexpr double boardSeconds = 0.05; // the link needs 20 to 40 ms; more than that is told as trouble
-constexpr double maintainMs = 1000.0, boardPatienceMs = 3000.0; // greeting and clock take half a second
+constexpr double maintainMs = 1000.0;
 constexpr double newStripDb = -12.0; // hands are attached
 
 Mix shakeTheBox() {
@@ -33,13 +32,8 @@ SessionSetup setupOf(const Mix& mix, bool hasBoard) {
     setup.channels = Desk::channels;
     setup.panner = mix.panner();
     setup.longestGapSeconds = gapSeconds;
-    if (hasBoard) setup.boardSeconds = boardSeconds;
+    if (hasBoard) setup.boardSeconds = DeskBoard::leadSeconds;
     return setup;
-}
-
-bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
-    return a.law() == b.law() && a.exponent() == b.exponent() && a.fieldWidthMetres() == b.fieldWidthMetres() && a.fieldHeightMetres() == b.fieldHeightMetres() &&
-           isSame(a.layout(), b.layout());
 }
 
 } // namespace
@@ -75,32 +69,27 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     : types_{std::move(types)}
     , mix_{std::move(mix)}
     , session_{setupOf(mix_, !device.board.empty())}
-    , tap_{channels, 1 << 14}
     , output_{session_, types_}
+    , recording_{session_, output_, mix_, [this] { sendChangeMessage(); }}
     , undo_{1000, 30}
     , sceneNow_{*mix_.scene}
-    , told_{mix_.panner(), {}} {
+    , told_{mix_.panner()} {
     saved_.run = setupOf(mix_, false).run();
     saved_.panner = mix_.panner();
     mostEnchanters_ = mix_.count();
-    tap_.hear(mix_.count());
-    output_.listen(&tap_);
+    signals_.tap().hear(mix_.count());
+    output_.listen(&signals_.tap());
     open(device);
-    tellSession();
+    told_.tell(session_, mix_);
     edits_ = 0;
-    if (!device.board.empty()) {
-        link_ = std::make_unique<BoardLink>(device.board == anyBoard ? std::string{} : device.board);
-        onBoard_ = std::make_unique<BoardOutput>(session_, output_, *link_, mix_.panner());
-        boardWantedAtMs_ = nowMs();
-    }
+    if (!device.board.empty()) board_ = std::make_unique<DeskBoard>(device.board, session_, output_, mix_.panner());
     driver_ = std::make_unique<ThreadDriver>(session_, stepsPerSecond);
 }
 
 Desk::~Desk() {
     driver_.reset();
-    onBoard_.reset();
+    board_.reset();
     output_.close();
-    if (recording_) closeRecording(); // whoever closes the window while it runs wants what is there
 }
 
 void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
@@ -113,24 +102,12 @@ void Desk::apply(const Mix& next) {
     ++edits_;
     mostEnchanters_ = std::max(mostEnchanters_, mix_.count());
     if (mix_.scene != before.scene || mix_.seed != before.seed) takeScene(mix_.scene == before.scene);
-    tap_.hear(mix_.count());
-    tellSession();
+    signals_.tap().hear(mix_.count());
+    told_.tell(session_, mix_);
     if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output)))
         if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8(error));
     output_.setLevel(masterGain(mix_));
     sendChangeMessage();
-}
-
-// What the session plays by, as little as it does not know yet. What finds no room is told later: watchOutput asks again.
-void Desk::tellSession() {
-    using Kind = RenderControl::Kind;
-    const auto post = [this](Kind kind, const PhantomPanner& panner) { return session_.post({0, kind, 0, 0.0f, panner}) >= 0; };
-    if (const auto panner = mix_.panner(); !isSame(told_.panner, panner)) {
-        if (panner.channels() < told_.panner.channels() && !post(Kind::stopAll, {})) return; // a channel may be another enchanter's now
-        if (!post(Kind::panner, panner)) return;
-        told_.panner = panner;
-    }
-    tellStrips(told_.strips, mix_.strips, [this](const RenderControl& control) { return session_.post(control) >= 0; });
 }
 
 std::vector<int> Desk::outputMap() const {
@@ -181,8 +158,7 @@ std::string Desk::open(const DeviceChoice& device) {
     const auto error = output_.open(settings);
     device_ = device;
     report(outputTrouble_ = deviceTrouble_ = utf8(error));
-    scope_.setRate(output_.sampleRateHz());
-    spectrum_.setRate(output_.sampleRateHz());
+    signals_.setRate(output_.sampleRateHz());
     return error;
 }
 
@@ -193,27 +169,13 @@ std::string Desk::hear(const ListeningSettings& listening) {
 }
 
 void Desk::watchOutput() {
-    tellSession();
+    told_.tell(session_, mix_); // what found no room before
     if (const double now = nowMs(); now - maintainedAtMs_ > maintainMs) {
         maintainedAtMs_ = now;
         deviceTrouble_ = utf8(output_.maintain());
     }
-    const auto board = boardTrouble(), both = deviceTrouble_.isEmpty() || board.isEmpty() ? deviceTrouble_ + board : deviceTrouble_ + "; " + board;
+    const auto board = board_ ? board_->trouble() : juce::String{}, both = deviceTrouble_.isEmpty() || board.isEmpty() ? deviceTrouble_ + board : deviceTrouble_ + "; " + board;
     if (both != outputTrouble_) report(outputTrouble_ = both);
-}
-
-// Without a port of its own the link tries one after the other: what it says of each would only flicker.
-juce::String Desk::boardTrouble() {
-    const auto status = board();
-    if (!status) return {};
-    if (status->state == BoardLinkStatus::State::ready) {
-        wasBoardReady_ = true;
-        if (status->playOutMs <= 1e3 * boardSeconds) return {};
-        return "The board needs its strikes more than " + juce::String{1e3 * boardSeconds, 0} + " ms before they are felt: some come late there";
-    }
-    if (!wasBoardReady_ && nowMs() - boardWantedAtMs_ < boardPatienceMs) return {};
-    if (device_.board == anyBoard) return wasBoardReady_ ? "The board is gone; it is looked for on every serial port" : "No board answers on any serial port";
-    return "The board at " + utf8(device_.board) + (wasBoardReady_ ? " is gone" : " does not answer") + "; it is looked for twice a second";
 }
 
 void Desk::setSilent(bool silent) {

@@ -3,14 +3,14 @@
 // every change.
 #pragma once
 #include "Files/Mix.h"
-#include "Host/Devices/AudioOutput.h"
-#include "Host/Devices/ChannelMeters.h"
-#include "Host/Recordings/Recording.h"
-#include "Host/Devices/SimulationDriver.h"
 #include "Files/SessionFile.h"
-#include "Session/BoardOutput.h"
-#include "Mixer/Strips/ScopeTrace.h"
-#include "Mixer/Strips/SpectrumTrace.h"
+#include "Host/Devices/AudioOutput.h"
+#include "Host/Devices/SimulationDriver.h"
+#include "Mixer/Desk/DeskBoard.h"
+#include "Mixer/Desk/DeskMoment.h"
+#include "Mixer/Desk/DeskRecording.h"
+#include "Mixer/Desk/DeskSignals.h"
+#include "Mixer/Desk/ToldMix.h"
 #include <juce_data_structures/juce_data_structures.h>
 #include <deque>
 #include <memory>
@@ -20,30 +20,6 @@
 #include <vector>
 
 namespace physvib {
-
-/// What has happened since the last look.
-struct DeskMoment {
-    std::vector<BodyPose> poses;
-    std::int64_t sessionNs = 0; ///< of the poses
-    std::int64_t aheadNs = 0;   ///< they are felt so much later
-    std::vector<CollisionEvent> hits;
-    ChannelMeters meters;
-    std::array<float, limits::maxEnchanters> holds{}; ///< highest peaks of the last moments
-    float masterPeak = 0.0f;                          ///< behind the master level
-    SessionStatus session;
-    AudioOutputStatus device;
-};
-
-/// The device that is wanted.
-struct DeviceChoice {
-    std::string name;     ///< type:name
-    int sampleRateHz = 0; ///< 0: as it stands
-    int blockFrames = 0;
-    std::string board{};  ///< serial port of a four-channel board beside it, anyBoard; empty: none
-};
-
-/// The first board that answers.
-inline constexpr const char* anyBoard = "auto";
 
 /// M only. Listeners are told when the mix, the device or the trouble changes.
 class Desk final : public juce::ChangeBroadcaster {
@@ -96,14 +72,8 @@ public:
     Session& session() noexcept { return session_; }
     const Session& session() const noexcept { return session_; }
 
-    // ---- the recording
-    /// WAV of the enchanters that are attached now, and the events beside it; empty, or why not.
-    std::string startRecording(const juce::File& file);
-    void stopRecording(); ///< the files are in their places a moment later: recorded() says so
-    bool isRecording() const noexcept { return recording_ != nullptr && !isEnding_; }
-    double recordedSeconds() const noexcept;
-    std::int64_t recordedFrom() const noexcept { return recordedFrom_; } ///< session frame of the last recording's first one
-    std::function<void(const juce::File&, const juce::String& error)> onRecorded;
+    DeskRecording& recording() noexcept { return recording_; }
+    const DeskRecording& recording() const noexcept { return recording_; }
 
     // ---- the output
     std::string open(const DeviceChoice& device);
@@ -120,19 +90,19 @@ public:
     double playOutSeconds() const noexcept;
 
     /// What the four-channel board says, if one is wanted. It plays the first four enchanters.
-    std::optional<BoardLinkStatus> board() const { return link_ ? std::optional{link_->status()} : std::nullopt; }
+    std::optional<BoardLinkStatus> board() const { return board_ ? std::optional{board_->status()} : std::nullopt; }
     /// The choice asks for a board, or for none: L is another then, so the session has to begin anew.
     std::function<void(const DeviceChoice&)> onBoardWanted;
 
     // ---- looking
     /// What is new; at most about 30 times a second.
     DeskMoment look();
-    const ScopeTrace& scope() const noexcept { return scope_; }
-    const SpectrumTrace& spectrum() const noexcept { return spectrum_; }
+    const ScopeTrace& scope() const noexcept { return signals_.scope(); }
+    const SpectrumTrace& spectrum() const noexcept { return signals_.spectrum(); }
     /// The last that were played, the newest first.
     static constexpr std::size_t mostRecent = 100;
     const std::deque<CollisionEvent>& recent() const noexcept { return recent_; }
-    std::uint64_t scopeFramesLost() const noexcept { return tap_.framesLost(); }
+    std::uint64_t scopeFramesLost() const noexcept { return signals_.framesLost(); }
     const juce::String& trouble() const noexcept { return trouble_; } ///< one line; empty while all is well
     void report(const juce::String& trouble);
     /// What went well, told in the same place.
@@ -145,51 +115,33 @@ private:
     std::vector<Action> undoOf(const Action& action) const;
     Action renamed(const Action& action);
     void watchOutput();
-    juce::String boardTrouble();
-    void finishRecording();
-    juce::String closeRecording();
     void showEdit(const Action& action);
     void takeScene(bool keepsSounds);
     void apply(const Mix& next);
-    void tellSession();
     std::vector<int> outputMap() const;
-    void measure(const float* const* block, int frames);
     void strike(int enchanter, std::vector<CollisionEvent> strikes);
 
     AudioDeviceTypes types_;
     Mix mix_;
     Session session_;
-    SignalTap tap_;
+    DeskSignals signals_;
     AudioOutput output_;
-    std::unique_ptr<BoardLink> link_;
-    std::unique_ptr<BoardOutput> onBoard_;
+    DeskRecording recording_;
+    std::unique_ptr<DeskBoard> board_;
     std::unique_ptr<SimulationDriver> driver_;
     juce::UndoManager undo_;
     Scene sceneNow_;
     DeviceChoice device_;
     ListeningSettings listening_;
     juce::String trouble_, deviceTrouble_, outputTrouble_; // shown; of the device; with the board's
-    bool isSilent_ = false, isNews_ = false, wasBoardReady_ = false;
+    bool isSilent_ = false, isNews_ = false;
     std::uint64_t edits_ = 0, worldEdits_ = 0;
-    struct Told { // what the session has taken
-        PhantomPanner panner;
-        std::array<ToldStrip, limits::maxEnchanters> strips;
-    };
-    Told told_;
+    ToldMix told_;
     SavedSession saved_;
     int mostEnchanters_ = 0, added_ = 0;
-    std::unique_ptr<Recording> recording_;
-    juce::File recordingFile_;
-    bool isEnding_ = false;
-    std::int64_t recordedFrom_ = 0;
-    std::uint64_t endsAfterBlock_ = 0;
-
-    ScopeTrace scope_;
-    SpectrumTrace spectrum_;
     std::deque<CollisionEvent> recent_;
     DeskMoment now_;
-    std::array<double, limits::maxEnchanters> heldAtMs_{};
-    double lookedAtMs_ = 0.0, maintainedAtMs_ = 0.0, boardWantedAtMs_ = 0.0;
+    double maintainedAtMs_ = 0.0;
 };
 
 /// Names of built-in scenes as people write them: "shake-the-box" as "Shake the box".

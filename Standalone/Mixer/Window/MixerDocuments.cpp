@@ -121,10 +121,10 @@ void MixerWindow::saveTo(const juce::File& file) {
 }
 
 void MixerWindow::record() {
-    if (desk_->isRecording()) return desk_->stopRecording();
+    if (desk_->recording().isRunning()) return desk_->recording().stop();
     const auto name = document_ == juce::File{} ? juce::String{"session"} : document_.getFileNameWithoutExtension();
     const auto file = folderOfDocuments().getNonexistentChildFile(name + "-take", ".wav", false);
-    const auto error = desk_->startRecording(file);
+    const auto error = desk_->recording().start(file);
     view_->topBar().setRecording(error.empty());
     if (!error.empty()) say(utf8(error));
 }

@@ -61,7 +61,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
         });
     };
     view_->topBar().onOpenScene = [this] { import("Scene"); };
-    desk_->onRecorded = [this](const juce::File& file, const juce::String& error) {
+    desk_->recording().onEnd = [this](const juce::File& file, const juce::String& error) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
         if (error.isEmpty()) desk_->tell("Recorded " + file.getFullPathName() + ", and its events beside it");
@@ -159,7 +159,7 @@ void MixerWindow::showMenu(juce::Component& from) {
     item("Layout" + dots(), {}, [this] { import("Layout of enchanters"); });
     item("Save the layout" + dots(), {}, [this] { exportLayout(); });
     menu.addSeparator();
-    item(desk_->isRecording() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
+    item(desk_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
     item("Render" + dots(), "Ctrl+E", [this] { renderOffline(); });
     menu.addSeparator();
     const auto isLight = view_->ground() == Ground::light;

@@ -125,12 +125,12 @@ TEST(Window, APersonsWayThroughTheMixer) {
         runFor(0.3);
 
         hand.key('r', juce::ModifierKeys::commandModifier);
-        ASSERT_TRUE(window.desk().isRecording());
-        runUntil([&] { return window.desk().recordedSeconds() > 4.0; });
+        ASSERT_TRUE(window.desk().recording().isRunning());
+        runUntil([&] { return window.desk().recording().seconds() > 4.0; });
         hand.key('r', juce::ModifierKeys::commandModifier);
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         wav = window.lastRecording();
-        from = window.desk().recordedFrom();
+        from = window.desk().recording().from();
         playOut = window.desk().session().playOutFrames();
         EXPECT_EQ(window.desk().look().session.render.late, 0u);
         hand.key('s', juce::ModifierKeys::commandModifier);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a desk tells of a moment, and which device it plays on.
+#pragma once
+#include "Host/Devices/AudioOutput.h"
+#include "Host/Devices/ChannelMeters.h"
+#include "Session/SessionSetup.h"
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// What has happened since the last look.
+struct DeskMoment {
+    std::vector<BodyPose> poses;
+    std::int64_t sessionNs = 0; ///< of the poses
+    std::int64_t aheadNs = 0;   ///< they are felt so much later
+    std::vector<CollisionEvent> hits;
+    ChannelMeters meters;
+    std::array<float, limits::maxEnchanters> holds{}; ///< highest peaks of the last moments
+    float masterPeak = 0.0f;                          ///< behind the master level
+    SessionStatus session;
+    AudioOutputStatus device;
+};
+
+/// The device that is wanted.
+struct DeviceChoice {
+    std::string name;     ///< type:name
+    int sampleRateHz = 0; ///< 0: as it stands
+    int blockFrames = 0;
+    std::string board{};  ///< serial port of a four-channel board beside it, anyBoard; empty: none
+};
+
+/// The first board that answers.
+inline constexpr const char* anyBoard = "auto";
+
+} // namespace physvib

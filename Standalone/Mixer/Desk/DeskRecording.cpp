@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// When a recording begins, and when all of it has come.
+#include "Mixer/Desk/DeskRecording.h"
+#include "Mixer/Window/Parts.h"
+#include <utility>
+
+namespace physvib {
+
+DeskRecording::DeskRecording(Session& session, AudioOutput& output, const Mix& mix, std::function<void()> onChange)
+    : session_{session}
+    , output_{output}
+    , mix_{mix}
+    , onChange_{std::move(onChange)} {}
+
+DeskRecording::~DeskRecording() {
+    if (recording_) close(); // whoever closes the window while it runs wants what is there
+}
+
+std::string DeskRecording::start(const juce::File& file) {
+    if (recording_) return {};
+    if (output_.sampleRateHz() == 0) return "nothing to record: no device runs";
+    auto recording = std::make_unique<Recording>(file.getFullPathName().toStdString(), mix_.count(), output_.sampleRateHz());
+    if (!recording->error().empty()) return recording->error();
+    recording_ = std::move(recording);
+    file_ = file;
+    isEnding_ = false;
+    output_.record(&recording_->recorder());
+    onChange_();
+    return {};
+}
+
+void DeskRecording::stop() {
+    if (!isRunning()) return;
+    output_.record(nullptr);
+    isEnding_ = true;
+    endsAfterBlock_ = output_.status().blocks + 1;
+    onChange_();
+}
+
+double DeskRecording::seconds() const noexcept {
+    return recording_ ? static_cast<double>(recording_->recorder().frames()) / recording_->recorder().sampleRateHz() : 0.0;
+}
+
+void DeskRecording::take(const PlayedEvent& played) {
+    if (recording_) recording_->take(played);
+}
+
+// R has let go of it when a block has come since; events of the last frames have been played by then.
+void DeskRecording::look(const AudioOutputStatus& device) {
+    if (!recording_) return;
+    recording_->drain();
+    if (!isEnding_ && output_.isRecording()) return;
+    if (isEnding_ && device.isRunning && device.blocks <= endsAfterBlock_) return;
+    from_ = recording_->recorder().firstFrame();
+    const auto lost = recording_->recorder().framesLost();
+    auto error = close();
+    if (error.isEmpty() && lost > 0) error = "frames missing in the recording: " + juce::String{static_cast<juce::int64>(lost)};
+    if (error.isEmpty() && !isEnding_) error = "the recording ends where the device changed its rate";
+    if (onEnd) onEnd(file_, error);
+    onChange_();
+}
+
+/// Both files in their places; empty, or one line with the reason.
+juce::String DeskRecording::close() {
+    const Provenance provenance{PHYSVIB_VERSION, {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
+    for (PlayedEvent played; session_.played().pop(played);) recording_->take(played);
+    const auto error = utf8(recording_->finish(session_.playOutFrames(), provenance));
+    recording_.reset();
+    return error;
+}
+
+} // namespace physvib

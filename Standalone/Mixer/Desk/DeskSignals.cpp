@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Peaks that fall, and their highest ones that stay for a moment.
+#include "Mixer/Desk/DeskSignals.h"
+#include "Mixer/Window/Parts.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr double holdMs = 1500.0;
+
+} // namespace
+
+void DeskSignals::setRate(int sampleRateHz) {
+    scope_.setRate(sampleRateHz);
+    spectrum_.setRate(sampleRateHz);
+}
+
+float DeskSignals::read(DeskMoment& moment, int enchanters) {
+    const double now = nowMs(), passed = std::min(1000.0, now - readAtMs_);
+    readAtMs_ = now;
+    const auto fall = static_cast<float>(std::pow(10.0, -meterFallDbPerSecond * passed / 20'000.0));
+    for (auto& peak : moment.meters.peaks) peak = peak * fall < 1e-4f ? 0.0f : peak * fall;
+    tap_.read([&](const float* const* block, int frames) { measure(block, frames, moment, enchanters); });
+    float loudest = 0.0f;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(enchanters); ++j) {
+        const float peak = moment.meters.peaks[j];
+        if (peak >= moment.holds[j] || now - heldAtMs_[j] > holdMs) moment.holds[j] = peak, heldAtMs_[j] = now;
+        loudest = std::max(loudest, peak);
+    }
+    return loudest;
+}
+
+void DeskSignals::measure(const float* const* block, int frames, DeskMoment& moment, int enchanters) {
+    scope_.add(block, enchanters, frames);
+    spectrum_.add(block, enchanters, frames);
+    for (int j = 0; j < enchanters; ++j) {
+        const auto range = juce::FloatVectorOperations::findMinAndMax(block[j], frames);
+        auto& peak = moment.meters.peaks[static_cast<std::size_t>(j)];
+        peak = std::max({peak, -range.getStart(), range.getEnd()});
+    }
+}
+
+} // namespace physvib
