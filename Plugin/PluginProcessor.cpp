@@ -18,8 +18,6 @@ juce::String readable(std::string text) {
     return juce::String::fromUTF8(text.data(), static_cast<int>(text.size()));
 }
 
-bool isRate(int hz) { return hz >= limits::minSampleRateHz && hz <= limits::maxSampleRateHz; }
-
 // The built-in scene of that name, which may have been another when a session was saved; one's own are shown as the first.
 int programOf(const Scene& scene) {
     const auto& scenes = builtInScenes();
@@ -127,7 +125,7 @@ PluginState PluginProcessor::state() const {
 
 juce::String PluginProcessor::trouble() const {
     const auto fault = takes_.fault();
-    if (const int rate = preparedRateHz(); rate > 0 && !isRate(rate))
+    if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
         return "the host runs at " + juce::String{rate} + " Hz; expected " + juce::String{limits::minSampleRateHz} + " to " + juce::String{limits::maxSampleRateHz} + ": silent";
     const std::lock_guard lock{mutex_};
     return trouble_.isNotEmpty() ? trouble_ : readable(fault);
@@ -155,7 +153,7 @@ void PluginProcessor::publish() {
 void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     sampleRateHz_ = sampleRateHz;
     const int rate = juce::roundToInt(sampleRateHz);
-    if (!isRate(rate)) return releaseResources(); // silent, and trouble() says so
+    if (!isSampleRate(rate)) return releaseResources(); // silent, and trouble() says so
     const int usual = usualBlockFrames_ > 0 ? std::min(usualBlockFrames_, blockFrames) : blockFrames;
     blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, usual);
     outputs_ = BusMap{*this};

@@ -2,14 +2,28 @@
 // When events are struck, and how far a part of a block may reach.
 #include "Core/HapticRenderer.h"
 #include <algorithm>
+#include <cmath>
 
 namespace physvib {
 
 template <class P>
-void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
+bool HapticRenderer<P>::canTake(const RendererSettings& settings) noexcept {
+    const int outputs = settings.outputs();
+    if (!isSampleRate(settings.sampleRateHz) || settings.channels < 0 || outputs < 1 || outputs > P::maxChannels) return false;
+    if (settings.panner.channels() < 0 || settings.panner.channels() > outputs) return false;
+    return std::all_of(settings.ceilings.begin(), settings.ceilings.begin() + outputs,
+                       [](float ceiling) { return ceiling > 0.0f && std::isfinite(ceiling); });
+}
+
+template <class P>
+bool HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
+    isPrepared_ = canTake(settings);
+    position_ = 0;
+    played_ = late_ = rejected_ = 0;
+    channels_ = std::clamp(settings.outputs(), 0, P::maxChannels);
+    if (!isPrepared_) return false;
     settings_ = settings;
     clock_ = FrameClock{settings.sampleRateHz};
-    channels_ = settings.outputs();
     panner_ = settings.panner;
     gains_.fill(0.0);
     bank_.prepare(settings.sampleRateHz, channels_, settings.instructions);
@@ -18,9 +32,8 @@ void HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     prepareLimiter();
     pending_.clear();
     controls_.clear();
-    position_ = 0;
     silentUntilNs_ = INT64_MIN;
-    played_ = late_ = rejected_ = 0;
+    return true;
 }
 
 template <class P>
@@ -36,7 +49,8 @@ void HapticRenderer<P>::setContacts(std::span<const RecordedContact> contacts, b
 }
 
 template <class P>
-void HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
+bool HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
+    if (!isPrepared_ || !isSampleRate(sampleRateHz)) return false;
     bank_.moveTo(position_, sampleRateHz, frame);
     settings_.sampleRateHz = sampleRateHz;
     clock_ = FrameClock{sampleRateHz};
@@ -44,6 +58,7 @@ void HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     actuators_.changeRate(sampleRateHz);
     prepareLimiter();
     position_ = frame;
+    return true;
 }
 
 template <class P>

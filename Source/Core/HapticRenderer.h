@@ -30,8 +30,9 @@ class HapticRenderer {
 public:
     using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(Profile::playedQueueSize)>;
 
-    /// Silence at frame 0. M, not while rendering.
-    void prepare(const RendererSettings& settings) noexcept;
+    /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most Profile::maxChannels outputs:
+    /// then render writes zeros, takes no events and moves nowhere, as before the first call. M, not while rendering.
+    bool prepare(const RendererSettings& settings) noexcept;
 
     /// From now on events play these recordings instead of modes; none: modes. Events without one are rejected, or, with
     /// `othersAreModes`, play their mode. Both the list and its samples, at this rate, outlive the renderer. prepare and moveTo
@@ -39,8 +40,9 @@ public:
     void setContacts(std::span<const RecordedContact> contacts, bool othersAreModes = false) noexcept;
 
     /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains stay; the
-    /// limiter starts afresh. M, not while rendering.
-    void moveTo(int sampleRateHz, std::int64_t frame) noexcept;
+    /// limiter starts afresh. False, and nothing has changed, at a rate outside the limits, or if it is not prepared. M, not
+    /// while rendering.
+    bool moveTo(int sampleRateHz, std::int64_t frame) noexcept;
 
     /// Writes out[channel][0..frames), 1 to limits::maxBlockFrames. `source.pop(CollisionEvent&)` gives events until
     /// it says false; more than the pending store holds stay there, which is right if they come in time order.
@@ -62,6 +64,7 @@ private:
     using Channels = std::array<float*, static_cast<std::size_t>(Profile::maxChannels)>;
     template <class Source>
     void refill(Source& source) noexcept;
+    static bool canTake(const RendererSettings& settings) noexcept;
     void schedule(const CollisionEvent& event) noexcept;
     template <class Source>
     int strikeAndReach(Source& source, int most) noexcept;
@@ -85,6 +88,7 @@ private:
     PlayedQueue playedQueue_;
     RendererSettings settings_;
     int channels_ = 1;
+    bool isPrepared_ = false;
     bool othersAreModes_ = false; // events without a recording
     std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN; // no event before it is played
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
@@ -130,6 +134,10 @@ int HapticRenderer<Profile>::strikeAndReach(Source& source, int most) noexcept {
 template <class Profile>
 template <class Source>
 void HapticRenderer<Profile>::render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
+    if (!isPrepared_) {
+        for (int j = 0; j < channels_; ++j) std::fill_n(out[j], frames, 0.0f);
+        return;
+    }
     const DenormalGuard guard;
     Channels at{};
     std::copy_n(out, channels_, at.begin());

@@ -11,10 +11,13 @@
 
 namespace physvib {
 
+/// Whether anything can be rendered at that rate. Any thread.
+constexpr bool isSampleRate(int hz) noexcept { return hz >= limits::minSampleRateHz && hz <= limits::maxSampleRateHz; }
+
 /// What a renderer is set up with.
 struct RendererSettings {
-    int sampleRateHz = 48000; ///< limits::minSampleRateHz to limits::maxSampleRateHz
-    int channels = 0;         ///< outputs; 0: as many as the panner has enchanters. Without one an output is silent
+    int sampleRateHz = 48000; ///< isSampleRate
+    int channels = 0;         ///< outputs; 0: as many as the panner has enchanters. Without one an output is silent. At most Profile::maxChannels
     PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
     bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
     std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0

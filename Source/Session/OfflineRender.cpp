@@ -30,7 +30,7 @@ struct ListSource {
 RenderStatus renderOffline(std::span<const CollisionEvent> events, const OfflineSettings& settings,
                            const BlockConsumer& consume) {
     const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
-    renderer->prepare(settings.renderer);
+    if (!renderer->prepare(settings.renderer)) return {};
     renderer->setContacts(settings.contacts, settings.othersAreModes);
     const auto channels = static_cast<std::size_t>(settings.renderer.outputs());
     const auto block = static_cast<std::size_t>(settings.blockFrames);

@@ -12,8 +12,6 @@ namespace {
 constexpr double fadeInSeconds = 0.005;
 constexpr double noiseFadeSeconds = 2.0; // to full scale; nobody shall start
 
-bool isRate(int hz) { return hz >= limits::minSampleRateHz && hz <= limits::maxSampleRateHz; }
-
 } // namespace
 
 AudioOutput::AudioOutput(Session& session, AudioDeviceTypes types, const std::atomic<bool>* silence)
@@ -92,7 +90,7 @@ std::string AudioOutput::startDevice() {
     device.start(this);
     if (running_) return {};
     const int rate = juce::roundToInt(device.getCurrentSampleRate());
-    return settings_.device + (isRate(rate) ? ": the device does not start" : ": runs at " + std::to_string(rate) + " Hz; expected 5000 to 192000");
+    return settings_.device + (isSampleRate(rate) ? ": the device does not start" : ": runs at " + std::to_string(rate) + " Hz; expected 5000 to 192000");
 }
 
 void AudioOutput::stopDevice() {
@@ -150,7 +148,7 @@ std::string AudioOutput::unfelt() const {
 void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     const int rate = juce::roundToInt(device->getCurrentSampleRate());
     const int block = std::min(std::max(device->getCurrentBufferSizeSamples(), largestBlock_.load()), limits::maxBlockFrames);
-    if (!isRate(rate) || block < 1) return; // stays silent
+    if (!isSampleRate(rate) || block < 1) return; // stays silent
     if (rate_ == 0) session_.prepare(rate, block);
     else if (rate != rate_ || block != block_) session_.resume(rate, block);
     if (auto* recorder = recorder_.load(std::memory_order_relaxed); recorder && recorder->sampleRateHz() != rate) recorder_ = nullptr;
