@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Somebody's own Box2D world, in which a ball falls on a slab: four enchanters feel it.
-#include "Core/EventQueue.h"
-#include "Core/HapticRenderer.h"
-#include "Physics/Attachment.h"
+#include <physvib/Core/EventQueue.h>
+#include <physvib/Core/HapticRenderer.h>
+#include <physvib/Physics/Attachment.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ int main() {
     physvib::EnchanterLayout layout;
     physvib::layoutPreset("phone4", layout);
     const auto renderer = std::make_unique<physvib::HapticRenderer<physvib::DesktopProfile>>();
-    renderer->prepare({.channels = 4, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}});
+    if (!renderer->prepare({.channels = 4, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}})) return 1;
 
     std::vector<physvib::CollisionEvent> events;
     physvib::EventQueue<physvib::CollisionEvent, 64> queue; // its two ends may be on two threads

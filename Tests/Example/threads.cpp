@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A game's two threads: one steps the world, the other fills the blocks of an audio device, whose frames are the clock.
 // What happens at world time t is felt at t + L, and L is a constant: late and early threads are not felt.
-#include "Core/ClockLaw.h"
-#include "Core/EventQueue.h"
-#include "Core/HapticRenderer.h"
-#include "Physics/Attachment.h"
+#include <physvib/Core/ClockLaw.h>
+#include <physvib/Core/EventQueue.h>
+#include <physvib/Core/HapticRenderer.h>
+#include <physvib/Physics/Attachment.h>
 #include <algorithm>
 #include <array>
 #include <atomic>

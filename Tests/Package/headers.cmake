@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Installed headers find each other, and ask for no package but Box2D.
+# Installed headers find each other as <physvib/...>, and ask for no package but Box2D.
 set(include ${INSTALLED}/include/physvib)
 file(GLOB_RECURSE headers ${include}/*.h)
 if(NOT headers)
@@ -9,11 +9,11 @@ set(bad "")
 foreach(header ${headers})
     file(STRINGS ${header} lines REGEX "^ *# *include")
     foreach(line ${lines})
-        if(line MATCHES "\"(.*)\"")
-            if(EXISTS ${include}/${CMAKE_MATCH_1})
+        if(line MATCHES "<(physvib/.*)>")
+            if(EXISTS ${INSTALLED}/include/${CMAKE_MATCH_1})
                 continue()
             endif()
-        elseif(line MATCHES "<box2d/" OR NOT line MATCHES "<(.*/.*|.*[.]hpp)>")
+        elseif(line MATCHES "<box2d/" OR NOT line MATCHES "<(.*/.*|.*[.]hpp)>|\"")
             continue() # the standard library has no folders
         endif()
         list(APPEND bad "${header}: ${line}")
