@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What comes from outside while a session plays: inputs, controls, other scenes, and the log of it all.
 #include "Session/Session.h"
-#include "Physics/SceneValidation.h"
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -21,32 +20,6 @@ std::string Session::act(Action action) {
         world_.addInput(nowNs(), std::move(action));
         return {};
     }
-}
-
-// The world mutex is held.
-void Session::takeOwnInputs() {
-    for (RenderInput input; ownInputs_.pop(input);) {
-        if (input.group == RenderInput::device) world_.addInput(input.timeNs, input.hold);
-        if (input.group < 0 || input.group >= static_cast<int>(setup_.groups.size())) continue;
-        for (Action action : setup_.groups[static_cast<std::size_t>(input.group)]) {
-            const auto scale = [&input](Vector& v) { v = {v.x * input.scale, v.y * input.scale}; };
-            if (auto* impulse = std::get_if<ImpulseAction>(&action)) scale(impulse->newtonSeconds);
-            if (auto* spawn = std::get_if<SpawnAction>(&action)) {
-                scale(spawn->body.velocityMetresPerSecond);
-                spawnOwn(input.timeNs, *spawn);
-            } else {
-                world_.addInput(input.timeNs, std::move(action));
-            }
-        }
-    }
-}
-
-// Each is a body of its own; the oldest makes room.
-void Session::spawnOwn(std::int64_t timeNs, SpawnAction action) {
-    std::string& name = ownNames_[ownSpawns_ % ownNames_.size()];
-    if (!name.empty()) world_.addInput(timeNs, RemoveAction{name});
-    name = action.body.name += " #" + std::to_string(++ownSpawns_);
-    world_.addInput(timeNs, std::move(action));
 }
 
 std::int64_t Session::post(RenderControl control) {
@@ -73,7 +46,7 @@ std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
     RenderControl control;
     control.timeNs = now;
     control.kind = RenderControl::Kind::recordings;
-    control.recordings = recordingSet(recordings).sounds.contacts();
+    control.recordings = recordings_.at(law().sampleRateHz, recordings);
     if (!controls_.push(control)) return -1;
     if (setup_.log != LogUse::none) controlLog_.recordings.push_back({now, filesOf(recordings)});
     setup_.recordings = std::move(recordings);
@@ -94,22 +67,8 @@ bool Session::play(std::span<const CollisionEvent> strikes) {
     return true;
 }
 
-std::string Session::setState(SessionState state) {
-    if (std::string fault = validate(*state.scene); !fault.empty()) return fault;
-    const std::lock_guard lock{stateMutex_};
-    if (state == state_) return {};
-    state_ = std::move(state);
-    isStateNew_ = true;
-    return {};
-}
-
-SessionState Session::state() const {
-    const std::lock_guard lock{stateMutex_};
-    return state_;
-}
-
 void Session::restart(int offset) noexcept {
-    restartFrame_.store(sessionFrames_.load(std::memory_order_relaxed) + offset, std::memory_order_release);
+    setRestart(framesRendered() + offset);
 }
 
 std::int64_t Session::readLog(SessionLog& log) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// What is born in the render call itself (MIDI, automation), on its way to the renderer and to the world.
+#pragma once
+#include "Core/EventQueue.h"
+#include "Core/RenderControl.h"
+#include "Session/SessionTime.h"
+#include "Session/SessionWorld.h"
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// Part of a session.
+class OwnBirths {
+public:
+    /// Each `frame` frames into the block that is rendered next: it is felt L later like everything else, at an exact frame.
+    /// False, and counted, if it found no room. R, wait-free.
+    bool strike(CollisionEvent event, int frame) noexcept;
+    bool control(RenderControl control, int frame) noexcept;
+    bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step
+
+    /// Not L later but as soon as it can be: what rings fades, and what happened before is not felt any more. As the
+    /// others. R, wait-free.
+    bool silence(int frame) noexcept;
+
+protected:
+    /// `time` outlives it; of `setup`, what strikes are shaped by and the groups of inputs.
+    OwnBirths(const SessionTime& time, const SessionSetup& setup)
+        : time_{time}
+        , shaping_{setup.shaping}
+        , groups_{setup.groups} {}
+    ~OwnBirths() = default;
+
+    /// Nothing was born, nothing spawned. M, while nobody renders, under the world mutex.
+    void forgetBirths() noexcept;
+
+    /// The next for the renderer; false: none. R, wait-free.
+    bool popStrike(CollisionEvent& strike) noexcept { return strikes_.pop(strike); }
+    bool popOwnControl(RenderControl& control) noexcept { return controls_.pop(control); }
+
+    /// What R asks of the world, which is told to it. Whoever holds the world.
+    void takeOwnInputs(SessionWorld& world);
+
+    /// All that found no room. Any thread, wait-free.
+    std::uint64_t refused() const noexcept { return strikes_.overflows() + controls_.overflows() + inputs_.overflows(); }
+
+private:
+    void addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action);
+
+    const SessionTime& time_;
+    const EventShaping shaping_;
+    const std::vector<std::vector<Action>> groups_;
+    EventQueue<CollisionEvent, 1024> strikes_; // both ends are R: a dense chord in a block of 8192 frames
+    EventQueue<RenderControl, 128> controls_;  // whoever sends them keeps to a pace
+    EventQueue<RenderInput, 1024> inputs_;     // from R to whoever steps the world
+    std::uint64_t spawns_ = 0;                 // the world's, as what follows
+    std::array<std::string, 64> names_;        // of bodies that R spawned, the newest; no world here needs more at once
+};
+
+} // namespace physvib

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Session time in frames and in nanoseconds, and L, by which what is felt lies behind it.
+#pragma once
+#include "Core/ClockLaw.h"
+#include "Core/FrameClock.h"
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+
+namespace physvib {
+
+/// Part of a session, which begins and ends it. R tells it; the law behind L changes while nobody renders, under both of the
+/// session's mutexes.
+class SessionTime {
+public:
+    /// L. Any thread after prepare.
+    std::int64_t playOutFrames() const noexcept { return playOutFrames_.load(std::memory_order_relaxed); }
+
+    /// By how much L has grown since prepare. Any thread.
+    std::int64_t framesGrown() const noexcept { return grownFrames_.load(std::memory_order_acquire); }
+
+    /// L is that much longer from the start. R or M, after prepare and before the first block.
+    void lengthen(std::int64_t frames) noexcept {
+        playOutFrames_.fetch_add(frames, std::memory_order_relaxed);
+        grownFrames_.fetch_add(frames, std::memory_order_release);
+    }
+
+    /// Session time in frames, with the block that is being rendered. Any thread.
+    std::int64_t framesRendered() const noexcept { return sessionFrames_.load(std::memory_order_relaxed); }
+
+    /// The session time of a frame of the next block; before it, of one that is past, none of them before session time 0. R.
+    std::int64_t nextNs(std::int64_t frame) const noexcept { return sessionNs(std::max<std::int64_t>(0, framesRendered() + frame)); }
+
+    /// The session time of what leaves the renderer, whose latency is part of L, as the next block's frame `frame`. R.
+    std::int64_t nextRenderedNs(std::int64_t frame) const noexcept { return nextNs(frame - playOutFrames() + law_.limiterFrames); }
+
+    /// The session time that is rendered first in the next block, to be felt when that leaves the device. R.
+    std::int64_t nextFeltNs() const noexcept { return sessionNs(framesRendered() - playOutFrames()); }
+
+protected:
+    ~SessionTime() = default;
+
+    /// L is the law's, nothing has been added to it. M, while nobody renders.
+    void setLaw(const ClockLaw& law) noexcept {
+        law_ = law;
+        playOutFrames_ = law_.playOutFrames();
+        grownFrames_ = 0;
+    }
+    const ClockLaw& law() const noexcept { return law_; }
+
+    /// It is session time `frames` at the law's rate. M, while nobody renders.
+    void setFrames(std::int64_t frames) noexcept { sessionFrames_ = frames; }
+
+    /// A block begins; session time before it. R, wait-free.
+    std::int64_t tellFrames(int frames) noexcept {
+        const std::int64_t done = sessionFrames_.load(std::memory_order_relaxed);
+        sessionFrames_.store(done + frames, std::memory_order_release);
+        return done;
+    }
+
+    /// A block passes that L grows by. L first: D, which reads both the other way round, must not take a gap for a stall. R, wait-free.
+    void waitFrames(int frames) noexcept {
+        lengthen(frames);
+        sessionFrames_.fetch_add(frames, std::memory_order_release);
+    }
+
+    /// See Session::framesMissing; the world has been stepped to `steppedNs`, which is read after session time. A microsecond
+    /// less than D lets pass: frames in whole nanoseconds do not add up to the last one. R, wait-free.
+    std::int64_t framesMissing(int frames, const std::atomic<std::int64_t>& steppedNs) const noexcept {
+        const std::int64_t lagNs = sessionNs(framesRendered() + frames) - steppedNs.load(std::memory_order_acquire);
+        const std::int64_t missingNs = lagNs - longestLagNs() + 1000;
+        const FrameClock clock{law_.sampleRateHz};
+        return missingNs > 0 ? clock.at(missingNs).frame : -clock.at(-missingNs).frame + 1;
+    }
+
+    std::int64_t sessionNs(std::int64_t frames) const noexcept {
+        return frames / law_.sampleRateHz * 1'000'000'000 + frames % law_.sampleRateHz * 1'000'000'000 / law_.sampleRateHz;
+    }
+    std::int64_t nowNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_acquire)); }
+
+    /// How far behind session time a driver that is in time sees the world at most, with what L has grown by.
+    std::int64_t longestLagNs() const noexcept { return law_.longestLagNs() + sessionNs(framesGrown()); }
+
+private:
+    ClockLaw law_;
+    std::atomic<std::int64_t> playOutFrames_{0}, grownFrames_{0}; // L, and what of it R has added to the law's
+    std::atomic<std::int64_t> sessionFrames_{0};
+};
+
+} // namespace physvib
