@@ -73,6 +73,7 @@ protected:
         return missingNs > 0 ? clock.at(missingNs).frame : -clock.at(-missingNs).frame + 1;
     }
 
+    /// At the law's rate. R, or whoever holds one of the mutexes.
     std::int64_t sessionNs(std::int64_t frames) const noexcept {
         return frames / law_.sampleRateHz * 1'000'000'000 + frames % law_.sampleRateHz * 1'000'000'000 / law_.sampleRateHz;
     }
