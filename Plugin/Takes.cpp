@@ -2,7 +2,7 @@
 // Making, stepping and freeing takes: all but the render role's part.
 #include "Takes.h"
 #include "Physics/InputCheck.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "Files/Json/JsonReader.h"
 #include "Files/Json/JsonVersion.h"
 #include "Files/Json/JsonWriter.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include <stdexcept>
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // Materials as JSON: a library that scenes copy from.
 #pragma once
 #include "Files/Result.h"
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <filesystem>
 #include <string>
 #include <string_view>

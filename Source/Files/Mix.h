@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Files/LayoutFile.h"
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -9,7 +9,7 @@
 #include "Files/MixJson.h"
 #include "Files/Text/NumberText.h"
 #include "Files/SceneFile.h"
-#include "Physics/SceneLimits.h"
+#include "Physics/Scenes/SceneLimits.h"
 #include "Physics/Simulation.h"
 #include <algorithm>
 #include <array>

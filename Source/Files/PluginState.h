@@ -5,7 +5,7 @@
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Files/Mix.h"
 #include "Files/Result.h"
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <array>
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every field of a protocol once: its name in files, its place in the structs, its range.
 #pragma once
-#include "Physics/SceneFields.h"
+#include "Physics/Scenes/SceneFields.h"
 #include "Study/Protocol.h"
 
 namespace physvib {

@@ -11,7 +11,7 @@
 #include "Files/Text/NumberText.h"
 #include "Files/ProtocolFields.h"
 #include "Files/TrialColumns.h"
-#include "Physics/SceneRanges.h"
+#include "Physics/Scenes/SceneRanges.h"
 
 namespace physvib {
 namespace {

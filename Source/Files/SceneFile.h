@@ -2,7 +2,7 @@
 // Scenes as JSON: worlds that anybody can write, read strictly, and written back the same.
 #pragma once
 #include "Files/Result.h"
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -11,8 +11,8 @@
 #include "Files/Text/NumberText.h"
 #include "Files/SessionJournalText.h"
 #include "Files/SessionJson.h"
-#include "Physics/SceneEdits.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneEdits.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include "Physics/Simulation.h"
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include "Files/Mix.h"
 #include "Files/Result.h"
 #include "Files/SessionLog.h"
-#include "Physics/SceneRun.h"
+#include "Physics/Scenes/SceneRun.h"
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -6,7 +6,7 @@
 #include "Files/Json/JsonReader.h"
 #include "Files/Json/JsonVersion.h"
 #include "Files/SessionJson.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include <algorithm>
 #include <utility>
 

@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Files/RecordingFile.h"
-#include "Physics/SceneTake.h"
+#include "Physics/Scenes/SceneTake.h"
 #include <algorithm>
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Mass, centre and inertia of a scene's bodies.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 
 namespace physvib {
 

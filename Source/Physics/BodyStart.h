@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where exactly a body starts: as described, or a little beside it, which is all that a seed changes.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <random>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // No more contacts than a step can bear.
 #pragma once
-#include "Physics/SceneLimits.h"
+#include "Physics/Scenes/SceneLimits.h"
 #include <box2d/box2d.h>
 #include <cstdint>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The scene with one more input must be a valid scene.
 #include "Physics/InputCheck.h"
-#include "Physics/SceneRanges.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneRanges.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include <algorithm>
 #include <utility>
 #include <variant>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Says what is wrong with a live input, before it reaches a world.
 #pragma once
-#include "Physics/Scene.h"
-#include "Physics/SceneLimits.h"
+#include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneLimits.h"
 #include <cstddef>
 #include <limits>
 #include <string>

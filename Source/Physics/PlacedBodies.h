@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The bodies that a scene describes, with the places of their descriptions, for messages.
 #pragma once
-#include "Physics/Scene.h"
-#include "Physics/SceneRanges.h"
+#include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneRanges.h"
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Area, inertia and sizes of shapes.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <vector>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Builds a scene's world and advances it step by step.
 #include "Physics/Simulation.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include <algorithm>
 #include <stdexcept>
 #include <string>

@@ -4,8 +4,8 @@
 #include "Core/CollisionEvent.h"
 #include "Physics/Attachment.h"
 #include "Contacts/ImpactModel.h"
-#include "Physics/Scene.h"
-#include "Physics/SceneWorld.h"
+#include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneWorld.h"
 #include "Physics/StepClock.h"
 #include <cstddef>
 #include <cstdint>

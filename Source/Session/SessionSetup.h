@@ -5,7 +5,7 @@
 #include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"
 #include "Session/ContactSounds.h"
-#include "Physics/SceneRun.h"
+#include "Physics/Scenes/SceneRun.h"
 #include <array>
 #include <cstdint>
 #include <limits>

@@ -3,8 +3,8 @@
 #pragma once
 #include "Core/EventShaping.h"
 #include "Session/SessionSetup.h"
-#include "Physics/SceneRun.h"
-#include "Physics/SceneTake.h"
+#include "Physics/Scenes/SceneRun.h"
+#include "Physics/Scenes/SceneTake.h"
 #include "Physics/Simulation.h"
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A state waits for whoever steps the world.
 #include "Session/WantedTake.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneValidation.h"
 
 namespace physvib {
 

@@ -3,7 +3,7 @@
 #include "Session/OfflineRender.h"
 #include "Host/Recordings/WavSink.h"
 #include "Files/SceneCatalogue.h"
-#include "Physics/SceneRun.h"
+#include "Physics/Scenes/SceneRun.h"
 #include <benchmark/benchmark.h>
 #include <filesystem>
 

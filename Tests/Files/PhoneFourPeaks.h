@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How loud each of phone4's enchanters gets in a scene, for tests of whole scenes.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include "Support/Rendering.h"
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which body, of which material, a fixture number in an event means; for tests of whole scenes.
 #pragma once
-#include "Physics/SceneCast.h"
+#include "Physics/Scenes/SceneCast.h"
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The published schema says what the reader does: the same fields, ranges and words.
 #include "Files/Disk/ReadFile.h"
-#include "Physics/SceneFields.h"
+#include "Physics/Scenes/SceneFields.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of live input lines; what is accepted acts on a small world.
-#include "Files/InputLine.h"
+#include "Files/Text/InputLine.h"
 #include "Files/SceneCatalogue.h"
 #include "Fuzzing.h"
 #include "Physics/InputCheck.h"

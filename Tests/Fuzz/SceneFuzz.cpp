@@ -2,7 +2,7 @@
 // Fuzz target of the scene reader: whatever it accepts can be written, read again and simulated.
 #include "Files/SceneFile.h"
 #include "Fuzzing.h"
-#include "Physics/SceneWorld.h"
+#include "Physics/Scenes/SceneWorld.h"
 
 namespace {
 

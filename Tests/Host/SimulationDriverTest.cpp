@@ -3,7 +3,7 @@
 #include "Host/Devices/SimulationDriver.h"
 #include "Session/FakeHost.h"
 #include "Host/MessageLoop.h"
-#include "Physics/SceneRun.h"
+#include "Physics/Scenes/SceneRun.h"
 #include <atomic>
 #include <gtest/gtest.h>
 #include <thread>

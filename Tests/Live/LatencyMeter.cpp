@@ -5,7 +5,7 @@
 #include "Files/SceneCatalogue.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SimulationDriver.h"
-#include "Physics/SceneRun.h"
+#include "Physics/Scenes/SceneRun.h"
 #include "MeterClient.h"
 #include <cmath>
 #include <cstdio>

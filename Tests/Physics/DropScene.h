@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A ball above a plate, as in the thesis' study 1 (Table 5.1): the world whose hits are known by hand.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include "Physics/Simulation.h"
 #include <cmath>
 #include <numbers>

@@ -3,9 +3,9 @@
 // the same again to the bit.
 #include "DropScene.h"
 #include "Physics/InputCheck.h"
-#include "Physics/SceneCast.h"
-#include "Physics/SceneRun.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneCast.h"
+#include "Physics/Scenes/SceneRun.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include <gtest/gtest.h>
 #include <random>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which action happens in which step.
-#include "Physics/SceneScript.h"
+#include "Physics/Scenes/SceneScript.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every fault of a scene is named with its place.
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include "DropScene.h"
-#include "Physics/SceneLimits.h"
+#include "Physics/Scenes/SceneLimits.h"
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>

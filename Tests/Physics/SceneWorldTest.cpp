@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Bodies, joints and actions of a scene against what mechanics say of them.
-#include "Physics/SceneWorld.h"
+#include "Physics/Scenes/SceneWorld.h"
 #include "DropScene.h"
 #include "Physics/BodyMass.h"
-#include "Physics/SceneCast.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneCast.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -4,7 +4,7 @@
 #include "Files/ActuatorFile.h"
 #include "Files/Disk/ReadFile.h"
 #include "Session/OfflineRender.h"
-#include "Physics/SceneRun.h"
+#include "Physics/Scenes/SceneRun.h"
 
 namespace physvib {
 namespace {

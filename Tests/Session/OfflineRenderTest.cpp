@@ -2,7 +2,7 @@
 // OfflineRender: frame n is time n/rate, pieces do not matter, and the shipped scene has its level.
 #include "Session/OfflineRender.h"
 #include "Files/SceneCatalogue.h"
-#include "Physics/SceneRun.h"
+#include "Physics/Scenes/SceneRun.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include "Session/OfflineRender.h"
 #include "Session/Session.h"
 #include "Session/SessionRender.h"
-#include "Physics/SceneEdits.h"
+#include "Physics/Scenes/SceneEdits.h"
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>

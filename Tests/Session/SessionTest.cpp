@@ -3,7 +3,7 @@
 #include "FakeHost.h"
 #include "Session/Session.h"
 #include "Session/OfflineRender.h"
-#include "Physics/SceneRun.h"
+#include "Physics/Scenes/SceneRun.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>

@@ -4,7 +4,7 @@
 #pragma once
 #include "Files/Json/JsonField.h"
 #include "Files/Text/NumberText.h"
-#include "Physics/SceneFields.h"
+#include "Physics/Scenes/SceneFields.h"
 #include <array>
 #include <optional>
 #include <string>

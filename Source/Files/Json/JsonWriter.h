@@ -3,7 +3,7 @@
 // is left out. For the .cpp files of Files.
 #pragma once
 #include "Files/Json/JsonLines.h"
-#include "Physics/SceneFields.h"
+#include "Physics/Scenes/SceneFields.h"
 #include <optional>
 #include <string>
 #include <string_view>

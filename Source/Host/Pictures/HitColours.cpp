@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which colour a hit has, and what that colour is called in the legend.
 #include "Host/Pictures/PictureParts.h"
-#include "Physics/SceneCast.h"
+#include "Physics/Scenes/SceneCast.h"
 #include <algorithm>
 #include <limits>
 #include <set>

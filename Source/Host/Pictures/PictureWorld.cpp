@@ -3,7 +3,7 @@
 #include "Host/Pictures/PictureLight.h"
 #include "Host/Pictures/PictureParts.h"
 #include "Host/Pictures/ShapeOutline.h"
-#include "Physics/SceneCast.h"
+#include "Physics/Scenes/SceneCast.h"
 #include <algorithm>
 #include <cmath>
 

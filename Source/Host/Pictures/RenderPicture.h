@@ -5,7 +5,7 @@
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
 #include "Host/Pictures/WaveformEnvelope.h"
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <juce_graphics/juce_graphics.h>
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The outline of a scene's shape as it is drawn: by the picture of a render, and by views of a world that moves.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <algorithm>
 #include <juce_graphics/juce_graphics.h>
 #include <variant>

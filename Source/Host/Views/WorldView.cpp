@@ -2,7 +2,7 @@
 // Drawing the world within a frame of a software renderer: plain paths and gradients, nothing blurred.
 #include "Host/Views/WorldView.h"
 #include "Host/Pictures/ShapeOutline.h"
-#include "Physics/SceneCast.h"
+#include "Physics/Scenes/SceneCast.h"
 #include <juce_audio_basics/juce_audio_basics.h>
 #include <algorithm>
 #include <cmath>

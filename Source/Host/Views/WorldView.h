@@ -6,8 +6,8 @@
 #include "Core/PhantomPanner.h"
 #include "Files/LayoutFile.h"
 #include "Host/Views/Look.h"
-#include "Physics/Scene.h"
-#include "Physics/SceneWorld.h"
+#include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneWorld.h"
 #include <deque>
 #include <functional>
 #include <optional>

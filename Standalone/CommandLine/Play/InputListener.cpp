@@ -2,7 +2,7 @@
 // Polls standard input, cuts it into lines, and hands each to the session.
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/ExitCode.h"
-#include "Files/InputLine.h"
+#include "Files/Text/InputLine.h"
 #include <poll.h>
 #include <type_traits>
 #include <unistd.h>

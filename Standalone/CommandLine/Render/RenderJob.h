@@ -13,8 +13,8 @@
 #include "Files/Text/NumberText.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SessionFile.h"
-#include "Physics/SceneRun.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneRun.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -4,8 +4,8 @@
 #include "Files/ActuatorFile.h"
 #include "Mixer/Window/Parts.h"
 #include "Physics/InputCheck.h"
-#include "Physics/SceneCast.h"
-#include "Physics/SceneEdits.h"
+#include "Physics/Scenes/SceneCast.h"
+#include "Physics/Scenes/SceneEdits.h"
 #include <algorithm>
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Materials/MaterialColumns.h"
 #include "Mixer/Window/Parts.h"
-#include "Physics/SceneLimits.h"
+#include "Physics/Scenes/SceneLimits.h"
 #include <cmath>
 
 namespace physvib {

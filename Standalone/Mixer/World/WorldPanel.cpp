@@ -4,7 +4,7 @@
 #include "Mixer/Materials/HitWords.h"
 #include "Contacts/ImpactModel.h"
 #include "Physics/BodyMass.h"
-#include "Physics/SceneCast.h"
+#include "Physics/Scenes/SceneCast.h"
 #include <cmath>
 
 namespace physvib {

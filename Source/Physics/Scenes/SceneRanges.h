@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Checks every field of the table in SceneFields.h against its range, and names the first that is outside.
 #pragma once
-#include "Physics/SceneFields.h"
+#include "Physics/Scenes/SceneFields.h"
 #include <concepts>
 #include <locale>
 #include <sstream>

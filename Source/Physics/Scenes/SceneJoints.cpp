@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Box2D's definitions of a scene's joints.
-#include "Physics/SceneBodies.h"
+#include "Physics/Scenes/SceneBodies.h"
 #include <cmath>
 
 namespace physvib {

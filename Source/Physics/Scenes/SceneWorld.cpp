@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Building and changing a scene's world.
-#include "Physics/SceneWorld.h"
-#include "Physics/SceneBodies.h"
-#include "Physics/SceneCast.h"
+#include "Physics/Scenes/SceneWorld.h"
+#include "Physics/Scenes/SceneBodies.h"
+#include "Physics/Scenes/SceneCast.h"
 #include <algorithm>
 #include <cmath>
 #include <type_traits>

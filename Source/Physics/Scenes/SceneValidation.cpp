@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Ranges, then sums, outlines and masses, then what refers to what.
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include "Physics/BodyMass.h"
 #include "Physics/PlacedBodies.h"
-#include "Physics/SceneLimits.h"
-#include "Physics/SceneRanges.h"
-#include "Physics/SceneReferences.h"
+#include "Physics/Scenes/SceneLimits.h"
+#include "Physics/Scenes/SceneRanges.h"
+#include "Physics/Scenes/SceneReferences.h"
 #include "Physics/ShapeGeometry.h"
 #include <cmath>
 #include <map>

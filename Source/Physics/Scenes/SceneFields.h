@@ -3,8 +3,8 @@
 // checks visit this table.
 #pragma once
 #include "Core/Limits.h"
-#include "Physics/Scene.h"
-#include "Physics/SceneLimits.h"
+#include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneLimits.h"
 #include <array>
 #include <limits>
 #include <string_view>

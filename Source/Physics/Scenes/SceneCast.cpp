@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Names, numbers and places of spawned bodies.
-#include "Physics/SceneCast.h"
+#include "Physics/Scenes/SceneCast.h"
 
 namespace physvib {
 

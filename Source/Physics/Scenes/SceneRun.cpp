@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stepping a simulation until enough is settled.
-#include "Physics/SceneRun.h"
-#include "Physics/SceneCast.h"
+#include "Physics/Scenes/SceneRun.h"
+#include "Physics/Scenes/SceneCast.h"
 
 namespace physvib {
 

@@ -2,8 +2,8 @@
 // A scene from its start to a given time in one go, for renders that are not live.
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Physics/Scene.h"
-#include "Physics/SceneTake.h"
+#include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneTake.h"
 #include "Physics/Simulation.h"
 #include <cstdint>
 #include <functional>

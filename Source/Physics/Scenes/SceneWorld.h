@@ -3,8 +3,8 @@
 #pragma once
 #include "Physics/BodyStart.h"
 #include "Physics/ContactBound.h"
-#include "Physics/Scene.h"
-#include "Physics/SceneScript.h"
+#include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneScript.h"
 #include "Physics/StepClock.h"
 #include <box2d/box2d.h>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Live inputs that edit a scene rather than play in it: bodies that come, go and change, sounds of materials.
 #pragma once
-#include "Physics/Scene.h"
-#include "Physics/SceneTake.h"
+#include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneTake.h"
 
 namespace physvib {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Edits of descriptions; what would leave a scene that is not valid is left out.
-#include "Physics/SceneEdits.h"
-#include "Physics/SceneValidation.h"
+#include "Physics/Scenes/SceneEdits.h"
+#include "Physics/Scenes/SceneValidation.h"
 #include <algorithm>
 #include <variant>
 

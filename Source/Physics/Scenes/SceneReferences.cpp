@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Who is meant by a name.
-#include "Physics/SceneReferences.h"
-#include "Physics/SceneCast.h"
-#include "Physics/SceneLimits.h"
-#include "Physics/SceneRanges.h"
+#include "Physics/Scenes/SceneReferences.h"
+#include "Physics/Scenes/SceneCast.h"
+#include "Physics/Scenes/SceneLimits.h"
+#include "Physics/Scenes/SceneRanges.h"
 #include <cmath>
 #include <cstddef>
 #include <map>

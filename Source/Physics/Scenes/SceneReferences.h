@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The checks of a scene that compare one part of it with another; parts of validate().
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <string>
 
 namespace physvib {

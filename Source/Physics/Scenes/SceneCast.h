@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All bodies that a scene can have, under the numbers that events give to their fixtures.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <cstddef>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Says what is wrong with a scene, before a world is built from it.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <string>
 #include <vector>
 

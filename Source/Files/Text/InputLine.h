@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Files/Result.h"
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <string_view>
 #include <variant>
 #include <vector>

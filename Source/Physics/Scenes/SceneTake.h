@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One stretch of a session: a scene from its start on, with what was done to it, and when the world stood still.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <cstdint>
 #include <memory>
 #include <vector>

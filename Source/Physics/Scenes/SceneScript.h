@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene's script by step index: the same inputs act in the same steps, however fast the world is run.
 #pragma once
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include "Physics/StepClock.h"
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which fixtures may ever have a camera, and what these need.
 #include "Physics/PlacedBodies.h"
-#include "Physics/SceneCast.h"
-#include "Physics/SceneReferences.h"
+#include "Physics/Scenes/SceneCast.h"
+#include "Physics/Scenes/SceneReferences.h"
 #include <algorithm>
 #include <compare>
 #include <cstddef>

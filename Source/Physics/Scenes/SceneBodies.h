@@ -2,7 +2,7 @@
 // From the descriptions of a scene to Box2D's bodies, fixtures and joints.
 #pragma once
 #include "Physics/BodyStart.h"
-#include "Physics/Scene.h"
+#include "Physics/Scenes/Scene.h"
 #include <box2d/box2d.h>
 #include <vector>
 

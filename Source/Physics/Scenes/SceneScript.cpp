@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A sorted list of actions, gone through again in every period.
-#include "Physics/SceneScript.h"
+#include "Physics/Scenes/SceneScript.h"
 #include <algorithm>
 
 namespace physvib {

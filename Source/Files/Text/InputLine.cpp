@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which of the kinds a line is; their fields are read where those of files are.
-#include "Files/InputLine.h"
+#include "Files/Text/InputLine.h"
 #include "Files/ControlJson.h"
 #include "Files/Json/JsonReader.h"
 

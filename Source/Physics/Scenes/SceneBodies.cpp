@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shapes, skins and masses.
-#include "Physics/SceneBodies.h"
+#include "Physics/Scenes/SceneBodies.h"
 #include "Contacts/ImpactModel.h"
 #include "Physics/BodyMass.h"
 #include "Physics/ShapeGeometry.h"
