@@ -207,8 +207,9 @@ double tickMicroseconds(double releasedAfter = HUGE_VAL) {
 TEST(Takes, ReleaseWaitsForOneStepOfAHeavyWorldNotForAllThatAreOwed) {
     const double whole = tickMicroseconds();
     double least = whole;
-    for (int attempt = 0; attempt < 5 && least > 0.5 * whole; ++attempt) least = std::min(least, tickMicroseconds(0.1 * whole)); // on a busy machine it may come late
-    EXPECT_LT(least, 0.5 * whole) << "of " << whole << " us";
+    // On a busy machine whoever releases may come late, but not always; a tick that does not listen takes the whole of it each time.
+    for (int attempt = 0; attempt < 20 && least > 0.75 * whole; ++attempt) least = std::min(least, tickMicroseconds(0.1 * whole));
+    EXPECT_LT(least, 0.75 * whole) << "of " << whole << " us";
 }
 
 double applyMicroseconds(int discs) {
