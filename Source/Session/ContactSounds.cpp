@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Resampled.
 #include "Session/ContactSounds.h"
+#include "Core/SamplePeak.h"
 #include <algorithm>
-#include <cmath>
 #include <samplerate.h>
 
 namespace physvib {
 namespace {
-
-float peakOf(const std::vector<float>& x) {
-    float peak = 0.0f;
-    for (const float s : x) peak = std::max(peak, std::abs(s));
-    return peak;
-}
 
 /// `ratio` times as many samples; empty if there is no memory.
 std::vector<float> converted(const std::vector<float>& in, double ratio) {

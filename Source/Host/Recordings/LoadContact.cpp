@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Read, cut, normalised.
 #include "Host/Recordings/LoadContact.h"
+#include "Core/SamplePeak.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
 #include "Measure/HitExcerpt.h"
+#include "Measure/LoudestChannel.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Measure/RecordingFaults.h"
 #include "Host/Recordings/SyntheticContact.h"
@@ -13,12 +15,6 @@
 
 namespace physvib {
 namespace {
-
-float peakOf(const std::vector<float>& x) {
-    float peak = 0.0f;
-    for (const float s : x) peak = std::max(peak, std::isfinite(s) ? std::abs(s) : HUGE_VALF);
-    return peak;
-}
 
 void normalise(std::vector<float>& samples) {
     const float peak = peakOf(samples);
@@ -37,7 +33,7 @@ Result<ContactRecording> readContact(const RecordingFile& file) {
     }
     const auto read = readRecording(path);
     if (!read) return Failure{read.error};
-    const std::vector<float>& heard = *std::ranges::max_element(read.value.channels, {}, peakOf);
+    const std::vector<float>& heard = loudestOf(read.value.channels);
     const double rateHz = read.value.sampleRateHz;
     std::string fault = recordingFault(heard, rateHz, shortestSeconds);
     if (fault.empty() && isSilent(heard)) fault = "expected a hit, found silence";
