@@ -52,7 +52,7 @@ struct DesktopProfile {
     static constexpr int maxDelayFrames = 9600;    // maxChannelDelaySeconds at 192 kHz
     static constexpr int maxControls = 256;  // edits ahead of their time: a hand makes tens a second
     static constexpr int playedQueueSize = 4096; // 40 ms at 10^5 strikes per second until somebody reads
-    static constexpr bool hasTiles = true;   // vector kernels on whole tiles (Core/ModeTiles.h)
+    static constexpr bool hasTiles = true;   // vector kernels on whole tiles (Core/Modes/ModeTiles.h)
 };
 
 /// Memory and precision of the four-channel board (12 KB of RAM, single-precision unit): at most 1 LSB of 8 bit.

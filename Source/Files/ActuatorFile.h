@@ -16,7 +16,7 @@ constexpr int actuatorFormatVersion = 1;
 
 /// What its vibration follows.
 enum class ActuatorKind {
-    linear,  ///< the drive's waveform, coloured by a resonance (Core/Resonator.h)
+    linear,  ///< the drive's waveform, coloured by a resonance (Core/Actuators/Resonator.h)
     rotating ///< its own speed: it can be on or off, and no frequency can be asked of it
 };
 

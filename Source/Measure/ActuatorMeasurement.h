@@ -18,7 +18,7 @@ struct SweepSettings {
 /// Samples in [-1, 1]. M only.
 std::vector<float> sweepOf(const SweepSettings& settings, double rateHz);
 
-/// What a linear actuator and everything between the two recordings do: gain e^(-i w delay) H(f), see Core/Resonator.h.
+/// What a linear actuator and everything between the two recordings do: gain e^(-i w delay) H(f), see Core/Actuators/Resonator.h.
 struct MeasuredActuator {
     Resonator resonator;
     double gain = 0.0;          ///< recorded over played at the resonance; negative: turned polarity

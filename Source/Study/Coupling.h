@@ -51,7 +51,7 @@ struct MeasuredCoupling {
     std::size_t enchanters() const noexcept { return matrices.empty() ? 0 : matrices.front().size; }
 };
 
-/// Drives against it, frequency by frequency; owns what Core/DriveMatrices.h looks at. Drives between two frequencies are means of
+/// Drives against it, frequency by frequency; owns what Core/Actuators/DriveMatrices.h looks at. Drives between two frequencies are means of
 /// theirs, so they keep the limit too. M only.
 class CouplingDrives {
 public:

@@ -28,7 +28,10 @@ fi
 grep -q "unsafe-library-call" "$folder/said"
 build=build/rtsan
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER="$compiler" -DPHYSVIB_SANITIZE=realtime >"$folder/log" 2>&1 &&
-    cmake --build "$build" -j2 --target physvib-core-tests ${1:+physvib-host-tests} >>"$folder/log" 2>&1 || { cat "$folder/log" >&2; exit 1; }
+    cmake --build "$build" -j2 --target physvib-core-tests ${1:+physvib-session-tests physvib-host-tests} >>"$folder/log" 2>&1 || { cat "$folder/log" >&2; exit 1; }
 "$build/bin/physvib-core-tests" --gtest_brief=1 --gtest_filter='HapticRenderer*:ModeBank*:LinkedLimiter*:EventQueue*:LatestValue*:*Renderer*'
-[ -z "${1:-}" ] || "$build/bin/physvib-host-tests" --gtest_brief=1 --gtest_filter='Session*:AudioOutput*:OfflineRender*:Onsets*'
+if [ -n "${1:-}" ]; then
+    "$build/bin/physvib-session-tests" --gtest_brief=1 --gtest_filter='Session*:OfflineRender*:Onsets*'
+    "$build/bin/physvib-host-tests" --gtest_brief=1 --gtest_filter='Session*:AudioOutput*'
+fi
 echo "rtsan: $compiler found nothing in what is marked nonblocking (a planted malloc it did)"

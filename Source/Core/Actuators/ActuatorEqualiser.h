@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes a resonant actuator flat within its band: what goes in is what is felt, in units of the full scale at resonance.
 //
-// The inverse of the resonance (Core/Resonator.h) alone would boost without end: E(s) = HP(s) LP(s) / H(s), with
+// The inverse of the resonance (Core/Actuators/Resonator.h) alone would boost without end: E(s) = HP(s) LP(s) / H(s), with
 // Butterworth slopes of fourth order whose edges lie outside the band, so that the band is flat and what lies beyond is
 // not driven. All four sections have their zeros and poles in the unit circle (or at its ends): stable and minimal-phase.
 #pragma once
