@@ -45,7 +45,9 @@ public:
         }
         pump();
     }
+    /// A key, once the window has the focus: a busy display gives it late and may take it for a moment.
     void key(int code, int modifiers = 0, juce::juce_wchar character = 0) {
+        EXPECT_TRUE(runUntil([this] { return view.refresh(), view.hasKeyboardFocus(true); }));
         view.getPeer()->handleKeyPress(juce::KeyPress{code, modifiers, character});
         pump();
     }

@@ -11,9 +11,13 @@
 
 namespace physvib {
 
-class StudyAnswer : public juce::Component {
+class StudyAnswer : public juce::Component, private juce::FocusChangeListener {
 public:
-    StudyAnswer() { setFocusContainerType(FocusContainerType::keyboardFocusContainer); }
+    StudyAnswer() {
+        setFocusContainerType(FocusContainerType::keyboardFocusContainer);
+        juce::Desktop::getInstance().addFocusChangeListener(this);
+    }
+    ~StudyAnswer() override { juce::Desktop::getInstance().removeFocusChangeListener(this); }
 
     std::function<void()> onAnswer; ///< a click has answered
     std::function<void()> onChange; ///< isComplete() may have changed
@@ -26,10 +30,25 @@ public:
     virtual bool takeKey(const juce::KeyPress&) { return false; } ///< keys that no part has wanted
     virtual void mark(const std::set<std::string>&) {}        ///< the labels that were felt already
     virtual juce::String keys() const = 0;                    ///< how the keyboard answers
-    virtual void begin() {                                    ///< it may be used from now on
+
+    /// It may be used: the focus goes to where it was left, as when another window took it for a moment, and to the first place in the first moment.
+    void begin() {
+        if (left_ != nullptr && left_->isEnabled()) left_->grabKeyboardFocus();
+        else beginAnew();
+    }
+
+protected:
+    virtual void beginAnew() {
         for (auto* child : getChildren())
             if (child->getWantsKeyboardFocus() && child->isEnabled()) return child->grabKeyboardFocus();
     }
+
+private:
+    void globalFocusChanged(juce::Component* focused) override {
+        if (isParentOf(focused)) left_ = focused;
+    }
+
+    juce::Component::SafePointer<juce::Component> left_;
 };
 
 /// One of several: the click answers.

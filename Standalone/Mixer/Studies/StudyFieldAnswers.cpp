@@ -42,7 +42,7 @@ public:
     }
     juce::String keys() const override { return "Arrows and Enter: place."; }
     bool takeKey(const juce::KeyPress& key) override { return moveFocus(*this, key); }
-    void begin() override { cells_[cells_.size() / 2]->grabKeyboardFocus(); }
+    void beginAnew() override { cells_[cells_.size() / 2]->grabKeyboardFocus(); }
     void mark(const std::set<std::string>& felt) override {
         for (auto& cell : cells_) cell->isFelt = felt.contains(gridLabel(cell->cell));
         repaint();
@@ -78,7 +78,7 @@ public:
     }
     bool isComplete() const override { return answered_.has_value(); }
     juce::String keys() const override { return "Arrows (Shift: far) and Enter: place."; }
-    void begin() override { grabKeyboardFocus(); }
+    void beginAnew() override { grabKeyboardFocus(); }
 
     bool takeKey(const juce::KeyPress& key) override {
         if (!isEnabled()) return false;

@@ -85,7 +85,7 @@ public:
             if (isEnabled() && typed == utf8(layout_.enchanters[static_cast<std::size_t>(j)].label)) return chooseFirst(j), focusIcons(), true;
         return moveFocus(*this, key);
     }
-    void begin() override { firsts_.front()->grabKeyboardFocus(); }
+    void beginAnew() override { firsts_.front()->grabKeyboardFocus(); }
     void mark(const std::set<std::string>& felt) override {
         for (auto& icon : icons_) icon->isFelt = felt.contains(patternLabel(icon->pattern));
         repaint();

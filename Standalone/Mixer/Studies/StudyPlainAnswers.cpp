@@ -184,7 +184,7 @@ public:
         if (key.isKeyCode(juce::KeyPress::downKey)) return step(-1.0), true;
         return false;
     }
-    void begin() override {}
+    void beginAnew() override {}
     void paint(juce::Graphics& g) override {
         g.setColour(shade(*this, Shade::well));
         g.fillRoundedRectangle(bar_, 8.0f);
@@ -235,7 +235,7 @@ public:
     bool needsNext() const override { return true; }
     juce::String keys() const override { return "Type a number, then Enter."; }
     bool takeKey(const juce::KeyPress& key) override { return isEnabled() && number_.keyPressed(key); } // typed while the focus was elsewhere
-    void begin() override { number_.grabKeyboardFocus(); }
+    void beginAnew() override { number_.grabKeyboardFocus(); }
     void resized() override { number_.setBounds(column(getLocalBounds(), 260, 64)); }
     void enablementChanged() override {
         if (isEnabled()) number_.applyColourToAllText(shade(*this, Shade::text));
