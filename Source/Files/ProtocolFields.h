@@ -125,6 +125,24 @@ struct FieldsOf<StaircasePlan> {
 };
 
 template <>
+struct FieldsOf<QuestMethod> {
+    template <class V>
+    static void visit(V& v) {
+        using Q = QuestMethod;
+        v.field("alternative", &Q::alternative, anyText, Need::required);
+        v.choice("shape", &Q::shape, psychometricShapeNames);
+        v.field("least_db", &Q::leastDb, studyBounds::levelDb, Need::optional);
+        v.field("most_db", &Q::mostDb, studyBounds::levelDb, Need::optional);
+        v.field("step_db", &Q::stepDb, Bounds{0.01, 20.0}, Need::optional);
+        v.field("least_width_db", &Q::leastWidthDb, Bounds{0.1, 100.0}, Need::optional);
+        v.field("most_width_db", &Q::mostWidthDb, Bounds{0.1, 100.0}, Need::optional);
+        v.field("lapse", &Q::lapse, Bounds{0.001, mostLapse}, Need::optional);
+        v.field("trials", &Q::trials, Bounds{1.0, 10000.0}, Need::optional);
+        v.field("deviation_db", &Q::deviationDb, Bounds{0.0, 100.0}, Need::optional);
+    }
+};
+
+template <>
 struct FieldsOf<SessionPlan> {
     template <class V>
     static void visit(V& v) {
@@ -147,6 +165,7 @@ struct FieldsOf<SessionPlan> {
         v.field("scales", &S::scales, studyBounds::names, Need::optional);
         v.field("adjustment", &S::adjustment, {}, Need::optional);
         v.field("staircase", &S::staircase, {}, Need::optional);
+        v.field("quest", &S::quest, {}, Need::optional);
         v.field("levels_from", &S::levelsFrom, anyText, Need::optional);
     }
 };

@@ -4,6 +4,7 @@
 #include "Files/FactorSource.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/StudyRows.h"
+#include "Study/QuestMethod.h"
 #include "Study/Trial.h"
 #include <cmath>
 #include <set>
@@ -133,7 +134,15 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     return taken;
 }
 
-/// A row of one of the three kinds, or none.
+/// Of a row by QUEST+; else none.
+const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
+    const auto column = rows.optional(trialColumns::quest);
+    if (!column || row.cells[*column].empty()) return nullptr;
+    if (!questPlan(row.cells[*column])) throw StudyFault{rows.table().fault(row, *column, "the words of a QUEST+ session")};
+    return &row.cells[*column];
+}
+
+/// A row of one of the kinds, or none.
 std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     const std::string& task = row.cells[rows.required("task")];
     LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")), StudyRows::textIf(row, rows.optional("condition")),
@@ -141,8 +150,15 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     if (task == "adjust") trial.kind = LevelTrial::Kind::adjustment;
     else if (task == "estimate") trial.kind = LevelTrial::Kind::magnitude;
     else if (task != "choose" || row.cells[rows.required("correct")].empty()) return std::nullopt;
-    if (trial.kind == LevelTrial::Kind::staircase) trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
-    else trial.value = rows.number(row, rows.required("value"), trial.kind == LevelTrial::Kind::magnitude ? leastEstimate : -mostEstimate, mostEstimate);
+    if (trial.kind == LevelTrial::Kind::staircase) {
+        trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
+        trial.session = StudyRows::textIf(row, rows.optional("session"));
+        if (const std::string* const quest = questWordsOf(rows, row)) {
+            trial.kind = LevelTrial::Kind::quest;
+            trial.value = rows.wholeNumber(row, rows.required("correct"), 0, 1);
+            trial.quest = *quest;
+        }
+    } else trial.value = rows.number(row, rows.required("value"), trial.kind == LevelTrial::Kind::magnitude ? leastEstimate : -mostEstimate, mostEstimate);
     return trial;
 }
 

@@ -58,7 +58,7 @@ Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);
 /// Columns stimulus (or condition), participant if there; every column that a trial file does not have is a scale, 0 to 100.
 Result<RatingData> readRatings(std::span<const NamedText> files);
 
-/// A trial file's staircases, adjustments (training, too) and magnitude estimations. One condition holds them all.
+/// A trial file's staircases, QUEST+ sessions, adjustments (training, too) and magnitude estimations. One condition holds them all.
 Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files);
 
 /// What a fit is made of, by the names of columns.

@@ -15,6 +15,9 @@ inline constexpr std::array<std::string_view, 21> names{"participant",   "observ
                                                         "stimulus",      "parts",      "response",  "target_column", "target_row", "x", "y",
                                                         "choice",        "value",      "correct",   "replays", "response_s", "level_db", "render"};
 
-constexpr bool has(std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+/// Of protocols with a session by QUEST+, behind the scales: what was thought possible before the first trial.
+constexpr std::string_view quest = "quest";
+
+constexpr bool has(std::string_view name) { return name == quest || std::ranges::find(names, name) != names.end(); }
 
 } // namespace physvib::trialColumns

@@ -53,6 +53,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     cells["response_s"] = numberText(answer.seconds);
     cells["level_db"] = numberText(trial.levelDb);
     cells["render"] = callsOf(protocol, record);
+    if (session.quest) cells[columns::quest] = questWords(*session.quest, session.guessRate());
     for (std::size_t s = 0; s < answer.scores.size(); ++s) cells[session.scales[s]] = numberText(answer.scores[s]);
     return cells;
 }
@@ -60,6 +61,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
 std::vector<std::string> columnsOf(const Protocol& protocol) {
     std::vector<std::string> all(columns::names.begin(), columns::names.end());
     for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
+    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); })) all.emplace_back(columns::quest);
     return all;
 }
 
@@ -78,6 +80,7 @@ public:
         trial.task = session.task;
         trial.number = rows_.wholeNumber(row, rows_.required("trial"), 1, std::numeric_limits<int>::max());
         trial.stimulus = cell(row, "stimulus");
+        trial.levelDb = rows_.number(row, rows_.required("level_db"), -1000.0, 1000.0);
         record.answer.response = cell(row, session.task == StudyTask::choose ? "choice" : "response");
         record.answer.plays = 1 + rows_.wholeNumber(row, rows_.required("replays"), 0, 1'000'000);
         record.answer.seconds = rows_.number(row, rows_.required("response_s"), 0.0, 1e9);

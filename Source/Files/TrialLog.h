@@ -26,7 +26,7 @@ struct TrialLog {
 };
 
 /// The trials of a file of this protocol and participant, up to the last whole row; or, of the first thing that is wrong, one
-/// line. Of a record's trial only condition, session, number and stimulus are filled in: an experiment knows the rest.
+/// line. Of a record's trial only condition, session, number, stimulus and level are filled in: an experiment knows the rest.
 /// Any thread.
 Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol, const Participant& participant);
 

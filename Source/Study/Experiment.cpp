@@ -49,20 +49,20 @@ void Experiment::beginSession() {
     items_ = stimuliOf(protocol_.conditions[conditionIndex()]);
     inSession_ = 0;
     explored_.clear();
-    staircase_.reset();
+    adaptive_.reset();
     auto random = randomFor("order");
     order_ = sessionOrder(plan(), items_.size(), random);
-    if (plan().staircase) staircase_.emplace(*plan().staircase);
+    if (plan().adaptedAlternative()) adaptive_.emplace(plan());
 }
 
 bool Experiment::isSessionOver() const {
-    if (staircase_) return staircase_->isDone();
+    if (adaptive_) return adaptive_->isDone();
     if (plan().task != StudyTask::explore) return inSession_ >= static_cast<int>(order_.size());
     return plan().fewestTouches > 0 ? inSession_ >= plan().fewestTouches : explored_.size() >= items_.size();
 }
 
 int Experiment::sessionTrials() const noexcept {
-    if (staircase_) return 0;
+    if (adaptive_) return adaptive_->trials();
     return plan().task == StudyTask::explore ? plan().fewestTouches : static_cast<int>(order_.size());
 }
 
@@ -90,7 +90,7 @@ Trial Experiment::nextTrial() {
     if (s.task == StudyTask::explore) return trial;
 
     auto random = randomFor("trial " + std::to_string(trial.number));
-    const bool isPlanned = !staircase_;
+    const bool isPlanned = !adaptive_;
     const PlannedTrial planned = isPlanned ? order_[static_cast<std::size_t>(inSession_)] : PlannedTrial{random.below(items_.size()), random.chance(0.5)};
     trial.stimulus = items_[planned.stimulus].label;
     if (!s.alternatives.empty()) addAlternatives(trial, planned.isSwapped);
@@ -106,9 +106,9 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
     std::vector<Alternative> buttons = s.alternatives;
     if (isSwapped) std::ranges::reverse(buttons);
     if (buttons.size() > 2 && s.task == StudyTask::choose) randomFor("buttons " + std::to_string(trial.number)).shuffle(buttons);
-    if (staircase_) trial.levelDb = staircase_->levelDb();
+    if (adaptive_) trial.levelDb = adaptive_->levelDb();
     if (s.adjustment) trial.levelDb = s.adjustment->startDb;
-    const std::string moved = staircase_ ? s.staircase->alternative : s.adjustment ? s.adjustment->alternative : std::string{};
+    const std::string moved = adaptive_ ? *s.adaptedAlternative() : s.adjustment ? s.adjustment->alternative : std::string{};
     for (const Alternative& button : buttons) {
         double db = button.levelDb + (button.name == moved ? trial.levelDb : 0.0);
         if (!s.levelsFrom.empty()) {
@@ -154,7 +154,7 @@ TrialRecord Experiment::take(Answer answer) {
     if (record.trial.task == StudyTask::explore) explored_.insert(record.answer.response);
     if (record.trial.task == StudyTask::adjust)
         adjusted_[{record.trial.condition, plan().name}][record.trial.stimulus].push_back(record.answer.value);
-    if (staircase_) staircase_->answer(record.answer.response == plan().staircase->alternative);
+    if (adaptive_) adaptive_->answer(record.answer.response == *plan().adaptedAlternative());
     ++inSession_;
     ++taken_;
     advance();
@@ -168,6 +168,7 @@ std::string Experiment::redo(const TrialRecord& record) {
     if (record.trial.session != t.session) return "expected the session " + protocol_.sessions[t.session].name;
     if (record.trial.number != t.number) return "expected trial " + std::to_string(t.number);
     if (record.trial.stimulus != t.stimulus) return "expected the stimulus " + t.stimulus;
+    if (adaptive_ && record.trial.levelDb != t.levelDb) return "expected the level " + std::to_string(t.levelDb) + " dB";
     if (auto fault = refusal(record.answer); !fault.empty()) return fault;
     take(record.answer);
     return {};

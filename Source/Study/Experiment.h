@@ -3,8 +3,8 @@
 // A user interface or a simulated observer drives it; what was answered before can be done again, so a study that was
 // cut off goes on where it was.
 #pragma once
+#include "Study/AdaptiveLevel.h"
 #include "Study/SeededRandom.h"
-#include "Study/Staircase.h"
 #include "Study/StudyOrder.h"
 #include "Study/Trial.h"
 #include <map>
@@ -95,7 +95,7 @@ private:
     std::vector<StimulusItem> items_;     // of the condition at hand
     std::vector<PlannedTrial> order_;     // of the session at hand
     std::set<std::string> explored_;
-    std::optional<Staircase> staircase_;
+    std::optional<AdaptiveLevel> adaptive_;
     int inSession_ = 0;                   // trials answered
 
     std::map<std::pair<std::size_t, std::string>, std::map<std::string, std::vector<double>>> adjusted_; // (condition, session), stimulus

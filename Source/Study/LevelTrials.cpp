@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reversals from the sequence of levels; means in dB or in logarithms.
 #include "Study/LevelTrials.h"
+#include "Study/QuestMethod.h"
+#include "Study/Statistics/Distributions.h"
 #include "Study/Statistics/Moments.h"
 #include <algorithm>
 #include <charconv>
@@ -31,8 +33,10 @@ double meanOf(const std::vector<double>& values, std::size_t from = 0) {
     return sum / static_cast<double>(values.size() - from);
 }
 
+bool isThreshold(LevelTrial::Kind kind) { return kind == LevelTrial::Kind::staircase || kind == LevelTrial::Kind::quest; }
+
 bool isSame(const LevelSummary& s, const LevelTrial& t) {
-    return s.kind == t.kind && s.condition == t.condition && (t.kind == LevelTrial::Kind::staircase || s.stimulus == t.stimulus);
+    return s.kind == t.kind && s.condition == t.condition && (isThreshold(t.kind) || s.stimulus == t.stimulus);
 }
 
 /// Numbers by their value, before all other labels by their bytes.
@@ -43,15 +47,37 @@ auto labelKey(const std::string& label) {
     return std::tuple{!isNumber, isNumber ? number : 0.0, std::string_view{label}};
 }
 
-void summariseStaircases(LevelSummary& summary, const std::map<std::string, std::vector<double>>& levels) {
+using Run = std::vector<const LevelTrial*>; // one participant's trials of a session
+
+double staircaseThreshold(const Run& run, LevelSummary& summary) {
+    std::vector<double> levels;
+    for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
+    const auto reversals = reversalsOf(levels);
+    summary.reversals += reversals.size();
+    return reversals.size() < 2 ? levels.back() : meanOf(reversals, reversals.size() / 2);
+}
+
+double questThreshold(const Run& run, LevelSummary& summary) {
+    QuestPlus quest{*questPlan(run.front()->quest)};
+    for (const LevelTrial* trial : run) quest.answerAt(trial->levelDb, trial->value > 0.5);
+    summary.halfInterval = normalQuantile(0.975) * quest.thresholdDeviation(); // unless there are others
+    return quest.estimate().threshold;
+}
+
+void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {
     std::vector<double> thresholds;
-    for (const auto& [participant, own] : levels) {
-        const auto reversals = reversalsOf(own);
-        summary.reversals += reversals.size();
-        thresholds.push_back(reversals.size() < 2 ? own.back() : meanOf(reversals, reversals.size() / 2));
+    for (const auto& [participant, trials] : participants) {
+        std::map<std::pair<std::string, std::string>, Run> sessions;
+        for (const LevelTrial* trial : trials) sessions[{trial->session, trial->quest}].push_back(trial);
+        std::vector<double> own;
+        for (const auto& [session, run] : sessions)
+            own.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary) : staircaseThreshold(run, summary));
+        thresholds.push_back(meanOf(own));
     }
-    summary.estimate = meanOf(thresholds);
-    summary.deviation = Moments(thresholds).deviation;
+    const Moments moments{thresholds};
+    summary.estimate = moments.mean;
+    summary.deviation = moments.deviation;
+    if (thresholds.size() > 1) summary.halfInterval = moments.halfInterval();
 }
 
 } // namespace
@@ -60,20 +86,20 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
     std::vector<LevelSummary> summaries;
     for (const LevelTrial& trial : trials)
         if (std::ranges::none_of(summaries, [&](const auto& s) { return isSame(s, trial); }))
-            summaries.push_back({trial.kind, trial.condition, trial.kind == LevelTrial::Kind::staircase ? "" : trial.stimulus});
+            summaries.push_back({trial.kind, trial.condition, isThreshold(trial.kind) ? "" : trial.stimulus});
     std::ranges::stable_sort(summaries, {}, [](const LevelSummary& s) { return std::tuple{s.kind, std::string_view{s.condition}, labelKey(s.stimulus)}; });
     for (LevelSummary& summary : summaries) {
-        std::map<std::string, std::vector<double>> byParticipant;
+        std::map<std::string, Run> byParticipant;
         std::vector<double> values;
         for (const LevelTrial& trial : trials) {
             if (!isSame(summary, trial)) continue;
-            byParticipant[trial.participant].push_back(trial.levelDb);
+            byParticipant[trial.participant].push_back(&trial);
             values.push_back(trial.kind == LevelTrial::Kind::magnitude ? std::log10(trial.value) : trial.value);
         }
         summary.trials = values.size();
         summary.participants = byParticipant.size();
-        if (summary.kind == LevelTrial::Kind::staircase) {
-            summariseStaircases(summary, byParticipant);
+        if (isThreshold(summary.kind)) {
+            summariseThresholds(summary, byParticipant);
             continue;
         }
         summary.deviation = Moments(values).deviation;

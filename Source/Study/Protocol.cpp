@@ -42,9 +42,15 @@ std::string taskFault(const SessionPlan& s) {
     if (s.adjustment && !hasAlternative(s, s.adjustment->alternative)) return "adjustment.alternative: expected the name of an alternative";
     if (s.adjustment && !startsInside(*s.adjustment)) return "adjustment: expected least_db <= start_db <= most_db";
     if (s.staircase && !startsInside(*s.staircase)) return "staircase: expected least_db <= start_db <= most_db";
-    if (s.staircase && s.task != StudyTask::choose) return "staircase: expected it of the task choose only";
-    if (s.staircase && s.bothOrders) return "staircase: expected alternatives in random order";
-    if (s.staircase && !hasAlternative(s, s.staircase->alternative)) return "staircase.alternative: expected the name of an alternative";
+    if (s.staircase && s.quest) return "quest: expected it or a staircase, found both";
+    if (const std::string* const adapted = s.adaptedAlternative()) {
+        const std::string method = s.staircase ? "staircase" : "quest";
+        if (s.task != StudyTask::choose) return method + ": expected it of the task choose only";
+        if (s.bothOrders) return method + ": expected alternatives in random order";
+        if (!hasAlternative(s, *adapted)) return method + ".alternative: expected the name of an alternative";
+    }
+    if (s.quest)
+        if (std::string fault = questFault(*s.quest); !fault.empty()) return "quest" + fault;
     if (s.task == StudyTask::explore && !s.isTraining) return "task: expected explore in a training session only";
     if (s.task != StudyTask::explore && s.fewestTouches > 0) return "fewest_touches: expected it of the task explore only";
     return {};

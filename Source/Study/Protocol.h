@@ -5,6 +5,7 @@
 #include "Study/PhantomGrid.h"
 #include "Study/PinkNoise.h"
 #include "Study/PulsePattern.h"
+#include "Study/QuestMethod.h"
 #include "Study/Stimulus.h"
 #include <cstdint>
 #include <optional>
@@ -127,8 +128,13 @@ struct SessionPlan {
     std::vector<std::string> scales;       ///< rate
     std::optional<Adjustment> adjustment;
     std::optional<StaircasePlan> staircase;
+    std::optional<QuestMethod> quest;
     std::string levelsFrom; ///< an earlier session whose adjustments hold here
     bool operator==(const SessionPlan&) const = default;
+
+    /// Which alternative's level follows the answers, by a staircase or QUEST+; none if no level does.
+    const std::string* adaptedAlternative() const noexcept { return staircase ? &staircase->alternative : quest ? &quest->alternative : nullptr; }
+    double guessRate() const noexcept { return 1.0 / static_cast<double>(alternatives.size()); } ///< of choices
 };
 
 struct Protocol {

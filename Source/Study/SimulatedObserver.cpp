@@ -99,7 +99,7 @@ FieldPlace SimulatedObserver::feltPlace(const FieldPlace& place, SeededRandom& r
 
 /// The stronger of two levels that differ; else the first of the session's list by preference.
 std::string SimulatedObserver::chosen(const SessionPlan& session, const Trial& trial, SeededRandom& random) const {
-    if (session.staircase) {
+    if (session.adaptedAlternative()) {
         std::size_t strongest = 0;
         double most = -1e9;
         for (std::size_t i = 0; i < trial.parts.size(); ++i)

@@ -22,7 +22,7 @@ struct PlannedTrial {
     bool isSwapped = false;
 };
 
-/// All trials of a session without a staircase. Any thread (allocates).
+/// All trials of a session whose levels do not follow the answers. Any thread (allocates).
 std::vector<PlannedTrial> sessionOrder(const SessionPlan& session, std::size_t stimuli, SeededRandom& random);
 
 } // namespace physvib

@@ -125,8 +125,12 @@ TEST_F(Study, ProtocolsOfOnesOwnNeedNoCode) {
     ASSERT_EQ(call("study run magnitudes --observer simulated").exitCode, 0);
     EXPECT_NE(read("magnitudes-P01.csv").find(",estimate,"), std::string::npos);
     EXPECT_NE(analyse("levels", " level-steps-anna_1.csv").find("PHONE: threshold "), std::string::npos);
+    ASSERT_EQ(call("study run level-quest --observer simulated --participants 2").exitCode, 0);
+    const auto quest = analyse("levels", " level-quest-P01.csv level-quest-P02.csv");
+    EXPECT_NE(quest.find("PHONE: threshold by QUEST+ "), std::string::npos) << quest;
+    EXPECT_NE(quest.find(", 95 % interval "), std::string::npos) << quest;
     EXPECT_NE(analyse("levels", " magnitudes-P01.csv").find("PHONE, 0.4: magnitude "), std::string::npos);
-    EXPECT_EQ(std::ranges::count(call("study list").out, '\n'), 7);
+    EXPECT_EQ(std::ranges::count(call("study list").out, '\n'), 8);
 }
 
 TEST_F(Study, BadCallsAndFilesAreRefused) {

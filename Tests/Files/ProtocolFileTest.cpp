@@ -36,7 +36,7 @@ TEST(ProtocolFile, FaultsAreNamedByTheirField) {
 }
 
 TEST(ProtocolFile, EveryBuiltInProtocolIsReadBackAsWritten) {
-    ASSERT_EQ(builtInProtocols().size(), 7u);
+    ASSERT_EQ(builtInProtocols().size(), 8u);
     for (const Protocol& p : builtInProtocols()) {
         const std::string text = protocolJson(p);
         const auto again = readProtocol(text, p.name);

@@ -177,6 +177,27 @@ TEST_F(TrialLogFiles, AFullDiskLeavesWholeRows) {
     }
 }
 
+TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
+    const Protocol p = findProtocol("level-quest").value;
+    std::string text = wholeFile(p);
+    const auto summaries = [&text]() -> Result<std::vector<LevelSummary>> {
+        const NamedText file{text, "t.csv"};
+        const auto levels = readLevels(std::span{&file, 1});
+        if (!levels) return Failure{levels.error};
+        return summariseLevels(levels.value.conditions.front().trials);
+    };
+    const auto read = summaries();
+    ASSERT_TRUE(read) << read.error;
+    ASSERT_EQ(read.value.size(), 1u);
+    EXPECT_EQ(read.value[0].kind, LevelTrial::Kind::quest);
+    EXPECT_EQ(read.value[0].trials, 30u);
+    EXPECT_NEAR(read.value[0].estimate, 0.674 * std::sqrt(2.0) * 2.0, read.value[0].halfInterval) << "75 % of comparisons with 2 dB of noise";
+    const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20\n";
+    ASSERT_NE(text.rfind(words), std::string::npos);
+    text.replace(text.rfind(words), words.size(), ",weibull\n");
+    EXPECT_EQ(summaries().error, "t.csv:32: column quest: expected the words of a QUEST+ session, found \"weibull\"");
+}
+
 TEST(TrialLog, AnalysesReadIt) {
     const auto trialsOf = [](const char* name) { return wholeFile(findProtocol(name).value); };
     const auto one = [](const std::string& text) { return NamedText{text, "t.csv"}; };

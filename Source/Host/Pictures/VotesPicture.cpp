@@ -28,7 +28,8 @@ std::vector<LevelPanel> levelPanels(std::span<const LevelSummary> summaries) {
     using Kind = LevelTrial::Kind;
     std::vector<LevelPanel> panels{{Kind::staircase, "Thresholds", "dB, mean of the later reversals", {}},
                                    {Kind::adjustment, "Matched levels", "dB, zero in the middle", {}},
-                                   {Kind::magnitude, "Magnitudes", "geometric means", {}}};
+                                   {Kind::magnitude, "Magnitudes", "geometric means", {}},
+                                   {Kind::quest, "Thresholds", "dB, by QUEST+", {}}};
     for (const auto& s : summaries) panels[static_cast<std::size_t>(s.kind)].rows.push_back(&s);
     std::erase_if(panels, [](const auto& p) { return p.rows.empty(); });
     return panels;

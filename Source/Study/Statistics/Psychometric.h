@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Psychometric functions: how likely an answer is at a level, fitted to trials by maximum likelihood.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
@@ -14,6 +16,8 @@ enum class PsychometricShape {
     normal, ///< cumulative
     weibull ///< of levels in dB or another logarithm (Gumbel's in the level itself)
 };
+
+inline constexpr std::array<std::string_view, 3> psychometricShapeNames{"logistic", "normal", "weibull"};
 
 /// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and goes from 0.05 to 0.95 within the width.
 struct PsychometricFunction {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bayes' rule on a grid; the next level is the one with the least entropy to be expected.
 #include "Study/Statistics/QuestPlus.h"
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -41,9 +42,11 @@ void QuestPlus::chooseNext() {
     }
 }
 
-void QuestPlus::answer(bool isCorrect) {
+void QuestPlus::answerAt(double level, bool isCorrect) {
+    const auto nearest = std::ranges::min_element(plan_.levels, {}, [level](double own) { return std::abs(own - level); });
+    const auto at = static_cast<std::size_t>(nearest - plan_.levels.begin());
     double sum = 0.0;
-    for (std::size_t i = 0; i < belief_.size(); ++i) sum += belief_[i] *= isCorrect ? correct(next_, i) : 1.0 - correct(next_, i);
+    for (std::size_t i = 0; i < belief_.size(); ++i) sum += belief_[i] *= isCorrect ? correct(at, i) : 1.0 - correct(at, i);
     for (double& belief : belief_) belief /= sum;
     ++trials_;
     chooseNext();

@@ -22,7 +22,8 @@ public:
     explicit QuestPlus(QuestPlan plan);
 
     double level() const noexcept { return plan_.levels[next_]; } ///< of the next trial
-    void answer(bool isCorrect);                                  ///< to a trial at `level`
+    void answer(bool isCorrect) { answerAt(level(), isCorrect); } ///< to a trial at `level`
+    void answerAt(double level, bool isCorrect);                  ///< to a trial at the nearest of the plan's levels, whoever chose it
     PsychometricFunction estimate() const;                        ///< mean over what is still possible
     double thresholdDeviation() const;                            ///< its standard deviation
     int trials() const noexcept { return trials_; }

@@ -29,7 +29,7 @@ constexpr Analysis analyses[] = {
     {"percent-counts", "percent counts: the largest grid that merging makes of them", analysePercentCounts},
     {"choices", "forced choices: shares of the alternatives", analyseChoices},
     {"ratings", "slider ratings: means by condition", analyseRatings},
-    {"levels", "staircases, adjustments and magnitude estimations: thresholds and means", analyseLevels},
+    {"levels", "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
     {"icons", "stimulus,response per trial: the patterns that are confused least", analyseIcons},
 };
 

@@ -99,7 +99,8 @@ void declareFit(CLI::App& command, AnalyseOptions& o) {
     command.add_option("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (stimulus)")->type_name("COLUMN");
     command.add_option("--measure", o.measure, isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)")->type_name("COLUMN");
     if (!isPsychometric) return;
-    const std::map<std::string, PsychometricShape> shapes{{"logistic", PsychometricShape::logistic}, {"normal", PsychometricShape::normal}, {"weibull", PsychometricShape::weibull}};
+    std::map<std::string, PsychometricShape> shapes;
+    for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i) shapes[std::string(psychometricShapeNames[i])] = static_cast<PsychometricShape>(i);
     command.add_option("--shape", o.shape, "of the function (logistic)")->transform(CLI::CheckedTransformer(shapes))->type_name("logistic|normal|weibull");
     command.add_option("--guess", o.guess, "share of right answers without a percept: 1 / alternatives")->check(CLI::Range(0.0, 0.9))->capture_default_str();
 }

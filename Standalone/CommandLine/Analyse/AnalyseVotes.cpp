@@ -21,6 +21,7 @@ void tell(std::ostream& out, const ChoiceSummary& summary) {
 
 const char* kindWord(LevelTrial::Kind kind) {
     if (kind == LevelTrial::Kind::staircase) return "threshold";
+    if (kind == LevelTrial::Kind::quest) return "threshold by QUEST+";
     return kind == LevelTrial::Kind::adjustment ? "matched at" : "magnitude";
 }
 
@@ -29,6 +30,7 @@ void tell(std::ostream& out, const LevelSummary& s) {
     out << printable(s.condition) << (s.stimulus.empty() ? "" : ", " + printable(s.stimulus)) << ": " << kindWord(s.kind) << ' ' << fixedNumber(s.estimate, isMagnitude ? 2 : 1)
               << (isMagnitude ? "" : " dB");
     if (s.deviation > 0.0) out << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10)" : " dB)");
+    if (s.halfInterval > 0.0) out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to " << fixedNumber(s.estimate + s.halfInterval, 1) << " dB";
     out << ", " << s.trials << (s.trials == 1 ? " trial of " : " trials of ") << s.participants << (s.participants == 1 ? " participant" : " participants");
     if (s.kind == LevelTrial::Kind::staircase) out << ", " << s.reversals << " reversals";
     out << '\n';
@@ -91,12 +93,12 @@ AnalysisReport analyseLevels(const AnalyseOptions& o) {
     const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readLevels(files); });
     if (!data) return {data.error};
     const auto summaries = summariseLevels(data.value.conditions.front().trials);
-    ExportTable table{"levels", data.value.isSimulated, "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation"};
+    ExportTable table{"levels", data.value.isSimulated, "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation,half_interval"};
     AnalysisReport report{{}, data.value.isSimulated};
     std::ostringstream out;
     for (const LevelSummary& s : summaries) {
         tell(out, s);
-        table.cell(kindWord(s.kind)).cell(s.condition).cell(s.stimulus).cell(s.trials).cell(s.participants).cell(s.reversals).cell(s.estimate).cell(s.deviation);
+        table.cell(kindWord(s.kind)).cell(s.condition).cell(s.stimulus).cell(s.trials).cell(s.participants).cell(s.reversals).cell(s.estimate).cell(s.deviation).cell(s.halfInterval);
         table.endRow();
     }
     report.words = out.str();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Analyses of opinions and levels: forced choices, slider ratings, staircases, adjustments, magnitudes.
+// Analyses of opinions and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
 #pragma once
 
 namespace physvib {

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// QUEST+ as a session of a protocol: what simulated observers' rows come to, beside a staircase's.
+#include "Study/Experiment.h"
+#include "Study/LevelTrials.h"
+#include "Study/SimulatedObserver.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <iostream>
+
+namespace physvib {
+namespace {
+
+Protocol withSession(SessionPlan session) {
+    session.name = "main";
+    session.task = StudyTask::choose;
+    session.alternatives = {{"standard"}, {"stronger"}};
+    Protocol p;
+    p.name = "thresholds";
+    p.conditions = {{"A", "", "phone4", 205.0, 1.0, GridSet{1, 1}}};
+    p.sessions = {std::move(session)};
+    EXPECT_EQ(validate(p), "");
+    return p;
+}
+
+const QuestMethod method{.alternative = "stronger", .mostDb = 30.0, .stepDb = 1.0, .leastWidthDb = 3.0, .mostWidthDb = 12.0, .trials = 40};
+
+Protocol questProtocol(const QuestMethod& quest) { return withSession({.quest = quest}); }
+
+/// An observer whose answers follow a known function of the level, through a whole study: the rows that it leaves.
+std::vector<TrialRecord> recordsOf(const Protocol& p, const PsychometricFunction& truth, int number) {
+    Experiment experiment{p, {"P", number}};
+    SeededRandom random{static_cast<std::uint64_t>(number), "answers"};
+    std::vector<TrialRecord> records;
+    while (!experiment.isDone()) {
+        const bool isRight = random.chance(truth.probability(experiment.trial().levelDb));
+        records.push_back(experiment.take({.response = isRight ? "stronger" : "standard"}));
+    }
+    return records;
+}
+
+/// As an analysis gets them from a file.
+std::vector<LevelTrial> levelTrialsOf(const Protocol& p, const std::vector<TrialRecord>& records, const std::string& participant) {
+    std::vector<LevelTrial> trials;
+    for (const auto& record : records) {
+        LevelTrial trial{LevelTrial::Kind::staircase, participant, "A", record.trial.stimulus, record.trial.levelDb};
+        if (const auto& quest = p.sessions[0].quest) {
+            trial.kind = LevelTrial::Kind::quest;
+            trial.value = *isCorrect(p, record) ? 1.0 : 0.0;
+            trial.quest = questWords(*quest, p.sessions[0].guessRate());
+        }
+        trials.push_back(std::move(trial));
+    }
+    return trials;
+}
+
+LevelSummary summaryOf(const Protocol& p, const std::vector<TrialRecord>& records) { return summariseLevels(levelTrialsOf(p, records, "P")).front(); }
+
+PsychometricFunction someObserver(SeededRandom& random) { return {PsychometricShape::weibull, 6.0 + 10.0 * random.uniform(), 4.0 + 5.0 * random.uniform(), 0.5, 0.02}; }
+
+TEST(QuestMethod, ErrsNoMoreThanAStaircaseWithTwoThirdsOfItsTrials) {
+    const Protocol stairs = withSession({.staircase = StaircasePlan{.alternative = "stronger", .startDb = 25.0, .stepDb = 4.0, .leastStepDb = 1.0, .mostDb = 30.0, .reversals = 12}});
+    SeededRandom random{21, "observers"};
+    double stairsSquares = 0.0, questSquares = 0.0;
+    std::size_t stairsTrials = 0, questTrials = 0;
+    constexpr int observers = 300;
+    for (int number = 1; number <= observers; ++number) {
+        const PsychometricFunction truth = someObserver(random);
+        const auto byStairs = recordsOf(stairs, truth, number);
+        QuestMethod shorter = method;
+        shorter.trials = static_cast<int>(2 * byStairs.size() / 3);
+        const Protocol quest = questProtocol(shorter);
+        const auto byQuest = recordsOf(quest, truth, number);
+        stairsTrials += byStairs.size(), questTrials += byQuest.size();
+        stairsSquares += std::pow(summaryOf(stairs, byStairs).estimate - truth.levelOf(std::sqrt(0.5)), 2); // what two down, one up aims at
+        questSquares += std::pow(summaryOf(quest, byQuest).estimate - truth.threshold, 2);
+    }
+    EXPECT_LE(questTrials, 2 * stairsTrials / 3);
+    EXPECT_LE(questSquares, stairsSquares);
+    std::cout << "error, dB: QUEST+ " << std::sqrt(questSquares / observers) << " in " << questTrials / observers << " trials, staircase " << std::sqrt(stairsSquares / observers)
+              << " in " << stairsTrials / observers << '\n';
+}
+
+TEST(QuestMethod, ThresholdsAreUnbiasedAndIntervalsHold) {
+    const Protocol p = questProtocol(method);
+    SeededRandom random{22, "observers"};
+    double off = 0.0, widths = 0.0;
+    int held = 0;
+    constexpr int observers = 500;
+    for (int number = 1; number <= observers; ++number) {
+        const PsychometricFunction truth = someObserver(random);
+        const LevelSummary summary = summaryOf(p, recordsOf(p, truth, number));
+        off += summary.estimate - truth.threshold;
+        widths += truth.width;
+        held += std::abs(summary.estimate - truth.threshold) <= summary.halfInterval;
+    }
+    EXPECT_LT(std::abs(off), 0.02 * widths);
+    EXPECT_NEAR(held, 0.95 * observers, 0.03 * observers);
+    std::cout << "bias " << 100.0 * off / widths << " % of the width, intervals hold in " << 100.0 * held / observers << " %\n";
+}
+
+TEST(QuestMethod, GoesOnAfterEveryCutWithTheLevelsThatWouldHaveBeen) {
+    const Protocol p = questProtocol(method);
+    const SimulatedObserver observer{{}, p, {}};
+    Experiment whole{p, {}};
+    EXPECT_EQ(whole.sessionTrials(), 40);
+    std::vector<TrialRecord> records;
+    while (!whole.isDone()) records.push_back(whole.take(observer.answer(whole)));
+    ASSERT_EQ(records.size(), 40u);
+    for (std::size_t cut = 0; cut < records.size(); cut += 13) {
+        Experiment experiment{p, {}};
+        for (std::size_t i = 0; i < cut; ++i) ASSERT_EQ(experiment.redo(records[i]), "");
+        for (std::size_t i = cut; i < records.size(); ++i) {
+            EXPECT_EQ(experiment.trial().partLevelsDb, records[i].trial.partLevelsDb);
+            EXPECT_EQ(experiment.take(observer.answer(experiment)).answer, records[i].answer);
+        }
+    }
+    Experiment other{p, {}};
+    TrialRecord moved = records.front();
+    moved.trial.levelDb += 1.0;
+    EXPECT_EQ(other.redo(moved).rfind("expected the level ", 0), 0u) << "a row of another level is another answer";
+}
+
+TEST(QuestMethod, EndsOnceTheThresholdIsKnownWellEnough) {
+    QuestMethod early = method;
+    early.trials = 400;
+    early.deviationDb = 1.0;
+    const Protocol p = questProtocol(early);
+    EXPECT_EQ(Experiment(p, {}).sessionTrials(), 0);
+    const auto records = recordsOf(p, {PsychometricShape::weibull, 10.0, 6.0, 0.5, 0.02}, 1);
+    EXPECT_LT(records.size(), 150u);
+    EXPECT_LE(summaryOf(p, records).halfInterval, 1.96);
+}
+
+TEST(QuestMethod, SeveralParticipantsAndSessionsAreKeptApart) {
+    const Protocol p = questProtocol(method);
+    std::vector<LevelTrial> trials;
+    double mean = 0.0;
+    for (int number = 1; number <= 3; ++number) {
+        const auto records = recordsOf(p, {PsychometricShape::weibull, 6.0 + 2.0 * number, 6.0, 0.5, 0.02}, number);
+        mean += summaryOf(p, records).estimate / 3.0;
+        for (const char* session : {"one", "two"})
+            for (LevelTrial trial : levelTrialsOf(p, records, "P" + std::to_string(number))) trial.session = session, trials.push_back(trial);
+    }
+    const auto summaries = summariseLevels(trials);
+    ASSERT_EQ(summaries.size(), 1u);
+    EXPECT_NEAR(summaries[0].estimate, mean, 1e-12);
+    EXPECT_EQ(summaries[0].participants, 3u);
+    EXPECT_GT(summaries[0].halfInterval, summaries[0].deviation) << "Student's t of three";
+}
+
+TEST(QuestMethod, ItsWordsAreThePlan) {
+    const std::string words = questWords(method, 0.5);
+    EXPECT_EQ(words, "weibull guess 0.5 lapse 0.02 levels_db 0 1 30 widths_db 3 12");
+    const auto plan = questPlan(words);
+    ASSERT_TRUE(plan);
+    EXPECT_EQ(plan->levels, questPlan(method, 0.5).levels);
+    EXPECT_EQ(plan->levels.size(), 31u);
+    EXPECT_EQ(plan->widths, questPlan(method, 0.5).widths);
+    for (const char* bad : {"", "weibull", "cosine guess 0.5 lapse 0.02 levels_db 0 1 30 widths_db 3 12", "weibull guess 0 lapse 0.02 levels_db 0 1 30 widths_db 3 12",
+                            "weibull guess 0.5 lapse 0.02 levels_db 0 0 30 widths_db 3 12", "weibull guess 0.5 lapse 0.02 levels_db 0 1e-9 30 widths_db 3 12",
+                            "weibull guess 0.5 lapse 0.02 levels_db 0 1 nan widths_db 3 12", "weibull guess 0.5 lapse 0 levels_db 0 1 30 widths_db 3 12"})
+        EXPECT_FALSE(questPlan(std::string_view{bad})) << bad;
+}
+
+TEST(QuestMethod, WhatMakesNoSenseIsRefusedByItsField) {
+    const auto fault = [](auto change) {
+        Protocol p = questProtocol(method);
+        change(p.sessions[0]);
+        return validate(p);
+    };
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->alternative = "weaker"; }), "sessions[0].quest.alternative: expected the name of an alternative");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->mostDb = 0.0; }), "sessions[0].quest: expected least_db < most_db");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->leastWidthDb = 13.0; }), "sessions[0].quest: expected least_width_db <= most_width_db");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.quest->stepDb = 0.1; }), "sessions[0].quest.step_db: expected at most 201 levels, found 301");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.bothOrders = true; }), "sessions[0].quest: expected alternatives in random order");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.staircase = StaircasePlan{.alternative = "stronger"}; }), "sessions[0].quest: expected it or a staircase, found both");
+    EXPECT_EQ(fault([](SessionPlan& s) { s.task = StudyTask::identify, s.alternatives.clear(); }), "sessions[0].quest: expected it of the task choose only");
+}
+
+} // namespace
+} // namespace physvib
