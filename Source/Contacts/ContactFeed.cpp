@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// From what others tell to what the stages want to know.
+#include "Contacts/ContactFeed.h"
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace physvib {
+
+namespace {
+
+constexpr std::string_view unknownBody = "body: expected one that has been told";
+constexpr std::string_view outsideStep = "step: expected to be within one";
+constexpr std::string_view withinStep = "step: expected not to be within one";
+
+bool isFinite(Vector2 v) noexcept { return std::isfinite(v.x) && std::isfinite(v.y); }
+
+bool isWithin(double value, double least, double most) noexcept { return value >= least && value <= most; } // not NaN
+
+bool isUnit(Vector2 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; } // not NaN; engines round
+
+const ImpactSettings& checked(const ImpactSettings& settings) {
+    if (settings.timing != ImpactTiming::onset) throw std::invalid_argument("timing: expected onset: others' contacts are not told to their end");
+    return settings;
+}
+
+} // namespace
+
+ContactFeed::ContactFeed(const ImpactSettings& settings)
+    : events_(bodies_, checked(settings)) {}
+
+void ContactFeed::configure(const ImpactSettings& settings) { events_.configure(checked(settings)); }
+
+std::string_view ContactFeed::set(std::int32_t id, const FedBody& body, const HapticFixture& values) {
+    if (id < 0) return "body: expected a number from 0 on";
+    if (const std::string_view fault = physvib::faultOf(body); !fault.empty()) return fault;
+    if (const std::string_view fault = physvib::faultOf(values); !fault.empty()) return fault;
+    bodies_.set(id, body);
+    return events_.set(FedBodies::nameOf(id), bodies_.facts(FedBodies::nameOf(id)), {}, values, id).refusal;
+}
+
+std::string_view ContactFeed::move(std::int32_t id, Vector2 centre, const BodyMotion& motion) {
+    if (!bodies_.has(id)) return unknownBody;
+    if (!isFinite(centre)) return "place: expected numbers";
+    if (!isFinite(motion.metresPerSecond) || !std::isfinite(motion.radiansPerSecond)) return "velocity: expected numbers";
+    bodies_.move(id, centre, motion);
+    return {};
+}
+
+std::string_view ContactFeed::remove(std::int32_t id) {
+    if (!bodies_.has(id)) return unknownBody;
+    if (events_.catcher().isStepping()) return withinStep;
+    const std::int32_t slot = slotOf(id);
+    dropAllOf(slot);
+    events_.vanish(slot);
+    bodies_.remove(id);
+    return {};
+}
+
+std::string_view ContactFeed::beginStep(std::int64_t endNs, double gravityMetresPerSecond2) {
+    if (events_.catcher().isStepping()) return withinStep;
+    if (endNs < timeNs() || endNs > limits::maxTimeNs) return "time: expected not to go back, and less than 10^17 ns";
+    if (!isWithin(gravityMetresPerSecond2, 0.0, 1.0e6)) return "gravity: expected 0 to 10^6 m/s^2";
+    lastStepSeconds_ = events_.stepSeconds();
+    events_.beginStep(endNs, {0.0F, -static_cast<float>(gravityMetresPerSecond2)}, bodies_.largestMassKg());
+    return {};
+}
+
+std::string_view ContactFeed::faultOf(const FedContact& contact) {
+    constexpr double most = 1.0e12;
+    if (!events_.catcher().isStepping()) return outsideStep;
+    if (!bodies_.has(contact.a) || !bodies_.has(contact.b)) return unknownBody;
+    if (contact.a == contact.b) return "bodies: expected two";
+    if (!isFinite(contact.point)) return "point: expected numbers";
+    if (!isUnit(contact.normal)) return "normal: expected a length of 1";
+    if (!isWithin(contact.impulseNewtonSeconds.value_or(0.0), -most, most) || !isWithin(contact.tangentialNewtonSeconds, -most, most))
+        return "impulse: expected a number of N s";
+    if (!isWithin(contact.approachMetresPerSecond.value_or(0.0), -most, most)) return "approach: expected a number of m/s";
+    if (!isWithin(contact.restitution, 0.0, 1.0)) return "restitution: expected 0 to 1";
+    if (!isWithin(contact.effectiveMassKg.value_or(0.0), 0.0, most)) return "effective mass: expected 0 to 10^12 kg";
+    if (!isWithin(contact.fraction.value_or(0.0), -1.0, 1.0)) return "fraction: expected -1 to 1";
+    if (!std::isfinite(contact.gapMetres)) return "gap: expected a number of metres";
+    if (!isWithin(contact.gapFraction, 0.0, 1.0)) return "fraction of the gap: expected 0 to 1";
+    return {};
+}
+
+std::string_view ContactFeed::touch(const FedContact& contact) {
+    if (const std::string_view fault = faultOf(contact); !fault.empty()) return fault;
+    Pair& pair = know(contact, true);
+    pair.isNamed = true;
+    if (pair.isNew)
+        strike(contact);
+    else
+        load(contact);
+    return {};
+}
+
+std::string_view ContactFeed::begin(const FedContact& contact) {
+    if (const std::string_view fault = faultOf(contact); !fault.empty()) return fault;
+    know(contact, false);
+    strike(contact);
+    return {};
+}
+
+std::string_view ContactFeed::push(const FedContact& contact) {
+    if (const std::string_view fault = faultOf(contact); !fault.empty()) return fault;
+    know(contact, false); // one that was there before anybody told
+    load(contact);
+    return {};
+}
+
+std::string_view ContactFeed::end(std::int32_t a, std::int32_t b) {
+    if (!bodies_.has(a) || !bodies_.has(b) || a == b) return unknownBody;
+    const std::int32_t pair = pairOf_.find(pairKey(slotOf(a), slotOf(b)));
+    if (pair == IntegerMap::none) return "contact: expected one that has begun";
+    drop(static_cast<std::size_t>(pair));
+    return {};
+}
+
+std::string_view ContactFeed::endStep() {
+    if (!events_.catcher().isStepping()) return outsideStep;
+    for (std::size_t i = pairs_.size(); i-- > 0;) {
+        if (pairs_[i].isAsked && !pairs_[i].isNamed)
+            drop(i);
+        else
+            pairs_[i].isNew = pairs_[i].isNamed = false;
+    }
+    events_.endStep();
+    return {};
+}
+
+ContactFeed::Pair& ContactFeed::know(const FedContact& contact, bool isAsked) {
+    const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
+    if (const std::int32_t known = pairOf_.find(pairKey(a, b)); known != IntegerMap::none) return pairs_[static_cast<std::size_t>(known)];
+    pairOf_.set(pairKey(a, b), static_cast<std::int32_t>(pairs_.size()));
+    pairs_.push_back({std::min(a, b), std::max(a, b), isAsked, true, false});
+    events_.catcher().begin(a, b);
+    return pairs_.back();
+}
+
+// Where a contact lay when it ended matters to the other timing only.
+void ContactFeed::drop(std::size_t pair) {
+    Pair& hole = pairs_[pair];
+    events_.catcher().end(hole.a, hole.b);
+    pairOf_.erase(pairKey(hole.a, hole.b));
+    if (&hole != &pairs_.back()) {
+        hole = pairs_.back();
+        pairOf_.set(pairKey(hole.a, hole.b), static_cast<std::int32_t>(pair));
+    }
+    pairs_.pop_back();
+}
+
+void ContactFeed::dropAllOf(std::int32_t slot) {
+    for (std::size_t i = pairs_.size(); i-- > 0;)
+        if (pairs_[i].a == slot || pairs_[i].b == slot) drop(i);
+}
+
+void ContactFeed::strike(const FedContact& contact) {
+    CollisionCatcher& catcher = events_.catcher();
+    if (!catcher.isHearing()) return;
+    const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
+    const double told = contact.approachMetresPerSecond.value_or(bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
+    const double mass = contact.effectiveMassKg.value_or(bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
+    const double impulse = contact.impulseNewtonSeconds.value_or(mass * std::max(0.0, told) * (1.0 + contact.restitution));
+    if (!(impulse > 0.0 && std::isfinite(impulse))) return; // two that cannot be moved
+    // Of an impulse alone: what it changes of the lighter body's velocity, which is at least the speed before it.
+    const bool isSpeedKnown = contact.approachMetresPerSecond || !contact.impulseNewtonSeconds || told > 0.0;
+    const double speed = isSpeedKnown ? told : impulse / std::min(events_.fixtures()[a].movableMassKg(), events_.fixtures()[b].movableMassKg());
+    if (!catcher.isBlow(a, b, speed)) return load(contact);
+
+    Blow* blow = catcher.blow(a, b);
+    const bool isFirst = blow == nullptr;
+    if (isFirst && (blow = catcher.strike(a, b, speed)) == nullptr) return;
+    const double fraction = fractionOf(contact, isSpeedKnown ? speed : 0.0);
+    blow->fraction = isFirst ? fraction : std::min(blow->fraction, fraction);
+    if (contact.impulseNewtonSeconds || isFirst) { // points push together; a speed tells of the whole blow
+        const double sum = blow->normalImpulse + impulse;
+        blow->point += static_cast<float>(impulse / sum) * (contact.point - blow->point);
+        blow->normalImpulse = sum;
+        blow->tangentialImpulse += contact.impulseNewtonSeconds ? contact.tangentialNewtonSeconds : 0.0;
+    } else if (impulse > blow->normalImpulse) {
+        blow->normalImpulse = impulse;
+        blow->point = contact.point;
+    }
+}
+
+void ContactFeed::load(const FedContact& contact) {
+    const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
+    if (!contact.impulseNewtonSeconds || !events_.catcher().isHearing() || !events_.catcher().isHeard(a, b)) return;
+    const auto along = static_cast<float>(*contact.impulseNewtonSeconds), across = static_cast<float>(contact.tangentialNewtonSeconds);
+    events_.catcher().push(a, b, along * contact.normal + across * contact.normal.turnedLeft(), contact.point);
+}
+
+// Surfaces close a gap, or have closed it, at the speed at which they meet.
+double ContactFeed::fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept {
+    if (contact.fraction) return *contact.fraction;
+    const double ahead = approachMetresPerSecond > 0.0 ? contact.gapMetres / approachMetresPerSecond : 0.0;
+    const double now = events_.stepSeconds();
+    const double seconds = contact.gapFraction * now + ahead;
+    const double length = seconds < 0.0 ? lastStepSeconds_ : now;
+    return length > 0.0 ? std::clamp(seconds / length, -1.0, 1.0) : 0.0;
+}
+
+} // namespace physvib

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// PhysVib for any physics engine: tell which bodies there are and which of them touch, step by step; take events.
+#pragma once
+#include "Contacts/ContactEvents.h"
+#include "Contacts/FedBodies.h"
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// Two bodies touch. Either the impulse is told, or how fast they near each other; if both are, the impulse counts, and the
+/// speed says whether it is a blow at all, and when. With neither, the speed is that of the motions told.
+struct FedContact {
+    std::int32_t a = -1, b = -1; ///< bodies
+    Vector2 point;               ///< m, in the plane of the field
+    Vector2 normal{0.0F, 1.0F};  ///< of length 1, from a to b
+    std::optional<double> impulseNewtonSeconds; ///< along the normal, in this step
+    double tangentialNewtonSeconds = 0.0;       ///< to the left of the normal; only with an impulse
+    std::optional<double> approachMetresPerSecond; ///< before the engine's solver
+    double restitution = 0.0;              ///< 0 to 1, of the pair; where no impulse is told
+    std::optional<double> effectiveMassKg; ///< where no impulse is told; else by the masses, inertias and centres told
+
+    /// When they touched, in steps after the start of this one: -1 (start of the step before) to 1. If it is not told, it follows from
+    /// the gap between the surfaces (m, less than 0: they overlap) at the moment when the engine looked, and from the speed.
+    std::optional<double> fraction;
+    double gapMetres = 0.0;
+    double gapFraction = 0.0; ///< that moment in steps: 0 (before bodies are moved) to 1 (after)
+};
+
+/// The catcher for engines that we do not know; bodies are numbers (>= 0), and stand in events as such. Each step: beginStep,
+/// move() whatever moved (only where speeds, places or turning blows are to follow from it), touch() every pair that touches, or
+/// begin, push and end it, endStep; then take. Impulses as for Box2D (see CollisionCatcher), by onset. Nothing is changed by what
+/// is refused. All methods: the world's thread (M). None allocates once it has seen as much as it will, but where the caller's
+/// vector grows. None throws but for the constructor, configure and want of memory.
+class ContactFeed final {
+public:
+    /// Throws std::invalid_argument if a setting is out of range; the timing is onset.
+    explicit ContactFeed(const ImpactSettings& settings = {});
+    ContactFeed(const ContactFeed&) = delete;
+    ContactFeed& operator=(const ContactFeed&) = delete;
+
+    /// Takes effect with the next step. Throws as the constructor does.
+    void configure(const ImpactSettings& settings);
+    const ImpactSettings& settings() const noexcept { return events_.settings(); }
+
+    /// A body, at first or again. What is wrong with it; empty: it is set. Each of the following says so.
+    std::string_view set(std::int32_t id, const FedBody& body, const HapticFixture& values);
+
+    /// Centre of mass, and motion before the engine's solver.
+    std::string_view move(std::int32_t id, Vector2 centre, const BodyMotion& motion);
+
+    /// A body that goes: what it felt and gave so far stays, or not (ImpactSettings::keepsHitsOfDestroyed). Not within a step.
+    std::string_view remove(std::int32_t id);
+
+    std::string_view setPair(int surface, int other, const PairSound& sound) { return events_.setPair(surface, other, sound); }
+
+    /// The step ends at `endNs` (not before timeNs()); gravity, m/s^2, says what a resting body is pushed by.
+    std::string_view beginStep(std::int64_t endNs, double gravityMetresPerSecond2);
+
+    /// For engines that are asked in each step what touches: a pair that did not in the step before begins, one that is not
+    /// named again has ended. Several points of a pair are several calls.
+    std::string_view touch(const FedContact& contact);
+
+    /// For engines that tell: parts that were apart meet. A pair may do so again while it touches, with another corner.
+    std::string_view begin(const FedContact& contact);
+    /// What a pair that goes on touching pushes in this step: how blows are handed on.
+    std::string_view push(const FedContact& contact);
+    std::string_view end(std::int32_t a, std::int32_t b);
+
+    std::string_view endStep();
+
+    std::int64_t timeNs() const noexcept { return events_.timeNs(); }
+    std::int64_t settledNs() const noexcept { return events_.settledNs(); }
+    void take(std::vector<CollisionEvent>& events) { events_.take(events); }
+    void flush(std::vector<CollisionEvent>& events) { events_.flush(events); }
+    std::uint64_t drops() const noexcept { return events_.drops(); }
+    std::uint64_t overBudget() const noexcept { return events_.overBudget(); }
+    const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }
+
+private:
+    struct Pair {
+        std::int32_t a, b; // slots, the lower one first
+        bool isAsked;      // touch() says when it ends
+        bool isNew, isNamed;
+    };
+    std::string_view faultOf(const FedContact& contact);
+    std::int32_t slotOf(std::int32_t id) const noexcept { return events_.fixtures().find(FedBodies::nameOf(id)); }
+    Pair& know(const FedContact& contact, bool isAsked);
+    void drop(std::size_t pair);
+    void dropAllOf(std::int32_t slot);
+    void strike(const FedContact& contact);
+    void load(const FedContact& contact);
+    double fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept;
+
+    FedBodies bodies_;
+    ContactEvents events_;
+    std::vector<Pair> pairs_;
+    IntegerMap pairOf_;
+    double lastStepSeconds_ = 0.0;
+};
+
+} // namespace physvib

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The bodies of a world that somebody tells us of, since we cannot look into it.
+#pragma once
+#include "Contacts/BodyReader.h"
+#include "Contacts/IntegerMap.h"
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// What is told of a body, once.
+struct FedBody {
+    double massKg = 0.0;                ///< 0: what strikes it does not move it (a floor, a wall, a platform)
+    double inertiaKgSquareMetres = 0.0; ///< about its centre of mass and the axis across the plane; 0: blows are taken as if they went through the centre
+    double gravityScale = 1.0;          ///< how much of the world's gravity pulls it
+};
+
+/// What is wrong with it, and what was expected; empty if it can be used. Any thread.
+inline std::string_view faultOf(const FedBody& body) noexcept {
+    constexpr auto isMass = [](double value) { return value >= 0.0 && value <= 1.0e12; }; // not NaN
+    if (!isMass(body.massKg)) return "mass: expected 0 to 10^12 kg";
+    if (!isMass(body.inertiaKgSquareMetres)) return "inertia: expected 0 to 10^12 kg m^2";
+    if (!(std::abs(body.gravityScale) <= 1.0e6)) return "gravity scale: expected -10^6 to 10^6";
+    return {};
+}
+
+/// Bodies by numbers (>= 0) of the engine's side. M only.
+class FedBodies final : public BodyReader {
+public:
+    /// What contacts, and the stages behind them, call the body of that number.
+    static std::uint64_t nameOf(std::int32_t id) noexcept { return static_cast<std::uint64_t>(id) + 1; }
+
+    void set(std::int32_t id, const FedBody& body);
+    void move(std::int32_t id, Vector2 centre, const BodyMotion& motion);
+    void remove(std::int32_t id);
+    bool has(std::int32_t id) const noexcept { return slots_.find(nameOf(id)) != IntegerMap::none; }
+
+    /// The largest mass of a body that can be moved, kg (m_max of Eq. 5.7).
+    double largestMassKg();
+
+    /// How fast B comes towards A at a point, m/s, by the motions told; the normal points from A to B.
+    double approach(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
+
+    /// Mass that a blow there has to do with, kg: the impulse by the change of the speed at which the surfaces meet. Infinite if
+    /// neither can be moved.
+    double effectiveMassKg(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
+
+    BodyFacts facts(std::uint64_t body) const override;
+    BodyMotion motion(std::uint64_t body) const override { return at(body).motion; }
+    BodyMotion motionBefore(std::uint64_t body) const override { return at(body).motion; }
+    Vector2 centre(std::uint64_t body) const override { return at(body).centre; }
+    Vector2 toWorld(std::uint64_t body, Vector2 ofBody) const override { return at(body).centre + ofBody; }
+    double inertia(std::uint64_t body) const override { return at(body).told.inertiaKgSquareMetres; }
+
+private:
+    struct Body {
+        std::int32_t id;
+        FedBody told;
+        Vector2 centre;
+        BodyMotion motion;
+    };
+    const Body& at(std::uint64_t name) const { return bodies_[static_cast<std::size_t>(slots_.find(name))]; }
+    void forgetLargest(const Body& body) noexcept;
+
+    std::vector<Body> bodies_;
+    IntegerMap slots_; // by name
+    double largestMassKg_ = 0.0;
+    bool isLargestKnown_ = true;
+};
+
+} // namespace physvib

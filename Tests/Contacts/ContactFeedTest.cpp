@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// A world of numbers: what an engine would tell of it is written here, and what is felt is known by pencil and paper.
+#include "Contacts/ContactFeed.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace physvib {
+namespace {
+
+constexpr std::int32_t ground = 0, ball = 1;
+constexpr double g = 9.81;
+
+ImpactSettings unity() { // A = |J| / m_i
+    ImpactSettings settings;
+    settings.normalisation = 1.0;
+    settings.handMassKg = 0.0;
+    return settings;
+}
+
+HapticFixture camera() { return {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true}; }
+
+class ContactFeedTest : public testing::Test {
+protected:
+    ContactFeedTest() {
+        EXPECT_EQ(feed.set(ground, {}, {}), "");
+        EXPECT_EQ(feed.set(ball, {.massKg = 2.0}, camera()), "");
+    }
+    void beginStep(double seconds) { EXPECT_EQ(feed.beginStep(feed.timeNs() + std::llround(seconds * 1.0e9), g), ""); }
+    void step() {
+        beginStep(0.01);
+        endStep();
+    }
+    void endStep() { EXPECT_EQ(feed.endStep(), ""); }
+    std::vector<CollisionEvent> events() {
+        std::vector<CollisionEvent> all;
+        feed.flush(all);
+        return all;
+    }
+    ContactFeed feed{unity()};
+};
+
+FedContact landing() { return {.a = ground, .b = ball, .point = {0.25F, 0.0F}}; }
+
+/// A ball of 2 kg falls from 0.8 m as engines move it: straight within a step, its speed changed between two.
+class ContactFeedSpeeds : public ContactFeedTest, public testing::WithParamInterface<int> {
+protected:
+    /// The engine tells only how fast it comes and how far it still is at the start of the step; its speed is wrong by `error` of
+    /// it, as that of Box2D 3 is.
+    void fall(double error) {
+        const double dt = 1.0 / GetParam();
+        double height = 0.8;
+        for (speed = 0.0; height > 0.0;) {
+            speed += g * dt;
+            beginStep(dt);
+            if (height < speed * dt) {
+                onset = static_cast<double>(feed.timeNs()) * 1.0e-9 - dt + height / speed;
+                FedContact contact = landing();
+                contact.approachMetresPerSecond = speed * (1.0 + error);
+                contact.restitution = 0.5;
+                contact.gapMetres = height;
+                EXPECT_EQ(feed.begin(contact), "");
+            }
+            endStep();
+            height -= speed * dt;
+        }
+        EXPECT_EQ(feed.end(ground, ball), "");
+    }
+    double speed = 0.0, onset = 0.0;
+};
+
+TEST_P(ContactFeedSpeeds, GiveImpulseAndOnset) {
+    for (const double error : {0.0, 0.006, -0.006}) {
+        SCOPED_TRACE(error);
+        fall(error);
+        const auto felt = events();
+        ASSERT_EQ(felt.size(), 1U);
+        const double impulse = 2.0 * speed * 1.5;
+        EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, impulse, 0.01 * impulse);
+        EXPECT_NEAR(felt[0].amplitude, speed * 1.5, 0.01 * speed * 1.5); // Eq. 5.4
+        EXPECT_NEAR(static_cast<double>(felt[0].timeNs) * 1.0e-9, onset, 1.0e-4);
+        EXPECT_EQ(felt[0].source.fixture, ball);
+        EXPECT_EQ(felt[0].source.other, ground);
+        EXPECT_EQ(felt[0].x, 0.25);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(StepsPerSecond, ContactFeedSpeeds, testing::Values(50, 100, 240, 1000));
+
+TEST_F(ContactFeedTest, AnOverlapFoundAfterTheStepLiesBeforeIt) {
+    step();
+    beginStep(0.01);
+    FedContact contact = landing();
+    contact.impulseNewtonSeconds = 6.0;
+    contact.approachMetresPerSecond = 2.0;
+    contact.gapMetres = -0.006; // 3 ms ago
+    contact.gapFraction = 1.0;
+    EXPECT_EQ(feed.touch(contact), "");
+    endStep();
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_EQ(felt[0].timeNs, 17'000'000);
+    EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 6.0);
+}
+
+TEST_F(ContactFeedTest, APairThatIsNamedAgainHasOneBlowAndRestsThen) {
+    FedContact contact = landing();
+    contact.impulseNewtonSeconds = 6.0;
+    for (int i = 0; i < 5; ++i) {
+        beginStep(0.01);
+        EXPECT_EQ(feed.touch(contact), "");
+        endStep();
+        contact.impulseNewtonSeconds = 2.0 * g * 0.01;
+    }
+    step(); // not named: it has ended
+    beginStep(0.01);
+    contact.impulseNewtonSeconds = 4.0;
+    EXPECT_EQ(feed.touch(contact), "");
+    endStep();
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 2U);
+    EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 6.0);
+    EXPECT_EQ(felt[1].source.impulseNewtonSeconds, 4.0);
+}
+
+TEST_F(ContactFeedTest, WhatIsBornAtRestIsNotFelt) {
+    FedContact contact = landing();
+    contact.impulseNewtonSeconds = 2.0 * g * 0.01;
+    beginStep(0.01);
+    EXPECT_EQ(feed.begin(contact), "");
+    endStep();
+    EXPECT_TRUE(events().empty());
+}
+
+TEST_F(ContactFeedTest, PointsOfAFlatLandingAreOneBlowInTheirMiddle) {
+    beginStep(0.01);
+    FedContact contact = landing();
+    contact.impulseNewtonSeconds = 3.0;
+    EXPECT_EQ(feed.touch(contact), "");
+    contact.point.x = 0.75F;
+    EXPECT_EQ(feed.touch(contact), "");
+    endStep();
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 6.0);
+    EXPECT_EQ(felt[0].x, 0.5);
+}
+
+TEST_F(ContactFeedTest, ABlowBesideTheCentreHasLessMass) {
+    ASSERT_EQ(feed.set(ball, {.massKg = 2.0, .inertiaKgSquareMetres = 0.5}, camera()), "");
+    ASSERT_EQ(feed.move(ball, {0.0F, 0.5F}, {{0.0F, -3.0F}, 0.0F}), "");
+    beginStep(0.01);
+    EXPECT_EQ(feed.begin({.a = ground, .b = ball, .point = {0.5F, 0.0F}, .restitution = 1.0}), ""); // neither is told: the motion is
+    endStep();
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, 3.0 * 2.0 / (1.0 / 2.0 + 0.25 / 0.5), 1.0e-6);
+}
+
+/// Five balls that touch, the last one a camera; what strikes the first goes through all of them.
+TEST_F(ContactFeedTest, AChainHandsABlowOnAndItCountsOnce) {
+    for (const std::int32_t id : {1, 2, 3, 4, 5}) ASSERT_EQ(feed.set(id, {.massKg = 1.0, .gravityScale = 0.0}, id == 5 ? camera() : HapticFixture{}), "");
+    FedContact contact;
+    contact.normal = {1.0F, 0.0F};
+    for (int i = 0; i < 10; ++i) {
+        beginStep(0.01);
+        for (const std::int32_t id : {2, 3, 4}) {
+            contact.a = id;
+            contact.b = id + 1;
+            contact.impulseNewtonSeconds = i == 5 ? 0.6 : 0.0;
+            EXPECT_EQ(feed.touch(contact), "");
+        }
+        contact.a = 1;
+        contact.b = 2;
+        contact.impulseNewtonSeconds = 1.2;
+        if (i == 5) { EXPECT_EQ(feed.touch(contact), ""); }
+        endStep();
+    }
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_EQ(felt[0].source.fixture, 5);
+    EXPECT_EQ(felt[0].source.other, 4);
+    EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, 0.6, 1.0e-6);
+    EXPECT_EQ(felt[0].timeNs, 50'000'000);
+}
+
+TEST_F(ContactFeedTest, ABodyThatGoesKeepsItsHitsAndItsNumberIsFree) {
+    FedContact contact = landing();
+    contact.impulseNewtonSeconds = 6.0;
+    beginStep(0.01);
+    EXPECT_EQ(feed.touch(contact), "");
+    endStep();
+    EXPECT_EQ(feed.remove(ball), "");
+    EXPECT_EQ(feed.remove(ball), "body: expected one that has been told");
+    EXPECT_EQ(events().size(), 1U);
+    EXPECT_EQ(feed.set(ball, {.massKg = 1.0}, camera()), "");
+    step();
+    EXPECT_EQ(feed.end(ground, ball), "contact: expected one that has begun");
+}
+
+TEST_F(ContactFeedTest, RefusesWhatCannotBeAndNothingIsChanged) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(feed.set(-1, {}, {}), "body: expected a number from 0 on");
+    EXPECT_EQ(feed.set(7, {.massKg = nan}, {}), "mass: expected 0 to 10^12 kg");
+    EXPECT_EQ(feed.set(7, {}, {.frequencyHz = nan}), "frequency: expected 0 to 20000 Hz");
+    EXPECT_EQ(feed.move(7, {}, {}), "body: expected one that has been told");
+    EXPECT_EQ(feed.touch(landing()), "step: expected to be within one");
+    EXPECT_EQ(feed.endStep(), "step: expected to be within one");
+    EXPECT_EQ(feed.beginStep(-1, g), "time: expected not to go back, and less than 10^17 ns");
+    beginStep(0.01);
+    EXPECT_EQ(feed.beginStep(20'000'000, g), "step: expected not to be within one");
+    EXPECT_EQ(feed.remove(ball), "step: expected not to be within one");
+    FedContact contact = landing();
+    contact.normal = {0.0F, 0.0F};
+    EXPECT_EQ(feed.touch(contact), "normal: expected a length of 1");
+    contact = landing();
+    contact.approachMetresPerSecond = nan;
+    EXPECT_EQ(feed.touch(contact), "approach: expected a number of m/s");
+    contact = landing();
+    contact.b = ground;
+    EXPECT_EQ(feed.touch(contact), "bodies: expected two");
+    endStep();
+    EXPECT_TRUE(events().empty());
+    ImpactSettings release;
+    release.timing = ImpactTiming::release;
+    EXPECT_THROW(ContactFeed{release}, std::invalid_argument);
+}
+
+} // namespace
+} // namespace physvib
