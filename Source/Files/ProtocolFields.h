@@ -180,6 +180,7 @@ struct FieldsOf<Protocol> {
         v.field("seed", &P::seed, upTo(1e9), Need::optional);
         v.field("pink_noise", &P::hasPinkNoise, {}, Need::optional);
         v.field("pink_noise_db", &P::pinkNoiseDb, Bounds{PinkNoise::leastDb, PinkNoise::mostDb}, Need::optional);
+        v.field("exposure_limit_m_per_s2", &P::exposureLimit, Bounds{0.01, exposureLimitValue}, Need::optional);
         v.field("sounds", &P::sounds, items(0, 64), Need::optional);
         v.choice("condition_order", &P::conditionOrder, conditionOrderNames);
         v.field("conditions", &P::conditions, items(1, 256), Need::required);

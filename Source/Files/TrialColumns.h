@@ -18,6 +18,11 @@ inline constexpr std::array<std::string_view, 21> names{"participant",   "observ
 /// Of protocols with a session by QUEST+, behind the scales: what was thought possible before the first trial.
 constexpr std::string_view quest = "quest";
 
-constexpr bool has(std::string_view name) { return name == quest || std::ranges::find(names, name) != names.end(); }
+/// What was measured where the trial was felt, the last columns: files that were begun without them go on without them.
+constexpr std::string_view peakG = "peak_g", rmsG = "rms_g", exposure = "a8_m_per_s2";
+inline constexpr std::array<std::string_view, 3> measured{peakG, rmsG, exposure};
+
+constexpr bool isMeasured(std::string_view name) { return std::ranges::find(measured, name) != measured.end(); }
+constexpr bool has(std::string_view name) { return name == quest || isMeasured(name) || std::ranges::find(names, name) != names.end(); }
 
 } // namespace physvib::trialColumns

@@ -18,10 +18,18 @@ namespace {
 
 namespace columns = trialColumns;
 
+void appendPart(std::string& text, const std::string& part) { text.append(text.empty() ? "" : "|").append(part); }
+
 std::string joined(const std::vector<std::string>& parts) {
     std::string text;
-    for (const auto& part : parts) text.append(text.empty() ? "" : "|").append(part);
+    for (const auto& part : parts) appendPart(text, part);
     return text;
+}
+
+/// To six digits: more is not measured.
+std::string levelText(double level) {
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, level, std::chars_format::general, 6).ptr};
 }
 
 /// Cells by the name of their column; a column without one stays empty.
@@ -54,15 +62,29 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     cells["level_db"] = numberText(trial.levelDb);
     cells["render"] = callsOf(protocol, record);
     if (session.quest) cells[columns::quest] = questWords(*session.quest, session.guessRate());
+    for (const FeltLevel& felt : answer.felt) {
+        appendPart(cells[columns::peakG], levelText(felt.peakG));
+        appendPart(cells[columns::rmsG], levelText(felt.rmsG));
+    }
+    if (answer.exposure) cells[columns::exposure] = levelText(*answer.exposure);
     for (std::size_t s = 0; s < answer.scores.size(); ++s) cells[session.scales[s]] = numberText(answer.scores[s]);
     return cells;
 }
 
-std::vector<std::string> columnsOf(const Protocol& protocol) {
-    std::vector<std::string> all(columns::names.begin(), columns::names.end());
-    for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
-    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); })) all.emplace_back(columns::quest);
-    return all;
+std::string headerOf(const std::vector<std::string>& names) {
+    std::string line;
+    for (const auto& name : names) {
+        if (!line.empty()) line += ',';
+        appendCell(line, name);
+    }
+    return line + "\n";
+}
+
+/// The columns of the header `line`, with its end: all of `names`, or those without what is measured; none: others.
+std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
+    if (line == headerOf(names)) return names;
+    std::erase_if(names, [](const std::string& name) { return columns::isMeasured(name); });
+    return line == headerOf(names) ? names : std::vector<std::string>{};
 }
 
 /// Reads the rows of a table back into records. Throws StudyFault.
@@ -86,6 +108,7 @@ public:
         record.answer.seconds = rows_.number(row, rows_.required("response_s"), 0.0, 1e9);
         if (!cell(row, "x").empty()) record.answer.place = FieldPlace{rows_.number(row, rows_.required("x"), 0.0, 1.0), rows_.number(row, rows_.required("y"), 0.0, 1.0)};
         if (!cell(row, "value").empty()) record.answer.value = rows_.number(row, rows_.required("value"), -mostEstimate, mostEstimate);
+        if (const auto exposure = rows_.optional(columns::exposure); exposure && !row.cells[*exposure].empty()) record.answer.exposure = rows_.number(row, *exposure, 0.0, 1e6);
         for (const auto& scale : session.scales) record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
         return record;
     }
@@ -103,9 +126,10 @@ private:
     const Protocol& protocol_;
 };
 
-/// The header without the version of the program, which may have changed since.
+/// The first line without the version of the program, which may have changed since.
 std::string_view withoutVersion(std::string_view header) {
-    return header.substr(std::min(header.find(" protocol="), header.size()));
+    const auto line = header.substr(0, header.find('\n'));
+    return line.substr(std::min(line.find(" protocol="), line.size()));
 }
 
 /// The value of `key` in a line of provenance.
@@ -123,6 +147,7 @@ std::string headFault(std::string_view found, std::string_view expected) {
     for (const std::string_view key : {"protocol", "participant", "number", "observer", "seed"})
         if (valueOf(found, key) != valueOf(expected, key))
             return "expected trials of " + std::string(key) + " " + printable(std::string(valueOf(expected, key))) + ", found " + printable(std::string(valueOf(found, key)));
+    if (valueOf(found, "hash") == valueOf(expected, "hash")) return "expected the columns of a trial file of this protocol, found others";
     return "was begun with another version of the protocol " + std::string(valueOf(expected, "protocol")) + " (hash " + printable(std::string(valueOf(found, "hash"))) + ", now " +
            std::string(valueOf(expected, "hash")) + "), so it does not go on: keep it, and begin anew in another folder";
 }
@@ -137,19 +162,22 @@ std::string trialHeader(const Protocol& protocol, const Participant& participant
                                            {"participant", participant.code},
                                            {"number", std::to_string(participant.number)},
                                            {"observer", participant.observer}}});
-    std::string names;
-    for (const auto& column : columnsOf(protocol)) {
-        if (!names.empty()) names += ',';
-        appendCell(names, column);
-    }
-    return text + names + "\n";
+    return text + headerOf(trialColumnsOf(protocol));
 }
 
-std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
+std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
+    std::vector<std::string> all(columns::names.begin(), columns::names.end());
+    for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
+    if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); })) all.emplace_back(columns::quest);
+    all.insert(all.end(), columns::measured.begin(), columns::measured.end());
+    return all;
+}
+
+std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record, std::span<const std::string> names) {
     const Cells cells = cellsOf(protocol, participant, record);
     std::string row;
     bool isFirst = true;
-    for (const auto& column : columnsOf(protocol)) {
+    for (const auto& column : names) {
         if (!std::exchange(isFirst, false)) row += ',';
         if (const auto found = cells.find(column); found != cells.end()) appendCell(row, found->second);
     }
@@ -159,19 +187,22 @@ std::string trialRow(const Protocol& protocol, const Participant& participant, c
 Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol, const Participant& participant) {
     const std::string header = trialHeader(protocol, participant, "");
     TrialLog log;
+    log.columns = trialColumnsOf(protocol);
     const std::size_t end = text.rfind('\n');
     const std::string_view whole = text.substr(0, end == std::string_view::npos ? 0 : end + 1);
     constexpr std::string_view ours = "# physvib ";
     const bool isOurs = text.starts_with(ours) || ours.starts_with(text);
     if (isOurs && std::ranges::count(whole, '\n') < 2) return log; // not even a header: nothing to go on from
-    if (!isOurs || !withoutVersion(whole).starts_with(withoutVersion(header)))
+    const std::size_t names = whole.find('\n') + 1, rows = whole.find('\n', names) + 1;
+    if (isOurs) log.columns = columnsIn(whole.substr(names, rows - names), log.columns);
+    if (!isOurs || withoutVersion(whole) != withoutVersion(header) || log.columns.empty())
         return Failure{std::string(name) + ":1: " + (isOurs ? headFault(whole, header) : "expected a trial file of physvib, found something else")};
     log.wholeBytes = whole.size();
-    if (withoutVersion(whole) == withoutVersion(header)) return log;
+    if (rows == whole.size()) return log;
     try {
-        const detail::StudyRows rows{whole, name};
-        const RecordReader reader{rows, protocol};
-        for (const CsvRow& row : rows.table().rows) log.records.push_back(reader.read(row));
+        const detail::StudyRows table{whole, name};
+        const RecordReader reader{table, protocol};
+        for (const CsvRow& row : table.table().rows) log.records.push_back(reader.read(row));
     } catch (const detail::StudyFault& fault) {
         return Failure{fault.message};
     }
@@ -194,6 +225,7 @@ void TrialLogFile::open(std::string_view version) {
         return;
     }
     records_ = std::move(log.value.records);
+    columns_ = std::move(log.value.columns);
     const std::size_t kept = log.value.wholeBytes;
     if (kept < text.value.size() && !file_.resize(static_cast<std::int64_t>(kept))) return failToWrite();
     std::error_code ignored;
@@ -205,6 +237,6 @@ bool TrialLogFile::write(const std::string& text) {
     return error_.empty();
 }
 
-bool TrialLogFile::append(const TrialRecord& record) { return write(trialRow(protocol_, participant_, record)); }
+bool TrialLogFile::append(const TrialRecord& record) { return write(trialRow(protocol_, participant_, record, columns_)); }
 
 } // namespace physvib

@@ -7,6 +7,7 @@
 #include "Study/Trial.h"
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,12 +17,19 @@ namespace physvib {
 /// First lines of a trial file: where it is from, and the columns. Any thread.
 std::string trialHeader(const Protocol& protocol, const Participant& participant, std::string_view version);
 
-/// A trial's row, with its line end. Any thread.
-std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record);
+/// The columns of a protocol's trial files as they are begun now. Any thread (allocates).
+std::vector<std::string> trialColumnsOf(const Protocol& protocol);
+
+/// A trial's row in these columns, with its line end. Any thread.
+std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record, std::span<const std::string> columns);
+inline std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
+    return trialRow(protocol, participant, record, trialColumnsOf(protocol));
+}
 
 /// What a trial file holds so far.
 struct TrialLog {
     std::vector<TrialRecord> records;
+    std::vector<std::string> columns; ///< of the file; those of a new one where it has not even a header
     std::size_t wholeBytes = 0; ///< up to the last whole row: what follows was cut off while it was written
 };
 
@@ -56,6 +64,7 @@ private:
     const Protocol& protocol_;
     Participant participant_;
     std::vector<TrialRecord> records_;
+    std::vector<std::string> columns_;
     SystemFile file_;
     std::string error_;
 };

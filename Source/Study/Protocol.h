@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A study as data: conditions (what is felt, where) and sessions (what is asked, how often, in which order).
 #pragma once
+#include "Core/Actuators/HandWeighting.h"
 #include "Core/PhantomPanner.h"
 #include "Study/PhantomGrid.h"
 #include "Study/PinkNoise.h"
@@ -143,6 +144,7 @@ struct Protocol {
     int seed = 1;
     bool hasPinkNoise = false; ///< on another output than the stimuli
     double pinkNoiseDb = PinkNoise::safeDb; ///< its root mean square, in dB of full scale
+    double exposureLimit = exposureActionValue; ///< A(8) in m/s^2 of a participant, from which on the study pauses
     std::vector<StudySoundFile> sounds; ///< what calls with --method SV get
     ConditionOrder conditionOrder = ConditionOrder::given;
     std::vector<ConditionPlan> conditions;

@@ -26,6 +26,12 @@ struct Trial {
     double restSeconds = 0.0;        ///< break before it
 };
 
+/// What an enchanter really got of one part of a trial, the strongest of them: behind the master level, strips and ceilings.
+struct FeltLevel {
+    double peakG = 0.0, rmsG = 0.0; ///< the latter over the time that it lasts
+    bool operator==(const FeltLevel&) const = default;
+};
+
 constexpr double leastEstimate = 1e-12, mostEstimate = 1e12; // of how strong something was
 
 /// What a participant says. Each task uses some of it.
@@ -36,6 +42,8 @@ struct Answer {
     double value = 0.0;              ///< adjust: dB; estimate: leastEstimate to mostEstimate
     int plays = 1;                   ///< how often it was felt
     double seconds = 0.0;            ///< from the first feel to the answer
+    std::vector<FeltLevel> felt{};       ///< per part, the last time; empty: nobody felt it on a device
+    std::optional<double> exposure{};    ///< of the participant up to here: A(8) in m/s^2; none: nobody measured it
     bool operator==(const Answer&) const = default;
 };
 

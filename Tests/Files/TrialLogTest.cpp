@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sstream>
 
 namespace physvib {
 namespace {
@@ -100,6 +101,19 @@ TEST(TrialLog, FilesOfOthersAreRefused) {
     EXPECT_EQ(readTrialLog("my diary", "t.csv", p, participant).error, "t.csv:1: expected a trial file of physvib, found something else") << "even a single line without an end";
 }
 
+TEST(TrialLog, WhatWasFeltIsKeptAndTheExposureComesBack) {
+    const Protocol p = findProtocol("level-steps").value;
+    Experiment experiment{p, participant};
+    Answer answer{.response = "stronger"};
+    answer.felt = {{0.25, 0.125}, {1.0 / 3.0, 0.2}};
+    answer.exposure = 0.0123456789;
+    const std::string text = trialHeader(p, participant, "0") + trialRow(p, participant, experiment.take(answer));
+    EXPECT_TRUE(text.ends_with(",0.25|0.333333,0.125|0.2,0.0123457\n")) << text;
+    const auto log = readTrialLog(text, "t.csv", p, participant);
+    ASSERT_TRUE(log) << log.error;
+    EXPECT_EQ(log.value.records.front().answer.exposure, 0.0123457);
+}
+
 TEST(TrialLog, AProtocolThatHasChangedSinceIsToldAsThat) {
     const Protocol p = findProtocol("level-steps").value;
     const std::string text = wholeFile(p);
@@ -140,6 +154,32 @@ TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
     std::ofstream{path, std::ios::binary} << "my diary";
     EXPECT_NE((TrialLogFile{path, p, participant, "0"}.error()), "");
     EXPECT_EQ(readFile(path, 1'000'000).value, "my diary");
+}
+
+TEST_F(TrialLogFiles, OfBeforeAnythingWasMeasuredGoOnInTheirOwnColumns) {
+    const auto path = folder / "t.csv";
+    const Protocol p = findProtocol("magnitudes").value;
+    std::string old;
+    std::istringstream lines{wholeFile(p)};
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t measured = line.find(",peak_g,rms_g,a8_m_per_s2");
+        if (measured != std::string::npos) line.resize(measured);
+        else if (line.ends_with(",,,")) line.resize(line.size() - 3);
+        old += line + "\n";
+    }
+    ASSERT_EQ(old.find("peak_g"), std::string::npos);
+    std::ofstream{path, std::ios::binary} << old.substr(0, old.size() / 2);
+    TrialLogFile log{path, p, participant, "0"};
+    ASSERT_EQ(log.error(), "");
+    Experiment experiment{p, participant};
+    const SimulatedObserver observer{{}, p, participant};
+    for (const auto& record : log.records()) ASSERT_EQ(experiment.redo(record), "");
+    while (!experiment.isDone()) {
+        Answer answer = observer.answer(experiment);
+        answer.exposure = 1.0;
+        ASSERT_TRUE(log.append(experiment.take(answer)));
+    }
+    EXPECT_EQ(readFile(path, 1'000'000).value, old);
 }
 
 TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
@@ -192,9 +232,9 @@ TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
     EXPECT_EQ(read.value[0].kind, LevelTrial::Kind::quest);
     EXPECT_EQ(read.value[0].trials, 30u);
     EXPECT_NEAR(read.value[0].estimate, 0.674 * std::sqrt(2.0) * 2.0, read.value[0].halfInterval) << "75 % of comparisons with 2 dB of noise";
-    const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20\n";
+    const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20,,,\n";
     ASSERT_NE(text.rfind(words), std::string::npos);
-    text.replace(text.rfind(words), words.size(), ",weibull\n");
+    text.replace(text.rfind(words), words.size(), ",weibull,,,\n");
     EXPECT_EQ(summaries().error, "t.csv:32: column quest: expected the words of a QUEST+ session, found \"weibull\"");
 }
 

@@ -304,6 +304,60 @@ TEST_F(ByAParticipant, GivesTheNumberThatWasTypedWhereverTheFocusWent) {
     EXPECT_EQ(column("value", "estimate"), (Texts{"12.5", "12.5"}));
 }
 
+TEST_F(ByAParticipant, RowsTellWhatWasReallyFelt) {
+    begin(R"({"name": "main", "task": "estimate", "question": "How strong?"})",
+          R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.1", "0.2"]}], "call": "stimulus phantom --at 0,0 --seconds 0.1 --level-g {level_g}")");
+    passPage();
+    Texts stimuli;
+    for (int n = 0; n < 2; ++n) {
+        stimuli.push_back(p->experiment().trial().stimulus);
+        p->feel();
+        p->type("1");
+        p->enter();
+    }
+    close();
+    const Texts peaks = column("peak_g", "estimate"), rms = column("rms_g", "estimate"), exposures = column("a8_m_per_s2", "estimate");
+    ASSERT_EQ(peaks.size(), 2u);
+    double squares = 0.0;
+    for (std::size_t n = 0; n < 2; ++n) {
+        const double levelG = std::stod(stimuli[n]) * masterGain(p->desk.mix());
+        EXPECT_NEAR(std::stod(peaks[n]), levelG, 0.01 * levelG) << "behind the master level";
+        EXPECT_NEAR(std::stod(rms[n]), levelG / std::sqrt(2.0), 0.15 * levelG) << "a device that is late plays its last block after the look";
+        squares += 0.5 * levelG * levelG * 0.1 * std::pow(handWeighting::gain(205.0), 2);
+        EXPECT_NEAR(std::stod(exposures[n]), dailyExposure(squares), 0.2 * dailyExposure(squares)) << "what begins and ends has more than 205 Hz in it";
+    }
+}
+
+TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
+    p->desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+    begin(R"({"name": "main", "task": "estimate", "repetitions": 20, "question": "How strong?"})",
+          R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["1"]}], "call": "stimulus phantom --at 0,0 --seconds 0.4 --frequency 16 --level-g {level_g}")",
+          R"(, "exposure_limit_m_per_s2": 0.03)");
+    passPage();
+    int trials = 0;
+    for (; p->screen()->page() == StudyScreen::Page::trial && trials < 20; ++trials) {
+        p->feel();
+        p->type("1");
+        p->enter();
+    }
+    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::exposed);
+    EXPECT_GT(trials, 1) << "0.4 s of 1 g at 16 Hz are an A(8) of about 0.023 m/s^2";
+    EXPECT_LT(trials, 4);
+    EXPECT_TRUE(p->screen()->getDescription().contains("the study pauses")) << p->screen()->getDescription();
+    EXPECT_TRUE(p->screen()->getDescription().contains("this study's limit is 0.03 m/s^2")) << p->screen()->getDescription();
+    p->enter();
+    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    goOn();
+    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::exposed) << "the same day";
+    p->enter();
+    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    const juce::File rows = folder.getChildFile("short-P01.csv");
+    rows.setLastModificationTime(juce::Time::getCurrentTime() - juce::RelativeTime::days(2));
+    goOn();
+    EXPECT_EQ(p->screen()->page(), StudyScreen::Page::pause) << "another day";
+    EXPECT_EQ(p->experiment().trialsTaken(), trials);
+}
+
 TEST_F(ByAParticipant, GivesNumbers) {
     begin(R"({"name": "main", "task": "estimate", "question": "How strong?"})",
           R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1", "0.2"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");

@@ -155,6 +155,7 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     rate_ = rate;
     latencyNs_ = std::int64_t{1'000'000'000} * device->getOutputLatencyInSamples() / rate;
     prepareBuffers(block);
+    exposure_.prepare(rate);
     map_.place(device->getActiveOutputChannels());
     map_.settle(rate);
     ending_ = false;
@@ -204,8 +205,12 @@ void AudioOutput::renderPart(float* const* out, int outputs, int first, int fram
     master_.apply(scratchAt_.data(), session_.channels(), frames);
     for (int j = 0; j < session_.channels(); ++j) {
         float* at = scratchAt_[static_cast<std::size_t>(j)];
-        if (const int k = map_.play(j, at, frames); k >= 0 && k < outputs) juce::FloatVectorOperations::copy(out[k] + first, at, frames);
+        const int k = map_.play(j, at, frames);
+        if (k < 0 || k >= outputs) continue;
+        juce::FloatVectorOperations::copy(out[k] + first, at, frames);
+        exposure_.take(j, at, frames);
     }
+    exposure_.publish();
     renderHeard(out, outputs, first, frames);
 }
 

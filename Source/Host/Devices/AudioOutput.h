@@ -5,6 +5,7 @@
 // It uses JUCE's devices themselves and not its AudioDeviceManager, which opens the default device (the speakers)
 // when the chosen one disappears.
 #pragma once
+#include "Core/Actuators/ExposureMeter.h"
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Limits.h"
 #include "Core/Nonblocking.h"
@@ -74,6 +75,11 @@ public:
 
     FeltMoment felt() noexcept override { return felt_.read(); }
 
+    /// What has left for the enchanters, behind the master level, the ceilings and the switch; of the session's channels. M.
+    const ExposureSums& exposure() noexcept { return exposure_.read(); }
+    /// Peaks and plain sums start again. M.
+    std::uint32_t restartLevels() noexcept { return exposure_.restart(); }
+
     /// M.
     AudioOutputStatus status();
     int sampleRateHz() const noexcept { return rate_; }
@@ -136,6 +142,7 @@ private:
     GainRamp master_, noiseRamp_, contactRamp_;
     PinkNoise noise_;
     std::vector<float> noiseScratch_;
+    ExposureMeter exposure_;
     Load measured_;
 };
 

@@ -5,6 +5,7 @@
 #include "CommandLine/Render/LayoutNamed.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
+#include <juce_core/juce_core.h>
 
 namespace physvib {
 
@@ -31,6 +32,13 @@ std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condi
     return {};
 }
 
+/// By this machine's calendar: exposure is counted by the day.
+bool wasWrittenToday(const std::filesystem::path& path) {
+    const auto dayOf = [](juce::Time time) { return std::pair{time.getYear(), time.getDayOfYear()}; };
+    const juce::File file{juce::File::getCurrentWorkingDirectory().getChildFile(juce::String::fromUTF8(path.string().c_str()))};
+    return file.existsAsFile() && dayOf(file.getLastModificationTime()) == dayOf(juce::Time::getCurrentTime());
+}
+
 } // namespace
 
 std::string protocolFault(const Protocol& protocol, const std::string& name) {
@@ -55,6 +63,7 @@ StudyRun::StudyRun(const std::filesystem::path& folder, Protocol protocol, Parti
     : protocol_{std::move(protocol)}
     , participant_{std::move(participant)}
     , path_{trialFile(folder, protocol_, participant_)}
+    , isOfToday_{wasWrittenToday(path_)}
     , log_{path_, protocol_, participant_, PHYSVIB_VERSION}
     , experiment_{protocol_, participant_}
     , error_{log_.error()} {
@@ -66,6 +75,7 @@ StudyRun::StudyRun(const std::filesystem::path& folder, Protocol protocol, Parti
         return;
     }
     before_ = experiment_.trialsTaken();
+    if (isOfToday_ && before_ > 0) exposureToday_ = log_.records().back().answer.exposure.value_or(0.0);
 }
 
 bool StudyRun::take(Answer answer) {

@@ -33,6 +33,7 @@ public:
     const std::filesystem::path& path() const noexcept { return path_; }
     const Experiment& experiment() const noexcept { return experiment_; }
     int trialsBefore() const noexcept { return before_; } ///< that were in the file when it was opened
+    double exposureToday() const noexcept { return exposureToday_; } ///< A(8) in m/s^2 of those, if the last of them is of today
 
     /// The answer to the experiment's trial: its row is in the file before this returns. False, and error(), if it is not an
     /// answer, or cannot be written.
@@ -42,9 +43,11 @@ private:
     Protocol protocol_;
     Participant participant_;
     std::filesystem::path path_;
+    bool isOfToday_;
     TrialLogFile log_;
     Experiment experiment_;
     int before_ = 0;
+    double exposureToday_ = 0.0;
     std::string error_;
 };
 

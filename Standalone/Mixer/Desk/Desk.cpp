@@ -78,6 +78,7 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     saved_.panner = mix_.panner();
     mostEnchanters_ = mix_.count();
     signals_.tap().hear(mix_.count());
+    exposure_.use(mix_.layout);
     output_.listen(&signals_.tap());
     open(device);
     told_.tell(session_, mix_);
@@ -103,6 +104,7 @@ void Desk::apply(const Mix& next) {
     mostEnchanters_ = std::max(mostEnchanters_, mix_.count());
     if (mix_.scene != before.scene || mix_.seed != before.seed) takeScene(mix_.scene == before.scene);
     signals_.tap().hear(mix_.count());
+    exposure_.use(mix_.layout);
     told_.tell(session_, mix_);
     if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output)))
         if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8(error));

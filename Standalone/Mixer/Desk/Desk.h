@@ -7,6 +7,7 @@
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Mixer/Desk/DeskBoard.h"
+#include "Mixer/Desk/DeskExposure.h"
 #include "Mixer/Desk/DeskMoment.h"
 #include "Mixer/Desk/DeskRecording.h"
 #include "Mixer/Desk/DeskSignals.h"
@@ -75,6 +76,8 @@ public:
     DeskRecording& recording() noexcept { return recording_; }
     const DeskRecording& recording() const noexcept { return recording_; }
 
+    DeskExposure& exposure() noexcept { return exposure_; }
+
     // ---- the output
     std::string open(const DeviceChoice& device);
     const DeviceChoice& device() const noexcept { return device_; }
@@ -126,6 +129,7 @@ private:
     Session session_;
     DeskSignals signals_;
     AudioOutput output_;
+    DeskExposure exposure_{output_};
     DeskRecording recording_;
     std::unique_ptr<DeskBoard> board_;
     std::unique_ptr<SimulationDriver> driver_;

@@ -8,6 +8,8 @@ DeskMoment Desk::look() {
     const float loudest = signals_.read(now_, mix_.count());
     now_.session = session_.status();
     now_.device = output_.status();
+    exposure_.update();
+    now_.dailyExposure = exposure_.daily();
     now_.hits.clear();
     for (PlayedEvent played; session_.played().pop(played);) {
         now_.hits.push_back(played.event);

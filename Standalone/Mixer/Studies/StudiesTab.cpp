@@ -19,6 +19,11 @@ std::filesystem::path pathOf(const juce::String& words) {
     return std::filesystem::path{juce::File::getCurrentWorkingDirectory().getChildFile(words).getFullPathName().toStdString()};
 }
 
+juce::String exposureWords(const std::vector<TrialRecord>& records) {
+    if (records.empty() || !records.back().answer.exposure) return {};
+    return ". Exposure of that day: A(8) " + number(*records.back().answer.exposure, 2) + " m/s^2 (action value " + number(exposureActionValue, 1) + ", limit " + number(exposureLimitValue, 0) + ")";
+}
+
 juce::String aboutText(const Protocol& protocol) {
     juce::StringArray conditions, sessions;
     for (const auto& condition : protocol.conditions) conditions.add(utf8(condition.name));
@@ -175,7 +180,7 @@ void StudiesTab::look() {
     const auto text = readFile(path, limits::maxTableBytes);
     const auto log = text ? readTrialLog(text.value, path.string(), *protocol_, participant()) : Result<TrialLog>{Failure{text.error}};
     begin_.setButtonText("Go on");
-    if (log) say(utf8(path.filename().string()) + " has " + juce::String{static_cast<int>(log.value.records.size())} + " trials: it goes on behind them", Shade::text);
+    if (log) say(utf8(path.filename().string()) + " has " + juce::String{static_cast<int>(log.value.records.size())} + " trials: it goes on behind them" + exposureWords(log.value.records), Shade::text);
     else say(utf8(log.error), Shade::limit);
 }
 

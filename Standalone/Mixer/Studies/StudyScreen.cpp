@@ -39,7 +39,8 @@ std::string feltFault(const Protocol& protocol, Desk& desk) {
 StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyRun> study)
     : desk_{desk}
     , study_{std::move(study)}
-    , sound_{desk} {
+    , sound_{desk}
+    , squaresBefore_{squareGSecondsOf(study_->exposureToday()) - desk.exposure().squareGSeconds()} {
     setTitle("Study");
     setOpaque(true);
     setWantsKeyboardFocus(true);
@@ -66,6 +67,7 @@ void StudyScreen::parentSizeChanged() {
 
 void StudyScreen::showNext() {
     if (experiment().isDone()) return showPage(Page::done);
+    if (isExposed()) return showPage(Page::exposed);
     const Trial& trial = experiment().trial();
     const bool isFirstSeen = answer_ == nullptr;
     if (!isFirstSeen && trial.number > 1 && trial.restSeconds <= 0.0) return showTrial();
@@ -90,6 +92,7 @@ void StudyScreen::showTrial() {
     page_ = Page::trial;
     progress_.emplace(experiment().session(), experiment().trial());
     exploring_.reset();
+    felt_.assign(std::max<std::size_t>(1, experiment().trial().parts.size()), {});
     part_ = 0;
     counted_ = firstFeltMs_ = 0.0;
     answer_ = makeStudyAnswer(experiment(), layout_);
@@ -132,6 +135,7 @@ void StudyScreen::goOn() {
     case Page::pause: if (restLeft() <= 0.0) showTrial(); return;
     case Page::trial: return answered();
     case Page::done:
+    case Page::exposed:
     case Page::fault: return leave();
     }
 }
@@ -152,6 +156,7 @@ void StudyScreen::play(std::size_t part) {
     const TrialRecord asked{experiment().trial(), exploring_.value_or(answer_->answer())};
     const auto stimulus = StudySound::make(desk_, partCallsOf(study_->protocol(), asked)[part]);
     if (!stimulus) return fail(stimulus.error);
+    noteFelt();
     if (const auto fault = sound_.play(stimulus.value); !fault.empty()) return fail(fault);
     if (progress_->plays() == 0) firstFeltMs_ = nowMs();
     progress_->played(part);
@@ -170,12 +175,24 @@ void StudyScreen::answered() {
     }
 }
 
+/// Of the part that was felt last, before another is.
+void StudyScreen::noteFelt() {
+    desk_.exposure().update();
+    if (progress_->plays() > 0) felt_[part_] = desk_.exposure().felt(sound_.feltSeconds());
+}
+
+/// A(8) of what this study's trials of today have cost the participant.
+double StudyScreen::exposure() const { return dailyExposure(std::max(0.0, squaresBefore_ + desk_.exposure().squareGSeconds())); }
+
 void StudyScreen::take(Answer answer) {
+    noteFelt();
+    answer.felt = felt_;
+    answer.exposure = exposure();
     answer.plays = std::max(1, progress_->plays());
     answer.seconds = std::round(nowMs() - firstFeltMs_) * 1e-3;
     const auto session = experiment().sessionNumber();
     if (!study_->take(std::move(answer))) return fail(study_->error());
-    const bool staysOpen = !experiment().isDone() && isExploring() && experiment().sessionNumber() == session && experiment().trial().restSeconds <= 0.0;
+    const bool staysOpen = !experiment().isDone() && isExploring() && experiment().sessionNumber() == session && experiment().trial().restSeconds <= 0.0 && !isExposed();
     if (!staysOpen) return showNext();
     exploring_.reset(); // the same screen, with what was felt marked
     progress_.emplace(experiment().session(), experiment().trial());
@@ -196,7 +213,7 @@ void StudyScreen::refresh() {
         next_.setEnabled(restLeft() <= 0.0);
         next_.setWords(experiment().trial().number == 1 ? "Begin" : "Go on", "Enter");
     }
-    if (page_ == Page::done || page_ == Page::fault) next_.setEnabled(true), next_.setWords("Close", "Enter");
+    if (page_ == Page::done || page_ == Page::exposed || page_ == Page::fault) next_.setEnabled(true), next_.setWords("Close", "Enter");
     if (auto words = headline() + "\n" + body() + "\n" + progressWords(); words != shown_) {
         shown_ = words;
         setDescription(words);
@@ -257,6 +274,7 @@ juce::String StudyScreen::headline() const {
     switch (page_) {
     case Page::trial: return questionOf(experiment().session(), experiment().condition());
     case Page::done: return "Thank you. That was everything.";
+    case Page::exposed: return "That is enough vibration for today: the study pauses.";
     case Page::fault: return "The study cannot go on.";
     case Page::pause: break;
     }
@@ -270,6 +288,9 @@ juce::String StudyScreen::body() const {
     switch (page_) {
     case Page::trial: return desk_.isSilent() ? "Everything is silent. Esc: feel again." : desk_.trouble();
     case Page::done: return "Your answers are in\n" + utf8(study_->path().string());
+    case Page::exposed:
+        return "Your hands have taken A(8) = " + number(exposure(), 2) + " m/s^2 (ISO 5349-1); this study's limit is " + number(study_->protocol().exposureLimit, 2) +
+               " m/s^2.\nWhat you answered is kept, and the study goes on there another day.";
     case Page::fault: return utf8(fault_) + "\nWhat was answered so far is kept, and the study goes on there.";
     case Page::pause: return instructionOf(experiment().session(), experiment().condition());
     }

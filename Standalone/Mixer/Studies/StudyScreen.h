@@ -18,7 +18,7 @@ public:
     std::function<void()> onClose; ///< the participant has finished, or leaves: everything answered is in the file
 
     const StudyRun& study() const noexcept { return *study_; }
-    enum class Page { pause, trial, done, fault };
+    enum class Page { pause, trial, done, exposed, fault };
     Page page() const noexcept { return page_; }
     int plays() const noexcept { return progress_ ? progress_->plays() : 0; } ///< of the trial at hand
     bool isFeeling() const { return sound_.isPlaying(); }
@@ -42,6 +42,9 @@ private:
     void play(std::size_t part);
     void answered();
     void take(Answer answer);
+    void noteFelt();
+    double exposure() const;
+    bool isExposed() const { return exposure() >= study_->protocol().exposureLimit; }
     bool isExploring() const;
     bool canAnswer() const;
     double restLeft() const;
@@ -56,6 +59,7 @@ private:
     StudySound sound_;
     Page page_ = Page::pause;
     std::string fault_;
+    const double squaresBefore_; // of the participant's day, in g^2 s, without what the desk sums up from now on
 
     // the trial at hand
     LayoutDescription layout_;
@@ -63,6 +67,7 @@ private:
     std::optional<Answer> exploring_; // felt now, answered afterwards
     std::unique_ptr<StudyAnswer> answer_;
     std::vector<std::unique_ptr<BigButton>> parts_;
+    std::vector<FeltLevel> felt_; // per part
     std::size_t part_ = 0;
     double counted_ = 0.0, firstFeltMs_ = 0.0, restEndsMs_ = 0.0;
 

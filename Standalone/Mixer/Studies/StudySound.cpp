@@ -26,6 +26,7 @@ StudySound::~StudySound() {
     const Mix& mix = desk_.mix();
     if (isPlaying()) post(Kind::stopAll, 0, 0.0f);
     post(Kind::panner, 0, 0.0f, mix.panner());
+    desk_.exposure().use(mix.layout);
     useRecordings({});
     for (int j = 0; j < mix.count(); ++j) {
         post(Kind::gain, j, channelGain(mix.strips[static_cast<std::size_t>(j)]));
@@ -65,6 +66,8 @@ std::string StudySound::play(const CallStimulus& stimulus) {
     if (auto fault = refusal(desk_, stimulus); !fault.empty()) return fault;
     const auto& strips = desk_.mix().strips;
     gains_.resize(strips.size());
+    desk_.exposure().use(stimulus.layout);
+    desk_.exposure().restartLevels();
     post(Kind::panner, 0, 0.0f, stimulus.stimulus.panner);
     useRecordings(stimulus.recordings);
     for (std::size_t j = 0; j < stimulus.gains.size(); ++j) {

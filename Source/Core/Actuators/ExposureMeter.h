@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// What really left for the hands, summed up while it plays: weighted for the exposure, plain for levels.
+#pragma once
+#include "Core/Actuators/HandWeighting.h"
+#include "Core/LatestValue.h"
+#include "Core/Limits.h"
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+namespace physvib {
+
+/// Per channel; 1 = full scale.
+struct ExposureSums {
+    using Channels = std::array<double, static_cast<std::size_t>(limits::maxEnchanters)>;
+    Channels weighted{};          ///< integral of squared weighted samples over time, in s, from the very start
+    Channels plain{}, peaks{};    ///< the same without a weighting, and the largest sample, since `mark`
+    std::uint32_t mark = 0;
+};
+
+class ExposureMeter {
+public:
+    /// The sums stay. M, not while R runs.
+    void prepare(int sampleRateHz) noexcept {
+        framesPerSecond_ = sampleRateHz;
+        weightings_.fill(HandWeighting{sampleRateHz});
+        isAtRest_.fill(true);
+    }
+
+    /// The next samples of a channel, 1 to limits::maxBlockFrames. R, wait-free.
+    void take(int channel, const float* samples, int frames) noexcept PHYSVIB_NONBLOCKING {
+        const auto j = static_cast<std::size_t>(channel);
+        startAgainIfTold();
+        const bool isSilent = std::all_of(samples, samples + frames, [](float x) { return x == 0.0f; });
+        if (isSilent && isAtRest_[j]) return;
+        double weighted = 0.0, plain = 0.0, peak = sums_.peaks[j];
+        for (int n = 0; n < frames; ++n) {
+            const auto x = static_cast<double>(samples[n]);
+            const double w = weightings_[j].process(x);
+            weighted += w * w;
+            plain += x * x;
+            peak = std::max(peak, std::abs(x));
+        }
+        sums_.weighted[j] += weighted / framesPerSecond_;
+        sums_.plain[j] += plain / framesPerSecond_;
+        sums_.peaks[j] = peak;
+        isAtRest_[j] = isSilent && weighted < faded * frames;
+        if (isAtRest_[j]) weightings_[j].clear(); // before its tail gets denormal
+    }
+
+    /// Tells what was summed up so far. R, wait-free, once a block.
+    void publish() noexcept PHYSVIB_NONBLOCKING {
+        startAgainIfTold();
+        published_.write(sums_);
+    }
+
+    /// One reader on one other thread.
+    const ExposureSums& read() noexcept { return published_.read(); }
+
+    /// Plain sums and peaks start again with the next block, and carry the mark that is returned. The reader's thread, wait-free.
+    std::uint32_t restart() noexcept { return wanted_.fetch_add(1, std::memory_order_relaxed) + 1; }
+
+private:
+    static constexpr double faded = 1e-24; // -240 dB
+
+    void startAgainIfTold() noexcept {
+        const auto wanted = wanted_.load(std::memory_order_relaxed);
+        if (wanted == sums_.mark) return;
+        sums_.mark = wanted;
+        sums_.plain = sums_.peaks = {};
+    }
+
+    double framesPerSecond_ = 1.0;
+    std::array<HandWeighting, static_cast<std::size_t>(limits::maxEnchanters)> weightings_;
+    std::array<bool, static_cast<std::size_t>(limits::maxEnchanters)> isAtRest_{};
+    ExposureSums sums_;
+    LatestValue<ExposureSums> published_;
+    std::atomic<std::uint32_t> wanted_{0};
+};
+
+} // namespace physvib
