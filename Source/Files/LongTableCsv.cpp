@@ -7,6 +7,7 @@
 #include "Files/TrialColumns.h"
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -45,12 +46,15 @@ private:
             if (!source) return missing(factor);
             within_.push_back(*source);
         }
+        if (std::string fault = findWhere(); !fault.empty()) return fault;
         between_ = wanted_.between.empty() ? std::nullopt : FactorSource::of(*head_, wanted_.between);
         return between_ || wanted_.between.empty() ? "" : missing(wanted_.between);
     }
 
     std::string take(const CsvRow& row) {
         const std::string& cell = row.cells[measure_];
+        for (const auto& [source, word] : where_)
+            if (source.level(row) != word) return {};
         if (cell.empty() || cell == "NA" || (phase_ && row.cells[*phase_] == trialColumns::training)) return {};
         const auto value = chosen_.empty() ? parseNumber<double>(cell) : std::optional<double>{cell == chosen_ ? 1.0 : 0.0};
         if (!value || std::abs(*value) > largestMeasure) return head_->fault(row, measure_, "a number from -1e100 to 1e100");
@@ -66,6 +70,17 @@ private:
         ++taken_;
         if (participant_) data_.table.add(row.cells[*participant_], levels_, group, *value);
         else data_.table.add("row " + std::to_string(data_.table.rows() + 1), levels_, group, *value);
+        return {};
+    }
+
+    std::string findWhere() {
+        where_.clear();
+        for (const std::string& words : wanted_.where) {
+            const auto equals = words.find('=');
+            const auto source = FactorSource::of(*head_, words.substr(0, equals));
+            if (equals == std::string::npos || !source) return missing(words.substr(0, equals));
+            where_.emplace_back(*source, words.substr(equals + 1));
+        }
         return {};
     }
 
@@ -90,6 +105,7 @@ private:
     std::optional<std::size_t> observer_, phase_, participant_;
     std::vector<FactorSource> within_;
     std::optional<FactorSource> between_;
+    std::vector<std::pair<FactorSource, std::string>> where_;
     std::vector<std::string_view> levels_;
 };
 

@@ -16,6 +16,7 @@ struct LongTableColumns {
     std::vector<std::string> within; ///< a factor that is no column may be part of `condition` or `stimulus`: `pair=wood size=small`
     std::string between;             ///< empty: no groups
     std::string participant;         ///< empty: `participant` if there, else, without within-factors, every row is a participant
+    std::vector<std::string> where{};  ///< `condition=RING`: rows that say otherwise are left out; columns or factors as above
 };
 
 struct LongTableData {

@@ -30,14 +30,21 @@ std::vector<Trial>& conditionNamed(const StudyRows& rows, StudyData<Trial>& data
     return data.conditions.back().trials;
 }
 
+template <class Trial>
+std::vector<std::string>& warningsOf(StudyData<Trial>& data) {
+    return data.warnings;
+}
+std::vector<std::string>& warningsOf(RatingData& ratings) { return ratings.data.warnings; }
+
 /// Runs `take(rows, data)` per file; what it throws becomes a Failure, and so do files without a trial that counts.
 template <class Data, class Take>
 Result<Data> readAll(std::span<const NamedText> files, Take take) {
     Data data;
     try {
         for (const NamedText& file : files) {
-            const StudyRows rows{file.text, file.name};
+            const StudyRows rows{file.text, file.name, file.columns};
             const std::size_t taken = take(rows, data);
+            if (rows.leftOut() > 0) warningsOf(data).push_back(rows.table().name + ": rows left out, with nothing in one of the named columns: " + std::to_string(rows.leftOut()));
             if (taken == 0) throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
         }
     } catch (const StudyFault& fault) {
@@ -144,7 +151,8 @@ const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
 
 /// A row of one of the kinds, or none.
 std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
-    const std::string& task = row.cells[rows.required("task")];
+    const auto tasks = rows.optional(trialColumns::task);
+    const std::string task = tasks ? row.cells[*tasks] : rows.optional("value") ? "estimate" : "choose"; // other programs' tables have one kind
     LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")), StudyRows::textIf(row, rows.optional("condition")),
                      rows.text(row, rows.required("stimulus"))};
     if (task == "adjust") trial.kind = LevelTrial::Kind::adjustment;
@@ -165,9 +173,10 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
 std::size_t takeLevels(const StudyRows& rows, StudyData<LevelTrial>& data) {
     data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
-    const auto task = rows.required("task");
+    const auto task = rows.optional(trialColumns::task);
+    if (!task && !rows.optional("value")) rows.required("correct");
     for (const CsvRow& row : rows.table().rows) {
-        if (row.cells[task] == "explore") continue; // it has no stimulus of its own
+        if (task && row.cells[*task] == "explore") continue; // it has no stimulus of its own
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
             conditionNamed(rows, data, {}).push_back(std::move(*trial));

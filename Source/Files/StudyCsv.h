@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Trials of studies and percent counts from CSV, checked cell by cell, for the analyses in Study.
 #pragma once
+#include "Files/ColumnNames.h"
 #include "Files/Provenance.h"
 #include "Files/Result.h"
 #include "Study/ConfusionMatrix.h"
@@ -40,6 +41,7 @@ struct RatingData {
 /// A file's bytes and the name to call it by.
 struct NamedText {
     std::string_view text, name;
+    std::span<const ColumnName> columns{}; ///< of another program's table; empty: the columns have our names
 };
 
 // Common to all: columns that are not asked for are ignored; of a file that `study run` wrote, training trials and

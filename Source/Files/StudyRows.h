@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The rows that an analysis counts, from one or more tables. For the .cpp files of Files.
 #pragma once
+#include "Files/ColumnNames.h"
 #include "Files/Text/CsvTable.h"
 #include "Files/Text/NumberText.h"
 #include "Files/TrialColumns.h"
@@ -21,11 +22,14 @@ struct StudyFault {
 /// One table and where its columns are. Every member throws StudyFault.
 class StudyRows {
 public:
-    StudyRows(std::string_view text, std::string_view name) {
-        auto read = readCsvTable(text, name);
+    StudyRows(std::string_view text, std::string_view name, std::span<const ColumnName> columns = {}) {
+        auto read = readCsvTable(text, name, columns.empty() ? CsvHeader::named : CsvHeader::loose);
         if (!read) throw StudyFault{read.error};
         table_ = std::move(read.value);
+        if (std::string fault = takeColumns(table_, columns, leftOut_); !fault.empty()) throw StudyFault{std::move(fault)};
     }
+
+    std::size_t leftOut() const noexcept { return leftOut_; } ///< rows with nothing in one of the columns
 
     const CsvTable& table() const { return table_; }
 
@@ -77,6 +81,7 @@ public:
 
 private:
     CsvTable table_;
+    std::size_t leftOut_ = 0;
 };
 
 } // namespace physvib::detail

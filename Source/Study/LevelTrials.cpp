@@ -102,6 +102,13 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
             summariseThresholds(summary, byParticipant);
             continue;
         }
+        std::vector<double> means;
+        for (const auto& [participant, own] : byParticipant) {
+            std::vector<double> adjusted;
+            for (const LevelTrial* trial : own) adjusted.push_back(trial->value);
+            means.push_back(meanOf(adjusted));
+        }
+        if (summary.kind == LevelTrial::Kind::adjustment) summary.halfInterval = Moments(means).halfInterval();
         summary.deviation = Moments(values).deviation;
         summary.estimate = summary.kind == LevelTrial::Kind::magnitude ? std::pow(10.0, meanOf(values)) : meanOf(values);
     }

@@ -24,7 +24,7 @@ struct LevelSummary {
     std::size_t reversals = 0;   ///< staircase: all participants'
     double estimate = 0.0;       ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude: geometric mean
     double deviation = 0.0;      ///< sample standard deviation, of participants' thresholds, of dB, or of log10; 0 for one
-    double halfInterval = 0.0;   ///< of thresholds, 95 %: over participants; of one by QUEST+ of what is still possible; else 0
+    double halfInterval = 0.0;   ///< of thresholds and adjustments, 95 %: over participants; of one by QUEST+ of what is still possible; else 0
 };
 
 /// By kind, condition and stimulus, in this order. A participant's threshold is, by a staircase, the mean level of the

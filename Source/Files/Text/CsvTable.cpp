@@ -41,8 +41,8 @@ bool isTakenForFormula(std::string_view text) noexcept {
 
 class TableReader {
 public:
-    TableReader(std::string_view text, std::string_view name)
-        : rest_{text} {
+    TableReader(std::string_view text, std::string_view name, CsvHeader header)
+        : rest_{text}, header_{header} {
         table_.name = name;
         dropByteOrderMark(rest_);
     }
@@ -71,6 +71,7 @@ private:
         }
         if (!takeCells(header, table_.columns)) return false;
         for (const std::string& column : table_.columns) {
+            if (header_ == CsvHeader::loose) break;
             if (column.empty()) return fail("expected a name for every column");
             if (std::ranges::count(table_.columns, column) > 1) return fail("column " + printable(column) + " appears twice");
         }
@@ -107,6 +108,7 @@ private:
     }
 
     std::string_view rest_;
+    CsvHeader header_;
     std::size_t line_ = 0;
     CsvTable table_;
     std::string error_;
@@ -125,9 +127,9 @@ std::string CsvTable::fault(const CsvRow& row, std::size_t at, std::string_view 
            inQuotes(row.cells[at]);
 }
 
-Result<CsvTable> readCsvTable(std::string_view text, std::string_view name) {
+Result<CsvTable> readCsvTable(std::string_view text, std::string_view name, CsvHeader header) {
     CsvTable table;
-    TableReader reader{text, name};
+    TableReader reader{text, name, header};
     const auto tooMany = [&](const CsvRow& row, std::size_t most, const char* what) {
         return table.name + ":" + std::to_string(row.line) + ": expected at most " + std::to_string(most) + what;
     };
@@ -148,7 +150,7 @@ Result<CsvTable> readCsvTable(std::string_view text, std::string_view name) {
 
 std::string eachCsvRow(std::string_view text, std::string_view name, const std::function<std::string(const CsvTable&)>& begin,
                        const std::function<std::string(const CsvRow&)>& take) {
-    return TableReader{text, name}.read(begin, take);
+    return TableReader{text, name, CsvHeader::named}.read(begin, take);
 }
 
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path) {

@@ -29,10 +29,14 @@ struct CsvTable {
     std::string fault(const CsvRow& row, std::size_t column, std::string_view expected) const;
 };
 
+/// Whether every column must have a name of its own. Experiment programs end lines with a comma, or name columns twice: of loose ones only those that
+/// are asked for matter, and of equal names the first counts.
+enum class CsvHeader { named, loose };
+
 /// The table that `text` holds, or one line naming file, line and expectation. A header line names the columns, each
 /// once; comments (#) and blank lines may stand before it, blank lines at the end. A cell in double quotes may hold
 /// commas and doubled quotes, no line end. Any thread.
-Result<CsvTable> readCsvTable(std::string_view text, std::string_view name);
+Result<CsvTable> readCsvTable(std::string_view text, std::string_view name, CsvHeader header = CsvHeader::named);
 
 /// The same of a file. M only.
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path);
