@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The pictures of a report: what is to be seen goes in, SVG comes out.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// Of every chart.
+struct ChartFrame {
+    std::string name;  ///< letters, digits, -; no other chart of the page has it
+    std::string title; ///< what is seen, in words
+    bool isSimulated = false;
+};
+
+/// A value and its interval.
+struct ChartValue {
+    double value = 0.0, least = 0.0, most = 0.0; ///< all alike: no interval is drawn
+};
+
+/// A mark of significance between two groups.
+struct ChartBracket {
+    std::size_t from = 0, to = 0;
+    std::string mark;
+};
+
+struct BarSeries {
+    std::string name; ///< empty in a chart of one series
+    std::vector<std::optional<ChartValue>> bars; ///< one per group
+    std::vector<std::string> marks{};            ///< above the bars; empty: none
+};
+
+struct BarChart {
+    ChartFrame frame;
+    std::string groupsWords, valueWords; ///< of the axes, with units
+    std::vector<std::string> groups;
+    std::vector<BarSeries> series;
+    std::vector<ChartBracket> brackets{};
+    std::optional<std::pair<double, std::string>> reference{}; ///< a line across all groups, and what it is
+    std::vector<double> ceilings{};                            ///< per group: the most that is possible
+    std::string ceilingWords{};
+    std::optional<double> most{}; ///< of the axis, which begins at 0 or below; none: by the values
+};
+
+struct LinePoint {
+    double x = 0.0;
+    ChartValue y{};
+    double size = 1.0; ///< of the marker
+};
+
+struct LineSeries {
+    std::string name; ///< empty: not in the legend
+    std::vector<LinePoint> points;
+    bool isDrawnThrough = true, isMarked = true;
+    bool isFaint = false; ///< thin and grey: one of many
+    std::size_t style = 0;
+};
+
+struct LineChart {
+    ChartFrame frame;
+    std::string xWords, yWords;
+    std::vector<LineSeries> series;
+    bool isLogarithmic = false;                         ///< both axes
+    std::optional<std::pair<double, double>> xRange{}, yRange{};
+    std::vector<std::pair<double, std::string>> references{}; ///< horizontal lines
+    std::optional<ChartValue> threshold{};              ///< a vertical line with its interval
+    std::string thresholdWords{};
+    double width = 680.0, height = 380.0;
+};
+
+struct GridChart {
+    ChartFrame frame;
+    std::string rowWords, columnWords;
+    std::vector<std::string> rows, columns; ///< labels
+    std::vector<std::optional<double>> values; ///< row by row
+    std::vector<double> halfIntervals{}; ///< of the values; empty: none
+    double most = 1.0;  ///< darkest
+    int decimals = 0;   ///< of the numbers in the cells
+    std::optional<double> markedBelow{}; ///< cells below are framed
+    double width = 330.0;
+    double shape = 1.0; ///< of a cell: height / width
+};
+
+/// Where something was felt.
+struct PlaceMark {
+    std::size_t target = 0; ///< row by row
+    double x = 0.0, y = 0.0; ///< from 0 to 1, y downwards
+};
+
+struct PlaceEllipse {
+    std::size_t target = 0;
+    double x = 0.0, y = 0.0, varianceX = 0.0, varianceY = 0.0, covariance = 0.0;
+};
+
+struct PlaceChart {
+    ChartFrame frame;
+    std::size_t rows = 1, columns = 1;
+    std::vector<PlaceMark> places{};
+    std::vector<PlaceEllipse> ellipses{}; ///< of one standard deviation
+    std::vector<std::pair<double, double>> targets{}; ///< row by row
+    std::vector<PlaceMark> labels{}; ///< "row,column" of the target
+    std::vector<std::size_t> territory{}; ///< the target that each point of a map belongs to, row by row
+    std::size_t mapColumns = 0;
+    double width = 335.0;
+};
+
+// The same input gives the same bytes. Any thread (allocates).
+
+std::string barChart(const BarChart& chart);
+std::string lineChart(const LineChart& chart);
+std::string gridChart(const GridChart& chart);
+std::string placeChart(const PlaceChart& chart);
+
+/// "***" below 0.001, "**" below 0.01, "*" below 0.05, else "n.s.".
+std::string significanceMark(double p);
+
+} // namespace physvib
