@@ -11,6 +11,7 @@
 #include "CommandLine/Play/PlayCommand.h"
 #include "CommandLine/Process.h"
 #include "CommandLine/Render/RenderCommand.h"
+#include "CommandLine/Report/ReportCommand.h"
 #include "CommandLine/Study/StimulusCommand.h"
 #include "CommandLine/Study/StudyCommand.h"
 #include "Files/SceneCatalogue.h"
@@ -47,6 +48,9 @@ int run(int argc, char** argv) {
     AnalyseOptions analyseOptions;
     CLI::App* analyse = app.add_subcommand("analyse", "what the trials of a study say");
     declareAnalyse(*analyse, analyseOptions);
+    ReportOptions reportOptions;
+    CLI::App* report = app.add_subcommand("report", "trial files as a page with pictures, tests and tables");
+    declareReport(*report, reportOptions);
     StimulusOptions stimulusOptions;
     CLI::App* stimulus = app.add_subcommand("stimulus", "a single stimulus of a study");
     declareStimulus(*stimulus, stimulusOptions);
@@ -80,6 +84,7 @@ int run(int argc, char** argv) {
     if (actuators->parsed()) return listActuators();
     if (devices->parsed()) return runDevices();
     if (analyse->parsed()) return runAnalyse(*analyse, analyseOptions);
+    if (report->parsed()) return runReport(reportOptions);
     if (stimulus->parsed()) return runStimulus(*stimulus, stimulusOptions);
     if (study->parsed()) return runStudy(*study, studyOptions);
     if (material->parsed()) return runMaterial(materialOptions);

@@ -81,15 +81,25 @@ CLI::App* declare(CLI::App& command, const Analysis& analysis, AnalyseOptions& o
 
 } // namespace
 
+void declareColumns(CLI::App& command, AnalyseOptions& o) {
+    command.add_option("--columns", o.columnWords, "of another program's table: what it calls our columns, e.g. participant=subject,response=key_resp.keys")
+        ->type_name("NAME=COLUMN[,...]")->delimiter(',')->expected(1, static_cast<int>(limits::maxTableColumns));
+}
+
 void declareAnalyse(CLI::App& command, AnalyseOptions& o) {
     command.require_subcommand(1);
     for (const Analysis& analysis : analyses) {
         CLI::App* const own = declare(command, analysis, o);
         own->add_option("--picture", o.picturePath, "the result to look at")->type_name("FILE.png")->check(writtenFile);
         declareOwn(*own, analysis.name, o);
+        declareColumns(*own, o);
     }
     for (const Analysis& test : testsOverParticipants) declareTest(*declare(command, test, o), o);
-    for (const Analysis& fit : fits) declareFit(*declare(command, fit, o), o);
+    for (const Analysis& fit : fits) {
+        CLI::App* const own = declare(command, fit, o);
+        declareFit(*own, o);
+        declareColumns(*own, o);
+    }
 }
 
 std::vector<std::string> analysesFor(const CsvTable& table) {
@@ -112,6 +122,9 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
         if (has("target_column") && has("x")) found.insert("resolution");
         if (has("c1")) found.insert("percent-counts");
         if (has("choice")) found.insert("choices");
+        if ((has("value") && has("stimulus")) || (has("level_db") && has("correct"))) found.insert("levels");
+        const bool hasScale = std::ranges::any_of(table.columns, [](const auto& column) { return !trialColumns::has(column); });
+        if (found.empty() && has("participant") && (has("stimulus") || has("condition")) && hasScale) found.insert("ratings");
     }
     std::vector<std::string> names;
     for (const Analysis& analysis : analyses)
@@ -124,7 +137,10 @@ AnalysisReport analyse(const std::string& name, const AnalyseOptions& options) {
     return found ? found->run(options) : AnalysisReport{"no analysis " + inQuotes(name)};
 }
 
-int runAnalyse(const CLI::App& command, const AnalyseOptions& o) {
+int runAnalyse(const CLI::App& command, AnalyseOptions& o) {
+    auto columns = parseColumnNames(o.columnWords);
+    if (!columns) return leave(exitUsage, "--columns: " + columns.error);
+    o.columns = std::move(columns.value);
     const Analysis* const asked = analysisThat([&](const Analysis& a) { return command.got_subcommand(std::string{a.name}); });
     if (!asked) return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
     const AnalysisReport report = asked->run(o);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib analyse`: what the trials of a study say.
 #pragma once
+#include "CommandLine/Study/StudyOutput.h"
 #include "Files/Text/CsvTable.h"
 #include "Study/PercentCounts.h"
 #include "Study/Statistics/Pairs.h"
 #include "Study/Statistics/Psychometric.h"
+#include "Study/Statistics/TestReport.h"
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -18,8 +20,8 @@ class App;
 namespace physvib {
 
 /// As given on the command line; each kind of analysis uses some of them.
-struct AnalyseOptions {
-    std::vector<std::string> files;
+struct AnalyseOptions : StudySources {
+    std::vector<std::string> columnWords;                ///< as NAME=COLUMN, before they are columns
     int tolerance = 0;                                   ///< confusion: grid steps that still count as correct
     double thresholdPercent = defaultPercentThreshold;   ///< resolution, percent-counts
     std::size_t meanings = 8;                            ///< icons
@@ -27,7 +29,7 @@ struct AnalyseOptions {
     std::string participantsPath;                        ///< confusion: a row per participant
     // Tests over participants:
     std::string measure, between, participant;
-    std::vector<std::string> within;
+    std::vector<std::string> within, where;
     std::optional<Correction> correction;
     PairTest pairTest = PairTest::student;
     bool usesAlignedRanks = false;
@@ -45,6 +47,7 @@ struct AnalysisReport {
     std::string words{};                  ///< its figures, in lines
     std::function<std::string()> picture{}; ///< PNG bytes, watermarked if simulated; M, while JUCE is initialised
     std::string table{}, counts{}, participants{}; ///< CSV
+    std::vector<TestLine> lines{};                 ///< of a test
 };
 
 /// The analyses that fit a table, by their names: of a trial file by the tasks in it, else by its columns. Any thread.
@@ -56,7 +59,10 @@ AnalysisReport analyse(const std::string& name, const AnalyseOptions& options);
 /// Declares the analyses as subcommands of `command`.
 void declareAnalyse(CLI::App& command, AnalyseOptions& options);
 
+/// `--columns`, for those who read other programs' tables.
+void declareColumns(CLI::App& command, AnalyseOptions& options);
+
 /// Runs the one that `command` has parsed; the code to leave with.
-int runAnalyse(const CLI::App& command, const AnalyseOptions& options);
+int runAnalyse(const CLI::App& command, AnalyseOptions& options);
 
 } // namespace physvib

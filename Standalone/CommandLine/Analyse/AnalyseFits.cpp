@@ -2,6 +2,8 @@
 // A fit per participant, a mean with its interval per condition.
 #include "CommandLine/Analyse/AnalyseFits.h"
 #include "CommandLine/Analyse/AnalyseCommand.h"
+#include "CommandLine/Analyse/FitCharts.h"
+#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Study/Statistics/Bootstrap.h"
 #include "Study/Statistics/LevelFits.h"
@@ -17,7 +19,7 @@ using LevelAnswers = StudyData<LevelAnswer>;
 Result<LevelAnswers> readAnswers(const AnalyseOptions& o, LevelAnswerColumns columns) {
     if (!o.level.empty()) columns.level = o.level;
     if (!o.measure.empty()) columns.measure = o.measure;
-    return readStudyFiles(o.files, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
+    return readStudyFiles(o, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
 }
 
 /// "threshold 12.3 (11.0 to 13.4)".
@@ -38,6 +40,11 @@ void leaveOut(AnalysisReport& report, const std::string& condition, const std::s
 
 /// One line for all who were left out.
 AnalysisReport nobodyFitted(const AnalyseOptions& o, const AnalysisReport& report) { return {o.files.front() + ": nobody can be fitted; " + report.warnings.back()}; }
+
+/// Of the first condition; a report has all.
+ChartFrame frameOf(const AnalyseOptions& o, const std::string& condition, bool isSimulated) {
+    return {"fit", condition.empty() ? std::filesystem::path{o.files.front()}.filename().string() : condition, isSimulated};
+}
 
 } // namespace
 
@@ -66,6 +73,10 @@ AnalysisReport analysePsychometric(const AnalyseOptions& o) {
     }
     report.words = out.str();
     report.table = table.text();
+    const auto first = data.value.conditions.front();
+    report.picture = [first, shape = o.shape, guess = o.guess, level = o.level.empty() ? std::string("level (dB)") : o.level, frame = frameOf(o, first.name, report.isSimulated)] {
+        return psychometricChart(frame, first.trials, shape, guess, level);
+    };
     return report;
 }
 
@@ -91,6 +102,8 @@ AnalysisReport analysePowerLaw(const AnalyseOptions& o) {
     }
     report.words = out.str();
     report.table = table.text();
+    const auto first = data.value.conditions.front();
+    report.picture = [first, level = o.level.empty() ? std::string("level") : o.level, frame = frameOf(o, first.name, report.isSimulated)] { return powerLawChart(frame, first.trials, level); };
     return report;
 }
 
@@ -98,6 +111,7 @@ void declareFit(CLI::App& command, AnalyseOptions& o) {
     const bool isPsychometric = command.get_name() == "psychometric";
     command.add_option("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (stimulus)")->type_name("COLUMN");
     command.add_option("--measure", o.measure, isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)")->type_name("COLUMN");
+    command.add_option("--picture", o.picturePath, "what was answered and the function, of the first condition")->type_name("FILE.svg")->check(writtenFile);
     if (!isPsychometric) return;
     std::map<std::string, PsychometricShape> shapes;
     for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i) shapes[std::string(psychometricShapeNames[i])] = static_cast<PsychometricShape>(i);

@@ -70,9 +70,9 @@ void warnOfSum(const PercentCounts& counts, std::vector<std::string>& warnings) 
 } // namespace
 
 AnalysisReport analyseResolution(const AnalyseOptions& o) {
-    const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readLocations(files); });
+    const auto data = readStudyFiles(o, [](const std::vector<NamedText>& files) { return readLocations(files); });
     if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
     std::vector<ConditionResolution> made;
     std::vector<PercentCounts> counts;
@@ -97,9 +97,9 @@ AnalysisReport analyseResolution(const AnalyseOptions& o) {
 }
 
 AnalysisReport analysePercentCounts(const AnalyseOptions& o) {
-    const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readPercentCounts(files); });
+    const auto data = readStudyFiles(o, [](const std::vector<NamedText>& files) { return readPercentCounts(files); });
     if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
     ExportTable table{"percent-counts", data.value.isSimulated, "condition,row,column,percent"};
     std::vector<ConditionResolution> made;

@@ -19,7 +19,7 @@ namespace {
 using Data = StudyData<IdentificationTrial>;
 
 Result<Data> readTrials(const AnalyseOptions& o) {
-    auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readIdentification(files); });
+    auto data = readStudyFiles(o, [](const std::vector<NamedText>& files) { return readIdentification(files); });
     if (!data || o.tolerance == 0) return data;
     for (auto& condition : data.value.conditions) {
         for (const auto& trial : condition.trials)
@@ -132,7 +132,7 @@ AnalysisReport analyseConfusion(const AnalyseOptions& o) {
 AnalysisReport analyseIcons(const AnalyseOptions& o) {
     const auto data = readTrials(o);
     if (!data) return {data.error};
-    AnalysisReport report{{}, data.value.isSimulated};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
     out << o.meanings << " meanings need " << bits(bitsFor(o.meanings)) << '\n';
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;

@@ -56,8 +56,8 @@ std::string exported(const std::string& name, bool isSimulated, const TestReport
 /// Reads the design, runs `test` on it, and tells its lines.
 template <class Test>
 AnalysisReport analyseDesign(const AnalyseOptions& o, const std::string& name, Test test) {
-    const LongTableColumns columns{o.measure, o.within, o.between, o.participant};
-    const auto data = readStudyFiles(o.files, [&](const std::vector<NamedText>& files) { return readLongTable(files, columns); }, limits::maxLongTableBytes);
+    const LongTableColumns columns{o.measure, o.within, o.between, o.participant, o.where};
+    const auto data = readStudyFiles(o, [&](const std::vector<NamedText>& files) { return readLongTable(files, columns); }, limits::maxLongTableBytes);
     if (!data) return {data.error};
     const Design design = Design::of(data.value.table);
     TestReport tested = test(design);
@@ -70,6 +70,7 @@ AnalysisReport analyseDesign(const AnalyseOptions& o, const std::string& name, T
     for (const TestLine& line : tested.lines) tell(out, tested, line);
     report.words = out.str();
     report.table = exported(name, report.isSimulated, tested);
+    report.lines = std::move(tested.lines);
     return report;
 }
 
@@ -92,6 +93,7 @@ void declareTest(CLI::App& command, AnalyseOptions& o) {
     if (name != "mann-whitney" && name != "kruskal-wallis")
         command.add_option("--within", o.within, "factors that every participant has all levels of")->type_name("A[,B[,C]]")->delimiter(',')->expected(1, mostWithinFactors);
     if (name != "friedman" && name != "wilcoxon") command.add_option("--between", o.between, "column of the participants' groups")->type_name("G");
+    command.add_option("--where", o.where, "only rows that say so; may be repeated")->type_name("COLUMN=WORD")->allow_extra_args(false);
     command.add_option("--participant", o.participant, "column that names the participant (participant)")->type_name("COLUMN");
     if (name == "anova") {
         command.add_flag("--aligned-ranks", o.usesAlignedRanks, "of aligned ranks, for ratings");

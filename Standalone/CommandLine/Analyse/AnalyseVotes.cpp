@@ -39,11 +39,11 @@ void tell(std::ostream& out, const LevelSummary& s) {
 } // namespace
 
 AnalysisReport analyseChoices(const AnalyseOptions& o) {
-    const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readChoices(files); });
+    const auto data = readStudyFiles(o, [](const std::vector<NamedText>& files) { return readChoices(files); });
     if (!data) return {data.error};
     const auto summaries = summariseChoices(data.value.conditions.front().trials);
     ExportTable table{"choices", data.value.isSimulated, "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,participants_median_percent,p_signed_ranks"};
-    AnalysisReport report{{}, data.value.isSimulated};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
     if (summaries.front().participants == 1) report.warnings.push_back("one participant, or no column participant: intervals are over trials, and say nothing about other people");
     if (summaries.front().shares.size() == 1) report.warnings.push_back("every choice is " + printable(summaries.front().shares.front().alternative) + ": nothing to compare");
@@ -65,12 +65,12 @@ AnalysisReport analyseChoices(const AnalyseOptions& o) {
 }
 
 AnalysisReport analyseRatings(const AnalyseOptions& o) {
-    const auto ratings = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readRatings(files); });
+    const auto ratings = readStudyFiles(o, [](const std::vector<NamedText>& files) { return readRatings(files); });
     if (!ratings) return {ratings.error};
     const auto& [scales, data] = ratings.value;
     const auto summaries = summariseRatings(data.conditions.front().trials);
     ExportTable table{"ratings", data.isSimulated, "condition,scale,trials,participants,mean,standard_deviation,half_interval"};
-    AnalysisReport report{{}, data.isSimulated};
+    AnalysisReport report{{}, data.isSimulated, data.warnings};
     std::ostringstream out;
     for (const auto& summary : summaries) {
         out << printable(summary.condition) << ": " << summary.trials << (summary.trials == 1 ? " trial" : " trials");
@@ -90,11 +90,11 @@ AnalysisReport analyseRatings(const AnalyseOptions& o) {
 }
 
 AnalysisReport analyseLevels(const AnalyseOptions& o) {
-    const auto data = readStudyFiles(o.files, [](const std::vector<NamedText>& files) { return readLevels(files); });
+    const auto data = readStudyFiles(o, [](const std::vector<NamedText>& files) { return readLevels(files); });
     if (!data) return {data.error};
     const auto summaries = summariseLevels(data.value.conditions.front().trials);
     ExportTable table{"levels", data.value.isSimulated, "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation,half_interval"};
-    AnalysisReport report{{}, data.value.isSimulated};
+    AnalysisReport report{{}, data.value.isSimulated, data.value.warnings};
     std::ostringstream out;
     for (const LevelSummary& s : summaries) {
         tell(out, s);

@@ -12,6 +12,7 @@
 #include "Host/Pictures/StudyPictures.h"
 #include <functional>
 #include <iostream>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,17 +25,30 @@ inline std::string chanceWords(double p) { return p < 0.001 ? "p < 0.001" : "p =
 
 inline void warn(const std::string& words) { tell("warning: " + words); }
 
+/// What an analysis reads.
+struct StudySources {
+    std::vector<std::string> files;
+    std::vector<ColumnName> columns{};                          ///< of another program's tables
+    const std::map<std::string, std::string>* made = nullptr;   ///< tables by their names that are not on the disk (yet); they have our columns
+};
+
 /// Reads every file and gives the texts to `reader` at once.
 template <class Reader>
-auto readStudyFiles(const std::vector<std::string>& paths, Reader reader, std::size_t mostBytes = limits::maxTableBytes) -> decltype(reader(std::vector<NamedText>{})) {
-    std::vector<std::string> texts;
-    for (const auto& path : paths) {
+auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t mostBytes = limits::maxTableBytes) -> decltype(reader(std::vector<NamedText>{})) {
+    std::vector<std::string> texts(sources.files.size());
+    std::vector<NamedText> files;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const std::string& path = sources.files[i];
+        if (sources.made)
+            if (const auto found = sources.made->find(path); found != sources.made->end()) {
+                files.push_back({found->second, path});
+                continue;
+            }
         auto text = readFile(path, mostBytes);
         if (!text) return Failure{text.error};
-        texts.push_back(std::move(text.value));
+        texts[i] = std::move(text.value);
+        files.push_back({texts[i], path, sources.columns});
     }
-    std::vector<NamedText> files;
-    for (std::size_t i = 0; i < paths.size(); ++i) files.push_back({texts[i], paths[i]});
     return reader(files);
 }
 

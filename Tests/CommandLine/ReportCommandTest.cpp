@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A study's report as researchers call it: pages that need nothing else, tables that repeat, simulated data that say so.
+#include "Calls.h"
+#include "Files/ProtocolFile.h"
+
+namespace physvib {
+namespace {
+
+class Report : public test::CommandLine {
+protected:
+    void simulate(const std::string& protocol, int participants) const {
+        ASSERT_EQ(call("study run " + protocol + " --observer simulated --participants " + std::to_string(participants)).exitCode, 0);
+    }
+    std::string page(const std::string& folder = "out") const { return read(folder + "/index.html"); }
+    static std::size_t count(const std::string& text, const std::string& what) {
+        std::size_t n = 0;
+        for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++n;
+        return n;
+    }
+    static bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+};
+
+TEST_F(Report, EveryBuiltInStudyHasAPageThatNeedsNothingElse) {
+    for (const Protocol& protocol : builtInProtocols()) {
+        const std::string& name = protocol.name;
+        simulate(name, 3);
+        const auto outcome = call("report " + name + "-P*.csv --out " + name);
+        ASSERT_EQ(outcome.exitCode, 0) << name << outcome.err;
+        EXPECT_EQ(outcome.out.rfind("SIMULATED", 0), 0u);
+        const std::string html = page(name);
+        EXPECT_TRUE(has(html, protocol.title)) << name;
+        EXPECT_GE(count(html, "<svg "), 1u) << name;
+        EXPECT_EQ(count(html, ">SIMULATED</text>"), count(html, "<svg ")) << name << ": every picture is watermarked";
+        EXPECT_EQ(count(html, "http"), count(html, "http://www.w3.org/2000/svg") + 1) << name << ": no network (the other is http-equiv)";
+        for (const char* bad : {"<script", "=\"nan", ">nan", " nan", "Mnan", "NaN", "-inf", "url(h", "<img"}) EXPECT_FALSE(has(html, bad)) << name << ' ' << bad;
+        for (const char* part : {">Participants<", ">Exclusions<", ">Procedure<", ">How stimuli were made<", ">Files, versions, seeds<", "hash of the protocol"}) EXPECT_TRUE(has(html, part)) << name << part;
+        for (const auto& entry : std::filesystem::directory_iterator{folder_ / name})
+            if (entry.path().extension() == ".csv") EXPECT_TRUE(has(html, entry.path().filename().string())) << entry.path();
+    }
+}
+
+TEST_F(Report, TheTestsAreThoseOfAnalyseOnTheTablesBesideIt) {
+    simulate("eight-methods", 5);
+    ASSERT_EQ(call("report eight-methods-P*.csv --out out").exitCode, 0);
+    const std::string html = page(), command = "analyse anova trials.csv --measure realism --within A,F,DR";
+    EXPECT_TRUE(has(html, "physvib " + command));
+    const auto again = call(command + " --export again.csv", "cd '" + (folder_ / "out").string() + "' && ");
+    const auto analysed = call("analyse anova out/trials.csv --measure realism --within A,F,DR --export again.csv");
+    ASSERT_EQ(analysed.exitCode, 0) << analysed.err;
+    EXPECT_EQ(read("again.csv"), read("out/anova-realism.csv"));
+    const std::string line = analysed.out.substr(analysed.out.find("\nA: ") + 1);
+    EXPECT_TRUE(has(html, line.substr(0, line.find('\n')))) << line;
+    EXPECT_TRUE(has(read("out/report.R"), "anova.test(\"anova-realism.csv\", \"trials.csv\", \"realism\", c(\"A\", \"F\", \"DR\"))"));
+}
+
+TEST_F(Report, TheSameTrialsGiveTheSameBytes) {
+    simulate("model-or-sound", 2);
+    ASSERT_EQ(call("report model-or-sound-P01.csv model-or-sound-P02.csv --out a").exitCode, 0);
+    ASSERT_EQ(call("report model-or-sound-P01.csv model-or-sound-P02.csv --out b").exitCode, 0);
+    for (const auto& entry : std::filesystem::directory_iterator{folder_ / "a"}) {
+        const std::string name = entry.path().filename().string();
+        EXPECT_EQ(read("a/" + name), read("b/" + name)) << name;
+    }
+}
+
+TEST_F(Report, WordsOfFilesAreOnlyWords) {
+    write("t.csv", "participant,condition,stimulus,response\n<script>alert(1)</script>,\"<img src=x onerror=alert(1)>\",<b>,<b>\n"
+                   "<script>alert(1)</script>,\"<img src=x onerror=alert(1)>\",c,<b>\nQ,\"<img src=x onerror=alert(1)>\",<b>,<b>\nQ,\"<img src=x onerror=alert(1)>\",c,c\n");
+    ASSERT_EQ(call("report t.csv --out out").exitCode, 0);
+    const std::string html = page();
+    EXPECT_TRUE(has(html, "&lt;script&gt;"));
+    for (const char* bad : {"<script", "<img", "<b>c", "<td><b>"}) EXPECT_FALSE(has(html, bad)) << bad;
+    EXPECT_FALSE(has(html, "SIMULATED")) << "nothing says that these were simulated";
+}
+
+TEST_F(Report, OtherProgramsTablesAreReadByTheirNames) {
+    std::string text = "sound,key_resp.keys,subject,\n,,1,\n";
+    for (int p = 1; p <= 4; ++p)
+        for (int t = 0; t < 10; ++t) text += std::string(t % 2 ? "hi" : "lo") + (t % 3 || p % 2 ? ",hi," : ",lo,") + std::to_string(p) + ",\n";
+    write("p.csv", text);
+    const std::string columns = " --columns participant=subject,stimulus=sound,response=key_resp.keys";
+    const auto outcome = call("report p.csv --out out" + columns);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(has(page(), "4 participants in 1 file"));
+    EXPECT_TRUE(has(page(), "1 row with nothing in one of the named columns left out"));
+    EXPECT_EQ(read("out/trials.csv").find("key_resp"), std::string::npos);
+    const auto analysed = call("analyse confusion p.csv" + columns);
+    EXPECT_EQ(analysed.exitCode, 0) << analysed.err;
+    EXPECT_TRUE(has(analysed.out, "trials: 40 (2 stimuli)")) << analysed.out;
+    refuses("analyse confusion p.csv --columns response", 2, "--columns: expected NAME=COLUMN", 2);
+    refuses("analyse confusion p.csv --columns response=keys", 1, "p.csv: expected a column keys, found none", 2);
+}
+
+TEST_F(Report, TrialsCanBeABidsDatasetAsWell) {
+    simulate("eight-methods", 2);
+    ASSERT_EQ(call("report eight-methods-P*.csv --out out --bids").exitCode, 0);
+    EXPECT_EQ(count(read("out/bids/sub-P02/beh/sub-P02_task-eightmethods_beh.tsv"), "\n"), 97u) << "a header, 16 trials of training, 80";
+    EXPECT_TRUE(has(read("out/bids/dataset_description.json"), "SIMULATED"));
+    write("t.csv", "stimulus,response\na,a\nb,b\n");
+    refuses("report t.csv --out none --bids", 1, "t.csv: --bids: expected a column participant", 4);
+}
+
+TEST_F(Report, FitsHavePictures) {
+    simulate("level-steps", 3);
+    ASSERT_EQ(call("analyse psychometric level-steps-P01.csv level-steps-P02.csv --picture p.svg").exitCode, 0);
+    EXPECT_EQ(read("p.svg").rfind("<svg xmlns=", 0), 0u);
+    EXPECT_EQ(count(read("p.svg"), ">SIMULATED<"), 1u);
+    EXPECT_TRUE(has(read("p.svg"), "threshold "));
+}
+
+TEST_F(Report, OneParticipantIsToldAndNotTested) {
+    simulate("phantom-grids", 1);
+    const auto outcome = call("report phantom-grids-P01.csv --out out");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(has(page(), "one participant: intervals and tests over participants are not possible"));
+    EXPECT_TRUE(has(page(), "not tested: "));
+    EXPECT_TRUE(has(outcome.out, " 0 tests")) << outcome.out;
+}
+
+TEST_F(Report, UnknownTrialsHaveTheirTableAndAreTold) {
+    write("t.csv", "when,what\n1,a\n");
+    const auto outcome = call("report t.csv --out out");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_TRUE(has(outcome.err, "no analysis is known for these trials")) << outcome.err;
+    EXPECT_TRUE(has(page(), "<td>a</td>"));
+}
+
+TEST_F(Report, RefusalsLeaveNothing) {
+    simulate("magnitudes", 1);
+    simulate("level-steps", 1);
+    refuses("report magnitudes-P01.csv level-steps-P01.csv --out out", 1, "level-steps-P01.csv:1: expected trials of the protocol \"magnitudes\"", 2);
+    refuses("report nothing.csv --out out", 1, "nothing.csv", 2);
+    refuses("report magnitudes-P01.csv --out magnitudes-P01.csv/x", 1, "expected a folder", 2);
+    refuses("report magnitudes-P01.csv", 2, "--out", 2);
+    std::filesystem::create_directory(folder_ / "in");
+    std::filesystem::copy(folder_ / "magnitudes-P01.csv", folder_ / "in/trials.csv");
+    refuses("report in/trials.csv --out in", 2, "trials.csv", 3);
+    EXPECT_EQ(read("in/trials.csv"), read("magnitudes-P01.csv"));
+}
+
+} // namespace
+} // namespace physvib
