@@ -50,6 +50,10 @@ constexpr ColumnMeaning meanings[] = {
     {"replays", "replays", "How often the stimulus was felt again", ""},
     {"response_s", "response_time", "From the beginning of the trial to the answer", "s"},
     {"level_db", "level_db", "Level of the trial, relative to its condition's", "dB"},
+    {"quest", "quest", "What QUEST+ thought possible before the session's first trial", ""},
+    {"peak_g", "peak_g", "Peak acceleration that was felt in the trial", "g"},
+    {"rms_g", "rms_g", "Root mean square of the acceleration that was felt in the trial", "g"},
+    {"a8_m_per_s2", "a8_m_per_s2", "The participant's exposure up to here, A(8) by ISO 5349-1", "m/s^2"},
     {"render", "render", "Call of physvib that renders the stimulus again", ""},
 };
 

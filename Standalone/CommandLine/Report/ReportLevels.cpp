@@ -15,7 +15,7 @@ namespace {
 double guessOf(const ReportTrials& trials) {
     if (trials.protocol)
         for (const SessionPlan& session : trials.protocol->sessions)
-            if (session.staircase && session.alternatives.size() > 1) return 1.0 / static_cast<double>(session.alternatives.size());
+            if (session.adaptedAlternative() && session.alternatives.size() > 1) return 1.0 / static_cast<double>(session.alternatives.size());
     return 0.5;
 }
 
@@ -83,7 +83,7 @@ void tellLevels(ReportBuilder& report) {
     const auto has = [&](LevelTrial::Kind kind) { return std::ranges::any_of(trials, [=](const LevelTrial& trial) { return trial.kind == kind; }); };
     if (const std::string chart = matchesChart(report, summariseLevels(trials)); !chart.empty())
         report.page.figure({chart}, "Levels that were set until both were equally strong: means, 95 % intervals over participants.");
-    if (has(LevelTrial::Kind::staircase)) tellThresholds(report);
+    if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest)) tellThresholds(report);
     if (has(LevelTrial::Kind::magnitude)) tellMagnitudes(report);
 }
 

@@ -101,6 +101,7 @@ std::string sessionWords(const SessionPlan& session) {
     if (session.staircase)
         words += "; staircase " + std::to_string(session.staircase->down) + " down, 1 up, from " + numberText(session.staircase->startDb) + " dB in steps of " + numberText(session.staircase->stepDb) + " dB, until " +
                  std::to_string(session.staircase->reversals) + " reversals";
+    if (session.quest) words += "; QUEST+ on " + session.quest->alternative;
     if (session.adjustment) words += "; " + session.adjustment->alternative + " is set, in steps of " + numberText(session.adjustment->stepDb) + " dB";
     if (!session.levelsFrom.empty()) words += "; levels from " + session.levelsFrom;
     if (session.leastSeconds > 0.0) words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
@@ -165,13 +166,14 @@ void tellDoses(ReportBuilder& report) {
     const CsvTable& all = report.trials.all;
     const Cells cell{all};
     ExportTable table{"levels-and-exposure", report.isSimulated(), "condition,session,measure,trials,least,mean,most"};
-    bool isFilled = false;
+    bool isFilled = false, measuresExposure = false;
     for (const std::string& column : all.columns) {
-        if (column != "level_db" && !column.starts_with("exposure")) continue;
+        if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
         std::map<std::pair<std::string, std::string>, std::vector<double>> values;
         for (const CsvRow& row : all.rows)
             if (const auto value = parseNumber<double>(cell(row, column))) values[{cell(row, "condition"), cell(row, "session")}].push_back(*value);
         if (column == "level_db" && std::ranges::all_of(values, [](const auto& v) { return std::ranges::all_of(v.second, [](double db) { return db == 0.0; }); })) continue;
+        measuresExposure |= column == trialColumns::exposure && !values.empty();
         for (const auto& [key, own] : values) {
             double sum = 0.0;
             for (const double value : own) sum += value;
@@ -182,11 +184,11 @@ void tellDoses(ReportBuilder& report) {
         }
     }
     report.page.subheading("Levels and exposure");
-    if (!isFilled) return report.page.paragraph("Every trial was at its condition's own level; the files do not say how much vibration was felt (exposure).");
+    if (!isFilled) return report.page.paragraph("Every trial was at its condition's own level; nobody measured what was felt.");
     report.addTable("levels-and-exposure.csv", table.text());
-    report.page.paragraph("Levels are relative to the condition's own, in dB.");
+    report.page.paragraph("level_db: relative to the condition's own level, in dB. peak_g and rms_g: what was felt in a trial, in g. a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1.");
     report.page.table(table.text(), "levels-and-exposure.csv");
-    if (std::ranges::none_of(all.columns, [](const std::string& column) { return column.starts_with("exposure"); })) report.page.note("these trial files do not say how much vibration was felt (exposure)");
+    if (!measuresExposure) report.page.note("exposure was not measured in these trials");
 }
 
 } // namespace

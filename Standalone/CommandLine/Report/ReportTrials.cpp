@@ -36,6 +36,30 @@ std::string valueOf(const TrialFile& file, const std::string& key) {
     return found == file.head.end() ? std::string{} : found->second;
 }
 
+/// Columns without those that only newer files have.
+std::vector<std::string> asked(const CsvTable& table) {
+    std::vector<std::string> columns = table.columns;
+    std::erase_if(columns, [](const std::string& column) { return trialColumns::isMeasured(column); });
+    return columns;
+}
+
+/// All files' rows under all their columns; what a file does not have is empty.
+CsvTable joined(const std::vector<TrialFile>& files) {
+    CsvTable all{"the trials", {}, asked(files.front().table), {}};
+    for (const TrialFile& file : files)
+        for (const std::string& column : file.table.columns)
+            if (!all.column(column)) all.columns.push_back(column);
+    for (const TrialFile& file : files)
+        for (const CsvRow& row : file.table.rows) {
+            CsvRow& own = all.rows.emplace_back(CsvRow{row.line, {}});
+            for (const std::string& column : all.columns) {
+                const auto at = file.table.column(column);
+                own.cells.push_back(at ? row.cells[*at] : std::string{});
+            }
+        }
+    return all;
+}
+
 void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) {
     const std::string name = trials.common("protocol"), hash = trials.common("hash");
     const auto fits = [&](const Protocol& protocol) { return protocol.name == name && protocolHash(protocol) == hash; };
@@ -68,13 +92,12 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
             const TrialFile& first = trials.files.front();
             if (valueOf(first, "protocol") != valueOf(file, "protocol"))
                 return Failure{path + ":1: expected trials of the protocol " + inQuotes(valueOf(first, "protocol")) + ", as in " + first.name + ", found " + inQuotes(valueOf(file, "protocol"))};
-            if (first.table.columns != file.table.columns) return Failure{path + ": expected the columns of " + first.name + ", found others"};
+            if (asked(first.table) != asked(file.table)) return Failure{path + ": expected the columns of " + first.name + ", found others"};
         }
         trials.isSimulated |= saysSimulated(file);
         trials.files.push_back(std::move(file));
     }
-    trials.all = {"the trials", {}, trials.files.front().table.columns, {}};
-    for (const TrialFile& file : trials.files) trials.all.rows.insert(trials.all.rows.end(), file.table.rows.begin(), file.table.rows.end());
+    trials.all = joined(trials.files);
     findProtocolOf(trials, protocol);
     return trials;
 }
