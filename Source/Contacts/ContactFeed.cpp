@@ -19,7 +19,7 @@ bool isWithin(double value, double least, double most) noexcept { return value >
 
 bool isUnit(Vector2 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; } // not NaN; engines round
 
-const ImpactSettings& checked(const ImpactSettings& settings) {
+const ImpactSettings& onsetAlone(const ImpactSettings& settings) {
     if (settings.timing != ImpactTiming::onset) throw std::invalid_argument("timing: expected onset: others' contacts are not told to their end");
     return settings;
 }
@@ -27,9 +27,9 @@ const ImpactSettings& checked(const ImpactSettings& settings) {
 } // namespace
 
 ContactFeed::ContactFeed(const ImpactSettings& settings)
-    : events_(bodies_, checked(settings)) {}
+    : events_(bodies_, onsetAlone(settings)) {}
 
-void ContactFeed::configure(const ImpactSettings& settings) { events_.configure(checked(settings)); }
+void ContactFeed::configure(const ImpactSettings& settings) { events_.configure(onsetAlone(settings)); }
 
 std::string_view ContactFeed::set(std::int32_t id, const FedBody& body, const HapticFixture& values) {
     if (id < 0) return "body: expected a number from 0 on";

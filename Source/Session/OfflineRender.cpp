@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The loop of an offline render: the list is the source, the limiter's look-ahead is rendered first and
-// dropped.
+// The list as the source of an offline render.
 #include "Session/OfflineRender.h"
-#include <algorithm>
+#include "Core/OfflineLoop.h"
 #include <memory>
 #include <vector>
 
@@ -35,20 +34,11 @@ RenderStatus renderOffline(std::span<const CollisionEvent> events, const Offline
     const auto channels = static_cast<std::size_t>(settings.renderer.outputs());
     const auto block = static_cast<std::size_t>(settings.blockFrames);
     std::vector<float> samples(channels * block);
-    std::vector<float*> out(channels), kept(channels);
+    std::vector<float*> out(channels);
     for (std::size_t j = 0; j < channels; ++j) out[j] = samples.data() + j * block;
 
     ListSource source{events, settings.controls};
-    const std::int64_t latency = renderer->latencyFrames(), end = settings.frames + latency;
-    for (std::int64_t done = 0; done < end;) {
-        const int frames = static_cast<int>(std::min<std::int64_t>(settings.blockFrames, end - done));
-        renderer->render(source, out.data(), frames);
-        const int dropped = static_cast<int>(std::clamp<std::int64_t>(latency - done, 0, frames));
-        std::transform(out.begin(), out.end(), kept.begin(),
-                       [=](float* channel) { return channel + dropped; });
-        done += frames;
-        if (frames > dropped && !consume(kept.data(), frames - dropped)) break;
-    }
+    renderFromStart(*renderer, source, out.data(), static_cast<int>(channels), settings.frames, settings.blockFrames, consume);
     return renderer->status();
 }
 

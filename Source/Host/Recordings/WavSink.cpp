@@ -3,6 +3,7 @@
 // writing, takes descriptor 0 for none, and opens by name.
 #include "Host/Recordings/WavSink.h"
 #include "Files/Text/CleanText.h"
+#include "Files/WavHead.h"
 #include <juce_audio_formats/juce_audio_formats.h>
 
 namespace physvib {
@@ -87,25 +88,11 @@ const std::string& WavSink::finish() { return complete().empty() ? file_.commit(
 // JUCE writes the extensible form for speaker layouts and RF64 only. Its JUNK chunk (kept for RF64) is 24
 // bytes longer before a plain format chunk, so the extensible pair fits into the same 84 bytes.
 std::string WavSink::extensibleHeader() const {
-    constexpr juce::uint8 floatFormat[] = {3, 0, 0, 0, 0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71};
-    const int frameBytes = channels_ * 4;
-    juce::MemoryOutputStream header;
-    header.write("JUNK", 4);
-    header.writeInt(28);
-    header.writeRepeatedByte(0, 28);
-    header.write("fmt ", 4);
-    header.writeInt(40);
-    header.writeShort(static_cast<short>(0xfffe));
-    header.writeShort(static_cast<short>(channels_));
-    header.writeInt(sampleRateHz_);
-    header.writeInt(sampleRateHz_ * frameBytes);
-    header.writeShort(static_cast<short>(frameBytes));
-    header.writeShort(32);
-    header.writeShort(22); // bytes that follow
-    header.writeShort(32); // valid bits
-    header.writeInt(0);    // no speakers
-    header.write(floatFormat, sizeof(floatFormat));
-    return {static_cast<const char*>(header.getData()), header.getDataSize()};
+    juce::MemoryOutputStream junk;
+    junk.write("JUNK", 4);
+    junk.writeInt(28);
+    junk.writeRepeatedByte(0, 28);
+    return std::string{static_cast<const char*>(junk.getData()), junk.getDataSize()} + wavFormatChunk(channels_, sampleRateHz_);
 }
 
 } // namespace physvib

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The structures of physvib.h and ours.
+#pragma once
+#include "Api/C/Calls.h"
+#include "Core/CollisionEvent.h"
+#include "Core/RendererSettings.h"
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace physvib::api {
+
+inline CollisionEvent eventOf(const physvib_event& e) noexcept {
+    return {e.time_ns, e.frequency_hz, e.decay_per_s, e.amplitude, e.x_m, e.y_m, e.duration_ns, {e.fixture, e.other, e.impulse_n_s, e.mass_kg}};
+}
+
+inline physvib_event eventOf(const CollisionEvent& e) noexcept {
+    return {e.timeNs, e.durationNs, e.frequencyHz, e.decayPerSecond, e.amplitude, e.x, e.y,
+            e.source.impulseNewtonSeconds, e.source.massKg, e.source.fixture, e.source.other};
+}
+
+inline std::optional<double> optional(double value) noexcept { return value == PHYSVIB_UNKNOWN ? std::nullopt : std::optional{value}; }
+
+/// Settings as a renderer takes them; what is wrong, and what was expected, or empty.
+std::string_view convert(const physvib_renderer_settings& from, RendererSettings& to) noexcept;
+std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexcept;
+physvib_layout layoutOf(const EnchanterLayout& from) noexcept;
+
+/// Events that are playable and in time order, or why they are not.
+std::string_view faultOf(std::span<const physvib_event> events) noexcept;
+
+} // namespace physvib::api

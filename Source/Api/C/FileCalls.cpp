@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Version, errors, structures as they begin; layouts, lists and files of sound; a whole list to samples.
+#include "Api/C/Convert.h"
+#include "Core/OfflineLoop.h"
+#include "Files/Disk/AtomicFile.h"
+#include "Files/EventsCsv.h"
+#include "Files/LayoutFile.h"
+#include "Files/WavHead.h"
+#include <memory>
+#include <physvib/Version.h>
+#include <vector>
+
+using namespace physvib;
+using namespace physvib::api;
+
+static_assert(PHYSVIB_MAX_ENCHANTERS == limits::maxEnchanters);
+
+namespace {
+
+template <class Struct>
+int init(Struct* filled, const Struct& values) noexcept {
+    if (filled == nullptr) return nothingThere("structure: expected one, found NULL");
+    *filled = values;
+    filled->size = sizeof values;
+    return PHYSVIB_OK;
+}
+
+int written(const std::string& error) noexcept { return resultOf(error, PHYSVIB_ERROR_FILE); }
+
+/// A list of the caller's as a renderer takes it.
+struct ListSource {
+    std::span<const physvib_event> events;
+    bool pop(CollisionEvent& event) noexcept {
+        if (events.empty()) return false;
+        event = eventOf(events.front());
+        events = events.subspan(1);
+        return true;
+    }
+};
+
+} // namespace
+
+const char* physvib_version(void) { return PHYSVIB_VERSION; }
+const char* physvib_error(void) { return lastError().data(); }
+
+int physvib_renderer_settings_init(physvib_renderer_settings* settings) {
+    physvib_renderer_settings values{};
+    values.rate_hz = 48000;
+    values.limiter = 1;
+    values.exponent = 1.0;
+    physvib_layout_preset("phone4", &values.layout);
+    return init(settings, values);
+}
+
+int physvib_renderer_status_init(physvib_renderer_status* status) { return init(status, {}); }
+
+int physvib_world_settings_init(physvib_world_settings* settings) {
+    physvib_world_settings values{};
+    values.hits_per_step = -1;
+    values.field_width_m = values.drive_gain = 1.0;
+    values.normalisation_s_per_m = values.hand_mass_kg = PHYSVIB_UNKNOWN;
+    values.threshold_m_per_s = 0.15;
+    return init(settings, values);
+}
+
+int physvib_body_init(physvib_body* body) {
+    physvib_body values{};
+    values.gravity_scale = values.gain = 1.0;
+    values.hand_mass_kg = PHYSVIB_UNKNOWN;
+    for (double& amplitude : values.overtone_amplitude) amplitude = 1.0;
+    return init(body, values);
+}
+
+int physvib_contact_init(physvib_contact* contact) {
+    physvib_contact values{};
+    values.a = values.b = -1;
+    values.normal_y = 1.0;
+    values.impulse_n_s = values.approach_m_per_s = values.effective_mass_kg = values.fraction = PHYSVIB_UNKNOWN;
+    return init(contact, values);
+}
+
+int physvib_layout_preset(const char* name, physvib_layout* layout) {
+    EnchanterLayout preset;
+    if (name == nullptr || layout == nullptr) return nothingThere("layout: expected a name and a place for it, found NULL");
+    if (!layoutPreset(name, preset)) return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected phone1 to phone4 or ring1 to ring4");
+    *layout = layoutOf(preset);
+    return PHYSVIB_OK;
+}
+
+int physvib_layout_load(const char* path, physvib_layout* layout) {
+    return guarded([&] {
+        if (path == nullptr || layout == nullptr) return nothingThere("layout: expected a path and a place for it, found NULL");
+        const auto loaded = loadLayout(path);
+        if (!loaded) return fail(PHYSVIB_ERROR_FILE, loaded.error);
+        *layout = layoutOf(loaded.value.geometry);
+        return PHYSVIB_OK;
+    });
+}
+
+int physvib_layout_save(const char* path, const char* name, const physvib_layout* layout) {
+    return guarded([&] {
+        if (path == nullptr || name == nullptr || layout == nullptr) return nothingThere("layout: expected a path, a name and a layout, found NULL");
+        EnchanterLayout geometry;
+        if (const auto fault = convert(*layout, geometry); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        const std::string text = layoutJson(describeLayout(name, geometry));
+        if (const auto again = readLayout(text, name); !again) return fail(PHYSVIB_ERROR_ARGUMENT, again.error); // nobody could load it
+        return written(writeFile(path, text));
+    });
+}
+
+physvib_int64 physvib_events_load(const char* path, physvib_event* events, physvib_int64 capacity) {
+    return guarded([&]() -> physvib_int64 {
+        if (path == nullptr || capacity < 0 || (capacity > 0 && events == nullptr)) return nothingThere("events: expected a path and a place for them");
+        const auto loaded = loadEventsCsv(path);
+        if (!loaded) return fail(PHYSVIB_ERROR_FILE, loaded.error);
+        const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(loaded.value));
+        std::transform(loaded.value.begin(), loaded.value.begin() + count, events, [](const CollisionEvent& e) { return eventOf(e); });
+        return std::ssize(loaded.value);
+    });
+}
+
+int physvib_events_save(const char* path, const physvib_event* events, physvib_int64 count) {
+    return guarded([&] {
+        if (path == nullptr || events == nullptr || count < 1) return nothingThere("events: expected a path and at least one event");
+        const std::span list{events, static_cast<std::size_t>(count)};
+        if (const auto fault = faultOf(list); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        std::string text = eventsCsvHead({PHYSVIB_VERSION, {}});
+        for (const physvib_event& event : list) appendEventRow(text, eventOf(event));
+        return written(writeFile(path, text));
+    });
+}
+
+int physvib_wav_save(const char* path, const float* samples, int channels, physvib_int64 frames, int rateHz) {
+    return guarded([&] {
+        if (path == nullptr || samples == nullptr) return nothingThere("sound: expected a path and samples, found NULL");
+        if (channels < 1 || channels > limits::maxEnchanters || !isSampleRate(rateHz) || frames < 1 || frames > wavMostBytes / (4 * channels))
+            return fail(PHYSVIB_ERROR_ARGUMENT, "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB");
+        AtomicFile file{path};
+        const std::string head = wavHead(channels, rateHz, static_cast<std::uint32_t>(frames * channels * 4));
+        if (!file.writeAt(0, head)) return fail(PHYSVIB_ERROR_FILE, file.error());
+        std::vector<float> block;
+        for (physvib_int64 from = 0; from < frames; from += limits::maxBlockFrames) {
+            const physvib_int64 to = std::min<physvib_int64>(frames, from + limits::maxBlockFrames);
+            block.clear();
+            for (physvib_int64 n = from; n < to; ++n)
+                for (int j = 0; j < channels; ++j) block.push_back(samples[j * frames + n]);
+            if (!file.writeAt(static_cast<std::int64_t>(head.size()) + from * channels * 4, {reinterpret_cast<const char*>(block.data()), block.size() * 4}))
+                return fail(PHYSVIB_ERROR_FILE, file.error());
+        }
+        return written(file.commit());
+    });
+}
+
+int physvib_render(const physvib_renderer_settings* settings, const physvib_event* events, physvib_int64 count, physvib_int64 frames, float* samples) {
+    return guarded([&] {
+        physvib_renderer_settings taken;
+        RendererSettings wanted;
+        if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
+        if (const auto fault = convert(taken, wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        if (count < 0 || (count > 0 && events == nullptr) || frames < 0 || (frames > 0 && samples == nullptr))
+            return nothingThere("render: expected events and a place for samples");
+        ListSource source{{events, static_cast<std::size_t>(count)}};
+        if (const auto fault = faultOf(source.events); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+        if (!renderer->prepare(wanted)) return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
+        constexpr int blockFrames = 256;
+        const int channels = wanted.outputs();
+        std::vector<float> memory(static_cast<std::size_t>(channels * blockFrames));
+        std::vector<float*> out;
+        for (int j = 0; j < channels; ++j) out.push_back(memory.data() + j * blockFrames);
+        std::int64_t done = 0;
+        renderFromStart(*renderer, source, out.data(), channels, frames, blockFrames, [&](const float* const* block, int n) {
+            for (int j = 0; j < channels; ++j) std::copy_n(block[j], n, samples + j * frames + done);
+            done += n;
+            return true;
+        });
+        return PHYSVIB_OK;
+    });
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Names for what others hold: nothing that they could make up, or have freed, is ever followed.
+#pragma once
+#include "Core/Nonblocking.h"
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace physvib::api {
+
+/// Up to 256 objects of one kind. A name is the place in the table and a count of what has been there, so it is used once only
+/// (on machines of 64 bits; on others it comes back after 2^20).
+template <class Object, std::uintptr_t Kind>
+class Handles {
+public:
+    static constexpr std::size_t capacity = 256;
+
+    /// An object in use: as long as one is held, it is not freed.
+    class Use {
+    public:
+        Use() = default;
+        Use(Object& object, std::atomic<int>& users) noexcept
+            : object_(&object)
+            , users_(&users) {}
+        Use(Use&& other) noexcept
+            : object_(std::exchange(other.object_, nullptr))
+            , users_(std::exchange(other.users_, nullptr)) {}
+        ~Use() {
+            if (users_ != nullptr) users_->fetch_sub(1);
+        }
+        Use& operator=(Use&&) = delete;
+        explicit operator bool() const noexcept { return object_ != nullptr; }
+        Object* operator->() const noexcept { return object_; }
+        Object& operator*() const noexcept { return *object_; }
+
+    private:
+        Object* object_ = nullptr;
+        std::atomic<int>* users_ = nullptr;
+    };
+
+    /// Its name; 0: there is no room. Any thread but R.
+    std::uintptr_t add(std::unique_ptr<Object> object) noexcept {
+        const std::lock_guard lock{mutex_};
+        for (std::size_t i = 0; i < capacity; ++i) {
+            Slot& slot = slots_[i];
+            if (slot.object) continue;
+            slot.object = std::move(object);
+            const std::uintptr_t name = ++slot.age << 12U | i << 4U | Kind;
+            slot.name.store(name);
+            return name;
+        }
+        return 0;
+    }
+
+    /// Ends the object of that name, after all that use it. False if there is none. Any thread but R.
+    bool remove(std::uintptr_t name) noexcept {
+        const std::lock_guard lock{mutex_};
+        Slot& slot = slotOf(name);
+        if (name == 0 || slot.name.load() != name) return false;
+        slot.name.store(0);
+        while (slot.users.load() != 0) std::this_thread::yield();
+        slot.object.reset();
+        return true;
+    }
+
+    /// Any thread, wait-free.
+    Use use(std::uintptr_t name) noexcept PHYSVIB_NONBLOCKING {
+        Slot& slot = slotOf(name);
+        slot.users.fetch_add(1); // before the look at the name: remove() looks the other way round
+        if (name != 0 && slot.name.load() == name) return {*slot.object, slot.users};
+        slot.users.fetch_sub(1);
+        return {};
+    }
+
+private:
+    struct Slot {
+        std::atomic<std::uintptr_t> name{0};
+        std::atomic<int> users{0};
+        std::uintptr_t age = 0;
+        std::unique_ptr<Object> object;
+    };
+    Slot& slotOf(std::uintptr_t name) noexcept { return slots_[name >> 4U & (capacity - 1)]; }
+
+    std::mutex mutex_;
+    std::array<Slot, capacity> slots_;
+};
+
+} // namespace physvib::api

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What the handles stand for.
+#pragma once
+#include "Api/C/Handles.h"
+#include "Api/C/physvib.h"
+#include "Contacts/ContactFeed.h"
+#include "Core/EventQueue.h"
+#include "Core/HapticRenderer.h"
+#include "Core/LatestValue.h"
+#include <atomic>
+#include <mutex>
+#include <vector>
+
+namespace physvib::api {
+
+/// A renderer with the queues that lead to it.
+struct Renderer {
+    struct Source {
+        EventQueue<CollisionEvent, 8192> events;
+        EventQueue<RenderControl, 256> controls;
+        bool pop(CollisionEvent& event) noexcept { return events.pop(event); }
+        bool pop(RenderControl& control) noexcept { return controls.pop(control); }
+    };
+    HapticRenderer<DesktopProfile> renderer;
+    Source source;
+    int rateHz = 0, channels = 0;
+    std::mutex producers, readers; // never R
+    LatestValue<RenderStatus> status;
+    std::atomic_flag isPulled; // by R
+};
+
+struct World {
+    explicit World(const ImpactSettings& settings)
+        : feed(settings) {}
+    std::mutex mutex;
+    ContactFeed feed;
+    std::vector<CollisionEvent> taken; // and not yet handed out
+};
+
+inline Handles<Renderer, 1>& renderers() {
+    static auto* const all = new Handles<Renderer, 1>; // never destroyed: threads may outlive main
+    return *all;
+}
+inline Handles<World, 2>& worlds() {
+    static auto* const all = new Handles<World, 2>;
+    return *all;
+}
+
+inline auto use(physvib_renderer renderer) noexcept { return renderers().use(reinterpret_cast<std::uintptr_t>(renderer)); }
+inline auto use(physvib_world world) noexcept { return worlds().use(reinterpret_cast<std::uintptr_t>(world)); }
+
+} // namespace physvib::api

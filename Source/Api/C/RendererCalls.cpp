@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Strikes and changes in, samples out.
+#include "Api/C/Convert.h"
+#include "Api/C/Objects.h"
+#include "Core/ClockLaw.h"
+#include <limits>
+
+using namespace physvib;
+using namespace physvib::api;
+
+namespace {
+
+constexpr std::string_view wrongTime = "time: expected 0 to 10^17 ns";
+
+bool isTime(physvib_int64 ns) noexcept { return ns >= 0 && ns <= limits::maxTimeNs; }
+
+int change(physvib_renderer name, const RenderControl& control) noexcept {
+    const auto renderer = use(name);
+    if (!renderer) return unknownHandle();
+    if (!isTime(control.timeNs)) return fail(PHYSVIB_ERROR_ARGUMENT, wrongTime);
+    if (control.channel < 0 || control.channel >= renderer->channels) return fail(PHYSVIB_ERROR_ARGUMENT, "channel: expected one of the renderer");
+    if (!(control.value >= 0.0F && control.value <= 10000.0F)) return fail(PHYSVIB_ERROR_ARGUMENT, "gain: expected 0 to 10000");
+    if (control.panner.channels() > renderer->channels) return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected at most as many enchanters as channels");
+    const std::lock_guard lock{renderer->producers};
+    return renderer->source.controls.push(control) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
+}
+
+RenderControl controlOf(RenderControl::Kind kind, physvib_int64 timeNs, int channel, double value) {
+    RenderControl control;
+    control.timeNs = timeNs;
+    control.kind = kind;
+    control.channel = channel;
+    control.value = static_cast<float>(value);
+    return control;
+}
+
+/// For as long as a pull takes. R.
+class Pulling {
+public:
+    explicit Pulling(Renderer& renderer) noexcept
+        : flag_(renderer.isPulled)
+        , isAlone_(!flag_.test_and_set(std::memory_order_acquire)) {}
+    ~Pulling() {
+        if (isAlone_) flag_.clear(std::memory_order_release);
+    }
+    Pulling(const Pulling&) = delete;
+    Pulling& operator=(const Pulling&) = delete;
+    explicit operator bool() const noexcept { return isAlone_; }
+
+private:
+    std::atomic_flag& flag_;
+    bool isAlone_;
+};
+
+/// `write(frame, frames, at)`: so many frames from there on are wanted; renders them to at[channel], and is called again with 0 to say
+/// that they are there.
+template <class Block>
+int pull(physvib_renderer name, int channels, int frames, Block block) noexcept PHYSVIB_NONBLOCKING {
+    const auto renderer = use(name);
+    if (!renderer) return PHYSVIB_ERROR_HANDLE;
+    if (channels != renderer->channels || frames < 1) return PHYSVIB_ERROR_ARGUMENT;
+    const Pulling pulling{*renderer};
+    if (!pulling) return PHYSVIB_ERROR_BUSY;
+    block(*renderer);
+    renderer->status.write(renderer->renderer.status());
+    return PHYSVIB_OK;
+}
+
+} // namespace
+
+int physvib_renderer_create(const physvib_renderer_settings* settings, physvib_renderer* renderer) {
+    return guarded([&] {
+        if (renderer == nullptr) return nothingThere("renderer: expected a place for it, found NULL");
+        *renderer = nullptr;
+        physvib_renderer_settings taken;
+        RendererSettings wanted;
+        if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
+        if (const auto fault = convert(taken, wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        auto made = std::make_unique<Renderer>();
+        if (!made->renderer.prepare(wanted)) return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
+        made->rateHz = wanted.sampleRateHz;
+        made->channels = wanted.outputs();
+        const std::uintptr_t name = renderers().add(std::move(made));
+        if (name == 0) return fail(PHYSVIB_ERROR_FULL, "renderers: expected at most 256");
+        *renderer = reinterpret_cast<physvib_renderer>(name);
+        return PHYSVIB_OK;
+    });
+}
+
+int physvib_renderer_free(physvib_renderer renderer) {
+    return renderers().remove(reinterpret_cast<std::uintptr_t>(renderer)) ? PHYSVIB_OK : unknownHandle();
+}
+
+int physvib_renderer_strike(physvib_renderer name, const physvib_event* event) {
+    const auto renderer = use(name);
+    if (!renderer) return unknownHandle();
+    if (event == nullptr) return nothingThere("event: expected one, found NULL");
+    if (const auto fault = faultOf({event, 1}); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+    const std::lock_guard lock{renderer->producers};
+    return renderer->source.events.push(eventOf(*event)) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "events: expected at most 8192 that wait");
+}
+
+int physvib_renderer_pull(physvib_renderer name, float* const* channels, int count, int frames) {
+    if (channels == nullptr) return PHYSVIB_ERROR_ARGUMENT;
+    if (count < 1 || count > limits::maxEnchanters) return PHYSVIB_ERROR_ARGUMENT;
+    for (int j = 0; j < count; ++j)
+        if (channels[j] == nullptr) return PHYSVIB_ERROR_ARGUMENT;
+    return pull(name, count, frames, [=](Renderer& renderer) noexcept {
+        std::array<float*, limits::maxEnchanters> at{};
+        for (int done = 0; done < frames;) {
+            const int block = std::min(frames - done, limits::maxBlockFrames);
+            for (int j = 0; j < count; ++j) at[static_cast<std::size_t>(j)] = channels[j] + done;
+            renderer.renderer.render(renderer.source, at.data(), block);
+            done += block;
+        }
+    });
+}
+
+int physvib_renderer_pull_interleaved(physvib_renderer name, float* samples, int count, int frames) {
+    if (samples == nullptr) return PHYSVIB_ERROR_ARGUMENT;
+    return pull(name, count, frames, [=](Renderer& renderer) noexcept {
+        constexpr int most = 64; // 16 KB of a callback's stack
+        std::array<std::array<float, most>, limits::maxEnchanters> block;
+        std::array<float*, limits::maxEnchanters> at{};
+        for (std::size_t j = 0; j < block.size(); ++j) at[j] = block[j].data();
+        for (int done = 0; done < frames;) {
+            const int part = std::min(frames - done, most);
+            renderer.renderer.render(renderer.source, at.data(), part);
+            for (int n = 0; n < part; ++n)
+                for (int j = 0; j < count; ++j)
+                    samples[static_cast<std::ptrdiff_t>(done + n) * count + j] = block[static_cast<std::size_t>(j)][static_cast<std::size_t>(n)];
+            done += part;
+        }
+    });
+}
+
+int physvib_renderer_set_gain(physvib_renderer renderer, physvib_int64 timeNs, int channel, double gain) {
+    return change(renderer, controlOf(RenderControl::Kind::gain, timeNs, channel, gain));
+}
+
+int physvib_renderer_set_mute(physvib_renderer renderer, physvib_int64 timeNs, int channel, int isMuted) {
+    return change(renderer, controlOf(RenderControl::Kind::mute, timeNs, channel, isMuted != 0 ? 1.0 : 0.0));
+}
+
+int physvib_renderer_set_level(physvib_renderer renderer, physvib_int64 timeNs, double gain) {
+    return change(renderer, controlOf(RenderControl::Kind::level, timeNs, 0, gain));
+}
+
+int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 timeNs, const physvib_renderer_settings* settings) {
+    physvib_renderer_settings taken;
+    RendererSettings wanted;
+    if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
+    if (const auto fault = convert(taken, wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+    RenderControl control = controlOf(RenderControl::Kind::panner, timeNs, 0, 0.0);
+    control.panner = wanted.panner;
+    return change(renderer, control);
+}
+
+int physvib_renderer_silence(physvib_renderer renderer, physvib_int64 timeNs, physvib_int64 untilNs) {
+    if (!isTime(untilNs)) return fail(PHYSVIB_ERROR_ARGUMENT, wrongTime);
+    RenderControl control = controlOf(RenderControl::Kind::silence, timeNs, 0, 0.0);
+    control.untilNs = untilNs;
+    return change(renderer, control);
+}
+
+int physvib_renderer_latency_frames(physvib_renderer name) {
+    const auto renderer = use(name);
+    return renderer ? renderer->renderer.latencyFrames() : unknownHandle();
+}
+
+int physvib_renderer_get_status(physvib_renderer name, physvib_renderer_status* status) {
+    physvib_renderer_status told;
+    if (!take<physvib_renderer_status>(status, told, physvib_renderer_status_init)) return PHYSVIB_ERROR_ARGUMENT;
+    const auto renderer = use(name);
+    if (!renderer) return unknownHandle();
+    const std::lock_guard lock{renderer->readers};
+    const RenderStatus now = renderer->status.read();
+    told.size = status->size;
+    told.live_modes = now.liveModes;
+    told.pending = now.pending;
+    told.frames = now.framesRendered;
+    told.played = static_cast<physvib_int64>(now.played);
+    told.late = static_cast<physvib_int64>(now.late);
+    told.rejected = static_cast<physvib_int64>(now.rejected);
+    told.refused = static_cast<physvib_int64>(renderer->source.events.overflows());
+    std::memcpy(status, &told, told.size);
+    return PHYSVIB_OK;
+}
+
+physvib_int64 physvib_play_out_ns(int rateHz, int blockFrames, int stepsPerSecond, double longestGapSeconds) {
+    const bool isPossible = isSampleRate(rateHz) && blockFrames >= 1 && blockFrames <= limits::maxBlockFrames && stepsPerSecond >= 1 &&
+                            stepsPerSecond <= 1'000'000 && longestGapSeconds >= 0.0 && longestGapSeconds <= 60.0;
+    if (!isPossible) return fail(PHYSVIB_ERROR_ARGUMENT, "play-out delay: expected 5000 to 192000 Hz, 1 to 8192 frames, 1 to 10^6 steps/s, a gap of 0 to 60 s");
+    ClockLaw law;
+    law.sampleRateHz = rateHz;
+    law.blockFrames = blockFrames;
+    law.stepsPerSecond = stepsPerSecond;
+    law.longestGapSeconds = longestGapSeconds;
+    law.limiterFrames = HapticRenderer<DesktopProfile>::latencyFramesAt(rateHz);
+    constexpr std::int64_t nsPerSecond = 1'000'000'000;
+    return (law.playOutFrames() * nsPerSecond + rateHz - 1) / rateHz;
+}

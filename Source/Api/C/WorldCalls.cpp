@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// Contacts in, events out.
+#include "Api/C/Convert.h"
+#include "Api/C/Objects.h"
+#include <algorithm>
+#include <cmath>
+
+using namespace physvib;
+using namespace physvib::api;
+
+namespace {
+
+constexpr double longestStepSeconds = 3600.0;
+
+/// `call(World&)` of the world of that name, alone: a code or a count.
+template <class Call>
+auto in(physvib_world name, Call call) noexcept -> decltype(call(std::declval<World&>())) {
+    return guarded([&]() -> decltype(call(std::declval<World&>())) {
+        const auto world = use(name);
+        if (!world) return unknownHandle();
+        const std::lock_guard lock{world->mutex};
+        return call(*world);
+    });
+}
+
+int inOrder(std::string_view fault) noexcept {
+    return resultOf(fault, fault.starts_with("step:") || fault.starts_with("contact:") || fault.starts_with("time:") ? PHYSVIB_ERROR_ORDER : PHYSVIB_ERROR_ARGUMENT);
+}
+
+bool convert(const physvib_world_settings* from, ImpactSettings& to) {
+    physvib_world_settings taken;
+    if (from == nullptr)
+        physvib_world_settings_init(&taken);
+    else if (!take(from, taken, physvib_world_settings_init))
+        return false;
+    for (const double number : {taken.field_x_m, taken.field_y_m, taken.field_radians})
+        if (!(std::abs(number) <= 1.0e9)) return nothingThere("field: expected numbers"), false;
+    to.fieldWidthMetres = taken.field_width_m;
+    to.normalisation = optional(taken.normalisation_s_per_m);
+    to.handMassKg = optional(taken.hand_mass_kg);
+    to.driveGain = taken.drive_gain;
+    to.location = taken.at_body != 0 ? ImpactLocation::fixture : ImpactLocation::contact;
+    to.thresholdMetresPerSecond = taken.threshold_m_per_s;
+    to.keepsHitsOfDestroyed = taken.drops_hits_of_removed == 0;
+    to.isMuted = taken.is_muted != 0;
+    if (taken.hits_per_step != -1) to.hitsPerStep = taken.hits_per_step;
+    to.fieldOrigin = {static_cast<float>(taken.field_x_m), static_cast<float>(taken.field_y_m)};
+    to.fieldRadians = static_cast<float>(taken.field_radians);
+    return true;
+}
+
+HapticFixture fixtureOf(const physvib_body& body) {
+    HapticFixture values;
+    values.frequencyHz = body.frequency_hz;
+    values.decayPerSecond = body.decay_per_s;
+    values.isCamera = body.is_camera != 0;
+    values.staticMassKg = body.static_mass_kg;
+    values.voice = static_cast<Voice>(body.voice);
+    values.surface = body.surface;
+    values.gain = body.gain;
+    values.handMassKg = optional(body.hand_mass_kg);
+    for (std::size_t i = 0; i < values.overtones.size(); ++i)
+        values.overtones[i] = {body.overtone_hz[i], body.overtone_decay_per_s[i], body.overtone_amplitude[i]};
+    return values;
+}
+
+Vector2 vectorOf(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+
+FedContact contactOf(const physvib_contact& from) {
+    FedContact contact;
+    contact.a = from.a;
+    contact.b = from.b;
+    contact.point = vectorOf(from.x_m, from.y_m);
+    contact.normal = vectorOf(from.normal_x, from.normal_y);
+    contact.impulseNewtonSeconds = optional(from.impulse_n_s);
+    contact.tangentialNewtonSeconds = from.tangential_n_s;
+    contact.approachMetresPerSecond = optional(from.approach_m_per_s);
+    contact.restitution = from.restitution;
+    contact.effectiveMassKg = optional(from.effective_mass_kg);
+    contact.fraction = optional(from.fraction);
+    contact.gapMetres = from.gap_m;
+    contact.gapFraction = from.gap_fraction;
+    return contact;
+}
+
+int tell(physvib_world name, const physvib_contact* contact, std::string_view (ContactFeed::*call)(const FedContact&)) noexcept {
+    return in(name, [&](World& world) {
+        physvib_contact taken;
+        if (!take(contact, taken, physvib_contact_init)) return PHYSVIB_ERROR_ARGUMENT;
+        return inOrder((world.feed.*call)(contactOf(taken)));
+    });
+}
+
+void collect(World& world, bool atOnce) {
+    if (atOnce)
+        world.feed.flush(world.taken);
+    else
+        world.feed.take(world.taken);
+}
+
+} // namespace
+
+int physvib_world_create(const physvib_world_settings* settings, physvib_world* world) {
+    return guarded([&] {
+        if (world == nullptr) return nothingThere("world: expected a place for it, found NULL");
+        *world = nullptr;
+        ImpactSettings wanted;
+        if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        const std::uintptr_t name = worlds().add(std::make_unique<World>(wanted));
+        if (name == 0) return fail(PHYSVIB_ERROR_FULL, "worlds: expected at most 256");
+        *world = reinterpret_cast<physvib_world>(name);
+        return PHYSVIB_OK;
+    });
+}
+
+int physvib_world_free(physvib_world world) { return worlds().remove(reinterpret_cast<std::uintptr_t>(world)) ? PHYSVIB_OK : unknownHandle(); }
+
+int physvib_world_configure(physvib_world name, const physvib_world_settings* settings) {
+    return in(name, [&](World& world) {
+        ImpactSettings wanted;
+        if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        world.feed.configure(wanted);
+        return PHYSVIB_OK;
+    });
+}
+
+int physvib_world_set_body(physvib_world name, int body, const physvib_body* values) {
+    return in(name, [&](World& world) {
+        physvib_body taken;
+        if (!take(values, taken, physvib_body_init)) return PHYSVIB_ERROR_ARGUMENT;
+        if (taken.voice < PHYSVIB_VOICE_OWN || taken.voice > PHYSVIB_VOICE_BOTH) return fail(PHYSVIB_ERROR_ARGUMENT, "voice: expected one of PHYSVIB_VOICE_...");
+        return resultOf(world.feed.set(body, {taken.mass_kg, taken.inertia_kg_m2, taken.gravity_scale}, fixtureOf(taken)));
+    });
+}
+
+int physvib_world_remove_body(physvib_world name, int body) {
+    return in(name, [&](World& world) { return inOrder(world.feed.remove(body)); });
+}
+
+int physvib_world_move(physvib_world name, int body, double x, double y, double vx, double vy, double spin) {
+    return in(name, [&](World& world) { return resultOf(world.feed.move(body, vectorOf(x, y), {vectorOf(vx, vy), static_cast<float>(spin)})); });
+}
+
+int physvib_world_pair(physvib_world name, int surface, int other, double frequencyHz, double decayPerSecond, double gain) {
+    return in(name, [&](World& world) { return resultOf(world.feed.setPair(surface, other, {frequencyHz, decayPerSecond, {}, gain})); });
+}
+
+int physvib_world_begin_step(physvib_world name, double seconds, double gravity) {
+    return in(name, [&](World& world) {
+        if (!(seconds >= 0.0 && seconds <= longestStepSeconds)) return fail(PHYSVIB_ERROR_ARGUMENT, "step: expected 0 to 3600 s");
+        return inOrder(world.feed.beginStep(world.feed.timeNs() + std::llround(seconds * 1.0e9), gravity));
+    });
+}
+
+int physvib_world_touch(physvib_world world, const physvib_contact* contact) { return tell(world, contact, &ContactFeed::touch); }
+int physvib_world_begin(physvib_world world, const physvib_contact* contact) { return tell(world, contact, &ContactFeed::begin); }
+int physvib_world_push(physvib_world world, const physvib_contact* contact) { return tell(world, contact, &ContactFeed::push); }
+
+int physvib_world_end(physvib_world name, int a, int b) {
+    return in(name, [&](World& world) { return inOrder(world.feed.end(a, b)); });
+}
+
+int physvib_world_end_step(physvib_world name) {
+    return in(name, [&](World& world) { return inOrder(world.feed.endStep()); });
+}
+
+physvib_int64 physvib_world_time_ns(physvib_world name) {
+    return in(name, [&](World& world) -> physvib_int64 { return world.feed.timeNs(); });
+}
+
+physvib_int64 physvib_world_take(physvib_world name, physvib_event* events, physvib_int64 capacity, int atOnce) {
+    return in(name, [&](World& world) -> physvib_int64 {
+        if (capacity < 0 || (capacity > 0 && events == nullptr)) return nothingThere("events: expected a place for them");
+        collect(world, atOnce != 0);
+        const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(world.taken));
+        std::transform(world.taken.begin(), world.taken.begin() + count, events, [](const CollisionEvent& e) { return eventOf(e); });
+        world.taken.erase(world.taken.begin(), world.taken.begin() + count);
+        return count;
+    });
+}
+
+physvib_int64 physvib_world_send(physvib_world name, physvib_renderer to, physvib_int64 laterNs, int atOnce) {
+    return in(name, [&](World& world) -> physvib_int64 {
+        const auto renderer = use(to);
+        if (!renderer) return unknownHandle();
+        if (laterNs < 0 || laterNs > limits::maxTimeNs / 2) return fail(PHYSVIB_ERROR_ARGUMENT, "delay: expected 0 to 5 10^16 ns");
+        collect(world, atOnce != 0);
+        physvib_int64 sent = 0;
+        const std::lock_guard lock{renderer->producers};
+        for (CollisionEvent event : world.taken) {
+            event.timeNs += laterNs;
+            sent += renderer->source.events.push(event) ? 1 : 0;
+        }
+        world.taken.clear();
+        return sent;
+    });
+}
+
+physvib_int64 physvib_world_drops(physvib_world name) {
+    return in(name, [&](World& world) -> physvib_int64 { return static_cast<physvib_int64>(world.feed.drops()); });
+}

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+// The library as a program in another language sees it.
+#include "Files/WavFile.h"
+#include "Support/RandomCalls.h"
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <random>
+#include <string>
+#include <thread>
+
+namespace physvib {
+namespace {
+
+physvib_renderer_settings settings() {
+    physvib_renderer_settings values;
+    physvib_renderer_settings_init(&values);
+    return values;
+}
+
+physvib_event strikeAt(physvib_int64 timeNs) {
+    physvib_event event{};
+    event.time_ns = timeNs;
+    event.frequency_hz = 200.0;
+    event.decay_per_s = 30.0;
+    event.amplitude = 0.5;
+    event.fixture = event.other = -1;
+    return event;
+}
+
+physvib_renderer renderer() {
+    const auto values = settings();
+    physvib_renderer made = nullptr;
+    EXPECT_EQ(physvib_renderer_create(&values, &made), PHYSVIB_OK) << physvib_error();
+    return made;
+}
+
+/// A floor and a ball of 2 kg that is a camera.
+physvib_world worldOfABall() {
+    physvib_world world = nullptr;
+    EXPECT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK) << physvib_error();
+    physvib_body body;
+    physvib_body_init(&body);
+    EXPECT_EQ(physvib_world_set_body(world, 0, &body), PHYSVIB_OK);
+    body.mass_kg = 2.0;
+    body.is_camera = 1;
+    body.frequency_hz = 200.0;
+    body.decay_per_s = 30.0;
+    EXPECT_EQ(physvib_world_set_body(world, 1, &body), PHYSVIB_OK);
+    return world;
+}
+
+int land(physvib_world world, double impulse) {
+    physvib_contact contact;
+    physvib_contact_init(&contact);
+    contact.a = 0;
+    contact.b = 1;
+    contact.impulse_n_s = impulse;
+    EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
+    const int result = physvib_world_touch(world, &contact);
+    EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    return result;
+}
+
+std::string temporary(const char* name) { return (std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + name)).string(); }
+
+TEST(Calls, AHandleThatIsNoneOfOursIsAnErrorAndTellsOne) {
+    const physvib_renderer one = renderer();
+    EXPECT_EQ(physvib_renderer_free(one), PHYSVIB_OK);
+    for (const physvib_renderer none : {one, physvib_renderer{nullptr}, reinterpret_cast<physvib_renderer>(std::uintptr_t{12345})}) {
+        EXPECT_EQ(physvib_renderer_free(none), PHYSVIB_ERROR_HANDLE);
+        EXPECT_EQ(physvib_renderer_latency_frames(none), PHYSVIB_ERROR_HANDLE);
+        EXPECT_STREQ(physvib_error(), "handle: expected one of this kind that has not been freed");
+    }
+    const physvib_renderer other = renderer(); // in the same place
+    EXPECT_NE(other, one);
+    EXPECT_EQ(physvib_renderer_latency_frames(one), PHYSVIB_ERROR_HANDLE);
+    EXPECT_EQ(physvib_world_end_step(reinterpret_cast<physvib_world>(other)), PHYSVIB_ERROR_HANDLE);
+    EXPECT_EQ(physvib_renderer_free(other), PHYSVIB_OK);
+}
+
+TEST(Calls, WhatIsPulledIsWhatIsRendered) {
+    constexpr int frames = 4800;
+    const auto values = settings();
+    const std::vector<physvib_event> events{strikeAt(1'234'567), strikeAt(20'000'001)};
+    std::vector<float> whole(4 * frames), pulled(4 * frames), interleaved(4 * frames);
+    ASSERT_EQ(physvib_render(&values, events.data(), 2, frames, whole.data()), PHYSVIB_OK) << physvib_error();
+    const physvib_renderer one = renderer(), two = renderer();
+    const int latency = physvib_renderer_latency_frames(one);
+    for (const auto& event : events) {
+        ASSERT_EQ(physvib_renderer_strike(one, &event), PHYSVIB_OK);
+        ASSERT_EQ(physvib_renderer_strike(two, &event), PHYSVIB_OK);
+    }
+    std::array<float*, 4> channels{pulled.data(), pulled.data() + frames, pulled.data() + 2 * frames, pulled.data() + 3 * frames};
+    ASSERT_EQ(physvib_renderer_pull(one, channels.data(), 4, frames), PHYSVIB_OK);
+    ASSERT_EQ(physvib_renderer_pull_interleaved(two, interleaved.data(), 4, frames), PHYSVIB_OK);
+    double sum = 0.0;
+    for (int j = 0; j < 4; ++j)
+        for (int n = latency; n < frames; ++n) {
+            const auto at = static_cast<std::size_t>(j * frames + n);
+            ASSERT_EQ(pulled[at], whole[at - static_cast<std::size_t>(latency)]);
+            ASSERT_EQ(pulled[at], interleaved[static_cast<std::size_t>(4 * n + j)]);
+            sum += std::abs(static_cast<double>(pulled[at]));
+        }
+    EXPECT_GT(sum, 1.0);
+    physvib_renderer_status status;
+    physvib_renderer_status_init(&status);
+    ASSERT_EQ(physvib_renderer_get_status(one, &status), PHYSVIB_OK);
+    EXPECT_EQ(status.played, 2);
+    EXPECT_EQ(status.late, 0);
+    EXPECT_EQ(status.frames, frames);
+    for (const auto each : {one, two}) EXPECT_EQ(physvib_renderer_free(each), PHYSVIB_OK);
+}
+
+TEST(Calls, ALandingIsFeltByItsImpulse) {
+    const physvib_world world = worldOfABall();
+    EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
+    std::array<physvib_event, 4> events;
+    EXPECT_EQ(physvib_world_take(world, events.data(), 4, 0), 0); // a step later
+    EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
+    EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    ASSERT_EQ(physvib_world_take(world, events.data(), 4, 0), 1);
+    EXPECT_EQ(events[0].impulse_n_s, 6.0);
+    EXPECT_EQ(events[0].fixture, 1);
+    EXPECT_EQ(events[0].other, 0);
+    EXPECT_EQ(events[0].mass_kg, 2.0);
+    EXPECT_NEAR(events[0].amplitude, 0.5 * 6.0 / (2.0 + 2.0), 1.0e-12); // Eq. 5.4 with a field of 1 m
+    EXPECT_EQ(physvib_world_time_ns(world), 20'000'000);
+    EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
+}
+
+TEST(Calls, WhatDoesNotFitWaits) {
+    const physvib_world world = worldOfABall();
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    }
+    std::array<physvib_event, 4> events;
+    EXPECT_EQ(physvib_world_take(world, events.data(), 2, 1), 2);
+    EXPECT_EQ(physvib_world_take(world, events.data(), 4, 1), 1);
+    EXPECT_EQ(events[0].time_ns, 40'000'000);
+    EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
+}
+
+TEST(Calls, AnOlderProgramsStructureIsTakenAndANewerOneRefused) {
+    auto values = settings();
+    values.size = offsetof(physvib_renderer_settings, exponent); // without what came later
+    values.exponent = -1.0;
+    physvib_renderer made = nullptr;
+    EXPECT_EQ(physvib_renderer_create(&values, &made), PHYSVIB_OK) << physvib_error();
+    EXPECT_EQ(physvib_renderer_free(made), PHYSVIB_OK);
+    for (const std::size_t size : {std::size_t{0}, sizeof values + 1}) {
+        values.size = size;
+        EXPECT_EQ(physvib_renderer_create(&values, &made), PHYSVIB_ERROR_ARGUMENT);
+        EXPECT_EQ(made, nullptr);
+    }
+}
+
+TEST(Calls, WrongOrderIsOneAndNothingHappens) {
+    const physvib_world world = worldOfABall();
+    physvib_contact contact;
+    physvib_contact_init(&contact);
+    contact.a = 0;
+    contact.b = 1;
+    EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_ERROR_ORDER);
+    EXPECT_STREQ(physvib_error(), "step: expected to be within one");
+    EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_ERROR_ORDER);
+    EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
+    EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_ERROR_ORDER);
+    EXPECT_EQ(physvib_world_remove_body(world, 1), PHYSVIB_ERROR_ORDER);
+    EXPECT_EQ(physvib_world_begin_step(world, std::nan(""), 9.81), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
+}
+
+TEST(Calls, ListsLayoutsAndSoundsComeBack) {
+    const std::string list = temporary("list.csv"), layoutPath = temporary("layout.json"), sound = temporary("sound.wav");
+    const std::vector<physvib_event> events{strikeAt(1), strikeAt(1'000'000'007)};
+    ASSERT_EQ(physvib_events_save(list.c_str(), events.data(), 2), PHYSVIB_OK) << physvib_error();
+    std::array<physvib_event, 2> read{};
+    EXPECT_EQ(physvib_events_load(list.c_str(), nullptr, 0), 2);
+    EXPECT_EQ(physvib_events_load(list.c_str(), read.data(), 2), 2);
+    EXPECT_EQ(std::memcmp(read.data(), events.data(), sizeof read), 0);
+    const std::vector<physvib_event> swapped{events[1], events[0]};
+    EXPECT_EQ(physvib_events_save(list.c_str(), swapped.data(), 2), PHYSVIB_ERROR_ARGUMENT);
+
+    physvib_layout layout{}, again{};
+    ASSERT_EQ(physvib_layout_preset("ring3", &layout), PHYSVIB_OK);
+    EXPECT_EQ(physvib_layout_preset("ring5", &again), PHYSVIB_ERROR_ARGUMENT);
+    ASSERT_EQ(physvib_layout_save(layoutPath.c_str(), "mine", &layout), PHYSVIB_OK) << physvib_error();
+    ASSERT_EQ(physvib_layout_load(layoutPath.c_str(), &again), PHYSVIB_OK) << physvib_error();
+    EXPECT_EQ(std::memcmp(&layout, &again, sizeof layout), 0);
+    EXPECT_EQ(physvib_layout_load(list.c_str(), &again), PHYSVIB_ERROR_FILE);
+    EXPECT_NE(std::string{physvib_error()}.find(list), std::string::npos);
+
+    for (const int channels : {1, 2, 3, 64}) {
+        std::vector<float> samples(static_cast<std::size_t>(channels) * 100);
+        for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i) / 10000.0F;
+        ASSERT_EQ(physvib_wav_save(sound.c_str(), samples.data(), channels, 100, 48000), PHYSVIB_OK) << physvib_error();
+        std::FILE* const file = std::fopen(sound.c_str(), "rb");
+        const auto wav = readWav(*file);
+        std::fclose(file);
+        ASSERT_TRUE(wav) << wav.error;
+        ASSERT_EQ(wav.value.channels.size(), static_cast<std::size_t>(channels));
+        for (std::size_t j = 0; j < wav.value.channels.size(); ++j)
+            EXPECT_TRUE(std::equal(wav.value.channels[j].begin(), wav.value.channels[j].end(), samples.begin() + static_cast<std::ptrdiff_t>(100 * j)));
+    }
+    for (const std::string& path : {list, layoutPath, sound}) std::filesystem::remove(path);
+}
+
+TEST(Calls, SilenceFadesAndIsForgottenLater) {
+    const physvib_renderer one = renderer();
+    physvib_event event = strikeAt(0);
+    EXPECT_EQ(physvib_renderer_strike(one, &event), PHYSVIB_OK);
+    event = strikeAt(50'000'000);
+    EXPECT_EQ(physvib_renderer_strike(one, &event), PHYSVIB_OK);
+    EXPECT_EQ(physvib_renderer_silence(one, 10'000'000, 60'000'000), PHYSVIB_OK);
+    std::vector<float> samples(4 * 4800);
+    EXPECT_EQ(physvib_renderer_pull_interleaved(one, samples.data(), 4, 4800), PHYSVIB_OK);
+    const auto peakFrom = [&](std::size_t frame) {
+        float peak = 0.0F;
+        for (std::size_t i = 4 * frame; i < samples.size(); ++i) peak = std::max(peak, std::abs(samples[i]));
+        return peak;
+    };
+    EXPECT_GT(peakFrom(0), 0.1F);
+    EXPECT_EQ(peakFrom(480 + 480 + 48), 0.0F); // 10 ms after, and the limiter's millisecond
+    EXPECT_EQ(physvib_renderer_free(one), PHYSVIB_OK);
+}
+
+TEST(Calls, OneThreadStrikesAnotherPullsAThirdFrees) {
+    const physvib_renderer one = renderer();
+    const physvib_world world = worldOfABall();
+    std::atomic<bool> isOver{false};
+    std::atomic<int> pulls{0};
+    std::thread game([&] {
+        for (int i = 0; i < 200; ++i) {
+            land(world, i % 2 == 0 ? 6.0 : 0.1);
+            physvib_world_send(world, one, 10'000'000, 0);
+            physvib_renderer_set_gain(one, 0, i % 4, 0.5);
+        }
+        while (pulls < 20) std::this_thread::yield();
+        EXPECT_EQ(physvib_renderer_free(one), PHYSVIB_OK); // while it is pulled
+        isOver = true;
+    });
+    std::thread audio([&] {
+        std::vector<float> samples(4 * 64);
+        int result = PHYSVIB_OK;
+        while (!isOver) {
+            result = physvib_renderer_pull_interleaved(one, samples.data(), 4, 64);
+            EXPECT_TRUE(result == PHYSVIB_OK || result == PHYSVIB_ERROR_HANDLE);
+            ++pulls;
+        }
+        EXPECT_EQ(physvib_renderer_pull_interleaved(one, samples.data(), 4, 64), PHYSVIB_ERROR_HANDLE);
+    });
+    while (!isOver) {
+        physvib_renderer_status status;
+        physvib_renderer_status_init(&status);
+        physvib_renderer_get_status(one, &status);
+        std::this_thread::yield();
+    }
+    game.join();
+    audio.join();
+    EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
+}
+
+TEST(Calls, AnyOrderOfCallsWithAnythingIsAnsweredByACode) {
+    std::mt19937 random{1};
+    std::vector<std::uint8_t> bytes(1000);
+    test::RandomCalls calls;
+    for (int i = 0; i < 40; ++i) {
+        for (std::uint8_t& each : bytes) each = static_cast<std::uint8_t>(random());
+        calls.run(bytes.data(), bytes.size());
+    }
+}
+
+} // namespace
+} // namespace physvib
