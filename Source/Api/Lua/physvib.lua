@@ -1,0 +1,212 @@
+-- SPDX-License-Identifier: MIT
+-- PhysVib for LÖVE and LuaJIT: one file beside your main.lua, and libphysvib.so.0 where the system finds it (or PHYSVIB_LIBRARY).
+--
+--     local haptics = require("physvib").attach(world, {field_width_m = 24})
+--     haptics:set(ball_fixture, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
+--     function love.update(dt) haptics:update(dt) end       -- instead of world:update(dt)
+--
+-- Lengths of LÖVE are pixels: love.physics.getMeter() of them are a metre. Numbers of this file are SI, as their names say.
+local ffi = require("ffi")
+ffi.cdef [[
+typedef struct physvib_renderer_name *physvib_renderer;
+typedef struct physvib_world_name *physvib_world;
+typedef struct { int64_t time_ns, duration_ns; double frequency_hz, decay_per_s, amplitude, x_m, y_m, impulse_n_s, mass_kg; int fixture, other; } physvib_event;
+typedef struct { double extent_width_m, extent_height_m, x_m[64], y_m[64]; int count; } physvib_layout;
+typedef struct { size_t size; int rate_hz, channels, law, limiter; double exponent, field_width_m, field_height_m; physvib_layout layout; } physvib_renderer_settings;
+typedef struct { size_t size; int is_muted, hits_per_step, at_body, drops_hits_of_removed; double field_width_m, field_x_m, field_y_m, field_radians,
+    normalisation_s_per_m, hand_mass_kg, drive_gain, threshold_m_per_s; } physvib_world_settings;
+typedef struct { size_t size; int is_camera, voice, surface; double mass_kg, inertia_kg_m2, gravity_scale, frequency_hz, decay_per_s, static_mass_kg, gain,
+    hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3]; } physvib_body;
+typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, impulse_n_s, tangential_n_s, approach_m_per_s, restitution, effective_mass_kg,
+    fraction, gap_m, gap_fraction; } physvib_contact;
+const char *physvib_version(void);
+const char *physvib_error(void);
+int physvib_renderer_settings_init(physvib_renderer_settings *);
+int physvib_world_settings_init(physvib_world_settings *);
+int physvib_body_init(physvib_body *);
+int physvib_contact_init(physvib_contact *);
+int physvib_layout_preset(const char *, physvib_layout *);
+int physvib_layout_load(const char *, physvib_layout *);
+int physvib_events_save(const char *, const physvib_event *, int64_t);
+int physvib_wav_save(const char *, const float *, int, int64_t, int);
+int physvib_render(const physvib_renderer_settings *, const physvib_event *, int64_t, int64_t, float *);
+int physvib_renderer_create(const physvib_renderer_settings *, physvib_renderer *);
+int physvib_renderer_free(physvib_renderer);
+int physvib_renderer_strike(physvib_renderer, const physvib_event *);
+int physvib_renderer_pull_interleaved(physvib_renderer, float *, int, int);
+int physvib_renderer_silence(physvib_renderer, int64_t, int64_t);
+int physvib_world_create(const physvib_world_settings *, physvib_world *);
+int physvib_world_free(physvib_world);
+int physvib_world_set_body(physvib_world, int, const physvib_body *);
+int physvib_world_remove_body(physvib_world, int);
+int physvib_world_begin_step(physvib_world, double, double);
+int physvib_world_begin(physvib_world, const physvib_contact *);
+int physvib_world_push(physvib_world, const physvib_contact *);
+int physvib_world_end(physvib_world, int, int);
+int physvib_world_end_step(physvib_world);
+int64_t physvib_world_time_ns(physvib_world);
+int64_t physvib_world_take(physvib_world, physvib_event *, int64_t, int);
+int64_t physvib_world_send(physvib_world, physvib_renderer, int64_t, int);
+]]
+local c = ffi.load(os.getenv("PHYSVIB_LIBRARY") or "libphysvib.so.0")
+local physvib = {c = c, version = ffi.string(c.physvib_version())}
+
+-- A code or a count; of an error, a Lua error of one line.
+local function call(name, ...)
+    local result = tonumber(c["physvib_" .. name](...))
+    if result < 0 then error("physvib: " .. ffi.string(c.physvib_error()), 2) end
+    return result
+end
+physvib.call = call
+
+-- A structure as its init has it, and the values given.
+local function filled(kind, values)
+    local made = ffi.new("physvib_" .. kind)
+    call(kind .. "_init", made)
+    for name, value in pairs(values or {}) do made[name] = value end
+    return made
+end
+physvib.filled = filled
+
+-- Events (a Lua list of physvib_event) to a sound file: 48 kHz, a channel per enchanter.
+function physvib.save_wav(path, events, seconds, settings)
+    local chosen, frames = filled("renderer_settings", settings), math.floor(seconds * 48000)
+    local list = ffi.new("physvib_event[?]", math.max(1, #events), events)
+    local samples = ffi.new("float[?]", frames * chosen.layout.count)
+    call("render", chosen, list, #events, frames, samples)
+    call("wav_save", path, samples, chosen.layout.count, frames, chosen.rate_hz)
+end
+
+local Attachment = {}
+Attachment.__index = Attachment
+
+-- `world`: a love.physics world. Its callbacks go on being called: those that are there, and those set later.
+function physvib.attach(world, settings)
+    local self = setmetatable({world = world, metre = love.physics.getMeter(), ids = {}, next = 0, touching = {}}, Attachment)
+    local name = ffi.new("physvib_world[1]")
+    call("world_create", filled("world_settings", settings), name)
+    self.name = ffi.gc(name[0], c.physvib_world_free)
+    self.contact = filled("contact")
+    self:listen()
+    return self
+end
+
+-- A fixture's values: frequency_hz, decay_per_s, is_camera..., see physvib_body; mass_kg is its body's.
+function Attachment:set(fixture, values)
+    local id = self:id(fixture)
+    self:tell(fixture, id, values)
+    return id
+end
+
+-- The number of a fixture in events.
+function Attachment:id(fixture)
+    if not self.ids[fixture] then
+        self.ids[fixture], self.next = self.next, self.next + 1
+        self:tell(fixture, self.ids[fixture], {})
+    end
+    return self.ids[fixture]
+end
+
+function Attachment:tell(fixture, id, values)
+    local body = fixture:getBody()
+    local known = filled("body", values)
+    known.mass_kg = body:getType() == "dynamic" and body:getMass() or 0
+    known.gravity_scale = body:getGravityScale()
+    call("world_set_body", self.name, id, known)
+end
+
+-- To be called when a fixture is destroyed, not within update.
+function Attachment:remove(fixture)
+    if self.ids[fixture] then call("world_remove_body", self.name, self.ids[fixture]) end
+    self.ids[fixture] = nil
+end
+
+function Attachment:listen()
+    local theirs = {self.world:getCallbacks()}
+    local function thenTheirs(i, ours)
+        return function(...)
+            ours(...)
+            if theirs[i] then theirs[i](...) end
+        end
+    end
+    self.ours = {
+        thenTheirs(1, function(a, b, contact) self:begin(a, b, contact) end),
+        thenTheirs(2, function(a, b) self:finish(a, b) end),
+        thenTheirs(3, function(a, b, contact) self:look(a, b, contact) end),
+        thenTheirs(4, function(a, b, contact, ...) self:push(a, b, contact, ...) end),
+    }
+    self.world:setCallbacks(unpack(self.ours))
+end
+
+local function pair(a, b) return a < b and a * 1048576 + b or b * 1048576 + a end
+
+function Attachment:begin(a, b, contact)
+    if a:isSensor() or b:isSensor() then return end
+    local key = pair(self:id(a), self:id(b))
+    local touch = self.touching[key] or {count = 0}
+    touch.count, touch.is_new = touch.count + 1, true
+    self.touching[key] = touch
+end
+
+function Attachment:finish(a, b)
+    if not (self.ids[a] and self.ids[b]) then return end
+    local key = pair(self.ids[a], self.ids[b])
+    local touch = self.touching[key]
+    if not touch then return end
+    touch.count = touch.count - 1
+    if touch.count > 0 then return end
+    self.touching[key] = nil
+    if touch.is_told then call("world_end", self.name, self.ids[a], self.ids[b]) end
+end
+
+-- Before the solver: how fast the bodies near each other where they meet.
+function Attachment:look(a, b, contact)
+    local touch = self.touching[pair(self:id(a), self:id(b))]
+    if not (touch and touch.is_new) then return end
+    local x, y = contact:getPositions()
+    local nx, ny = contact:getNormal()
+    if not x then return end
+    local ax, ay = a:getBody():getLinearVelocityFromWorldPoint(x, y)
+    local bx, by = b:getBody():getLinearVelocityFromWorldPoint(x, y)
+    touch.approach = ((ax - bx) * nx + (ay - by) * ny) / self.metre
+end
+
+-- LÖVE tells impulses in kg pixels/s: one or two points, normal and tangential.
+function Attachment:push(a, b, contact, n1, t1, n2, t2)
+    local ia, ib = self:id(a), self:id(b)
+    local touch = self.touching[pair(ia, ib)]
+    local x, y, x2, y2 = contact:getPositions()
+    if not (touch and x) then return end
+    if x2 then x, y = (x + x2) / 2, (y + y2) / 2 end
+    local told = self.contact
+    told.a, told.b, told.x_m, told.y_m = ia, ib, x / self.metre, y / self.metre
+    told.normal_x, told.normal_y = contact:getNormal()
+    told.impulse_n_s, told.tangential_n_s = (n1 + (n2 or 0)) / self.metre, (t1 + (t2 or 0)) / self.metre
+    told.approach_m_per_s = touch.is_new and touch.approach or -1e300
+    call(touch.is_new and "world_begin" or "world_push", self.name, told)
+    touch.is_new, touch.is_told = false, true
+end
+
+-- world:update(dt), and what is felt of it.
+function Attachment:update(dt)
+    local now = {self.world:getCallbacks()}
+    for i = 1, 4 do
+        if now[i] ~= self.ours[i] then self:listen() break end -- the game has set others
+    end
+    local gx, gy = self.world:getGravity()
+    call("world_begin_step", self.name, dt, math.sqrt(gx * gx + gy * gy) / self.metre)
+    self.world:update(dt)
+    call("world_end_step", self.name)
+end
+
+local room = ffi.new("physvib_event[256]")
+-- The events that are final, appended to `events`; all of them, `at_once`.
+function Attachment:take(events, at_once)
+    repeat
+        local count = call("world_take", self.name, room, 256, at_once and 1 or 0)
+        for i = 0, count - 1 do events[#events + 1] = ffi.new("physvib_event", room[i]) end
+    until count < 256
+    return events
+end
+
+return physvib

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""PhysVib: collisions one can feel. Events and samples are numpy arrays; units are SI, and stand in the names.
+
+>>> import physvib
+>>> hit = physvib.events([0.1], frequency_hz=200.0, decay_per_s=30.0, amplitude=0.5)
+>>> samples = physvib.render(hit, seconds=1.0, layout="phone4")  # float32, shape (4, 48000)
+>>> physvib.save_wav("hit.wav", samples)
+"""
+from ._library import EVENT, PhysVibError, version
+from .files import events, load_events, render, save_events, save_wav
+from .layout import Layout
+from .renderer import Renderer, Status, play_out_s
+from .world import World
+
+__version__ = version()
+__all__ = ["EVENT", "Layout", "PhysVibError", "Renderer", "Status", "World", "events", "load_events", "play_out_s", "render", "save_events", "save_wav"]

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: MIT
+"""The shared library, its structures and its errors: physvib.h, line by line."""
+import ctypes
+import os
+from ctypes import POINTER, Structure, c_char_p, c_double, c_float, c_int, c_int64, c_size_t, c_void_p
+from pathlib import Path
+
+import numpy as np
+
+UNKNOWN = -1.0e300
+MAX_ENCHANTERS = 64
+
+#: A collision as it is felt, as numpy has it: fields as in physvib.h, times in whole nanoseconds.
+EVENT = np.dtype([("time_ns", "<i8"), ("duration_ns", "<i8"), ("frequency_hz", "<f8"), ("decay_per_s", "<f8"), ("amplitude", "<f8"),
+                  ("x_m", "<f8"), ("y_m", "<f8"), ("impulse_n_s", "<f8"), ("mass_kg", "<f8"), ("fixture", "<i4"), ("other", "<i4")])
+
+
+class PhysVibError(ValueError):
+    """What was expected, in one line. Nothing has changed."""
+
+    def __init__(self, line: str, code: int) -> None:
+        super().__init__(line)
+        self.code = code
+
+
+class CLayout(Structure):
+    _fields_ = [("extent_width_m", c_double), ("extent_height_m", c_double), ("x_m", c_double * MAX_ENCHANTERS),
+                ("y_m", c_double * MAX_ENCHANTERS), ("count", c_int)]
+
+
+class CRendererSettings(Structure):
+    _fields_ = [("size", c_size_t), ("rate_hz", c_int), ("channels", c_int), ("law", c_int), ("limiter", c_int), ("exponent", c_double),
+                ("field_width_m", c_double), ("field_height_m", c_double), ("layout", CLayout)]
+
+
+class CRendererStatus(Structure):
+    _fields_ = [("size", c_size_t), ("live_modes", c_int), ("pending", c_int), ("frames", c_int64), ("played", c_int64), ("late", c_int64),
+                ("rejected", c_int64), ("refused", c_int64)]
+
+
+class CWorldSettings(Structure):
+    _fields_ = [("size", c_size_t), ("is_muted", c_int), ("hits_per_step", c_int), ("at_body", c_int), ("drops_hits_of_removed", c_int),
+                *[(name, c_double) for name in ("field_width_m", "field_x_m", "field_y_m", "field_radians", "normalisation_s_per_m",
+                                                "hand_mass_kg", "drive_gain", "threshold_m_per_s")]]
+
+
+class CBody(Structure):
+    _fields_ = [("size", c_size_t), ("is_camera", c_int), ("voice", c_int), ("surface", c_int),
+                *[(name, c_double) for name in ("mass_kg", "inertia_kg_m2", "gravity_scale", "frequency_hz", "decay_per_s", "static_mass_kg",
+                                                "gain", "hand_mass_kg")],
+                *[(name, c_double * 3) for name in ("overtone_hz", "overtone_decay_per_s", "overtone_amplitude")]]
+
+
+class CContact(Structure):
+    _fields_ = [("size", c_size_t), ("a", c_int), ("b", c_int),
+                *[(name, c_double) for name in ("x_m", "y_m", "normal_x", "normal_y", "impulse_n_s", "tangential_n_s", "approach_m_per_s",
+                                                "restitution", "effective_mass_kg", "fraction", "gap_m", "gap_fraction")]]
+
+
+def _load() -> ctypes.CDLL:
+    here = Path(__file__).parent
+    beside = here / "libhwy.so.1"  # of a wheel, for a machine that lacks it
+    if beside.exists():
+        ctypes.CDLL(str(beside), mode=ctypes.RTLD_GLOBAL)
+    own = here / "libphysvib.so.0"
+    return ctypes.CDLL(os.environ.get("PHYSVIB_LIBRARY") or (str(own) if own.exists() else "libphysvib.so.0"))
+
+
+library = _load()
+_handle, _time, _events, _samples = c_void_p, c_int64, c_void_p, c_void_p
+_signatures = {
+    "version": (c_char_p,), "error": (c_char_p,),
+    "renderer_settings_init": (c_int, POINTER(CRendererSettings)), "renderer_status_init": (c_int, POINTER(CRendererStatus)),
+    "world_settings_init": (c_int, POINTER(CWorldSettings)), "body_init": (c_int, POINTER(CBody)), "contact_init": (c_int, POINTER(CContact)),
+    "layout_preset": (c_int, c_char_p, POINTER(CLayout)), "layout_load": (c_int, c_char_p, POINTER(CLayout)),
+    "layout_save": (c_int, c_char_p, c_char_p, POINTER(CLayout)),
+    "events_load": (c_int64, c_char_p, _events, c_int64), "events_save": (c_int, c_char_p, _events, c_int64),
+    "wav_save": (c_int, c_char_p, _samples, c_int, c_int64, c_int),
+    "render": (c_int, POINTER(CRendererSettings), _events, c_int64, c_int64, _samples),
+    "renderer_create": (c_int, POINTER(CRendererSettings), POINTER(_handle)), "renderer_free": (c_int, _handle),
+    "renderer_strike": (c_int, _handle, _events),
+    "renderer_pull": (c_int, _handle, POINTER(POINTER(c_float)), c_int, c_int),
+    "renderer_set_gain": (c_int, _handle, _time, c_int, c_double), "renderer_set_mute": (c_int, _handle, _time, c_int, c_int),
+    "renderer_set_level": (c_int, _handle, _time, c_double), "renderer_set_layout": (c_int, _handle, _time, POINTER(CRendererSettings)),
+    "renderer_silence": (c_int, _handle, _time, _time), "renderer_latency_frames": (c_int, _handle),
+    "renderer_get_status": (c_int, _handle, POINTER(CRendererStatus)), "play_out_ns": (c_int64, c_int, c_int, c_int, c_double),
+    "world_create": (c_int, POINTER(CWorldSettings), POINTER(_handle)), "world_free": (c_int, _handle),
+    "world_configure": (c_int, _handle, POINTER(CWorldSettings)),
+    "world_set_body": (c_int, _handle, c_int, POINTER(CBody)), "world_remove_body": (c_int, _handle, c_int),
+    "world_move": (c_int, _handle, c_int, *[c_double] * 5), "world_pair": (c_int, _handle, c_int, c_int, *[c_double] * 3),
+    "world_begin_step": (c_int, _handle, c_double, c_double), "world_end_step": (c_int, _handle),
+    "world_touch": (c_int, _handle, POINTER(CContact)), "world_begin": (c_int, _handle, POINTER(CContact)),
+    "world_push": (c_int, _handle, POINTER(CContact)), "world_end": (c_int, _handle, c_int, c_int),
+    "world_time_ns": (c_int64, _handle), "world_take": (c_int64, _handle, _events, c_int64, c_int),
+    "world_send": (c_int64, _handle, _handle, c_int64, c_int), "world_drops": (c_int64, _handle),
+}
+for _name, (_result, *_arguments) in _signatures.items():
+    _function = getattr(library, "physvib_" + _name)
+    _function.restype, _function.argtypes = _result, _arguments
+
+
+def call(name: str, *arguments: object) -> int:
+    """A code or a count; of an error, PhysVibError."""
+    result = getattr(library, "physvib_" + name)(*arguments)
+    if result < 0:
+        raise PhysVibError(library.physvib_error().decode(errors="replace"), result)
+    return result
+
+
+def filled(structure: type, init: str, **values: object) -> Structure:
+    """A structure as its init has it, and the values that are given; None is what init says."""
+    made = structure()
+    call(init, ctypes.byref(made))
+    for name, value in values.items():
+        if value is not None:
+            setattr(made, name, value)
+    return made
+
+
+def encoded(path: "str | os.PathLike[str]") -> bytes:
+    return os.fsencode(path)
+
+
+def version() -> str:
+    return library.physvib_version().decode()

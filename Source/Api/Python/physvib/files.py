@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+"""Events as arrays, files of them, and whole lists to samples."""
+from __future__ import annotations
+
+import ctypes
+import os
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._library import EVENT, PhysVibError, call, encoded
+from .layout import Layout, settings
+
+
+def events(time_s: ArrayLike, *, frequency_hz: ArrayLike, decay_per_s: ArrayLike, amplitude: ArrayLike = 1.0, x_m: ArrayLike = 0.0, y_m: ArrayLike = 0.0,
+           duration_s: ArrayLike = 0.0) -> NDArray[np.void]:
+    """Events of dtype EVENT, shape (n,), sorted by time; each argument one number, or n of them. Times are rounded to nanoseconds."""
+    seconds, durations = np.asarray(time_s, dtype=np.float64), np.asarray(duration_s, dtype=np.float64)
+    if not (np.isfinite(seconds).all() and np.isfinite(durations).all()) or np.abs(seconds).max(initial=0.0) > 1e8 or np.abs(durations).max(initial=0.0) > 1e8:
+        raise PhysVibError("time: expected 0 to 10^8 s", -2)
+    made = np.zeros(np.broadcast(seconds, frequency_hz, decay_per_s, amplitude, x_m, y_m, durations).shape or (1,), dtype=EVENT)
+    made["time_ns"], made["duration_ns"] = np.rint(seconds * 1e9), np.rint(durations * 1e9)
+    for name, values in (("frequency_hz", frequency_hz), ("decay_per_s", decay_per_s), ("amplitude", amplitude), ("x_m", x_m), ("y_m", y_m)):
+        made[name] = values
+    made["fixture"] = made["other"] = -1
+    return made[np.argsort(made["time_ns"], kind="stable")]
+
+
+def checked(list_of: ArrayLike) -> NDArray[np.void]:
+    """Events that the library can read where they are."""
+    array = np.ascontiguousarray(list_of)
+    if array.dtype != EVENT:
+        raise PhysVibError("events: expected an array of physvib.EVENT", -2)
+    return array.reshape(-1)
+
+
+def load_events(path: str | os.PathLike[str]) -> NDArray[np.void]:
+    """An event list (CSV): dtype EVENT, shape (n,)."""
+    made = np.zeros(call("events_load", encoded(path), None, 0), dtype=EVENT)
+    call("events_load", encoded(path), made.ctypes.data, len(made))
+    return made
+
+
+def save_events(path: str | os.PathLike[str], list_of: NDArray[np.void]) -> None:
+    """An event list (CSV) of events in time order; load_events gives them back to the bit."""
+    array = checked(list_of)
+    call("events_save", encoded(path), array.ctypes.data, len(array))
+
+
+def render(list_of: NDArray[np.void], seconds: float, *, layout: str | Layout = "phone4", rate_hz: int = 48000, law: str = "linear", exponent: float = 1.0,
+           field_m: tuple[float, float] | None = None, limiter: bool = True) -> NDArray[np.float32]:
+    """Samples of events in time order: float32, shape (enchanters, round(seconds * rate_hz)), frame n at n / rate_hz.
+
+    The same samples as `physvib render --from-events`. `field_m`: width and height that x_m and y_m span; None: the layout's extent."""
+    array, chosen = checked(list_of), settings(layout, rate_hz, law, exponent, field_m, limiter, 0)
+    if not 0.0 <= seconds <= 1e6:
+        raise PhysVibError("seconds: expected 0 to 10^6", -2)
+    samples = np.zeros((chosen.layout.count, round(seconds * rate_hz)), dtype=np.float32)
+    call("render", ctypes.byref(chosen), array.ctypes.data, len(array), samples.shape[1], samples.ctypes.data)
+    return samples
+
+
+def save_wav(path: str | os.PathLike[str], samples: ArrayLike, rate_hz: int = 48000) -> None:
+    """Samples of shape (channels, frames), or (frames,), as a WAVE file of 32-bit floats."""
+    array = np.ascontiguousarray(np.atleast_2d(samples), dtype=np.float32)
+    call("wav_save", encoded(path), array.ctypes.data, array.shape[0], array.shape[1], rate_hz)

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: MIT
+"""A world of anybody's engine: contacts in, events out."""
+from __future__ import annotations
+
+import contextlib
+import ctypes
+from ctypes import c_void_p
+from typing import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._library import EVENT, CBody, CContact, CWorldSettings, PhysVibError, call, filled, library
+from .renderer import Renderer
+
+VOICES = ("own", "other", "both")
+
+
+class World:
+    """Tell which bodies there are and, in each step, which of them touch. Bodies are numbers of yours, from 0 on, and stand in the
+    events. None: as physvib.h says under the same name."""
+
+    def __init__(self, *, field_width_m: float | None = None, field_x_m: float | None = None, field_y_m: float | None = None, field_radians: float | None = None,
+                 normalisation_s_per_m: float | None = None, hand_mass_kg: float | None = None, drive_gain: float | None = None,
+                 threshold_m_per_s: float | None = None, hits_per_step: int | None = None, at_body: bool = False) -> None:
+        self._handle = c_void_p()
+        chosen = filled(CWorldSettings, "world_settings_init", field_width_m=field_width_m, field_x_m=field_x_m, field_y_m=field_y_m, field_radians=field_radians,
+                        normalisation_s_per_m=normalisation_s_per_m, hand_mass_kg=hand_mass_kg, drive_gain=drive_gain,
+                        threshold_m_per_s=threshold_m_per_s, hits_per_step=hits_per_step, at_body=int(at_body))
+        call("world_create", ctypes.byref(chosen), ctypes.byref(self._handle))
+
+    def set_body(self, body: int, *, mass_kg: float = 0.0, is_camera: bool = False, frequency_hz: float = 0.0, decay_per_s: float = 0.0, voice: str = "own",
+                 surface: int = 0, inertia_kg_m2: float = 0.0, gravity_scale: float = 1.0, static_mass_kg: float = 0.0, gain: float = 1.0,
+                 hand_mass_kg: float | None = None) -> None:
+        """A body, at first or again; a mass of 0 is a floor or a wall: what strikes it does not move it."""
+        if voice not in VOICES:
+            raise PhysVibError(f"voice: expected one of {', '.join(VOICES)}", -2)
+        values = filled(CBody, "body_init", mass_kg=mass_kg, is_camera=int(is_camera), frequency_hz=frequency_hz, decay_per_s=decay_per_s,
+                        voice=VOICES.index(voice), surface=surface, inertia_kg_m2=inertia_kg_m2, gravity_scale=gravity_scale,
+                        static_mass_kg=static_mass_kg, gain=gain, hand_mass_kg=hand_mass_kg)
+        call("world_set_body", self._handle, body, ctypes.byref(values))
+
+    def remove_body(self, body: int) -> None:
+        call("world_remove_body", self._handle, body)
+
+    def move(self, body: int, x_m: float, y_m: float, vx_m_per_s: float = 0.0, vy_m_per_s: float = 0.0, spin_rad_per_s: float = 0.0) -> None:
+        """Centre of mass and motion before the engine's solver."""
+        call("world_move", self._handle, body, x_m, y_m, vx_m_per_s, vy_m_per_s, spin_rad_per_s)
+
+    def pair(self, surface: int, other: int, *, frequency_hz: float, decay_per_s: float, gain: float = 1.0) -> None:
+        call("world_pair", self._handle, surface, other, frequency_hz, decay_per_s, gain)
+
+    @contextlib.contextmanager
+    def step(self, seconds: float, gravity_m_per_s2: float = 9.81) -> Iterator[World]:
+        """`with world.step(0.01): world.touch(...)`: the next step; it ends, and time goes on, also if you raise within it."""
+        call("world_begin_step", self._handle, seconds, gravity_m_per_s2)
+        try:
+            yield self
+        finally:
+            call("world_end_step", self._handle)
+
+    def touch(self, a: int, b: int, x_m: float = 0.0, y_m: float = 0.0, **more: float) -> None:
+        """Two bodies touch in this step. A pair that did not in the step before begins; one that is not named again has ended.
+
+        `more`: normal_x, normal_y (from a to b), impulse_n_s, tangential_n_s, or approach_m_per_s with restitution and effective_mass_kg;
+        fraction, or gap_m with gap_fraction: see physvib.h."""
+        self._tell("world_touch", a, b, x_m, y_m, more)
+
+    def begin(self, a: int, b: int, x_m: float = 0.0, y_m: float = 0.0, **more: float) -> None:
+        self._tell("world_begin", a, b, x_m, y_m, more)
+
+    def push(self, a: int, b: int, x_m: float = 0.0, y_m: float = 0.0, **more: float) -> None:
+        self._tell("world_push", a, b, x_m, y_m, more)
+
+    def end(self, a: int, b: int) -> None:
+        call("world_end", self._handle, a, b)
+
+    def take(self, at_once: bool = False) -> NDArray[np.void]:
+        """Events that are final: a step late and in order, or all of them at once. dtype EVENT, shape (n,)."""
+        parts, room = [], 1024
+        while True:
+            part = np.zeros(room, dtype=EVENT)
+            count = call("world_take", self._handle, part.ctypes.data, room, int(at_once))
+            parts.append(part[:count])
+            if count < room:
+                return np.concatenate(parts)
+
+    def send(self, renderer: Renderer, later_s: float, at_once: bool = False) -> int:
+        """The same into a renderer, so much later (see play_out_s). How many."""
+        return call("world_send", self._handle, renderer._handle, round(later_s * 1e9), int(at_once))
+
+    @property
+    def time_ns(self) -> int:
+        return call("world_time_ns", self._handle)
+
+    def close(self) -> None:
+        if self._handle:
+            call("world_free", self._handle)
+            self._handle = c_void_p()
+
+    def __enter__(self) -> World:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None) and library is not None:
+            library.physvib_world_free(self._handle)
+
+    def _tell(self, name: str, a: int, b: int, x_m: float, y_m: float, more: dict[str, float]) -> None:
+        unknown = more.keys() - {field for field, *_ in CContact._fields_[3:]}
+        if unknown:
+            raise TypeError(f"{name}: unknown {', '.join(sorted(unknown))}")
+        call(name, self._handle, ctypes.byref(filled(CContact, "contact_init", a=a, b=b, x_m=x_m, y_m=y_m, **more)))

@@ -1,0 +1,55 @@
+-- SPDX-License-Identifier: MIT
+-- The Lua file by LuaJIT alone: a world that answers as LÖVE's does, in pixels. LUA_PATH and PHYSVIB_LIBRARY are set; arg[1]: the sound.
+local metre, world, floor, ball = 30, {}, {}, {}
+love = {physics = {getMeter = function() return metre end}}
+
+local function fixture(kind, mass, motion)
+    local body = {getType = function() return kind end, getMass = function() return mass end, getGravityScale = function() return 1 end,
+                  getLinearVelocityFromWorldPoint = function() return 0, motion.speed * metre end}
+    return {getBody = function() return body end, isSensor = function() return false end}
+end
+local falling = {speed = 0, height = 0.8} -- downwards, as LÖVE counts
+floor, ball = fixture("static", 0, {speed = 0}), fixture("dynamic", 0.2, falling)
+
+local contact = {getPositions = function() return 0.3 * metre, 0 end, getNormal = function() return 0, -1 end} -- from floor to ball
+local callbacks, isTouching = {}, false
+function world:getCallbacks() return unpack(callbacks, 1, 4) end
+function world:setCallbacks(...) callbacks = {...} end
+function world:getGravity() return 0, 9.81 * metre end
+function world:update(dt)
+    falling.speed = falling.speed + 9.81 * dt
+    local touches = falling.height <= 0
+    if touches and not isTouching then callbacks[1](floor, ball, contact) end
+    if isTouching and not touches then callbacks[2](floor, ball, contact) end
+    isTouching = touches
+    if touches then
+        callbacks[3](floor, ball, contact)
+        local before = falling.speed
+        if before > 0 then falling.speed = -0.7 * before end
+        callbacks[4](floor, ball, contact, 0.2 * (before - falling.speed) * metre, 0)
+    end
+    falling.height = falling.height - falling.speed * dt
+end
+
+local theirs = 0
+world:setCallbacks(function() theirs = theirs + 1 end)
+local physvib = require("physvib")
+local haptics = physvib.attach(world, {normalisation_s_per_m = 0.1, hand_mass_kg = 0})
+local id = haptics:set(ball, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
+for _ = 1, 100 do haptics:update(0.01) end
+local events = haptics:take({}, true)
+
+local speed = math.sqrt(2 * 9.81 * 0.8)
+assert(#events > 0, "nothing was felt")
+assert(events[1].fixture == id and theirs > 0, "its callbacks were not called")
+assert(math.abs(tonumber(events[1].time_ns) * 1e-9 - 0.40) < 0.011, "onset " .. tonumber(events[1].time_ns))
+assert(math.abs(events[1].impulse_n_s - 0.2 * 1.7 * speed) < 0.05 * 0.2 * 1.7 * speed, "impulse " .. events[1].impulse_n_s)
+assert(math.abs(events[1].x_m - 0.3) < 1e-6, "place " .. events[1].x_m)
+
+local later = 0
+world:setCallbacks(nil, nil, nil, function() later = later + 1 end) -- others, while it is attached
+for _ = 1, 100 do haptics:update(0.01) end
+assert(later > 0 and #haptics:take({}, true) > 0, "callbacks that were set later")
+assert(not pcall(physvib.call, "world_end_step", haptics.name), "an error is one of Lua")
+physvib.save_wav(arg[1], events, 1.5, {field_width_m = 1, field_height_m = 1})
+print(#events .. " hits, the first at " .. tonumber(events[1].time_ns) * 1e-9 .. " s: " .. arg[1])

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+"""The Python package, against the command line and by hand: python.py LIBRARY PHYSVIB, PYTHONPATH set to the package."""
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+os.environ["PHYSVIB_LIBRARY"] = sys.argv[1]
+import numpy as np  # noqa: E402
+
+import physvib  # noqa: E402
+
+program = sys.argv[2]
+
+
+def many(count: int) -> np.ndarray:
+    random = np.random.default_rng(1)
+    return physvib.events(random.uniform(0.0, 9.0, count), frequency_hz=random.choice([80.0, 150.0, 220.0, 333.3], count), decay_per_s=random.uniform(20, 80, count),
+                          amplitude=random.uniform(0.0, 0.01, count), x_m=random.uniform(0.0, 0.1, count), y_m=random.uniform(0.0, 0.06, count))
+
+
+class Package(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_a_hundred_thousand_events_are_the_command_lines_bytes(self) -> None:
+        events = many(100_000)
+        physvib.save_events(self.folder / "events.csv", events)
+        subprocess.run([program, "render", "--from-events", self.folder / "events.csv", "--out", self.folder / "out.wav", "--seconds", "10"], check=True,
+                       capture_output=True)
+        frames = (self.folder / "out.wav").read_bytes()
+        samples = physvib.render(physvib.load_events(self.folder / "events.csv"), 10.0)
+        self.assertEqual(samples.shape, (4, 480000))
+        self.assertTrue(frames.find(samples.T.tobytes()) > 0)
+
+    def test_lists_come_back_to_the_bit(self) -> None:
+        events = many(1000)
+        physvib.save_events(self.folder / "events.csv", events)
+        self.assertEqual(physvib.load_events(self.folder / "events.csv").tobytes(), events.tobytes())
+
+    def test_layouts_come_back(self) -> None:
+        layout = physvib.Layout([(0.0, 0.0), (0.1, 0.05)], (0.1, 0.05))
+        layout.save(self.folder / "mine.json", "mine")
+        self.assertEqual(physvib.Layout.load(self.folder / "mine.json"), layout)
+        self.assertEqual(physvib.render(many(10), 0.1, layout=str(self.folder / "mine.json")).shape, (2, 4800))
+
+    def test_a_strike_is_on_its_frame_however_blocks_fall(self) -> None:
+        event = physvib.events(0.0123, frequency_hz=1000.0, decay_per_s=10.0, amplitude=0.5)
+        whole = physvib.render(event, 0.1, limiter=False)
+        with physvib.Renderer(limiter=False) as renderer:
+            renderer.strike(event)
+            parts = [renderer.pull(n) for n in (1, 63, 511, 4000, 225 + renderer.latency_frames)]
+            late = renderer.latency_frames
+            self.assertEqual(renderer.status.played, 1)
+        pulled = np.concatenate(parts, axis=1)[:, late:]
+        np.testing.assert_array_equal(pulled, whole[:, :pulled.shape[1]])
+        first = int(np.argmax(np.abs(pulled).max(axis=0) > 0))
+        self.assertEqual(first, int(np.ceil(0.0123 * 48000)))
+
+    def test_a_landing_is_felt(self) -> None:
+        with physvib.World(normalisation_s_per_m=1.0, hand_mass_kg=0.0) as world, physvib.Renderer() as renderer:
+            world.set_body(0)
+            world.set_body(1, mass_kg=2.0, is_camera=True, frequency_hz=200.0, decay_per_s=30.0)
+            with world.step(0.01):
+                world.touch(0, 1, x_m=0.02, impulse_n_s=1.0)
+            events = world.take(at_once=True)
+            self.assertEqual(len(events), 1)
+            self.assertEqual((events["amplitude"][0], events["fixture"][0], events["other"][0]), (0.5, 1, 0))
+            with world.step(0.01):
+                pass
+            with world.step(0.01):
+                world.touch(0, 1, impulse_n_s=1.0)
+            self.assertEqual(world.send(renderer, physvib.play_out_s(), at_once=True), 1)
+            self.assertGreater(np.abs(renderer.pull(9600)).max(), 0.1)
+
+    def test_refusals_say_what_was_expected(self) -> None:
+        for wrong, line in ((lambda: physvib.Layout.preset("phone9"), "phone1 to phone4"), (lambda: physvib.Renderer(rate_hz=1), "5000 to 192000"),
+                            (lambda: physvib.render(many(2)[::-1], 1.0), "order of their times"), (lambda: physvib.render(np.zeros(3), 1.0), "physvib.EVENT"),
+                            (lambda: physvib.load_events("/nowhere.csv"), "/nowhere.csv"),
+                            (lambda: physvib.events(np.nan, frequency_hz=1.0, decay_per_s=1.0), "10^8 s")):
+            with self.assertRaises(physvib.PhysVibError) as caught:
+                wrong()
+            self.assertIn(line, str(caught.exception))
+        closed = physvib.World()
+        closed.close()
+        closed.close()
+        with self.assertRaises(physvib.PhysVibError):
+            closed.take()
+
+    def test_no_call_leaves_memory_behind(self) -> None:
+        calls = int(os.environ.get("PHYSVIB_CALLS", "20000"))  # a million by hand
+        world, event = physvib.World(), physvib.events(0.0, frequency_hz=200.0, decay_per_s=30.0)
+        world.set_body(0)
+        world.set_body(1, mass_kg=1.0, is_camera=True, frequency_hz=200.0, decay_per_s=30.0)
+
+        def some(count: int) -> None:
+            for i in range(count // 4):
+                with world.step(0.01):
+                    if i % 2 == 0:
+                        world.touch(0, 1, impulse_n_s=1.0)
+                world.take()
+
+        with physvib.Renderer() as renderer:
+            out = np.empty((4, 16), dtype=np.float32)
+            some(2000)
+            before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+            some(calls)
+            for _ in range(calls // 100):
+                renderer.strike(event)
+                renderer.pull(16, out)
+            for _ in range(20):
+                physvib.Renderer().close()
+            self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 64_000)  # kilobytes; a renderer is 29,000
+
+
+unittest.main(argv=sys.argv[:1])
