@@ -14,6 +14,31 @@ double roundedTo(double value, double perUnit) { return std::round(value * perUn
 /// True if a method's name says that this part varies: "AV" of AV-FF-DRV.
 bool varies(const std::string& label, const char* part) { return ("-" + label + "-").find(std::string("-") + part + "-") != std::string::npos; }
 
+/// Means as printed; spreads between participants such that the printed tests are what so many participants give (ObserverTest reckons them again).
+ObserverSettings fittedToTheThesis(ObserverSettings settings) {
+    settings.placeBlur = 0.2073;
+    settings.ringBlur = 0.1524;
+    settings.blurSpread = 0.11;
+    settings.pulsePlaceConfusion = 0.0129; // 92.1 % of patterns right
+    settings.preferenceSpread = 0.15;
+    settings.amplitudeSpread = 10.2;
+    settings.frequencySpread = 14.7;
+    settings.decaySpread = 3.6;
+    return settings;
+}
+
+/// Who this participant is, by their number alone.
+ObserverSettings ofParticipant(ObserverSettings settings, const Protocol& protocol, const Participant& participant) {
+    SeededRandom random{static_cast<std::uint64_t>(protocol.seed), "observer/" + std::to_string(participant.number) + "/self"};
+    settings.placeBlur *= std::exp(settings.blurSpread * random.normal());
+    settings.ringBlur *= std::exp(settings.blurSpread * random.normal());
+    settings.firstAlternativePreference = std::clamp(settings.firstAlternativePreference + settings.preferenceSpread * random.normal(), 0.0, 1.0);
+    settings.amplitudeScore += settings.amplitudeSpread * random.normal();
+    settings.frequencyScore += settings.frequencySpread * random.normal();
+    settings.decayScore += settings.decaySpread * random.normal();
+    return settings;
+}
+
 } // namespace
 
 std::optional<ObserverSettings> observerNamed(std::string_view name) {
@@ -22,12 +47,13 @@ std::optional<ObserverSettings> observerNamed(std::string_view name) {
     if (name == "simulated") return settings;
     if (name == "simulated-PHONE") settings.placeBlur = 0.2073;
     else if (name == "simulated-RING") settings.placeBlur = 0.1524;
+    else if (name == "simulated-thesis") return fittedToTheThesis(settings);
     else return std::nullopt;
     return settings;
 }
 
 SimulatedObserver::SimulatedObserver(ObserverSettings settings, const Protocol& protocol, const Participant& participant)
-    : settings_{std::move(settings)}, protocol_{protocol}, participant_{participant} {}
+    : settings_{ofParticipant(std::move(settings), protocol, participant)}, protocol_{protocol}, participant_{participant} {}
 
 Answer SimulatedObserver::answer(const Experiment& experiment) const {
     const Trial& trial = experiment.trial();
@@ -41,7 +67,7 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
     switch (trial.task) {
     case StudyTask::explore: answer.response = explored(experiment, random, answer); break;
     case StudyTask::identify: answer.response = identified(condition, trial, random); break;
-    case StudyTask::locate: answer.place = feltPlace(std::get<GridSet>(condition.stimuli).grid().place(*targetOf(condition, trial)), random); break;
+    case StudyTask::locate: answer.place = feltPlace(std::get<GridSet>(condition.stimuli).grid().place(*targetOf(condition, trial)), blurOf(condition), random); break;
     case StudyTask::choose: answer.response = chosen(session, trial, random); break;
     case StudyTask::rate:
         for (std::size_t s = 0; s < session.scales.size(); ++s) answer.scores.push_back(scored(trial, random));
@@ -67,7 +93,7 @@ std::string SimulatedObserver::identified(const ConditionPlan& condition, const 
     if (const auto* patterns = std::get_if<PatternSet>(&condition.stimuli)) return patternLabel(feltPattern(*parsePatternLabel(trial.stimulus), *patterns, random));
     if (const auto* set = std::get_if<GridSet>(&condition.stimuli)) {
         const PhantomGrid grid = set->grid();
-        return gridLabel(grid.nearest(feltPlace(grid.place(*targetOf(condition, trial)), random)));
+        return gridLabel(grid.nearest(feltPlace(grid.place(*targetOf(condition, trial)), blurOf(condition), random)));
     }
     const auto items = stimuliOf(condition); // of no known kind: taken for another one now and then
     return random.chance(settings_.pulsePlaceConfusion) ? items[random.below(items.size())].label : trial.stimulus;
@@ -88,10 +114,14 @@ PulsePattern SimulatedObserver::feltPattern(PulsePattern pattern, const PatternS
     return pattern;
 }
 
-FieldPlace SimulatedObserver::feltPlace(const FieldPlace& place, SeededRandom& random) const {
+double SimulatedObserver::blurOf(const ConditionPlan& condition) const noexcept {
+    return settings_.ringBlur > 0.0 && condition.layout.starts_with("ring") ? settings_.ringBlur : settings_.placeBlur;
+}
+
+FieldPlace SimulatedObserver::feltPlace(const FieldPlace& place, double blur, SeededRandom& random) const {
     const auto felt = [&](double at, double offset) {
         const double middle = 0.5 + (1.0 - settings_.pullToMiddle) * (at - 0.5) + offset;
-        return roundedTo(std::clamp(middle + settings_.placeBlur * random.normal(), 0.0, 1.0), 1e6);
+        return roundedTo(std::clamp(middle + blur * random.normal(), 0.0, 1.0), 1e6);
     };
     const double x = felt(place.x, settings_.offsetX);
     return {x, felt(place.y, settings_.offsetY)};

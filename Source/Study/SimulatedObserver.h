@@ -21,10 +21,18 @@ struct ObserverSettings {
     double levelNoiseDb = 2.0;                 ///< of comparisons and adjustments
     double scoreBase = 38.0, scoreNoise = 14.0; ///< ratings
     double amplitudeScore = 8.0, frequencyScore = 23.2, decayScore = 2.0; ///< more for AV, FV, DRV (thesis 5.3.2)
+    double ringBlur = 0.0; ///< placeBlur where the layout's name begins with ring; 0: the same
+    // Standard deviations between participants; 0: all are alike.
+    double blurSpread = 0.0; ///< of the blurs' natural logarithms, each by itself
+    double preferenceSpread = 0.0;
+    double amplitudeSpread = 0.0, frequencySpread = 0.0, decaySpread = 0.0; ///< of the scores
 };
 
-/// The observer of that name: simulated, simulated-PHONE or simulated-RING; none if there is none. Their place blurs are
-/// fitted to the exact percent correct of thesis 4.1.2 (a test fits them again); the other values are assumptions.
+/// What observerNamed() knows.
+inline constexpr std::string_view observerNames = "simulated, simulated-PHONE, simulated-RING or simulated-thesis";
+
+/// The observer of that name; none if there is none. The place blurs of simulated-PHONE and simulated-RING are fitted to the exact percent
+/// correct of thesis 4.1.2, simulated-thesis to all that the five studies print, spreads included (tests fit them again); other values are assumptions.
 /// Any thread.
 std::optional<ObserverSettings> observerNamed(std::string_view name);
 
@@ -42,7 +50,8 @@ private:
     std::string explored(const Experiment& experiment, SeededRandom& random, Answer& answer) const;
     std::string identified(const ConditionPlan& condition, const Trial& trial, SeededRandom& random) const;
     PulsePattern feltPattern(PulsePattern pattern, const PatternSet& set, SeededRandom& random) const;
-    FieldPlace feltPlace(const FieldPlace& place, SeededRandom& random) const;
+    double blurOf(const ConditionPlan& condition) const noexcept;
+    FieldPlace feltPlace(const FieldPlace& place, double blur, SeededRandom& random) const;
     std::string chosen(const SessionPlan& session, const Trial& trial, SeededRandom& random) const;
     double scored(const Trial& trial, SeededRandom& random) const;
     double magnitude(const ConditionPlan& condition, const Trial& trial, SeededRandom& random) const;

@@ -3,6 +3,7 @@
 #include "Study/InformationTransfer.h"
 #include "Study/PlaceBlur.h"
 #include "Study/Proportion.h"
+#include "Study/Published.h"
 #include "Study/SimulatedObserver.h"
 #include <array>
 #include <cmath>
@@ -117,6 +118,33 @@ TEST(SimulatedObserver, PatternsAreConfusedByPlaceDurationAndNumber) {
     settings.numerosityConfusion = 1.0;
     for (const auto& trial : mainTrials(identification(PatternSet{2}, 1), settings, 1))
         EXPECT_EQ(parsePatternLabel(trial.response)->count, std::max(1, parsePatternLabel(trial.stimulus)->count - 1));
+}
+
+TEST(SimulatedObserver, TheThesisObserverIsFittedToWhatIsPrinted) {
+    const ObserverSettings s = *observerNamed("simulated-thesis");
+    EXPECT_EQ(s.placeBlur, observerNamed("simulated-PHONE")->placeBlur);
+    EXPECT_EQ(s.ringBlur, observerNamed("simulated-RING")->placeBlur);
+    double patterns = 0.0; // share right, all pulse counts, mean of 2, 3, 4 enchanters
+    for (const int e : {2, 3, 4})
+        for (const int pulses : {1, 2, 3})
+            patterns += std::pow(e, pulses) / (e + e * e + e * e * e) * std::pow(1.0 - s.pulsePlaceConfusion, pulses) * (1.0 - s.durationConfusion) * (pulses > 1 ? 1.0 - s.numerosityConfusion : 1.0) / 3.0;
+    EXPECT_NEAR(100.0 * patterns, thesis::patternsPercentMean, 0.05);
+    EXPECT_DOUBLE_EQ(100.0 * s.firstAlternativePreference, thesis::modelChosenPercent);
+    const auto meanF = [](std::string_view effect) {
+        double sum = 0.0, n = 0.0;
+        for (const auto& test : thesis::tests)
+            if (test.where == "5.3.2" && test.effect.ends_with(effect)) sum += std::stod(std::string(test.value)), n += 1.0;
+        return sum / n;
+    };
+    EXPECT_NEAR(s.amplitudeSpread, thesis::amplitudeGain * std::sqrt(20.0 / meanF("amplitude")), 0.1);
+    EXPECT_NEAR(s.frequencySpread, thesis::frequencyGain * std::sqrt(20.0 / meanF("frequency")), 0.1);
+    EXPECT_NEAR(s.decaySpread, thesis::decayGain * std::sqrt(20.0 / meanF("decay rate")), 0.1);
+    EXPECT_EQ(s.amplitudeScore, thesis::amplitudeGain);
+    EXPECT_EQ(s.frequencyScore, thesis::frequencyGain);
+    EXPECT_EQ(s.decayScore, thesis::decayGain);
+    double base = 0.0; // what AF-FF-DRF scores
+    for (const double score : thesis::ratings.back().scores) base += score / 3.0;
+    EXPECT_NEAR(s.scoreBase, base, 0.2);
 }
 
 TEST(SimulatedObserver, PatternRehearsalComesNearThePublishedShares) {

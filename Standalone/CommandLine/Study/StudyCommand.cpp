@@ -61,9 +61,9 @@ std::string takeSounds(const std::vector<std::string>& sounds, Protocol& protoco
 }
 
 int run(const StudyOptions& o) {
-    if (o.observer.empty()) return leave(exitUsage, "study run: --observer: expected simulated, simulated-PHONE or simulated-RING; a person answers in the mixer");
+    if (o.observer.empty()) return leave(exitUsage, "study run: --observer: expected " + std::string(observerNames) + "; a person answers in the mixer");
     const auto settings = observerNamed(o.observer);
-    if (!settings) return leave(exitUsage, "study run: --observer: expected simulated, simulated-PHONE or simulated-RING, found " + inQuotes(o.observer));
+    if (!settings) return leave(exitUsage, "study run: --observer: expected " + std::string(observerNames) + ", found " + inQuotes(o.observer));
     if (!isStudyCode(o.participant)) return leave(exitUsage, "study run: --participant: expected at most 32 letters, digits, - and _, found " + inQuotes(o.participant));
     if (!o.participant.empty() && o.participants > 1) return leave(exitUsage, "study run: --participant: expected one participant with a code, found several");
     auto protocol = findProtocol(o.protocol);
@@ -86,7 +86,7 @@ void declareStudy(CLI::App& command, StudyOptions& o) {
     CLI::App* const show = command.add_subcommand("show", "a protocol as JSON, to start your own from");
     CLI::App* const run = command.add_subcommand("run", "runs a study, or goes on with it where it was cut off");
     for (CLI::App* one : {show, run}) one->add_option("protocol", o.protocol, "a built-in protocol or PROTOCOL.json")->required();
-    run->add_option("--observer", o.observer, "who answers: simulated, simulated-PHONE, simulated-RING");
+    run->add_option("--observer", o.observer, "who answers: " + std::string(observerNames));
     run->add_option("--participant", o.participant, "code of the participant; no other personal data is kept")->type_name("CODE");
     run->add_option("--number", o.number, "number of the (first) participant: decides orders")->check(CLI::Range(1, 100000))->capture_default_str();
     run->add_option("--participants", o.participants, "how many, one after the other")->check(CLI::Range(1, 1000))->capture_default_str();
