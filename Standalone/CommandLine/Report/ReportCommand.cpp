@@ -2,6 +2,7 @@
 // Files in, a folder out: all of it, or nothing.
 #include "CommandLine/Report/ReportCommand.h"
 #include "CommandLine/Report/StudyReport.h"
+#include "CommandLine/Report/ThesisReport.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/BidsDataset.h"
 #include "Files/Disk/FileClash.h"
@@ -67,10 +68,19 @@ Result<std::vector<std::pair<std::string, std::string>>> readTexts(const std::ve
     return texts;
 }
 
+int reportThesis(const ReportOptions& o) {
+    if (o.wantsBids || !o.protocol.empty() || !o.sources.columnWords.empty()) return leave(exitUsage, "report thesis: expected no --bids, --protocol or --columns (a file of that name is ./thesis)");
+    const auto files = thesisReport();
+    if (const int code = write(o.folder, files, {}); code != exitDone) return code;
+    tellIfSimulated(true);
+    std::cout << (std::filesystem::path{o.folder} / "index.html").string() << "  " << files.size() << " files; rehearsals are simulated\n";
+    return exitDone;
+}
+
 } // namespace
 
 void declareReport(CLI::App& command, ReportOptions& o) {
-    command.add_option("files", o.sources.files, "the trial files of one study")->required()->type_name("TRIALS.csv");
+    command.add_option("files", o.sources.files, "the trial files of one study; or `thesis`: what the thesis prints beside what follows from it, and its studies rehearsed")->required()->type_name("TRIALS.csv...|thesis");
     command.add_option("--out", o.folder, "the folder: index.html, tables, report.R")->required()->type_name("FOLDER");
     command.add_option("--protocol", o.protocol, "the study's protocol, if it is no built-in one")->type_name("PROTOCOL.json");
     command.add_flag("--bids", o.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
@@ -78,6 +88,7 @@ void declareReport(CLI::App& command, ReportOptions& o) {
 }
 
 int runReport(const ReportOptions& o) {
+    if (o.sources.files == std::vector<std::string>{"thesis"}) return reportThesis(o);
     const auto columns = parseColumnNames(o.sources.columnWords);
     if (!columns) return leave(exitUsage, "--columns: " + columns.error);
     std::optional<Protocol> protocol;

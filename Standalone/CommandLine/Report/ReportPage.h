@@ -9,7 +9,8 @@ namespace physvib {
 
 class ReportPage {
 public:
-    ReportPage(std::string title, bool isSimulated);
+    /// `mark`: stands below the title, if not empty.
+    ReportPage(std::string title, bool isSimulated, std::string mark = {});
 
     void heading(std::string_view words);
     void subheading(std::string_view words);
@@ -30,7 +31,7 @@ public:
 
 private:
     void element(std::string_view tag, std::string_view words);
-    std::string title_, body_;
+    std::string title_, mark_, body_;
     bool isSimulated_;
     int figures_ = 0;
 };
