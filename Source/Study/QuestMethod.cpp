@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A few numbers become a grid of functions; the words are those numbers.
 #include "Study/QuestMethod.h"
+#include "Study/NumberWord.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,11 +12,6 @@ namespace {
 
 constexpr double mostLevels = 201.0; // with as many thresholds: 300,000 functions at most levels, a few milliseconds a trial
 constexpr int widths = 7;            // in equal ratios; coarser, the threshold's belief leans on the nearest
-
-std::string text(double number) {
-    char digits[32];
-    return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
-}
 
 double levelsOf(const QuestMethod& m) { return std::floor((m.mostDb - m.leastDb) / m.stepDb + 1e-6) + 1.0; }
 
@@ -42,7 +38,7 @@ std::string questFault(const QuestMethod& m) {
     if (!(m.leastDb < m.mostDb)) return ": expected least_db < most_db";
     if (!(m.leastWidthDb <= m.mostWidthDb)) return ": expected least_width_db <= most_width_db";
     if (const double levels = levelsOf(m); !(levels <= mostLevels))
-        return ".step_db: expected at most " + text(mostLevels) + " levels, found " + text(levels);
+        return ".step_db: expected at most " + numberWord(mostLevels) + " levels, found " + numberWord(levels);
     return {};
 }
 
@@ -55,8 +51,8 @@ QuestPlan questPlan(const QuestMethod& m, double guess) {
 }
 
 std::string questWords(const QuestMethod& m, double guess) {
-    return std::string(psychometricShapeNames[static_cast<std::size_t>(m.shape)]) + " guess " + text(guess) + " lapse " + text(m.lapse) + " levels_db " + text(m.leastDb) + ' ' +
-           text(m.stepDb) + ' ' + text(m.mostDb) + " widths_db " + text(m.leastWidthDb) + ' ' + text(m.mostWidthDb);
+    return std::string(psychometricShapeNames[static_cast<std::size_t>(m.shape)]) + " guess " + numberWord(guess) + " lapse " + numberWord(m.lapse) + " levels_db " + numberWord(m.leastDb) + ' ' +
+           numberWord(m.stepDb) + ' ' + numberWord(m.mostDb) + " widths_db " + numberWord(m.leastWidthDb) + ' ' + numberWord(m.mostWidthDb);
 }
 
 std::optional<QuestPlan> questPlan(std::string_view text) {

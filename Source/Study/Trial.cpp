@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Rows explain themselves: right or wrong, and how to feel them again.
 #include "Study/Trial.h"
+#include "Study/NumberWord.h"
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace physvib {
 namespace {
-
-std::string text(double number) {
-    char digits[32];
-    return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
-}
 
 /// Level in g; dB are rounded to a thousandth so that the text is short and exact enough.
 double raised(double levelG, double db) { return db == 0.0 ? levelG : std::round(levelG * std::pow(10.0, db / 20.0) * 1e6) * 1e-6; }
@@ -27,23 +22,23 @@ struct CallMaker {
     const TrialRecord& record;
 
     std::string common(double db) const {
-        return " --layout " + condition.layout + " --frequency " + (condition.isAtResonance ? "resonance" : text(condition.frequencyHz)) + " --level-g " + text(raised(condition.levelG, db));
+        return " --layout " + condition.layout + " --frequency " + (condition.isAtResonance ? "resonance" : numberWord(condition.frequencyHz)) + " --level-g " + numberWord(raised(condition.levelG, db));
     }
     const std::string& label() const { return record.trial.stimulus.empty() ? record.answer.response : record.trial.stimulus; }
 
-    std::string call(const PatternSet& set, const Part& part) const { return "stimulus pattern " + label() + common(part.levelDb) + " --gap " + text(set.gapSeconds); }
+    std::string call(const PatternSet& set, const Part& part) const { return "stimulus pattern " + label() + common(part.levelDb) + " --gap " + numberWord(set.gapSeconds); }
     std::string call(const GridSet& set, const Part& part) const {
         const bool isTouch = record.trial.stimulus.empty() && record.answer.place;
-        const std::string where = isTouch ? "--at " + text(record.answer.place->x) + "," + text(record.answer.place->y)
+        const std::string where = isTouch ? "--at " + numberWord(record.answer.place->x) + "," + numberWord(record.answer.place->y)
                                           : "--grid " + std::to_string(set.columns) + "x" + std::to_string(set.rows) + " --cell " + label() +
                                                 (set.points == PhantomGrid::Points::middles ? " --points middles" : "");
-        return "stimulus phantom " + where + common(part.levelDb) + " --law " + std::string(panningLawNames[static_cast<std::size_t>(set.law)]) + " --exponent " + text(set.exponent) +
-               " --seconds " + text(set.seconds);
+        return "stimulus phantom " + where + common(part.levelDb) + " --law " + std::string(panningLawNames[static_cast<std::size_t>(set.law)]) + " --exponent " + numberWord(set.exponent) +
+               " --seconds " + numberWord(set.seconds);
     }
     std::string call(const CallSet& set, const Part& part) const {
         const auto items = stimuliOf(condition);
         const auto item = std::ranges::find(items, label(), &StimulusItem::label);
-        const std::string words = callOf(set, item != items.end() ? *item : StimulusItem{}, part.name, text(part.levelDb));
+        const std::string words = callOf(set, item != items.end() ? *item : StimulusItem{}, part.name, numberWord(part.levelDb));
         return words + soundWords(protocol, words);
     }
 };
@@ -55,7 +50,7 @@ std::string soundWords(const Protocol& protocol, const std::string& call) {
     if (call.find("--method SV") == std::string::npos) return words;
     for (const StudySoundFile& sound : protocol.sounds) {
         const std::string quote = sound.file.find(' ') == std::string::npos ? "" : "\"";
-        words += " --sound " + quote + text(sound.frequencyHz) + "=" + sound.file + quote;
+        words += " --sound " + quote + numberWord(sound.frequencyHz) + "=" + sound.file + quote;
     }
     return words;
 }
