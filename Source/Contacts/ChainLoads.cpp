@@ -9,17 +9,16 @@ namespace {
 constexpr std::size_t expectedContacts = 1024;
 }
 
-ChainLoads::ChainLoads()
-    : indices_(expectedContacts) {
+ChainLoads::ChainLoads(TouchingPairs& pairs)
+    : pairs_(pairs) {
     contacts_.reserve(expectedContacts);
     passed_.reserve(expectedContacts);
     receivers_.reserve(expectedContacts);
 }
 
-void ChainLoads::add(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point) {
-    Contact& contact = find(a, b, true);
-    contact.now +=
-        contact.b == b ? newtonSeconds : -newtonSeconds; // the points and passes of the step, the parts of a chain
+void ChainLoads::add(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
+    Contact& contact = find(pair, true);
+    contact.now += contact.of.b == pair.b ? newtonSeconds : -newtonSeconds; // the points and passes of the step, the parts of a chain
     contact.point = point;
     contact.isSolved = true;
 }
@@ -29,26 +28,23 @@ void ChainLoads::settle() {
         if (!contact.isSolved || contact.isUnknown) continue;
         const Vector2 load = loadOf(contact);
         if (contact.now.lengthSquared() <= load.lengthSquared()) continue;
-        pass(contact.a, contact.b, load - contact.now, contact.point);
-        pass(contact.b, contact.a, contact.now - load, contact.point);
+        const Vector2 beyond = contact.now - load;
+        const float size = beyond.length();
+        pass(contact.of.a, contact.of.b, -beyond, size, contact.point);
+        pass(contact.of.b, contact.of.a, beyond, size, contact.point);
     }
 }
 
-void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, Vector2 point) {
+void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size, Vector2 point) {
     const auto index = static_cast<std::size_t>(slot);
     if (passed_.size() <= index) passed_.resize(index + 1);
     Passed& passed = passed_[index];
     if (passed.other == FixtureTable::none) receivers_.push_back(slot);
     passed.newtonSeconds += newtonSeconds;
-    const float size = newtonSeconds.length();
     if (size <= passed.strongest) return;
     passed.strongest = size;
     passed.other = other;
     passed.point = point;
-}
-
-void ChainLoads::begin(std::int32_t a, std::int32_t b) {
-    find(a, b, false);
 }
 
 void ChainLoads::endStep(const ContactGraph& graph) noexcept {
@@ -61,7 +57,7 @@ void ChainLoads::endStep(const ContactGraph& graph) noexcept {
             contact.past = {contact.now, contact.past[0], contact.past[1]};
             contact.now = {};
             contact.isSolved = contact.isUnknown = false;
-        } else if (!graph.isTouching(contact.a, contact.b)) {
+        } else if (!graph.isTouching(contact.of.a, contact.of.b)) {
             drop(i);
         }
     }
@@ -69,7 +65,7 @@ void ChainLoads::endStep(const ContactGraph& graph) noexcept {
 
 void ChainLoads::forget(std::int32_t slot) noexcept {
     for (std::size_t i = contacts_.size(); i-- > 0;)
-        if (contacts_[i].a == slot || contacts_[i].b == slot) drop(i);
+        if (contacts_[i].of.a == slot || contacts_[i].of.b == slot) drop(i);
 }
 
 Vector2 ChainLoads::loadOf(const Contact& contact) noexcept {
@@ -79,21 +75,20 @@ Vector2 ChainLoads::loadOf(const Contact& contact) noexcept {
     return *std::min_element(contact.past.begin(), contact.past.end(), isLess);
 }
 
-ChainLoads::Contact& ChainLoads::find(std::int32_t a, std::int32_t b, bool isUnknown) {
-    const std::int32_t known = indices_.find(pairKey(a, b));
-    if (known != IntegerMap::none) return contacts_[static_cast<std::size_t>(known)];
-    indices_.set(pairKey(a, b), static_cast<std::int32_t>(contacts_.size()));
-    contacts_.push_back(
-        {a, b, {}, {}, {}, false, isUnknown});
-    return contacts_.back();
+ChainLoads::Contact& ChainLoads::find(const TouchingPairs::Name& pair, bool isUnknown) {
+    std::int32_t& load = pairs_[pair.number].load;
+    if (load == TouchingPairs::none) {
+        load = static_cast<std::int32_t>(contacts_.size());
+        contacts_.push_back({pair, {}, {}, {}, false, isUnknown});
+    }
+    return contacts_[static_cast<std::size_t>(load)];
 }
 
 void ChainLoads::drop(std::size_t index) noexcept {
-    indices_.erase(pairKey(contacts_[index].a, contacts_[index].b));
+    pairs_[contacts_[index].of.number].load = TouchingPairs::none;
     contacts_[index] = contacts_.back();
     contacts_.pop_back();
-    if (index < contacts_.size())
-        indices_.set(pairKey(contacts_[index].a, contacts_[index].b), static_cast<std::int32_t>(index));
+    if (index < contacts_.size()) pairs_[contacts_[index].of.number].load = static_cast<std::int32_t>(index);
 }
 
 } // namespace physvib

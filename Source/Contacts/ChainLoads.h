@@ -3,7 +3,7 @@
 #pragma once
 #include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
-#include "Contacts/IntegerMap.h"
+#include "Contacts/TouchingPairs.h"
 #include "Contacts/Vector2.h"
 #include <array>
 #include <cstddef>
@@ -26,10 +26,10 @@ public:
         Vector2 point;
     };
 
-    ChainLoads();
+    explicit ChainLoads(TouchingPairs& pairs);
 
-    /// In a step: the old contact (a, b) has pushed b by `newtonSeconds` (world), and a by its opposite.
-    void add(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point);
+    /// In a step: an old contact of (a, b) has pushed b by `newtonSeconds` (world), and a by its opposite.
+    void add(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point);
 
     /// After a step: adds up what was handed on.
     void settle();
@@ -44,7 +44,7 @@ public:
     }
 
     /// A contact begins: it has no load yet.
-    void begin(std::int32_t a, std::int32_t b);
+    void begin(const TouchingPairs::Name& pair) { find(pair, false); }
 
     /// At last: this step becomes the past. Bodies that sleep keep their load.
     void endStep(const ContactGraph& graph) noexcept;
@@ -54,19 +54,19 @@ public:
 
 private:
     struct Contact {
-        std::int32_t a, b;
+        TouchingPairs::Name of;
         Vector2 now, point; // now: on b
         std::array<Vector2, 3> past;
         bool isSolved;
         bool isUnknown; // met in mid-contact: what it pushes in this step is its load
     };
     static Vector2 loadOf(const Contact& contact) noexcept;
-    Contact& find(std::int32_t a, std::int32_t b, bool isUnknown);
-    void pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, Vector2 point);
+    Contact& find(const TouchingPairs::Name& pair, bool isUnknown);
+    void pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size, Vector2 point);
     void drop(std::size_t index) noexcept;
 
+    TouchingPairs& pairs_; // say where the loads of each are
     std::vector<Contact> contacts_;
-    IntegerMap indices_;         // of the contacts, by their ends
     std::vector<Passed> passed_; // by slot
     std::vector<std::int32_t> receivers_;
 };

@@ -24,13 +24,15 @@ void CollisionCatcher::settle() {
 }
 
 void CollisionCatcher::endStep() {
-    if (!last_.empty()) lastOf_.clear();
-    last_.assign(blows_.size(), {});
-    for (std::size_t i = 0; i < blows_.size(); ++i) {
-        blowOf_.erase(pairKey(blows_[i].a, blows_[i].b));
-        lastOf_.set(pairKey(blows_[i].a, blows_[i].b), static_cast<std::int32_t>(i));
+    for (const Aftermath& last : last_) pairs_[last.pair].last = TouchingPairs::none;
+    last_.clear();
+    for (const Blow& blow : blows_) {
+        pairs_[blow.pair].blow = TouchingPairs::none;
+        pairs_[blow.pair].last = static_cast<std::int32_t>(last_.size());
+        last_.push_back({blow.pair, {}});
     }
     loads_.endStep(graph_);
+    pairs_.endStep(graph_);
     hasHeard_ = false;
     blows_.clear();
     ends_.clear();
@@ -40,24 +42,26 @@ void CollisionCatcher::endStep() {
 
 void CollisionCatcher::forget(std::int32_t slot) noexcept {
     const auto isOf = [slot](const auto& noted) { return noted.a == slot || noted.b == slot; };
-    for (const Blow& blow : blows_) blowOf_.erase(pairKey(blow.a, blow.b));
+    for (const Blow& blow : blows_) pairs_[blow.pair].blow = TouchingPairs::none;
     std::erase_if(blows_, isOf);
     directBlows_ = 0;
     for (std::size_t i = 0; i < blows_.size(); ++i) {
-        blowOf_.set(pairKey(blows_[i].a, blows_[i].b), static_cast<std::int32_t>(i));
+        pairs_[blows_[i].pair].blow = static_cast<std::int32_t>(i);
         directBlows_ += isFelt(blows_[i].a, blows_[i].b) ? 1 : 0;
     }
     std::erase_if(ends_, isOf);
     loads_.forget(slot);
+    pairs_.loosen(slot);
 }
 
 void CollisionCatcher::begin(std::int32_t a, std::int32_t b) {
     graph_.insert(a, b);
-    if (isStepping_ && isFelt(a, b)) loads_.begin(a, b);
+    if (isStepping_ && isFelt(a, b)) loads_.begin({a, b, know(a, b)});
 }
 
 ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
     graph_.erase(a, b);
+    pairs_.loosen(a, b);
     if (ends_.size() == ends_.capacity()) return nullptr;
     ContactEnd& end = ends_.emplace_back();
     end.a = a;
@@ -66,23 +70,21 @@ ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
     return &end;
 }
 
-bool CollisionCatcher::isBlow(std::int32_t a, std::int32_t b, double approachMetresPerSecond) const noexcept {
-    return approachMetresPerSecond >= span_.leastApproach(gravityScaleOf(a, b));
-}
-
-void CollisionCatcher::push(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point) {
+void CollisionCatcher::push(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
     hasHeard_ = true;
-    if (const std::int32_t i = last_.empty() ? IntegerMap::none : lastOf_.find(pairKey(a, b)); i != IntegerMap::none) last_[static_cast<std::size_t>(i)] += newtonSeconds;
-    if (isFelt(a, b)) loads_.add(a, b, newtonSeconds, point);
+    if (const std::int32_t last = pairs_[pair.number].last; last != TouchingPairs::none)
+        last_[static_cast<std::size_t>(last)].newtonSeconds += newtonSeconds;
+    if (isFelt(pair.a, pair.b)) loads_.add(pair, newtonSeconds, point);
 }
 
-double CollisionCatcher::aftermath(std::int32_t a, std::int32_t b) const noexcept {
-    const std::int32_t i = lastOf_.find(pairKey(a, b));
-    return i == IntegerMap::none ? 0.0 : static_cast<double>(last_[static_cast<std::size_t>(i)].length());
+double CollisionCatcher::aftermath(std::int32_t pair) const noexcept {
+    const std::int32_t last = pairs_[pair].last;
+    return last == TouchingPairs::none ? 0.0 : static_cast<double>(last_[static_cast<std::size_t>(last)].newtonSeconds.length());
 }
 
-Blow* CollisionCatcher::strike(std::int32_t a, std::int32_t b, double approachMetresPerSecond) {
+Blow* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachMetresPerSecond) {
     hasHeard_ = true;
+    const auto [a, b, number] = pair;
     const bool isDirect = isFelt(a, b);
     const std::size_t count = isDirect ? directBlows_ : blows_.size() - directBlows_;
     const double lighterMassKg = std::min(table_[a].movableMassKg(), table_[b].movableMassKg());
@@ -95,14 +97,15 @@ Blow* CollisionCatcher::strike(std::int32_t a, std::int32_t b, double approachMe
         ++drops_;
         made = weakest(isDirect);
         if (made->expectedNewtonSeconds >= expected) return nullptr;
-        blowOf_.erase(pairKey(made->a, made->b));
+        pairs_[made->pair].blow = TouchingPairs::none;
         *made = {};
     }
-    blowOf_.set(pairKey(a, b), static_cast<std::int32_t>(made - blows_.data()));
+    pairs_[number].blow = static_cast<std::int32_t>(made - blows_.data());
+    made->pair = number;
     made->a = a;
     made->b = b;
     made->order = order_++;
-    made->gravityScale = gravityScaleOf(a, b);
+    made->gravityScale = std::max(table_[a].gravityScale(), table_[b].gravityScale());
     made->lighterMassKg = lighterMassKg;
     made->expectedNewtonSeconds = expected;
     return made;
@@ -114,15 +117,6 @@ Blow* CollisionCatcher::weakest(bool isDirect) noexcept {
     for (Blow& blow : blows_)
         if (isFelt(blow.a, blow.b) == isDirect && (found == nullptr || blow.expectedNewtonSeconds < found->expectedNewtonSeconds)) found = &blow;
     return found;
-}
-
-Blow* CollisionCatcher::blow(std::int32_t a, std::int32_t b) noexcept {
-    const std::int32_t known = blowOf_.find(pairKey(a, b));
-    return known == IntegerMap::none ? nullptr : &blows_[static_cast<std::size_t>(known)];
-}
-
-bool CollisionCatcher::isFelt(std::int32_t a, std::int32_t b) const noexcept {
-    return table_.isCamera(a) || table_.isCamera(b);
 }
 
 } // namespace physvib

@@ -5,7 +5,7 @@
 #include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
-#include "Contacts/IntegerMap.h"
+#include "Contacts/TouchingPairs.h"
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -50,29 +50,40 @@ public:
     /// as if it had not ended in time.
     ContactEnd* end(std::int32_t a, std::int32_t b);
 
-    /// Whether parts that near each other so fast, before the solver, are a blow.
-    bool isBlow(std::int32_t a, std::int32_t b, double approachMetresPerSecond) const noexcept;
+    /// The number of a pair of known fixtures, by which all of the following is asked. It may be kept: see TouchingPairs.
+    std::int32_t know(std::int32_t a, std::int32_t b) { return pairs_.know(a, b); }
+    bool isKnown(const TouchingPairs::Name& pair) const noexcept { return pairs_.is(pair); }
+
+    /// Whether parts that near each other so fast, before the solver, are a blow; of two bodies, the larger gravity scale.
+    bool isBlow(float gravityScale, double approachMetresPerSecond) const noexcept {
+        return approachMetresPerSecond >= span_.leastApproach(gravityScale);
+    }
 
     /// The blow of a pair in this step, if there is one. `strike` makes it, to be filled in (its fixtures, mass and
     /// place in the order are). Without room the weakest goes, by mass and approach, and is counted: nullptr, if that is this one.
-    Blow* strike(std::int32_t a, std::int32_t b, double approachMetresPerSecond);
-    Blow* blow(std::int32_t a, std::int32_t b) noexcept;
+    Blow* strike(const TouchingPairs::Name& pair, double approachMetresPerSecond);
+    Blow* blow(const TouchingPairs::Name& pair) noexcept {
+        const std::int32_t known = pairs_[pair.number].blow;
+        return known == TouchingPairs::none ? nullptr : &blows_[static_cast<std::size_t>(known)];
+    }
 
     /// Whether anybody could feel anything. A camera that comes later feels from the step after on.
     bool isHearing() const noexcept { return table_.hasCameras(); }
 
     /// Whether a camera is one of the two.
-    bool isFelt(std::int32_t a, std::int32_t b) const noexcept;
+    bool isFelt(std::int32_t a, std::int32_t b) const noexcept { return table_.isCamera(a) || table_.isCamera(b); }
 
     /// Whether a pair's load matters: it is felt, or goes on with a blow of the last step.
-    bool isHeard(std::int32_t a, std::int32_t b) const noexcept { return isFelt(a, b) || (!last_.empty() && lastOf_.find(pairKey(a, b)) != IntegerMap::none); }
+    bool isHeard(const TouchingPairs::Name& pair) const noexcept {
+        return isFelt(pair.a, pair.b) || pairs_[pair.number].last != TouchingPairs::none;
+    }
 
     /// What parts of a heard pair that are no blow have pushed b by, and a by its opposite, N s in the world.
-    void push(std::int32_t a, std::int32_t b, Vector2 newtonSeconds, Vector2 point);
+    void push(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point);
 
     const std::vector<Blow>& blows() const noexcept { return blows_; }
     /// N s that the pair of a blow of the last step has gone on to push in this one: engines spread a blow over two.
-    double aftermath(std::int32_t a, std::int32_t b) const noexcept;
+    double aftermath(std::int32_t pair) const noexcept;
     /// Contacts that ended in the step or since the one before it.
     const std::vector<ContactEnd>& ends() const noexcept { return ends_; }
     const ChainLoads& loads() const noexcept { return loads_; }
@@ -81,21 +92,20 @@ public:
     std::uint64_t drops() const noexcept { return drops_; }
 
 private:
-    float gravityScaleOf(std::int32_t a, std::int32_t b) const noexcept {
-        return std::max(table_[a].gravityScale(), table_[b].gravityScale());
-    }
-
+    struct Aftermath { // of a blow of the last step: what its pair has pushed in this one
+        std::int32_t pair;
+        Vector2 newtonSeconds;
+    };
     Blow* weakest(bool isDirect) noexcept;
 
     const FixtureTable& table_;
     ContactGraph& graph_;
-    ChainLoads loads_;
+    TouchingPairs pairs_;
+    ChainLoads loads_{pairs_};
     StepSpan span_;
     std::vector<Blow> blows_; // of the present step
     std::vector<ContactEnd> ends_;
-    std::vector<Vector2> last_; // of the blows of the last step: what they have pushed in this one
-    IntegerMap lastOf_;
-    IntegerMap blowOf_; // by the pair; no larger than need be, to stay in the nearest cache
+    std::vector<Aftermath> last_;
     std::size_t directBlows_ = 0;
     std::int32_t order_ = 0;
     bool isStepping_ = false, hasHeard_ = false;

@@ -148,7 +148,9 @@ void ContactEvents::keepStrongest(std::size_t count) {
 }
 
 void ContactEvents::addImpacts() {
-    for (const Impact& impact : impacts_) addEvents(impact, table_, pairs_, bodies_, model_, settings_, held_);
+    if (impacts_.empty()) return;
+    const FieldFrame field(settings_);
+    for (const Impact& impact : impacts_) addEvents(impact, table_, pairs_, bodies_, model_, settings_, field, held_);
 }
 
 void ContactEvents::take(std::vector<CollisionEvent>& events) {

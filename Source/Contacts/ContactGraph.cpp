@@ -46,12 +46,6 @@ void ContactGraph::isolate(std::int32_t node) {
     setPassing(node, true);
 }
 
-std::int32_t ContactGraph::component(std::int32_t node) {
-    make(node);
-    if (isStale_) rebuild();
-    return at(node).isPassing ? root(node) : noComponent;
-}
-
 void ContactGraph::reach(std::int32_t node, std::vector<std::int32_t>& components) {
     components.clear();
     const auto add = [&](std::int32_t from) {
@@ -65,18 +59,8 @@ void ContactGraph::reach(std::int32_t node, std::vector<std::int32_t>& component
         forNeighbours(node, add);
 }
 
-bool ContactGraph::isPassing(std::int32_t node) const noexcept {
-    const auto index = static_cast<std::size_t>(node);
-    return index >= nodes_.size() || nodes_[index].isPassing;
-}
-
 bool ContactGraph::isTouching(std::int32_t a, std::int32_t b) const noexcept {
     return indices_.find(pairKey(a, b)) != IntegerMap::none;
-}
-
-void ContactGraph::make(std::int32_t node) {
-    while (nodes_.size() <= static_cast<std::size_t>(node))
-        nodes_.push_back({static_cast<std::int32_t>(nodes_.size())});
 }
 
 void ContactGraph::drop(std::size_t edge) noexcept {
@@ -89,14 +73,6 @@ void ContactGraph::drop(std::size_t edge) noexcept {
     if (edge < edges_.size())
         indices_.set(pairKey(edges_[edge].a, edges_[edge].b), static_cast<std::int32_t>(edge));
     if (at(gone.a).isPassing && at(gone.b).isPassing) isStale_ = true;
-}
-
-std::int32_t ContactGraph::root(std::int32_t node) noexcept {
-    while (at(node).parent != node) {
-        at(node).parent = at(at(node).parent).parent; // halves the path for the next time
-        node = at(node).parent;
-    }
-    return node;
 }
 
 void ContactGraph::unite(const Edge& edge) noexcept {

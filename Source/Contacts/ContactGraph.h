@@ -35,13 +35,20 @@ public:
 
     /// Equal for nodes that are connected through passing ones; noComponent for a node that is not passing.
     /// Valid until the next change.
-    std::int32_t component(std::int32_t node);
+    std::int32_t component(std::int32_t node) {
+        make(node);
+        if (isStale_) rebuild();
+        return at(node).isPassing ? root(node) : noComponent;
+    }
 
     /// The components from which a path leads to `node`: its own, or, if it is not passing, those of the
     /// nodes that touch it. Allocates if `components` must grow.
     void reach(std::int32_t node, std::vector<std::int32_t>& components);
 
-    bool isPassing(std::int32_t node) const noexcept;
+    bool isPassing(std::int32_t node) const noexcept {
+        const auto index = static_cast<std::size_t>(node);
+        return index >= nodes_.size() || nodes_[index].isPassing;
+    }
     bool isTouching(std::int32_t a, std::int32_t b) const noexcept;
 
     /// Calls see(neighbour) for each node that touches `node`. Walks through all edges.
@@ -75,9 +82,18 @@ private:
     };
 
     Node& at(std::int32_t node) { return nodes_[static_cast<std::size_t>(node)]; }
-    void make(std::int32_t node);
+    void make(std::int32_t node) {
+        while (nodes_.size() <= static_cast<std::size_t>(node))
+            nodes_.push_back({static_cast<std::int32_t>(nodes_.size())});
+    }
     void drop(std::size_t edge) noexcept;
-    std::int32_t root(std::int32_t node) noexcept;
+    std::int32_t root(std::int32_t node) noexcept {
+        while (at(node).parent != node) {
+            at(node).parent = at(at(node).parent).parent; // halves the path for the next time
+            node = at(node).parent;
+        }
+        return node;
+    }
     void unite(const Edge& edge) noexcept;
     void rebuild() noexcept;
 

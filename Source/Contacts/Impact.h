@@ -45,6 +45,7 @@ struct StepSpan {
 /// the FixtureTable.
 struct Blow {
     std::int32_t a = 0, b = 0;
+    std::int32_t pair = 0;  // their number
     std::int32_t order = 0; // of blows and ends within the step
     float gravityScale = 1.0F; // the larger one of the two bodies
     Vector2 point;         // world

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One function per question: whose sound, where.
 #include "Contacts/ImpactEvents.h"
-#include <cmath>
 
 namespace physvib {
 
@@ -23,12 +22,6 @@ void push(CollisionEvent event, const Sound& sound, EventSorter& events) {
     }
 }
 
-Vector2 toField(Vector2 world, const ImpactSettings& settings) noexcept {
-    const Vector2 from = world - settings.fieldOrigin;
-    const float c = std::cos(settings.fieldRadians), s = std::sin(settings.fieldRadians);
-    return {c * from.x + s * from.y, c * from.y - s * from.x};
-}
-
 double massOf(const KnownFixture& camera, const BodyReader& bodies) {
     const BodyFacts body = bodies.facts(camera.body.body);
     return body.isDynamic ? body.massKg : camera.values.staticMassKg;
@@ -44,12 +37,12 @@ double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyRe
 }
 
 void addEvents(const Impact& impact, const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies, const ImpactModel& model,
-               const ImpactSettings& settings, EventSorter& events) {
+               const ImpactSettings& settings, const FieldFrame& field, EventSorter& events) {
     const KnownFixture& camera = table[impact.camera];
     if (settings.isMuted || camera.values.gain == 0.0) return;
     const KnownFixture* other = impact.other == FixtureTable::none ? nullptr : &table[impact.other];
     const bool isAtContact = settings.location == ImpactLocation::contact;
-    const Vector2 place = toField(isAtContact ? impact.point : bodies.toWorld(camera.body.body, camera.centre), settings);
+    const Vector2 place = field.toField(isAtContact ? impact.point : bodies.toWorld(camera.body.body, camera.centre));
 
     CollisionEvent event;
     event.timeNs = impact.timeNs;

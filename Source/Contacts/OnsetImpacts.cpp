@@ -11,11 +11,9 @@ OnsetImpacts::OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& 
     , table_(table)
     , graph_(graph) {
     waiting_.reserve(CollisionCatcher::maxDirectBlows);
-    for (auto* stamps : {&waitingSince_, &usedIn_}) stamps->reserve(CollisionCatcher::maxDirectBlows);
 }
 
 void OnsetImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
-    ++steps_;
     strike(span, impacts);
     findLate();
     complete(span, impacts);
@@ -48,9 +46,9 @@ void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
         const double impulse = blow.impulse();
         if (!span.isStrike(impulse, blow.lighterMassKg, blow.gravityScale)) continue;
         const std::int64_t timeNs = span.timeNs(blow.fraction);
-        strikes_.add({blow.a, blow.b, timeNs, impulse, 0.0, 0, 0, IntegerMap::none, IntegerMap::none});
-        if (table_[blow.a].values.isCamera) impacts.push_back({blow.a, blow.b, timeNs, impulse, blow.point});
-        if (table_[blow.b].values.isCamera) impacts.push_back({blow.b, blow.a, timeNs, impulse, blow.point});
+        strikes_.add({blow.a, blow.b, blow.pair, timeNs, impulse, 0.0, 0, 0, SlotMap::none, SlotMap::none});
+        if (table_.isCamera(blow.a)) impacts.push_back({blow.a, blow.b, timeNs, impulse, blow.point});
+        if (table_.isCamera(blow.b)) impacts.push_back({blow.b, blow.a, timeNs, impulse, blow.point});
     }
 }
 
@@ -58,53 +56,54 @@ void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
 void OnsetImpacts::findLate() {
     if (before_.isEmpty()) return;
     before_.follow(catcher_);
-    for (const HandedOn& handedOn : waiting_) stamp(waitingSince_, handedOn.camera) = steps_;
+    isWaiting_.clear();
+    for (const HandedOn& handedOn : waiting_) isWaiting_.set(handedOn.camera, 1);
     for (const std::int32_t camera : catcher_.loads().receivers())
-        if (stamp(waitingSince_, camera) != steps_) wait(camera, before_, {});
+        if (isWaiting_.find(camera) == SlotMap::none) wait(camera, before_, {});
 }
 
 void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) {
-    for (HandedOn& handedOn : waiting_) {
-        stamp(usedIn_, handedOn.camera) = steps_;
-        handedOn.causedNewtonSeconds += before_.find(handedOn.camera, graph_).aftermath;
-        complete(handedOn, catcher_.loads().passed(handedOn.camera), span, impacts);
+    isUsed_.clear();
+    for (const HandedOn& handedOn : waiting_) {
+        isUsed_.set(handedOn.camera, 1);
+        const auto later = [&] { return before_.find(handedOn.camera, graph_).aftermath; };
+        complete(handedOn, catcher_.loads().passed(handedOn.camera), later, span, impacts);
     }
 }
 
-void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, const StepSpan& span,
+// What the causes gave in the second step is asked for only where it could matter, which is seldom.
+template <class Later>
+void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span,
                             std::vector<Impact>& impacts) const {
+    if (!table_.isCamera(handedOn.camera)) return;
     const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
     const auto whole = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
-    const double impulse = std::min(whole, handedOn.causedNewtonSeconds);
     const KnownFixture& camera = table_[handedOn.camera];
     const KnownFixture& other = main.other == FixtureTable::none ? camera : table_[main.other];
     const double lighter = std::min(camera.movableMassKg(), other.movableMassKg());
-    if (camera.values.isCamera && span.isStrike(impulse, lighter, std::max(camera.gravityScale(), other.gravityScale())))
+    const float gravityScale = std::max(camera.gravityScale(), other.gravityScale());
+    if (!span.isStrike(whole, lighter, gravityScale)) return;
+    const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
+    if (span.isStrike(impulse, lighter, gravityScale))
         impacts.push_back({handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse, main.point});
 }
 
 void OnsetImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector<Impact>& impacts) const {
     for (const HandedOn& handedOn : waiting_)
-        if (handedOn.camera == camera) complete(handedOn, {}, span, impacts);
+        if (handedOn.camera == camera) complete(handedOn, {}, [] { return 0.0; }, span, impacts);
 }
 
 void OnsetImpacts::begin() {
     if (strikes_.isEmpty()) return;
     for (const std::int32_t camera : catcher_.loads().receivers())
-        if (stamp(usedIn_, camera) != steps_) wait(camera, strikes_, catcher_.loads().passed(camera));
+        if (isUsed_.find(camera) == SlotMap::none) wait(camera, strikes_, catcher_.loads().passed(camera));
 }
 
 void OnsetImpacts::wait(std::int32_t camera, StrikeCauses& causes, const ChainLoads::Passed& passed) {
-    if (!table_[camera].values.isCamera) return;
+    if (!table_.isCamera(camera)) return;
     const StrikeCauses::Found found = causes.find(camera, graph_);
     if (found.strongest == nullptr) return;
     waiting_.push_back({camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds, passed});
-}
-
-std::uint32_t& OnsetImpacts::stamp(std::vector<std::uint32_t>& stamps, std::int32_t slot) {
-    const auto index = static_cast<std::size_t>(slot);
-    if (stamps.size() <= index) stamps.resize(index + 1, 0);
-    return stamps[index];
 }
 
 } // namespace physvib

@@ -47,18 +47,17 @@ private:
     void strike(const StepSpan& span, std::vector<Impact>& impacts);
     void findLate();
     void complete(const StepSpan& span, std::vector<Impact>& impacts);
-    void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, const StepSpan& span, std::vector<Impact>& impacts) const;
+    template <class Later>
+    void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span, std::vector<Impact>& impacts) const;
     void begin();
     void wait(std::int32_t camera, StrikeCauses& causes, const ChainLoads::Passed& passed);
-    static std::uint32_t& stamp(std::vector<std::uint32_t>& stamps, std::int32_t slot);
 
     const CollisionCatcher& catcher_;
     const FixtureTable& table_;
     ContactGraph& graph_;
     StrikeCauses strikes_, before_;          // of this step and the last one
     std::vector<HandedOn> waiting_;          // for the next step
-    std::vector<std::uint32_t> waitingSince_, usedIn_; // by slot: the step; used: what it got in that step counts already
-    std::uint32_t steps_ = 1;
+    SlotMap isWaiting_, isUsed_;             // used: what it got in this step counts already
 };
 
 } // namespace physvib

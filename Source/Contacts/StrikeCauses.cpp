@@ -6,12 +6,6 @@
 
 namespace physvib {
 
-namespace {
-
-std::uint64_t keyOf(std::int32_t number) noexcept { return static_cast<std::uint64_t>(number) + 1; } // a key is not 0
-
-} // namespace
-
 StrikeCauses::StrikeCauses() {
     constexpr std::size_t most = CollisionCatcher::maxDirectBlows + CollisionCatcher::maxDistantBlows;
     strikes_.reserve(most);
@@ -28,7 +22,7 @@ void StrikeCauses::add(const HardBlow& strike) {
 
 void StrikeCauses::follow(const CollisionCatcher& catcher) {
     isLocated_ = false;
-    for (HardBlow& strike : strikes_) strike.aftermath = catcher.aftermath(strike.a, strike.b);
+    for (HardBlow& strike : strikes_) strike.aftermath = catcher.aftermath(strike.pair);
 }
 
 void StrikeCauses::locate(ContactGraph& graph) {
@@ -49,18 +43,18 @@ void StrikeCauses::locate(ContactGraph& graph) {
     for (std::size_t i = strikes_.size(); i-- > 0;) {
         HardBlow& strike = strikes_[i];
         for (auto [slot, next] : {std::pair{strike.a, &strike.nextA}, {strike.b, &strike.nextB}}) {
-            *next = struck_.find(keyOf(slot));
-            struck_.set(keyOf(slot), static_cast<std::int32_t>(i));
+            *next = struck_.find(slot);
+            struck_.set(slot, static_cast<std::int32_t>(i));
         }
     }
 }
 
 void StrikeCauses::sum(std::int32_t component, std::size_t strike) {
     if (component == ContactGraph::noComponent) return;
-    std::int32_t at = sumOf_.find(keyOf(component));
-    if (at == IntegerMap::none) {
+    std::int32_t at = sumOf_.find(component);
+    if (at == SlotMap::none) {
         at = static_cast<std::int32_t>(sums_.size());
-        sumOf_.set(keyOf(component), at);
+        sumOf_.set(component, at);
         sums_.push_back({strike, 0.0, 0.0});
     }
     sums_[static_cast<std::size_t>(at)].newtonSeconds += strikes_[strike].newtonSeconds;
@@ -71,19 +65,20 @@ StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph)
     Found found;
     if (strikes_.empty()) return found;
     locate(graph);
-    graph.reach(camera, reached_);
+    if (graph.isPassing(camera)) reached_.assign(1, graph.component(camera));
+    else graph.reach(camera, reached_);
     std::size_t strongest = strikes_.size();
     for (const std::int32_t component : reached_) {
-        const std::int32_t at = sumOf_.find(keyOf(component));
-        if (at == IntegerMap::none) continue;
+        const std::int32_t at = sumOf_.find(component);
+        if (at == SlotMap::none) continue;
         const Sum& sum = sums_[static_cast<std::size_t>(at)];
         strongest = std::min(strongest, sum.strongest);
         found.newtonSeconds += sum.newtonSeconds;
         found.aftermath += sum.aftermath;
     }
-    if (std::int32_t own = struck_.find(keyOf(camera)); own != IntegerMap::none) {
+    if (std::int32_t own = struck_.find(camera); own != SlotMap::none) {
         const auto isOwn = [camera](const HardBlow& strike) { return strike.a == camera || strike.b == camera; };
-        while (own != IntegerMap::none) {
+        while (own != SlotMap::none) {
             const HardBlow& strike = strikes_[static_cast<std::size_t>(own)];
             own = strike.a == camera ? strike.nextA : strike.nextB;
             if (!isReached(strike)) continue;

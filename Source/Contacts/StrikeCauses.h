@@ -3,7 +3,7 @@
 #pragma once
 #include "Contacts/CollisionCatcher.h"
 #include "Contacts/ContactGraph.h"
-#include "Contacts/IntegerMap.h"
+#include "Contacts/SlotMap.h"
 #include <cstdint>
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace physvib {
 
 /// A blow that is hard enough to be a strike.
 struct HardBlow {
-    std::int32_t a, b; // slots
+    std::int32_t a, b, pair; // slots, and their number
     std::int64_t timeNs;
     double newtonSeconds;
     double aftermath; // N s that the pair went on to push in the next step
@@ -55,8 +55,8 @@ private:
     std::vector<HardBlow> strikes_; // the strongest first, once located
     std::vector<Sum> sums_;
     bool isLocated_ = false;
-    IntegerMap sumOf_;                  // by component + 1
-    IntegerMap struck_;                 // by slot + 1: the strongest of its own strikes
+    SlotMap sumOf_;                     // by component
+    SlotMap struck_;                    // the strongest of a slot's own strikes
     std::vector<std::int32_t> reached_; // components at the camera in question
 };
 

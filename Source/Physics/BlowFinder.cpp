@@ -17,6 +17,12 @@ const b2Body& bodyB(const b2Contact& contact) { return *contact.GetFixtureB()->G
 
 bool isIn(unsigned mask, int point) noexcept { return (mask >> point & 1U) != 0; }
 
+/// The larger one of the two, as KnownFixture has them.
+float gravityScaleOf(const b2Contact& contact) noexcept {
+    const auto of = [](const b2Body& body) { return body.GetType() == b2_dynamicBody ? std::abs(body.GetGravityScale()) : 0.0F; };
+    return std::max(of(bodyA(contact)), of(bodyB(contact)));
+}
+
 /// How fast B comes towards A at a point; the normal points from A to B.
 double approach(const b2Contact& contact, b2Vec2 point, b2Vec2 normal) {
     const b2Vec2 velocity = bodyB(contact).GetLinearVelocityFromWorldPoint(point) - bodyA(contact).GetLinearVelocityFromWorldPoint(point);
@@ -33,24 +39,30 @@ std::int32_t BlowFinder::find(const b2Fixture& fixture) {
     return FixtureTable::none;
 }
 
-BlowFinder::Pair BlowFinder::find(const b2Contact& contact) {
+// nullptr: one of the fixtures is not known.
+const BlowFinder::Pair* BlowFinder::find(const b2Contact& contact) {
     if (const std::int32_t at = knownAt_.find(nameOf(contact)); at != IntegerMap::none) {
-        const Known& known = known_[static_cast<std::size_t>(at)];
-        if (known.fixtureA == contact.GetFixtureA() && known.fixtureB == contact.GetFixtureB()) return known.pair;
+        Known& known = known_[static_cast<std::size_t>(at)];
+        if (known.fixtureA == contact.GetFixtureA() && known.fixtureB == contact.GetFixtureB()) {
+            if (!events_.catcher().isKnown(known.pair)) known.pair.number = events_.catcher().know(known.pair.a, known.pair.b);
+            return &known.pair;
+        }
     }
-    const Pair pair{find(*contact.GetFixtureA()), find(*contact.GetFixtureB())};
-    if (pair.isKnown()) remember(contact, pair);
-    return pair;
+    const std::int32_t a = find(*contact.GetFixtureA()), b = find(*contact.GetFixtureB());
+    if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
+    return &remember(contact, {a, b, events_.catcher().know(a, b)});
 }
 
-void BlowFinder::remember(const b2Contact& contact, Pair pair) {
+BlowFinder::Pair& BlowFinder::remember(const b2Contact& contact, Pair pair) {
     std::int32_t at = knownAt_.find(nameOf(contact));
     if (at == IntegerMap::none) {
         at = static_cast<std::int32_t>(known_.size());
         known_.emplace_back();
         knownAt_.set(nameOf(contact), at);
     }
-    known_[static_cast<std::size_t>(at)] = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair};
+    Known& known = known_[static_cast<std::size_t>(at)];
+    known = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair};
+    return known.pair;
 }
 
 void BlowFinder::forget(const b2Contact& contact) noexcept {
@@ -70,25 +82,25 @@ void BlowFinder::forgetContacts() noexcept {
     knownAt_.clear();
 }
 
-BlowFinder::Pair BlowFinder::know(const b2Contact& contact) {
+const BlowFinder::Pair& BlowFinder::know(const b2Contact& contact) {
     for (const b2Fixture* fixture : {contact.GetFixtureA(), contact.GetFixtureB()}) find(*fixture); // an heir of an address starts anew
-    const Pair pair{events_.know(nameOf(*contact.GetFixtureA()), factsOf(bodyA(contact))),
-                    events_.know(nameOf(*contact.GetFixtureB()), factsOf(bodyB(contact)))};
-    remember(contact, pair);
-    return pair;
+    const std::int32_t a = events_.know(nameOf(*contact.GetFixtureA()), factsOf(bodyA(contact)));
+    const std::int32_t b = events_.know(nameOf(*contact.GetFixtureB()), factsOf(bodyB(contact)));
+    return remember(contact, {a, b, events_.catcher().know(a, b)});
 }
 
 void BlowFinder::begin(const b2Contact& contact) {
     if (!isSolid(contact) || !contact.IsTouching()) return;
-    const Pair pair = know(contact);
+    const Pair& pair = know(contact);
     events_.catcher().begin(pair.a, pair.b);
 }
 
 void BlowFinder::end(const b2Contact& contact) {
     fresh_.forget(contact);
-    const Pair pair = find(contact);
+    const Pair* const found = find(contact);
+    const Pair pair = found != nullptr ? *found : Pair{};
     forget(contact);
-    if (!pair.isKnown()) return;
+    if (found == nullptr) return;
     const BodyMotion motionA = motionOf(bodyA(contact)), motionB = motionOf(bodyB(contact));
     if (!bodyA(contact).GetWorld()->IsLocked()) {
         events_.cut(pair.a, pair.b, motionA, motionB);
@@ -102,15 +114,15 @@ void BlowFinder::end(const b2Contact& contact) {
 void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
     const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping());
     if (fresh == 0 || !contact.IsEnabled() || !events_.catcher().isHearing()) return;
-    const Pair pair = know(contact);
-    if (events_.catcher().blow(pair.a, pair.b) != nullptr) return;
     b2WorldManifold manifold;
     contact.GetWorldManifold(&manifold);
     double fastest = 0.0;
     for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
         if (isIn(fresh, i)) fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
-    if (!events_.catcher().isBlow(pair.a, pair.b, fastest)) return;
-    if (Blow* blow = events_.catcher().strike(pair.a, pair.b, fastest)) describe(contact, manifold, fresh, *blow);
+    if (!events_.catcher().isBlow(gravityScaleOf(contact), fastest)) return;
+    const Pair& pair = know(contact);
+    if (events_.catcher().blow(pair) != nullptr) return;
+    if (Blow* blow = events_.catcher().strike(pair, fastest)) describe(contact, manifold, fresh, *blow);
 }
 
 void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const {
@@ -157,12 +169,13 @@ void BlowFinder::noteMoved(const b2Body& body, std::int32_t slot) {
 void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const unsigned fresh = fresh_.solved(contact); // old from the next step on
     if (!events_.catcher().isHearing()) return;
-    const Pair pair = find(contact);
-    if (!pair.isKnown()) return;
-    noteMoved(bodyA(contact), pair.a);
-    noteMoved(bodyB(contact), pair.b);
-    Blow* const blow = fresh != 0 ? events_.catcher().blow(pair.a, pair.b) : nullptr;
-    const bool isHeard = events_.catcher().isHeard(pair.a, pair.b);
+    const Pair* const pair = find(contact);
+    if (pair == nullptr) return;
+    noteMoved(bodyA(contact), pair->a);
+    noteMoved(bodyB(contact), pair->b);
+    Blow* const blow = fresh != 0 ? events_.catcher().blow(*pair) : nullptr;
+    const bool isHeard = events_.catcher().isHeard(*pair);
+    if (blow == nullptr && !isHeard) return;
     b2WorldManifold manifold;
     b2Vec2 onB{0.0F, 0.0F};
     bool isLoaded = false;
@@ -176,7 +189,7 @@ void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse)
             onB += impulse.normalImpulses[i] * manifold.normal + impulse.tangentImpulses[i] * b2Cross(manifold.normal, 1.0F);
         }
     }
-    if (isLoaded) events_.catcher().push(pair.a, pair.b, toVector(onB), toVector(manifold.points[0]));
+    if (isLoaded) events_.catcher().push(*pair, toVector(onB), toVector(manifold.points[0]));
 }
 
 } // namespace physvib

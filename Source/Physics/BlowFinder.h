@@ -38,18 +38,15 @@ public:
 private:
     static constexpr std::size_t expectedContacts = 1024;
 
-    struct Pair {
-        std::int32_t a, b;
-        bool isKnown() const noexcept { return a != FixtureTable::none && b != FixtureTable::none; }
-    };
+    using Pair = TouchingPairs::Name;
     struct Known { // spares a search for both fixtures in every step
         const b2Contact* contact;
         const b2Fixture *fixtureA, *fixtureB;
         Pair pair;
     };
-    Pair find(const b2Contact& contact);
-    Pair know(const b2Contact& contact);
-    void remember(const b2Contact& contact, Pair pair);
+    const Pair* find(const b2Contact& contact);
+    const Pair& know(const b2Contact& contact);
+    Pair& remember(const b2Contact& contact, Pair pair);
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const;
     void noteMoved(const b2Body& body, std::int32_t slot);

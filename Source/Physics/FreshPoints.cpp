@@ -13,6 +13,14 @@ bool hasPoint(const b2Manifold& manifold, std::uint32_t id) noexcept {
     return std::any_of(manifold.points, manifold.points + manifold.pointCount, isIt);
 }
 
+/// Whether the same points are there in the same order.
+bool isSame(const b2Manifold& before, const b2Manifold& now) noexcept {
+    if (before.pointCount < now.pointCount) return false;
+    for (int i = 0; i < now.pointCount; ++i)
+        if (before.points[i].id.key != now.points[i].id.key) return false;
+    return true;
+}
+
 } // namespace
 
 unsigned FreshPoints::look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
@@ -22,6 +30,7 @@ unsigned FreshPoints::look(const b2Contact& contact, const b2Manifold& before, b
         drop(static_cast<std::size_t>(known));
         known = -1;
     }
+    if (known < 0 && isSame(before, now)) return 0U; // the rule
     const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved; // all of it is fresh still
     for (int i = 0; i < now.pointCount; ++i) {
         const std::uint32_t id = now.points[i].id.key;

@@ -3,6 +3,7 @@
 #include "Physics/WorldListener.h"
 #include "Physics/InstalledListener.h"
 #include "Physics/WorldNames.h"
+#include <typeinfo>
 #include <utility>
 
 namespace physvib {
@@ -40,6 +41,7 @@ void WorldListener::EndContact(b2Contact* contact) {
 }
 
 void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) {
+    if (isAlone_ && finder_) return finder_->look(*contact, *oldManifold);
     const Call call{*this, contact};
     if (!call) return;
     if (chained_ != nullptr) chained_->PreSolve(contact, oldManifold); // it may switch the contact off
@@ -47,6 +49,7 @@ void WorldListener::PreSolve(b2Contact* contact, const b2Manifold* oldManifold) 
 }
 
 void WorldListener::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
+    if (isAlone_ && finder_) return finder_->push(*contact, *impulse);
     const Call call{*this, contact};
     if (!call) return;
     if (finder_) finder_->push(*contact, *impulse);
@@ -79,6 +82,7 @@ Listener* WorldListener::behindDeaf(Listener* found, Listener* WorldListener::*n
 // Whether calls of `found` come here anyway, through attachments that were made later.
 template <class Listener>
 bool WorldListener::isReachedBy(Listener* found, Listener* WorldListener::*next) const {
+    if (found == this) return true; // the rule
     for (auto* link = dynamic_cast<WorldListener*>(found); link != nullptr; link = dynamic_cast<WorldListener*>(link->*next))
         if (link == this) return true;
     return false;
@@ -87,6 +91,7 @@ bool WorldListener::isReachedBy(Listener* found, Listener* WorldListener::*next)
 void WorldListener::install(b2World& world) {
     if (b2ContactListener* found = world.GetContactManager().m_contactListener; !isReachedBy(found, &WorldListener::chained_)) {
         chained_ = behindDeaf(found, &WorldListener::chained_);
+        isAlone_ = chained_ == nullptr || typeid(*chained_) == typeid(b2ContactListener);
         world.SetContactListener(this);
         if (finder_) finder_->forgetContacts();
     }

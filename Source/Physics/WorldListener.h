@@ -51,6 +51,7 @@ private:
     ContactEvents& events_;
     std::unique_ptr<BlowFinder> finder_; // none: deaf
     b2ContactListener* chained_ = nullptr;
+    bool isAlone_ = false; // nothing to hand on: there is no other, or only Box2D's own, which does nothing
     b2DestructionListener* chainedEnds_ = nullptr;
     const void* callFor_ = nullptr; // what the call that is being handed on is about
 };

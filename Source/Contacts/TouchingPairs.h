@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// What is known of two fixtures together: one number instead of a search for each question.
+#pragma once
+#include "Contacts/ContactGraph.h"
+#include "Contacts/IntegerMap.h"
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// Numbers for pairs of fixtures (slots) that touch, or of which something is still to be told. A number is a pair's as
+/// long as one of its fields says something; who keeps it longer asks `is` first. Allocates only when it outgrows what it
+/// has had. M only.
+class TouchingPairs {
+public:
+    static constexpr std::int32_t none = IntegerMap::none;
+
+    /// Two slots in the order in which a contact has them, and their number.
+    struct Name {
+        std::int32_t a = none, b = none, number = none;
+    };
+
+    struct Pair {
+        std::int32_t a = none, b = none; ///< slots in any order; none: nobody's
+        std::int32_t blow = none;        ///< of this step
+        std::int32_t last = none;        ///< the blow of the step before
+        std::int32_t load = none;        ///< what it pushes at rest
+    };
+
+    explicit TouchingPairs(std::size_t pairs = 1024)
+        : numbers_(pairs) {
+        pairs_.reserve(pairs);
+        free_.reserve(pairs);
+        loose_.reserve(pairs);
+    }
+
+    /// The number of a pair, a new one if need be.
+    std::int32_t know(std::int32_t a, std::int32_t b) {
+        if (const std::int32_t known = numbers_.find(pairKey(a, b)); known != none) return known;
+        if (free_.empty()) {
+            free_.push_back(static_cast<std::int32_t>(pairs_.size()));
+            pairs_.emplace_back();
+        }
+        const std::int32_t number = free_.back();
+        free_.pop_back();
+        numbers_.set(pairKey(a, b), number);
+        (*this)[number] = {.a = a, .b = b};
+        loose_.push_back(number);
+        return number;
+    }
+
+    bool is(const Name& name) const noexcept {
+        if (name.number == none) return false;
+        const Pair& pair = (*this)[name.number];
+        return (pair.a == name.a && pair.b == name.b) || (pair.a == name.b && pair.b == name.a);
+    }
+
+    Pair& operator[](std::int32_t number) noexcept { return pairs_[static_cast<std::size_t>(number)]; }
+    const Pair& operator[](std::int32_t number) const noexcept { return pairs_[static_cast<std::size_t>(number)]; }
+
+    /// The contacts of a pair, of all pairs of a slot, end: it is forgotten when nothing else is left of it.
+    void loosen(std::int32_t a, std::int32_t b) {
+        if (const std::int32_t known = numbers_.find(pairKey(a, b)); known != none) loose_.push_back(known);
+    }
+    void loosen(std::int32_t slot) {
+        for (const Pair& pair : pairs_)
+            if (pair.a == slot || pair.b == slot) loosen(pair.a, pair.b);
+    }
+
+    /// At last in a step: gives numbers free.
+    void endStep(const ContactGraph& graph) {
+        std::erase_if(loose_, [&](std::int32_t number) {
+            Pair& pair = (*this)[number];
+            if (pair.a == none || graph.isTouching(pair.a, pair.b)) return true;
+            if (pair.blow != none || pair.last != none || pair.load != none) return false;
+            numbers_.erase(pairKey(pair.a, pair.b));
+            pair = {};
+            free_.push_back(number);
+            return true;
+        });
+    }
+
+private:
+    std::vector<Pair> pairs_;
+    IntegerMap numbers_; // by the pair
+    std::vector<std::int32_t> free_;
+    std::vector<std::int32_t> loose_; // that may touch no more
+};
+
+} // namespace physvib
