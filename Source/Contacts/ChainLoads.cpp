@@ -9,8 +9,9 @@ namespace {
 constexpr std::size_t expectedContacts = 1024;
 }
 
-ChainLoads::ChainLoads(TouchingPairs& pairs)
-    : pairs_(pairs) {
+ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
+    : table_(table)
+    , pairs_(pairs) {
     contacts_.reserve(expectedContacts);
     passed_.reserve(expectedContacts);
     receivers_.reserve(expectedContacts);
@@ -36,6 +37,7 @@ void ChainLoads::settle() {
 }
 
 void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size, Vector2 point) {
+    if (!table_.isCamera(slot)) return;
     const auto index = static_cast<std::size_t>(slot);
     if (passed_.size() <= index) passed_.resize(index + 1);
     Passed& passed = passed_[index];

@@ -26,7 +26,7 @@ public:
         Vector2 point;
     };
 
-    explicit ChainLoads(TouchingPairs& pairs);
+    ChainLoads(const FixtureTable& table, TouchingPairs& pairs);
 
     /// In a step: an old contact of (a, b) has pushed b by `newtonSeconds` (world), and a by its opposite.
     void add(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point);
@@ -34,10 +34,10 @@ public:
     /// After a step: adds up what was handed on.
     void settle();
 
-    /// The slots that got something through old contacts in this step. After settle().
+    /// The cameras that got something through old contacts in this step. After settle().
     const std::vector<std::int32_t>& receivers() const noexcept { return receivers_; }
 
-    /// What a fixture, a camera at least, got through old contacts in this step. After settle().
+    /// What a camera got through old contacts in this step. After settle().
     Passed passed(std::int32_t slot) const noexcept {
         const auto index = static_cast<std::size_t>(slot);
         return index < passed_.size() ? passed_[index] : Passed{};
@@ -65,6 +65,7 @@ private:
     void pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size, Vector2 point);
     void drop(std::size_t index) noexcept;
 
+    const FixtureTable& table_;
     TouchingPairs& pairs_; // say where the loads of each are
     std::vector<Contact> contacts_;
     std::vector<Passed> passed_; // by slot

@@ -101,7 +101,7 @@ private:
     const FixtureTable& table_;
     ContactGraph& graph_;
     TouchingPairs pairs_;
-    ChainLoads loads_{pairs_};
+    ChainLoads loads_{table_, pairs_};
     StepSpan span_;
     std::vector<Blow> blows_; // of the present step
     std::vector<ContactEnd> ends_;

@@ -58,6 +58,12 @@ std::int32_t ContactEvents::know(std::uint64_t fixture, const BodyFacts& body) {
     return slot;
 }
 
+std::int32_t ContactEvents::know(std::int32_t slot, const BodyFacts& body) {
+    table_.know(slot, body);
+    graph_.setPassing(slot, body.isDynamic);
+    return slot;
+}
+
 SetResult ContactEvents::set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values,
                              std::int32_t id) {
     if (const std::string_view fault = faultOf(values); !fault.empty()) return {-1, fault};

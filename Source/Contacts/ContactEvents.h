@@ -60,6 +60,7 @@ public:
 
     /// A fixture, now with this body: its slot. Call it at least when a contact of it begins.
     std::int32_t know(std::uint64_t fixture, const BodyFacts& body);
+    std::int32_t know(std::int32_t slot, const BodyFacts& body); ///< of one that is known
 
     /// The step ends at `endNs` (not before timeNs()); gravity in m/s^2; the largest mass of a dynamic body, kg (Eq. 5.7).
     void beginStep(std::int64_t endNs, Vector2 gravity, double largestMassKg);

@@ -129,6 +129,11 @@ std::string_view ContactFeed::endStep() {
     return {};
 }
 
+TouchingPairs::Name ContactFeed::nameOf(const FedContact& contact) {
+    const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
+    return {a, b, events_.catcher().know(a, b)};
+}
+
 ContactFeed::Pair& ContactFeed::know(const FedContact& contact, bool isAsked) {
     const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
     if (const std::int32_t known = pairOf_.find(pairKey(a, b)); known != IntegerMap::none) return pairs_[static_cast<std::size_t>(known)];
@@ -158,19 +163,20 @@ void ContactFeed::dropAllOf(std::int32_t slot) {
 void ContactFeed::strike(const FedContact& contact) {
     CollisionCatcher& catcher = events_.catcher();
     if (!catcher.isHearing()) return;
-    const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
+    const TouchingPairs::Name pair = nameOf(contact);
+    const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
     const double told = contact.approachMetresPerSecond.value_or(bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
     const double mass = contact.effectiveMassKg.value_or(bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
     const double impulse = contact.impulseNewtonSeconds.value_or(mass * std::max(0.0, told) * (1.0 + contact.restitution));
     if (!(impulse > 0.0 && std::isfinite(impulse))) return; // two that cannot be moved
     // Of an impulse alone: what it changes of the lighter body's velocity, which is at least the speed before it.
     const bool isSpeedKnown = contact.approachMetresPerSecond || !contact.impulseNewtonSeconds || told > 0.0;
-    const double speed = isSpeedKnown ? told : impulse / std::min(events_.fixtures()[a].movableMassKg(), events_.fixtures()[b].movableMassKg());
-    if (!catcher.isBlow(a, b, speed)) return load(contact);
+    const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
+    if (!catcher.isBlow(std::max(a.gravityScale(), b.gravityScale()), speed)) return load(contact);
 
-    Blow* blow = catcher.blow(a, b);
+    Blow* blow = catcher.blow(pair);
     const bool isFirst = blow == nullptr;
-    if (isFirst && (blow = catcher.strike(a, b, speed)) == nullptr) return;
+    if (isFirst && (blow = catcher.strike(pair, speed)) == nullptr) return;
     const double fraction = fractionOf(contact, isSpeedKnown ? speed : 0.0);
     blow->fraction = isFirst ? fraction : std::min(blow->fraction, fraction);
     if (contact.impulseNewtonSeconds || isFirst) { // points push together; a speed tells of the whole blow
@@ -185,10 +191,11 @@ void ContactFeed::strike(const FedContact& contact) {
 }
 
 void ContactFeed::load(const FedContact& contact) {
-    const std::int32_t a = slotOf(contact.a), b = slotOf(contact.b);
-    if (!contact.impulseNewtonSeconds || !events_.catcher().isHearing() || !events_.catcher().isHeard(a, b)) return;
+    if (!contact.impulseNewtonSeconds || !events_.catcher().isHearing()) return;
+    const TouchingPairs::Name pair = nameOf(contact);
+    if (!events_.catcher().isHeard(pair)) return;
     const auto along = static_cast<float>(*contact.impulseNewtonSeconds), across = static_cast<float>(contact.tangentialNewtonSeconds);
-    events_.catcher().push(a, b, along * contact.normal + across * contact.normal.turnedLeft(), contact.point);
+    events_.catcher().push(pair, along * contact.normal + across * contact.normal.turnedLeft(), contact.point);
 }
 
 // Surfaces close a gap, or have closed it, at the speed at which they meet.

@@ -87,6 +87,7 @@ private:
     };
     std::string_view faultOf(const FedContact& contact);
     std::int32_t slotOf(std::int32_t id) const noexcept { return events_.fixtures().find(FedBodies::nameOf(id)); }
+    TouchingPairs::Name nameOf(const FedContact& contact);
     Pair& know(const FedContact& contact, bool isAsked);
     void drop(std::size_t pair);
     void dropAllOf(std::int32_t slot);

@@ -13,8 +13,7 @@ std::uint64_t keyOf(std::int32_t id) noexcept { return static_cast<std::uint64_t
 
 std::int32_t FixtureTable::know(std::uint64_t fixture, const BodyFacts& body) {
     if (const std::int32_t slot = find(fixture); slot != none) {
-        if (at(slot).isNamed() && at(slot).isDynamic() != body.isDynamic) isWeightStale_ = true;
-        at(slot).body = body;
+        know(slot, body);
         return slot;
     }
     if (free_.empty()) {
@@ -30,6 +29,11 @@ std::int32_t FixtureTable::know(std::uint64_t fixture, const BodyFacts& body) {
     at(slot).id = nextNameless_--;
     slots_.set(fixture, slot);
     return slot;
+}
+
+void FixtureTable::know(std::int32_t slot, const BodyFacts& body) {
+    if (at(slot).isNamed() && at(slot).isDynamic() != body.isDynamic) isWeightStale_ = true;
+    at(slot).body = body;
 }
 
 std::int32_t FixtureTable::set(std::int32_t slot, const HapticFixture& values, Vector2 centre, std::int32_t id) {

@@ -40,6 +40,7 @@ public:
 
     /// The slot of a fixture, a new one if need be; `body` is what is known of its body from now on.
     std::int32_t know(std::uint64_t fixture, const BodyFacts& body);
+    void know(std::int32_t slot, const BodyFacts& body); ///< of one that is known
 
     /// Gives values to a known fixture, for the first time or again; `id` is the caller's (>= 0), or `none`: the one it
     /// has, else the next of 0, 1, 2... Returns the id; `none`, and nothing is changed, if another fixture has it.

@@ -15,7 +15,6 @@ OnsetImpacts::OnsetImpacts(const CollisionCatcher& catcher, const FixtureTable& 
 
 void OnsetImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     strike(span, impacts);
-    findLate();
     complete(span, impacts);
     waiting_.clear();
     begin();
@@ -52,22 +51,25 @@ void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
     }
 }
 
-// Cameras to which the blows of the last step come in this one only.
-void OnsetImpacts::findLate() {
-    if (before_.isEmpty()) return;
-    before_.follow(catcher_);
-    isWaiting_.clear();
-    for (const HandedOn& handedOn : waiting_) isWaiting_.set(handedOn.camera, 1);
-    for (const std::int32_t camera : catcher_.loads().receivers())
-        if (isWaiting_.find(camera) == SlotMap::none) wait(camera, before_, {});
-}
-
 void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) {
+    before_.follow(catcher_);
     isUsed_.clear();
     for (const HandedOn& handedOn : waiting_) {
         isUsed_.set(handedOn.camera, 1);
         const auto later = [&] { return before_.find(handedOn.camera, graph_).aftermath; };
         complete(handedOn, catcher_.loads().passed(handedOn.camera), later, span, impacts);
+    }
+    if (!before_.isEmpty()) completeLate(span, impacts);
+}
+
+// Cameras to which the blows of the last step come in this one only.
+void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impacts) {
+    for (const std::int32_t camera : catcher_.loads().receivers()) {
+        if (isUsed_.find(camera) != SlotMap::none) continue;
+        const StrikeCauses::Found found = before_.find(camera, graph_);
+        if (found.strongest == nullptr) continue;
+        isUsed_.set(camera, 1);
+        complete(handOn(camera, found, {}), catcher_.loads().passed(camera), [&] { return found.aftermath; }, span, impacts);
     }
 }
 
@@ -95,15 +97,15 @@ void OnsetImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector
 
 void OnsetImpacts::begin() {
     if (strikes_.isEmpty()) return;
-    for (const std::int32_t camera : catcher_.loads().receivers())
-        if (isUsed_.find(camera) == SlotMap::none) wait(camera, strikes_, catcher_.loads().passed(camera));
+    for (const std::int32_t camera : catcher_.loads().receivers()) {
+        if (isUsed_.find(camera) != SlotMap::none) continue;
+        if (const StrikeCauses::Found found = strikes_.find(camera, graph_); found.strongest != nullptr)
+            waiting_.push_back(handOn(camera, found, catcher_.loads().passed(camera)));
+    }
 }
 
-void OnsetImpacts::wait(std::int32_t camera, StrikeCauses& causes, const ChainLoads::Passed& passed) {
-    if (!table_.isCamera(camera)) return;
-    const StrikeCauses::Found found = causes.find(camera, graph_);
-    if (found.strongest == nullptr) return;
-    waiting_.push_back({camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds, passed});
+OnsetImpacts::HandedOn OnsetImpacts::handOn(std::int32_t camera, const StrikeCauses::Found& found, const ChainLoads::Passed& passed) noexcept {
+    return {camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds, passed};
 }
 
 } // namespace physvib

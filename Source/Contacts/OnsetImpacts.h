@@ -45,19 +45,19 @@ private:
         ChainLoads::Passed passed;  // in the first step
     };
     void strike(const StepSpan& span, std::vector<Impact>& impacts);
-    void findLate();
     void complete(const StepSpan& span, std::vector<Impact>& impacts);
+    void completeLate(const StepSpan& span, std::vector<Impact>& impacts);
     template <class Later>
     void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span, std::vector<Impact>& impacts) const;
     void begin();
-    void wait(std::int32_t camera, StrikeCauses& causes, const ChainLoads::Passed& passed);
+    static HandedOn handOn(std::int32_t camera, const StrikeCauses::Found& found, const ChainLoads::Passed& passed) noexcept;
 
     const CollisionCatcher& catcher_;
     const FixtureTable& table_;
     ContactGraph& graph_;
     StrikeCauses strikes_, before_;          // of this step and the last one
     std::vector<HandedOn> waiting_;          // for the next step
-    SlotMap isWaiting_, isUsed_;             // used: what it got in this step counts already
+    SlotMap isUsed_;                         // what a camera got in this step counts already
 };
 
 } // namespace physvib

@@ -14,6 +14,7 @@ ReleaseImpacts::ReleaseImpacts(const CollisionCatcher& catcher, const FixtureTab
     , bodies_(bodies) {
     strikes_.reserve(CollisionCatcher::maxDistantBlows);
     reached_.reserve(CollisionCatcher::maxDirectBlows);
+    impulses_.reserve(CollisionCatcher::maxDirectBlows + CollisionCatcher::maxDistantBlows);
 }
 
 void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
@@ -36,17 +37,45 @@ void ReleaseImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
 }
 
 void ReleaseImpacts::open(const StepSpan& span) {
-    for (const Blow& blow : catcher_.blows())
-        if (blow.impulse() > 0.0) openDirect(blow, span); // one that its user has switched off has none
-    if (!catcher_.blows().empty()) openHandedOn(span);
+    if (catcher_.blows().empty()) return;
+    underWay_.clear();
+    for (const Strike& strike : strikes_) underWay_.set(strike.camera, strike.isDirect ? direct : handedOn);
+    findCauses(span);
+    for (std::size_t i = 0; i < catcher_.blows().size(); ++i)
+        if (impulses_[i] > 0.0) openDirect(catcher_.blows()[i], span); // one that its user has switched off has none
+    openHandedOn(span);
+}
+
+// The strongest blow of each component, the first of equal ones.
+void ReleaseImpacts::findCauses(const StepSpan& span) {
+    const std::vector<Blow>& blows = catcher_.blows();
+    impulses_.resize(blows.size());
+    strongestOf_.clear();
+    for (std::size_t i = 0; i < blows.size(); ++i) {
+        const Blow& blow = blows[i];
+        impulses_[i] = blow.impulse();
+        if (!span.isStrike(impulses_[i], blow.lighterMassKg, blow.gravityScale)) continue;
+        for (const std::int32_t slot : {blow.a, blow.b}) {
+            const std::int32_t component = graph_.component(slot);
+            if (component != ContactGraph::noComponent && isStronger(static_cast<std::int32_t>(i), strongestOf_.find(component)))
+                strongestOf_.set(component, static_cast<std::int32_t>(i));
+        }
+    }
+}
+
+bool ReleaseImpacts::isStronger(std::int32_t blow, std::int32_t than) const noexcept {
+    if (blow == SlotMap::none || than == SlotMap::none) return blow != SlotMap::none;
+    const double one = impulses_[static_cast<std::size_t>(blow)], other = impulses_[static_cast<std::size_t>(than)];
+    return one != other ? one > other : blow < than;
 }
 
 void ReleaseImpacts::openDirect(const Blow& blow, const StepSpan& span) {
     for (const bool isA : {true, false}) {
         const std::int32_t camera = isA ? blow.a : blow.b;
-        if (!table_[camera].values.isCamera) continue;
+        if (!table_.isCamera(camera)) continue;
         // What is handed on to this camera from now on cannot be told from what strikes it.
-        std::erase_if(strikes_, [camera](const Strike& s) { return s.camera == camera && !s.isDirect; });
+        if (underWay_.find(camera) == handedOn)
+            std::erase_if(strikes_, [camera](const Strike& s) { return s.camera == camera && !s.isDirect; });
         push({camera, isA ? blow.b : blow.a, blow.a, blow.b, blow.order, true, false, span.timeNs(blow.fraction), blow.point,
               isA ? blow.armA : blow.armB, isA ? blow.motionA : blow.motionB, blow.lighterMassKg, blow.gravityScale});
     }
@@ -55,21 +84,17 @@ void ReleaseImpacts::openDirect(const Blow& blow, const StepSpan& span) {
 // Cameras that touch something: no others are handed anything.
 void ReleaseImpacts::openHandedOn(const StepSpan& span) {
     graph_.forTouching([&](std::int32_t slot) {
-        if (table_[slot].values.isCamera) openHandedOn(slot, span);
+        if (table_.isCamera(slot) && underWay_.find(slot) == SlotMap::none) openHandedOn(slot, span);
     });
 }
 
 void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
-    const auto isOfCamera = [camera](const Strike& strike) { return strike.camera == camera; };
-    if (std::any_of(strikes_.begin(), strikes_.end(), isOfCamera)) return;
     graph_.reach(camera, reached_);
-    const Blow* cause = nullptr;
-    for (const Blow& blow : catcher_.blows()) {
-        const bool isStronger = cause == nullptr || blow.impulse() > cause->impulse();
-        if (isStronger && span.isStrike(blow.impulse(), blow.lighterMassKg, blow.gravityScale) && (isReached(blow.a) || isReached(blow.b)))
-            cause = &blow;
-    }
-    if (cause == nullptr) return;
+    std::int32_t strongest = SlotMap::none;
+    for (const std::int32_t component : reached_)
+        if (const std::int32_t blow = strongestOf_.find(component); isStronger(blow, strongest)) strongest = blow;
+    if (strongest == SlotMap::none) return;
+    const Blow* const cause = &catcher_.blows()[static_cast<std::size_t>(strongest)];
     const ChainLoads::Passed passed = catcher_.loads().passed(camera);
     const bool isKnown = passed.other != FixtureTable::none;
     const Vector2 point = isKnown ? passed.point : cause->point;
@@ -79,17 +104,13 @@ void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
           std::min(table_[camera].movableMassKg(), cause->lighterMassKg), cause->gravityScale});
 }
 
-bool ReleaseImpacts::isReached(std::int32_t slot) {
-    const std::int32_t component = graph_.component(slot);
-    return component != ContactGraph::noComponent &&
-           std::find(reached_.begin(), reached_.end(), component) != reached_.end();
-}
-
 void ReleaseImpacts::push(const Strike& strike) {
-    if (strikes_.size() == strikes_.capacity())
+    if (strikes_.size() == strikes_.capacity()) {
         ++drops_;
-    else
-        strikes_.push_back(strike);
+        return;
+    }
+    strikes_.push_back(strike);
+    underWay_.set(strike.camera, strike.isDirect ? direct : handedOn);
 }
 
 void ReleaseImpacts::follow() {
@@ -123,10 +144,17 @@ Vector2 ReleaseImpacts::gainOf(std::int32_t slot) {
 }
 
 void ReleaseImpacts::release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts) {
+    if (catcher_.ends().empty() || strikes_.empty()) return;
+    isStruckA_.clear();
+    isStruckB_.clear();
+    for (const Strike& strike : strikes_) {
+        if (strike.a == FixtureTable::none) continue;
+        isStruckA_.set(strike.a, 1);
+        isStruckB_.set(strike.b, 1);
+    }
     for (const ContactEnd& end : catcher_.ends())
-        release(end, span, impacts, [&](const Strike& strike) {
-            return strike.order < end.order && (strike.order >= 0) == ofThisStep;
-        });
+        if (isStruckA_.find(end.a) != SlotMap::none && isStruckB_.find(end.b) != SlotMap::none)
+            release(end, span, impacts, [&](const Strike& strike) { return strike.order < end.order && (strike.order >= 0) == ofThisStep; });
 }
 
 void ReleaseImpacts::cut(const ContactEnd& end, const StepSpan& span, std::vector<Impact>& impacts) {

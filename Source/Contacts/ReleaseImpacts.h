@@ -5,6 +5,8 @@
 #include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
+#include "Contacts/IntegerMap.h"
+#include "Contacts/SlotMap.h"
 #include <cstdint>
 #include <vector>
 
@@ -63,7 +65,8 @@ private:
     void openDirect(const Blow& blow, const StepSpan& span);
     void openHandedOn(const StepSpan& span);
     void openHandedOn(std::int32_t camera, const StepSpan& span);
-    bool isReached(std::int32_t slot);
+    void findCauses(const StepSpan& span);
+    bool isStronger(std::int32_t blow, std::int32_t than) const noexcept;
     void push(const Strike& strike);
     void follow();
     Vector2 gain(std::int32_t camera);
@@ -81,6 +84,11 @@ private:
     ContactGraph& graph_;
     const BodyReader& bodies_;
     std::vector<Strike> strikes_;
+    static constexpr std::int32_t handedOn = 0, direct = 1;
+    SlotMap underWay_;                     // which of the two a camera has
+    SlotMap isStruckA_, isStruckB_;        // whose contact ends may end strikes
+    std::vector<double> impulses_;         // of the blows of this step
+    SlotMap strongestOf_;                  // of these, by component
     std::vector<std::int32_t> reached_; // components at the camera in question
     IntegerMap counted_; // by body: the sum it was last counted in
     std::int32_t sums_ = 0;

@@ -21,7 +21,7 @@ void StrikeCauses::add(const HardBlow& strike) {
 }
 
 void StrikeCauses::follow(const CollisionCatcher& catcher) {
-    isLocated_ = false;
+    isLocated_ = false; // and the graph is another
     for (HardBlow& strike : strikes_) strike.aftermath = catcher.aftermath(strike.pair);
 }
 
@@ -62,11 +62,16 @@ void StrikeCauses::sum(std::int32_t component, std::size_t strike) {
 }
 
 StrikeCauses::Found StrikeCauses::find(std::int32_t camera, ContactGraph& graph) {
-    Found found;
-    if (strikes_.empty()) return found;
+    if (strikes_.empty()) return {};
     locate(graph);
-    if (graph.isPassing(camera)) reached_.assign(1, graph.component(camera));
-    else graph.reach(camera, reached_);
+    if (graph.isPassing(camera) && struck_.find(camera) == SlotMap::none) { // most
+        const std::int32_t at = sumOf_.find(graph.component(camera));
+        if (at == SlotMap::none) return {};
+        const Sum& sum = sums_[static_cast<std::size_t>(at)];
+        return {&strikes_[sum.strongest], sum.newtonSeconds, sum.aftermath};
+    }
+    Found found;
+    graph.reach(camera, reached_);
     std::size_t strongest = strikes_.size();
     for (const std::int32_t component : reached_) {
         const std::int32_t at = sumOf_.find(component);

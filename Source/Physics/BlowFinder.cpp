@@ -82,10 +82,14 @@ void BlowFinder::forgetContacts() noexcept {
     knownAt_.clear();
 }
 
+std::int32_t BlowFinder::know(const b2Fixture& fixture) {
+    const std::int32_t slot = find(fixture); // an heir of an address starts anew
+    const BodyFacts body = factsOf(*fixture.GetBody());
+    return slot == FixtureTable::none ? events_.know(nameOf(fixture), body) : events_.know(slot, body);
+}
+
 const BlowFinder::Pair& BlowFinder::know(const b2Contact& contact) {
-    for (const b2Fixture* fixture : {contact.GetFixtureA(), contact.GetFixtureB()}) find(*fixture); // an heir of an address starts anew
-    const std::int32_t a = events_.know(nameOf(*contact.GetFixtureA()), factsOf(bodyA(contact)));
-    const std::int32_t b = events_.know(nameOf(*contact.GetFixtureB()), factsOf(bodyB(contact)));
+    const std::int32_t a = know(*contact.GetFixtureA()), b = know(*contact.GetFixtureB());
     return remember(contact, {a, b, events_.catcher().know(a, b)});
 }
 
@@ -158,24 +162,18 @@ double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {
     return sweeps_.fraction(aIsFaster ? bodyA(contact) : bodyB(contact));
 }
 
-void BlowFinder::noteMoved(const b2Body& body, std::int32_t slot) {
-    if (body.GetType() != b2_dynamicBody) return;
-    const auto index = static_cast<std::size_t>(slot);
-    if (sweepHints_.size() <= index) sweepHints_.resize(index + 1, 0);
-    sweeps_.solved(body, sweepHints_[index]);
-}
-
 // What fresh points push is part of the blow, if it is one; everything else is load.
 void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const unsigned fresh = fresh_.solved(contact); // old from the next step on
     if (!events_.catcher().isHearing()) return;
     const Pair* const pair = find(contact);
     if (pair == nullptr) return;
-    noteMoved(bodyA(contact), pair->a);
-    noteMoved(bodyB(contact), pair->b);
     Blow* const blow = fresh != 0 ? events_.catcher().blow(*pair) : nullptr;
     const bool isHeard = events_.catcher().isHeard(*pair);
-    if (blow == nullptr && !isHeard) return;
+    if (blow != nullptr || isHeard) share(contact, impulse, *pair, fresh, blow, isHeard);
+}
+
+void BlowFinder::share(const b2Contact& contact, const b2ContactImpulse& impulse, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard) {
     b2WorldManifold manifold;
     b2Vec2 onB{0.0F, 0.0F};
     bool isLoaded = false;
@@ -189,7 +187,7 @@ void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse)
             onB += impulse.normalImpulses[i] * manifold.normal + impulse.tangentImpulses[i] * b2Cross(manifold.normal, 1.0F);
         }
     }
-    if (isLoaded) events_.catcher().push(*pair, toVector(onB), toVector(manifold.points[0]));
+    if (isLoaded) events_.catcher().push(pair, toVector(onB), toVector(manifold.points[0]));
 }
 
 } // namespace physvib

@@ -16,7 +16,6 @@ public:
     BlowFinder(ContactEvents& events, BodySweeps& sweeps)
         : events_(events)
         , sweeps_(sweeps) {
-        sweepHints_.reserve(CollisionCatcher::maxDirectBlows);
         known_.reserve(expectedContacts);
     }
 
@@ -45,11 +44,12 @@ private:
         Pair pair;
     };
     const Pair* find(const b2Contact& contact);
+    std::int32_t know(const b2Fixture& fixture);
     const Pair& know(const b2Contact& contact);
     Pair& remember(const b2Contact& contact, Pair pair);
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const;
-    void noteMoved(const b2Body& body, std::int32_t slot);
+    void share(const b2Contact& contact, const b2ContactImpulse& impulse, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard);
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
@@ -58,7 +58,6 @@ private:
     FreshPoints fresh_;
     std::vector<Known> known_; // that touch
     IntegerMap knownAt_{expectedContacts}; // by contact
-    std::vector<std::int32_t> sweepHints_; // by slot
 };
 
 } // namespace physvib

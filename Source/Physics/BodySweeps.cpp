@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Inverts the straight line a body moves along within its step.
+// One look at each body per step.
 #include "Physics/BodySweeps.h"
+#include "Physics/AdvancedPart.h"
 #include "Physics/WorldNames.h"
 #include <algorithm>
 #include <utility>
@@ -36,21 +37,10 @@ const BodySweeps::Sweep* BodySweeps::find(const b2Body& body) const noexcept {
     return i == IntegerMap::none ? nullptr : &sweeps_[static_cast<std::size_t>(i)];
 }
 
-void BodySweeps::solved(const b2Body& body, std::int32_t& hint) noexcept {
-    const auto at = static_cast<std::size_t>(hint);
-    if (hint < 0 || at >= sweeps_.size() || sweeps_[at].body != &body) hint = indices_.find(nameOf(body));
-    if (hint == IntegerMap::none) return;
-    // Where the body would have started, had it moved with its present velocity all along.
-    const b2Vec2 moved = static_cast<float>(stepSeconds_) * body.GetLinearVelocity();
-    sweeps_[static_cast<std::size_t>(hint)].origin = body.GetWorldCenter() - moved;
-}
-
 double BodySweeps::fraction(const b2Body& body) const noexcept {
     const Sweep* sweep = find(body);
-    const b2Vec2 velocity = body.GetLinearVelocity();
-    const double wholeStep = stepSeconds_ * velocity.LengthSquared();
-    if (sweep == nullptr || wholeStep <= 0.0) return 0.0;
-    return std::clamp(b2Dot(body.GetWorldCenter() - sweep->origin, velocity) / wholeStep, 0.0, 1.0);
+    const bool hasMoved = sweep != nullptr && body.GetWorldCenter() != sweep->centre; // else what Box2D knows is of an older step
+    return hasMoved ? static_cast<double>(advancedPartOf(body)) : 0.0;
 }
 
 BodyMotion BodySweeps::start(const b2Body& body) const noexcept {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How bodies start a step, and how far into it Box2D has advanced them when it reports a contact: it does not
-// say so itself.
+// How bodies start a step, and how far into it Box2D has advanced them when it reports a contact.
 #pragma once
 #include "Contacts/BodyReader.h"
 #include "Contacts/IntegerMap.h"
@@ -11,8 +10,7 @@
 
 namespace physvib {
 
-/// Within a step a body moves along a straight line: position = origin + fraction * step * velocity. Contacts
-/// of the regular pass are found at fraction 0, those of the time-of-impact pass wherever the body has been
+/// Contacts of the regular pass are found where a step begins, those of the time-of-impact pass wherever the body has been
 /// moved to. M only.
 class BodySweeps {
 public:
@@ -26,10 +24,6 @@ public:
     /// The largest mass of an enabled dynamic body, kg (m_max of Eq. 5.7).
     double largestMassKg() const noexcept { return largestMassKg_; }
 
-    /// In PostSolve: the solver has put `body` at the end of its step and perhaps given it another velocity. `hint` is
-    /// where it was found the last time, which spares a search.
-    void solved(const b2Body& body, std::int32_t& hint) noexcept;
-
     /// In BeginContact, PreSolve and EndContact: 0 (start) to 1 (end of the step), how far this body has come.
     double fraction(const b2Body& body) const noexcept;
 
@@ -39,7 +33,7 @@ public:
 private:
     struct Sweep {
         const b2Body* body; // not followed
-        b2Vec2 origin;
+        b2Vec2 centre;
         BodyMotion start;
     };
     const Sweep* find(const b2Body& body) const noexcept;
