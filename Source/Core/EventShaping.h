@@ -2,6 +2,7 @@
 // What becomes of a collision before it is rendered: the method, then the frequencies that the actuators can play, then the level.
 #pragma once
 #include "Core/Actuators/PerceivedLevel.h"
+#include "Core/FixedLevel.h"
 #include "Core/RenderingMethod.h"
 #include "Core/Actuators/Resonator.h"
 #include <algorithm>
@@ -25,18 +26,47 @@ struct FrequencyRemap {
 
 /// From the collision to the event that is rendered, listed and told as played. Any thread.
 struct EventShaping {
+    static constexpr double mostTruncation = 0.99;
     RenderingMethod method;
     FrequencyRemap remap;
     double gain = 1.0; ///< of all events, also of a fixed level
     PerceivedLevel perceived{}; ///< at the frequency that is played, of what the gain made
+    double truncation = 0.0;    ///< Eq. 5.5: a decay is cut where its envelope falls to this share; 0: it rings out
 
-    CollisionEvent operator()(const CollisionEvent& collision) const noexcept {
+    CollisionEvent operator()(const CollisionEvent& collision) const noexcept { return levelled(moved(collision)); }
+
+    /// Its two halves.
+    CollisionEvent moved(const CollisionEvent& collision) const noexcept {
         CollisionEvent event = method(collision);
         event.frequencyHz = remap(event.frequencyHz);
+        return event;
+    }
+    CollisionEvent levelled(CollisionEvent event) const noexcept {
         event.amplitude = perceived(event.amplitude * gain, event.frequencyHz);
+        if (truncation > 0.0 && event.decayPerSecond > 0.0) cut(event);
         return event;
     }
     bool operator==(const EventShaping&) const = default;
+
+private:
+    void cut(CollisionEvent& event) const noexcept {
+        const double seconds = -std::log(truncation) / event.decayPerSecond;
+        if (!(seconds < 1e9)) return; // it hardly decays
+        const auto life = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(seconds * 1e9)));
+        event.durationNs = event.durationNs > 0 ? std::min(event.durationNs, life) : life;
+    }
+};
+
+/// The same of all hits of a world, in time order: a fixed level that is held depends on those before. One thread at a time.
+class EventShaper {
+public:
+    explicit EventShaper(const EventShaping& shaping) : shaping_{shaping} {}
+    CollisionEvent operator()(const CollisionEvent& collision) noexcept { return shaping_.levelled(level_(shaping_.moved(collision), shaping_.method)); }
+    void forget() noexcept { level_.forget(); }
+
+private:
+    EventShaping shaping_;
+    FixedLevel level_;
 };
 
 } // namespace physvib

@@ -18,6 +18,7 @@ struct RenderingMethod {
     bool fixesFrequency = false;
     bool fixesDecay = false;
     double fixedAmplitude = fixedLevelG; ///< 1 = full scale of an enchanter, as in an event
+    bool holdsLevel = false;             ///< it is the peak of what is felt, not each hit's A of Eq. 5.1 (FixedLevel.h)
 
     constexpr CollisionEvent operator()(CollisionEvent event) const noexcept {
         if (fixesAmplitude) event.amplitude = fixedAmplitude;

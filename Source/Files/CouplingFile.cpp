@@ -5,6 +5,7 @@
 #include "Files/Disk/FileLimits.h"
 #include "Files/Json/JsonField.h"
 #include "Files/Json/JsonFile.h"
+#include "Files/Json/JsonLines.h"
 #include "Files/Json/JsonVersion.h"
 #include "Files/Text/NumberText.h"
 #include <cmath>
@@ -71,6 +72,25 @@ MeasuredCoupling readCouplingRoot(const JsonField& root) {
 
 Result<MeasuredCoupling> readCoupling(std::string_view text, std::string_view name) {
     return readJson(text, name, limits::maxCouplingFileBytes, [](const Json& root) { return readCouplingRoot(JsonField(root, {})); });
+}
+
+std::string couplingJson(const MeasuredCoupling& coupling, const std::string& name, const std::string& source) {
+    OrderedJson root = {{couplingVersionField, couplingFormatVersion}, {"name", name}, {"source", source}, {"measured", OrderedJson::array()}};
+    for (std::size_t k = 0; k < coupling.matrices.size(); ++k) {
+        const auto squareOf = [&matrix = coupling.matrices[k]](auto number) {
+            OrderedJson rows = OrderedJson::array();
+            for (std::size_t i = 0; i < matrix.size; ++i) {
+                OrderedJson row = OrderedJson::array();
+                for (std::size_t j = 0; j < matrix.size; ++j) row.push_back(number(matrix.at(i, j)));
+                rows.push_back(std::move(row));
+            }
+            return rows;
+        };
+        root["measured"].push_back({{"frequency_hz", coupling.frequenciesHz[k]},
+                                    {"magnitude", squareOf([](std::complex<double> c) { return std::abs(c); })},
+                                    {"phase_deg", squareOf([](std::complex<double> c) { return std::arg(c) * 180.0 / std::numbers::pi; })}});
+    }
+    return jsonLines(root);
 }
 
 Result<MeasuredCoupling> loadCoupling(const std::filesystem::path& path) { return loadText(path, limits::maxCouplingFileBytes, readCoupling); }

@@ -4,6 +4,7 @@
 #include "Files/Result.h"
 #include "Study/Coupling.h"
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace physvib {
@@ -17,5 +18,8 @@ Result<MeasuredCoupling> readCoupling(std::string_view text, std::string_view na
 
 /// The same of a file. M only.
 Result<MeasuredCoupling> loadCoupling(const std::filesystem::path& path);
+
+/// `coupling` as JSON; readCoupling gives it back but for the last bits of its phases. Any thread.
+std::string couplingJson(const MeasuredCoupling& coupling, const std::string& name, const std::string& source);
 
 } // namespace physvib

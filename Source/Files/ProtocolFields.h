@@ -81,6 +81,7 @@ struct FieldsOf<ConditionPlan> {
         v.field("frequency_hz", &C::frequencyHz, Bounds{1.0, limits::maxFrequencyHz}, Need::optional);
         v.field("at_resonance", &C::isAtResonance, {}, Need::optional);
         v.field("level_g", &C::levelG, Bounds{1e-6, 1000.0}, Need::optional);
+        v.field("observer_blur", &C::observerBlur, Bounds{0.001, 1.0}, Need::optional);
         v.variant("stimuli", &C::stimuli, stimulusSetNames);
     }
 };
@@ -101,6 +102,7 @@ struct FieldsOf<Adjustment> {
         using A = Adjustment;
         v.field("alternative", &A::alternative, anyText, Need::required);
         v.field("start_db", &A::startDb, studyBounds::levelDb, Need::optional);
+        v.field("random_start", &A::startsAnywhere, {}, Need::optional);
         v.field("step_db", &A::stepDb, Bounds{0.01, 20.0}, Need::optional);
         v.field("least_db", &A::leastDb, studyBounds::levelDb, Need::optional);
         v.field("most_db", &A::mostDb, studyBounds::levelDb, Need::optional);
@@ -167,6 +169,7 @@ struct FieldsOf<SessionPlan> {
         v.field("staircase", &S::staircase, {}, Need::optional);
         v.field("quest", &S::quest, {}, Need::optional);
         v.field("levels_from", &S::levelsFrom, anyText, Need::optional);
+        v.field("levels_file", &S::levelsFile, anyText, Need::optional);
     }
 };
 

@@ -4,10 +4,12 @@
 #include "Files/Disk/ContentHash.h"
 #include "Files/Disk/Embedded.h"
 #include "Files/Disk/FileLimits.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/Json/JsonFile.h"
 #include "Files/Json/JsonReader.h"
 #include "Files/Json/JsonVersion.h"
 #include "Files/Json/JsonWriter.h"
+#include "Files/LevelsFile.h"
 #include "Files/Text/NumberText.h"
 #include "Files/ProtocolFields.h"
 #include "Files/TrialColumns.h"
@@ -31,6 +33,23 @@ Protocol readProtocolRoot(Json& root) {
 
 } // namespace
 
+namespace {
+
+/// Loads what the sessions' levels_file names; empty, or one line.
+std::string takeLevels(Protocol& protocol) {
+    const auto session = std::ranges::find_if(protocol.sessions, [](const SessionPlan& s) { return !s.levelsFile.empty(); });
+    if (session == protocol.sessions.end()) return {};
+    const auto path = besideProtocol(protocol.folder, session->levelsFile);
+    const auto text = readFile(path, limits::maxTableBytes);
+    if (!text) return text.error;
+    auto levels = readStimulusLevels(text.value, path);
+    if (!levels) return levels.error;
+    protocol.levels = std::move(levels.value);
+    return levelsFault(protocol);
+}
+
+} // namespace
+
 Result<Protocol> readProtocol(std::string_view text, std::string_view name) {
     return readJson(text, name, limits::maxProtocolFileBytes, readProtocolRoot);
 }
@@ -45,15 +64,29 @@ std::string protocolJson(const Protocol& protocol) {
     return jsonLines(root);
 }
 
-std::string protocolHash(const Protocol& protocol) { return contentHash(protocolJson(protocol)); }
+std::string protocolHash(const Protocol& protocol) {
+    return contentHash(protocolJson(protocol) + (protocol.levels.empty() ? std::string{} : stimulusLevelsCsv(protocol.levels, {})));
+}
 
 const std::vector<Protocol>& builtInProtocols() {
     static const std::vector<Protocol> protocols = readEmbedded(embeddedProtocols(), readProtocol);
     return protocols;
 }
 
+std::string besideProtocol(const std::string& folder, const std::string& path) {
+    std::error_code none;
+    const auto beside = std::filesystem::path{folder} / path;
+    return !folder.empty() && std::filesystem::is_regular_file(beside, none) ? beside.string() : path;
+}
+
 Result<Protocol> findProtocol(const std::string& nameOrPath) {
-    if (isJsonPath(nameOrPath)) return loadProtocol(nameOrPath);
+    if (isJsonPath(nameOrPath)) {
+        auto protocol = loadProtocol(nameOrPath);
+        if (!protocol) return protocol;
+        protocol.value.folder = std::filesystem::path{nameOrPath}.parent_path().string();
+        if (auto fault = takeLevels(protocol.value); !fault.empty()) return Failure{fault};
+        return protocol;
+    }
     for (const Protocol& protocol : builtInProtocols())
         if (protocol.name == nameOrPath) return protocol;
     return Failure{"no protocol " + inQuotes(nameOrPath) + " (see physvib study list)"};

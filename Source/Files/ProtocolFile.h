@@ -29,7 +29,10 @@ std::string protocolHash(const Protocol& protocol);
 /// Those that come with PhysVib, in the order of their listing. Built on first use; any thread.
 const std::vector<Protocol>& builtInProtocols();
 
-/// A built-in protocol by its name, else that of the file. M only.
+/// A file that a protocol names: the one beside the protocol, if it is there, else the one of that path. M only.
+std::string besideProtocol(const std::string& folder, const std::string& path);
+
+/// A built-in protocol by its name, else that of the file, which then is the folder of what it names. M only.
 Result<Protocol> findProtocol(const std::string& nameOrPath);
 
 } // namespace physvib

@@ -141,12 +141,14 @@ void readRecordingsChange(const JsonField& json, SessionLog& log) {
 namespace {
 
 EventShaping readShaping(const JsonField& json) {
-    json.expectObject({"method", "fixed_amplitude", "remap_hz", "gain", "perceived_level"});
+    json.expectObject({"method", "fixed_amplitude", "remap_hz", "gain", "perceived_level", "gamma", "holds_level"});
     EventShaping shaping;
     if (json.has("method") && !renderingMethodNamed(json["method"].text(), shaping.method)) json["method"].fail("expected a name from AV-FV-DRV to AF-FF-DRF");
     if (json.has("fixed_amplitude")) shaping.method.fixedAmplitude = json["fixed_amplitude"].numberUpTo(limits::maxAmplitude);
+    if (json.has("holds_level")) shaping.method.holdsLevel = json["holds_level"].truth();
     if (json.has("gain")) shaping.gain = json["gain"].numberUpTo(limits::maxAmplitude);
     if (json.has("perceived_level")) shaping.perceived.isWeighted = json["perceived_level"].truth();
+    if (json.has("gamma")) shaping.truncation = json["gamma"].numberWithin(0.0, EventShaping::mostTruncation);
     if (json.has("remap_hz")) shaping.remap.band = readBand(json["remap_hz"]);
     return shaping;
 }
@@ -241,9 +243,11 @@ OrderedJson takeJson(const SceneTake& take, const SceneTake* before) {
 OrderedJson shapingJson(const EventShaping& shaping) {
     const auto name = nameOf(shaping.method);
     OrderedJson json{{"method", std::string(name.begin(), name.end())}, {"fixed_amplitude", shaping.method.fixedAmplitude}};
+    if (shaping.method.holdsLevel) json["holds_level"] = true;
     if (shaping.remap.band.isKnown()) json["remap_hz"] = bandJson(shaping.remap.band);
     if (shaping.gain != 1.0) json["gain"] = shaping.gain;
     if (shaping.perceived.isWeighted) json["perceived_level"] = true;
+    if (shaping.truncation != 0.0) json["gamma"] = shaping.truncation;
     return json;
 }
 

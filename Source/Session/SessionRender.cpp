@@ -23,7 +23,7 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
                       return goesOn = extent.progress(0.5 * static_cast<double>(timeNs) / static_cast<double>(endNs));
                   }).events;
     if (!goesOn) return false;
-    std::ranges::transform(events, events.begin(), session.shaping);
+    std::ranges::transform(events, events.begin(), EventShaper{session.shaping});
     const auto controls = recordings.with(controlsOf(session.log, true, session.channels));
     const std::int64_t frames = std::llround(extent.seconds * extent.sampleRateHz);
     std::int64_t done = 0;

@@ -44,6 +44,7 @@ void SessionWorld::forget() {
     takeCount_ = 0;
     world_.reset();
     dropsBefore_ = 0;
+    shaper_.forget();
     start(0, last.scene, last.seed);
 }
 
@@ -53,8 +54,8 @@ void SessionWorld::step(std::vector<CollisionEvent>& made) {
     world_->forgetDone();
     ++steps_;
     for (std::size_t i = before; i < made.size(); ++i) {
-        made[i] = shaping_(made[i]);
         made[i].timeNs += originNs_;
+        made[i] = shaper_(made[i]);
     }
 }
 

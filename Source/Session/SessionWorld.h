@@ -19,7 +19,7 @@ public:
     /// `run` gives step rate, timing and location; the seed is each take's own.
     explicit SessionWorld(const SceneRun& run, const EventShaping& shaping = {}, bool isLogged = true)
         : run_{run}
-        , shaping_{shaping}
+        , shaper_{shaping}
         , isLogged_{isLogged} {}
 
     /// A new take from `sessionNs` on. Throws what Simulation throws; then all stays as it was.
@@ -52,7 +52,7 @@ public:
 
 private:
     SceneRun run_;
-    EventShaping shaping_;
+    EventShaper shaper_;
     bool isLogged_;
     std::vector<SceneTake> ended_; // not read to their ends
     SceneTake take_;               // its last stall stays when it is read: it may grow

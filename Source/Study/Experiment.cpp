@@ -2,6 +2,7 @@
 // Conditions contain sessions, sessions contain trials; every choice of order comes from the seed.
 #include "Study/Experiment.h"
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace physvib {
@@ -101,13 +102,19 @@ Trial Experiment::nextTrial() {
     return trial;
 }
 
+double Experiment::startOf(const Adjustment& a, int trial) const {
+    if (!a.startsAnywhere) return a.startDb;
+    const auto steps = static_cast<std::size_t>(std::floor((a.mostDb - a.leastDb) / a.stepDb + 1e-6));
+    return a.leastDb + a.stepDb * static_cast<double>(randomFor("start " + std::to_string(trial)).below(steps + 1));
+}
+
 void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
     const SessionPlan& s = plan();
     std::vector<Alternative> buttons = s.alternatives;
     if (isSwapped) std::ranges::reverse(buttons);
     if (buttons.size() > 2 && s.task == StudyTask::choose) randomFor("buttons " + std::to_string(trial.number)).shuffle(buttons);
     if (adaptive_) trial.levelDb = adaptive_->levelDb();
-    if (s.adjustment) trial.levelDb = s.adjustment->startDb;
+    if (s.adjustment) trial.levelDb = startOf(*s.adjustment, trial.number);
     const std::string moved = adaptive_ ? *s.adaptedAlternative() : s.adjustment ? s.adjustment->alternative : std::string{};
     for (const Alternative& button : buttons) {
         double db = button.levelDb + (button.name == moved ? trial.levelDb : 0.0);
@@ -117,6 +124,10 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
                 trial.levelDb = adjustedDb(trial.condition, s.levelsFrom, trial.stimulus).value_or(0.0);
                 db += trial.levelDb;
             }
+        }
+        if (const auto* set = s.levelsFile.empty() ? nullptr : levelOf(protocol_.levels, protocol_.conditions[trial.condition].name, trial.stimulus); set && set->alternative == button.name) {
+            trial.levelDb = set->levelDb;
+            db += set->levelDb;
         }
         trial.parts.push_back(button.name);
         trial.partLevelsDb.push_back(db);

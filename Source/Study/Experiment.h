@@ -81,6 +81,7 @@ private:
     void advance();
     bool isSessionOver() const;
     Trial nextTrial();
+    double startOf(const Adjustment& adjustment, int trial) const;
     void addAlternatives(Trial& trial, bool isSwapped);
     std::string choiceRefusal(const Answer& answer) const;
     SeededRandom randomFor(const std::string& purpose) const;

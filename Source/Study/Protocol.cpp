@@ -162,6 +162,28 @@ double countOf(const CallSet& set) noexcept {
 
 } // namespace
 
+namespace {
+
+/// Every stimulus of a session with a file of levels has one there, of an alternative of its.
+std::string levelsFault(const Protocol& p, const SessionPlan& s) {
+    for (const ConditionPlan& c : p.conditions)
+        for (const StimulusItem& item : stimuliOf(c)) {
+            const StimulusLevel* const level = levelOf(p.levels, c.name, item.label);
+            if (level == nullptr) return s.levelsFile + ": expected a level of " + c.name + ", " + item.label + ", found none";
+            if (!hasAlternative(s, level->alternative)) return s.levelsFile + ": expected levels of an alternative of session " + s.name + ", found " + level->alternative;
+        }
+    return {};
+}
+
+} // namespace
+
+std::string levelsFault(const Protocol& p) {
+    for (const SessionPlan& s : p.sessions)
+        if (!s.levelsFile.empty())
+            if (std::string fault = levelsFault(p, s); !fault.empty()) return fault;
+    return {};
+}
+
 std::string validate(const Protocol& p) {
     const auto at = [](const char* list, std::size_t index, const std::string& fault) { return std::string(list) + "[" + std::to_string(index) + "]." + fault; };
     for (std::size_t i = 0; i < p.sounds.size(); ++i)
@@ -173,6 +195,11 @@ std::string validate(const Protocol& p) {
     for (std::size_t i = 0; i < p.sessions.size(); ++i) {
         const SessionPlan& s = p.sessions[i];
         if (std::string fault = taskFault(s); !fault.empty()) return at("sessions", i, fault);
+        if (!s.levelsFile.empty()) {
+            if (!isPlainPath(s.levelsFile)) return at("sessions", i, "levels_file: expected a file in the folder or below, of plain characters");
+            if (s.task != StudyTask::choose || s.adaptedAlternative() || !s.levelsFrom.empty()) return at("sessions", i, "levels_file: expected it of the task choose, without another level");
+            if (std::ranges::any_of(p.sessions, [&](const SessionPlan& o) { return !o.levelsFile.empty() && o.levelsFile != s.levelsFile; })) return at("sessions", i, "levels_file: expected one file for all sessions");
+        }
         if (!s.levelsFrom.empty() && !isAdjustmentBefore(p, s)) return at("sessions", i, "levels_from: expected an earlier session of the task adjust");
     }
     for (std::size_t i = 0; i < p.conditions.size(); ++i)

@@ -8,6 +8,7 @@
 #include "Study/PulsePattern.h"
 #include "Study/QuestMethod.h"
 #include "Study/Stimulus.h"
+#include "Study/StimulusLevels.h"
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -77,6 +78,7 @@ struct ConditionPlan {
     double frequencyHz = 205.0, levelG = 1.0;
     StimulusSet stimuli;
     bool isAtResonance = false; ///< of the layout's actuators, instead of frequencyHz
+    double observerBlur = 0.0;  ///< of places as a simulated observer feels them here, share of the field; 0: the observer's own
     bool operator==(const ConditionPlan&) const = default;
 };
 
@@ -91,6 +93,7 @@ struct Alternative {
 struct Adjustment {
     std::string alternative;
     double startDb = 0.0, stepDb = 1.0, leastDb = -40.0, mostDb = 40.0;
+    bool startsAnywhere = false; ///< at any step of the range instead, by the seed
     bool operator==(const Adjustment&) const = default;
 };
 
@@ -131,6 +134,7 @@ struct SessionPlan {
     std::optional<StaircasePlan> staircase;
     std::optional<QuestMethod> quest;
     std::string levelsFrom; ///< an earlier session whose adjustments hold here
+    std::string levelsFile; ///< or others' (Files/LevelsFile.h)
     bool operator==(const SessionPlan&) const = default;
 
     /// Which alternative's level follows the answers, by a staircase or QUEST+; none if no level does.
@@ -149,12 +153,17 @@ struct Protocol {
     ConditionOrder conditionOrder = ConditionOrder::given;
     std::vector<ConditionPlan> conditions;
     std::vector<SessionPlan> sessions; ///< of every condition
+    std::vector<StimulusLevel> levels; ///< of the sessions' levelsFile
+    std::string folder; ///< where its files are looked for first; no part of a file
     bool operator==(const Protocol&) const = default;
 };
 
 /// What makes no sense as a whole, `sessions[1].alternatives: expected two or more to choose from, found 1`; empty if
 /// all does. Ranges of single fields are the reader's business. Any thread (allocates).
 std::string validate(const Protocol& protocol);
+
+/// What the levels of a protocol lack of those that its sessions want; empty if nothing. Any thread (allocates).
+std::string levelsFault(const Protocol& protocol);
 
 /// All scales of a protocol, in the order of their first mention. Any thread (allocates).
 std::vector<std::string> scalesOf(const Protocol& protocol);

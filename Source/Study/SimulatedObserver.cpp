@@ -115,6 +115,7 @@ PulsePattern SimulatedObserver::feltPattern(PulsePattern pattern, const PatternS
 }
 
 double SimulatedObserver::blurOf(const ConditionPlan& condition) const noexcept {
+    if (condition.observerBlur > 0.0) return condition.observerBlur;
     return settings_.ringBlur > 0.0 && condition.layout.starts_with("ring") ? settings_.ringBlur : settings_.placeBlur;
 }
 

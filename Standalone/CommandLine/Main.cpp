@@ -5,6 +5,7 @@
 #include "CommandLine/Measure/AttenuationCommand.h"
 #include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Measure/CalibrateCommand.h"
+#include "CommandLine/Measure/CouplingCommand.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Measure/MaterialCommand.h"
@@ -64,8 +65,11 @@ int run(int argc, char** argv) {
     CLI::App* material = app.add_subcommand("material", "frequency and decay of a recorded contact");
     declareMaterial(*material, materialOptions);
     AttenuationOptions attenuationOptions;
-    CLI::App* attenuation = app.add_subcommand("attenuation", "what an isolation layer holds back, from two recordings (thesis 3.2)");
+    CLI::App* attenuation = app.add_subcommand("attenuation", "what an isolation layer holds back, from two recordings or a folder of conditions (thesis 3.1.1)");
     declareAttenuation(*attenuation, attenuationOptions);
+    CouplingOptions couplingOptions;
+    CLI::App* coupling = app.add_subcommand("coupling", "what enchanters make of each other's vibration, from recordings, for render --coupling");
+    declareCoupling(*coupling, couplingOptions);
     CLI::App* actuators = app.add_subcommand("actuators", "list the built-in actuator profiles; what is not known is empty");
     CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
     CalibrateOptions calibrateOptions;
@@ -91,6 +95,7 @@ int run(int argc, char** argv) {
     if (play->parsed()) return runPlay(playOptions);
     if (board->parsed()) return runBoard(boardOptions);
     if (attenuation->parsed()) return runAttenuation(attenuationOptions);
+    if (coupling->parsed()) return runCoupling(couplingOptions);
     if (calibrate->parsed()) return runCalibrate(calibrateOptions);
     noteGiven(*render, options);
     const std::string refusal = checkRenderOptions(options);

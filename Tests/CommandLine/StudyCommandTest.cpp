@@ -3,6 +3,8 @@
 #include "Calls.h"
 #include "Files/Text/CsvTable.h"
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 
 namespace physvib {
 namespace {
@@ -133,13 +135,81 @@ TEST_F(Study, ProtocolsOfOnesOwnNeedNoCode) {
     EXPECT_EQ(std::ranges::count(call("study list").out, '\n'), 8);
 }
 
+TEST_F(Study, FilesOfAProtocolAreFoundBesideItAndTheFolderOfRowsIsMade) {
+    std::filesystem::create_directories(folder_ / "mine");
+    write("mine/glove.json", R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0}, {"x_m": 0.1, "y_m": 0}]})");
+    write("mine/study.json", R"({ "physvib_protocol": 1, "name": "study", "conditions": [{ "name": "A", "layout": "glove.json", "stimuli": "grid", "columns": 2, "rows": 1 }], "sessions": [{ "name": "main" }] })");
+    const auto outcome = call("study run mine/study.json --observer simulated --out rows/today");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(read("rows/today/study-P01.csv").find("--layout glove.json"), std::string::npos) << "the row's call is one for the protocol's folder";
+    std::filesystem::remove(folder_ / "mine/glove.json");
+    refuses("study run mine/study.json --observer simulated --out rows/tomorrow", 1, "glove.json: cannot be read", 2);
+}
+
+TEST_F(Study, RendersCanBeCutAsThePublishedOnesWere) {
+    ASSERT_EQ(call("render drop --seconds 1 --layout phone1 --out whole.wav").exitCode, 0);
+    ASSERT_EQ(call("render drop --seconds 1 --layout phone1 --gamma 0.1 --out cut.wav").exitCode, 0);
+    EXPECT_NE(read("whole.wav"), read("cut.wav"));
+    refuses("render drop --gamma 1 --out a.wav", 2, "--gamma: expected 0 to 0.99", 2);
+    refuses("render drop --gamma 0.1 --method SV --sound 80=a.wav --out a.wav", 2, "--gamma: recordings have no one decay to be cut", 2);
+}
+
+TEST_F(Study, ExpertsSetTheLevelsThatTheMainStudyReads) {
+    const std::string conditions = R"("sounds": [{ "frequency_hz": 80, "file": "synthetic-1" }], "conditions": [{ "name": "drop", "layout": "phone1", "stimuli": "calls",
+        "factors": [{ "name": "height", "values": ["1", "2"] }], "call": "render drop --set height={height} --seconds 1 --layout phone1 --method {alternative} --level-db {level_db}" }], )";
+    const std::string alternatives = R"("alternatives": [{ "name": "AV-FV-DRV" }, { "name": "SV" }])";
+    write("experts.json", R"({ "physvib_protocol": 1, "name": "experts", )" + conditions + R"("sessions": [{ "name": "matching", "task": "adjust", "repetitions": 3, )" + alternatives +
+                              R"(, "adjustment": { "alternative": "AV-FV-DRV", "random_start": true, "least_db": -20, "most_db": 10 } }] })");
+    write("main.json", R"({ "physvib_protocol": 1, "name": "main", )" + conditions + R"("sessions": [{ "name": "main", "task": "choose", "levels_file": "levels.csv", )" + alternatives + "}] }");
+    refuses("study run main.json --observer simulated", 1, "levels.csv: cannot be read", 2);
+    ASSERT_EQ(call("study run experts.json --observer simulated --participants 3").exitCode, 0);
+    const auto outcome = call("study levels experts.json experts-P01.csv experts-P02.csv experts-P03.csv --out levels.csv");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("levels.csv  2 levels of 3 participants"), std::string::npos) << outcome.out;
+    const auto levels = readCsvTable(read("levels.csv"), "levels.csv").value;
+    ASSERT_EQ(levels.rows.size(), 2u);
+    ASSERT_EQ(call("study run main.json --observer simulated").exitCode, 0);
+    const auto rows = readCsvTable(read("main-P01.csv"), "main-P01.csv").value;
+    for (const auto& row : rows.rows) {
+        const auto& level = levels.rows[row.cells[*rows.column("stimulus")] == "1" ? 0 : 1].cells[*levels.column("level_db")];
+        EXPECT_EQ(row.cells[*rows.column("level_db")], level);
+        EXPECT_NE(row.cells[*rows.column("render")].find("--method AV-FV-DRV --level-db " + level), std::string::npos) << row.cells[*rows.column("render")];
+    }
+    write("levels.csv", "condition,stimulus,alternative,level_db\ndrop,1,SV,1\ndrop,2,SV,1\n");
+    EXPECT_NE(call("study run main.json --observer simulated").err.find("was begun with another version of the protocol"), std::string::npos) << "other levels are another study";
+    write("levels.csv", "condition,stimulus,alternative,level_db\ndrop,1,SV,1\n");
+    EXPECT_NE(call("study run main.json --observer simulated --participant P09").err.find("levels.csv: expected a level of drop, 2, found none"), std::string::npos);
+}
+
+// Every trial of the protocol renders one of these calls.
+TEST_F(Study, AFixedLevelPeaksAtOneAndAHalfGInEveryTrialOfEightMethodsAndNoLimiterActs) {
+    for (const std::string method : {"AF-FV-DRV", "AF-FV-DRF", "AF-FF-DRV", "AF-FF-DRF", "AV-FV-DRV", "AV-FF-DRF"})
+        for (const std::string pair : {"rubber-concrete", "wood-wood", "steel-steel"}) {
+            const std::string render = "render box-study --set pair=" + pair + " --layout study1 --method " + method + " --rate 48000 --out ";
+            const auto outcome = call(render + "on.wav");
+            ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+            EXPECT_EQ(outcome.err.find("limiter"), std::string::npos) << outcome.err;
+            ASSERT_EQ(call(render + "off.wav --limiter off").exitCode, 0);
+            const std::string on = read("on.wav"), off = read("off.wav");
+            EXPECT_TRUE(on.substr(on.find("data")) == off.substr(off.find("data"))) << method << ' ' << pair << ": the limiter acted";
+            float peak = 0.0f, sample = 0.0f;
+            for (std::size_t at = on.find("data") + 8; at + 4 <= on.size(); at += 4) std::memcpy(&sample, on.data() + at, 4), peak = std::max(peak, std::abs(sample));
+            if (method.starts_with("AF")) { EXPECT_NEAR(2.0f * peak, 1.5f, 0.015f) << method << ' ' << pair; }
+        }
+    EXPECT_NE(call("study show eight-methods").out.find("--layout study1"), std::string::npos);
+    std::string text = call("study show eight-methods").out;
+    for (std::size_t at = 0; (at = text.find("study1", at)) != std::string::npos;) text.replace(at, 6, "phone1");
+    write("soft.json", text);
+    EXPECT_NE(call("study run soft.json --observer simulated").err.find("expected enchanters of at least 1.68 g (full_scale_g), as 1.5 g and 1 dB of headroom are felt, found 1.00 g"), std::string::npos);
+}
+
 TEST_F(Study, BadCallsAndFilesAreRefused) {
     refuses("study run patterns", 2, "--observer");
     refuses("study run patterns --observer GLOVE", 2, "--observer");
     refuses("study run none --observer simulated", 1, "no protocol \"none\" (see physvib study list)");
     refuses("study run none.json --observer simulated", 1, "none.json: cannot be read");
     refuses("study run patterns --observer simulated --participant '../x'", 2, "--participant");
-    refuses("study run patterns --observer simulated --out none", 1, "cannot be written");
+    refuses("study run patterns --observer simulated --out /proc/none", 1, "/proc/none: cannot be made: ");
     refuses("study", 2, "");
     write("patterns-P01.csv", "my diary\n");
     refuses("study run patterns --observer simulated", 1, "patterns-P01.csv:1: expected a trial file of physvib, found something else", 1);

@@ -42,5 +42,19 @@ TEST(EventShaping, MovesTheFrequencyOnlyAndAfterTheMethod) {
     EXPECT_EQ(shaping(e).frequencyHz, shaping.remap(RenderingMethod::fixedFrequencyHz));
 }
 
+TEST(EventShaping, CutsADecayWhereItsEnvelopeFallsToGamma) {
+    EventShaping shaping;
+    shaping.truncation = 0.1; // Eq. 5.5
+    CollisionEvent e{.timeNs = 7, .frequencyHz = 349, .decayPerSecond = 107, .amplitude = 0.3};
+    const double seconds = 1e-9 * static_cast<double>(shaping(e).durationNs);
+    EXPECT_LE(std::exp(-107 * seconds), 0.1);
+    EXPECT_GT(std::exp(-107 * (seconds - 2e-9)), 0.1) << "the smallest such time";
+    e.durationNs = 5'000'000;
+    EXPECT_EQ(shaping(e).durationNs, 5'000'000) << "what ends before stays";
+    e.decayPerSecond = 0.0;
+    e.durationNs = 900'000'000;
+    EXPECT_EQ(shaping(e), e) << "what does not decay stays";
+}
+
 } // namespace
 } // namespace physvib

@@ -51,12 +51,13 @@ TEST_P(StudiedBox, IsHitThreeTimesASecondAndNeverSilentForLong) {
     EXPECT_GE(before, 58'000'000'000);
 }
 
-TEST_P(StudiedBox, PeaksNearMinusSixDecibelsAndUsesEveryEnchanter) {
+// One drive for all pairs, at which the loudest, wood, leaves six decibels: Eq. 5.4 makes the others about 18 dB weaker.
+TEST_P(StudiedBox, PeaksWhereOneDriveForAllPairsPutsItAndUsesEveryEnchanter) {
     const auto all = phoneFourPeaks(scene, minute, seconds);
     const double loudest = *std::max_element(all.begin(), all.end());
     const bool isDefault =
         GetParam().pair == pairs[0]; // in the others, more objects sometimes pile up on one wall
-    EXPECT_NEAR(20 * std::log10(loudest), -6, isDefault ? 2.5 : 4);
+    EXPECT_NEAR(20 * std::log10(loudest), GetParam().pair == pairs[1] ? -6 : -24.3, isDefault ? 2.5 : 4);
     for (const double peak : all) EXPECT_GE(peak, 0.2 * loudest);
 }
 

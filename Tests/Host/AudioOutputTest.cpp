@@ -104,6 +104,24 @@ TEST(AudioOutput, SumsUpWhatLeavesForTheHands) {
     EXPECT_EQ(rig.output.exposure().weighted, silent.weighted) << "what is silenced counts nothing";
 }
 
+TEST(AudioOutput, SwitchesAMotorAsTheConverterSays) {
+    Rig plain, motor;
+    ASSERT_EQ(plain.open(), "");
+    AudioOutputSettings settings{"hands", {}, 0, 0, 1.0f};
+    settings.onOff = {2};
+    ASSERT_EQ(motor.output.open(settings), "");
+    const auto all = plain.play(3.0, 64), switched = motor.play(3.0, 64);
+    OnOffSteps steps{plain.interface.rate, settings.onOffThreshold};
+    std::size_t on = 0, others = 0;
+    for (std::size_t n = static_cast<std::size_t>(plain.interface.rate / 100); n < all[2].size(); ++n) on += switched[2][n] == 1.0f, others += switched[2][n] != 0.0f && switched[2][n] != 1.0f;
+    EXPECT_EQ(others, 0u);
+    std::size_t expected = 0;
+    for (const float sample : all[2]) steps.take(sample, [](long long, bool) {}), expected += steps.isOn();
+    EXPECT_GT(expected, 0u);
+    EXPECT_NEAR(static_cast<double>(on), static_cast<double>(expected), 0.01 * static_cast<double>(plain.interface.rate)) << "the first samples come up in a ramp";
+    EXPECT_EQ(switched[0], all[0]) << "the others are what they were";
+}
+
 TEST(AudioOutput, AnotherDriverWithADeviceOfThatNameIsAnotherDevice) {
     FakeInterface ours, theirs;
     Session session{eightHands()};

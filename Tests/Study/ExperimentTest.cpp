@@ -132,6 +132,43 @@ TEST(Experiment, AdjustedLevelsHoldInLaterSessions) {
     }
 }
 
+TEST(Experiment, AdjustmentsMayStartAnywhereByTheSeed) {
+    SessionPlan matching{.name = "matching", .task = StudyTask::adjust, .repetitions = 20, .alternatives = {{"RM"}, {"SV"}},
+                         .adjustment = Adjustment{.alternative = "RM", .stepDb = 2.0, .leastDb = -10.0, .mostDb = 5.0, .startsAnywhere = true}};
+    const auto p = protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {matching});
+    std::set<double> starts;
+    for (const auto& record : runWhole(p, {})) {
+        const double step = (record.trial.levelDb + 10.0) / 2.0;
+        EXPECT_EQ(step, std::round(step));
+        EXPECT_GE(step, 0.0);
+        EXPECT_LE(step, 7.0);
+        starts.insert(record.trial.levelDb);
+    }
+    EXPECT_GT(starts.size(), 5u);
+    EXPECT_EQ(runWhole(p, {})[7].trial.levelDb, runWhole(p, {})[7].trial.levelDb);
+}
+
+TEST(Experiment, LevelsOfExpertsHoldForTheAlternativeThatTheyMoved) {
+    SessionPlan main{.name = "main", .task = StudyTask::choose, .alternatives = {{"RM"}, {"SV", 1.0}}, .levelsFile = "levels.csv"};
+    auto p = protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {main});
+    EXPECT_EQ(levelsFault(p), "levels.csv: expected a level of A, a, found none");
+    using Kind = LevelTrial::Kind;
+    std::vector<LevelTrial> experts;
+    for (const double db : {-4.0, -8.0}) experts.push_back({Kind::adjustment, "E1", "A", "a", 0.0, db}); // E1 twice
+    experts.push_back({Kind::adjustment, "E2", "A", "a", 0.0, 0.0});
+    experts.push_back({Kind::adjustment, "E2", "A", "b", 0.0, 3.0});
+    p.levels = averageLevels(experts, "RM");
+    ASSERT_EQ(p.levels.size(), 2u);
+    EXPECT_EQ(p.levels[0].levelDb, -3.0) << "everybody counts once";
+    EXPECT_EQ(p.levels[0].participants, 2u);
+    EXPECT_EQ(levelsFault(p), "");
+    for (const auto& record : runWhole(p, {}))
+        for (std::size_t i = 0; i < 2; ++i)
+            EXPECT_EQ(record.trial.partLevelsDb[i], record.trial.parts[i] == "SV" ? 1.0 : record.trial.stimulus == "a" ? -3.0 : 3.0);
+    p.levels = averageLevels(experts, "AV");
+    EXPECT_EQ(levelsFault(p), "levels.csv: expected levels of an alternative of session main, found AV");
+}
+
 TEST(Experiment, RatingsWaitForEveryObject) {
     SessionPlan main{.name = "main", .task = StudyTask::rate, .repetitions = 10, .leastSeconds = 10.0, .breakEvery = 20, .breakSeconds = 120.0, .objects = {"a", "b", "c"}, .scales = {"realism", "harmony", "liking"}};
     const auto p = protocolOf(CallSet{{{"method", {"1", "2", "3", "4", "5", "6", "7", "8"}}}, "render {object} {method}"}, {main});

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <map>
 
 namespace physvib {
 namespace {
@@ -154,6 +155,26 @@ TEST(SimulatedObserver, PatternRehearsalComesNearThePublishedShares) {
         std::printf("%d enchanters: %.1f %% correct (published 89.2 to 95.0), IT %.2f bit\n", enchanters, 100 * share, informationTransfer(matrix).bits);
         EXPECT_NEAR(share, 0.92, 0.04);
     }
+}
+
+TEST(Observer, FeelsAConditionWithTheBlurThatItsProtocolSays) {
+    Protocol p;
+    p.name = "blurs";
+    for (const double blur : {0.0, 0.01, 0.3}) {
+        p.conditions.push_back({std::to_string(blur), "", "phone4", 205.0, 1.0, GridSet{5, 5}});
+        p.conditions.back().observerBlur = blur;
+    }
+    p.sessions = {{.name = "main", .repetitions = 40}};
+    Experiment experiment{p, {}};
+    const SimulatedObserver observer{*observerNamed("simulated"), p, {}};
+    std::vector<double> shares(3, 0.0);
+    while (!experiment.isDone()) {
+        const auto record = experiment.take(observer.answer(experiment));
+        shares[record.trial.condition] += *isCorrect(p, record) / 1000.0;
+    }
+    EXPECT_NEAR(shares[0], blurredGrid(5, 0.15).shareExact, 0.05) << "the observer's own";
+    EXPECT_EQ(shares[1], 1.0);
+    EXPECT_NEAR(shares[2], blurredGrid(5, 0.3).shareExact, 0.05);
 }
 
 } // namespace

@@ -156,6 +156,8 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     latencyNs_ = std::int64_t{1'000'000'000} * device->getOutputLatencyInSamples() / rate;
     prepareBuffers(block);
     exposure_.prepare(rate);
+    motors_.clear();
+    for (const int j : settings_.onOff) motors_.push_back({static_cast<std::size_t>(j), OnOffSteps{rate, settings_.onOffThreshold}});
     map_.place(device->getActiveOutputChannels());
     map_.settle(rate);
     ending_ = false;
@@ -198,6 +200,7 @@ void AudioOutput::renderPart(float* const* out, int outputs, int first, int fram
     session_.render(scratchAt_.data(), frames, RenderMode::realtime);
     if (auto* recorder = recorder_.load(std::memory_order_acquire)) recorder->take(scratchAt_.data(), frames, session_.framesRendered() - frames);
     if (tap_ != nullptr) tap_->take(scratchAt_.data(), frames);
+    switchMotors(frames);
     for (int j = 0; j < session_.channels(); ++j) { // the limiter, if on, leaves nothing to cut
         float* at = scratchAt_[static_cast<std::size_t>(j)];
         juce::FloatVectorOperations::clip(at, at, -session_.ceiling(j), session_.ceiling(j), frames);
@@ -208,10 +211,20 @@ void AudioOutput::renderPart(float* const* out, int outputs, int first, int fram
         const int k = map_.play(j, at, frames);
         if (k < 0 || k >= outputs) continue;
         juce::FloatVectorOperations::copy(out[k] + first, at, frames);
-        exposure_.take(j, at, frames);
+        if (std::ranges::find(motors_, static_cast<std::size_t>(j), &Motor::enchanter) == motors_.end()) exposure_.take(j, at, frames); // how a motor shakes, nobody says
     }
     exposure_.publish();
     renderHeard(out, outputs, first, frames);
+}
+
+// A step late, as it says what was in it; then as loud as ceiling and master level let it be.
+void AudioOutput::switchMotors(int frames) noexcept {
+    for (Motor& motor : motors_)
+        for (int n = 0; n < frames; ++n) {
+            float& sample = scratchAt_[motor.enchanter][n];
+            motor.steps.take(sample, [](long long, bool) {});
+            sample = motor.steps.isOn() ? 1.0f : 0.0f;
+        }
 }
 
 void AudioOutput::renderHeard(float* const* out, int outputs, int first, int frames) noexcept {

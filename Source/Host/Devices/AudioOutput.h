@@ -7,6 +7,7 @@
 #pragma once
 #include "Core/Actuators/ExposureMeter.h"
 #include "Core/Actuators/GainRamp.h"
+#include "Core/Actuators/VibrationConverter.h"
 #include "Core/Limits.h"
 #include "Core/Nonblocking.h"
 #include "Host/Devices/AudioDevices.h"
@@ -106,6 +107,7 @@ private:
     void prepareBuffers(int block);
     void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
     void renderPart(float* const* out, int outputs, int first, int frames) noexcept;
+    void switchMotors(int frames) noexcept;
     void renderHeard(float* const* out, int outputs, int first, int frames) noexcept;
     void addTo(Heard source, const float* samples, float* const* out, int outputs, int first, int frames) noexcept;
     void measure(juce::int64 startTicks, int frames) noexcept;
@@ -143,6 +145,11 @@ private:
     PinkNoise noise_;
     std::vector<float> noiseScratch_;
     ExposureMeter exposure_;
+    struct Motor {
+        std::size_t enchanter;
+        OnOffSteps steps;
+    };
+    std::vector<Motor> motors_;
     Load measured_;
 };
 

@@ -36,6 +36,8 @@ struct AudioOutputSettings {
     int enchanters = 0;          ///< how many there are to be felt; 0: as many as the session has channels
     bool opensAll = false;       ///< every output of the device, so that assign() need not open it again
     ListeningSettings listening{};
+    std::vector<int> onOff{};    ///< enchanters, from 0, that are motors which are on or off (Core/Actuators/VibrationConverter.h)
+    double onOffThreshold = 0.1; ///< from 0 to 1 full scale
 };
 
 /// A moment of the output, for people.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The results of studies as pictures: PNG bytes, the same for the same input and fonts.
 #pragma once
+#include "Study/Attenuation.h"
 #include "Study/ConfusionMatrix.h"
 #include "Study/InformationTransfer.h"
 #include "Study/LevelTrials.h"
@@ -52,6 +53,9 @@ std::string choicePicture(std::span<const ChoiceSummary> summaries, const Pictur
 
 /// Thresholds, matched levels and magnitudes, one kind below the other.
 std::string levelPicture(std::span<const LevelSummary> summaries, const PictureWords& words);
+
+/// Gamma over the frequency: a panel per axis, a curve per layer.
+std::string isolationPicture(std::span<const IsolationResult> results, const PictureWords& words);
 
 /// Mean scores with their intervals, a panel per scale.
 std::string ratingPicture(const std::vector<std::string>& scales, std::span<const RatingSummary> summaries, const PictureWords& words);

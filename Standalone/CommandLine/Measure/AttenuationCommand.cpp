@@ -1,49 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Levels of two recordings, axis by axis.
+// Levels of recordings, axis by axis and condition by condition.
 #include "CommandLine/Measure/AttenuationCommand.h"
 #include "CommandLine/ExitCode.h"
+#include "CommandLine/Measure/AxisRecording.h"
+#include "CommandLine/Measure/RecordingList.h"
+#include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/Study/StudyOutput.h"
 #include "Files/Text/NumberText.h"
-#include "Host/Recordings/ReadRecording.h"
-#include "Measure/RecordingFaults.h"
+#include "Host/Pictures/StudyPictures.h"
 #include "Study/Coupling.h"
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <filesystem>
 
 namespace physvib {
 namespace {
 
-/// Root mean square without what stands still, as gravity does.
-double levelOf(const std::vector<float>& x) {
-    double mean = 0.0, power = 0.0;
-    for (const float s : x) mean += s / static_cast<double>(x.size());
-    for (const float s : x) power += (s - mean) * (s - mean) / static_cast<double>(x.size());
-    return std::sqrt(power);
-}
+constexpr const char* referenceWord = "reference";
 
-Result<std::vector<double>> levelsOf(const std::string& path) {
-    constexpr double shortestSeconds = 0.1; // five periods of 50 Hz, the thesis' lowest
-    const auto recording = readRecording(path);
-    if (!recording) return Failure{recording.error};
-    std::vector<double> levels;
-    for (const auto& axis : recording.value.channels) {
-        const double rateHz = recording.value.sampleRateHz;
-        std::string fault = recordingFault(axis, rateHz, shortestSeconds);
-        if (fault.empty()) fault = clippingFault(axis, rateHz);
-        if (!fault.empty()) return Failure{path + ": channel " + std::to_string(levels.size() + 1) + ": " + fault};
-        levels.push_back(levelOf(axis));
-    }
-    return levels;
-}
-
-} // namespace
-
-void declareAttenuation(CLI::App& command, AttenuationOptions& o) {
-    command.add_option("isolated", o.isolatedPath, "recorded behind the layer, a channel per axis")->type_name("ISOLATED.wav")->required();
-    command.add_option("reference", o.referencePath, "the same drive recorded without it")->type_name("REFERENCE.wav")->required();
-}
-
-int runAttenuation(const AttenuationOptions& o) {
-    const auto isolated = levelsOf(o.isolatedPath), reference = levelsOf(o.referencePath);
+int runPair(const AttenuationOptions& o) {
+    const auto isolated = axisLevels(o.isolatedPath), reference = axisLevels(o.referencePath);
     if (!isolated) return leave(exitFailed, isolated.error);
     if (!reference) return leave(exitFailed, reference.error);
     const std::size_t axes = reference.value.size();
@@ -56,6 +31,74 @@ int runAttenuation(const AttenuationOptions& o) {
     for (std::size_t i = 0; i < axes; ++i) std::cout << i + 1 << ',' << numberText(ratios[i]) << '\n';
     std::cout << "all," << numberText(combinedAttenuation(ratios)) << '\n';
     return exitDone;
+}
+
+Result<std::vector<IsolationMeasurement>> measurementsIn(const std::string& folder) {
+    const auto list = RecordingList::open(folder, {"frequency_hz", "axis", "material"});
+    if (!list) return Failure{list.error};
+    std::vector<IsolationMeasurement> all;
+    for (const CsvRow& row : list.value.rows()) {
+        IsolationMeasurement m;
+        m.source = list.value.path(row);
+        const auto hz = list.value.frequencyHz(row);
+        if (!hz) return Failure{hz.error};
+        m.condition = {list.value.cell(row, "material"), list.value.cell(row, "thickness_mm"), list.value.cell(row, "voltage_v"), list.value.cell(row, "axis"), hz.value};
+        m.isReference = m.condition.material == referenceWord;
+        auto levels = axisLevels(m.source);
+        if (!levels) return Failure{levels.error};
+        m.levels = std::move(levels.value);
+        all.push_back(std::move(m));
+    }
+    return all;
+}
+
+std::string conditionCells(const IsolationCondition& c) {
+    std::string line;
+    for (const std::string& cell : {c.material, c.thickness, numberText(c.frequencyHz), c.voltage, c.axis}) {
+        appendCell(line, cell);
+        line += ',';
+    }
+    return line;
+}
+
+constexpr const char* conditionColumns = "material,thickness_mm,frequency_hz,voltage_v,axis,";
+
+/// A row per repetition, as tests over conditions want them.
+std::string repetitionTable(const std::vector<IsolationResult>& results) {
+    std::string table = std::string(conditionColumns) + "repetition,gamma\n";
+    for (const IsolationResult& r : results)
+        for (std::size_t k = 0; k < r.gammas.size(); ++k) table += conditionCells(r.condition) + std::to_string(k + 1) + "," + numberText(r.gammas[k]) + "\n";
+    return table;
+}
+
+int runFolder(const AttenuationOptions& o) {
+    const auto measurements = measurementsIn(o.isolatedPath);
+    if (!measurements) return leave(exitFailed, measurements.error);
+    const IsolationStudy study = summariseIsolation(measurements.value);
+    if (!study.fault.empty()) return leave(exitFailed, study.fault);
+    const int code = writeStudyFiles({StudyFile{o.exportPath, [&] { return repetitionTable(study.results); }},
+                                     StudyFile{o.picturePath, [&] { return isolationPicture(study.results, pictureWords({o.isolatedPath}, false)); }}});
+    if (code != exitDone) return code;
+    std::cout << conditionColumns << "repetitions,gamma,standard_deviation\n";
+    for (const IsolationResult& r : study.results)
+        std::cout << conditionCells(r.condition) << r.gammas.size() << ',' << numberText(r.mean) << ',' << numberText(r.deviation) << '\n';
+    return exitDone;
+}
+
+} // namespace
+
+void declareAttenuation(CLI::App& command, AttenuationOptions& o) {
+    command.add_option("isolated", o.isolatedPath, "recorded behind the layer, a channel per axis; or a folder of conditions with " + std::string(RecordingList::fileName))->type_name("ISOLATED.wav|FOLDER")->required();
+    command.add_option("reference", o.referencePath, "the same drive recorded without it")->type_name("REFERENCE.wav");
+    command.add_option("--export", o.exportPath, "of a folder: a row per repetition")->type_name("FILE.csv")->check(writtenFile);
+    command.add_option("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer")->type_name("FILE.png")->check(writtenFile);
+}
+
+int runAttenuation(const AttenuationOptions& o) {
+    if (!o.referencePath.empty() && (!o.exportPath.empty() || !o.picturePath.empty())) return leave(exitUsage, "attenuation: expected --export and --picture with a folder of conditions only");
+    if (!o.referencePath.empty()) return runPair(o);
+    if (!std::filesystem::is_directory(o.isolatedPath)) return leave(exitUsage, "attenuation: expected a reference beside " + inQuotes(o.isolatedPath) + ", or a folder of conditions");
+    return runFolder(o);
 }
 
 } // namespace physvib

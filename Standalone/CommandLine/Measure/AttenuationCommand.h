@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib attenuation`: Eq. 3.1 and 3.2 of the thesis from two recordings.
+// `physvib attenuation`: Eq. 3.1 and 3.2 of the thesis from two recordings, or from a folder of conditions.
 #pragma once
 #include <string>
 
@@ -11,12 +11,13 @@ namespace physvib {
 
 /// As given on the command line: one channel per axis of the accelerometer.
 struct AttenuationOptions {
-    std::string isolatedPath, referencePath;
+    std::string isolatedPath, referencePath; ///< no reference: the former is a folder
+    std::string exportPath, picturePath;     ///< of a folder; empty: not wanted
 };
 
 void declareAttenuation(CLI::App& command, AttenuationOptions& options);
 
-/// A line of CSV per axis and one for all on stdout; the code to leave with.
+/// A line of CSV per axis and one for all, or one per condition, on stdout; the code to leave with.
 int runAttenuation(const AttenuationOptions& options);
 
 } // namespace physvib

@@ -79,6 +79,8 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     command.add_option("--level", o.levelDb, "master level in dB")->check(CLI::Range(-90.0, 0.0))->capture_default_str();
     command.add_option("--ceiling", o.ceilings, "drive ceiling in dB of full scale, before the master level: one for all, or one per enchanter")
         ->type_name("DB[,DB...]")->capture_default_str();
+    command.add_option("--on-off", o.onOff, "enchanters, from 1, that are motors which are only on or off: full scale in each 10 ms after one in which a sample exceeds --threshold")->type_name("1,2");
+    command.add_option("--threshold", o.threshold, "of --on-off, in full scale")->check(CLI::Range(0.0, 1.0))->capture_default_str();
     command.add_option("--noise", o.noise, "other outputs of the device that play pink noise, from 1: masks what actuators sound like")->type_name("5,6");
     command.add_option("--noise-db", o.noiseDb, "its root mean square, in dB of full scale")->check(CLI::Range(PinkNoise::leastDb, PinkNoise::mostDb))->capture_default_str();
     command.add_option("--contact-sound", o.scene.contactSound, "other outputs of the device on which each hit is heard, from 1")->type_name("5,6");
@@ -92,8 +94,8 @@ int runPlay(PlayOptions& o) {
     if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
-    const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.perceivedLevel == "off";
-    if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --perceived-level and --actuator; render --events, then board PORT play, has them");
+    const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 && o.scene.perceivedLevel == "off";
+    if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");
@@ -117,6 +119,9 @@ int runPlay(PlayOptions& o) {
     if (auto clash = fileClash(written, job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
     if (!parseMap(o.map, settings.channelMap)) return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
+    if (!parseMap(o.onOff, settings.onOff) || std::ranges::any_of(settings.onOff, [&](int j) { return j >= job.channels(); }))
+        return leave(exitUsage, "--on-off: expected enchanters like 1,2, of " + std::to_string(job.channels()) + ", found \"" + o.onOff + "\"");
+    settings.onOffThreshold = o.threshold;
     settings.listening.noiseDb = o.noiseDb;
     settings.listening.contactDb = o.scene.contactSoundDb;
     if (!parseMap(o.noise, settings.listening.noise)) return leave(exitUsage, "--noise: expected outputs like 5,6, found \"" + o.noise + "\"");

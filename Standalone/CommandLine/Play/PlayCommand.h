@@ -13,6 +13,8 @@ struct PlayOptions {
     std::string device;
     std::string board;              ///< serial port of a four-channel board, alone or beside a device
     std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
+    std::string onOff;              ///< enchanters from 1 that are motors, on or off; empty: none
+    double threshold = OnOffSteps::thesisThreshold; ///< of these, in full scale
     std::string noise;              ///< as map: outputs that play pink noise; empty: none
     double noiseDb = PinkNoise::safeDb;   ///< its root mean square, of full scale
     std::string driver = "message"; ///< or "thread"

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What --layout means everywhere.
 #pragma once
+#include "Core/RenderingMethod.h"
 #include "Files/LayoutFile.h"
 #include <string>
 
 namespace physvib {
 
-/// A preset, or the layout file at that path.
+/// What the fixed level of a study needs of an enchanter: that level, and 1 dB that the limiter never sees.
+constexpr double leastStudyFullScaleG = 1.122018454301963 * RenderingMethod::fixedLevelG;
+
+/// A preset, or the layout file at that path. study1 is phone1 on an enchanter of 2 g: an assumption, to be replaced by a layout of what is there.
 inline Result<LayoutDescription> layoutNamed(const std::string& name) {
+    constexpr double studyFullScaleG = 2.0;
     EnchanterLayout preset;
+    if (name == "study1" && layoutPreset("phone1", preset)) {
+        LayoutDescription layout = describeLayout(name, preset);
+        for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = studyFullScaleG;
+        return layout;
+    }
     if (layoutPreset(name, preset)) return describeLayout(name, preset);
     return loadLayout(name);
 }

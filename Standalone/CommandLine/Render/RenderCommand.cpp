@@ -109,7 +109,7 @@ std::string render(RenderJob& job) {
         job.made = std::move(made.value);
     }
     const auto warnings = remapWarnings(job.shaping().remap, job.made.events, job.layout, job.options);
-    std::ranges::transform(job.made.events, job.made.events.begin(), job.shaping());
+    std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
     const auto& source = job.scene ? job.scene->name : job.options.fromEvents;
     if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, source); !error.empty()) return error;
     if (auto error = takeRecordings(job, job.made.events, source); !error.empty()) return error;

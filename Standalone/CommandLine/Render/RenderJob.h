@@ -68,7 +68,8 @@ struct RenderJob {
         return session && std::ranges::none_of(own, [&](const char* name) { return options.given.contains(name); });
     }
     EqualisedActuators equalised() const { return keepsActuators() ? session->equalised : actuators.equalised; }
-    EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain(), perceived()}; }
+    EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain(), perceived(), truncation()}; }
+    double truncation() const { return session && !options.given.contains("--gamma") ? session->shaping.truncation : options.gamma; }
     double gain() const { return session && !options.given.contains("--level-db") ? session->shaping.gain : std::pow(10.0, options.levelDb / 20.0); }
     PerceivedLevel perceived() const {
         return session && !options.given.contains("--perceived-level") ? session->shaping.perceived : PerceivedLevel{options.perceivedLevel == "on"};
@@ -93,6 +94,7 @@ struct RenderJob {
         if (session && !options.given.contains("--method")) return session->shaping.method;
         RenderingMethod wanted = options.renderingMethod;
         wanted.fixedAmplitude = RenderingMethod::fixedLevelG / fullScaleG();
+        wanted.holdsLevel = wanted.fixesAmplitude;
         return wanted;
     }
     /// Of the first enchanter; a fixed level needs it to be that of all.

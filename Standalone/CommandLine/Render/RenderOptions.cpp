@@ -2,6 +2,7 @@
 // Names, ranges and help texts of the options of `physvib render`.
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Render/RenderOptions.h"
+#include "Core/EventShaping.h"
 #include "Files/Text/NumberText.h"
 #include "Physics/Simulation.h"
 #include <CLI/CLI.hpp>
@@ -63,7 +64,7 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--set", o.sets, "a variable of the scene; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
     command.add_option("--seconds", o.seconds, "length of the render")->check(between(0.001, 86400.0, " s"))->capture_default_str();
     command.add_option("--seed", o.seed, "seed of the scene")->check(between(0u, 4294967295u, ""))->capture_default_str();
-    command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")->capture_default_str();
+    command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file")->capture_default_str();
     command.add_option("--field", o.field, "metres that x and y span (scene: its field; events: the layout's extent)")->type_name("W,H");
     command.add_option("--law", o.law, "panning law: linear, log, log-outer, energy")->capture_default_str();
     command.add_option("--exponent", o.exponent, "exponent of the law")->check(between(0.01, 100.0, ""))->capture_default_str();
@@ -79,6 +80,8 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--sound-match", o.soundMatch, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)")
         ->check(CLI::IsMember({"peak", "rms"}))->capture_default_str();
     command.add_option("--level-db", o.levelDb, "all hits so much stronger or weaker")->check(between(-limits::maxLevelDb, limits::maxLevelDb, " dB"))->capture_default_str();
+    command.add_option("--gamma", o.gamma, "cut each decay where its envelope falls to this share, as Eq. 5.5 does with 0.1 (0: it rings out, without a click)")
+        ->check(between(0.0, EventShaping::mostTruncation, ""))->capture_default_str();
     command.add_option("--perceived-level", o.perceivedLevel, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)")
         ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
@@ -122,6 +125,7 @@ std::string checkSceneOptions(RenderOptions& o) {
     if (o.playsRecordings() && o.sounds.empty()) return "--method SV: expected a --sound for each material";
     if (!o.playsRecordings() && !o.sounds.empty() && o.contactSound.empty()) return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
     if (o.playsRecordings() && o.remap == "on") return std::string{recordingsHaveNoFrequency};
+    if (o.playsRecordings() && o.gamma > 0.0) return "--gamma: recordings have no one decay to be cut";
     if (o.playsRecordings() && o.perceivedLevel == "on") return std::string{recordingsHaveNoWeight};
     if (!o.playsRecordings() && !renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"" + o.method + "\"";
     if (!o.sounds.empty() && (o.remap == "on" || o.renderingMethod.fixesFrequency)) return "--sound: expected hits at their material's own frequency, found " + (o.remap == "on" ? "--remap" : "--method " + o.method);

@@ -38,6 +38,7 @@ struct RenderOptions {
     std::string limiter = "on";
     std::string location = "contact", timing = "onset", method = "AV-FV-DRV";
     double levelDb = 0.0;            ///< of all hits
+    double gamma = 0.0;              ///< Eq. 5.5, the share at which a decay is cut; 0: it rings out
     std::string perceivedLevel = "off"; ///< on: hits of one amplitude feel more alike at all frequencies
     std::string soundMatch = "peak"; ///< of recordings: as high as the mode, or ("rms") as strong
     std::vector<std::string> sounds; ///< "HZ=FILE.wav" for SV and the contact sound

@@ -103,7 +103,7 @@ std::string sessionWords(const SessionPlan& session) {
                  std::to_string(session.staircase->reversals) + " reversals";
     if (session.quest) words += "; QUEST+ on " + session.quest->alternative;
     if (session.adjustment) words += "; " + session.adjustment->alternative + " is set, in steps of " + numberText(session.adjustment->stepDb) + " dB";
-    if (!session.levelsFrom.empty()) words += "; levels from " + session.levelsFrom;
+    if (!session.levelsFrom.empty() || !session.levelsFile.empty()) words += "; levels from " + session.levelsFrom + session.levelsFile;
     if (session.leastSeconds > 0.0) words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
     if (session.mostPlays > 0) words += "; felt at most " + std::to_string(session.mostPlays) + " times";
     if (session.breakBeforeSeconds > 0.0) words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";

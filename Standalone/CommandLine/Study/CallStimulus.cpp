@@ -3,8 +3,10 @@
 #include "CommandLine/Study/CallStimulus.h"
 #include "CommandLine/Render/RenderJob.h"
 #include "CommandLine/Study/StimulusOptions.h"
+#include "Files/ProtocolFile.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace physvib {
@@ -25,7 +27,7 @@ Result<CallStimulus> ofScene(RenderOptions& o) {
     Patience patience{Patience::usualSeconds}; // whatever the call says: it may be a stranger's
     job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
     if (auto fault = patience.fault(); !fault.empty()) return Failure{fault};
-    std::ranges::transform(job.made.events, job.made.events.begin(), job.shaping());
+    std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
     if (auto fault = takeRecordings(job, job.made.events, o.scene); !fault.empty()) return Failure{fault};
     return CallStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f), job.feltRecordings()};
 }
@@ -55,6 +57,12 @@ struct ParsedCall {
             error = call + ": " + fault.what();
         }
     }
+    /// Those in `folder`, where they are there.
+    void findFiles(const std::string& folder) {
+        for (std::string* path : {&renderOptions.layout, &renderOptions.scene, &stimulusOptions.layout}) *path = besideProtocol(folder, *path);
+        for (std::string& sound : renderOptions.sounds)
+            if (const auto equals = sound.find('='); equals != std::string::npos) sound = sound.substr(0, equals + 1) + besideProtocol(folder, sound.substr(equals + 1));
+    }
     CLI::App words;
     RenderOptions renderOptions;
     StimulusOptions stimulusOptions;
@@ -67,9 +75,25 @@ struct ParsedCall {
 
 std::string wordsFault(const std::string& call) { return ParsedCall{call}.error; }
 
-Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz) {
+std::string studyLevelFault(const std::string& call, const std::string& folder) {
+    ParsedCall parsed{call};
+    RenderOptions& o = parsed.renderOptions;
+    if (!parsed.error.empty() || !parsed.words.got_subcommand(parsed.render) || !checkSceneOptions(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
+    parsed.findFiles(folder);
+    const auto layout = layoutNamed(o.layout);
+    if (!layout) return layout.error;
+    const double leastG = leastStudyFullScaleG * std::pow(10.0, o.levelDb / 20.0);
+    for (const EnchanterDescription& enchanter : layout.value.enchanters)
+        if (enchanter.fullScaleG < leastG)
+            return "--method " + o.method + ": expected enchanters of at least " + fixedNumber(leastG, 2) + " g (full_scale_g), as 1.5 g and 1 dB of headroom are felt, found " +
+                   fixedNumber(enchanter.fullScaleG, 2) + " g";
+    return {};
+}
+
+Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz, const std::string& folder) {
     ParsedCall parsed{call};
     if (!parsed.error.empty()) return Failure{parsed.error};
+    parsed.findFiles(folder);
     auto made = parsed.words.got_subcommand(parsed.render) ? ofScene(parsed.renderOptions) : ofStimulus(*parsed.stimulus, parsed.stimulusOptions, sampleRateHz);
     if (!made) return Failure{call + ": " + made.error};
     return made;

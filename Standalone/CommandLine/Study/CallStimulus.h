@@ -20,9 +20,13 @@ struct CallStimulus {
 /// Empty, or what the program would find wrong with the words of a call. M only.
 std::string wordsFault(const std::string& call);
 
-/// The stimulus of `render SCENE ...` or `stimulus ...`, without the name of the program; or one line with what is wrong.
+/// Empty, or that a call renders a fixed level that its layout cannot give without the limiter. M only.
+std::string studyLevelFault(const std::string& call, const std::string& folder);
+
+/// The stimulus of `render SCENE ...` or `stimulus ...`, without the name of the program; or one line with what is wrong. Files are looked
+/// for in `folder` first, if there is one.
 /// What `physvib stimulus` would refuse as too strong for the layout at `sampleRateHz` is refused here, and so is `stimulus
 /// wav`, which is samples and no events. M only.
-Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz);
+Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz, const std::string& folder = {});
 
 } // namespace physvib

@@ -139,7 +139,7 @@ void declareStimulus(CLI::App& command, StimulusOptions& o) {
     for (CLI::App* one : {pattern, phantom}) declareCarrier(*one, o);
     for (CLI::App* one : {phantom, wav}) declarePlace(*one, o);
     for (CLI::App* one : {pattern, phantom, wav}) {
-        one->add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")->capture_default_str();
+        one->add_option("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file")->capture_default_str();
         one->add_option("--level-g", o.levelG, "peak acceleration at gain 1, in g")->check(CLI::Range(1e-6, 1000.0))->capture_default_str();
         one->add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter, 1 = its full scale")->type_name("FILE.wav")->check(writtenFile);
         one->add_option("--picture", o.picturePath, "what each enchanter plays")->type_name("FILE.png")->check(writtenFile);

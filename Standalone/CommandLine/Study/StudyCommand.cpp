@@ -2,9 +2,12 @@
 // Every participant, one after the other, answered by the observer.
 #include "CommandLine/Study/StudyCommand.h"
 #include "CommandLine/Render/RenderOptions.h"
+#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "CommandLine/Study/StudyRun.h"
+#include "Files/LevelsFile.h"
 #include "Files/ProtocolFile.h"
+#include "Files/StudyCsv.h"
 #include "Host/Recordings/LoadContact.h"
 #include "Study/SimulatedObserver.h"
 #include <CLI/CLI.hpp>
@@ -56,7 +59,7 @@ std::string takeSounds(const std::vector<std::string>& sounds, Protocol& protoco
         protocol.sounds.push_back({hz, path});
     }
     for (const StudySoundFile& sound : protocol.sounds)
-        if (auto contact = loadContact({sound.frequencyHz, sound.file}); !contact) return contact.error;
+        if (auto contact = loadContact({sound.frequencyHz, besideProtocol(protocol.folder, sound.file)}); !contact) return contact.error;
     return {};
 }
 
@@ -70,11 +73,31 @@ int run(const StudyOptions& o) {
     if (!protocol) return leave(exitFailed, protocol.error);
     if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
     if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return leave(exitFailed, fault);
+    std::error_code fault;
+    std::filesystem::create_directories(o.folder, fault);
+    if (fault) return leave(exitFailed, o.folder + ": cannot be made: " + fault.message());
     for (int number = o.number; number < o.number + o.participants; ++number) {
         const Participant participant{codeOf(o, number), number, o.observer};
         if (auto error = runParticipant(protocol.value, participant, *settings, o); !error.empty()) return leave(exitFailed, error);
     }
     tellIfSimulated(true);
+    return exitDone;
+}
+
+int levels(const StudyOptions& o) {
+    const auto protocol = findProtocol(o.protocol);
+    if (!protocol) return leave(exitFailed, protocol.error);
+    const auto session = std::ranges::find_if(protocol.value.sessions, [](const SessionPlan& s) { return s.adjustment.has_value(); });
+    if (session == protocol.value.sessions.end()) return leave(exitFailed, o.protocol + ": expected a session of the task adjust, found none");
+    const auto data = readStudyFiles(StudySources{o.trials}, [](const std::vector<NamedText>& files) { return readLevels(files); });
+    if (!data) return leave(exitFailed, data.error);
+    const auto averages = averageLevels(data.value.conditions.front().trials, session->adjustment->alternative);
+    if (averages.empty()) return leave(exitFailed, o.trials.front() + ": expected adjustments, found none");
+    Provenance provenance{PHYSVIB_VERSION, {{"protocol", protocol.value.name}, {"hash", protocolHash(protocol.value)}}};
+    if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
+    if (const int code = writeStudyFiles({StudyFile{o.levelsPath, stimulusLevelsCsv(averages, provenance)}}); code != exitDone) return code;
+    std::cout << o.levelsPath << "  " << averages.size() << " levels of " << averages.front().participants << (averages.front().participants == 1 ? " participant\n" : " participants\n");
+    tellIfSimulated(data.value.isSimulated);
     return exitDone;
 }
 
@@ -85,7 +108,10 @@ void declareStudy(CLI::App& command, StudyOptions& o) {
     command.add_subcommand("list", "the built-in protocols, one per line");
     CLI::App* const show = command.add_subcommand("show", "a protocol as JSON, to start your own from");
     CLI::App* const run = command.add_subcommand("run", "runs a study, or goes on with it where it was cut off");
-    for (CLI::App* one : {show, run}) one->add_option("protocol", o.protocol, "a built-in protocol or PROTOCOL.json")->required();
+    CLI::App* const levels = command.add_subcommand("levels", "averages what experts set in a protocol's adjustments, for the levels_file of another");
+    levels->add_option("--out", o.levelsPath, "a level per stimulus")->type_name("FILE.csv")->required()->check(writtenFile);
+    for (CLI::App* one : {show, run, levels}) one->add_option("protocol", o.protocol, "a built-in protocol or PROTOCOL.json")->required();
+    levels->add_option("trials", o.trials, "trial files of that protocol")->type_name("TRIALS.csv")->required();
     run->add_option("--observer", o.observer, "who answers: " + std::string(observerNames));
     run->add_option("--participant", o.participant, "code of the participant; no other personal data is kept")->type_name("CODE");
     run->add_option("--number", o.number, "number of the (first) participant: decides orders")->check(CLI::Range(1, 100000))->capture_default_str();
@@ -98,6 +124,7 @@ void declareStudy(CLI::App& command, StudyOptions& o) {
 int runStudy(const CLI::App& command, const StudyOptions& o) {
     if (command.got_subcommand("list")) return list();
     if (command.got_subcommand("run")) return run(o);
+    if (command.got_subcommand("levels")) return levels(o);
     const auto protocol = findProtocol(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
     std::cout << protocolJson(protocol.value);

@@ -19,10 +19,12 @@ struct StudyOptions {
     int participants = 1;
     std::string folder = ".";
     std::vector<std::string> sounds; ///< "HZ=FILE.wav", instead of the protocol's of that frequency
+    std::vector<std::string> trials; ///< levels: files of those who set them
+    std::string levelsPath;          ///< levels: where they are written
     double paceSeconds = 0.0; ///< per trial, to watch it or to interrupt it
 };
 
-/// Declares list, show and run as subcommands of `command`.
+/// Declares list, show, run and levels as subcommands of `command`.
 void declareStudy(CLI::App& command, StudyOptions& options);
 
 /// Does what `command` has parsed; the code to leave with.

@@ -3,6 +3,7 @@
 #include "CommandLine/Study/StudyRun.h"
 #include "CommandLine/Study/CallStimulus.h"
 #include "CommandLine/Render/LayoutNamed.h"
+#include "Files/ProtocolFile.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
 #include <juce_core/juce_core.h>
@@ -27,7 +28,9 @@ std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condi
         for (const std::string& value : calls->factors[f].values) {
             StimulusItem item = first;
             item.values[f].second = value;
-            if (auto fault = wordsFault(callOf(*calls, item, *callPartsOf(protocol).begin(), "0")); !fault.empty()) return fault;
+            const std::string call = callOf(*calls, item, *callPartsOf(protocol).begin(), "0");
+            if (auto fault = wordsFault(call); !fault.empty()) return fault;
+            if (auto fault = studyLevelFault(call, protocol.folder); !fault.empty()) return fault;
         }
     return {};
 }
@@ -44,7 +47,7 @@ bool wasWrittenToday(const std::filesystem::path& path) {
 std::string protocolFault(const Protocol& protocol, const std::string& name) {
     if (!isStudyCode(protocol.name)) return name + ": name: expected letters, digits, - and _, as files are called after it";
     for (const ConditionPlan& condition : protocol.conditions) {
-        const auto layout = layoutNamed(condition.layout);
+        const auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
         if (!layout) return name + ": condition " + printable(condition.name) + ": " + layout.error;
         if (auto fault = firstCallsFault(protocol, condition); !fault.empty()) return name + ": condition " + condition.name + ": call: " + fault;
         const auto* patterns = std::get_if<PatternSet>(&condition.stimuli);

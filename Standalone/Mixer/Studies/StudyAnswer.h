@@ -81,7 +81,7 @@ std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout);
 std::unique_ptr<StudyAnswer> makeLabelAnswer(const ConditionPlan& condition);
 std::unique_ptr<StudyAnswer> makeChoiceAnswer(const Trial& trial);
 std::unique_ptr<StudyAnswer> makeRatingAnswer(const SessionPlan& session);
-std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment);
+std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment, double startDb);
 std::unique_ptr<StudyAnswer> makeNumberAnswer();
 
 } // namespace physvib

@@ -159,9 +159,9 @@ private:
 /// Method of adjustment: softer or stronger, a step at a time; the level itself is not told.
 class AdjustAnswer final : public StudyAnswer {
 public:
-    explicit AdjustAnswer(const Adjustment& adjustment)
+    AdjustAnswer(const Adjustment& adjustment, double startDb)
         : adjustment_{adjustment}
-        , db_{adjustment.startDb} {
+        , db_{startDb} {
         setTitle("Level");
         for (auto* button : {&softer_, &stronger_}) addAndMakeVisible(*button);
         softer_.setWords("Softer", "arrow down");
@@ -252,7 +252,7 @@ private:
 std::unique_ptr<StudyAnswer> makeLabelAnswer(const ConditionPlan& condition) { return std::make_unique<LabelAnswer>(condition); }
 std::unique_ptr<StudyAnswer> makeChoiceAnswer(const Trial& trial) { return std::make_unique<ChoiceAnswer>(trial); }
 std::unique_ptr<StudyAnswer> makeRatingAnswer(const SessionPlan& session) { return std::make_unique<RatingAnswer>(session); }
-std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment) { return std::make_unique<AdjustAnswer>(adjustment); }
+std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment, double startDb) { return std::make_unique<AdjustAnswer>(adjustment, startDb); }
 std::unique_ptr<StudyAnswer> makeNumberAnswer() { return std::make_unique<NumberAnswer>(); }
 
 namespace {
@@ -273,7 +273,7 @@ std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const
     case StudyTask::locate: return makePlaceAnswer(layout);
     case StudyTask::choose: return makeChoiceAnswer(experiment.trial());
     case StudyTask::rate: return makeRatingAnswer(session);
-    case StudyTask::adjust: return makeAdjustAnswer(*session.adjustment);
+    case StudyTask::adjust: return makeAdjustAnswer(*session.adjustment, experiment.trial().levelDb);
     case StudyTask::estimate: return makeNumberAnswer();
     }
     return nullptr;

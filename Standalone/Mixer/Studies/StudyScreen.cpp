@@ -2,6 +2,7 @@
 // From page to page.
 #include "Mixer/Studies/StudyScreen.h"
 #include "CommandLine/Render/LayoutNamed.h"
+#include "Files/ProtocolFile.h"
 #include "Mixer/Window/Parts.h"
 #include "Mixer/Studies/StudyWords.h"
 #include <cmath>
@@ -32,7 +33,7 @@ std::string feltFault(const Protocol& protocol, Desk& desk) {
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
             for (const std::string& call : partCallsOf(protocol, firstRecord(protocol, c, s)))
-                if (const auto stimulus = StudySound::make(desk, call); !stimulus) return stimulus.error;
+                if (const auto stimulus = StudySound::make(desk, call, protocol.folder); !stimulus) return stimulus.error;
     return {};
 }
 
@@ -86,7 +87,7 @@ void StudyScreen::showPage(Page page) {
 }
 
 void StudyScreen::showTrial() {
-    auto layout = layoutNamed(experiment().condition().layout);
+    auto layout = layoutNamed(besideProtocol(study_->protocol().folder, experiment().condition().layout));
     if (!layout) return fail(layout.error);
     layout_ = std::move(layout.value);
     page_ = Page::trial;
@@ -154,7 +155,7 @@ std::size_t StudyScreen::nextPart() const { return progress_->plays() == 0 ? 0 :
 void StudyScreen::play(std::size_t part) {
     if (page_ != Page::trial || sound_.isPlaying() || desk_.isSilent() || !progress_->canPlay(part)) return;
     const TrialRecord asked{experiment().trial(), exploring_.value_or(answer_->answer())};
-    const auto stimulus = StudySound::make(desk_, partCallsOf(study_->protocol(), asked)[part]);
+    const auto stimulus = StudySound::make(desk_, partCallsOf(study_->protocol(), asked)[part], study_->protocol().folder);
     if (!stimulus) return fail(stimulus.error);
     noteFelt();
     if (const auto fault = sound_.play(stimulus.value); !fault.empty()) return fail(fault);

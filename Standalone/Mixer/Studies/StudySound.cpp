@@ -48,8 +48,8 @@ void StudySound::useRecordings(const std::vector<ContactRecording>& recordings) 
     if (desk_.session().useRecordings(recordings) < 0) desk_.report(noControls);
 }
 
-Result<CallStimulus> StudySound::make(Desk& desk, const std::string& call) {
-    auto stimulus = stimulusOfCall(call, desk.output().sampleRateHz() > 0 ? desk.output().sampleRateHz() : 48000);
+Result<CallStimulus> StudySound::make(Desk& desk, const std::string& call, const std::string& folder) {
+    auto stimulus = stimulusOfCall(call, desk.output().sampleRateHz() > 0 ? desk.output().sampleRateHz() : 48000, folder);
     if (!stimulus) return stimulus;
     if (auto fault = refusal(desk, stimulus.value); !fault.empty()) return Failure{fault};
     return stimulus;

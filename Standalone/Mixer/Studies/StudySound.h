@@ -18,7 +18,7 @@ public:
     /// Why it cannot be felt on that desk; empty if it can.
     static std::string refusal(const Desk& desk, const CallStimulus& stimulus);
     /// The stimulus of a call at the desk's rate, if it can be felt there.
-    static Result<CallStimulus> make(Desk& desk, const std::string& call);
+    static Result<CallStimulus> make(Desk& desk, const std::string& call, const std::string& folder = {});
 
     /// Plays it; empty, or the reason. Not while another plays: what was begun is felt to its end, like in the file.
     std::string play(const CallStimulus& stimulus);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Checked channel by channel, then summed.
+#include "CommandLine/Measure/AxisRecording.h"
+#include "Host/Recordings/ReadRecording.h"
+#include "Measure/RecordingFaults.h"
+#include <cmath>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+/// Without what stands still, as gravity does.
+double levelOf(const std::vector<float>& x) {
+    double mean = 0.0, power = 0.0;
+    for (const float s : x) mean += s / static_cast<double>(x.size());
+    for (const float s : x) power += (s - mean) * (s - mean) / static_cast<double>(x.size());
+    return std::sqrt(power);
+}
+
+/// Through a Hann window, so that neither gravity nor a broken period counts.
+std::complex<double> toneOf(const std::vector<float>& x, double radiansPerSample) {
+    std::complex<double> sum = 0.0;
+    const double step = 2.0 * std::numbers::pi / static_cast<double>(x.size());
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        const auto at = static_cast<double>(n);
+        sum += (1.0 - std::cos(step * at)) * static_cast<double>(x[n]) * std::polar(1.0, -radiansPerSample * at);
+    }
+    return sum * (2.0 / static_cast<double>(x.size()));
+}
+
+template <class Value, class Measure>
+Result<std::vector<Value>> eachChannel(const std::string& path, Measure measure) {
+    constexpr double shortestSeconds = 0.1; // five periods of 50 Hz, the thesis' lowest
+    const auto recording = readRecording(path);
+    if (!recording) return Failure{recording.error};
+    std::vector<Value> values;
+    const double rateHz = recording.value.sampleRateHz;
+    for (const auto& channel : recording.value.channels) {
+        std::string fault = recordingFault(channel, rateHz, shortestSeconds);
+        if (fault.empty()) fault = clippingFault(channel, rateHz);
+        if (!fault.empty()) return Failure{path + ": channel " + std::to_string(values.size() + 1) + ": " + fault};
+        values.push_back(measure(channel, rateHz));
+    }
+    return values;
+}
+
+} // namespace
+
+Result<std::vector<double>> axisLevels(const std::string& path) {
+    return eachChannel<double>(path, [](const std::vector<float>& channel, double) { return levelOf(channel); });
+}
+
+Result<std::vector<std::complex<double>>> channelTones(const std::string& path, double frequencyHz) {
+    return eachChannel<std::complex<double>>(path, [=](const std::vector<float>& channel, double rateHz) { return toneOf(channel, 2.0 * std::numbers::pi * frequencyHz / rateHz); });
+}
+
+} // namespace physvib
