@@ -6,16 +6,17 @@ set(Study_may "Study/|Core/|Eigen/|boost/")
 set(Contacts_may "Contacts/|Core/")
 set(Physics_may "Physics/|Contacts/|Core/|box2d/")
 set(Files_may "Files/|Physics/|Contacts/|Study/|Core/|nlohmann/")
+set(Formats_may "Formats/|Files/(Result|SampledSound)\\.h|Files/(Disk|Json|Text)/|Core/|nlohmann/") # reads and writes as Files does
 set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Files/(Result|Text/NumberText)\\.h|Core/") # one line of words for what a recording lacks
 set(Api_may "Api/|Files/|Contacts/|Core/")
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
-set(Host_may "Host/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
+set(Host_may "Host/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
 set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
 # Core also stays free of what a board without an operating system lacks.
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Study Contacts Physics Files Measure Api Session Host Plugin)
+foreach(room Core Wire Study Contacts Physics Files Formats Measure Api Session Host Plugin)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     foreach(file ${files})
         file(STRINGS ${file} includes REGEX "^ *# *include")

@@ -2,6 +2,7 @@
 // What is asked of a JSON value, and the words when it is not there.
 #include "Files/Json/JsonField.h"
 #include "Files/Disk/FileLimits.h"
+#include "Files/Text/CleanText.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
@@ -97,6 +98,11 @@ std::string JsonField::text() const {
     if (std::ranges::any_of(words, [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
         fail("expected text without control characters, found " + inQuotes(words));
     return words;
+}
+
+std::string JsonField::line() const {
+    if (!value_.is_string()) failType("a string");
+    return cleanLine(value_.get_ref<const std::string&>().substr(0, limits::maxNameBytes));
 }
 
 std::size_t JsonField::oneOf(std::span<const std::string_view> names) const {

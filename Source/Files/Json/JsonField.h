@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Typed access to a JSON value, with errors that name the path to it. For the .cpp files of Files.
+// Typed access to a JSON value, with errors that name the path to it. For the .cpp files of Files and Formats.
 #pragma once
 #include "Files/Json/StrictJson.h"
 #include <cstddef>
@@ -38,6 +38,8 @@ public:
     bool truth() const;
     /// One line of at most limits::maxNameBytes.
     std::string text() const;
+    /// Of any text what a screen shows as one line: of strangers' titles.
+    std::string line() const;
     /// Index of the word it is among `names`.
     std::size_t oneOf(std::span<const std::string_view> names) const;
     bool isNull() const;

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// The one form between the haptic files of others and our strikes: channels of waves whose amplitude and frequency follow lines.
+#pragma once
+#include "Core/EnchanterLayout.h"
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// A point of a curve; from one to the next it is a line.
+struct ClipPoint {
+    double seconds = 0.0;
+    double value = 0.0;
+    bool operator==(const ClipPoint&) const = default;
+};
+
+/// The curve's value: a line between points, held before the first and after the last; 0 without points. Any thread.
+inline double valueAt(std::span<const ClipPoint> curve, double seconds) noexcept {
+    if (curve.empty()) return 0.0;
+    const auto next = std::upper_bound(curve.begin(), curve.end(), seconds, [](double t, const ClipPoint& p) { return t < p.seconds; });
+    if (next == curve.begin()) return curve.front().value;
+    const ClipPoint& before = *(next - 1);
+    if (next == curve.end()) return before.value;
+    return before.value + (next->value - before.value) * (seconds - before.seconds) / (next->seconds - before.seconds);
+}
+
+enum class ClipWaveform { sine, square, triangle, sawtoothUp, sawtoothDown };
+
+/// amplitude(t) waveform(phase + 2 pi integral of the frequency), t = time since `startSeconds`, from there on until
+/// before the last point of the amplitude.
+struct ClipWave {
+    double startSeconds = 0.0;
+    double phaseRadians = 0.0;
+    ClipWaveform waveform = ClipWaveform::sine;
+    std::vector<ClipPoint> amplitude;   ///< 1: full scale
+    std::vector<ClipPoint> frequencyHz; ///< at least one
+    bool operator==(const ClipWave&) const = default;
+
+    double seconds() const noexcept { return amplitude.empty() ? 0.0 : amplitude.back().seconds; }
+    double endSeconds() const noexcept { return startSeconds + seconds(); }
+};
+
+/// Waves one after the other: each ends before the next begins.
+struct ClipBand {
+    std::vector<ClipWave> waves;
+    bool operator==(const ClipBand&) const = default;
+};
+
+/// A short knock: a sine that falls to nothing within `lastsSeconds`.
+struct ClipTransient {
+    static constexpr double lastsSeconds = 0.022; ///< as MPEG's encoder takes it
+    double seconds = 0.0;
+    double amplitude = 0.0;
+    double frequencyHz = 0.0;
+    bool operator==(const ClipTransient&) const = default;
+
+    ClipWave wave() const { return {seconds, 0.0, ClipWaveform::sine, {{0.0, amplitude}, {lastsSeconds, 0.0}}, {{0.0, frequencyHz}}}; }
+};
+
+/// What a channel was made for, where a format has room for it; 0: not known.
+struct ClipDevice {
+    double lowHz = 0.0, highHz = 0.0, resonanceHz = 0.0, fullScaleG = 0.0;
+    bool operator==(const ClipDevice&) const = default;
+};
+
+struct ClipChannel {
+    std::string label;
+    std::optional<EnchanterPlace> place; ///< on the clip's extent
+    ClipDevice device{};
+    std::vector<ClipBand> bands{};           ///< all sound together
+    std::vector<ClipTransient> transients{}; ///< in time order
+    bool operator==(const ClipChannel& other) const {
+        return label == other.label && place.has_value() == other.place.has_value() && bands == other.bands && transients == other.transients;
+    }
+};
+
+/// At most limits::maxEnchanters channels.
+struct Clip {
+    std::string title;
+    double extentWidthMetres = 0.0, extentHeightMetres = 0.0; ///< 0: no channel has a place
+    std::vector<ClipChannel> channels;
+    bool operator==(const Clip&) const = default;
+
+    double seconds() const noexcept {
+        double end = 0.0;
+        for (const ClipChannel& channel : channels) {
+            for (const ClipBand& band : channel.bands)
+                if (!band.waves.empty()) end = std::max(end, band.waves.back().endSeconds());
+            if (!channel.transients.empty()) end = std::max(end, channel.transients.back().seconds + ClipTransient::lastsSeconds);
+        }
+        return end;
+    }
+    std::size_t points() const noexcept {
+        std::size_t count = 0;
+        for (const ClipChannel& channel : channels) {
+            count += channel.transients.size();
+            for (const ClipBand& band : channel.bands)
+                for (const ClipWave& wave : band.waves) count += wave.amplitude.size();
+        }
+        return count;
+    }
+};
+
+/// Empty, or why the clip is not taken: beyond limits, or nothing in it. Any thread.
+std::string clipFault(const Clip& clip);
+
+/// Puts the waves in order and ends each where the next begins, as MPEG's decoder plays a band. Any thread.
+void keepOneAtATime(ClipBand& band);
+
+} // namespace physvib

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// A mode's strikes and cuts become edges on the ticks; between two edges the sum of all that rings is one decaying sine.
+#include "Formats/StrikeClip.h"
+#include "Core/FrameClock.h"
+#include "Formats/DecayCurve.h"
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr int ticks = StrikeClipSettings::ticksPerSecond;
+constexpr double silence = 1e-7; // 140 dB below full scale, where the renderer lets go as well
+
+using Phasor = std::complex<double>;
+
+struct Mode {
+    double frequencyHz, decayPerSecond;
+    auto operator<=>(const Mode&) const = default;
+    /// What becomes of a phasor in so many seconds.
+    Phasor turn(double seconds) const { return std::exp(Phasor{-decayPerSecond, 2.0 * std::numbers::pi * frequencyHz} * seconds); }
+};
+
+/// What is added to the mode at a tick.
+struct Edge {
+    std::int64_t tick;
+    Phasor added;
+};
+
+void addEdges(std::vector<Edge>& edges, const Mode& mode, const CollisionEvent& event, double gain) {
+    const FrameClock clock{ticks};
+    const FramePosition onset = clock.at(event.timeNs);
+    const double lead = onset.leadFrames / ticks;
+    const Phasor begun = event.amplitude * gain * mode.turn(lead);
+    edges.push_back({onset.frame, begun});
+    if (event.durationNs == 0) return;
+    const std::int64_t close = clock.at(event.timeNs + event.durationNs).frame;
+    edges.push_back({close, -begun * mode.turn(static_cast<double>(close - onset.frame) / ticks)});
+}
+
+double positivePhase(Phasor phasor) {
+    const double phase = std::arg(phasor);
+    return phase < 0.0 ? phase + 2.0 * std::numbers::pi : phase;
+}
+
+std::vector<ClipWave> wavesOf(const Mode& mode, std::vector<Edge> edges, double error) {
+    std::ranges::stable_sort(edges, {}, &Edge::tick);
+    std::vector<ClipWave> waves;
+    Phasor ringing = 0.0;
+    for (std::size_t i = 0; i < edges.size();) {
+        const std::int64_t tick = edges[i].tick;
+        for (; i < edges.size() && edges[i].tick == tick; ++i) ringing += edges[i].added;
+        const bool isLast = i == edges.size();
+        const std::int64_t length = isLast ? std::numeric_limits<std::int64_t>::max() : edges[i].tick - tick;
+        if (std::abs(ringing) > silence && !(isLast && mode.decayPerSecond == 0.0))
+            waves.push_back({static_cast<double>(tick) / ticks, positivePhase(ringing), ClipWaveform::sine,
+                             decayCurve(std::abs(ringing), mode.decayPerSecond, length, error, ticks), {{0.0, mode.frequencyHz}}});
+        if (!isLast) ringing *= mode.turn(static_cast<double>(length) / ticks);
+    }
+    return waves;
+}
+
+struct ModeWave {
+    std::size_t mode;
+    ClipWave wave;
+};
+
+/// In as few bands as there are waves at once. A mode goes on in its band while that is its own: at the tick where one of its
+/// waves ends, the next begins.
+std::vector<ClipBand> packed(std::vector<ModeWave> waves, std::size_t modes) {
+    std::ranges::stable_sort(waves, {}, [](const ModeWave& w) { return w.wave.startSeconds; });
+    std::vector<ClipBand> bands;
+    std::vector<std::size_t> lastMode, bandOf(modes, waves.size());
+    for (auto& [mode, wave] : waves) {
+        std::size_t band = bandOf[mode];
+        if (band >= bands.size() || lastMode[band] != mode)
+            for (band = 0; band < bands.size() && bands[band].waves.back().endSeconds() >= wave.startSeconds;) ++band;
+        if (band == bands.size()) bands.emplace_back(), lastMode.emplace_back();
+        bands[band].waves.push_back(std::move(wave));
+        lastMode[band] = mode;
+        bandOf[mode] = band;
+    }
+    return bands;
+}
+
+} // namespace
+
+Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSettings& settings) {
+    std::vector<std::map<Mode, std::vector<Edge>>> modes(settings.channels);
+    PhantomPanner::Gains gains{};
+    for (const CollisionEvent& event : events) {
+        const Mode mode{event.frequencyHz, event.decayPerSecond};
+        settings.gains(event, gains);
+        for (std::size_t j = 0; j < settings.channels; ++j)
+            if (gains[j] != 0.0) addEdges(modes[j][mode], mode, event, gains[j]);
+    }
+    Clip clip;
+    clip.channels.resize(settings.channels);
+    for (std::size_t j = 0; j < settings.channels; ++j) {
+        std::vector<ModeWave> waves;
+        std::size_t number = 0;
+        for (auto& [mode, edges] : modes[j]) {
+            for (ClipWave& wave : wavesOf(mode, std::move(edges), settings.error)) waves.push_back({number, std::move(wave)});
+            ++number;
+        }
+        clip.channels[j].bands = packed(std::move(waves), number);
+    }
+    return clip;
+}
+
+} // namespace physvib
