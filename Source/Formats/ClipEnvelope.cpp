@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// At every point of any wave, the sum just before and just after it.
+#include "Formats/ClipEnvelope.h"
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+/// What sounds of a band, asked at growing times.
+class BandWalk {
+public:
+    explicit BandWalk(const ClipBand& band)
+        : band_{band} {}
+
+    /// The wave just before `seconds`, or from then on; none.
+    const ClipWave* at(double seconds, bool isBefore) {
+        while (next_ < band_.waves.size() && band_.waves[next_].endSeconds() < seconds) ++next_;
+        for (std::size_t i = next_; i < band_.waves.size() && band_.waves[i].startSeconds <= seconds; ++i) {
+            const ClipWave& wave = band_.waves[i];
+            if (isBefore ? wave.startSeconds < seconds && seconds <= wave.endSeconds() : seconds < wave.endSeconds()) return &wave;
+        }
+        return nullptr;
+    }
+
+private:
+    const ClipBand& band_;
+    std::size_t next_ = 0;
+};
+
+std::vector<double> momentsOf(const ClipChannel& channel) {
+    std::vector<double> moments;
+    for (const ClipBand& band : channel.bands)
+        for (const ClipWave& wave : band.waves) {
+            moments.push_back(wave.startSeconds);
+            for (const auto* curve : {&wave.amplitude, &wave.frequencyHz})
+                for (const ClipPoint& p : *curve)
+                    if (p.seconds <= wave.seconds()) moments.push_back(wave.startSeconds + p.seconds);
+        }
+    std::ranges::sort(moments);
+    const auto twins = std::ranges::unique(moments, [](double a, double b) { return b - a < 1e-6; });
+    moments.erase(twins.begin(), twins.end());
+    return moments;
+}
+
+EnvelopePoint sumAt(std::vector<BandWalk>& bands, double seconds, bool isBefore, double heldHz) {
+    double squares = 0.0, weighted = 0.0;
+    for (BandWalk& band : bands)
+        if (const ClipWave* wave = band.at(seconds, isBefore)) {
+            const double a = valueAt(wave->amplitude, seconds - wave->startSeconds);
+            squares += a * a;
+            weighted += a * a * valueAt(wave->frequencyHz, seconds - wave->startSeconds);
+        }
+    return {seconds, std::sqrt(squares), squares > 0.0 ? weighted / squares : heldHz};
+}
+
+bool isJump(const EnvelopePoint& a, const EnvelopePoint& b) { return std::abs(a.amplitude - b.amplitude) > 1e-6 || std::abs(a.frequencyHz - b.frequencyHz) > 1e-3; }
+
+} // namespace
+
+std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSeconds) {
+    std::vector<BandWalk> bands(channel.bands.begin(), channel.bands.end());
+    std::vector<EnvelopePoint> points;
+    for (const double moment : momentsOf(channel)) {
+        const double held = points.empty() ? 0.0 : points.back().frequencyHz;
+        EnvelopePoint before = sumAt(bands, moment, true, held);
+        EnvelopePoint after = sumAt(bands, moment, false, before.frequencyHz);
+        if (before.amplitude == 0.0) before.frequencyHz = after.frequencyHz; // nobody feels a glide within silence
+        if (!isJump(before, after)) {
+            points.push_back(after);
+            continue;
+        }
+        const double last = points.empty() ? 0.0 : points.back().seconds;
+        before.seconds = std::max(moment - riseSeconds, 0.5 * (last + moment));
+        if (after.seconds < riseSeconds && points.empty()) after.seconds = riseSeconds, before.seconds = 0.0; // what begins at 0 s rises from there
+        if (before.seconds > last || points.empty()) points.push_back(before);
+        points.push_back(after);
+    }
+    if (!points.empty() && points.back().amplitude > 0.0) points.push_back({points.back().seconds + riseSeconds, 0.0, points.back().frequencyHz});
+    return points;
+}
+
+std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance) {
+    if (curve.size() < 3) return curve;
+    std::vector<bool> isKept(curve.size());
+    isKept.front() = isKept.back() = true;
+    std::vector<std::pair<std::size_t, std::size_t>> stretches{{0, curve.size() - 1}};
+    while (!stretches.empty()) {
+        const auto [from, to] = stretches.back();
+        stretches.pop_back();
+        const ClipPoint ends[] = {curve[from], curve[to]};
+        std::size_t farthest = from;
+        double most = tolerance;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            const double distance = std::abs(curve[i].value - valueAt(ends, curve[i].seconds));
+            if (distance > most) most = distance, farthest = i;
+        }
+        if (farthest == from) continue;
+        isKept[farthest] = true;
+        stretches.push_back({from, farthest});
+        stretches.push_back({farthest, to});
+    }
+    std::vector<ClipPoint> kept;
+    for (std::size_t i = 0; i < curve.size(); ++i)
+        if (isKept[i]) kept.push_back(curve[i]);
+    return kept;
+}
+
+} // namespace physvib

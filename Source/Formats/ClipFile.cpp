@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Who reads, who writes, and what is lost.
+#include "Formats/ClipFile.h"
+#include "Files/Disk/ReadFile.h"
+#include "Files/Text/NumberText.h"
+#include "Formats/AhapFile.h"
+#include "Formats/ClipLimits.h"
+#include "Formats/HjifFile.h"
+#include "Formats/MetaHapticFile.h"
+#include "Formats/MpegPlaces.h"
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace physvib {
+namespace {
+
+constexpr std::array<std::string_view, 3> endings{".hjif", ".haptic", ".ahap"}; // as ClipFormat
+
+struct Facts {
+    std::set<double> frequenciesHz;
+    double peak = 0.0;
+    bool overlaps = false; ///< more than one wave at a time in a channel
+};
+
+Facts factsOf(const Clip& clip) {
+    Facts facts;
+    for (const ClipChannel& channel : clip.channels) {
+        facts.overlaps = facts.overlaps || channel.bands.size() > 1;
+        for (const ClipTransient& t : channel.transients) facts.frequenciesHz.insert(t.frequencyHz), facts.peak = std::max(facts.peak, std::abs(t.amplitude));
+        for (const ClipBand& band : channel.bands)
+            for (const ClipWave& wave : band.waves) {
+                for (const ClipPoint& p : wave.frequencyHz) facts.frequenciesHz.insert(p.value);
+                for (const ClipPoint& p : wave.amplitude) facts.peak = std::max(facts.peak, std::abs(p.value));
+            }
+    }
+    return facts;
+}
+
+/// By how much a place moves on the grid, at most.
+double farthestFromGrid(const Clip& clip) {
+    const mpeg::PlaceGrid grid{clip};
+    double most = 0.0;
+    for (const ClipChannel& channel : clip.channels)
+        if (channel.place) {
+            const mpeg::GridPoint at = grid.at(*channel.place);
+            most = std::max({most, std::abs(at.x * grid.pitchMetres - channel.place->xMetres), std::abs(at.y * grid.pitchMetres - channel.place->yMetres)});
+        }
+    return most;
+}
+
+std::vector<std::string> mpegLosses(const Clip& clip, const Facts& facts) {
+    std::vector<std::string> losses;
+    if (const double metres = farthestFromGrid(clip); metres > 1e-6) losses.push_back("places are moved by up to " + fixedNumber(1e3 * metres, 2) + " mm, onto a grid of at most 127 points");
+    const auto broken = std::ranges::find_if(facts.frequenciesHz, [](double hz) { return hz != std::floor(hz); });
+    if (broken != facts.frequenciesHz.end()) losses.push_back("MPEG's own decoder cuts frequencies to whole Hz, as of " + fixedNumber(*broken, 2) + " Hz; ours does not");
+    return losses;
+}
+
+std::vector<std::string> monoLosses(const Facts& facts, const FrequencyScale& scale) {
+    std::vector<std::string> losses{"where a hit was is not carried"};
+    if (facts.overlaps) losses.push_back("what rings at once is one envelope, at the mean of its frequencies");
+    const auto outside = std::ranges::count_if(facts.frequenciesHz, [&](double hz) { return hz < scale.lowHz || hz > scale.highHz; });
+    if (outside > 0) losses.push_back(std::to_string(outside) + " of " + std::to_string(facts.frequenciesHz.size()) + " frequencies lie outside " + fixedNumber(scale.lowHz, 0) + " to " + fixedNumber(scale.highHz, 0) + " Hz and become its ends");
+    if (facts.peak > 1.0) losses.push_back("what is above full scale is cut to it: the strongest is " + fixedNumber(facts.peak, 2));
+    return losses;
+}
+
+} // namespace
+
+std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+    for (std::size_t i = 0; i < endings.size(); ++i)
+        if (path.size() > endings[i].size() && std::ranges::equal(path.substr(path.size() - endings[i].size()), endings[i], {}, lower)) return static_cast<ClipFormat>(i);
+    return {};
+}
+
+Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat format, const FrequencyScale& scale) {
+    switch (format) {
+    case ClipFormat::haptic: return readMetaHaptic(bytes, name, scale);
+    case ClipFormat::ahap: return readAhap(bytes, name, scale);
+    default: return readHjif(bytes, name);
+    }
+}
+
+Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale) {
+    const Result<std::string> bytes = readFile(path, limits::maxClipFileBytes);
+    return bytes ? readClip(bytes.value, path.string(), format, scale) : Result<Clip>{Failure{bytes.error}};
+}
+
+std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {
+    switch (format) {
+    case ClipFormat::haptic: return metaHapticText(clip.channels.front(), clip.title, scale);
+    case ClipFormat::ahap: return ahapText(clip.channels.front(), clip.title, scale);
+    default: return hjifText(clip);
+    }
+}
+
+std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {
+    return isMono(format) ? monoLosses(factsOf(clip), scale) : mpegLosses(clip, factsOf(clip));
+}
+
+} // namespace physvib

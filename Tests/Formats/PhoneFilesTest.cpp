@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Meta's and Apple's files: their rules are kept, what both carry comes back, what breaks a rule is refused in one line.
+#include "ClipTesting.h"
+#include "Formats/AhapFile.h"
+#include "Formats/ClipEnvelope.h"
+#include "Formats/ClipFile.h"
+#include "Formats/MetaHapticFile.h"
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+/// The rules of Meta's files, as they state them.
+std::string metaFault(const std::string& text) {
+    const json file = json::parse(text);
+    if (file["version"]["major"] != 1) return "version";
+    const json& envelopes = file["signals"]["continuous"]["envelopes"];
+    const auto isShare = [](const json& value) { return value.is_number() && value >= 0.0 && value <= 1.0; };
+    double last = 0.0;
+    for (const json& p : envelopes["amplitude"]) {
+        if (!isShare(p["amplitude"]) || p["time"] < last) return "amplitude " + p.dump();
+        last = p["time"];
+        if (p.contains("emphasis") && (!isShare(p["emphasis"]["amplitude"]) || !isShare(p["emphasis"]["frequency"]) || p["emphasis"]["amplitude"] < p["amplitude"])) return "emphasis " + p.dump();
+    }
+    if (envelopes["amplitude"].size() < 2 || !(last > envelopes["amplitude"][0]["time"])) return "too short";
+    const double first = envelopes["amplitude"][0]["time"];
+    double lastFrequency = first;
+    for (const json& p : envelopes.value("frequency", json::array())) {
+        if (!isShare(p["frequency"]) || p["time"] < lastFrequency || p["time"] > last) return "frequency " + p.dump();
+        lastFrequency = p["time"];
+    }
+    return {};
+}
+
+/// Those of Apple's.
+std::string appleFault(const std::string& text) {
+    const json file = json::parse(text);
+    if (file["Version"] != 1 || !file["Pattern"].is_array()) return "head";
+    double eventEnd = 0.0;
+    for (const json& entry : file["Pattern"]) {
+        if (entry.contains("Event")) {
+            const json& event = entry["Event"];
+            for (const json& p : event["EventParameters"])
+                if (p["ParameterValue"] < 0.0 || p["ParameterValue"] > 1.0) return "parameter " + p.dump();
+            if (event["EventType"] == "HapticTransient") continue;
+            if (event["EventType"] != "HapticContinuous" || event["EventDuration"] <= 0.0 || event["EventDuration"] > 30.0) return "event " + event.dump();
+            if (event["Time"] < eventEnd - 2e-6) return "events at once";
+            eventEnd = event["Time"].get<double>() + event["EventDuration"].get<double>();
+        } else {
+            const json& curve = entry["ParameterCurve"];
+            const bool isSharpness = curve["ParameterID"] == "HapticSharpnessControl";
+            if (!isSharpness && curve["ParameterID"] != "HapticIntensityControl") return "curve";
+            double last = 0.0;
+            for (const json& p : curve["ParameterCurveControlPoints"]) {
+                if (p["Time"] < last || p["ParameterValue"] > 1.0 || p["ParameterValue"] < (isSharpness ? -1.0 : 0.0)) return "point " + p.dump();
+                last = p["Time"];
+            }
+            if (curve["Time"].get<double>() + last > eventEnd + 2e-6) return "beyond its event";
+        }
+    }
+    return {};
+}
+
+ClipChannel struck(int count = 40, double level = 1.0) {
+    auto events = hits(count);
+    for (CollisionEvent& e : events) e.amplitude *= level;
+    EnchanterLayout one;
+    layoutPreset("phone1", one);
+    return clipOf(events, 0.004, {one, PanningLaw::linear, 1.0, 1.0, 1.0}).channels[0];
+}
+
+constexpr FrequencyScale wide{20.0, 500.0};
+
+double farthestApart(const ClipChannel& a, const ClipChannel& b) {
+    const auto ea = envelopeOf(a), eb = envelopeOf(b);
+    double most = 0.0;
+    for (double t = 0.0; t < 2.2; t += 0.0003) {
+        const auto at = [t](const std::vector<EnvelopePoint>& envelope) {
+            std::vector<ClipPoint> curve;
+            for (const auto& p : envelope) curve.push_back({p.seconds, p.amplitude});
+            return t > curve.back().seconds ? 0.0 : valueAt(curve, t);
+        };
+        most = std::max(most, std::abs(at(ea) - at(eb)));
+    }
+    return most;
+}
+
+TEST(PhoneFiles, KeepTheirRules) {
+    for (const double level : {1.0, 30.0}) { // also of what is above full scale
+        EXPECT_EQ(metaFault(metaHapticText(struck(40, level), "hits", wide)), "");
+        EXPECT_EQ(appleFault(ahapText(struck(40, level), "hits", wide)), "");
+    }
+    ClipChannel transients{"A", {}, {}, {}, {{0.0, 1.0, 100.0}, {0.5, 0.3, 5000.0}}};
+    EXPECT_EQ(metaFault(metaHapticText(transients, "")), "");
+    EXPECT_EQ(appleFault(ahapText(transients, "")), "");
+    ClipChannel hour{"A", {}, {}, {{{ClipWave{0.0, 0.0, {}, {{0.0, 0.5}, {100.0, 0.5}}, {{0.0, 150.0}}}}}}, {}};
+    EXPECT_EQ(appleFault(ahapText(hour, "")), "");
+    EXPECT_EQ(metaFault(metaHapticText({}, "")), "");
+}
+
+TEST(PhoneFiles, EnvelopesComeBack) {
+    const ClipChannel channel = struck();
+    const auto meta = readMetaHaptic(metaHapticText(channel, "hits", wide), "f", wide);
+    ASSERT_EQ(meta.error, "");
+    EXPECT_EQ(meta.value.title, "hits");
+    const auto apple = readAhap(ahapText(channel, "hits", wide), "f", wide);
+    ASSERT_EQ(apple.error, "");
+    EXPECT_LE(farthestApart(channel, meta.value.channels[0]), 0.001);
+    EXPECT_LE(farthestApart(channel, apple.value.channels[0]), 0.01);
+}
+
+TEST(PhoneFiles, FrequenciesComeBackByTheScale) {
+    CollisionEvent hit{0, 349.0, 30.0, 0.5, 0.5, 0.5};
+    EnchanterLayout one;
+    layoutPreset("phone1", one);
+    const ClipChannel channel = clipOf({&hit, 1}, 0.004, {one, PanningLaw::linear, 1.0, 1.0, 1.0}).channels[0];
+    for (const ClipFormat format : {ClipFormat::haptic, ClipFormat::ahap}) {
+        const auto again = readClip(clipBytes({"", 0, 0, {channel}}, format, wide), "f", format, wide);
+        ASSERT_EQ(again.error, "");
+        for (const EnvelopePoint& p : envelopeOf(again.value.channels[0]))
+            if (p.amplitude > 0.01) EXPECT_NEAR(p.frequencyHz, 349.0, 1.0);
+    }
+}
+
+TEST(PhoneFiles, TransientsComeBack) {
+    const ClipChannel channel{"", {}, {}, {}, {{0.25, 0.5, 100.0}, {0.5, 1.0, 300.0}}};
+    for (const ClipFormat format : {ClipFormat::haptic, ClipFormat::ahap}) {
+        const auto again = readClip(clipBytes({"", 0, 0, {channel}}, format), "f", format);
+        ASSERT_EQ(again.error, "");
+        ASSERT_EQ(again.value.channels[0].transients.size(), 2u);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const ClipTransient &a = again.value.channels[0].transients[i], &b = channel.transients[i];
+            EXPECT_NEAR(a.seconds, b.seconds, 1e-6);
+            EXPECT_NEAR(a.amplitude, b.amplitude, 1e-5);
+            EXPECT_NEAR(a.frequencyHz, b.frequencyHz, 1e-3);
+        }
+    }
+}
+
+TEST(PhoneFiles, ReadAppleAsAppleSays) {
+    const auto clip = readAhap(R"({"Version": 1.0, "Pattern": [
+        {"ParameterCurve": {"ParameterID": "HapticIntensityControl", "Time": 0.5, "ParameterCurveControlPoints": [{"Time": 0, "ParameterValue": 2}, {"Time": 0.5, "ParameterValue": 0}]}},
+        {"Parameter": {"ParameterID": "HapticSharpnessControl", "Time": 1, "ParameterValue": 0.5}},
+        {"Event": {"Time": 0.5, "EventType": "HapticContinuous", "EventDuration": 1, "EventParameters": [{"ParameterID": "HapticIntensity", "ParameterValue": 0.5}, {"ParameterID": "HapticSharpness", "ParameterValue": 0}]}},
+        {"Event": {"Time": 0, "EventType": "HapticTransient"}}, {"Event": {"EventType": "AudioCustom", "Time": 3}}, {"Other": 1}]})", "f", {100.0, 200.0});
+    ASSERT_EQ(clip.error, "");
+    const ClipChannel& channel = clip.value.channels[0];
+    EXPECT_EQ(channel.transients, (std::vector<ClipTransient>{{0.0, 1.0, 150.0}})); // assumed intensity and sharpness
+    const ClipWave& wave = channel.bands[0].waves[0];
+    EXPECT_EQ(wave.startSeconds, 0.5);
+    EXPECT_NEAR(valueAt(wave.amplitude, 0.0), 0.25, 1e-12); // (0.5 x 1)^2: beyond 1 is 1
+    EXPECT_NEAR(valueAt(wave.amplitude, 0.25), 0.0625, 0.0026);
+    EXPECT_NEAR(valueAt(wave.amplitude, 0.75), 0.0, 1e-12);
+    EXPECT_NEAR(valueAt(wave.frequencyHz, 0.4999), 100.0, 1e-9);
+    EXPECT_NEAR(valueAt(wave.frequencyHz, 0.5), 150.0, 1e-9);
+}
+
+TEST(PhoneFiles, RefuseInOneLine) {
+    const auto meta = [](const std::string& amplitude) { return readMetaHaptic(R"({"version": {"major": 1, "minor": 0, "patch": 0}, "signals": {"continuous": {"envelopes": {"amplitude": [)" + amplitude + "]}}}}", "f").error; };
+    const std::string at = "f: signals.continuous.envelopes.amplitude";
+    EXPECT_EQ(meta(""), at + ": expected at least two points, found 0");
+    EXPECT_EQ(meta(R"({"time": 0, "amplitude": 0}, {"time": 0, "amplitude": 1})"), at + ": expected an envelope that lasts");
+    EXPECT_EQ(meta(R"({"time": 1, "amplitude": 0}, {"time": 0.5, "amplitude": 1})"), at + "[1].time: expected times in order");
+    EXPECT_EQ(meta(R"({"time": 1, "amplitude": 2}, {"time": 1, "amplitude": 1})"), at + "[0].amplitude: expected a number from 0 to 1, found 2");
+    EXPECT_EQ(meta(R"({"time": 0, "amplitude": 1, "emphasis": {"amplitude": 0.5, "frequency": 0}}, {"time": 1, "amplitude": 1})"), at + "[0].emphasis.amplitude: expected at least the envelope's amplitude");
+    EXPECT_EQ(readMetaHaptic(R"({"version": {"major": 2}})", "f").error, "f: version.major: expected version 1");
+    EXPECT_EQ(readAhap("{}", "f").error, "f: field \"Pattern\" is missing");
+    EXPECT_EQ(readAhap(R"({"Pattern": []})", "f").error, "f: Pattern: expected something to feel, found silence");
+    EXPECT_EQ(readAhap(R"({"Pattern": [{"Event": {"EventType": "Smell"}}]})", "f").error,
+              "f: Pattern[0].Event.EventType: expected one of HapticTransient, HapticContinuous, AudioContinuous, AudioCustom, found \"Smell\"");
+    EXPECT_EQ(readAhap(R"({"Pattern": [{"Event": {"EventType": "HapticContinuous"}}]})", "f").error, "f: Pattern[0].Event: field \"EventDuration\" is missing");
+}
+
+TEST(PhoneFiles, AreBoundedWhereManyEventsShareLongCurves) {
+    std::string text = R"({"Pattern": [{"ParameterCurve": {"ParameterID": "HapticIntensityControl", "ParameterCurveControlPoints": [)";
+    for (int i = 0; i < 20000; ++i) text += (i ? "," : "") + std::string(R"({"Time": )") + std::to_string(i * 1e-3) + R"(, "ParameterValue": )" + (i % 2 ? "1" : "0") + "}";
+    text += "]}}";
+    for (int i = 0; i < 200; ++i) text += R"(, {"Event": {"EventType": "HapticContinuous", "Time": 0, "EventDuration": 20}})";
+    EXPECT_EQ(readAhap(text + "]}", "f").error, "f: Pattern: expected fewer events at once on such long curves");
+}
+
+TEST(ClipFile, IsKnownByItsEnding) {
+    EXPECT_EQ(clipFormatOf("a.hjif"), ClipFormat::hjif);
+    EXPECT_EQ(clipFormatOf("dir/A.HAPTIC"), ClipFormat::haptic);
+    EXPECT_EQ(clipFormatOf("b.ahap"), ClipFormat::ahap);
+    EXPECT_FALSE(clipFormatOf("hjif"));
+    EXPECT_FALSE(clipFormatOf(".hjif"));
+    EXPECT_FALSE(clipFormatOf("a.json"));
+}
+
+TEST(ClipFile, TellsWhatIsLost) {
+    Clip clip{"", 0.2, 0.1, {ClipChannel{"A", EnchanterPlace{0.0333, 0.05}, {}, {{{ClipWave{0, 0, {}, {{0, 2.0}, {1, 2.0}}, {{0, 80.5}}}}}, {{ClipWave{0, 0, {}, {{0, 1}, {1, 1}}, {{0, 349}}}}}}, {}}}};
+    EXPECT_EQ(clipLosses(clip, ClipFormat::hjif), (std::vector<std::string>{"places are moved by up to 0.70 mm, onto a grid of at most 127 points", "MPEG's own decoder cuts frequencies to whole Hz, as of 80.50 Hz; ours does not"}));
+    EXPECT_EQ(clipLosses(clip, ClipFormat::ahap), (std::vector<std::string>{"where a hit was is not carried", "what rings at once is one envelope, at the mean of its frequencies",
+                                                                        "1 of 2 frequencies lie outside 65 to 300 Hz and become its ends", "what is above full scale is cut to it: the strongest is 2.00"}));
+}
+
+} // namespace
+} // namespace physvib
