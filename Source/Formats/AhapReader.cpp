@@ -166,6 +166,7 @@ private:
         const auto isFree = [&](const ClipBand& band) { return band.waves.back().endSeconds() <= wave.startSeconds; };
         auto band = std::ranges::find_if(bands, isFree);
         if (band == bands.end()) band = bands.insert(bands.end(), ClipBand{});
+        if (bands.size() > limits::maxClipBands) throw JsonError("Pattern", "expected at most " + std::to_string(limits::maxClipBands) + " events at once, found more");
         band->waves.push_back(std::move(wave));
     }
 

@@ -11,6 +11,7 @@ namespace {
 constexpr double longestEventSeconds = 30.0; // of Apple's continuous events
 constexpr double silenceSeconds = 0.05;      // what lasts longer is no part of an event
 constexpr double intensityTolerance = 0.002, sharpnessTolerance = 0.001;
+constexpr double steepSeconds = 0.001;       // what rises or falls sooner is a step to a hand
 constexpr int rootLines = 6; // of a line of amplitude: its root bends
 
 double shortened(double value) { return std::round(value * 1e6) / 1e6; }
@@ -31,7 +32,8 @@ std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope) {
     for (std::size_t i = 0; i < envelope.size(); ++i) {
         const EnvelopePoint& p = envelope[i];
         const double intensity = std::sqrt(std::min(1.0, p.amplitude));
-        for (int k = 1; i > 0 && k < rootLines; ++k) { // even steps of intensity
+        const bool isLine = i > 0 && p.seconds - envelope[i - 1].seconds > steepSeconds;
+        for (int k = 1; isLine && k < rootLines; ++k) { // even steps of intensity
             const EnvelopePoint& from = envelope[i - 1];
             const double root = std::sqrt(std::min(1.0, from.amplitude)), value = root + (intensity - root) * k / rootLines;
             if (p.amplitude != from.amplitude) curve.push_back({from.seconds + (p.seconds - from.seconds) * std::clamp((value * value - from.amplitude) / (p.amplitude - from.amplitude), 0.0, 1.0), value});

@@ -80,10 +80,15 @@ std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSec
 }
 
 std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance) {
+    constexpr std::size_t longestStretch = 1024; // so that no curve takes time by the square of its length
     if (curve.size() < 3) return curve;
     std::vector<bool> isKept(curve.size());
-    isKept.front() = isKept.back() = true;
-    std::vector<std::pair<std::size_t, std::size_t>> stretches{{0, curve.size() - 1}};
+    std::vector<std::pair<std::size_t, std::size_t>> stretches;
+    for (std::size_t from = 0, to; from + 1 < curve.size(); from = to) {
+        to = std::min(from + longestStretch, curve.size() - 1);
+        stretches.push_back({from, to});
+        isKept[from] = isKept[to] = true;
+    }
     while (!stretches.empty()) {
         const auto [from, to] = stretches.back();
         stretches.pop_back();

@@ -2,6 +2,7 @@
 // A mode's strikes and cuts become edges on the ticks; between two edges the sum of all that rings is one decaying sine.
 #include "Formats/StrikeClip.h"
 #include "Core/FrameClock.h"
+#include "Formats/ClipLimits.h"
 #include "Formats/DecayCurve.h"
 #include <cmath>
 #include <complex>
@@ -77,6 +78,7 @@ std::vector<ClipBand> packed(std::vector<ModeWave> waves, std::size_t modes) {
     std::vector<ClipBand> bands;
     std::vector<std::size_t> lastMode, bandOf(modes, waves.size());
     for (auto& [mode, wave] : waves) {
+        if (bands.size() > limits::maxClipBands) break; // more than any clip may have
         std::size_t band = bandOf[mode];
         if (band >= bands.size() || lastMode[band] != mode)
             for (band = 0; band < bands.size() && bands[band].waves.back().endSeconds() >= wave.startSeconds;) ++band;
@@ -101,12 +103,17 @@ Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSetti
     }
     Clip clip;
     clip.channels.resize(settings.channels);
+    std::size_t points = 0;
     for (std::size_t j = 0; j < settings.channels; ++j) {
         std::vector<ModeWave> waves;
         std::size_t number = 0;
         for (auto& [mode, edges] : modes[j]) {
-            for (ClipWave& wave : wavesOf(mode, std::move(edges), settings.error)) waves.push_back({number, std::move(wave)});
+            for (ClipWave& wave : wavesOf(mode, std::move(edges), settings.error)) {
+                points += wave.amplitude.size();
+                waves.push_back({number, std::move(wave)});
+            }
             ++number;
+            if (points > limits::maxClipPoints) break; // likewise
         }
         clip.channels[j].bands = packed(std::move(waves), number);
     }

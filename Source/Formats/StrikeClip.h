@@ -21,7 +21,7 @@ struct StrikeClipSettings {
 
 /// The strikes (playable, in time order) as bands of `settings.channels` channels without labels or places. Strikes of one
 /// frequency and decay are merged exactly, as in the mode bank: at each onset the wave of that mode ends and one with the
-/// sum's amplitude and phase begins. Any thread.
+/// sum's amplitude and phase begins. Of more than a clip may have only so much that clipFault says so. Any thread.
 Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSettings& settings);
 
 } // namespace physvib

@@ -11,6 +11,7 @@
 #include "CommandLine/Measure/MaterialCommand.h"
 #include "CommandLine/Play/PlayCommand.h"
 #include "CommandLine/Process.h"
+#include "CommandLine/Render/ExportCommand.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Report/ReportCommand.h"
 #include "CommandLine/Study/StimulusCommand.h"
@@ -41,8 +42,11 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     RenderOptions options;
     CLI::App* scenes = app.add_subcommand("scenes", "list the built-in scenes");
-    CLI::App* render = app.add_subcommand("render", "render a scene or an event list to files");
+    CLI::App* render = app.add_subcommand("render", "render a scene, an event list or a clip to files");
     declareRenderOptions(*render, options);
+    ExportOptions exportOptions;
+    CLI::App* exported = app.add_subcommand("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others");
+    declareExport(*exported, exportOptions);
     PlayOptions playOptions;
     CLI::App* play = app.add_subcommand("play", "play a scene live on an audio device");
     declarePlayOptions(*play, playOptions);
@@ -93,6 +97,7 @@ int run(int argc, char** argv) {
     if (study->parsed()) return runStudy(*study, studyOptions);
     if (material->parsed()) return runMaterial(materialOptions);
     if (play->parsed()) return runPlay(playOptions);
+    if (exported->parsed()) return runExport(*exported, exportOptions);
     if (board->parsed()) return runBoard(boardOptions);
     if (attenuation->parsed()) return runAttenuation(attenuationOptions);
     if (coupling->parsed()) return runCoupling(couplingOptions);

@@ -75,16 +75,19 @@ ClipChannel struck(int count = 40, double level = 1.0) {
 
 constexpr FrequencyScale wide{20.0, 500.0};
 
+std::vector<ClipPoint> amplitudes(const ClipChannel& channel) {
+    std::vector<ClipPoint> curve;
+    for (const auto& p : envelopeOf(channel)) curve.push_back({p.seconds, p.amplitude});
+    return curve;
+}
+
+/// Of the envelopes, where that of `a` does not step within a millisecond.
 double farthestApart(const ClipChannel& a, const ClipChannel& b) {
-    const auto ea = envelopeOf(a), eb = envelopeOf(b);
+    const auto curveA = amplitudes(a), curveB = amplitudes(b);
     double most = 0.0;
-    for (double t = 0.0; t < 2.2; t += 0.0003) {
-        const auto at = [t](const std::vector<EnvelopePoint>& envelope) {
-            std::vector<ClipPoint> curve;
-            for (const auto& p : envelope) curve.push_back({p.seconds, p.amplitude});
-            return t > curve.back().seconds ? 0.0 : valueAt(curve, t);
-        };
-        most = std::max(most, std::abs(at(ea) - at(eb)));
+    for (double t = 0.001; t < 2.2; t += 0.0003) {
+        const bool isStep = std::abs(valueAt(curveA, t - 0.0006) - valueAt(curveA, t + 0.0006)) > 0.01;
+        if (!isStep) most = std::max(most, std::abs(valueAt(curveA, t) - valueAt(curveB, t)));
     }
     return most;
 }

@@ -14,7 +14,7 @@ namespace physvib {
 
 using Json = nlohmann::json;
 
-/// What is wrong with a JSON text, and where. Never leaves the room Files.
+/// What is wrong with a JSON text, and where. Never leaves the rooms that read JSON.
 struct JsonError : std::runtime_error {
     /// Of a long path the ends are told: the names in it are the file's.
     JsonError(const std::string& path, const std::string& message);

@@ -4,6 +4,8 @@
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/WavFile.h"
+#include "Formats/ClipFile.h"
+#include "Formats/ClipSound.h"
 #include "Host/Recordings/RecordingStream.h"
 #include <algorithm>
 #include <array>
@@ -89,11 +91,22 @@ Result<SampledSound> readSound(std::FILE& file, std::size_t fileBytes) {
     return decode(file, fileBytes, isOgg);
 }
 
+constexpr int clipRateHz = 48000; // of what is drawn, not sampled
+
+Result<SampledSound> readClipSound(const std::filesystem::path& path, ClipFormat format) {
+    const auto clip = loadClip(path, format);
+    if (!clip) return Failure{clip.error};
+    const SoundShape shape{clipRateHz, static_cast<std::int64_t>(clip.value.channels.size()), static_cast<std::int64_t>(clip.value.seconds() * clipRateHz)};
+    if (auto fault = soundFault(shape); !fault.empty()) return Failure{path.string() + ": " + fault};
+    return clipSound(clip.value, clipRateHz);
+}
+
 } // namespace
 
 Result<SampledSound> readRecording(const std::filesystem::path& path) {
     const auto file = openRegular(path, limits::maxRecordingFileBytes);
     if (!file) return Failure{file.error};
+    if (const auto format = clipFormatOf(path.string())) return readClipSound(path, *format);
     auto sound = readSound(*file.value.stream, file.value.bytes);
     if (!sound) return Failure{path.string() + ": " + sound.error};
     return sound;

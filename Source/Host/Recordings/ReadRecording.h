@@ -7,7 +7,8 @@
 
 namespace physvib {
 
-/// A recording (WAV, FLAC, Ogg Vorbis, by what is in it) as it is: its rate and channels; or one line naming the file. Only a
+/// A recording (WAV, FLAC, Ogg Vorbis, by what is in it) as it is: its rate and channels; or a clip (by its ending:
+/// Formats/ClipFile.h) at 48 kHz; or one line naming the file. Only a
 /// regular file, within the limits of recordings, and only if it holds what its header says. Any thread but R.
 Result<SampledSound> readRecording(const std::filesystem::path& path);
 

@@ -13,6 +13,7 @@
 #include "Files/Text/NumberText.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SessionFile.h"
+#include "Formats/ClipFile.h"
 #include "Physics/Scenes/SceneRun.h"
 #include "Physics/Scenes/SceneValidation.h"
 #include <algorithm>
@@ -33,6 +34,10 @@ struct RenderJob {
     LoadedRecordings sessionRecordings{}; ///< of a session
     ActuatorChoice actuators{}; ///< by the options; see equalised() and shaping()
     CouplingChoice coupling{};  ///< by the options
+    std::optional<Clip> clip{}; ///< what is rendered, if it is no strikes
+
+    /// For messages about events.
+    const std::string& source() const { return scene ? scene->name : clip ? options.scene : options.fromEvents; }
 
     /// Those that are played instead of modes.
     std::vector<ContactRecording> feltRecordings() const { return options.playsRecordings() ? recordings : std::vector<ContactRecording>{}; }
@@ -56,7 +61,9 @@ struct RenderJob {
     }
     int channels() const { return keepsLayouts() ? session->channels : layout.geometry.count; }
     double seconds() const {
-        return session && !options.given.contains("--seconds") ? static_cast<double>(session->lengthNs) * 1e-9 : options.seconds;
+        if (options.given.contains("--seconds")) return options.seconds;
+        if (clip) return clip->seconds();
+        return session ? static_cast<double>(session->lengthNs) * 1e-9 : options.seconds;
     }
     /// Those of a saved session belong to its actuators: on other layouts they say nothing.
     std::array<float, limits::maxEnchanters> ceilings() const {
@@ -77,7 +84,7 @@ struct RenderJob {
     /// Whether what a session played of recordings is kept: its own method.
     bool keepsRecordings() const { return session && !options.given.contains("--method"); }
     bool isLimited() const { return session ? session->limiterEnabled : options.limiter == "on"; }
-    std::int64_t frames() const { return std::llround(seconds() * options.sampleRateHz); }
+    std::int64_t frames() const { return std::max<std::int64_t>(1, std::llround(seconds() * options.sampleRateHz)); }
     std::int64_t endNs() const { return std::llround(seconds() * 1e9); }
     double fieldWidthMetres() const {
         if (options.fieldWidthMetres > 0) return options.fieldWidthMetres;

@@ -108,6 +108,7 @@ Provenance RenderOutputs::provenance() const {
 
 Provenance RenderOutputs::inputProvenance() const {
     const RenderOptions& o = job_.options;
+    if (job_.clip) return {PHYSVIB_VERSION, {{"clip", std::filesystem::path{o.scene}.filename().string()}}};
     if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
     Provenance p{PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(job_.session ? job_.session->log.takes.front().seed : o.seed)},
                                    {"steps_per_second", std::to_string(job_.run().stepsPerSecond)}}};
@@ -128,8 +129,8 @@ std::string RenderOutputs::provenanceText() const {
 std::string RenderOutputs::writePictureFile() {
     const auto& events = job_.made.events;
     PictureInput picture;
-    picture.title = job_.scene ? job_.scene->name : std::filesystem::path{job_.options.fromEvents}.filename().string();
-    picture.subtitle = job_.scene ? job_.scene->description : "an event list";
+    picture.title = job_.scene ? job_.scene->name : std::filesystem::path{job_.source()}.filename().string();
+    picture.subtitle = job_.scene ? job_.scene->description : job_.clip ? "a clip" : "an event list";
     picture.fieldWidthMetres = job_.fieldWidthMetres();
     picture.fieldHeightMetres = job_.fieldHeightMetres();
     picture.scene = job_.scene ? &*job_.scene : nullptr;
@@ -168,7 +169,7 @@ void RenderOutputs::summarise(std::ostream& out) const {
     if (eventsFile_) out << o.eventsPath << "  " << collisionWords(job_) << '\n';
     if (patternFile_) out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
     if (contactWav_) out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale " << numberText(o.contactSoundDb) << " dBFS\n";
-    if (pictureFile_) out << o.picturePath << "  the world, every channel and every hit\n";
+    if (pictureFile_) out << o.picturePath << (job_.clip ? "  every channel\n" : "  the world, every channel and every hit\n");
 }
 
 } // namespace physvib

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Haptic files of others as inputs: on which enchanters each of their channels is felt.
+#pragma once
+#include "CommandLine/Render/RenderJob.h"
+#include "Core/RecordedContact.h"
+#include "Files/SampledSound.h"
+#include <vector>
+
+namespace physvib {
+
+/// A clip's channels at a rate, and one event for each: the renderer plays them as it plays recorded contacts.
+class ClipVoices {
+public:
+    /// `job` has a clip; see ClipInput.cpp for where its channels are felt.
+    explicit ClipVoices(const RenderJob& job);
+
+    const std::vector<CollisionEvent>& events() const { return events_; }
+    std::span<const RecordedContact> contacts() const { return contacts_; }
+
+private:
+    SampledSound sound_;
+    std::vector<CollisionEvent> events_;
+    std::vector<RecordedContact> contacts_;
+};
+
+/// What phones' frequencies are by the options: the band of a named --actuator, else what is usual. One line if there is no such
+/// actuator. M only.
+Result<FrequencyScale> frequencyScaleOf(const RenderOptions& options);
+
+/// Takes the clip that the options name, and its own layout if none is given, into `job`: exitDone, or the code to leave with
+/// after a line on stderr. M only.
+int takeClip(RenderJob& job);
+
+} // namespace physvib

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib export`, and its files through `physvib render`: how near they are to what was exported.
+#include "Calls.h"
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+using Signals = std::vector<std::vector<float>>; // [channel][frame]
+
+class ExportCommand : public test::CommandLine {
+protected:
+    Signals wav(const std::string& name) const {
+        const std::string bytes = read(name);
+        const auto format = bytes.find("fmt "), data = bytes.find("data", format);
+        if (format == std::string::npos || data == std::string::npos || data + 8 > bytes.size()) return {};
+        std::uint16_t channels = 0;
+        std::memcpy(&channels, bytes.data() + format + 10, sizeof channels);
+        const std::size_t count = (bytes.size() - data - 8) / sizeof(float);
+        Signals out(channels);
+        for (std::size_t i = 0; i < count; ++i) {
+            float sample;
+            std::memcpy(&sample, bytes.data() + data + 8 + i * sizeof sample, sizeof sample);
+            out[i % channels].push_back(sample);
+        }
+        return out;
+    }
+
+    void runs(const std::string& arguments) const {
+        const auto outcome = call(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << arguments << '\n' << outcome.err;
+    }
+
+    static double farthest(const Signals& a, const Signals& b) {
+        EXPECT_EQ(a.size(), b.size());
+        double most = 0.0;
+        for (std::size_t j = 0; j < std::min(a.size(), b.size()); ++j)
+            for (std::size_t n = 0; n < std::min(a[j].size(), b[j].size()); ++n) most = std::max(most, static_cast<double>(std::abs(a[j][n] - b[j][n])));
+        return most;
+    }
+};
+
+TEST_F(ExportCommand, EveryScenePlaysAsItsRenderDoes) {
+    for (const std::string scene : {"shake-the-box", "fruit-basket", "driving", "drop", "box-study"}) {
+        runs("render " + scene + " --seconds 3 --limiter off --out direct.wav");
+        runs("export " + scene + " --seconds 3 --error 0.001 --to a.hjif");
+        runs("render a.hjif --seconds 3 --limiter off --out again.wav");
+        EXPECT_LE(farthest(wav("direct.wav"), wav("again.wav")), 1e-3) << scene;
+        EXPECT_GE(farthest(wav("direct.wav"), Signals(4, std::vector<float>(144000))), 1e-3) << scene; // there is something to compare
+    }
+}
+
+TEST_F(ExportCommand, GivesTheSameBytesTwice) {
+    for (const std::string ending : {"hjif", "haptic", "ahap"}) {
+        runs("export drop --seconds 2 --layout phone1 --to a." + ending);
+        runs("export drop --seconds 2 --layout phone1 --to b." + ending);
+        EXPECT_FALSE(read("a." + ending).empty());
+        EXPECT_TRUE(read("a." + ending) == read("b." + ending));
+    }
+}
+
+TEST_F(ExportCommand, KeepsEveryHitOfAnEventListWhereItWasAndWhen) {
+    std::ostringstream list;
+    list << "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n";
+    constexpr int hits = 30;
+    for (int k = 0; k < hits; ++k) list << 0.1 + 0.25 * k + 1.3e-6 * k << ",250,60," << (k % 3 ? 0.5 : 0.02) << ',' << 0.004 * k << ',' << 0.002 * (hits - k) << '\n';
+    write("hits.csv", list.str());
+    for (const std::string layout : {"phone4", "ring4"}) {
+        runs("render --from-events hits.csv --field 0.12,0.06 --seconds 8 --limiter off --layout " + layout + " --out direct.wav");
+        runs("export hits.csv --field 0.12,0.06 --layout " + layout + " --to a.hjif");
+        runs("render a.hjif --seconds 8 --limiter off --out again.wav");
+        const Signals direct = wav("direct.wav"), again = wav("again.wav");
+        ASSERT_EQ(direct.size(), again.size());
+        for (int k = 0; k < hits; ++k) {
+            const auto from = static_cast<std::size_t>(48000 * (0.1 + 0.25 * k)) - 10;
+            double centroid[2] = {};
+            std::size_t onset[2] = {};
+            for (int which = 0; which < 2; ++which) {
+                const Signals& signals = which ? again : direct;
+                double x = 0.0, sum = 0.0;
+                for (std::size_t j = 0; j < signals.size(); ++j) {
+                    double energy = 0.0;
+                    for (std::size_t n = from; n < from + 11000; ++n) energy += static_cast<double>(signals[j][n]) * signals[j][n];
+                    x += (j % 2 ? 1.0 : 0.0) * std::sqrt(energy);
+                    sum += std::sqrt(energy);
+                }
+                centroid[which] = x / sum;
+                for (onset[which] = from; onset[which] < from + 100;) {
+                    bool sounds = false;
+                    for (const auto& channel : signals) sounds = sounds || std::abs(channel[onset[which]]) > 1e-5f;
+                    if (sounds) break;
+                    ++onset[which];
+                }
+            }
+            EXPECT_NEAR(centroid[0], centroid[1], 0.03) << layout << ' ' << k;
+            EXPECT_NEAR(static_cast<double>(onset[0]), static_cast<double>(onset[1]), 1.0) << layout << ' ' << k;
+        }
+    }
+}
+
+TEST_F(ExportCommand, KeepsASessionsLayoutsAndInputs) {
+    std::ifstream file{PHYSVIB_SOURCE_DIR "/Source/Files/Scenes/shake-the-box.json"};
+    std::string scene{std::istreambuf_iterator<char>{file}, {}};
+    scene.erase(scene.find("\"physvib_scene\": 1,"), 19);
+    const auto panning = [](double left) {
+        std::ostringstream text;
+        text << R"({"layout": {"name": "", "extent_m": [0.12, 0.06], "enchanters": [{"label": "A", "x_m": )" << left
+             << R"(, "y_m": 0.03}, {"label": "B", "x_m": 0.12, "y_m": 0.03}]}, "law": "linear", "exponent": 1, "field_m": [6.4, 3.6]})";
+        return text.str();
+    };
+    write("run.json", R"({"physvib_session": 1, "seconds": 6, "steps_per_second": 100, "timing": "onset", "location": "contact", "limiter": false, "ceilings": [1, 1], "channels": 2, "panning": )" + panning(0.0) +
+                          R"(, "takes": [{"start_s": 0, "world_end_s": 6, "seed": 3, "scene": )" + scene + R"(, "inputs": [{"time_s": 1, "input": "tilt", "angle_rad": 0.3}], "stalls": []}],
+                          "controls": [{"time_s": 3, "control": "layout", "panning": )" + panning(0.06) + "}]}");
+    runs("render run.json --out direct.wav");
+    runs("export run.json --error 0.001 --to run.hjif");
+    runs("render run.hjif --seconds 6 --limiter off --out again.wav");
+    EXPECT_LE(farthest(wav("direct.wav"), wav("again.wav")), 1e-3);
+    EXPECT_GE(farthest(wav("direct.wav"), Signals(2, std::vector<float>(288000))), 0.1);
+}
+
+TEST_F(ExportCommand, WritesAFileForEachEnchanterWhereAFormatHasOneChannel) {
+    const auto outcome = call("export shake-the-box --seconds 7 --to box.ahap");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(files().size(), 4u);
+    for (const char* label : {"A", "B", "C", "D"}) EXPECT_NE(read("box-" + std::string(label) + ".ahap").find("HapticContinuous"), std::string::npos);
+    EXPECT_NE(outcome.err.find("a file for each enchanter"), std::string::npos);
+    EXPECT_NE(outcome.err.find("where a hit was is not carried"), std::string::npos);
+    EXPECT_NE(outcome.out.find("box-D.ahap  1 channel, "), std::string::npos);
+}
+
+TEST_F(ExportCommand, TurnsOneFormatIntoAnother) {
+    runs("export drop --seconds 2 --layout phone1 --to a.haptic");
+    runs("export a.haptic --to b.hjif");
+    runs("export b.hjif --to c.ahap");
+    runs("render c.ahap --layout phone1 --out c.wav --picture c.png");
+    EXPECT_GT(farthest(wav("c.wav"), Signals(1, std::vector<float>(96000))), 0.01);
+}
+
+TEST_F(ExportCommand, ReadsClipsWhereARecordingIs) {
+    runs("export drop --seconds 2 --layout phone1 --to a.haptic");
+    runs("stimulus wav a.haptic --at 0.3,0.4 --level-g 0.5 --out s.wav");
+    EXPECT_EQ(wav("s.wav").size(), 4u);
+}
+
+TEST_F(ExportCommand, FeelsChannelsWithoutPlacesOneOnEachEnchanter) {
+    write("two.hjif", R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
+        {"relative_position": 0, "amplitude_modulation": 0.5, "frequency_modulation": 100}, {"relative_position": 500, "amplitude_modulation": 0.5}]}]}]}, {"bands": []}]}]})");
+    runs("render two.hjif --layout ring2 --out two.wav");
+    const Signals two = wav("two.wav");
+    ASSERT_EQ(two.size(), 2u);
+    EXPECT_EQ(two[0].size(), 24000u);
+    EXPECT_NEAR(*std::ranges::max_element(two[0]), 0.5, 1e-3);
+    EXPECT_NEAR(*std::ranges::max_element(two[1]), 0.0, 1e-6);
+    refuses("render two.hjif --layout ring3 --out three.wav", 1, "two.hjif: expected one channel, places, or as many channels as the layout has enchanters, 3, found 2", 2);
+}
+
+TEST_F(ExportCommand, RefusesInOneLine) {
+    refuses("export", 2, "--to is required");
+    refuses("export drop --to a.wav", 2, "--to: expected a name that ends in .hjif, .haptic or .ahap, found \"a.wav\"");
+    refuses("export --to a.hjif", 2, "export: give a scene");
+    refuses("export nowhere --to a.hjif", 2, "nowhere");
+    refuses("export drop --limiter off --to a.hjif", 2, "--limiter: says how something is played");
+    refuses("export drop --error 2 --to a.hjif", 2, "--error");
+    refuses("export absent.hjif --to a.hjif", 1, "absent.hjif: cannot be read");
+    refuses("render absent.ahap --out a.wav", 1, "absent.ahap: cannot be read");
+    write("bad.haptic", "{}");
+    refuses("export bad.haptic --to a.hjif", 1, "bad.haptic: field \"version\" is missing", 1);
+    refuses("render bad.haptic --seed 2 --out a.wav", 2, "--seed: a clip has no collisions", 1);
+    refuses("export bad.haptic --to bad.haptic", 2, "bad.haptic", 1);
+    EXPECT_EQ(read("bad.haptic"), "{}");
+    write("giga.ahap", "{");
+    std::filesystem::resize_file(folder_ / "giga.ahap", 1'000'000'000);
+    refuses("render giga.ahap --out a.wav", 1, "giga.ahap: expected at most 24000000 bytes, found more", 2);
+}
+
+} // namespace
+} // namespace physvib
