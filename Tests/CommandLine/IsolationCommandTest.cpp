@@ -75,7 +75,7 @@ TEST_F(Isolation, WhatIsMissingOfAStudyIsTold) {
     refuses("attenuation study", 1, "none.wav: cannot be read", 1);
     write("study/conditions.csv", table + "referencez50-1.wav,0030-15,6,fast,2.4,z\n");
     refuses("attenuation study", 1, "conditions.csv:14: column frequency_hz: expected a number from 1 to 20000, found \"fast\"", 1);
-    write("study/conditions.csv", "file,axis,frequency_hz\n");
+    write("study/conditions.csv", "file,axis,frequency_hz\nnone.wav,z,50\n");
     refuses("attenuation study", 1, "expected a column material, found none", 1);
     refuses("attenuation nowhere", 2, "expected a reference beside \"nowhere\", or a folder of conditions", 1);
 }
@@ -105,7 +105,7 @@ TEST_F(Isolation, TheCouplingOfALayoutIsWrittenFromRecordings) {
     refuses("coupling rec --layout two.json --out d.json", 1, "expected a recording with enchanter B driven at 205 Hz, found none", 3);
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,C,205\n");
     refuses("coupling rec --layout two.json --out d.json", 1, "column driven: expected the label of an enchanter of the layout, found \"C\"", 3);
-    refuses("coupling rec --layout phone4 --out d.json", 1, "expected the label of an enchanter", 3);
+    refuses("coupling rec --layout phone4 --out d.json", 1, "rec/a1.wav: expected a channel per enchanter of the layout, 4, found 2", 3);
 }
 
 } // namespace

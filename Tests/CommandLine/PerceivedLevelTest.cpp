@@ -64,7 +64,7 @@ TEST_F(PerceivedLevelCommand, IsRefusedWhereItMeansNothing) {
     EXPECT_EQ(call("render recorded.json --out a.wav --perceived-level on --method AV-FV-DRV").exitCode, 0) << read(".err");
     std::filesystem::remove(folder_ / "a.wav");
     std::filesystem::remove(folder_ / "recorded.json");
-    refuses("play drop --board /dev/none --perceived-level on", 2, "--board: not yet with --method, --level-db, --perceived-level and --actuator", 1);
+    refuses("play drop --board /dev/none --perceived-level on", 2, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator", 1);
 }
 
 } // namespace

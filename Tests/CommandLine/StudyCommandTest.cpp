@@ -151,7 +151,7 @@ TEST_F(Study, RendersCanBeCutAsThePublishedOnesWere) {
     ASSERT_EQ(call("render drop --seconds 1 --layout phone1 --gamma 0.1 --out cut.wav").exitCode, 0);
     EXPECT_NE(read("whole.wav"), read("cut.wav"));
     refuses("render drop --gamma 1 --out a.wav", 2, "--gamma: expected 0 to 0.99", 2);
-    refuses("render drop --gamma 0.1 --method SV --sound 80=a.wav --out a.wav", 2, "--gamma: recordings have no one decay to be cut", 2);
+    refuses("render drop --gamma 0.1 --method SV --sound 80=whole.wav --out a.wav", 2, "--gamma: recordings have no one decay to be cut", 2);
 }
 
 TEST_F(Study, ExpertsSetTheLevelsThatTheMainStudyReads) {

@@ -109,6 +109,7 @@ TEST(AudioOutput, SwitchesAMotorAsTheConverterSays) {
     ASSERT_EQ(plain.open(), "");
     AudioOutputSettings settings{"hands", {}, 0, 0, 1.0f};
     settings.onOff = {2};
+    settings.onOffThreshold = 0.01;
     ASSERT_EQ(motor.output.open(settings), "");
     const auto all = plain.play(3.0, 64), switched = motor.play(3.0, 64);
     OnOffSteps steps{plain.interface.rate, settings.onOffThreshold};

@@ -173,7 +173,7 @@ TEST(Observer, FeelsAConditionWithTheBlurThatItsProtocolSays) {
         shares[record.trial.condition] += *isCorrect(p, record) / 1000.0;
     }
     EXPECT_NEAR(shares[0], blurredGrid(5, 0.15).shareExact, 0.05) << "the observer's own";
-    EXPECT_EQ(shares[1], 1.0);
+    EXPECT_DOUBLE_EQ(shares[1], 1.0);
     EXPECT_NEAR(shares[2], blurredGrid(5, 0.3).shareExact, 0.05);
 }
 
