@@ -167,10 +167,11 @@ void ContactFeed::strike(const FedContact& contact) {
     const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
     const double told = contact.approachMetresPerSecond.value_or(bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
     const double mass = contact.effectiveMassKg.value_or(bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
-    const double impulse = contact.impulseNewtonSeconds.value_or(mass * std::max(0.0, told) * (1.0 + contact.restitution));
-    if (!(impulse > 0.0 && std::isfinite(impulse))) return; // two that cannot be moved
+    const bool isImpulseTold = contact.impulseNewtonSeconds && !contact.isSoft;
+    const double impulse = isImpulseTold ? *contact.impulseNewtonSeconds : mass * std::max(0.0, told) * (1.0 + contact.restitution);
+    if (!(impulse > 0.0 && std::isfinite(impulse))) return contact.isSoft ? load(contact) : void(); // they part, or cannot be moved
     // Of an impulse alone: what it changes of the lighter body's velocity, which is at least the speed before it.
-    const bool isSpeedKnown = contact.approachMetresPerSecond || !contact.impulseNewtonSeconds || told > 0.0;
+    const bool isSpeedKnown = contact.approachMetresPerSecond || !isImpulseTold || told > 0.0;
     const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
     if (!catcher.isBlow(std::max(a.gravityScale(), b.gravityScale()), speed)) return load(contact);
 
@@ -179,11 +180,11 @@ void ContactFeed::strike(const FedContact& contact) {
     if (isFirst && (blow = catcher.strike(pair, speed)) == nullptr) return;
     const double fraction = fractionOf(contact, isSpeedKnown ? speed : 0.0);
     blow->fraction = isFirst ? fraction : std::min(blow->fraction, fraction);
-    if (contact.impulseNewtonSeconds || isFirst) { // points push together; a speed tells of the whole blow
+    if (isImpulseTold || isFirst) { // points push together; a speed tells of the whole blow
         const double sum = blow->normalImpulse + impulse;
         blow->point += static_cast<float>(impulse / sum) * (contact.point - blow->point);
         blow->normalImpulse = sum;
-        blow->tangentialImpulse += contact.impulseNewtonSeconds ? contact.tangentialNewtonSeconds : 0.0;
+        blow->tangentialImpulse += isImpulseTold ? contact.tangentialNewtonSeconds : 0.0;
     } else if (impulse > blow->normalImpulse) {
         blow->normalImpulse = impulse;
         blow->point = contact.point;

@@ -10,8 +10,8 @@
 
 namespace physvib {
 
-/// Two bodies touch. Either the impulse is told, or how fast they near each other; if both are, the impulse counts, and the
-/// speed says whether it is a blow at all, and when. With neither, the speed is that of the motions told.
+/// Two bodies touch. Either the impulse is told, or how fast they near each other; if both are, the impulse counts (unless contacts
+/// are soft), and the speed says whether it is a blow at all, and when. With neither, the speed is that of the motions told.
 struct FedContact {
     std::int32_t a = -1, b = -1; ///< bodies
     Vector2 point;               ///< m, in the plane of the field
@@ -27,6 +27,10 @@ struct FedContact {
     std::optional<double> fraction;
     double gapMetres = 0.0;
     double gapFraction = 0.0; ///< that moment in steps: 0 (before bodies are moved) to 1 (after)
+
+    /// Of an engine whose contacts take several steps to turn a body round, or push overlaps apart: what it pushes in a step is no
+    /// measure of a blow. Speed and restitution are; the impulse is what a pair that goes on touching hands on.
+    bool isSoft = false;
 };
 
 /// The catcher for engines that we do not know; bodies are numbers (>= 0), and stand in events as such. Each step: beginStep,

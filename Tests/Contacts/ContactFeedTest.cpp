@@ -123,6 +123,44 @@ TEST_F(ContactFeedTest, APairThatIsNamedAgainHasOneBlowAndRestsThen) {
     EXPECT_EQ(felt[1].source.impulseNewtonSeconds, 4.0);
 }
 
+TEST_F(ContactFeedTest, ABlowOfASoftContactIsItsSpeedsAndNotWhatOneStepPushes) {
+    FedContact contact = landing();
+    contact.isSoft = true;
+    contact.impulseNewtonSeconds = 0.3;
+    contact.approachMetresPerSecond = 2.0;
+    contact.restitution = 0.5;
+    for (const double later : {0.3, 4.0, 0.2}) {
+        beginStep(0.01);
+        EXPECT_EQ(feed.touch(contact), "");
+        endStep();
+        contact.impulseNewtonSeconds = later;
+    }
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 2.0 * 2.0 * 1.5);
+}
+
+TEST_F(ContactFeedTest, SoftContactsHandOnWhatTheyPush) {
+    constexpr std::int32_t striker = 2;
+    ASSERT_EQ(feed.set(ground, {.massKg = 2.0}, {}), "");
+    ASSERT_EQ(feed.set(striker, {.massKg = 2.0}, {}), "");
+    FedContact touching = landing(), blow = {.a = striker, .b = ground};
+    touching.isSoft = blow.isSoft = true;
+    touching.impulseNewtonSeconds = 0.0;
+    blow.impulseNewtonSeconds = 0.1;
+    blow.approachMetresPerSecond = 3.0;
+    for (int i = 0; i < 6; ++i) {
+        beginStep(0.01);
+        touching.impulseNewtonSeconds = i == 4 ? 1.25 : 0.0;
+        EXPECT_EQ(feed.touch(touching), "");
+        if (i >= 4) EXPECT_EQ(feed.touch(blow), "");
+        endStep();
+    }
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 1.25);
+}
+
 TEST_F(ContactFeedTest, WhatIsBornAtRestIsNotFelt) {
     FedContact contact = landing();
     contact.impulseNewtonSeconds = 2.0 * g * 0.01;

@@ -80,6 +80,7 @@ FedContact contactOf(const physvib_contact& from) {
     contact.fraction = optional(from.fraction);
     contact.gapMetres = from.gap_m;
     contact.gapFraction = from.gap_fraction;
+    contact.isSoft = from.is_soft != 0;
     return contact;
 }
 

@@ -145,6 +145,8 @@ typedef struct physvib_contact {
     double fraction;           /* when they touched, in steps after this one's start, -1 to 1 (PHYSVIB_UNKNOWN: by gap and approach) */
     double gap_m;              /* between the surfaces when the engine looked; below 0: they overlap (0) */
     double gap_fraction;       /* when that was, in steps after this one's start, 0 to 1 (0) */
+    int is_soft;               /* 1: what the engine pushes in one step is no measure of a blow, which is told by speed and restitution;
+                                  the impulse is what a pair that goes on touching hands on (0) */
 } physvib_contact;
 
 /* "0.1.0". Any thread. */

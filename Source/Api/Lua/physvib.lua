@@ -18,7 +18,7 @@ typedef struct { size_t size; int is_muted, hits_per_step, at_body, drops_hits_o
 typedef struct { size_t size; int is_camera, voice, surface; double mass_kg, inertia_kg_m2, gravity_scale, frequency_hz, decay_per_s, static_mass_kg, gain,
     hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3]; } physvib_body;
 typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, impulse_n_s, tangential_n_s, approach_m_per_s, restitution, effective_mass_kg,
-    fraction, gap_m, gap_fraction; } physvib_contact;
+    fraction, gap_m, gap_fraction; int is_soft; } physvib_contact;
 const char *physvib_version(void);
 const char *physvib_error(void);
 int physvib_renderer_settings_init(physvib_renderer_settings *);

@@ -54,7 +54,8 @@ class CBody(Structure):
 class CContact(Structure):
     _fields_ = [("size", c_size_t), ("a", c_int), ("b", c_int),
                 *[(name, c_double) for name in ("x_m", "y_m", "normal_x", "normal_y", "impulse_n_s", "tangential_n_s", "approach_m_per_s",
-                                                "restitution", "effective_mass_kg", "fraction", "gap_m", "gap_fraction")]]
+                                                "restitution", "effective_mass_kg", "fraction", "gap_m", "gap_fraction")],
+                ("is_soft", c_int)]
 
 
 def _load() -> ctypes.CDLL:

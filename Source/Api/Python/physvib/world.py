@@ -63,7 +63,7 @@ class World:
         """Two bodies touch in this step. A pair that did not in the step before begins; one that is not named again has ended.
 
         `more`: normal_x, normal_y (from a to b), impulse_n_s, tangential_n_s, or approach_m_per_s with restitution and effective_mass_kg;
-        fraction, or gap_m with gap_fraction: see physvib.h."""
+        fraction, or gap_m with gap_fraction; is_soft: see physvib.h."""
         self._tell("world_touch", a, b, x_m, y_m, more)
 
     def begin(self, a: int, b: int, x_m: float = 0.0, y_m: float = 0.0, **more: float) -> None:
