@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+/* ODE: give geoms their numbers (dGeomSetData, as integers from 0 on); tell each contact joint from your near callback, then step. */
+#ifndef PHYSVIB_ODE_H
+#define PHYSVIB_ODE_H
+#include <math.h>
+#include <ode/ode.h>
+#include <physvib/physvib.h>
+#include <stdint.h>
+#define PHYSVIB_ODE_MOST 1024
+
+typedef struct physvib_ode {
+    physvib_world world;
+    int count; /* of joints in this step; what is beyond the most is not felt */
+    dJointFeedback feedback[PHYSVIB_ODE_MOST];
+    physvib_contact contact[PHYSVIB_ODE_MOST];
+    double pull_kg[PHYSVIB_ODE_MOST]; /* of what falls onto another kind: its mass, towards the first geom or from it */
+} physvib_ode;
+
+static double physvib_ode_mass(dGeomID geom) { /* 0: nothing moves it */
+    dBodyID body = dGeomGetBody(geom);
+    dMass mass;
+    if (!body || dBodyIsKinematic(body)) return 0;
+    dBodyGetMass(body, &mass);
+    return mass.mass;
+}
+
+static double physvib_ode_speed(dGeomID geom, const dContactGeom *at) { /* along the normal */
+    dBodyID body = dGeomGetBody(geom);
+    dVector3 v = {0, 0, 0, 0};
+    if (body) dBodyGetPointVel(body, at->pos[0], at->pos[1], at->pos[2], v);
+    return dCalcVectorDot3(v, at->normal);
+}
+
+/* In the near callback, after dJointCreateContact(...) and dJointAttach(joint, ...). Normals of ODE point into the first geom. */
+static void physvib_ode_touch(physvib_ode *ode, dJointID joint, const dContactGeom *geom) {
+    physvib_contact *contact = &ode->contact[ode->count];
+    const double a = physvib_ode_mass(geom->g1), b = physvib_ode_mass(geom->g2);
+    if (ode->count == PHYSVIB_ODE_MOST) return;
+    physvib_contact_init(contact);
+    contact->a = (int)(intptr_t)dGeomGetData(geom->g1), contact->b = (int)(intptr_t)dGeomGetData(geom->g2);
+    contact->x_m = geom->pos[0], contact->y_m = geom->pos[1], contact->normal_x = -geom->normal[0], contact->normal_y = -geom->normal[1];
+    contact->approach_m_per_s = physvib_ode_speed(geom->g2, geom) - physvib_ode_speed(geom->g1, geom);
+    contact->gap_m = -geom->depth; /* at the start of the step */
+    ode->pull_kg[ode->count] = a > 0 && b > 0 ? 0 : b - a;
+    dJointSetFeedback(joint, &ode->feedback[ode->count++]);
+}
+
+static void physvib_ode_step(physvib_ode *ode, dWorldID world, double seconds) {
+    dVector3 g;
+    int i;
+    dWorldGetGravity(world, g);
+    physvib_world_begin_step(ode->world, seconds, dCalcVectorLength3(g));
+    dWorldStep(world, seconds);
+    for (i = 0; i < ode->count; ++i) {
+        physvib_contact *contact = &ode->contact[i];
+        const dReal *f = ode->feedback[i].f1;
+        const double pull = -ode->pull_kg[i] * (g[0] * contact->normal_x + g[1] * contact->normal_y);
+        contact->impulse_n_s = seconds * fabs(f[0] * contact->normal_x + f[1] * contact->normal_y); /* of either of the two */
+        /* What gravity adds in this step is a load, and no part of a blow. */
+        if (contact->approach_m_per_s > 0.1 && pull > 0) contact->impulse_n_s -= seconds * pull;
+        physvib_world_touch(ode->world, contact);
+    }
+    ode->count = 0;
+    physvib_world_end_step(ode->world);
+}
+#endif
