@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// PhysVib from C#: one file over libphysvib by P/Invoke, for Mono, .NET, Unity and Godot. Units, threads and errors: physvib.h.
+using System;
+using System.Runtime.InteropServices;
+
+namespace PhysVib {
+
+/// <summary>A collision as it is felt; see physvib_event.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct Event {
+    public long TimeNs, DurationNs;
+    public double FrequencyHz, DecayPerS, Amplitude, X_m, Y_m, Impulse_Ns, MassKg;
+    public int Fixture, Other;
+}
+
+/// <summary>Where the enchanters sit; see physvib_layout.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct Layout {
+    public double ExtentWidth_m, ExtentHeight_m;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] X_m;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] Y_m;
+    public int Count;
+
+    /// <summary>"phone1" to "phone4", "ring1" to "ring4".</summary>
+    public static Layout Preset(string name) {
+        var layout = new Layout();
+        Native.Check(Native.physvib_layout_preset(Native.Utf8(name), ref layout));
+        return layout;
+    }
+    public static Layout Load(string path) {
+        var layout = new Layout();
+        Native.Check(Native.physvib_layout_load(Native.Utf8(path), ref layout));
+        return layout;
+    }
+    public void Save(string path, string name) { Native.Check(Native.physvib_layout_save(Native.Utf8(path), Native.Utf8(name), ref this)); }
+}
+
+/// <summary>Begin with Create(), and change what you like.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct RendererSettings {
+    UIntPtr size;
+    public int RateHz, Channels, Law, Limiter;
+    public double Exponent, FieldWidth_m, FieldHeight_m;
+    public Layout Layout;
+    public static RendererSettings Create() {
+        var made = new RendererSettings();
+        Native.Check(Native.physvib_renderer_settings_init(ref made));
+        return made;
+    }
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public struct RendererStatus {
+    UIntPtr size;
+    public int LiveModes, Pending;
+    public long Frames, Played, Late, Rejected, Refused;
+    internal static RendererStatus Create() {
+        var made = new RendererStatus();
+        Native.Check(Native.physvib_renderer_status_init(ref made));
+        return made;
+    }
+}
+
+/// <summary>Begin with Create(), and change what you like.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct WorldSettings {
+    UIntPtr size;
+    public int IsMuted, HitsPerStep, AtBody, DropsHitsOfRemoved;
+    public double FieldWidth_m, FieldX_m, FieldY_m, FieldRadians, NormalisationSPerM, HandMassKg, DriveGain, ThresholdMPerS;
+    public static WorldSettings Create() {
+        var made = new WorldSettings();
+        Native.Check(Native.physvib_world_settings_init(ref made));
+        return made;
+    }
+}
+
+/// <summary>Begin with Create(), and change what you like.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct Body {
+    UIntPtr size;
+    public int IsCamera, Voice, Surface;
+    public double MassKg, InertiaKgM2, GravityScale, FrequencyHz, DecayPerS, StaticMassKg, Gain, HandMassKg;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneHz;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneDecayPerS;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneAmplitude;
+    public static Body Create() {
+        var made = new Body();
+        Native.Check(Native.physvib_body_init(ref made));
+        return made;
+    }
+}
+
+/// <summary>Two bodies touch. Begin with Create(a, b), and tell the impulse, or the approach and the restitution.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct Contact {
+    UIntPtr size;
+    public int A, B;
+    public double X_m, Y_m, NormalX, NormalY, Impulse_Ns, Tangential_Ns, ApproachMPerS, Restitution, EffectiveMassKg, Fraction, Gap_m, GapFraction;
+    public int IsSoft;
+    public static Contact Create(int a, int b) {
+        var made = new Contact();
+        Native.Check(Native.physvib_contact_init(ref made));
+        made.A = a;
+        made.B = b;
+        return made;
+    }
+}
+
+/// <summary>What was wrong, in one line; Code is one of PHYSVIB_ERROR_... .</summary>
+public sealed class PhysVibException : Exception {
+    public readonly int Code;
+    internal PhysVibException(int code, string message) : base(message) { Code = code; }
+}
+
+/// <summary>Contacts in, events out. One thread at a time.</summary>
+public sealed class World : IDisposable {
+    internal IntPtr name;
+    public World() : this(WorldSettings.Create()) {}
+    public World(WorldSettings settings) { Native.Check(Native.physvib_world_create(ref settings, out name)); }
+    ~World() { Dispose(); }
+    public void Dispose() {
+        if (name != IntPtr.Zero) Native.physvib_world_free(name);
+        name = IntPtr.Zero;
+        GC.SuppressFinalize(this);
+    }
+    public void Configure(WorldSettings settings) { Native.Check(Native.physvib_world_configure(name, ref settings)); }
+    public void SetBody(int body, Body values) { Native.Check(Native.physvib_world_set_body(name, body, ref values)); }
+    public void RemoveBody(int body) { Native.Check(Native.physvib_world_remove_body(name, body)); }
+    public void Move(int body, double x_m, double y_m, double vxMPerS, double vyMPerS, double spinRadPerS) {
+        Native.Check(Native.physvib_world_move(name, body, x_m, y_m, vxMPerS, vyMPerS, spinRadPerS));
+    }
+    public void Pair(int surface, int other, double frequencyHz, double decayPerS, double gain) {
+        Native.Check(Native.physvib_world_pair(name, surface, other, frequencyHz, decayPerS, gain));
+    }
+    public void BeginStep(double seconds, double gravityMPerS2) { Native.Check(Native.physvib_world_begin_step(name, seconds, gravityMPerS2)); }
+    public void Touch(Contact contact) { Native.Check(Native.physvib_world_touch(name, ref contact)); }
+    public void Begin(Contact contact) { Native.Check(Native.physvib_world_begin(name, ref contact)); }
+    public void Push(Contact contact) { Native.Check(Native.physvib_world_push(name, ref contact)); }
+    public void End(int a, int b) { Native.Check(Native.physvib_world_end(name, a, b)); }
+    public void EndStep() { Native.Check(Native.physvib_world_end_step(name)); }
+    public long TimeNs { get { return Native.Check(Native.physvib_world_time_ns(name)); } }
+    public long Drops { get { return Native.Check(Native.physvib_world_drops(name)); } }
+    /// <summary>Into an array of yours, so that nothing is allocated in a frame; how many.</summary>
+    public int Take(Event[] events, bool atOnce = false) { return (int)Native.Check(Native.physvib_world_take(name, events, events.Length, atOnce ? 1 : 0)); }
+    public int Send(Renderer renderer, long laterNs, bool atOnce = false) {
+        return (int)Native.Check(Native.physvib_world_send(name, renderer.name, laterNs, atOnce ? 1 : 0));
+    }
+}
+
+/// <summary>Strikes in, samples out.</summary>
+public sealed class Renderer : IDisposable {
+    internal IntPtr name;
+    public Renderer() : this(RendererSettings.Create()) {}
+    public Renderer(RendererSettings settings) { Native.Check(Native.physvib_renderer_create(ref settings, out name)); }
+    ~Renderer() { Dispose(); }
+    public void Dispose() {
+        if (name != IntPtr.Zero) Native.physvib_renderer_free(name);
+        name = IntPtr.Zero;
+        GC.SuppressFinalize(this);
+    }
+    public void Strike(Event what) { Native.Check(Native.physvib_renderer_strike(name, ref what)); }
+    /// <summary>Frame by frame; in the audio callback. An error code, and no exception.</summary>
+    public int Pull(float[] samples, int channels) { return Native.physvib_renderer_pull_interleaved(name, samples, channels, samples.Length / channels); }
+    public void SetGain(long timeNs, int channel, double gain) { Native.Check(Native.physvib_renderer_set_gain(name, timeNs, channel, gain)); }
+    public void SetMute(long timeNs, int channel, bool isMuted) { Native.Check(Native.physvib_renderer_set_mute(name, timeNs, channel, isMuted ? 1 : 0)); }
+    public void SetLevel(long timeNs, double gain) { Native.Check(Native.physvib_renderer_set_level(name, timeNs, gain)); }
+    public void SetLayout(long timeNs, RendererSettings settings) { Native.Check(Native.physvib_renderer_set_layout(name, timeNs, ref settings)); }
+    public void Silence(long timeNs, long untilNs) { Native.Check(Native.physvib_renderer_silence(name, timeNs, untilNs)); }
+    public int LatencyFrames { get { return (int)Native.Check(Native.physvib_renderer_latency_frames(name)); } }
+    public RendererStatus Status {
+        get {
+            var status = RendererStatus.Create();
+            Native.Check(Native.physvib_renderer_get_status(name, ref status));
+            return status;
+        }
+    }
+}
+
+public static class Haptics {
+    public static string Version { get { return Marshal.PtrToStringAnsi(Native.physvib_version()); } }
+    public static long PlayOutNs(int rateHz, int blockFrames, int stepsPerS, double longestGapS) {
+        return Native.Check(Native.physvib_play_out_ns(rateHz, blockFrames, stepsPerS, longestGapS));
+    }
+    /// <summary>samples[channel * frames + n], as many channels as the settings say.</summary>
+    public static float[] Render(RendererSettings settings, Event[] events, int count, long frames) {
+        if (count < 0 || count > events.Length) throw new ArgumentOutOfRangeException("count");
+        var samples = new float[checked(Math.Max(settings.Channels, settings.Layout.Count) * frames)];
+        Native.Check(Native.physvib_render(ref settings, events, count, frames, samples));
+        return samples;
+    }
+    public static void SaveWav(string path, float[] samples, int channels, int rateHz) {
+        Native.Check(Native.physvib_wav_save(Native.Utf8(path), samples, channels, samples.Length / Math.Max(1, channels), rateHz));
+    }
+    public static Event[] LoadEvents(string path) {
+        var events = new Event[Native.Check(Native.physvib_events_load(Native.Utf8(path), null, 0))];
+        var count = Native.Check(Native.physvib_events_load(Native.Utf8(path), events, events.Length));
+        if (count != events.Length) Array.Resize(ref events, (int)Math.Min(count, events.Length)); // another file by now
+        return events;
+    }
+    public static void SaveEvents(string path, Event[] events) { Native.Check(Native.physvib_events_save(Native.Utf8(path), events, events.Length)); }
+}
+
+static class Native {
+    const string Library = "libphysvib.so.0";
+
+    internal static long Check(long result) {
+        if (result < 0) throw new PhysVibException((int)result, Marshal.PtrToStringAnsi(physvib_error()));
+        return result;
+    }
+    internal static byte[] Utf8(string text) { return System.Text.Encoding.UTF8.GetBytes(text + "\0"); }
+
+    [DllImport(Library)] internal static extern IntPtr physvib_version();
+    [DllImport(Library)] internal static extern IntPtr physvib_error();
+    [DllImport(Library)] internal static extern int physvib_renderer_settings_init(ref RendererSettings settings);
+    [DllImport(Library)] internal static extern int physvib_renderer_status_init(ref RendererStatus status);
+    [DllImport(Library)] internal static extern int physvib_world_settings_init(ref WorldSettings settings);
+    [DllImport(Library)] internal static extern int physvib_body_init(ref Body body);
+    [DllImport(Library)] internal static extern int physvib_contact_init(ref Contact contact);
+    [DllImport(Library)] internal static extern int physvib_layout_preset(byte[] name, ref Layout layout);
+    [DllImport(Library)] internal static extern int physvib_layout_load(byte[] path, ref Layout layout);
+    [DllImport(Library)] internal static extern int physvib_layout_save(byte[] path, byte[] name, ref Layout layout);
+    [DllImport(Library)] internal static extern long physvib_events_load(byte[] path, [Out] Event[] events, long capacity);
+    [DllImport(Library)] internal static extern int physvib_events_save(byte[] path, Event[] events, long count);
+    [DllImport(Library)] internal static extern int physvib_wav_save(byte[] path, float[] samples, int channels, long frames, int rateHz);
+    [DllImport(Library)] internal static extern int physvib_render(ref RendererSettings settings, Event[] events, long count, long frames, [Out] float[] samples);
+    [DllImport(Library)] internal static extern int physvib_renderer_create(ref RendererSettings settings, out IntPtr renderer);
+    [DllImport(Library)] internal static extern int physvib_renderer_free(IntPtr renderer);
+    [DllImport(Library)] internal static extern int physvib_renderer_strike(IntPtr renderer, ref Event what);
+    [DllImport(Library)] internal static extern int physvib_renderer_pull_interleaved(IntPtr renderer, [Out] float[] samples, int channels, int frames);
+    [DllImport(Library)] internal static extern int physvib_renderer_set_gain(IntPtr renderer, long timeNs, int channel, double gain);
+    [DllImport(Library)] internal static extern int physvib_renderer_set_mute(IntPtr renderer, long timeNs, int channel, int isMuted);
+    [DllImport(Library)] internal static extern int physvib_renderer_set_level(IntPtr renderer, long timeNs, double gain);
+    [DllImport(Library)] internal static extern int physvib_renderer_set_layout(IntPtr renderer, long timeNs, ref RendererSettings settings);
+    [DllImport(Library)] internal static extern int physvib_renderer_silence(IntPtr renderer, long timeNs, long untilNs);
+    [DllImport(Library)] internal static extern int physvib_renderer_latency_frames(IntPtr renderer);
+    [DllImport(Library)] internal static extern int physvib_renderer_get_status(IntPtr renderer, ref RendererStatus status);
+    [DllImport(Library)] internal static extern long physvib_play_out_ns(int rateHz, int blockFrames, int stepsPerS, double longestGapS);
+    [DllImport(Library)] internal static extern int physvib_world_create(ref WorldSettings settings, out IntPtr world);
+    [DllImport(Library)] internal static extern int physvib_world_free(IntPtr world);
+    [DllImport(Library)] internal static extern int physvib_world_configure(IntPtr world, ref WorldSettings settings);
+    [DllImport(Library)] internal static extern int physvib_world_set_body(IntPtr world, int body, ref Body values);
+    [DllImport(Library)] internal static extern int physvib_world_remove_body(IntPtr world, int body);
+    [DllImport(Library)] internal static extern int physvib_world_move(IntPtr world, int body, double x, double y, double vx, double vy, double spin);
+    [DllImport(Library)] internal static extern int physvib_world_pair(IntPtr world, int surface, int other, double frequencyHz, double decayPerS, double gain);
+    [DllImport(Library)] internal static extern int physvib_world_begin_step(IntPtr world, double seconds, double gravity);
+    [DllImport(Library)] internal static extern int physvib_world_touch(IntPtr world, ref Contact contact);
+    [DllImport(Library)] internal static extern int physvib_world_begin(IntPtr world, ref Contact contact);
+    [DllImport(Library)] internal static extern int physvib_world_push(IntPtr world, ref Contact contact);
+    [DllImport(Library)] internal static extern int physvib_world_end(IntPtr world, int a, int b);
+    [DllImport(Library)] internal static extern int physvib_world_end_step(IntPtr world);
+    [DllImport(Library)] internal static extern long physvib_world_time_ns(IntPtr world);
+    [DllImport(Library)] internal static extern long physvib_world_take(IntPtr world, [Out] Event[] events, long capacity, int atOnce);
+    [DllImport(Library)] internal static extern long physvib_world_send(IntPtr world, IntPtr renderer, long laterNs, int atOnce);
+    [DllImport(Library)] internal static extern long physvib_world_drops(IntPtr world);
+}
+
+}
