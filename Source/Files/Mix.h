@@ -52,7 +52,7 @@ inline bool isSilent(std::span<const Strip> strips, std::size_t strip) noexcept 
     return strips[strip].isMuted || (!strips[strip].isSolo && std::ranges::any_of(strips, &Strip::isSolo));
 }
 
-constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0;
+constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0; // N s per metre of the screen (thesis 5.3.1)
 
 struct Mix {
     std::shared_ptr<const Scene> scene; ///< never null
@@ -62,7 +62,7 @@ struct Mix {
     double exponent = 1.0;
     std::vector<Strip> strips; ///< one per enchanter
     double levelDb = -12.0;    ///< master; the least is silence
-    double dragNewtonSecondsPerMetre = thesisDrag; ///< that a drag in the world pushes with
+    double dragNewtonSecondsPerScreenMetre = thesisDrag; ///< that a drag in the world pushes with
 
     int count() const noexcept { return layout.geometry.count; }
     PhantomPanner panner() const noexcept { return {layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres}; }

@@ -10,6 +10,7 @@ namespace physvib {
 namespace {
 
 constexpr int mostOutputs = 1024;
+constexpr const char* oldDrag = "drag_ns_per_m"; // up to session format 3, per metre of the field; what was dragged then stands in the inputs as it was
 
 Strip readStrip(const JsonField& json, Outputs outputs) {
     if (outputs == Outputs::chosen) json.expectObject({"gain_db", "mute", "solo", "invert", "delay_ms", "ceiling_db", "output"});
@@ -80,13 +81,14 @@ OrderedJson equalisedJson(const EqualisedActuators& equalised, int channels) {
 }
 
 Mix readMix(const JsonField& json) {
-    json.expectObject({"layout", "law", "exponent", "level_db", "drag_ns_per_m", "strips"});
+    json.expectObject({"layout", "law", "exponent", "level_db", "drag_ns_per_screen_m", oldDrag, "strips"});
     Mix mix;
     mix.layout = readLayoutFields(json["layout"]);
     mix.law = static_cast<PanningLaw>(json["law"].oneOf(panningLawNames));
     mix.exponent = json["exponent"].numberWithin(1e-3, 100.0);
     mix.levelDb = json["level_db"].numberWithin(leastStripDb, 0.0);
-    if (json.has("drag_ns_per_m")) mix.dragNewtonSecondsPerMetre = json["drag_ns_per_m"].numberWithin(leastDrag, mostDrag);
+    for (const char* const name : {oldDrag, "drag_ns_per_screen_m"})
+        if (json.has(name)) mix.dragNewtonSecondsPerScreenMetre = json[name].numberWithin(leastDrag, mostDrag);
     mix.strips = readStrips(json["strips"], mix.count(), Outputs::chosen);
     return mix;
 }
@@ -96,7 +98,7 @@ OrderedJson mixJson(const Mix& mix) {
             {"law", panningLawNames[static_cast<std::size_t>(mix.law)]},
             {"exponent", mix.exponent},
             {"level_db", mix.levelDb},
-            {"drag_ns_per_m", mix.dragNewtonSecondsPerMetre},
+            {"drag_ns_per_screen_m", mix.dragNewtonSecondsPerScreenMetre},
             {"strips", stripsJson(mix.strips, Outputs::chosen)}};
 }
 

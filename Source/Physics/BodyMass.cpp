@@ -50,13 +50,6 @@ BodyMoments bodyMoments(const BodyDescription& body, const Scene& scene) noexcep
     return sum;
 }
 
-double pushedMassKg(const BodyDescription& body, const Scene& scene, Vector pointMetres) noexcept {
-    const BodyMoments moments = bodyMoments(body, scene);
-    const double x = pointMetres.x - moments.centreMetres.x, y = pointMetres.y - moments.centreMetres.y;
-    if (moments.massKg <= 0.0 || moments.inertiaKgSquareMetres <= 0.0) return moments.massKg;
-    return 1.0 / (1.0 / moments.massKg + (x * x + y * y) / moments.inertiaKgSquareMetres);
-}
-
 double massKg(const BodyDescription& body, const Scene& scene) noexcept {
     return body.type == BodyType::dynamicBody ? bodyMoments(body, scene).massKg : body.massKg;
 }

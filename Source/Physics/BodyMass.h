@@ -15,10 +15,6 @@ struct BodyMoments {
 /// states one. Any thread.
 BodyMoments bodyMoments(const BodyDescription& body, const Scene& scene) noexcept;
 
-/// What a push on that point has to move, kg: impulse by the speed at which the point moves off. Across the line to the
-/// centre of mass, in which it is least. Any thread.
-double pushedMassKg(const BodyDescription& body, const Scene& scene, Vector pointMetres) noexcept;
-
 /// Mass for Eq. 5.4, kg: of a body that is not dynamic, the one it states. Any thread.
 double massKg(const BodyDescription& body, const Scene& scene) noexcept;
 

@@ -160,7 +160,7 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     mix.strips[2] = {-7.5, true, false, true, 12.5, -3.0, 6};
     mix.law = PanningLaw::energy;
     mix.levelDb = -20.0;
-    mix.dragNewtonSecondsPerMetre = 12'000.0;
+    mix.dragNewtonSecondsPerScreenMetre = 12'000.0;
     saved.mix = mix;
     const auto again = readSession(sessionJson(saved), "s.json");
     ASSERT_TRUE(again) << again.error;
@@ -168,8 +168,14 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     EXPECT_EQ(read.strips, mix.strips);
     EXPECT_EQ(read.layout.enchanters, mix.layout.enchanters);
     EXPECT_EQ(read.levelDb, -20.0);
-    EXPECT_EQ(read.dragNewtonSecondsPerMetre, 12'000.0);
+    EXPECT_EQ(read.dragNewtonSecondsPerScreenMetre, 12'000.0);
     EXPECT_EQ(*read.scene, setup.scene);
+    std::string older = sessionJson(saved);
+    older.replace(older.find("drag_ns_per_screen_m"), 20, "drag_ns_per_m");
+    older.replace(older.find("\"physvib_session\": 4"), 20, "\"physvib_session\": 3");
+    const auto old = readSession(older, "s.json");
+    ASSERT_TRUE(old) << old.error;
+    EXPECT_EQ(mixOf(old.value).dragNewtonSecondsPerScreenMetre, 12'000.0) << "the knob stays; what was dragged is an input, in N s";
     saved.mix->strips[1].delayMs = 70.0;
     EXPECT_EQ(readSession(sessionJson(saved), "s.json").error, "s.json: desk.strips[1].delay_ms: expected 0 to 50, found 70");
     saved.mix.reset(); // as `physvib play` saves

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a hand does in the world: pulls bodies, moves, attaches and detaches enchanters.
 #include "Host/Pictures/ShapeOutline.h"
+#include "Host/Views/DisplayScale.h"
 #include "Host/Views/WorldView.h"
 #include <algorithm>
 #include <cmath>
@@ -67,8 +68,7 @@ void WorldView::mouseUp(const juce::MouseEvent& e) {
     if (grip.enchanter >= 0 && grip.isOutside && onDetach) return onDetach(grip.enchanter);
     if (onSpot && grip.enchanter < 0 && !e.mods.isPopupMenu() && !isDrag(e) && map().field.contains(e.position)) return onSpot(map().shareAt(e.position));
     if (grip.body < 0 || !onPull || !isDrag(e)) return;
-    const auto at = map();
-    const auto way = (e.position - grip.from) / at.pixelsPerMetre;
+    const auto way = (e.position - grip.from).toDouble() / screenPixelsPerMetre(*this, displayWidthMetres_);
     onPull(cast_[static_cast<std::size_t>(grip.body)].name, {way.x, -way.y}, pointOf(grip));
 }
 

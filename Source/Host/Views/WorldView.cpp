@@ -2,6 +2,7 @@
 // Drawing the world within a frame of a software renderer: plain paths and gradients, nothing blurred.
 #include "Host/Views/WorldView.h"
 #include "Host/Pictures/ShapeOutline.h"
+#include "Host/Views/DisplayScale.h"
 #include "Physics/Scenes/SceneCast.h"
 #include <juce_audio_basics/juce_audio_basics.h>
 #include <algorithm>
@@ -166,7 +167,7 @@ void WorldView::paint(juce::Graphics& g) {
     drawHits(g, at);
     drawSpot(g);
     drawEnchanters(g, at);
-    drawGrip(g, at);
+    drawGrip(g);
 }
 
 void WorldView::drawGround(juce::Graphics& g, const Map& at) {
@@ -270,7 +271,7 @@ void WorldView::drawSpot(juce::Graphics& g) const {
     for (const auto& way : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}}) g.drawLine({centre + way * 5.0f, centre + way * 13.0f}, 1.5f);
 }
 
-void WorldView::drawGrip(juce::Graphics& g, const Map& at) const {
+void WorldView::drawGrip(juce::Graphics& g) const {
     if (dropAt_) {
         const auto badge = juce::Rectangle<float>{badgePixels, badgePixels}.withCentre(*dropAt_);
         g.setColour(shade(*this, Shade::accent));
@@ -289,8 +290,7 @@ void WorldView::drawGrip(juce::Graphics& g, const Map& at) const {
     if (!pullText) return;
     g.setFont(juce::Font{text::small});
     const auto words = juce::Rectangle<float>{130.0f, 18.0f}.withCentre(grip_.to.translated(0.0f, -16.0f)).constrainedWithin(getLocalBounds().reduced(4).toFloat());
-    const auto& body = cast_[static_cast<std::size_t>(grip_.body)].name;
-    g.drawText(pullText(body, grip_.from.getDistanceFrom(grip_.to) / at.pixelsPerMetre, pointOf(grip_)), words, juce::Justification::centred, false);
+    g.drawText(pullText(grip_.from.getDistanceFrom(grip_.to) / screenPixelsPerMetre(*this, displayWidthMetres_)), words, juce::Justification::centred, false);
 }
 
 } // namespace physvib

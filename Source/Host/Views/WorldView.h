@@ -45,6 +45,8 @@ public:
     void update(WorldMoment moment);
     /// Behind the bodies: what that enchanter plays of a hit at each place; -1: nothing. M.
     void showGainsOf(int enchanter);
+    /// How wide the display is that this is seen on, see screenPixelsPerMetre(). M.
+    void setDisplayWidth(double metres) { displayWidthMetres_ = metres; }
     /// Room below the field for what is written over the view. M.
     void setFootRoom(int pixels) { footRoom_ = pixels; }
     void select(int enchanter); ///< drawn with a ring; -1: none
@@ -52,8 +54,8 @@ public:
     void showSpot(std::optional<FieldShare> spot);
 
     // What a hand does; what is not set cannot be done. M.
-    std::function<void(const std::string& body, Vector pullMetres, Vector pointMetres)> onPull; ///< in the field's axes; the point on the body
-    std::function<juce::String(const std::string& body, double metres, Vector pointMetres)> pullText; ///< beside the line while it is pulled
+    std::function<void(const std::string& body, Vector screenMetres, Vector pointMetres)> onPull; ///< in the field's axes; the point on the body, in the field's metres
+    std::function<juce::String(double screenMetres)> pullText; ///< beside the line while it is pulled
     std::function<void(int enchanter, FieldShare to)> onMove;                                ///< while it is moved
     std::function<void(int enchanter)> onDetach;                                             ///< dropped outside
     std::function<void(FieldShare at)> onAttach;
@@ -118,7 +120,7 @@ private:
     void drawHalos(juce::Graphics& g, const Map& at) const;
     void drawEnchanters(juce::Graphics& g, const Map& at) const;
     void drawSpot(juce::Graphics& g) const;
-    void drawGrip(juce::Graphics& g, const Map& at) const;
+    void drawGrip(juce::Graphics& g) const;
 
     Scene scene_;
     std::vector<BodyDescription> cast_;
@@ -127,6 +129,7 @@ private:
     std::deque<Snapshot> ahead_; // not felt yet, but for the first
     std::deque<Hit> hits_;
     std::array<float, limits::maxEnchanters> peaks_{};
+    double displayWidthMetres_ = 0.0;
     int shownGains_ = -1, selected_ = -1, footRoom_ = 0;
     juce::Image gains_;
     Grip grip_;

@@ -186,6 +186,11 @@ void Desk::setSilent(bool silent) {
     sendChangeMessage();
 }
 
+void Desk::setDisplayWidth(double metres) {
+    displayWidthMetres_ = metres;
+    sendChangeMessage();
+}
+
 double Desk::playOutSeconds() const noexcept {
     return output_.sampleRateHz() > 0 ? static_cast<double>(session_.playOutFrames()) / output_.sampleRateHz() : 0.0;
 }

@@ -97,6 +97,11 @@ public:
     /// The choice asks for a board, or for none: L is another then, so the session has to begin anew.
     std::function<void(const DeviceChoice&)> onBoardWanted;
 
+    // ---- the display
+    /// How wide the display is that the world is seen on; 0: as the system says. A drag is measured by it.
+    void setDisplayWidth(double metres);
+    double displayWidthMetres() const noexcept { return displayWidthMetres_; }
+
     // ---- looking
     /// What is new; at most about 30 times a second.
     DeskMoment look();
@@ -138,6 +143,7 @@ private:
     DeviceChoice device_;
     ListeningSettings listening_;
     juce::String trouble_, deviceTrouble_, outputTrouble_; // shown; of the device; with the board's
+    double displayWidthMetres_ = 0.0;
     bool isSilent_ = false, isNews_ = false;
     std::uint64_t edits_ = 0, worldEdits_ = 0;
     ToldMix told_;

@@ -2,11 +2,13 @@
 // The window, what plays in it, its keys and its menu.
 #include "Mixer/Window/MixerWindow.h"
 #include "Host/Devices/NoDevice.h"
+#include "Host/Views/DisplayScale.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {
 namespace {
 
+constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system says
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
 
 } // namespace
@@ -67,6 +69,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
         if (error.isEmpty()) desk_->tell("Recorded " + file.getFullPathName() + ", and its events beside it");
         else say(file.getFileName() + ": " + error);
     };
+    desk_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
     view_->setGround(files_.settings().getValue("look") == "light" ? Ground::light : Ground::dark);
     view_->grabKeyboardFocus();
     nameWindow();
@@ -119,6 +122,28 @@ void MixerWindow::setGround(Ground ground) {
     files_.settings().setValue("look", ground == Ground::light ? "light" : "dark");
 }
 
+void MixerWindow::setDisplayWidth(double mm) {
+    desk_->setDisplayWidth(1e-3 * mm);
+    files_.settings().setValue(displayWidthSetting, mm);
+}
+
+// What the system says of a display is often made up.
+void MixerWindow::askDisplayWidth() {
+    const double now = 1e3 * displayOf(*view_).getWidth() / screenPixelsPerMetre(*view_, desk_->displayWidthMetres());
+    auto* window = new juce::AlertWindow{"Width of the display", "Drags in the world are measured in metres of the screen. Measure its picture from left to right, in mm; empty: as the system says.",
+                                         juce::MessageBoxIconType::NoIcon, this};
+    window->addTextEditor("mm", number(now, 0), "mm");
+    window->addButton("Set", 1, juce::KeyPress{juce::KeyPress::returnKey});
+    window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
+    window->enterModalState(true, juce::ModalCallbackFunction::create([safe = juce::Component::SafePointer<MixerWindow>{this}, window](int answer) {
+        if (answer == 0 || safe == nullptr) return;
+        const auto words = window->getTextEditorContents("mm").trim();
+        const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
+        if (words.isEmpty() || isDisplayWidth(1e-3 * mm)) safe->setDisplayWidth(mm);
+        else safe->say("Width of the display: expected " + number(1e3 * leastDisplayMetres, 0) + " to " + number(1e3 * mostDisplayMetres, 0) + " mm, found " + words);
+    }), true);
+}
+
 bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (key == KeyPress{'n', command, 0}) return newDocument(), true;
@@ -166,6 +191,7 @@ void MixerWindow::showMenu(juce::Component& from) {
     look.addItem("Dark", true, !isLight, [this] { setGround(Ground::dark); });
     look.addItem("Light", true, isLight, [this] { setGround(Ground::light); });
     menu.addSubMenu("Look", look);
+    item("Width of the display" + dots(), {}, [this] { askDisplayWidth(); });
     item("Hint", {}, [this] { view_->setHint(true); });
     item("Quit", "Ctrl+Q", [this] { requestQuit(); });
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from).withMinimumWidth(240));

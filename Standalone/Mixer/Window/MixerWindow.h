@@ -54,6 +54,8 @@ private:
     void offerRecovery();
     void showMenu(juce::Component& from);
     void setGround(Ground ground);
+    void setDisplayWidth(double mm);
+    void askDisplayWidth();
     void nameWindow();
     void say(const juce::String& words) { desk_->report(words); }
     juce::File folderOfDocuments() const;

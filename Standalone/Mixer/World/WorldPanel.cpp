@@ -2,10 +2,6 @@
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/World/WorldPanel.h"
 #include "Mixer/Materials/HitWords.h"
-#include "Contacts/ImpactModel.h"
-#include "Physics/BodyMass.h"
-#include "Physics/Scenes/SceneCast.h"
-#include <cmath>
 
 namespace physvib {
 
@@ -29,8 +25,8 @@ WorldPanel::WorldPanel(Desk& desk)
     : desk_{desk} {
     setTitle("World");
     setWantsKeyboardFocus(true);
-    view_.onPull = [this](const std::string& body, Vector metres, Vector point) { pull(body, metres, point); };
-    view_.pullText = [this](const std::string& body, double metres, Vector point) { return "drag " + number(1e-3 * push(body, metres, point), 2) + " " + kiloNewtonSeconds; };
+    view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) { pull(body, screenMetres, point); };
+    view_.pullText = [this](double screenMetres) { return "drag " + number(1e-3 * desk_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " + kiloNewtonSeconds; };
     view_.onAttach = [this](FieldShare at) { desk_.attach(at.x, at.y); };
     view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
     view_.onMove = [this](int enchanter, FieldShare to) {
@@ -54,12 +50,12 @@ WorldPanel::WorldPanel(Desk& desk)
     tilt_.setValue(0.0, juce::dontSendNotification);
     tilt_.setDoubleClickReturnValue(true, 0.0);
     tilt_.onValueChange = [this] { desk_.act(TiltAction{juce::degreesToRadians(-tilt_.getValue())}); };
-    setUpKnob(drag_, "Drag strength", "Drag strength: how hard a body is pushed per metre that it is dragged, up to the speed of a field's width a second; double click: as in the thesis");
+    setUpKnob(drag_, "Drag strength", "Drag strength: how hard a body is pushed per metre of the screen that it is dragged; double click: as in the thesis");
     drag_.setRange(leastDrag, mostDrag, 1'000.0);
     drag_.setSkewFactorFromMidPoint(10'000.0);
     drag_.setDoubleClickReturnValue(true, thesisDrag);
     drag_.textFromValueFunction = [](double push) { return number(1e-3 * push, 0) + " " + kiloNewtonSeconds + "/m"; };
-    onSlide(drag_, [this](bool goesOn) { desk_.change("Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerMetre = drag_.getValue(); }, goesOn); });
+    onSlide(drag_, [this](bool goesOn) { desk_.change("Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); }, goesOn); });
     for (auto* name : {&tiltName_, &dragName_}) name->setFont(juce::Font{text::small});
     view_.setFootRoom(44);
     for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_}) addAndMakeVisible(c);
@@ -73,9 +69,10 @@ void WorldPanel::takeMix() {
     shown_ = mix.scene;
     shownEdits_ = desk_.worldEdits();
     view_.show(mix.layout, mix.panner());
+    view_.setDisplayWidth(desk_.displayWidthMetres());
     law_.setText(juce::String{panningLawNames[static_cast<std::size_t>(mix.law)].data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
     law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
-    if (!drag_.isMouseButtonDown()) drag_.setValue(mix.dragNewtonSecondsPerMetre, juce::dontSendNotification);
+    if (!drag_.isMouseButtonDown()) drag_.setValue(mix.dragNewtonSecondsPerScreenMetre, juce::dontSendNotification);
     dragName_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);
     for (auto* name : {&tiltName_, &dragName_}) name->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     sentence_.setColour(juce::Label::textColourId, shade(*this, Shade::now));
@@ -95,20 +92,10 @@ bool WorldPanel::keyPressed(const juce::KeyPress& key) {
     return false;
 }
 
-void WorldPanel::pull(const std::string& body, Vector metres, Vector point) {
-    const double way = std::hypot(metres.x, metres.y), each = way > 0.0 ? push(body, way, point) / way : 0.0;
-    const auto fault = desk_.act(ImpulseAction{body, {each * metres.x, each * metres.y}, point});
+void WorldPanel::pull(const std::string& body, Vector screenMetres, Vector point) {
+    const double push = desk_.mix().dragNewtonSecondsPerScreenMetre;
+    const auto fault = desk_.act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point});
     if (!fault.empty()) desk_.report(utf8(fault));
-}
-
-// Screen metres are meant by the thesis' figure, the field's are larger: no drag moves the point that it pulls off faster
-// than v_max (Eq. 5.7), for which amplitudes are made.
-double WorldPanel::push(const std::string& body, double metres, Vector point) const {
-    const auto& scene = desk_.sceneNow();
-    const auto cast = sceneCast(scene);
-    const auto pulled = std::ranges::find(cast, body, &BodyDescription::name);
-    const double wanted = desk_.mix().dragNewtonSecondsPerMetre * metres;
-    return pulled == cast.end() ? wanted : std::min(wanted, largestSpeed(scene.fieldWidthMetres) * pushedMassKg(*pulled, scene, point));
 }
 
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {

@@ -24,8 +24,7 @@ public:
     void resized() override;
 
 private:
-    void pull(const std::string& body, Vector metres, Vector point);
-    double push(const std::string& body, double metres, Vector point) const;
+    void pull(const std::string& body, Vector screenMetres, Vector point);
     void showMenu(const std::string& body, FieldShare at);
     void addBody(FieldShare at, int material, bool isBox);
     void edit(const juce::String& name, const Action& action);

@@ -4,6 +4,7 @@
 #include "../MixerTesting.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SceneFile.h"
+#include "Host/Views/DisplayScale.h"
 #include "Session/OfflineRender.h"
 #include "Session/SessionRender.h"
 #include "Mixer/Materials/MaterialShots.h"
@@ -73,6 +74,28 @@ EnchanterLayout presetOf(std::string_view name) {
     EnchanterLayout layout;
     EXPECT_TRUE(layoutPreset(name, layout));
     return layout;
+}
+
+TEST(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindowsSize) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    Hand hand{window};
+    auto& view = window.view().world().view();
+    window.desk().setSlowness(0);
+    window.desk().setDisplayWidth(displayOf(view).getWidth() / 4000.0); // 40 pixels are 10 mm
+    window.desk().dispatchPendingMessages();
+    std::size_t drags = 0;
+    for (const auto& size : {juce::Point<int>{1440, 900}, {MixerView::leastWidth, MixerView::leastHeight}, {1200, 880}}) {
+        window.setSize(size.x, size.y);
+        runFor(0.2);
+        const auto ball = view.placeOfBody("large rubber ball");
+        hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{32.0f, -24.0f}));
+        const auto& pulls = window.desk().saved().log.takes.back().inputs;
+        ASSERT_EQ(pulls.size(), ++drags);
+        const auto push = std::get<ImpulseAction>(pulls.back().action).newtonSeconds;
+        EXPECT_NEAR(push.x, 256.0, 0.01) << size.x; // pixels are floats
+        EXPECT_NEAR(push.y, 192.0, 0.01) << size.x;
+    }
 }
 
 TEST(Window, APersonsWayThroughTheMixer) {
