@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The built-in scenes, materials, actuators and protocols where the Projucer embeds them (CMake does by Source/Files/embed.cmake).
+// The built-in scenes, materials, actuators, protocols and words where the Projucer embeds them (CMake does by Source/Files/embed.cmake).
 #include "BinaryData.h"
 #include "Files/Disk/Embedded.h"
 
@@ -38,6 +38,11 @@ const std::vector<EmbeddedFile>& embeddedActuators() {
 
 const std::vector<EmbeddedFile>& embeddedProtocols() {
     static const auto files = embedded("\"physvib_protocol\"");
+    return files;
+}
+
+const std::vector<EmbeddedFile>& embeddedWords() {
+    static const auto files = embedded("\"physvib_words\"");
     return files;
 }
 

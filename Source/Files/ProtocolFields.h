@@ -9,7 +9,7 @@ namespace physvib {
 inline constexpr std::array<std::string_view, 7> taskNames{"explore", "identify", "locate", "choose", "rate", "adjust", "estimate"};
 inline constexpr std::array<std::string_view, 3> trialOrderNames{"given", "random", "blocks"};
 inline constexpr std::array<std::string_view, 3> conditionOrderNames{"given", "random", "latin-square"};
-inline constexpr std::array<std::string_view, 3> stimulusSetNames{"patterns", "grid", "calls"};
+inline constexpr std::array<std::string_view, 4> stimulusSetNames{"patterns", "grid", "calls", "world"};
 inline constexpr std::array<std::string_view, 2> gridPointNames{"corners", "middles"};
 
 namespace studyBounds {
@@ -58,6 +58,16 @@ struct FieldsOf<CallSet> {
     static void visit(V& v) {
         v.field("factors", &CallSet::factors, items(1, 16), Need::required);
         v.field("call", &CallSet::call, anyText, Need::required);
+    }
+};
+
+template <>
+struct FieldsOf<WorldSet> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("factors", static_cast<std::vector<StudyFactor> WorldSet::*>(&WorldSet::factors), items(1, 16), Need::required);
+        v.field("call", static_cast<std::string WorldSet::*>(&WorldSet::call), anyText, Need::required);
+        v.field("hands", &WorldSet::hasHands, {}, Need::optional);
     }
 };
 
@@ -165,6 +175,9 @@ struct FieldsOf<SessionPlan> {
         v.field("both_orders", &S::bothOrders, {}, Need::optional);
         v.field("objects", &S::objects, studyBounds::names, Need::optional);
         v.field("scales", &S::scales, studyBounds::names, Need::optional);
+        v.field("definitions", &S::definitions, studyBounds::names, Need::optional);
+        v.field("anchors", &S::anchors, studyBounds::names, Need::optional);
+        v.field("show_numbers", &S::showsNumbers, {}, Need::optional);
         v.field("adjustment", &S::adjustment, {}, Need::optional);
         v.field("staircase", &S::staircase, {}, Need::optional);
         v.field("quest", &S::quest, {}, Need::optional);
@@ -186,6 +199,9 @@ struct FieldsOf<Protocol> {
         v.field("exposure_limit_m_per_s2", &P::exposureLimit, Bounds{0.01, exposureLimitValue}, Need::optional);
         v.field("sounds", &P::sounds, items(0, 64), Need::optional);
         v.choice("condition_order", &P::conditionOrder, conditionOrderNames);
+        v.field("condition_break_s", &P::conditionBreakSeconds, studyBounds::rest, Need::optional);
+        v.field("closing_question", &P::closingQuestion, anyText, Need::optional);
+        v.field("words", &P::words, anyText, Need::optional);
         v.field("conditions", &P::conditions, items(1, 256), Need::required);
         v.field("sessions", &P::sessions, items(1, 64), Need::required);
     }

@@ -35,8 +35,8 @@ int TrialProgress::plays() const noexcept {
     return std::accumulate(parts_.begin(), parts_.end(), 0, [](int sum, const Part& p) { return sum + p.plays; });
 }
 
-Experiment::Experiment(const Protocol& protocol, Participant participant)
-    : protocol_{protocol}, participant_{std::move(participant)}, conditions_{conditionOrder(protocol, participant_.number)} {
+Experiment::Experiment(const Protocol& protocol, Participant participant, bool explorersEnd)
+    : protocol_{protocol}, participant_{std::move(participant)}, explorersEnd_{explorersEnd}, conditions_{conditionOrder(protocol, participant_.number)} {
     beginSession();
     advance();
 }
@@ -50,6 +50,7 @@ void Experiment::beginSession() {
     items_ = stimuliOf(protocol_.conditions[conditionIndex()]);
     inSession_ = 0;
     explored_.clear();
+    isEnded_ = false;
     adaptive_.reset();
     auto random = randomFor("order");
     order_ = sessionOrder(plan(), items_.size(), random);
@@ -59,12 +60,21 @@ void Experiment::beginSession() {
 bool Experiment::isSessionOver() const {
     if (adaptive_) return adaptive_->isDone();
     if (plan().task != StudyTask::explore) return inSession_ >= static_cast<int>(order_.size());
+    return isEnded_ || (!explorersEnd_ && hasExplored());
+}
+
+bool Experiment::hasExplored() const {
     return plan().fewestTouches > 0 ? inSession_ >= plan().fewestTouches : explored_.size() >= items_.size();
+}
+
+void Experiment::endSession() {
+    isEnded_ = true;
+    advance();
 }
 
 int Experiment::sessionTrials() const noexcept {
     if (adaptive_) return adaptive_->trials();
-    return plan().task == StudyTask::explore ? plan().fewestTouches : static_cast<int>(order_.size());
+    return plan().task == StudyTask::explore ? 0 : static_cast<int>(order_.size());
 }
 
 void Experiment::advance() {
@@ -86,7 +96,8 @@ Trial Experiment::nextTrial() {
     trial.session = sessionAt_;
     trial.number = inSession_ + 1;
     trial.task = s.task;
-    if (inSession_ == 0) trial.restSeconds = s.breakBeforeSeconds;
+    const bool isNextCondition = conditionAt_ > 0 && sessionAt_ == 0;
+    if (inSession_ == 0) trial.restSeconds = std::max(s.breakBeforeSeconds, isNextCondition ? protocol_.conditionBreakSeconds : 0.0);
     else if (s.breakEvery > 0 && inSession_ % s.breakEvery == 0) trial.restSeconds = s.breakSeconds;
     if (s.task == StudyTask::explore) return trial;
 
@@ -173,6 +184,7 @@ TrialRecord Experiment::take(Answer answer) {
 }
 
 std::string Experiment::redo(const TrialRecord& record) {
+    if (!isDone() && mayEnd() && (record.trial.condition != trial_->condition || record.trial.session != trial_->session)) endSession();
     if (isDone()) return "expected no more trials";
     const Trial& t = *trial_;
     if (record.trial.condition != t.condition) return "expected the condition " + protocol_.conditions[t.condition].name;

@@ -44,7 +44,8 @@ private:
 /// M only. `protocol` is valid and outlives the experiment.
 class Experiment {
 public:
-    Experiment(const Protocol& protocol, Participant participant);
+    /// `explorersEnd`: whoever asks for what they feel says when that training ends; else it ends as soon as it may.
+    Experiment(const Protocol& protocol, Participant participant, bool explorersEnd = false);
 
     bool isDone() const noexcept { return !trial_; }
 
@@ -62,9 +63,14 @@ public:
     /// take(), if the record is what this experiment would have asked; else what differs, and nothing happens.
     std::string redo(const TrialRecord& record);
 
+    /// Whether the training at hand may end: enough was felt.
+    bool mayEnd() const { return trial_ && session().task == StudyTask::explore && hasExplored(); }
+    /// The next session begins; if mayEnd().
+    void endSession();
+
     int trialsTaken() const noexcept { return taken_; }
 
-    /// Trials of the session at hand; 0 where its length depends on the answers (a staircase, asking until all were felt).
+    /// Trials of the session at hand; 0 where its length depends on the answers (a staircase, a training that goes on for as long as wanted).
     int sessionTrials() const noexcept;
 
     /// Which of all sessions (those of the first condition, of the second ...) it is, from 1, in this participant's order.
@@ -80,6 +86,7 @@ private:
     void beginSession();
     void advance();
     bool isSessionOver() const;
+    bool hasExplored() const;
     Trial nextTrial();
     double startOf(const Adjustment& adjustment, int trial) const;
     void addAlternatives(Trial& trial, bool isSwapped);
@@ -90,12 +97,14 @@ private:
 
     const Protocol& protocol_;
     Participant participant_;
+    bool explorersEnd_;
     std::vector<std::size_t> conditions_; // in this participant's order
     std::size_t conditionAt_ = 0, sessionAt_ = 0;
 
     std::vector<StimulusItem> items_;     // of the condition at hand
     std::vector<PlannedTrial> order_;     // of the session at hand
     std::set<std::string> explored_;
+    bool isEnded_ = false;                // by whoever explores
     std::optional<AdaptiveLevel> adaptive_;
     int inSession_ = 0;                   // trials answered
 

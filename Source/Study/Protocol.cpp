@@ -36,6 +36,8 @@ std::string taskFault(const SessionPlan& s) {
     if (sharesNames(s.alternatives, [](const auto& a) { return a.name; })) return "alternatives: expected a name of its own for each";
     if (s.bothOrders && (s.task != StudyTask::choose || s.alternatives.size() != 2)) return "both_orders: expected it of two alternatives to choose from";
     if ((s.task == StudyTask::rate) == s.scales.empty()) return "scales: expected them of the task rate, and of no other";
+    if (!s.definitions.empty() && s.definitions.size() != s.scales.size()) return "definitions: expected one of each scale";
+    if (!s.anchors.empty() && s.anchors.size() != 2) return "anchors: expected two, of the left end and of the right";
     if (sharesNames(s.scales, [](const auto& scale) { return scale; })) return "scales: expected a name of its own for each";
     if (s.task != StudyTask::rate && !s.objects.empty()) return "objects: expected them of the task rate only";
     if ((s.task == StudyTask::adjust) != s.adjustment.has_value()) return "adjustment: expected it of the task adjust, and of no other";
@@ -101,9 +103,10 @@ std::string conditionFault(const Protocol& p, const ConditionPlan& c) {
     if (const auto* patterns = std::get_if<PatternSet>(&c.stimuli))
         for (const double seconds : patterns->pulseSeconds)
             if (parsePatternLabel(patternLabel({seconds, 1, {}}))->pulseSeconds != seconds) return "pulse_s: expected whole milliseconds";
-    if (const auto* calls = std::get_if<CallSet>(&c.stimuli)) {
+    if (const CallSet* calls = callSetOf(c.stimuli)) {
         if (sharesNames(calls->factors, [](const auto& f) { return f.name; })) return "factors: expected a name of its own for each";
         if (std::string fault = callsFault(p, c, *calls); !fault.empty()) return fault;
+        if (std::holds_alternative<WorldSet>(c.stimuli) && !calls->call.starts_with("render ")) return "call: expected render and a scene, which a world needs";
     }
     if (sharesNames(stimuliOf(c), [](const auto& item) { return item.label; })) return "stimuli: expected no two of the same label";
     return {};

@@ -21,7 +21,7 @@ namespace physvib {
 
 /// What a participant does in a trial.
 enum class StudyTask {
-    explore,  ///< training: feels what they ask for, until all (or so many) were felt
+    explore,  ///< training: feels what they ask for, all (or so many) at least, and for as long as they want
     identify, ///< names the stimulus
     locate,   ///< points at where it was felt
     choose,   ///< picks one of the alternatives
@@ -62,7 +62,19 @@ struct CallSet {
     bool operator==(const CallSet&) const = default;
 };
 
-using StimulusSet = std::variant<PatternSet, GridSet, CallSet>;
+/// Scenes that the participant watches while they are felt: calls of `render` and its scene's options.
+struct WorldSet : CallSet {
+    bool hasHands = false; ///< bodies are dragged and the world is tilted, for as long as the participant wants; else it runs for the call's seconds
+    bool operator==(const WorldSet&) const = default;
+};
+
+using StimulusSet = std::variant<PatternSet, GridSet, CallSet, WorldSet>;
+
+/// The calls of a set; null if it makes none. Any thread.
+inline const CallSet* callSetOf(const StimulusSet& set) noexcept {
+    if (const auto* world = std::get_if<WorldSet>(&set)) return world;
+    return std::get_if<CallSet>(&set);
+}
 
 /// The recorded contact of the material of that frequency, for calls that play recordings.
 struct StudySoundFile {
@@ -130,6 +142,9 @@ struct SessionPlan {
     bool bothOrders = false;               ///< choose: every order of two alternatives once, instead of a random one
     std::vector<std::string> objects;      ///< rate: parts of every trial, in random order
     std::vector<std::string> scales;       ///< rate
+    std::vector<std::string> definitions;  ///< what each scale means, to be read beside it; none: nothing
+    std::vector<std::string> anchors;      ///< of its two ends; none: Strongly disagree, Strongly agree
+    bool showsNumbers = false;             ///< rate: how many points were set
     std::optional<Adjustment> adjustment;
     std::optional<StaircasePlan> staircase;
     std::optional<QuestMethod> quest;
@@ -151,6 +166,9 @@ struct Protocol {
     double exposureLimit = exposureActionValue; ///< A(8) in m/s^2 of a participant, from which on the study pauses
     std::vector<StudySoundFile> sounds; ///< what calls with --method SV get
     ConditionOrder conditionOrder = ConditionOrder::given;
+    double conditionBreakSeconds = 0.0; ///< before every condition but the first
+    std::string closingQuestion;        ///< answered in the participant's own words at the end; empty: nothing is asked
+    std::string words;                  ///< what participants read: built-in words, or a file of them; empty: English
     std::vector<ConditionPlan> conditions;
     std::vector<SessionPlan> sessions; ///< of every condition
     std::vector<StimulusLevel> levels; ///< of the sessions' levelsFile

@@ -83,6 +83,8 @@ std::vector<std::string> partCallsOf(const Protocol& protocol, const TrialRecord
 
 std::string callsOf(const Protocol& protocol, const TrialRecord& record) {
     std::string words;
+    for (const std::string& session : record.answer.sessions) words.append(words.empty() ? "" : " ; ").append("render ").append(session);
+    if (!words.empty()) return words;
     for (const std::string& call : partCallsOf(protocol, record)) words.append(words.empty() ? "" : " ; ").append(call);
     return words;
 }

@@ -44,6 +44,7 @@ struct Answer {
     double seconds = 0.0;            ///< from the first feel to the answer
     std::vector<FeltLevel> felt{};       ///< per part, the last time; empty: nobody felt it on a device
     std::optional<double> exposure{};    ///< of the participant up to here: A(8) in m/s^2; none: nobody measured it
+    std::vector<std::string> sessions{}; ///< what was felt of worlds, in this order: saved sessions, beside the trial file
     bool operator==(const Answer&) const = default;
 };
 
@@ -66,7 +67,7 @@ std::string soundWords(const Protocol& protocol, const std::string& call);
 /// while a trial is not answered yet: give the answer as it stands. M only (allocates).
 std::vector<std::string> partCallsOf(const Protocol& protocol, const TrialRecord& record);
 
-/// All of them, joined by " ; ". M only (allocates).
+/// All of them, joined by " ; "; of worlds, the sessions that were felt. M only (allocates).
 std::string callsOf(const Protocol& protocol, const TrialRecord& record);
 
 } // namespace physvib

@@ -3,6 +3,8 @@
 #include "Files/SceneCatalogue.h"
 #include "Physics/BodyMass.h"
 #include "Physics/DropScene.h"
+#include "Physics/Scenes/SceneEdits.h"
+#include "Physics/Scenes/ScenePlayer.h"
 #include "SceneHits.h"
 #include <algorithm>
 #include <array>
@@ -63,6 +65,43 @@ TEST(Driving, TheFasterTheCarTheHarderItHitsTheWall) {
         impulse = hit.source.impulseNewtonSeconds;
         amplitude = hit.amplitude;
     }
+}
+
+TEST(Driving, AHitAtTwiceTheSpeedIsTwiceAsStrong) {
+    EXPECT_NEAR(firstHit(levelRoad(4.0), "right wall").amplitude / firstHit(levelRoad(2.0), "right wall").amplitude, 2.0, 0.1);
+}
+
+/// The walls that were struck, in their order, each once in a row.
+std::vector<std::string> wallsHit(const Scene& scene, double seconds) {
+    const SceneHits hits(scene);
+    std::vector<std::string> walls;
+    for (const CollisionEvent& event : eventsOf(scene, seconds)) {
+        if (event.source.other < 0) continue;
+        const std::string& what = hits.bodyOf(event.source.other);
+        if (what.ends_with("wall") && (walls.empty() || walls.back() != what)) walls.push_back(what);
+    }
+    return walls;
+}
+
+TEST(Driving, KeysDriveTheCarFasterWithEachAndBrakeIt) {
+    Scene scene = sceneForHands(driving());
+    ScenePlayer player{scene};
+    EXPECT_TRUE(player.drives());
+    EXPECT_TRUE(std::ranges::none_of(scene.script, [](const ScriptInput& input) { return std::holds_alternative<MotorAction>(input.action); }));
+    EXPECT_FALSE(scene.script.empty()) << "obstacles fall all the same";
+    scene.script.clear();
+    const auto act = [&](double seconds, const std::vector<Action>& actions) {
+        for (const Action& action : actions) scene.inputs.push_back({seconds, action});
+    };
+    EXPECT_TRUE(wallsHit(scene, 12.0).empty()) << "nobody drives";
+    act(0.5, player.steer(1));
+    act(0.7, player.steer(1));
+    EXPECT_EQ(std::get<MotorAction>(scene.inputs.back().action).radiansPerSecond, -2.0 * ScenePlayer::stepRadiansPerSecond);
+    EXPECT_EQ(wallsHit(scene, 12.0), std::vector<std::string>{"right wall"});
+    act(7.0, player.steer(-1)); // against its way: it brakes
+    EXPECT_EQ(std::get<MotorAction>(scene.inputs.back().action).radiansPerSecond, 0.0);
+    for (const double seconds : {8.0, 8.2, 8.4}) act(seconds, player.steer(-1));
+    EXPECT_EQ(wallsHit(scene, 20.0), (std::vector<std::string>{"right wall", "left wall"}));
 }
 
 TEST(Driving, TheWallStopsTheCarAndSomeOfItsWheels) {

@@ -35,6 +35,26 @@ TEST(ProtocolFile, FaultsAreNamedByTheirField) {
     EXPECT_EQ(fault("{"), "p.json: line 1, column 2: syntax error while parsing object key - unexpected end of input; expected string literal");
 }
 
+TEST(ProtocolFile, AWorldIsASceneThatIsWatchedAndMayHaveHands) {
+    const auto worldOf = [](const std::string& more) {
+        return readProtocol(head + R"("conditions": [{ "name": "A", "stimuli": "world", "factors": [{ "name": "pair", "values": ["wood-wood"] }], )" + more + R"( }], "sessions": [{ "name": "main" }] })", "p.json");
+    };
+    const auto watched = worldOf(R"("call": "render drop --set pair={pair}")"), played = worldOf(R"("call": "render box-study --set pair={pair}", "hands": true)");
+    ASSERT_TRUE(watched && played) << watched.error << played.error;
+    EXPECT_FALSE(std::get<WorldSet>(watched.value.conditions[0].stimuli).hasHands);
+    EXPECT_TRUE(std::get<WorldSet>(played.value.conditions[0].stimuli).hasHands);
+    EXPECT_EQ(stimuliOf(played.value.conditions[0]).front().label, "wood-wood");
+    EXPECT_EQ(worldOf(R"("call": "stimulus phantom --at 0.5,0.5 {pair}")").error, "p.json: conditions[0].call: expected render and a scene, which a world needs");
+    EXPECT_EQ(worldOf(R"("call": "render drop --out {pair}")").error, "p.json: conditions[0].call: expected no file to be written, found --out");
+}
+
+TEST(ProtocolFile, ScalesHaveADefinitionEachAndTwoAnchors) {
+    const auto fault = [](const std::string& more) { return readProtocol(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate", "scales": ["a", "b"], )" + more + "}] }", "p.json").error; };
+    EXPECT_EQ(fault(R"("definitions": ["It was a.", "It was b."], "anchors": ["no", "yes"], "show_numbers": true)"), "");
+    EXPECT_EQ(fault(R"("definitions": ["It was a."])"), "p.json: sessions[0].definitions: expected one of each scale");
+    EXPECT_EQ(fault(R"("anchors": ["no", "so so", "yes"])"), "p.json: sessions[0].anchors: expected two, of the left end and of the right");
+}
+
 TEST(ProtocolFile, EveryBuiltInProtocolIsReadBackAsWritten) {
     ASSERT_EQ(builtInProtocols().size(), 8u);
     for (const Protocol& p : builtInProtocols()) {

@@ -82,6 +82,37 @@ TEST(AudioOutput, OpensTheDeviceThatIsNamedAndNoOther) {
     EXPECT_EQ(rig.speakers.timesOpened, 0);
 }
 
+TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt) {
+    Rig rig;
+    const auto setup = shakeTheBoxSetup(0.02); // of fewer channels
+    Session lent{setup}, alone{setup};
+    EXPECT_FALSE(rig.output.lend(&lent)) << "no device has run yet";
+    ASSERT_EQ(rig.open(), "");
+    rig.play(1.5, 64);
+    const auto before = rig.session.framesRendered();
+    ASSERT_TRUE(rig.output.lend(&lent));
+    alone.prepare(48000, 64);
+    std::vector<std::vector<float>> wanted(static_cast<std::size_t>(setup.channels), std::vector<float>(64));
+    std::vector<float*> at;
+    for (auto& channel : wanted) at.push_back(channel.data());
+    float most = 0.0f;
+    for (int block = 0; block < 3000; ++block) {
+        lent.advance();
+        alone.advance();
+        alone.render(at.data(), 64, RenderMode::realtime);
+        const auto played = rig.interface.play(64);
+        for (std::size_t j = 0; j < wanted.size(); ++j) ASSERT_EQ(played[j], wanted[j]) << "block " << block << ", channel " << j;
+        for (std::size_t j = wanted.size(); j < played.size(); ++j) ASSERT_EQ(loudest(played[j]), 0.0f) << "of the one that is lent there is none";
+        for (const auto& channel : played) most = std::max(most, loudest(channel));
+    }
+    EXPECT_GT(most, 0.01f);
+    EXPECT_EQ(rig.session.framesRendered(), before) << "it stands still";
+    ASSERT_TRUE(rig.output.lend(nullptr));
+    rig.play(1.5, 64);
+    EXPECT_GT(rig.session.framesRendered(), before);
+    rig.expectTheLogIsWhole();
+}
+
 TEST(AudioOutput, SumsUpWhatLeavesForTheHands) {
     Rig rig;
     ASSERT_EQ(rig.open({}, 0.5f), "");

@@ -63,9 +63,9 @@ list(FILTER sources EXCLUDE REGEX "^Source/Api/") # a library of its own
 collect(listed_sources "<FILE [^>]*compile=\"1\"[^>]*file=\"([^\"]+\\.cpp)\"" "${jucer}")
 compare(sources listed_sources)
 
-# The built-in scenes, materials, actuators and protocols, in the order of their listing.
+# The built-in scenes, materials, actuators, protocols and words, in the order of their listing.
 set(embedded "")
-foreach(kind Scenes Materials Actuators Protocols)
+foreach(kind Scenes Materials Actuators Protocols Words)
     string(TOLOWER ${kind} list)
     string(REGEX MATCH "set\\(${list} ([^)]*)\\)" ignored "${rooms}")
     string(REPLACE " " ";" names "${CMAKE_MATCH_1}")

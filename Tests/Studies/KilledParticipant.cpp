@@ -29,6 +29,7 @@ int answer(const juce::File& folder, int trials) {
         }
         p.feel();
         p.click("Row " + juce::String{1 + taken % 2} + ", column " + juce::String{1 + taken % 3}); // whatever was felt
+        p.click("Next");
         if (!test::runUntil([&] { return p.experiment().trialsTaken() > taken; })) return 1;
         p.pump();
     }

@@ -15,7 +15,8 @@ namespace physvib::test {
 /// The mixer in a window of its own.
 class Participant {
 public:
-    Participant() {
+    explicit Participant(AudioDeviceTypes types = onlyNoDevice(), const std::string& device = std::string{noDeviceType} + ":" + noDeviceName)
+        : desk{std::move(types), {device, 48000, 128}} {
         view.setSize(1440, 900);
         view.addToDesktop(juce::ComponentPeer::windowHasTitleBar);
         view.setVisible(true);
@@ -23,7 +24,7 @@ public:
         view.grabKeyboardFocus();
         pump();
     }
-    Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128}};
+    Desk desk;
     MixerView view{desk};
 
     /// Those on the screen only; null if there is none.
@@ -39,10 +40,23 @@ public:
         clickAt(view.getLocalPoint(target, target->getLocalBounds().toFloat().getCentre()));
     }
     void clickAt(juce::Point<float> at) {
-        for (const int buttons : {0, int{juce::ModifierKeys::leftButtonModifier}, 0}) {
-            timeMs_ += 400; // never a double click
-            view.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at, juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
-        }
+        for (const int buttons : {0, int{juce::ModifierKeys::leftButtonModifier}, 0}) mouse(at, buttons);
+        pump();
+    }
+    /// In whichever window it is.
+    juce::Component* findBelow(juce::Component& root, const juce::String& title) { return findIn(root, title); }
+    void clickOn(juce::Component& c) {
+        auto* peer = c.getPeer();
+        const auto at = peer->getComponent().getLocalPoint(&c, c.getLocalBounds().toFloat().getCentre());
+        for (const int buttons : {0, int{juce::ModifierKeys::leftButtonModifier}, 0}) mouse(at, buttons, peer);
+        pump();
+    }
+    /// From one point of the window to another.
+    void drag(juce::Point<float> from, juce::Point<float> to) {
+        mouse(from, 0);
+        mouse(from, juce::ModifierKeys::leftButtonModifier);
+        for (const float share : {0.2f, 0.6f, 1.0f}) mouse(from + (to - from) * share, juce::ModifierKeys::leftButtonModifier);
+        mouse(to, 0);
         pump();
     }
     /// A key, once the window has the focus: a busy display gives it late and may take it for a moment.
@@ -77,6 +91,10 @@ public:
     }
 
 private:
+    void mouse(juce::Point<float> at, int buttons, juce::ComponentPeer* peer = nullptr) {
+        timeMs_ += 400; // never a double click
+        (peer != nullptr ? peer : view.getPeer())->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at, juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
+    }
     int plays() { return screen() != nullptr ? screen()->plays() : 0; }
     bool isFeeling() { return screen() != nullptr && screen()->isFeeling(); }
     static juce::Component* findIn(juce::Component& root, const juce::String& title, bool mustShow = true, const std::function<bool(juce::Component&)>& fits = {}) {

@@ -91,6 +91,11 @@ TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
         ASSERT_TRUE(test::runUntil([&] { return p->screen()->study().experiment().trialsTaken() == static_cast<int>(felt.size()); })) << item.label;
     }
     EXPECT_EQ(column("response", "explore"), felt);
+    p->click(firstOf(items[0].label)); // once more, as often as wanted
+    p->click(titleOf(items[0].label));
+    ASSERT_TRUE(test::runUntil([&] { return p->experiment().trialsTaken() == static_cast<int>(items.size()) + 1; }));
+    ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial) << "a training ends when its participant says so";
+    p->click("Next");
     passPage();
     Texts answers, plays;
     for (std::size_t n = 0; n < items.size(); ++n) {
@@ -103,7 +108,9 @@ TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
         }
         if (n % 2 == 0) p->click(firstOf(label));
         else p->type(label.substr(0, 1));
+        if (n == 2) p->click(titleOf(items[(5 * n) % items.size()].label)), p->click(firstOf(label)); // thought better of it
         p->click(titleOf(label));
+        p->click("Next");
         answers.push_back(label);
         plays.push_back(n == 4 ? "2" : "1");
     }
@@ -132,10 +139,13 @@ TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) 
         const int row = 1 + n % 2, col = 1 + n % 3;
         if (n != 5) {
             p->click("Row " + juce::String{row} + ", column " + juce::String{col});
+            p->click("Next");
             answers.push_back(std::to_string(row) + "," + std::to_string(col));
         } else { // the arrows begin at the lower left of the middle
             p->key(juce::KeyPress::rightKey);
             juce::Component::unfocusAllComponents(); // another window takes the focus for a moment
+            p->enter();
+            EXPECT_EQ(p->experiment().trialsTaken(), 5) << "chosen, not confirmed";
             p->enter();
             ASSERT_TRUE(test::runUntil([&] { return p->experiment().trialsTaken() == 6; }));
             answers.push_back("2,2");
@@ -163,11 +173,14 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
     for (int n = 1; n <= 3; ++n) {
         touch({0.25 * n, 0.2 * n});
         ASSERT_TRUE(test::runUntil([&] { return p->experiment().trialsTaken() == n; }));
+        EXPECT_EQ(p->isAnswerOpen("Next"), n == 3) << "how many touches are left is not told";
     }
+    p->click("Next");
     passPage();
     for (int n = 0; n < 16; ++n) {
         p->feel();
         if (n != 2) {
+            if (n == 1) touch({0.9, 0.9}), touched.pop_back(); // another place first
             touch({0.05 + 0.05 * n, 0.1 + 0.2 * (n * n % 5)});
         } else {
             for (int k = 0; k < 11; ++k) { // from wherever it is to the upper left
@@ -181,6 +194,9 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
             touched.push_back({0.1, 0.01});
             p->enter();
         }
+        EXPECT_EQ(p->experiment().trialsTaken(), 3 + n) << "a mark is no answer yet";
+        if (n % 2 == 0) p->enter();
+        else p->click("Next");
     }
     close();
     auto x = column("x", "explore"), y = column("y", "explore");
@@ -217,8 +233,8 @@ TEST_F(ByAParticipant, MatchesLevelsAndChoosesAtTheMatchedOnes) {
         p->feel();
         p->feel();
         choices.push_back(parts[static_cast<std::size_t>(n / 2)]);
-        if (n % 2 == 0) p->type(n / 2 == 0 ? "1" : "2");
-        else p->click(n / 2 == 0 ? "Answer: the first" : "Answer: the second");
+        if (n % 2 == 0) p->type(n / 2 == 0 ? "21" : "12"), p->enter(); // the last one counts
+        else p->click(n / 2 == 0 ? "Answer: number 1" : "Answer: number 2"), p->click("Next");
     }
     close();
     EXPECT_EQ(column("value", "adjust"), Texts{"1.5"});
@@ -245,6 +261,7 @@ TEST_F(ByAParticipant, FeelsRecordingsAgainstTheModelAtTheLevelThatWasMatched) {
         p->feel();
         p->feel();
         p->type("1");
+        p->enter();
     }
     close();
     const auto log = p->desk.saved().log;
@@ -421,6 +438,7 @@ TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
     EXPECT_FALSE(p->desk.isSilent());
     p->feel();
     p->click("Row 1, column 1");
+    p->click("Next");
     p->click("Leave the study; what was answered is kept");
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
     EXPECT_EQ(p->desk.slowness(), 1);

@@ -44,6 +44,41 @@ TEST(Experiment, TrainingShowsEveryPatternAndTheMainSessionEachOnce) {
     EXPECT_EQ(records[29].trial.restSeconds, 0.0);
 }
 
+TEST(Experiment, WhoExploresSaysWhenTheTrainingEndsAndAFileOfItGoesOnThere) {
+    const auto felt = [](Experiment& experiment, int touches) {
+        std::vector<TrialRecord> records;
+        for (int n = 0; n < touches; ++n) records.push_back(experiment.take({.place = FieldPlace{0.5, 0.5}}));
+        return records;
+    };
+    const auto p = protocolOf(GridSet{2, 2}, {{.name = "training", .isTraining = true, .task = StudyTask::explore, .fewestTouches = 3}, {.name = "main", .task = StudyTask::locate}});
+    Experiment experiment{p, {}, true};
+    auto records = felt(experiment, 2);
+    EXPECT_FALSE(experiment.mayEnd());
+    for (auto& record : felt(experiment, 3)) records.push_back(record);
+    EXPECT_TRUE(experiment.mayEnd());
+    EXPECT_EQ(experiment.sessionTrials(), 0) << "how many are left is not told";
+    experiment.endSession();
+    EXPECT_EQ(experiment.session().name, "main");
+    for (auto& record : felt(experiment, 1)) records.push_back(record);
+    Experiment again{p, {}, true};
+    for (const auto& record : records) ASSERT_EQ(again.redo(record), "");
+    EXPECT_EQ(again.trial().number, 2);
+    Experiment soon{p, {}, true};
+    ASSERT_EQ(soon.redo(records[0]), "");
+    EXPECT_EQ(soon.redo(records[5]), "expected the session training") << "too early";
+}
+
+TEST(Experiment, ABreakLiesBetweenConditionsAsBeforeSessions) {
+    auto p = protocolOf(GridSet{2, 1}, {{.name = "training", .isTraining = true, .task = StudyTask::explore}, {.name = "main", .breakBeforeSeconds = 120.0}});
+    p.conditions.push_back(p.conditions.front());
+    p.conditions.back().name = "other";
+    p.conditionBreakSeconds = 60.0;
+    std::vector<double> rests;
+    for (const auto& record : runWhole(p, {}))
+        if (record.trial.number == 1) rests.push_back(record.trial.restSeconds);
+    EXPECT_EQ(rests, (std::vector<double>{0.0, 120.0, 60.0, 120.0}));
+}
+
 TEST(Experiment, OrdersDifferByParticipantAndRepeatBySeed) {
     const auto stimuli = [](const std::vector<TrialRecord>& records) {
         std::vector<std::string> all;

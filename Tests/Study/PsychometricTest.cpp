@@ -95,7 +95,7 @@ TEST(Bootstrap, FewParticipantsHaveAnIntervalToo) {
     EXPECT_EQ(bootstrapMean(std::span{two}.first(1)).most, 1.0);
 }
 
-QuestPlan questPlan() {
+QuestPlan questPlanOfTests() {
     QuestPlan plan;
     for (int i = 0; i <= 60; ++i) plan.levels.push_back(0.5 * i);
     for (int i = 0; i <= 40; ++i) plan.thresholds.push_back(0.5 * i + 2.0);
@@ -114,7 +114,7 @@ TEST(QuestPlus, NeedsTwoThirdsOfAStaircasesTrialsForItsError) {
         Staircase staircase{StaircasePlan{.alternative = "a", .startDb = 25.0, .stepDb = 4.0, .leastStepDb = 1.0, .leastDb = 0.0, .mostDb = 30.0, .down = 2, .reversals = 12}};
         int trials = 0;
         for (; !staircase.isDone(); ++trials) staircase.answer(random.chance(truth.probability(staircase.levelDb())));
-        QuestPlus quest{questPlan()};
+        QuestPlus quest{questPlanOfTests()};
         while (quest.trials() < 2 * trials / 3) quest.answer(random.chance(truth.probability(quest.level())));
         staircaseTrials += trials, questTrials += quest.trials();
         staircaseSquares += std::pow(staircase.thresholdDb() - wanted, 2);
@@ -127,7 +127,7 @@ TEST(QuestPlus, NeedsTwoThirdsOfAStaircasesTrialsForItsError) {
 }
 
 TEST(QuestPlus, BeliefGetsNarrower) {
-    QuestPlus quest{questPlan()};
+    QuestPlus quest{questPlanOfTests()};
     const double before = quest.thresholdDeviation();
     for (int i = 0; i < 30; ++i) quest.answer(quest.level() > 10.0 || i % 2);
     EXPECT_LT(quest.thresholdDeviation(), 0.3 * before);

@@ -25,6 +25,9 @@ const std::vector<EmbeddedFile>& embeddedMaterials();
 /// Source/Files/Protocols/*.json.
 const std::vector<EmbeddedFile>& embeddedProtocols();
 
+/// Source/Files/Words/*.json.
+const std::vector<EmbeddedFile>& embeddedWords();
+
 /// Source/Files/Actuators/*.json.
 const std::vector<EmbeddedFile>& embeddedActuators();
 

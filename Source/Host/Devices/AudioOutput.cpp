@@ -15,7 +15,8 @@ constexpr double noiseFadeSeconds = 2.0; // to full scale; nobody shall start
 } // namespace
 
 AudioOutput::AudioOutput(Session& session, AudioDeviceTypes types, const std::atomic<bool>* silence)
-    : session_{session}
+    : own_{session}
+    , played_{&session}
     , types_{std::move(types)}
     , silence_{silence} {}
 
@@ -23,7 +24,7 @@ AudioOutput::~AudioOutput() { close(); }
 
 std::string AudioOutput::open(const AudioOutputSettings& settings) {
     close();
-    if (auto error = map_.want(session_.channels(), settings.channelMap, settings.enchanters, settings.listening.outputs()); !error.empty()) return error;
+    if (auto error = map_.want(own_.channels(), settings.channelMap, settings.enchanters, settings.listening.outputs()); !error.empty()) return error;
     settings_ = settings;
     setLevel(settings.level);
     setHeardLevels();
@@ -35,14 +36,14 @@ std::string AudioOutput::assign(const std::vector<int>& channelMap, int enchante
 std::string AudioOutput::hear(const ListeningSettings& listening) { return remap(settings_.channelMap, settings_.enchanters, listening); }
 
 std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening) {
-    if (auto error = map_.want(session_.channels(), channelMap, enchanters, listening.outputs()); !error.empty()) return error;
+    if (auto error = map_.want(own_.channels(), channelMap, enchanters, listening.outputs()); !error.empty()) return error;
     const AudioOutputSettings before = settings_;
     settings_.channelMap = channelMap;
     settings_.enchanters = enchanters;
     settings_.listening = listening;
     if (auto error = listeningFault(); !error.empty()) {
         settings_ = before;
-        map_.want(session_.channels(), before.channelMap, before.enchanters, before.listening.outputs());
+        map_.want(own_.channels(), before.channelMap, before.enchanters, before.listening.outputs());
         return error;
     }
     setHeardLevels();
@@ -62,7 +63,7 @@ void AudioOutput::setHeardLevels() {
 
 // Unlike an enchanter without an output, which is felt as missing, noise that is missing would go unnoticed.
 std::string AudioOutput::listeningFault() const {
-    if (!settings_.listening.contacts.empty() && !session_.hasContactSound()) return "expected a session that makes contact sounds, found none";
+    if (!settings_.listening.contacts.empty() && !own_.hasContactSound()) return "expected a session that makes contact sounds, found none";
     if (!found_.device || map_.highestHeard() < deviceOutputs()) return {};
     return settings_.device + ": has " + std::to_string(deviceOutputs()) + " outputs; expected one of them to listen to, found output " + std::to_string(map_.highestHeard() + 1);
 }
@@ -109,6 +110,16 @@ void AudioOutput::fadeOut() {
     while (running_ && status().blocks < blocks && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds{1});
 }
 
+bool AudioOutput::lend(Session* other) {
+    if (rate_ == 0) return false;
+    if (other != nullptr) other->prepare(rate_, block_);
+    else if (played_.load() != &own_ && (lentRate_ != rate_ || lentBlock_ != block_)) own_.resume(rate_, block_);
+    if (played_.load() == &own_) lentRate_ = rate_, lentBlock_ = block_;
+    played_.store(other != nullptr ? other : &own_);
+    while (isInBlock_.load()) std::this_thread::sleep_for(std::chrono::milliseconds{1}); // a block at most
+    return true;
+}
+
 void AudioOutput::close() {
     fadeOut();
     stopDevice();
@@ -149,8 +160,9 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     const int rate = juce::roundToInt(device->getCurrentSampleRate());
     const int block = std::min(std::max(device->getCurrentBufferSizeSamples(), largestBlock_.load()), limits::maxBlockFrames);
     if (!isSampleRate(rate) || block < 1) return; // stays silent
-    if (rate_ == 0) session_.prepare(rate, block);
-    else if (rate != rate_ || block != block_) session_.resume(rate, block);
+    Session& session = *played_.load();
+    if (rate_ == 0) session.prepare(rate, block);
+    else if (rate != rate_ || block != block_) session.resume(rate, block);
     if (auto* recorder = recorder_.load(std::memory_order_relaxed); recorder && recorder->sampleRateHz() != rate) recorder_ = nullptr;
     rate_ = rate;
     latencyNs_ = std::int64_t{1'000'000'000} * device->getOutputLatencyInSamples() / rate;
@@ -170,7 +182,7 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
 void AudioOutput::prepareBuffers(int block) {
     block_ = block;
     noiseScratch_.assign(static_cast<std::size_t>(block), 0.0f);
-    scratch_.assign(static_cast<std::size_t>(session_.channels() + (session_.hasContactSound() ? 1 : 0)), std::vector<float>(static_cast<std::size_t>(block)));
+    scratch_.assign(static_cast<std::size_t>(own_.channels() + (own_.hasContactSound() ? 1 : 0)), std::vector<float>(static_cast<std::size_t>(block)));
     scratchAt_.clear();
     for (auto& channel : scratch_) scratchAt_.push_back(channel.data());
 }
@@ -184,29 +196,33 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     for (int k = 0; k < outputs; ++k) juce::FloatVectorOperations::clear(out[k], frames);
     if (frames < 1 || !running_.load(std::memory_order_relaxed)) return;
     const auto start = juce::Time::getHighResolutionTicks();
-    const FeltMoment felt{session_.nextFeltNs(), std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count() + latencyNs_};
+    isInBlock_.store(true);
+    Session& session = *played_.load();
+    const FeltMoment felt{session.nextFeltNs(), std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count() + latencyNs_};
     if (frames > largestBlock_.load(std::memory_order_relaxed)) largestBlock_.store(frames, std::memory_order_relaxed);
     const bool rests = isSilent() || ending_.load(std::memory_order_relaxed);
     for (auto [ramp, gain] : {std::pair{&master_, &level_}, {&noiseRamp_, &noiseGain_}, {&contactRamp_, &contactGain_}}) {
         if (rests) ramp->moveTo(0.0f, frames);
         else ramp->moveTo(gain->load(std::memory_order_relaxed));
     }
-    for (int done = 0; done < frames; done += block_) renderPart(out, outputs, done, std::min(block_, frames - done));
-    if (session_.nextFeltNs() != felt.sessionNs) felt_.write(felt); // else nobody steps the world: session time stands still
+    for (int done = 0; done < frames; done += block_) renderPart(session, out, outputs, done, std::min(block_, frames - done));
+    if (session.nextFeltNs() != felt.sessionNs) felt_.write(felt); // else nobody steps the world: session time stands still
+    isInBlock_.store(false);
     measure(start, frames);
 }
 
-void AudioOutput::renderPart(float* const* out, int outputs, int first, int frames) noexcept {
-    session_.render(scratchAt_.data(), frames, RenderMode::realtime);
-    if (auto* recorder = recorder_.load(std::memory_order_acquire)) recorder->take(scratchAt_.data(), frames, session_.framesRendered() - frames);
+void AudioOutput::renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept {
+    session.render(scratchAt_.data(), frames, RenderMode::realtime);
+    for (int j = session.channels(); j < own_.channels(); ++j) juce::FloatVectorOperations::clear(scratchAt_[static_cast<std::size_t>(j)], frames);
+    if (auto* recorder = recorder_.load(std::memory_order_acquire)) recorder->take(scratchAt_.data(), frames, session.framesRendered() - frames);
     if (tap_ != nullptr) tap_->take(scratchAt_.data(), frames);
     switchMotors(frames);
-    for (int j = 0; j < session_.channels(); ++j) { // the limiter, if on, leaves nothing to cut
+    for (int j = 0; j < session.channels(); ++j) { // the limiter, if on, leaves nothing to cut
         float* at = scratchAt_[static_cast<std::size_t>(j)];
-        juce::FloatVectorOperations::clip(at, at, -session_.ceiling(j), session_.ceiling(j), frames);
+        juce::FloatVectorOperations::clip(at, at, -session.ceiling(j), session.ceiling(j), frames);
     }
-    master_.apply(scratchAt_.data(), session_.channels(), frames);
-    for (int j = 0; j < session_.channels(); ++j) {
+    master_.apply(scratchAt_.data(), session.channels(), frames);
+    for (int j = 0; j < session.channels(); ++j) {
         float* at = scratchAt_[static_cast<std::size_t>(j)];
         const int k = map_.play(j, at, frames);
         if (k < 0 || k >= outputs) continue;
@@ -214,7 +230,7 @@ void AudioOutput::renderPart(float* const* out, int outputs, int first, int fram
         if (std::ranges::find(motors_, static_cast<std::size_t>(j), &Motor::enchanter) == motors_.end()) exposure_.take(j, at, frames); // how a motor shakes, nobody says
     }
     exposure_.publish();
-    renderHeard(out, outputs, first, frames);
+    renderHeard(session, out, outputs, first, frames);
 }
 
 // A step late, as it says what was in it; then as loud as ceiling and master level let it be.
@@ -227,14 +243,14 @@ void AudioOutput::switchMotors(int frames) noexcept {
         }
 }
 
-void AudioOutput::renderHeard(float* const* out, int outputs, int first, int frames) noexcept {
+void AudioOutput::renderHeard(const Session& session, float* const* out, int outputs, int first, int frames) noexcept {
     if (noiseGain_.load(std::memory_order_relaxed) > 0.0f) {
         float* noise = noiseScratch_.data();
         std::generate_n(noise, frames, [this] { return noise_.next(); });
         noiseRamp_.apply(&noise, 1, frames);
         addTo(Heard::noise, noise, out, outputs, first, frames);
     }
-    if (!session_.hasContactSound()) return;
+    if (!session.hasContactSound()) return;
     contactRamp_.apply(&scratchAt_.back(), 1, frames);
     addTo(Heard::contacts, scratchAt_.back(), out, outputs, first, frames);
 }

@@ -49,6 +49,11 @@ public:
     /// What is listened to, while it plays as assign(); empty, or one line with the reason, and all is as before. M.
     std::string hear(const ListeningSettings& listening);
 
+    /// Plays `other` from the next block on, from its beginning, instead of the output's own session, which stands still meanwhile; null: the
+    /// own one goes on. `other` has no more channels, no contact sound, and is prepared here. R has left the one that was played when this
+    /// returns; what rings in it is cut. False, and nothing changes, while no device has run. M.
+    bool lend(Session* other);
+
     /// Silent within two blocks, then stops and closes; what is left of the session stays. M.
     void close();
 
@@ -106,9 +111,9 @@ private:
     std::string unfelt() const;
     void prepareBuffers(int block);
     void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
-    void renderPart(float* const* out, int outputs, int first, int frames) noexcept;
+    void renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept;
     void switchMotors(int frames) noexcept;
-    void renderHeard(float* const* out, int outputs, int first, int frames) noexcept;
+    void renderHeard(const Session& session, float* const* out, int outputs, int first, int frames) noexcept;
     void addTo(Heard source, const float* samples, float* const* out, int outputs, int first, int frames) noexcept;
     void measure(juce::int64 startTicks, int frames) noexcept;
 
@@ -117,7 +122,9 @@ private:
         float last = 0.0f, worst = 0.0f;
     };
 
-    Session& session_;
+    Session& own_;
+    std::atomic<Session*> played_;
+    std::atomic<bool> isInBlock_{false}; // with played_, sequentially consistent: who has changed it sees whether R may still have the old one
     AudioDeviceTypes types_;
     const std::atomic<bool>* const silence_;
     AudioOutputSettings settings_;
@@ -131,7 +138,7 @@ private:
     LatestValue<FeltMoment> felt_;
 
     // M
-    int losses_ = 0;
+    int losses_ = 0, lentRate_ = 0, lentBlock_ = 0; // the latter: as they were when a session was lent
     std::uint64_t seenBlocks_ = 0;
     Clock::time_point seenAt_;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Edits of descriptions; what would leave a scene that is not valid is left out.
 #include "Physics/Scenes/SceneEdits.h"
+#include "Physics/Scenes/ScenePlayer.h"
 #include "Physics/Scenes/SceneValidation.h"
 #include <algorithm>
 #include <variant>
@@ -47,6 +48,17 @@ Scene sceneAsLeft(const SceneTake& take) {
         if (const auto* removal = std::get_if<RemoveAction>(&input.action)) std::erase_if(next.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
         if (next != scene && validate(next).empty()) scene = std::move(next);
     }
+    return scene;
+}
+
+Scene sceneForHands(Scene scene) {
+    const ScenePlayer player{scene};
+    std::erase_if(scene.script, [&](const ScriptInput& input) {
+        const Action& a = input.action;
+        if (player.isThere()) return player.isPlayedBy(a) || std::holds_alternative<TiltAction>(a);
+        return std::holds_alternative<GravityAction>(a) || std::holds_alternative<TiltAction>(a) || std::holds_alternative<ImpulseAction>(a) || std::holds_alternative<VelocityAction>(a) ||
+               std::holds_alternative<HoldAction>(a);
+    });
     return scene;
 }
 

@@ -14,4 +14,8 @@ void describeEdit(Scene& scene, const Action& action);
 /// not there (unless a joint holds it or the script needs it). Any thread.
 Scene sceneAsLeft(const SceneTake& take);
 
+/// The scene without what its script does of what hands do: pushes, tilts, and the way the device is held; where there is a player
+/// (ScenePlayer), what that does. Any thread.
+Scene sceneForHands(Scene scene);
+
 } // namespace physvib

@@ -5,8 +5,9 @@
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Play/LivePlay.h"
 #include "CommandLine/Study/NumberList.h"
-#include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Render/JobSession.h"
 #include "Files/Disk/FileClash.h"
+#include "Physics/Scenes/SceneEdits.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Session/SerialLine.h"
 #include <CLI/CLI.hpp>
@@ -37,33 +38,9 @@ bool parseCeilings(const std::string& text, int channels, std::array<float, limi
     return true;
 }
 
-/// What its materials sound like: which of them meet, nobody knows yet.
-std::vector<CollisionEvent> soundsOf(const Scene& scene) {
-    std::vector<CollisionEvent> sounds;
-    for (const Material& m : scene.materials) {
-        CollisionEvent& sound = sounds.emplace_back();
-        sound.frequencyHz = m.frequencyHz;
-        sound.decayPerSecond = m.decayPerSecond;
-    }
-    std::erase_if(sounds, [](const CollisionEvent& sound) { return !(sound.frequencyHz > 0.0); });
-    return sounds;
-}
-
 SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
-    SessionSetup setup;
-    setup.scene = *job.scene;
-    const SceneRun run = job.run();
-    setup.seed = run.seed;
-    setup.stepsPerSecond = run.stepsPerSecond;
-    setup.timing = run.timing;
-    setup.location = run.location;
-    setup.channels = job.channels();
-    setup.panner = job.panner();
-    setup.equalised = job.equalised();
-    setup.shaping = job.shaping();
-    setup.recordings = job.feltRecordings();
+    SessionSetup setup = sessionSetup(job);
     if (!o.scene.contactSound.empty()) setup.contactSound = job.recordings;
-    setup.limiterEnabled = o.scene.limiter == "on";
     setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
     return setup;
 }
@@ -87,6 +64,7 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     command.add_option("--block", o.blockFrames, "frames per block; 0: as the device stands")->check(CLI::Range(0, limits::maxBlockFrames));
     command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav")->check(writtenFile);
     command.add_option("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv")->type_name("FILE.json")->check(writtenFile);
+    command.add_flag("--hands", o.hasHands, "what the scene's script does of what hands do is left out: lines of --listen do it");
     command.add_flag("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
 }
 
@@ -98,6 +76,7 @@ int runPlay(PlayOptions& o) {
     if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
+    if (o.hasHands) job.scene = sceneForHands(std::move(*job.scene));
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");
     auto layout = layoutNamed(o.scene.layout);
     if (!layout) return leave(exitFailed, layout.error);

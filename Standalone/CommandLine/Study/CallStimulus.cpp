@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The same parsers as the program's.
 #include "CommandLine/Study/CallStimulus.h"
-#include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Render/JobSession.h"
 #include "CommandLine/Study/StimulusOptions.h"
 #include "Files/ProtocolFile.h"
 #include <CLI/CLI.hpp>
@@ -12,24 +12,38 @@
 namespace physvib {
 namespace {
 
-Result<CallStimulus> ofScene(RenderOptions& o) {
-    if (o.actuator != "none") return Failure{"--actuator is not yet felt here, only rendered"};
-    if (!o.coupling.empty()) return Failure{"--coupling is not yet felt here, only rendered"};
-    if (auto fault = checkSceneOptions(o); !fault.empty()) return Failure{fault};
-    if (o.scene.empty()) return Failure{"expected a scene"};
-    RenderJob job{o, {}, {}, {}, {}};
+/// The job of the options gets its scene and its layout, to be felt; empty, or one line.
+std::string prepareScene(RenderOptions& o, RenderJob& job) {
+    if (o.actuator != "none") return "--actuator is not yet felt here, only rendered";
+    if (!o.coupling.empty()) return "--coupling is not yet felt here, only rendered";
+    if (auto fault = checkSceneOptions(o); !fault.empty()) return fault;
+    if (o.scene.empty()) return "expected a scene";
     auto layout = layoutNamed(o.layout);
-    if (!layout) return Failure{layout.error};
-    job.layout = std::move(layout.value);
+    if (!layout) return layout.error;
     auto scene = findScene(o.scene, o.settings);
-    if (!scene) return Failure{scene.error};
+    if (!scene) return scene.error;
+    job.layout = std::move(layout.value);
     job.scene = std::move(scene.value);
+    return {};
+}
+
+Result<CallStimulus> ofScene(RenderOptions& o) {
+    RenderJob job{o, {}, {}, {}, {}};
+    if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
     Patience patience{Patience::usualSeconds}; // whatever the call says: it may be a stranger's
     job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
     if (auto fault = patience.fault(); !fault.empty()) return Failure{fault};
     std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
     if (auto fault = takeRecordings(job, job.made.events, o.scene); !fault.empty()) return Failure{fault};
     return CallStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f), job.feltRecordings()};
+}
+
+Result<CallWorld> asWorld(RenderOptions& o) {
+    RenderJob job{o, {}, {}, {}, {}};
+    if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
+    if (auto fault = fixedLevelFault(job); !fault.empty()) return Failure{fault};
+    if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene); !fault.empty()) return Failure{fault};
+    return CallWorld{sessionSetup(job), job.layout, job.seconds()};
 }
 
 Result<CallStimulus> ofStimulus(const CLI::App& command, const StimulusOptions& o, int sampleRateHz) {
@@ -95,6 +109,15 @@ Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz, c
     if (!parsed.error.empty()) return Failure{parsed.error};
     parsed.findFiles(folder);
     auto made = parsed.words.got_subcommand(parsed.render) ? ofScene(parsed.renderOptions) : ofStimulus(*parsed.stimulus, parsed.stimulusOptions, sampleRateHz);
+    if (!made) return Failure{call + ": " + made.error};
+    return made;
+}
+
+Result<CallWorld> worldOfCall(const std::string& call, const std::string& folder) {
+    ParsedCall parsed{call};
+    if (!parsed.error.empty()) return Failure{parsed.error};
+    parsed.findFiles(folder);
+    auto made = asWorld(parsed.renderOptions);
     if (!made) return Failure{call + ": " + made.error};
     return made;
 }

@@ -3,7 +3,7 @@
 #pragma once
 #include "Files/LayoutFile.h"
 #include "Files/Result.h"
-#include "Session/ContactSounds.h"
+#include "Session/SessionSetup.h"
 #include "Study/Stimulus.h"
 #include <string>
 #include <vector>
@@ -17,6 +17,13 @@ struct CallStimulus {
     std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
 };
 
+/// A scene that can be watched while it is felt.
+struct CallWorld {
+    SessionSetup setup;
+    LayoutDescription layout;
+    double seconds = 0.0; ///< of the call
+};
+
 /// Empty, or what the program would find wrong with the words of a call. M only.
 std::string wordsFault(const std::string& call);
 
@@ -28,5 +35,8 @@ std::string studyLevelFault(const std::string& call, const std::string& folder);
 /// What `physvib stimulus` would refuse as too strong for the layout at `sampleRateHz` is refused here, and so is `stimulus
 /// wav`, which is samples and no events. M only.
 Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz, const std::string& folder = {});
+
+/// The world of `render SCENE ...`, as `physvib play` would play it, its files as above; or one line with what is wrong. M only.
+Result<CallWorld> worldOfCall(const std::string& call, const std::string& folder = {});
 
 } // namespace physvib

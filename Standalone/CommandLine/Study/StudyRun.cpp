@@ -3,6 +3,7 @@
 #include "CommandLine/Study/StudyRun.h"
 #include "CommandLine/Study/CallStimulus.h"
 #include "CommandLine/Render/LayoutNamed.h"
+#include "Files/Disk/AtomicFile.h"
 #include "Files/ProtocolFile.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace {
 /// The words of a condition's calls: each value of each factor once, with the first of the others. The reader has looked at all of them for
 /// what no call may do.
 std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condition) {
-    const auto* const calls = std::get_if<CallSet>(&condition.stimuli);
+    const CallSet* const calls = callSetOf(condition.stimuli);
     if (calls == nullptr) return {};
     StimulusItem first;
     for (const StudyFactor& factor : calls->factors) first.values.emplace_back(factor.name, factor.values.front());
@@ -68,7 +69,7 @@ StudyRun::StudyRun(const std::filesystem::path& folder, Protocol protocol, Parti
     , path_{trialFile(folder, protocol_, participant_)}
     , isOfToday_{wasWrittenToday(path_)}
     , log_{path_, protocol_, participant_, PHYSVIB_VERSION}
-    , experiment_{protocol_, participant_}
+    , experiment_{protocol_, participant_, participant_.observer == Participant{}.observer}
     , error_{log_.error()} {
     if (!error_.empty()) return;
     for (const TrialRecord& record : log_.records()) {
@@ -79,6 +80,12 @@ StudyRun::StudyRun(const std::filesystem::path& folder, Protocol protocol, Parti
     }
     before_ = experiment_.trialsTaken();
     if (isOfToday_ && before_ > 0) exposureToday_ = log_.records().back().answer.exposure.value_or(0.0);
+}
+
+std::string StudyRun::keepComment(const std::string& words) const {
+    AtomicFile file{std::filesystem::path{path_}.replace_extension(".comment.txt")};
+    file.write(protocol_.closingQuestion + "\n\n" + words + "\n");
+    return file.error().empty() ? file.commit() : file.error();
 }
 
 bool StudyRun::take(Answer answer) {

@@ -39,6 +39,15 @@ public:
     /// answer, or cannot be written.
     bool take(Answer answer);
 
+    /// The next session begins; if the experiment's mayEnd().
+    void endSession() { experiment_.endSession(); }
+
+    /// Folder of the sessions of worlds that this participant felt, beside the trial file.
+    std::filesystem::path feltFolder() const { return std::filesystem::path{path_}.replace_extension(".felt"); }
+
+    /// The participant's own words, beside the trial file as .comment.txt. Empty, or why they cannot be kept.
+    std::string keepComment(const std::string& words) const;
+
 private:
     Protocol protocol_;
     Participant participant_;

@@ -10,7 +10,6 @@ namespace physvib {
 namespace {
 
 constexpr int stepsPerSecond = 100;
-constexpr double gapSeconds = 0.005; // the driver's thread shares the machine with painting
 constexpr double maintainMs = 1000.0;
 constexpr double newStripDb = -12.0; // hands are attached
 
@@ -31,7 +30,7 @@ SessionSetup setupOf(const Mix& mix, bool hasBoard) {
     setup.stepsPerSecond = stepsPerSecond;
     setup.channels = Desk::channels;
     setup.panner = mix.panner();
-    setup.longestGapSeconds = gapSeconds;
+    setup.longestGapSeconds = Desk::gapSeconds;
     if (hasBoard) setup.boardSeconds = DeskBoard::leadSeconds;
     return setup;
 }

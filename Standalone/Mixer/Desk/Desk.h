@@ -27,6 +27,7 @@ class Desk final : public juce::ChangeBroadcaster {
 public:
     /// Channels of the session: whatever is attached while it plays finds one.
     static constexpr int channels = limits::maxEnchanters;
+    static constexpr double gapSeconds = 0.005; ///< the driver's thread shares the machine with painting
 
     /// Plays `mix` on `device`, one of `types`; trouble() if it does not open. Its rate and block hold until another is opened.
     Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix = firstMix());

@@ -12,7 +12,8 @@
 namespace physvib {
 namespace {
 
-constexpr int fileId = 1000, noNoiseId = 1;
+constexpr int fileId = 1000, noNoiseId = 1, protocolWordsId = 1, englishId = 2, firstWordsId = 3; // of the lists
+constexpr int answersHereId = 1, answersElsewhereId = 2;
 constexpr std::array<int, 8> noiseLevels{-70, -60, -50, -45, -40, -35, -30, -25};
 
 std::filesystem::path pathOf(const juce::String& words) {
@@ -54,6 +55,20 @@ StudiesTab::StudiesTab(Desk& desk)
     choice_.addSeparator();
     choice_.addItem(juce::String::fromUTF8("Protocol file\xe2\x80\xa6"), fileId);
     choice_.onChange = [this] { pickProtocol(); };
+    caption(wordsName_, "Participants read");
+    caption(answersName_, "Answers");
+    wordsChoice_.setTitle("Language of the participant");
+    wordsChoice_.addItem("what the protocol says", protocolWordsId);
+    wordsChoice_.addItem("English", englishId);
+    for (int id = firstWordsId; const Words& words : builtInWords()) wordsChoice_.addItem(hasLetters({}, utf8(words.language)) ? utf8(words.language) : utf8(words.name), id++);
+    wordsChoice_.addItem("Words file" + dots(), fileId);
+    wordsChoice_.setSelectedId(protocolWordsId, juce::dontSendNotification);
+    wordsChoice_.onChange = [this] { pickWords(); };
+    answersChoice_.setTitle("Where answers are given");
+    answersChoice_.addItem("in this window", answersHereId);
+    answersChoice_.addItem("in a second window", answersElsewhereId);
+    answersChoice_.setSelectedId(answersHereId, juce::dontSendNotification);
+    answersChoice_.setTooltip("A second window opens over another display, if there is one");
     code_.setTitle("Participant's code");
     code_.setTooltip("The only personal datum that is kept");
     code_.setInputRestrictions(32, "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_");
@@ -72,7 +87,7 @@ StudiesTab::StudiesTab(Desk& desk)
         editor->setEscapeAndReturnKeysConsumed(false); // Esc silences, also from here
         editor->onTextChange = [this] { look(); };
     }
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_, browse_.get(), &noiseName_, &noise_, &noiseLevelName_, &noiseLevel_, &begin_, analyse_.get()})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&choiceName_, &choice_, &codeName_, &code_, &numberName_, &number_, &folderName_, &folder_, browse_.get(), &noiseName_, &noise_, &noiseLevelName_, &noiseLevel_, &wordsName_, &wordsChoice_, &answersName_, &answersChoice_, &begin_, analyse_.get()})
         addAndMakeVisible(c);
     setFolder(juce::File::getSpecialLocation(juce::File::userDocumentsDirectory));
     setParticipant("P01", 1);
@@ -118,6 +133,34 @@ void StudiesTab::browseFolder() {
         if (const auto file = chooser.getResult(); file != juce::File{}) setFolder(file);
     });
 }
+
+std::string StudiesTab::chooseWords(const std::string& nameOrPath) {
+    const auto words = findWords(nameOrPath);
+    if (!words) return say(utf8(words.error), Shade::limit), words.error;
+    wordsPath_ = nameOrPath;
+    const auto& all = builtInWords();
+    const auto known = std::ranges::find(all, nameOrPath, &Words::name);
+    if (known != all.end()) wordsChoice_.setSelectedId(firstWordsId + static_cast<int>(known - all.begin()), juce::dontSendNotification);
+    else if (words.value.name.empty()) wordsChoice_.setSelectedId(nameOrPath.empty() ? protocolWordsId : englishId, juce::dontSendNotification);
+    else wordsChoice_.setText(utf8(words.value.language), juce::dontSendNotification);
+    return {};
+}
+
+void StudiesTab::pickWords() {
+    const int id = wordsChoice_.getSelectedId();
+    if (id == fileId) browseWords();
+    else if (id == protocolWordsId || id == englishId) chooseWords(id == englishId ? "en" : "");
+    else if (id >= firstWordsId) chooseWords(builtInWords()[static_cast<std::size_t>(id - firstWordsId)].name);
+}
+
+void StudiesTab::browseWords() {
+    chooser_ = std::make_unique<juce::FileChooser>("Words of a language", juce::File{}, "*.json");
+    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
+        if (const auto file = chooser.getResult(); file == juce::File{} || !chooseWords(file.getFullPathName().toStdString()).empty()) chooseWords(wordsPath_);
+    });
+}
+
+void StudiesTab::setAnswersElsewhere(bool areElsewhere) { answersChoice_.setSelectedId(areElsewhere ? answersElsewhereId : answersHereId, juce::dontSendNotification); }
 
 void StudiesTab::setParticipant(const juce::String& code, int number) {
     code_.setText(code, false);
@@ -196,10 +239,15 @@ std::string StudiesTab::begin() {
     if (screen_ || analysis_ || !protocol_ || view == nullptr) return "expected a mixer without a study";
     if (code_.isEmpty()) return refuse("expected a participant's code");
     if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
+    auto words = findWords(wordsPath_.empty() ? besideProtocol(protocol_->folder, protocol_->words) : wordsPath_);
+    if (!words) return refuse(words.error);
+    const auto typeface = typefaceFor(words.value);
+    if (!typeface) return refuse("expected a font with the letters of " + words.value.name + ", found none; on Debian, fonts-nanum has Korean ones");
     auto study = std::make_unique<StudyRun>(pathOf(folder_.getText()), *protocol_, participant());
     if (!study->error().empty()) return refuse(study->error());
     if (auto fault = desk_.hear(listening()); !fault.empty()) return refuse(fault);
-    screen_ = std::make_unique<StudyScreen>(desk_, std::move(study));
+    screen_ = std::make_unique<StudyScreen>(desk_, std::move(study), std::move(words.value), answersChoice_.getSelectedId() == answersElsewhereId);
+    font_ = std::make_unique<StudyFont>(*typeface);
     screen_->onClose = [this] { end(); };
     cover(*view, *screen_);
     return {};
@@ -226,6 +274,7 @@ void StudiesTab::analyse(std::vector<juce::File> files) {
 void StudiesTab::end() {
     if (!screen_ && !analysis_) return;
     screen_.reset();
+    font_.reset();
     analysis_.reset();
     desk_.hear({});
     for (auto& child : hidden_)
@@ -236,7 +285,7 @@ void StudiesTab::end() {
 }
 
 void StudiesTab::takeMix() {
-    for (auto* label : {&choiceName_, &codeName_, &numberName_, &folderName_, &noiseName_, &noiseLevelName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (auto* label : {&choiceName_, &codeName_, &numberName_, &folderName_, &noiseName_, &noiseLevelName_, &wordsName_, &answersName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     if (noiseOutputs_ != noiseChoices() || noise_.getNumItems() == 0) listNoise();
     const auto& mix = desk_.mix();
     const bool isFelt = !utf8(desk_.output().device()).startsWith(noDeviceType);
@@ -256,14 +305,15 @@ void StudiesTab::paint(juce::Graphics& g) {
 }
 
 void StudiesTab::resized() {
+    constexpr int controlsHeight = 326; // in a small window they stay: the words go, and in the smallest what is written above them
+    const int captionHeight = getHeight() < controlsHeight ? 0 : 18;
     auto area = getLocalBounds();
-    const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(18)); };
+    const auto caption = [&area, captionHeight](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };
     caption(choiceName_);
     choice_.setBounds(area.removeFromTop(rowHeight));
     area.removeFromTop(8);
-    constexpr int controlsHeight = 270; // in a small window they stay, and the words go
     aboutArea_ = area.removeFromTop(std::clamp(getHeight() - controlsHeight - 42, 0, 98));
-    auto names = area.removeFromTop(18), row = area.removeFromTop(rowHeight);
+    auto names = area.removeFromTop(captionHeight), row = area.removeFromTop(rowHeight);
     const int wide = row.getWidth() * 3 / 5;
     codeName_.setBounds(names.removeFromLeft(wide));
     code_.setBounds(row.removeFromLeft(wide - gap));
@@ -276,13 +326,21 @@ void StudiesTab::resized() {
     browse_->setBounds(row.removeFromRight(80));
     folder_.setBounds(row.withTrimmedRight(gap));
     area.removeFromTop(8);
-    names = area.removeFromTop(18);
+    names = area.removeFromTop(captionHeight);
     row = area.removeFromTop(rowHeight);
     noiseName_.setBounds(names.removeFromLeft(wide));
     noise_.setBounds(row.removeFromLeft(wide - gap));
     row.removeFromLeft(gap);
     noiseLevelName_.setBounds(names);
     noiseLevel_.setBounds(row);
+    area.removeFromTop(8);
+    names = area.removeFromTop(captionHeight);
+    row = area.removeFromTop(rowHeight);
+    wordsName_.setBounds(names.removeFromLeft(wide));
+    wordsChoice_.setBounds(row.removeFromLeft(wide - gap));
+    row.removeFromLeft(gap);
+    answersName_.setBounds(names);
+    answersChoice_.setBounds(row);
     area.removeFromTop(10);
     levelArea_ = area.removeFromTop(std::clamp(area.getHeight() - 44, 0, 42));
     row = area.removeFromTop(std::min(44, area.getHeight()));

@@ -2,6 +2,7 @@
 // Which study, who takes part, where the rows go; then the window is the participant's.
 #pragma once
 #include "Mixer/Studies/AnalysisScreen.h"
+#include "Mixer/Studies/StudyFont.h"
 #include "Mixer/Studies/StudyScreen.h"
 #include "Mixer/Window/TabPanel.h"
 
@@ -22,6 +23,11 @@ public:
     std::vector<std::vector<int>> noiseChoices() const;
     /// Pink noise while the study goes on; no outputs: none.
     void setNoise(const std::vector<int>& outputs, double db);
+
+    /// What the participant reads: built-in words, a file, or "" for the protocol's. Empty, or what is wrong with them.
+    std::string chooseWords(const std::string& nameOrPath);
+    /// Answers in a window of their own, on another display if there is one.
+    void setAnswersElsewhere(bool areElsewhere);
 
     /// Begins or goes on: the screen covers the window. Empty, or why not, which is shown as well.
     std::string begin();
@@ -47,6 +53,8 @@ private:
     void cover(MixerView& view, juce::Component& screen);
     void look();
     void listNoise();
+    void pickWords();
+    void browseWords();
     ListeningSettings listening() const;
     void say(const juce::String& words, Shade shade);
     Participant participant() const;
@@ -55,14 +63,16 @@ private:
     std::optional<Protocol> protocol_;
     juce::String protocolPath_, about_, words_, level_;
     Shade wordsShade_ = Shade::muted;
-    juce::ComboBox choice_, noise_, noiseLevel_;
-    juce::Label choiceName_, codeName_, numberName_, folderName_, noiseName_, noiseLevelName_;
+    std::string wordsPath_; // chosen here; empty: the protocol's
+    juce::ComboBox choice_, noise_, noiseLevel_, wordsChoice_, answersChoice_;
+    juce::Label choiceName_, codeName_, numberName_, folderName_, noiseName_, noiseLevelName_, wordsName_, answersName_;
     std::vector<std::vector<int>> noiseOutputs_; // as the box lists them
     juce::TextEditor code_, number_, folder_;
     std::unique_ptr<juce::TextButton> browse_, analyse_;
     juce::TextButton begin_{"Begin"};
     juce::Rectangle<int> aboutArea_, levelArea_, wordsArea_;
     std::unique_ptr<juce::FileChooser> chooser_;
+    std::unique_ptr<StudyFont> font_; // of the screen
     std::unique_ptr<StudyScreen> screen_;
     std::unique_ptr<AnalysisScreen> analysis_;
     std::vector<juce::Component::SafePointer<juce::Component>> hidden_; // while the screen covers them

@@ -2,6 +2,7 @@
 // What a participant answers with: one component for each kind of task.
 #pragma once
 #include "Files/LayoutFile.h"
+#include "Mixer/Studies/StudyWords.h"
 #include "Study/Experiment.h"
 #include <functional>
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -19,17 +20,16 @@ public:
     }
     ~StudyAnswer() override { juce::Desktop::getInstance().removeFocusChangeListener(this); }
 
-    std::function<void()> onAnswer; ///< a click has answered
+    std::function<void()> onAnswer; ///< one was chosen
     std::function<void()> onChange; ///< isComplete() may have changed
 
     /// As it stands; what it does not ask for keeps its default.
     virtual Answer answer() const = 0;
     virtual bool isComplete() const = 0;
-    virtual bool needsNext() const { return false; }          ///< a button answers, and not the click
     virtual bool isOpen() const { return false; }             ///< may be used before everything was felt
     virtual bool takeKey(const juce::KeyPress&) { return false; } ///< keys that no part has wanted
     virtual void mark(const std::set<std::string>&) {}        ///< the labels that were felt already
-    virtual juce::String keys() const = 0;                    ///< how the keyboard answers
+    virtual std::string keys() const = 0;                     ///< how the keyboard answers, in English
 
     /// It may be used: the focus goes to where it was left, as when another window took it for a moment, and to the first place in the first moment.
     void begin() {
@@ -51,7 +51,7 @@ private:
     juce::Component::SafePointer<juce::Component> left_;
 };
 
-/// One of several: the click answers.
+/// One of several: a click marks it, and asks for it while exploring; until it is confirmed another one may be marked.
 class ChosenAnswer : public StudyAnswer {
 public:
     Answer answer() const override {
@@ -64,24 +64,27 @@ public:
 protected:
     void choose(std::string response) {
         response_ = std::move(response);
+        showChosen(response_);
+        if (onChange) onChange();
         if (onAnswer) onAnswer();
     }
+    virtual void showChosen(const std::string& response) = 0;
 
 private:
     std::string response_;
 };
 
-/// For the trial at hand. M.
-std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout);
+/// For the trial at hand; all outlive it. M.
+std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout, const StudyWords& words);
 
 // The parts that it chooses from.
-std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout);
+std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout, const StudyWords& words);
 std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDescription& layout);
 std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout);
-std::unique_ptr<StudyAnswer> makeLabelAnswer(const ConditionPlan& condition);
-std::unique_ptr<StudyAnswer> makeChoiceAnswer(const Trial& trial);
-std::unique_ptr<StudyAnswer> makeRatingAnswer(const SessionPlan& session);
-std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment, double startDb);
+std::unique_ptr<StudyAnswer> makeLabelAnswer(const ConditionPlan& condition, const StudyWords& words);
+std::unique_ptr<StudyAnswer> makeChoiceAnswer(const Trial& trial, const StudyWords& words);
+std::unique_ptr<StudyAnswer> makeRatingAnswer(const SessionPlan& session, const StudyWords& words);
+std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment, double startDb, const StudyWords& words);
 std::unique_ptr<StudyAnswer> makeNumberAnswer();
 
 } // namespace physvib

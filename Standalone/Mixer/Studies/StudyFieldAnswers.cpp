@@ -10,7 +10,7 @@ namespace {
 
 constexpr float margin = 24.0f;
 
-/// A point of the grid and the ground around it that means it.
+/// A point of the grid, where its stimulus is.
 class Cell final : public juce::Button {
 public:
     explicit Cell(const GridCell& c)
@@ -21,13 +21,14 @@ public:
     const GridCell cell;
     bool isFelt = false;
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override {
-        drawTarget(g, *this, isOver, isDown);
-        const auto centre = getLocalBounds().toFloat().getCentre();
-        g.setColour(shade(*this, isFelt || isOver ? Shade::accent : Shade::muted).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
-        g.fillEllipse(juce::Rectangle<float>{14.0f, 14.0f}.withCentre(centre));
+        const auto disc = getLocalBounds().toFloat().reduced(2.0f);
+        drawTarget(g, *this, isOver, isDown, disc.getWidth() / 2.0f);
+        g.setColour(shade(*this, isFelt || getToggleState() ? Shade::accent : Shade::muted).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
+        g.fillEllipse(juce::Rectangle<float>{14.0f, 14.0f}.withCentre(disc.getCentre()));
     }
 };
 
+/// All grids on one layout have their corners at the same pixels: the outer points of `corners` lie on the enchanters.
 class CellAnswer final : public ChosenAnswer {
 public:
     CellAnswer(const GridSet& grid, const LayoutDescription& layout)
@@ -40,44 +41,53 @@ public:
             addAndMakeVisible(*button);
         }
     }
-    juce::String keys() const override { return "Arrows and Enter: place."; }
+    std::string keys() const override { return "Arrows and Enter: place.  Enter: confirm."; }
     bool takeKey(const juce::KeyPress& key) override { return moveFocus(*this, key); }
     void beginAnew() override { cells_[cells_.size() / 2]->grabKeyboardFocus(); }
     void mark(const std::set<std::string>& felt) override {
         for (auto& cell : cells_) cell->isFelt = felt.contains(gridLabel(cell->cell));
         repaint();
     }
+    void paint(juce::Graphics& g) override {
+        g.setColour(shade(*this, Shade::well));
+        g.fillRoundedRectangle(field().expanded(cellMargin - 6.0f), 14.0f);
+        for (int j = 0; j < layout_.geometry.count; ++j) drawEnchanterBeside(g, *this, field(), layout_, j);
+    }
     void resized() override {
-        const auto field = fieldIn(getLocalBounds().toFloat().reduced(margin), layout_.geometry);
-        // Every point has the same ground around it, also where the outer ones lie on the corners.
-        const int width = static_cast<int>(field.getWidth()) / grid_.columns, height = static_cast<int>(field.getHeight()) / grid_.rows;
-        for (auto& cell : cells_)
-            cell->setBounds(juce::Rectangle<int>{width, height}.withPosition(static_cast<int>(field.getX()) + width * (cell->cell.column - 1), static_cast<int>(field.getY()) + height * (cell->cell.row - 1)).reduced(4));
+        const auto f = field();
+        const auto between = [](float length, int lines) { return lines > 1 ? length / static_cast<float>(lines - 1) : length; };
+        const int size = juce::roundToInt(std::clamp(0.8f * std::min(between(f.getWidth(), grid_.columns), between(f.getHeight(), grid_.rows)), 22.0f, 60.0f));
+        for (auto& cell : cells_) cell->setBounds(juce::Rectangle<int>{size, size}.withCentre(pointOn(f, grid_.place(cell->cell)).roundToInt()));
     }
 
 private:
+    static constexpr float cellMargin = 62.0f; // for the points and the labels of those at the edge
+    juce::Rectangle<float> field() const { return fieldIn(getLocalBounds().toFloat().reduced(cellMargin), layout_.geometry); }
+    void showChosen(const std::string& response) override {
+        for (auto& cell : cells_) cell->setToggleState(gridLabel(cell->cell) == response, juce::dontSendNotification);
+    }
     PhantomGrid grid_;
     const LayoutDescription layout_;
     std::vector<std::unique_ptr<Cell>> cells_;
 };
 
-/// The mark follows the mouse and the arrows; a click or Enter answers.
+/// A click or Enter sets the mark; the next one moves it.
 class PlaceAnswer final : public StudyAnswer {
 public:
     explicit PlaceAnswer(const LayoutDescription& layout)
         : layout_{layout} {
         setTitle("Field");
-        setHelpText("Arrows move the mark, with Shift in large steps; Enter answers");
+        setHelpText("Arrows move the mark, with Shift in large steps; Enter sets it");
         setWantsKeyboardFocus(true);
         setMouseCursor(juce::MouseCursor::CrosshairCursor);
     }
     Answer answer() const override {
         Answer answer;
-        answer.place = answered_;
+        answer.place = marked_;
         return answer;
     }
-    bool isComplete() const override { return answered_.has_value(); }
-    juce::String keys() const override { return "Arrows (Shift: far) and Enter: place."; }
+    bool isComplete() const override { return marked_.has_value(); }
+    std::string keys() const override { return "Arrows (Shift: far) and Enter: place.  Enter: confirm."; }
     void beginAnew() override { grabKeyboardFocus(); }
 
     bool takeKey(const juce::KeyPress& key) override {
@@ -87,7 +97,7 @@ public:
         if (key.isKeyCode(juce::KeyPress::rightKey)) return moveMark({mark_.x + step, mark_.y}), true;
         if (key.isKeyCode(juce::KeyPress::upKey)) return moveMark({mark_.x, mark_.y - step}), true;
         if (key.isKeyCode(juce::KeyPress::downKey)) return moveMark({mark_.x, mark_.y + step}), true;
-        if (key.isKeyCode(juce::KeyPress::returnKey)) return take(), true;
+        if (key.isKeyCode(juce::KeyPress::returnKey) && marked_ != mark_) return take(), true; // where it is already, Enter goes on
         return false;
     }
     bool keyPressed(const juce::KeyPress& key) override { return takeKey(key); }
@@ -104,6 +114,10 @@ public:
 
     void paint(juce::Graphics& g) override {
         drawField(g, *this, field(), layout_);
+        if (marked_) {
+            g.setColour(shade(*this, Shade::now));
+            g.fillEllipse(juce::Rectangle<float>{18.0f, 18.0f}.withCentre(pointOn(field(), *marked_)));
+        }
         if (!isEnabled()) return;
         const auto at = pointOn(field(), mark_);
         g.setColour(shade(*this, Shade::accent));
@@ -126,13 +140,15 @@ private:
         repaint();
     }
     void take() {
-        answered_ = mark_;
+        marked_ = mark_;
+        repaint();
+        if (onChange) onChange();
         if (onAnswer) onAnswer();
     }
 
     const LayoutDescription layout_;
     FieldPlace mark_{0.5, 0.5};
-    std::optional<FieldPlace> answered_;
+    std::optional<FieldPlace> marked_;
     std::optional<juce::Point<float>> seenAt_; // the mouse
 };
 

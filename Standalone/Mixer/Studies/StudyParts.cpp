@@ -95,20 +95,35 @@ juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace
     return {field.getX() + field.getWidth() * static_cast<float>(place.x), field.getY() + field.getHeight() * static_cast<float>(place.y)};
 }
 
+namespace {
+
+void drawRing(juce::Graphics& g, const juce::Component& component, juce::Point<float> at, const LayoutDescription& layout, int enchanter) {
+    const auto ring = juce::Rectangle<float>{26.0f, 26.0f}.withCentre(at);
+    g.setColour(shade(component, Shade::panel));
+    g.fillEllipse(ring);
+    g.setColour(enchanterColour(component, enchanter));
+    g.drawEllipse(ring, 2.0f);
+    g.setFont(juce::Font{text::small, juce::Font::bold});
+    g.drawText(utf8(layout.enchanters[static_cast<std::size_t>(enchanter)].label), ring, juce::Justification::centred, false);
+}
+
+} // namespace
+
 void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field, const LayoutDescription& layout) {
     g.setColour(shade(component, Shade::well));
     g.fillRoundedRectangle(field, 10.0f);
     g.setColour(shade(component, Shade::line));
     g.drawRoundedRectangle(field, 10.0f, 1.5f);
-    for (int j = 0; j < layout.geometry.count; ++j) {
-        const auto ring = juce::Rectangle<float>{26.0f, 26.0f}.withCentre(pointOn(field, placeOf(layout.geometry, j)));
-        g.setColour(shade(component, Shade::panel));
-        g.fillEllipse(ring);
-        g.setColour(enchanterColour(component, j));
-        g.drawEllipse(ring, 2.0f);
-        g.setFont(juce::Font{text::small, juce::Font::bold});
-        g.drawText(utf8(layout.enchanters[static_cast<std::size_t>(j)].label), ring, juce::Justification::centred, false);
-    }
+    for (int j = 0; j < layout.geometry.count; ++j) drawRing(g, component, pointOn(field, placeOf(layout.geometry, j)), layout, j);
+}
+
+void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field, const LayoutDescription& layout, int enchanter) {
+    constexpr float way = 46.0f;
+    const auto place = placeOf(layout.geometry, enchanter);
+    const auto outwards = [](double share) { return share < 0.34 ? -1.0f : share > 0.66 ? 1.0f : 0.0f; };
+    juce::Point<float> out{outwards(place.x), outwards(place.y)};
+    if (out.isOrigin()) out.y = -1.0f;
+    drawRing(g, component, pointOn(field, place) + out * (way / out.getDistanceFromOrigin()), layout, enchanter);
 }
 
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
@@ -121,6 +136,8 @@ bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
     juce::Component* from = nullptr;
     for (auto* child : parent.getChildren())
         if (child->hasKeyboardFocus(true)) from = child;
+    for (auto* child : parent.getChildren()) // the focus is elsewhere: from what was chosen
+        if (auto* button = dynamic_cast<juce::Button*>(child); from == nullptr && button != nullptr && button->getToggleState()) from = child;
     juce::Component* best = nullptr;
     double least = 1e9;
     for (auto* child : parent.getChildren()) {

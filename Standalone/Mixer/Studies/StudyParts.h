@@ -35,6 +35,9 @@ juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace
 /// The field, and its enchanters as rings with their labels.
 void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field, const LayoutDescription& layout);
 
+/// An enchanter of the field with its label, pushed outwards where a point lies on it.
+void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field, const LayoutDescription& layout, int enchanter);
+
 /// An arrow key moves the focus to the nearest child of `parent` in that direction; false if it is another key.
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key);
 

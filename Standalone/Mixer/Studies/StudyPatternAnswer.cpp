@@ -65,8 +65,9 @@ private:
 
 class PatternAnswer final : public ChosenAnswer {
 public:
-    PatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout)
-        : layout_{layout} {
+    PatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout, const StudyWords& words)
+        : layout_{layout}
+        , say_{words} {
         setTitle("Patterns");
         for (const StimulusItem& item : stimuliOf(condition))
             if (const auto pattern = parsePatternLabel(item.label)) addIcon(*pattern);
@@ -78,7 +79,7 @@ public:
         }
         chooseFirst(-1);
     }
-    juce::String keys() const override { return "Letter: first pulse.  Arrows and Enter: pattern."; }
+    std::string keys() const override { return "Letter: first pulse.  Arrows and Enter: pattern."; }
     bool takeKey(const juce::KeyPress& key) override {
         const auto typed = juce::String::charToString(juce::CharacterFunctions::toUpperCase(key.getTextCharacter()));
         for (int j = 0; j < layout_.geometry.count; ++j)
@@ -97,8 +98,8 @@ public:
             g.setFont(juce::Font{text::medium, juce::Font::bold});
             g.drawText(words, row, juce::Justification::centredLeft, true);
         };
-        heading("1   Place of the first pulse", firstHeading_);
-        heading("2   Whole pattern", iconHeading_);
+        heading("1   " + say_("Place of the first pulse"), firstHeading_);
+        heading("2   " + say_("Whole pattern"), iconHeading_);
         g.setColour(shade(*this, Shade::well));
         g.fillRoundedRectangle(field_.expanded(50.0f, 44.0f), 12.0f);
         auto legend = iconHeading_.withTrimmedLeft(170);
@@ -108,12 +109,12 @@ public:
             drawPulse(g, part.removeFromLeft(20).toFloat().getCentre(), 8.5f, k, 1.0f);
             g.setColour(shade(*this, Shade::muted));
             g.setFont(juce::Font{text::small});
-            g.drawText(names[static_cast<std::size_t>(k)], part.withTrimmedLeft(6), juce::Justification::centredLeft, true);
+            g.drawText(say_(names[static_cast<std::size_t>(k)]), part.withTrimmedLeft(6), juce::Justification::centredLeft, true);
         }
         g.setColour(shade(*this, Shade::muted));
         g.setFont(juce::Font{text::medium});
-        if (first_ < 0) g.drawText("Choose the first pulse's place.", iconsArea_, juce::Justification::centred, true);
-        for (const auto& [ms, row] : rows_) g.drawText("Pulses of " + juce::String{ms} + " ms", row, juce::Justification::centredLeft, true);
+        if (first_ < 0) g.drawText(say_("Choose the first pulse's place."), iconsArea_, juce::Justification::centred, true);
+        for (const auto& [ms, row] : rows_) g.drawText(say_("Pulses of {n} ms", {{"n", juce::String{ms}}}), row, juce::Justification::centredLeft, true);
     }
 
     void resized() override {
@@ -173,7 +174,12 @@ private:
         }
     }
 
+    void showChosen(const std::string& response) override {
+        for (auto& icon : icons_) icon->setToggleState(patternLabel(icon->pattern) == response, juce::dontSendNotification);
+    }
+
     const LayoutDescription layout_;
+    const StudyWords& say_;
     std::vector<std::unique_ptr<BigButton>> firsts_;
     std::vector<std::unique_ptr<PatternIcon>> icons_;
     juce::Rectangle<int> firstHeading_, iconHeading_, iconsArea_;
@@ -184,6 +190,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout) { return std::make_unique<PatternAnswer>(condition, layout); }
+std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout, const StudyWords& words) {
+    return std::make_unique<PatternAnswer>(condition, layout, words);
+}
 
 } // namespace physvib

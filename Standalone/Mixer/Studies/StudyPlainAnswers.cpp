@@ -19,16 +19,16 @@ juce::Rectangle<int> column(juce::Rectangle<int> area, int width, int height) {
 /// A button for each label.
 class LabelAnswer final : public ChosenAnswer {
 public:
-    explicit LabelAnswer(const ConditionPlan& condition) {
+    LabelAnswer(const ConditionPlan& condition, const StudyWords& say) {
         setTitle("Stimuli");
         for (const StimulusItem& item : stimuliOf(condition)) {
-            auto& button = buttons_.emplace_back(std::make_unique<BigButton>(utf8(item.label), utf8(item.label)));
+            auto& button = buttons_.emplace_back(std::make_unique<BigButton>(say(item.label), utf8(item.label)));
             labels_.push_back(item.label);
             button->onClick = [this, label = item.label] { choose(label); };
             addAndMakeVisible(*button);
         }
     }
-    juce::String keys() const override { return "Arrows and Enter: answer."; }
+    std::string keys() const override { return "Arrows and Enter: answer.  Enter: confirm."; }
     bool takeKey(const juce::KeyPress& key) override { return moveFocus(*this, key); }
     void mark(const std::set<std::string>& felt) override {
         for (std::size_t i = 0; i < buttons_.size(); ++i) buttons_[i]->setMarked(felt.contains(labels_[i]));
@@ -44,6 +44,9 @@ public:
     }
 
 private:
+    void showChosen(const std::string& response) override {
+        for (std::size_t i = 0; i < buttons_.size(); ++i) buttons_[i]->setToggleState(labels_[i] == response, juce::dontSendNotification);
+    }
     std::vector<std::unique_ptr<BigButton>> buttons_;
     std::vector<std::string> labels_;
 };
@@ -51,22 +54,17 @@ private:
 /// One of the parts, by its number: what they are called stays unsaid.
 class ChoiceAnswer final : public ChosenAnswer {
 public:
-    explicit ChoiceAnswer(const Trial& trial)
+    ChoiceAnswer(const Trial& trial, const StudyWords& say)
         : parts_{trial.parts} {
         setTitle("Choice");
         for (int i = 0; i < static_cast<int>(parts_.size()); ++i) {
-            const auto words = "The " + ordinal(i);
-            auto& button = buttons_.emplace_back(std::make_unique<BigButton>(words, "Answer: " + words.toLowerCase()));
-            button->setWords(words, "key " + juce::String{i + 1});
+            auto& button = buttons_.emplace_back(std::make_unique<BigButton>(say.ordinal(i), "Answer: number " + juce::String{i + 1}));
+            button->setWords(say.ordinal(i), say("key {n}", {{"n", juce::String{i + 1}}}));
             button->onClick = [this, i] { choosePart(i); };
             addAndMakeVisible(*button);
         }
     }
-    static juce::String ordinal(int i) {
-        static const juce::StringArray names{"first", "second", "third", "fourth", "fifth", "sixth"};
-        return i < names.size() ? names[i] : juce::String{i + 1} + "th";
-    }
-    juce::String keys() const override { return "1, 2: answer."; }
+    std::string keys() const override { return "1, 2: answer.  Enter: confirm."; }
     bool takeKey(const juce::KeyPress& key) override {
         const int i = static_cast<int>(key.getTextCharacter() - '1');
         if (isEnabled() && i >= 0 && i < static_cast<int>(parts_.size())) return choosePart(i), true;
@@ -80,31 +78,38 @@ public:
     }
 
 private:
+    void showChosen(const std::string& response) override {
+        for (std::size_t i = 0; i < buttons_.size(); ++i) buttons_[i]->setToggleState(parts_[i] == response, juce::dontSendNotification);
+    }
     void choosePart(int i) { choose(parts_[static_cast<std::size_t>(i)]); }
     const std::vector<std::string> parts_;
     std::vector<std::unique_ptr<BigButton>> buttons_;
 };
 
-/// A slider for each scale; one that was not moved has not answered.
+/// A slider for each scale, with what it means; one that was not moved has not answered. How many points it is stays unsaid unless the
+/// session wants it told: who reads a number rates the number.
 class RatingAnswer final : public StudyAnswer {
 public:
-    explicit RatingAnswer(const SessionPlan& session) {
+    RatingAnswer(const SessionPlan& session, const StudyWords& say)
+        : say_{say}
+        , anchors_{session.anchors.empty() ? std::vector<std::string>{"Strongly disagree", "Strongly agree"} : session.anchors}
+        , showsNumbers_{session.showsNumbers} {
         setTitle("Ratings");
-        for (const std::string& name : session.scales) {
+        for (std::size_t i = 0; i < session.scales.size(); ++i) {
             auto& scale = scales_.emplace_back(std::make_unique<Scale>());
-            const auto title = utf8(name).substring(0, 1).toUpperCase() + utf8(name).substring(1);
-            scale->name.setText(title, juce::dontSendNotification);
-            scale->name.setFont(juce::Font{text::large});
-            scale->slider.setTitle(title);
+            const auto title = utf8(session.scales[i]), name = say(session.scales[i]);
+            scale->name = name.substring(0, 1).toUpperCase() + name.substring(1);
+            if (i < session.definitions.size()) scale->meaning = say(session.definitions[i]);
+            scale->slider.setTitle(title.substring(0, 1).toUpperCase() + title.substring(1));
+            scale->slider.setDescription(scale->meaning);
             scale->slider.setSliderStyle(juce::Slider::LinearHorizontal);
             scale->slider.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
             scale->slider.setRange(0.0, 100.0, 1.0);
             scale->slider.setValue(50.0, juce::dontSendNotification);
             scale->slider.setWantsKeyboardFocus(true);
             scale->slider.getProperties().set(tintProperty, static_cast<juce::int64>(palette::muted.getARGB()));
-            scale->slider.onValueChange = [this, s = scale.get()] { moved(*s); };
-            scale->slider.onDragEnd = [this, s = scale.get()] { moved(*s); };
-            addAndMakeVisible(scale->name);
+            scale->slider.onValueChange = [this, s = scale.get()] { touched(*s); };
+            scale->slider.onDragEnd = [this, s = scale.get()] { touched(*s); };
             addAndMakeVisible(scale->slider);
         }
     }
@@ -116,56 +121,63 @@ public:
     bool isComplete() const override {
         return std::ranges::all_of(scales_, [](const auto& scale) { return scale->isMoved; });
     }
-    bool needsNext() const override { return true; }
-    juce::String keys() const override { return "Tab: next scale.  Arrows: move.  Enter: next."; }
+    std::string keys() const override { return "Tab: next scale.  Arrows: move.  Enter: next."; }
     void paint(juce::Graphics& g) override {
-        g.setFont(juce::Font{text::medium});
         for (const auto& scale : scales_) {
+            auto row = scale->area;
+            g.setColour(shade(*this, isEnabled() ? Shade::text : Shade::muted));
+            g.setFont(juce::Font{text::large});
+            auto words = row.removeFromTop(28);
+            g.drawText(scale->name, words.removeFromLeft(150), juce::Justification::centredLeft, true);
             g.setColour(shade(*this, Shade::muted));
-            const auto below = scale->slider.getBounds().translated(0, 26).withHeight(20);
-            g.drawText("not at all", below, juce::Justification::centredLeft, true);
-            g.drawText("fully", below, juce::Justification::centredRight, true);
-            g.setColour(shade(*this, scale->isMoved ? Shade::text : Shade::muted));
-            const auto value = scale->slider.getBounds().withX(scale->slider.getRight() + space).withWidth(70);
-            g.drawText(scale->isMoved ? juce::String{juce::roundToInt(scale->slider.getValue())} : juce::String{"not set"}, value, juce::Justification::centredLeft, true);
+            g.setFont(juce::Font{text::medium});
+            g.drawText(scale->meaning, words, juce::Justification::centredLeft, true);
+            const auto ends = row.withTrimmedTop(30).removeFromTop(22);
+            g.drawText(say_(anchors_[0]), ends, juce::Justification::centredLeft, true);
+            g.drawText(say_(anchors_[1]), ends, juce::Justification::centredRight, true);
+            const auto told = showsNumbers_ && scale->isMoved ? juce::String{juce::roundToInt(scale->slider.getValue())} : scale->isMoved ? juce::String{} : say_("not set");
+            g.drawText(told, ends, juce::Justification::centred, true);
         }
     }
     void resized() override {
-        const int count = static_cast<int>(scales_.size()), each = std::min(96, getHeight() / count);
+        const int count = static_cast<int>(scales_.size()), each = std::min(118, getHeight() / count);
         auto area = column(getLocalBounds(), 860, each * count);
         for (auto& scale : scales_) {
-            auto row = area.removeFromTop(each).withSizeKeepingCentre(area.getWidth(), 52);
-            scale->name.setBounds(row.removeFromLeft(160).removeFromTop(30));
-            row.removeFromRight(80);
-            scale->slider.setBounds(row.removeFromTop(30));
+            scale->area = area.removeFromTop(each);
+            scale->slider.setBounds(scale->area.withTrimmedTop(28).withHeight(30));
         }
     }
+    void enablementChanged() override { repaint(); }
 
 private:
     struct Scale {
-        juce::Label name;
+        juce::String name, meaning;
         juce::Slider slider;
+        juce::Rectangle<int> area;
         bool isMoved = false;
     };
-    void moved(Scale& scale) {
+    void touched(Scale& scale) {
         scale.isMoved = true;
         scale.slider.getProperties().remove(tintProperty);
         repaint();
         if (onChange) onChange();
     }
+    const StudyWords& say_;
+    const std::vector<std::string> anchors_;
+    const bool showsNumbers_;
     std::vector<std::unique_ptr<Scale>> scales_;
 };
 
 /// Method of adjustment: softer or stronger, a step at a time; the level itself is not told.
 class AdjustAnswer final : public StudyAnswer {
 public:
-    AdjustAnswer(const Adjustment& adjustment, double startDb)
+    AdjustAnswer(const Adjustment& adjustment, double startDb, const StudyWords& say)
         : adjustment_{adjustment}
         , db_{startDb} {
         setTitle("Level");
         for (auto* button : {&softer_, &stronger_}) addAndMakeVisible(*button);
-        softer_.setWords("Softer", "arrow down");
-        stronger_.setWords("Stronger", "arrow up");
+        softer_.setWords(say("Softer"), say("arrow down"));
+        stronger_.setWords(say("Stronger"), say("arrow up"));
         softer_.onClick = [this] { step(-1.0); };
         stronger_.onClick = [this] { step(1.0); };
     }
@@ -175,9 +187,8 @@ public:
         return answer;
     }
     bool isComplete() const override { return true; }
-    bool needsNext() const override { return true; }
     bool isOpen() const override { return true; }
-    juce::String keys() const override { return "Up, down: level.  Enter: they are equal."; }
+    std::string keys() const override { return "Up, down: level.  Enter: they are equal."; }
     bool takeKey(const juce::KeyPress& key) override {
         if (!isEnabled()) return false;
         if (key.isKeyCode(juce::KeyPress::upKey)) return step(1.0), true;
@@ -232,8 +243,7 @@ public:
         return answer;
     }
     bool isComplete() const override { return answer().value > 0.0; }
-    bool needsNext() const override { return true; }
-    juce::String keys() const override { return "Type a number, then Enter."; }
+    std::string keys() const override { return "Type a number, then Enter."; }
     bool takeKey(const juce::KeyPress& key) override { return isEnabled() && number_.keyPressed(key); } // typed while the focus was elsewhere
     void beginAnew() override { number_.grabKeyboardFocus(); }
     void resized() override { number_.setBounds(column(getLocalBounds(), 260, 64)); }
@@ -249,31 +259,31 @@ private:
 
 } // namespace
 
-std::unique_ptr<StudyAnswer> makeLabelAnswer(const ConditionPlan& condition) { return std::make_unique<LabelAnswer>(condition); }
-std::unique_ptr<StudyAnswer> makeChoiceAnswer(const Trial& trial) { return std::make_unique<ChoiceAnswer>(trial); }
-std::unique_ptr<StudyAnswer> makeRatingAnswer(const SessionPlan& session) { return std::make_unique<RatingAnswer>(session); }
-std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment, double startDb) { return std::make_unique<AdjustAnswer>(adjustment, startDb); }
+std::unique_ptr<StudyAnswer> makeLabelAnswer(const ConditionPlan& condition, const StudyWords& words) { return std::make_unique<LabelAnswer>(condition, words); }
+std::unique_ptr<StudyAnswer> makeChoiceAnswer(const Trial& trial, const StudyWords& words) { return std::make_unique<ChoiceAnswer>(trial, words); }
+std::unique_ptr<StudyAnswer> makeRatingAnswer(const SessionPlan& session, const StudyWords& words) { return std::make_unique<RatingAnswer>(session, words); }
+std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment, double startDb, const StudyWords& words) { return std::make_unique<AdjustAnswer>(adjustment, startDb, words); }
 std::unique_ptr<StudyAnswer> makeNumberAnswer() { return std::make_unique<NumberAnswer>(); }
 
 namespace {
 
-std::unique_ptr<StudyAnswer> labelled(const ConditionPlan& condition, const LayoutDescription& layout) {
-    if (std::holds_alternative<PatternSet>(condition.stimuli)) return makePatternAnswer(condition, layout);
+std::unique_ptr<StudyAnswer> labelled(const ConditionPlan& condition, const LayoutDescription& layout, const StudyWords& words) {
+    if (std::holds_alternative<PatternSet>(condition.stimuli)) return makePatternAnswer(condition, layout, words);
     if (const auto* grid = std::get_if<GridSet>(&condition.stimuli)) return makeCellAnswer(*grid, layout);
-    return makeLabelAnswer(condition);
+    return makeLabelAnswer(condition, words);
 }
 
 } // namespace
 
-std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout) {
+std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout, const StudyWords& words) {
     const SessionPlan& session = experiment.session();
     switch (session.task) {
-    case StudyTask::explore: return session.fewestTouches > 0 ? makePlaceAnswer(layout) : labelled(experiment.condition(), layout);
-    case StudyTask::identify: return labelled(experiment.condition(), layout);
+    case StudyTask::explore: return session.fewestTouches > 0 ? makePlaceAnswer(layout) : labelled(experiment.condition(), layout, words);
+    case StudyTask::identify: return labelled(experiment.condition(), layout, words);
     case StudyTask::locate: return makePlaceAnswer(layout);
-    case StudyTask::choose: return makeChoiceAnswer(experiment.trial());
-    case StudyTask::rate: return makeRatingAnswer(session);
-    case StudyTask::adjust: return makeAdjustAnswer(*session.adjustment, experiment.trial().levelDb);
+    case StudyTask::choose: return makeChoiceAnswer(experiment.trial(), words);
+    case StudyTask::rate: return makeRatingAnswer(session, words);
+    case StudyTask::adjust: return makeAdjustAnswer(*session.adjustment, experiment.trial().levelDb, words);
     case StudyTask::estimate: return makeNumberAnswer();
     }
     return nullptr;

@@ -4,24 +4,28 @@
 #pragma once
 #include "CommandLine/Study/StudyRun.h"
 #include "Mixer/Studies/StudySound.h"
-#include "Mixer/Studies/StudyAnswer.h"
-#include "Mixer/Studies/StudyParts.h"
+#include "Mixer/Studies/StudyWorldPane.h"
+#include "Mixer/Studies/StudyAnswerPane.h"
 
 namespace physvib {
 
 /// Fills its parent. Keys: Space feels, Esc silences, the answer has its own.
 class StudyScreen final : public juce::Component {
 public:
-    StudyScreen(Desk& desk, std::unique_ptr<StudyRun> study);
+    /// With `answersElsewhere`, answers are given in a window of its own, on another display if there is one.
+    StudyScreen(Desk& desk, std::unique_ptr<StudyRun> study, Words words = {}, bool answersElsewhere = false);
     ~StudyScreen() override;
 
     std::function<void()> onClose; ///< the participant has finished, or leaves: everything answered is in the file
 
     const StudyRun& study() const noexcept { return *study_; }
-    enum class Page { pause, trial, done, exposed, fault };
+    const StudyWords& words() const noexcept { return say_; }
+    enum class Page { pause, trial, comment, done, exposed, fault };
     Page page() const noexcept { return page_; }
     int plays() const noexcept { return progress_ ? progress_->plays() : 0; } ///< of the trial at hand
-    bool isFeeling() const { return sound_.isPlaying(); }
+    bool isFeeling() const { return sound_.isPlaying() || pane_.isPlaying(); }
+    StudyWorldPane& world() noexcept { return pane_; }
+    StudyAnswerPane& answers() noexcept { return answers_; }
 
     /// Time goes on: breaks, what is felt, what unlocks. About 30 times a second.
     void refresh();
@@ -40,38 +44,55 @@ private:
     void goOn();
     void leave();
     void play(std::size_t part);
-    void answered();
+    std::string begin(std::size_t part);
+    void playWanted();
+    void pause();
+    void asked();
+    void confirm();
     void take(Answer answer);
+    void takeComment();
     void noteFelt();
     double exposure() const;
     bool isExposed() const { return exposure() >= study_->protocol().exposureLimit; }
     bool isExploring() const;
     bool canAnswer() const;
+    const WorldSet* worldSet() const { return page_ == Page::trial ? std::get_if<WorldSet>(&experiment().condition().stimuli) : nullptr; }
+    bool hasHands() const { return worldSet() != nullptr && worldSet()->hasHands; }
+    bool isAnswerSeen() const;
+    double feltSeconds() const { return worldSet() != nullptr ? pane_.world().feltSeconds() : sound_.feltSeconds(); } ///< of the part at hand, or the last
     double restLeft() const;
     std::size_t nextPart() const;
     void updateTrial();
     void updateParts();
+    void updatePause();
+    void placeTrial(juce::Rectangle<int> area);
     juce::String headline() const, body() const, progressWords() const;
     const Experiment& experiment() const noexcept { return study_->experiment(); }
 
     Desk& desk_;
     std::unique_ptr<StudyRun> study_;
+    const StudyWords say_;
     StudySound sound_;
+    StudyWorldPane pane_;
+    const double squaresBefore_; // of the participant's day, in g^2 s, without what the desk sums up from now on
+    StudyAnswerPane answers_;
+    std::unique_ptr<juce::Component> elsewhere_; // the answers' own window
     Page page_ = Page::pause;
     std::string fault_;
-    const double squaresBefore_; // of the participant's day, in g^2 s, without what the desk sums up from now on
 
     // the trial at hand
     LayoutDescription layout_;
     std::optional<TrialProgress> progress_;
     std::optional<Answer> exploring_; // felt now, answered afterwards
-    std::unique_ptr<StudyAnswer> answer_;
     std::vector<std::unique_ptr<BigButton>> parts_;
+    std::optional<std::size_t> wanted_; // a world that begins when the one before has faded
+    std::vector<std::string> sessions_; // that were felt
     std::vector<FeltLevel> felt_; // per part
     std::size_t part_ = 0;
     double counted_ = 0.0, firstFeltMs_ = 0.0, restEndsMs_ = 0.0;
 
-    BigButton next_{"Next", "Next"};
+    BigButton next_{"Next", "Next"}, pause_{"Pause", "Pause"};
+    juce::TextEditor comment_;
     juce::TextButton silence_;
     std::unique_ptr<juce::TextButton> leave_;
     juce::String shown_;

@@ -42,7 +42,10 @@ void answerUntil(const Protocol& protocol, StudyTask task, int trial) {
     StudyRun study{folder().getFullPathName().toStdString(), protocol, participant};
     const SimulatedObserver observer{{}, protocol, participant};
     const auto isThere = [&] { return study.experiment().isDone() || (study.experiment().trial().task == task && study.experiment().trial().number == trial); };
-    while (!isThere() && study.take(observer.answer(study.experiment()))) {}
+    while (!isThere()) {
+        if (study.experiment().mayEnd()) study.endSession();
+        else if (!study.take(observer.answer(study.experiment()))) return;
+    }
 }
 
 StudiesTab& studies(MixerView& view) {
@@ -86,28 +89,25 @@ void type(StudyScreen* screen, char key) {
     if (screen != nullptr) screen->keyPressed(juce::KeyPress{key, juce::ModifierKeys{}, static_cast<juce::juce_wchar>(key)});
 }
 
-/// Two ways to render a drop, matched and compared.
-std::string matching() {
-    Protocol p;
-    p.name = "two-methods";
-    p.conditions = {{"drop", "", "phone1", 205.0, 1.0, CallSet{{{"level_db", {"0"}}}, "stimulus phantom --at 0.5,0.5 --layout phone1 --level-g 0.3 --frequency {alternative}"}}};
-    SessionPlan match, main;
-    match.name = "matching";
-    match.isTraining = true;
-    match.task = StudyTask::adjust;
-    match.question = "Make the second as strong as the first.";
-    match.repetitions = 3;
-    match.alternatives = {{"150"}, {"250"}};
-    match.adjustment = Adjustment{"250", 3.0, 1.0, -20.0, 10.0};
-    main.name = "main";
-    main.task = StudyTask::choose;
-    main.question = "Which of the two fits the collision better?";
-    main.repetitions = 8;
-    main.mostPlays = 3;
-    main.alternatives = match.alternatives;
-    p.sessions = {match, main};
-    const auto file = folder().getChildFile("two-methods.json");
+/// The box of `eight-methods` with a second for each pair.
+std::string shortBox() {
+    Protocol p = findProtocol("eight-methods").value;
+    p.name = "eight-methods-short";
+    for (SessionPlan& session : p.sessions) session.leastSeconds = 1.0;
+    const auto file = folder().getChildFile("eight-methods-short.json");
     return file.replaceWithText(utf8(protocolJson(p))) ? file.getFullPathName().toStdString() : std::string{};
+}
+
+/// Plays with a pair for a while.
+void shake(MixerView& view, StudyScreen* screen, char pair) {
+    type(screen, pair);
+    wait(view, 0.4);
+    for (int k = 0; k < 7 && screen != nullptr; ++k) screen->keyPressed(juce::KeyPress{juce::KeyPress::leftKey});
+    wait(view, 0.9);
+}
+
+void setScale(MixerView& view, const juce::String& title, double points) {
+    if (auto* slider = find<juce::Slider>(view, title)) slider->setValue(points, juce::sendNotificationSync);
 }
 
 } // namespace
@@ -124,19 +124,39 @@ const std::vector<StudyShot>& studyShots() {
         {"studies-grid", [](Desk&, MixerView& v) { feel(v, show(v, "phantom-grids", StudyTask::identify, 31), 1.8); }},
         {"studies-place", [](Desk&, MixerView& v) { feel(v, show(v, "phantom-places", StudyTask::locate, 48), 1.8); }},
         {"studies-match", [](Desk&, MixerView& v) {
-             auto* screen = show(v, matching(), StudyTask::adjust, 2);
-             feel(v, screen, 1.6);
-             feel(v, screen, 1.6);
+             auto* screen = show(v, "model-or-sound", StudyTask::adjust, 2);
+             feel(v, screen, 5.0);
+             feel(v, screen, 5.0);
          }},
+        {"studies-drop", [](Desk&, MixerView& v) { feel(v, show(v, "model-or-sound", StudyTask::choose, 4), 0.6); }},
         {"studies-choice", [](Desk&, MixerView& v) {
-             auto* screen = show(v, matching(), StudyTask::choose, 4);
-             feel(v, screen, 1.6);
-             feel(v, screen, 1.6);
+             auto* screen = show(v, "model-or-sound", StudyTask::choose, 5);
+             feel(v, screen, 5.0);
+             feel(v, screen, 5.0);
+             type(screen, '2');
+         }},
+        {"studies-box", [](Desk&, MixerView& v) {
+             auto* screen = show(v, shortBox(), StudyTask::rate, 5);
+             shake(v, screen, '1');
+             shake(v, screen, '2');
          }},
         {"studies-ratings", [](Desk&, MixerView& v) {
-             auto* screen = show(v, "eight-methods", StudyTask::rate, 5);
-             feel(v, screen, 10.8);
-             feel(v, screen, 4.0);
+             auto* screen = show(v, shortBox(), StudyTask::rate, 5);
+             for (const char pair : {'1', '2', '3'}) shake(v, screen, pair);
+             press(v, "Pause");
+             wait(v, 0.6);
+             setScale(v, "Realism", 72.0);
+             setScale(v, "Harmony", 41.0);
+             wait(v, 0.1);
+         }},
+        {"studies-korean", [](Desk&, MixerView& v) {
+             studies(v).chooseWords("ko");
+             auto* screen = show(v, shortBox(), StudyTask::rate, 5);
+             for (const char pair : {'1', '2', '3'}) shake(v, screen, pair);
+             press(v, "Pause");
+             wait(v, 0.6);
+             setScale(v, "Realism", 72.0);
+             wait(v, 0.1);
          }},
         {"studies-number", [](Desk&, MixerView& v) { feel(v, show(v, "magnitudes", StudyTask::estimate, 7), 1.2); }},
         {"studies-analysis", [](Desk&, MixerView& v) { studies(v).analyse(simulatedTrials("phantom-places", 2)); }},

@@ -1,46 +1,68 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Words of the tasks.
 #include "Mixer/Studies/StudyWords.h"
+#include "Mixer/Window/Parts.h"
 #include <cmath>
 
 namespace physvib {
 
-juce::String questionOf(const SessionPlan& session, const ConditionPlan& condition) {
-    if (!session.question.empty()) return juce::String::fromUTF8(session.question.c_str());
+juce::String StudyWords::operator()(const std::string& english, std::initializer_list<std::pair<const char*, juce::String>> values) const {
+    if (!words_.name.empty() && !words_.texts.contains(english)) missed_.insert(english);
+    auto text = utf8(words_.of(english));
+    for (const auto& [name, value] : values) text = text.replace("{" + juce::String{name} + "}", value);
+    return text;
+}
+
+juce::String StudyWords::question(const SessionPlan& session, const ConditionPlan& condition) const {
+    const StudyWords& say = *this;
+    if (!session.question.empty()) return say(session.question);
     const bool isGrid = std::holds_alternative<GridSet>(condition.stimuli);
     switch (session.task) {
-    case StudyTask::explore: return session.fewestTouches > 0 || isGrid ? "Where do you want to feel it?" : "What do you want to feel?";
-    case StudyTask::identify: return isGrid ? "Where did you feel it?" : "What did you feel?";
-    case StudyTask::locate: return "Where did you feel it?";
-    case StudyTask::choose: return "Which one do you choose?";
-    case StudyTask::rate: return "Rate what you felt.";
-    case StudyTask::adjust: return "Make both equal.";
-    case StudyTask::estimate: return "How much is it?";
+    case StudyTask::explore: return say(session.fewestTouches > 0 || isGrid ? "Where do you want to feel it?" : "What do you want to feel?");
+    case StudyTask::identify: return say(isGrid ? "Where did you feel it?" : "What did you feel?");
+    case StudyTask::locate: return say("Where did you feel it?");
+    case StudyTask::choose: return say("Which one do you choose?");
+    case StudyTask::rate: return say("Rate what you felt.");
+    case StudyTask::adjust: return say("Make both equal.");
+    case StudyTask::estimate: return say("How much is it?");
     }
     return {};
 }
 
-juce::String instructionOf(const SessionPlan& session, const ConditionPlan& condition) {
+juce::String StudyWords::feel(const SessionPlan& session) const {
+    const StudyWords& say = *this;
+    if (session.mostPlays == 0) return say("Feel it as often as you like.") + "\n";
+    if (session.mostPlays == 1) return say("Feel it once.") + "\n";
+    return say("Feel it at most {n} times.", {{"n", juce::String{session.mostPlays}}}) + "\n";
+}
+
+juce::String StudyWords::instruction(const SessionPlan& session, const ConditionPlan& condition) const {
+    const StudyWords& say = *this;
     const bool isGrid = std::holds_alternative<GridSet>(condition.stimuli), isPattern = std::holds_alternative<PatternSet>(condition.stimuli);
-    const juce::String again = session.mostPlays == 0 ? "as often as you like" : session.mostPlays == 1 ? "once" : "at most " + juce::String{session.mostPlays} + " times";
-    const juce::String feel = "Feel it with the space bar, " + again + ".\n";
+    if (const auto* world = std::get_if<WorldSet>(&condition.stimuli); world != nullptr && world->hasHands)
+        return say("The numbers show one world each: drag what moves in it, and tilt it with the arrow keys.") + "\n" +
+               (session.leastSeconds > 0.0 ? say("Play with each for at least {n} s, then pause and answer.", {{"n", number(session.leastSeconds, session.leastSeconds < 1.0 ? 1 : 0)}})
+                                           : say("Play with each, then pause and answer."));
     switch (session.task) {
     case StudyTask::explore:
-        if (session.fewestTouches > 0) return "Touch the field anywhere and feel that place.\nThe training takes " + juce::String{session.fewestTouches} + " touches.";
-        return "Choose what you want to feel, as often as you like.\nThe training ends when everything was felt once.";
+        if (session.fewestTouches > 0) return say("Touch the field anywhere and feel that place.") + "\n" + say("Go on for as long as you like; Next ends the training.");
+        return say("Choose what you want to feel, as often as you like.") + "\n" + say("When everything was felt once, Next ends the training.");
     case StudyTask::identify:
-        if (isPattern) return feel + "Then choose the place of its first pulse, and the whole pattern.";
-        return feel + (isGrid ? "Then click the point where you felt it." : "Then say which one it was.");
-    case StudyTask::locate: return feel + "Then click where you felt it, anywhere on the field.";
-    case StudyTask::choose: return "Feel each of them with the space bar, " + again + ".\nThen choose one.";
-    case StudyTask::rate: {
-        const juce::String least = session.leastSeconds > 0.0 ? "for at least " + juce::String{session.leastSeconds} + " s" : again;
-        return "Feel " + juce::String{session.objects.empty() ? "it" : "each of them"} + " with the space bar, " + least + ".\nThen set every scale, and go on.";
-    }
-    case StudyTask::adjust: return "Feel both in turn, as often as you like.\nMake the marked one softer or stronger until both are equal, and go on.";
-    case StudyTask::estimate: return feel + "Then type a number, and go on.";
+        if (isPattern) return feel(session) + say("Then choose the place of its first pulse, and the whole pattern.");
+        return feel(session) + say(isGrid ? "Then choose the point where you felt it." : "Then say which one it was.");
+    case StudyTask::locate: return feel(session) + say("Then mark where you felt it, anywhere on the field.");
+    case StudyTask::choose: return say("Feel each of them, then choose one.");
+    case StudyTask::rate: return feel(session) + say("Then set every scale, and go on.");
+    case StudyTask::adjust: return say("Feel both in turn, as often as you like.") + "\n" + say("Make the marked one softer or stronger until both are equal, and go on.");
+    case StudyTask::estimate: return feel(session) + say("Then type a number, and go on.");
     }
     return {};
+}
+
+juce::String StudyWords::ordinal(int part) const {
+    static constexpr std::array names{"The first", "The second", "The third", "The fourth", "The fifth", "The sixth"};
+    const auto i = static_cast<std::size_t>(part);
+    return i < names.size() ? (*this)(names[i]) : (*this)("Number {n}", {{"n", juce::String{part + 1}}});
 }
 
 juce::String minutesText(double seconds) {

@@ -1,16 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a participant reads.
 #pragma once
+#include "Files/Words.h"
 #include "Study/Protocol.h"
 #include <juce_core/juce_core.h>
+#include <set>
 
 namespace physvib {
 
-/// The question of a trial: the protocol's, or that of the task. Any thread.
-juce::String questionOf(const SessionPlan& session, const ConditionPlan& condition);
+/// The texts of the screens and of a protocol in the participant's language. M.
+class StudyWords {
+public:
+    explicit StudyWords(Words words = {})
+        : words_{std::move(words)} {}
 
-/// How a session goes, in a few lines. Any thread.
-juce::String instructionOf(const SessionPlan& session, const ConditionPlan& condition);
+    /// "trial {n}" with what stands for {n}. One that the words do not have is told in English, and noted.
+    juce::String operator()(const std::string& english, std::initializer_list<std::pair<const char*, juce::String>> values = {}) const;
+    const std::set<std::string>& missed() const noexcept { return missed_; }
+
+    /// The question of a trial: the protocol's, or that of the task.
+    juce::String question(const SessionPlan& session, const ConditionPlan& condition) const;
+    /// How a session goes, in a few lines.
+    juce::String instruction(const SessionPlan& session, const ConditionPlan& condition) const;
+    /// "the first", of the parts to choose from.
+    juce::String ordinal(int part) const;
+
+private:
+    juce::String feel(const SessionPlan& session) const;
+    Words words_;
+    mutable std::set<std::string> missed_;
+};
 
 /// "1:05". Any thread.
 juce::String minutesText(double seconds);

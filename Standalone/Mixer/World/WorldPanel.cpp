@@ -2,6 +2,8 @@
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/World/WorldPanel.h"
 #include "Mixer/Materials/HitWords.h"
+#include "Physics/Scenes/SceneEdits.h"
+#include <utility>
 
 namespace physvib {
 
@@ -11,13 +13,6 @@ constexpr double tellMs = 900.0; // a sentence stays at least so long, unless a 
 constexpr int lawNeeds = 700; // pixels of the panel; else there is no room for what the tab says as well
 const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
 const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
-
-void setUpKnob(juce::Slider& knob, const juce::String& title, const juce::String& tip) {
-    knob.setTitle(title);
-    knob.setTooltip(tip);
-    knob.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
-    knob.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
-}
 
 } // namespace
 
@@ -43,14 +38,14 @@ WorldPanel::WorldPanel(Desk& desk)
     sentence_.setMinimumHorizontalScale(0.8f);
     law_.setFont(juce::Font{text::small});
     law_.setJustificationType(juce::Justification::centredRight);
-    tiltName_.setText("gravity", juce::dontSendNotification);
-    setUpKnob(tilt_, "Tilt", "Tilt: which way gravity pulls; double click: down (arrow keys in the world)");
-    tilt_.setRotaryParameters(0.0f, juce::MathConstants<float>::twoPi, false);
-    tilt_.setRange(-180.0, 180.0, 1.0);
-    tilt_.setValue(0.0, juce::dontSendNotification);
-    tilt_.setDoubleClickReturnValue(true, 0.0);
-    tilt_.onValueChange = [this] { desk_.act(TiltAction{juce::degreesToRadians(-tilt_.getValue())}); };
-    setUpKnob(drag_, "Drag strength", "Drag strength: how hard a body is pushed per metre of the screen that it is dragged; double click: as in the thesis");
+    tilt_.onValueChange = [this] {
+        if (player_ && player_->moves()) play(player_->tilt(tilt_.angleRadians()));
+        else desk_.act(TiltAction{tilt_.angleRadians()});
+    };
+    drag_.setTitle("Drag strength");
+    drag_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
+    drag_.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
+    drag_.setTooltip("Drag strength: how hard a body is pushed per metre of the screen that it is dragged; double click: as in the thesis");
     drag_.setRange(leastDrag, mostDrag, 1'000.0);
     drag_.setSkewFactorFromMidPoint(10'000.0);
     drag_.setDoubleClickReturnValue(true, thesisDrag);
@@ -65,6 +60,11 @@ WorldPanel::WorldPanel(Desk& desk)
 void WorldPanel::takeMix() {
     const auto& mix = desk_.mix();
     const auto& scene = desk_.sceneNow();
+    if (shown_ != mix.scene) {
+        player_.emplace(scene);
+        if (!player_->isThere()) player_.reset();
+        tiltName_.setText(player_ ? "arrows play" : "gravity", juce::dontSendNotification);
+    }
     if (shown_ != mix.scene || shownEdits_ != desk_.worldEdits()) view_.show(scene);
     shown_ = mix.scene;
     shownEdits_ = desk_.worldEdits();
@@ -78,18 +78,52 @@ void WorldPanel::takeMix() {
     sentence_.setColour(juce::Label::textColourId, shade(*this, Shade::now));
 }
 
-void WorldPanel::tilt(double degrees) {
-    while (degrees > 180.0) degrees -= 360.0;
-    while (degrees < -180.0) degrees += 360.0;
-    tilt_.setValue(degrees);
+// ---- a scene's player
+
+/// Who begins to play takes over from the scene's script: the world begins anew without what that did.
+void WorldPanel::play(const std::vector<Action>& actions) {
+    if (actions.empty()) return;
+    if (auto scene = sceneForHands(*desk_.mix().scene); scene != *desk_.mix().scene)
+        desk_.change("Play", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
+    for (const Action& action : actions)
+        if (const auto fault = desk_.act(action); !fault.empty()) desk_.report(utf8(fault));
 }
 
 bool WorldPanel::keyPressed(const juce::KeyPress& key) {
-    if (key == juce::KeyPress::leftKey) return tilt(tiltDegrees() + 5.0), true;
-    if (key == juce::KeyPress::rightKey) return tilt(tiltDegrees() - 5.0), true;
-    if (key == juce::KeyPress::downKey) return tilt(0.0), true;
-    if (key == juce::KeyPress::upKey) return tilt(180.0), true;
+    if (!player_) return tilt_.takeKey(key);
+    if (key == juce::KeyPress::leftKey) return play(player_->steer(-1)), true;
+    if (key == juce::KeyPress::rightKey) return play(player_->steer(1)), true;
+    if (key == juce::KeyPress::downKey) return play(player_->steer(0)), true;
     return false;
+}
+
+// What is moved goes for as long as a key is held; what is driven goes on.
+bool WorldPanel::keyStateChanged(bool isDown) {
+    using juce::KeyPress;
+    if (isDown || !player_ || !player_->moves() || KeyPress::isKeyCurrentlyDown(KeyPress::leftKey) || KeyPress::isKeyCurrentlyDown(KeyPress::rightKey)) return false;
+    return play(player_->steer(0)), false;
+}
+
+void WorldPanel::mouseDrag(const juce::MouseEvent& e) {
+    const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x;
+    if (player_ && player_->moves() && e.eventComponent == &view_) pointed_ = desk_.sceneNow().fieldWidthMetres * static_cast<double>((e.position.x - left) / (right - left));
+}
+
+void WorldPanel::mouseUp(const juce::MouseEvent&) {
+    if (std::exchange(pointed_, {}) && player_) play(player_->steer(0));
+}
+
+std::optional<double> WorldPanel::playersPlace() {
+    const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x, at = view_.placeOfBody(player_->body()).x;
+    return at < -1e3f ? std::nullopt : std::optional{desk_.sceneNow().fieldWidthMetres * static_cast<double>((at - left) / (right - left))};
+}
+
+void WorldPanel::lookAfterPlayer() {
+    if (!player_ || !player_->moves()) return;
+    const auto place = playersPlace();
+    if (!place) return;
+    if (pointed_) play(player_->moveTowards(*pointed_, *place));
+    for (const Action& action : player_->keepInside(*place)) desk_.act(action);
 }
 
 void WorldPanel::pull(const std::string& body, Vector screenMetres, Vector point) {
@@ -112,6 +146,7 @@ void WorldPanel::refresh(const DeskMoment& moment) {
             hitAtMs_ = now;
             sentence_.setText(sentenceOn(hit), juce::dontSendNotification);
         }
+    lookAfterPlayer();
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits, std::span{moment.meters.peaks}.first(static_cast<std::size_t>(desk_.mix().count()))});
 }
 

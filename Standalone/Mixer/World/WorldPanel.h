@@ -5,6 +5,9 @@
 #include "Host/Views/WorldView.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
+#include "Mixer/World/TiltKnob.h"
+#include "Physics/Scenes/ScenePlayer.h"
+#include <optional>
 
 namespace physvib {
 
@@ -15,11 +18,14 @@ public:
     void refresh(const DeskMoment& moment);
     void takeMix();
     WorldView& view() noexcept { return view_; }
-    void tilt(double degrees); ///< turns gravity to that angle
+    void tilt(double degrees) { tilt_.turnTo(degrees); } ///< turns gravity to that angle
     double tiltDegrees() const { return tilt_.getValue(); }
 
     bool keyPressed(const juce::KeyPress& key) override;
+    bool keyStateChanged(bool isDown) override;
     void mouseDown(const juce::MouseEvent&) override { isMoving_ = false; }
+    void mouseDrag(const juce::MouseEvent& e) override;
+    void mouseUp(const juce::MouseEvent&) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
 
@@ -28,12 +34,18 @@ private:
     void showMenu(const std::string& body, FieldShare at);
     void addBody(FieldShare at, int material, bool isBox);
     void edit(const juce::String& name, const Action& action);
+    void play(const std::vector<Action>& actions);
+    void lookAfterPlayer();
+    std::optional<double> playersPlace();
     juce::String sentenceOn(const CollisionEvent& hit) const;
 
     Desk& desk_;
     WorldView view_;
     juce::Label sentence_, law_, tiltName_, dragName_;
-    juce::Slider tilt_, drag_;
+    TiltKnob tilt_;
+    juce::Slider drag_;
+    std::optional<ScenePlayer> player_; // of a scene that has one
+    std::optional<double> pointed_;     // where in the field the mouse holds, m
     bool isMoving_ = false; // a badge, since the mouse was pressed
     double hitAtMs_ = 0.0;
     CollisionEvent told_;

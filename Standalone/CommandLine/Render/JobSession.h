@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A job that is played live instead: the session that it becomes.
+#pragma once
+#include "CommandLine/Render/RenderJob.h"
+#include "Session/SessionSetup.h"
+#include <vector>
+
+namespace physvib {
+
+/// What the scene's materials sound like: which of them meet, nobody knows yet.
+inline std::vector<CollisionEvent> soundsOf(const Scene& scene) {
+    std::vector<CollisionEvent> sounds;
+    for (const Material& m : scene.materials) {
+        if (!(m.frequencyHz > 0.0)) continue;
+        CollisionEvent& sound = sounds.emplace_back();
+        sound.frequencyHz = m.frequencyHz;
+        sound.decayPerSecond = m.decayPerSecond;
+    }
+    return sounds;
+}
+
+/// A job with a scene, as a session plays it.
+inline SessionSetup sessionSetup(const RenderJob& job) {
+    SessionSetup setup;
+    setup.scene = *job.scene;
+    const SceneRun run = job.run();
+    setup.seed = run.seed;
+    setup.stepsPerSecond = run.stepsPerSecond;
+    setup.timing = run.timing;
+    setup.location = run.location;
+    setup.channels = job.channels();
+    setup.panner = job.panner();
+    setup.equalised = job.equalised();
+    setup.shaping = job.shaping();
+    setup.recordings = job.feltRecordings();
+    setup.limiterEnabled = job.options.limiter == "on";
+    return setup;
+}
+
+} // namespace physvib

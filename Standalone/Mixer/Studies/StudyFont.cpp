@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A letter that is drawn as a letter is that nobody has is a box.
+#include "Mixer/Studies/StudyFont.h"
+#include <array>
+#include <set>
+
+namespace physvib {
+namespace {
+
+constexpr juce::juce_wchar nobodys = 0xfffe; // no letter, by Unicode's promise
+constexpr std::array preferred{"NanumGothic", "Noto Sans CJK KR", "Noto Sans CJK SC", "UnDotum"}; // of those that are known to read well
+
+juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
+    juce::Array<int> glyphs;
+    juce::Array<float> places;
+    juce::Path path;
+    typeface.getGlyphPositions(juce::String::charToString(letter), glyphs, places);
+    for (const int glyph : glyphs) typeface.getOutlineForGlyph(glyph, path);
+    return path.toString();
+}
+
+juce::String lettersOf(const Words& words) {
+    std::set<juce::juce_wchar> letters;
+    for (const auto& [english, text] : words.texts)
+        for (const auto letter : juce::String::fromUTF8(text.c_str()))
+            if (letter > 0x7f) letters.insert(letter);
+    juce::String all;
+    for (const auto letter : letters) all += letter;
+    return all;
+}
+
+} // namespace
+
+bool hasLetters(const juce::String& typeface, const juce::String& letters) {
+    const juce::Font font = typeface.isEmpty() ? juce::Font{20.0f} : juce::Font{typeface, 20.0f, juce::Font::plain};
+    const auto face = font.getTypefacePtr();
+    if (face == nullptr) return false;
+    const auto box = outlineOf(*face, nobodys);
+    for (const auto letter : letters)
+        if (outlineOf(*face, letter) == box) return false;
+    return true;
+}
+
+std::optional<juce::String> typefaceFor(const Words& words) {
+    const auto letters = lettersOf(words);
+    if (hasLetters({}, letters)) return juce::String{};
+    const auto installed = juce::Font::findAllTypefaceNames();
+    juce::StringArray names;
+    for (const char* name : preferred)
+        if (installed.contains(name)) names.add(name);
+    names.addArray(installed);
+    for (const auto& name : names)
+        if (hasLetters(name, letters)) return name;
+    return {};
+}
+
+void StudyFont::use(const juce::String& typeface) {
+    juce::LookAndFeel::getDefaultLookAndFeel().setDefaultSansSerifTypefaceName(typeface);
+    juce::Typeface::clearTypefaceCache();
+}
+
+} // namespace physvib

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the screen says, and where its parts are.
+#include "Mixer/Studies/StudyScreen.h"
+#include "Mixer/Window/Parts.h"
+
+namespace physvib {
+namespace {
+
+constexpr int barHeight = 56, inset = 40, partWidth = 300, partHeight = 84, choiceHeight = 216;
+
+} // namespace
+
+void StudyScreen::refresh() {
+    const bool hasFocus = hasKeyboardFocus(true) || (elsewhere_ && elsewhere_->hasKeyboardFocus(true));
+    if (isShowing() && !hasFocus) grabKeyboardFocus(); // first: an open answer takes it from here
+    const bool isSilent = desk_.isSilent();
+    silence_.setButtonText(isSilent ? say_("SILENT  Esc: feel") : say_("SILENCE  Esc"));
+    silence_.setToggleState(isSilent, juce::dontSendNotification);
+    leave_->setEnabled(!isFeeling() || hasHands());
+    if (page_ == Page::trial) updateTrial();
+    if (page_ == Page::pause) {
+        next_.setEnabled(restLeft() <= 0.0);
+        next_.setWords(say_(experiment().trial().number == 1 ? "Begin" : "Go on"), say_("Enter"));
+    }
+    if (page_ == Page::comment) next_.setEnabled(true), next_.setWords(say_("Next"));
+    if (page_ == Page::done || page_ == Page::exposed || page_ == Page::fault) next_.setEnabled(true), next_.setWords(say_("Close"), say_("Enter"));
+    if (page_ != Page::trial) answers_.setConfirm(false, false, {}), answers_.setQuestion(say_("Look at the other screen."));
+    if (auto words = headline() + "\n" + body() + "\n" + progressWords(); words != shown_) {
+        shown_ = words;
+        setDescription(words);
+        repaint();
+    }
+}
+
+void StudyScreen::updateParts() {
+    const SessionPlan& session = experiment().session();
+    const Trial& trial = experiment().trial();
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        auto& button = *parts_[i];
+        const bool isPlaying = isFeeling() && part_ == i, wasFelt = progress_->plays(i) > 0;
+        juce::String words = parts_.size() == 1 ? say_(wasFelt ? "Feel it again" : "Feel it") : juce::String{static_cast<int>(i) + 1};
+        if (trial.task == StudyTask::rate && !trial.parts.empty() && worldSet() == nullptr) words += "   " + say_(trial.parts[i]);
+        if (trial.task == StudyTask::adjust && session.adjustment->alternative == trial.parts[i]) words += "   " + say_("to be matched");
+        juce::StringArray remarks;
+        if (isPlaying) remarks.add(say_("feel it now"));
+        else if (hasHands()) remarks.add(say_("key {n}", {{"n", juce::String{static_cast<int>(i) + 1}}}));
+        else if (i == nextPart()) remarks.add(say_("space bar"));
+        if (session.mostPlays > 0) remarks.add(say_("{n} of {most} left", {{"n", juce::String{session.mostPlays - progress_->plays(i)}}, {"most", juce::String{session.mostPlays}}}));
+        else if (wasFelt && !isPlaying) remarks.add(progress_->plays(i) == 1 ? say_("felt once") : say_("felt {n} times", {{"n", juce::String{progress_->plays(i)}}}));
+        button.setWords(words, remarks.joinIntoString(",  "));
+        button.setToggleState(isPlaying, juce::dontSendNotification);
+        button.setEnabled((!isFeeling() || hasHands()) && !desk_.isSilent() && progress_->canPlay(i));
+        if (session.leastSeconds > 0.0) button.setShare(progress_->seconds(i) / session.leastSeconds);
+    }
+}
+
+// ---- words
+
+juce::String StudyScreen::headline() const {
+    switch (page_) {
+    case Page::trial: return say_.question(experiment().session(), experiment().condition());
+    case Page::comment: return say_(study_->protocol().closingQuestion);
+    case Page::done: return say_("Thank you. That was everything.");
+    case Page::exposed: return say_("That is enough vibration for today: the study pauses.");
+    case Page::fault: return say_("The study cannot go on.");
+    case Page::pause: break;
+    }
+    const Trial& trial = experiment().trial();
+    if (restLeft() > 0.0) return say_("A break: rest your hands.") + "  " + minutesText(restLeft());
+    if (trial.number > 1) return say_("Ready to go on?");
+    return say_(experiment().session().isTraining ? "Training" : "The study");
+}
+
+juce::String StudyScreen::body() const {
+    switch (page_) {
+    case Page::trial: return desk_.isSilent() ? say_("Everything is silent. Esc: feel again.") : desk_.trouble();
+    case Page::comment: return say_("In your own words, if you like.");
+    case Page::done: return say_("Your answers are in") + "\n" + utf8(study_->path().string());
+    case Page::exposed:
+        return say_("Your hands have taken A(8) = {n} m/s^2 (ISO 5349-1); this study's limit is {most} m/s^2.", {{"n", number(exposure(), 2)}, {"most", number(study_->protocol().exposureLimit, 2)}}) + "\n" +
+               say_("What you answered is kept, and the study goes on there another day.");
+    case Page::fault: return utf8(fault_) + "\n" + say_("What was answered so far is kept, and the study goes on there.");
+    case Page::pause: return say_.instruction(experiment().session(), experiment().condition());
+    }
+    return {};
+}
+
+juce::String StudyScreen::progressWords() const {
+    if (experiment().isDone()) return say_("{n} trials", {{"n", juce::String{experiment().trialsTaken()}}});
+    const auto& session = experiment().session();
+    const int sessions = static_cast<int>(study_->protocol().conditions.size() * study_->protocol().sessions.size());
+    juce::StringArray words{say_(session.isTraining ? "Training" : "The study")};
+    if (sessions > 1) words.add(say_("part {n} of {most}", {{"n", juce::String{experiment().sessionNumber()}}, {"most", juce::String{sessions}}}));
+    const juce::String trial{experiment().trial().number};
+    if (experiment().sessionTrials() > 0) words.add(say_("trial {n} of {most}", {{"n", trial}, {"most", juce::String{experiment().sessionTrials()}}}));
+    else if (!isExploring()) words.add(say_("trial {n}", {{"n", trial}}));
+    return words.joinIntoString(juce::String::fromUTF8("   \xc2\xb7   "));
+}
+
+// ---- places
+
+void StudyScreen::paint(juce::Graphics& g) {
+    g.fillAll(shade(*this, Shade::ground));
+    g.setColour(shade(*this, Shade::muted));
+    g.setFont(juce::Font{text::medium});
+    g.drawText(progressWords(), headArea_, juce::Justification::centredLeft, true);
+    if (!experiment().isDone() && experiment().sessionTrials() > 0) {
+        const auto bar = juce::Rectangle<int>{inset, barHeight - 2, getWidth() - 2 * inset, 4}.toFloat();
+        g.setColour(shade(*this, Shade::line));
+        g.fillRoundedRectangle(bar, 2.0f);
+        g.setColour(shade(*this, Shade::accent));
+        g.fillRoundedRectangle(bar.withWidth(bar.getWidth() * static_cast<float>(experiment().trial().number - 1) / static_cast<float>(experiment().sessionTrials())), 2.0f);
+    }
+    g.setColour(shade(*this, Shade::text));
+    g.setFont(juce::Font{page_ == Page::trial ? text::large : 30.0f, juce::Font::bold});
+    g.drawFittedText(headline(), questionArea_, juce::Justification::centred, 2, 1.0f);
+    g.setColour(shade(*this, page_ == Page::trial ? Shade::limit : Shade::muted));
+    g.setFont(juce::Font{page_ == Page::trial ? text::medium : text::large});
+    g.drawFittedText(body(), bodyArea_, juce::Justification::centred, 5, 1.0f);
+}
+
+void StudyScreen::resized() {
+    auto area = getLocalBounds().reduced(inset, 0);
+    auto head = area.removeFromTop(barHeight - 8);
+    silence_.setBounds(head.removeFromRight(160).withTrimmedTop(8));
+    leave_->setBounds(head.removeFromRight(110).reduced(16, 10));
+    headArea_ = head;
+    area.removeFromTop(20);
+    if (page_ == Page::trial) return placeTrial(area);
+    auto middle = area.withSizeKeepingCentre(std::min(900, area.getWidth()), std::min(area.getHeight(), page_ == Page::comment ? 520 : 320));
+    questionArea_ = middle.removeFromTop(60);
+    bodyArea_ = middle.removeFromTop(page_ == Page::comment ? 44 : 150);
+    if (page_ == Page::comment) comment_.setBounds(middle.removeFromTop(middle.getHeight() - 110));
+    next_.setBounds(middle.withSizeKeepingCentre(260, 72));
+}
+
+void StudyScreen::placeTrial(juce::Rectangle<int> area) {
+    questionArea_ = area.removeFromTop(40);
+    bodyArea_ = area.removeFromTop(24);
+    if (!parts_.empty()) {
+        auto row = area.removeFromTop(partHeight);
+        const int count = static_cast<int>(parts_.size()) + (hasHands() ? 1 : 0), width = std::min(partWidth, row.getWidth() / count);
+        row = row.withSizeKeepingCentre(width * count, partHeight);
+        for (auto& part : parts_) part->setBounds(row.removeFromLeft(width).reduced(8, 4));
+        if (hasHands()) pause_.setBounds(row.reduced(8, 4));
+        area.removeFromTop(16);
+    }
+    if (!answers_.standsAlone()) answers_.setBounds(worldSet() != nullptr && !hasHands() ? area.removeFromBottom(choiceHeight) : area);
+    pane_.setBounds(area.withTrimmedBottom(12));
+    pane_.setVisible(worldSet() != nullptr && (!hasHands() || answers_.standsAlone() || !isAnswerSeen()));
+}
+
+} // namespace physvib

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lends a session to the output and keeps its journal.
+#include "Mixer/Studies/StudyWorld.h"
+#include "Physics/Scenes/SceneEdits.h"
+#include <algorithm>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr std::int64_t fadeNs = 100'000'000; // longer than whatever rings takes to fade, by limits::stealFadePerSecond
+
+} // namespace
+
+std::string StudyWorld::refusal(const Desk& desk, const CallWorld& world) {
+    const int wanted = world.layout.geometry.count, there = desk.mix().count();
+    if (desk.board()) return "a world: expected a mixer without the board, which follows one session only";
+    if (wanted <= there) return {};
+    return world.layout.name + ": expected " + std::to_string(wanted) + " enchanters in the mixer, found " + std::to_string(there);
+}
+
+std::string StudyWorld::begin(CallWorld world, bool hasHands, const std::filesystem::path& file) {
+    finish();
+    if (auto fault = refusal(desk_, world); !fault.empty()) return fault;
+    setup_ = std::move(world.setup);
+    if (hasHands) setup_.scene = sceneForHands(std::move(setup_.scene));
+    setup_.longestGapSeconds = Desk::gapSeconds;
+    setup_.log = LogUse::stream;
+    seconds_ = hasHands ? 0.0 : world.seconds;
+    feltNs_ = seenNs_ = 0;
+    fadedNs_ = -1;
+    fault_.clear();
+    std::error_code none;
+    std::filesystem::create_directories(file.parent_path(), none);
+    session_ = std::make_unique<Session>(setup_);
+    if (!desk_.output().lend(session_.get())) return session_.reset(), "expected a device that plays";
+    desk_.exposure().use(world.layout);
+    desk_.exposure().restartLevels();
+    tellStrips();
+    journal_ = std::make_unique<SessionJournal>(file, *session_, setup_, Provenance{PHYSVIB_VERSION, {{"scene", setup_.scene.name}, {"seed", std::to_string(setup_.seed)}}});
+    if (auto fault = journal_->error(); !fault.empty()) return finish(), fault;
+    driver_ = std::make_unique<ThreadDriver>(*session_, setup_.stepsPerSecond); // from now on time goes on
+    return {};
+}
+
+void StudyWorld::tellStrips() {
+    auto strips = desk_.mix().strips;
+    strips.resize(static_cast<std::size_t>(setup_.channels));
+    for (Strip& strip : strips) strip.gainDb = 0.0, strip.isMuted = strip.isSolo = false;
+    std::array<ToldStrip, limits::maxEnchanters> told{};
+    physvib::tellStrips(told, strips, [this](const RenderControl& control) { return session_->post(control) >= 0; });
+}
+
+void StudyWorld::end() {
+    if (!isMoving()) return;
+    session_->setSlowness(0);
+    RenderControl stop;
+    stop.kind = RenderControl::Kind::stopAll;
+    session_->post(stop);
+    const double playOut = static_cast<double>(session_->playOutFrames()) / desk_.output().sampleRateHz();
+    fadedNs_ = session_->status().sessionNs + static_cast<std::int64_t>(1e9 * playOut) + fadeNs;
+}
+
+std::string StudyWorld::act(const Action& action) { return isMoving() ? session_->act(action) : std::string{}; }
+
+WorldMoment StudyWorld::look() {
+    WorldMoment moment;
+    if (!session_) return moment;
+    for (PlayedEvent played; session_->played().pop(played);) journal_->take(played);
+    moment.sessionNs = session_->readPoses(moment.poses);
+    moment.aheadNs = session_->playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
+    const std::int64_t now = session_->status().sessionNs;
+    if (isMoving()) {
+        session_->setSlowness(desk_.isSilent() ? 0 : 1); // what is not felt is not shown either
+        if (!desk_.isSilent()) feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
+        if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
+    } else if (now >= fadedNs_) {
+        finish();
+    }
+    seenNs_ = now;
+    return moment;
+}
+
+void StudyWorld::finish() {
+    if (!session_) return;
+    desk_.output().lend(nullptr);
+    driver_.reset();
+    session_->advance(); // the world is told as far as time went: a render would let it go on from there
+    if (journal_ && journal_->error().empty()) {
+        for (PlayedEvent played; session_->played().pop(played);) journal_->take(played);
+        journal_->end(session_->status().sessionNs);
+        fault_ = journal_->finish();
+    }
+    journal_.reset();
+    session_.reset();
+}
+
+} // namespace physvib

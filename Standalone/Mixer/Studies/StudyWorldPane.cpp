@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Hands become inputs of the session that is felt.
+#include "Mixer/Studies/StudyWorldPane.h"
+#include "Mixer/Window/Parts.h"
+
+namespace physvib {
+
+StudyWorldPane::StudyWorldPane(Desk& desk)
+    : desk_{desk}
+    , world_{desk} {
+    setTitle("World of the trial");
+    view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) {
+        if (hasHands_) act(ImpulseAction{body, {thesisDrag * screenMetres.x, thesisDrag * screenMetres.y}, point});
+    };
+    tilt_.onValueChange = [this] { act(TiltAction{tilt_.angleRadians()}); };
+    addAndMakeVisible(view_);
+    addChildComponent(tilt_);
+}
+
+void StudyWorldPane::act(const Action& action) {
+    if (const auto fault = world_.act(action); !fault.empty() && onFault) onFault(fault);
+}
+
+std::string StudyWorldPane::begin(CallWorld world, bool hasHands, const std::filesystem::path& file) {
+    if (auto fault = world_.begin(std::move(world), hasHands, file); !fault.empty()) return fault;
+    hasHands_ = hasHands;
+    tilt_.setVisible(hasHands);
+    tilt_.setValue(0.0, juce::dontSendNotification);
+    view_.setDisplayWidth(desk_.displayWidthMetres());
+    view_.show(Scene{}); // also where the same one begins again
+    view_.show(world_.scene());
+    return {};
+}
+
+void StudyWorldPane::refresh() {
+    if (auto moment = world_.look(); !moment.poses.empty()) view_.update(std::move(moment));
+}
+
+void StudyWorldPane::paint(juce::Graphics& g) { drawPanel(g, *this); }
+
+void StudyWorldPane::resized() {
+    view_.setBounds(getLocalBounds().reduced(3));
+    tilt_.setBounds(getLocalBounds().reduced(10).removeFromBottom(44).removeFromRight(44));
+}
+
+} // namespace physvib
