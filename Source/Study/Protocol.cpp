@@ -189,6 +189,7 @@ std::string levelsFault(const Protocol& p) {
 
 std::string validate(const Protocol& p) {
     const auto at = [](const char* list, std::size_t index, const std::string& fault) { return std::string(list) + "[" + std::to_string(index) + "]." + fault; };
+    if (!isPlainPath(p.words)) return "words: expected a name, or a file in the folder or below";
     for (std::size_t i = 0; i < p.sounds.size(); ++i)
         if (!isPlainPath(p.sounds[i].file)) return at("sounds", i, "file: expected a file in the folder or below, of plain characters; others are given with --sound");
     if (p.conditions.empty()) return "conditions: expected one or more, found none";

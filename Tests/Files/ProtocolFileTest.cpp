@@ -31,6 +31,7 @@ TEST(ProtocolFile, FaultsAreNamedByTheirField) {
               "p.json: conditions[0].columns: expected 1 to 16, found 17");
     EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate", "scales": ["x"] }] })"),
               "p.json: scales: expected names that no other column of a trial file has, found \"x\"");
+    EXPECT_EQ(fault(head + oneGrid + R"("words": "../ko.json", "sessions": [{ "name": "main" }] })"), "p.json: words: expected a name, or a file in the folder or below");
     EXPECT_EQ(fault(R"({ "physvib_protocol": 2 })"), "p.json: physvib_protocol: made for a newer PhysVib: expected a version up to 1, found 2");
     EXPECT_EQ(fault("{"), "p.json: line 1, column 2: syntax error while parsing object key - unexpected end of input; expected string literal");
 }

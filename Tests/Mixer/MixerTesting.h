@@ -27,4 +27,10 @@ inline juce::Component* find(juce::Component& root, const juce::String& title) {
     return nullptr;
 }
 
+/// The left button at a place of `c`.
+inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at) {
+    const auto now = juce::Time::getCurrentTime();
+    return {juce::Desktop::getInstance().getMainMouseSource(), at, juce::ModifierKeys::leftButtonModifier, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, &c, &c, now, at, now, 1, false};
+}
+
 } // namespace physvib::test

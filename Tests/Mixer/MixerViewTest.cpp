@@ -28,11 +28,6 @@ void walk(juce::Component& root, const std::function<void(juce::Component&)>& vi
         if (child->isVisible()) walk(*child, visit);
 }
 
-juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at) {
-    const auto now = juce::Time::getCurrentTime();
-    return {juce::Desktop::getInstance().getMainMouseSource(), at, juce::ModifierKeys::leftButtonModifier, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, &c, &c, now, at, now, 1, false};
-}
-
 TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
     Desk desk{onlyNoDevice(), noDevice};
     MixerView view{desk};

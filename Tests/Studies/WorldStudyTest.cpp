@@ -77,6 +77,15 @@ protected:
         EXPECT_TRUE(table) << table.error;
         return table.value;
     }
+    /// Of each part of a trial, as the row tells them.
+    std::vector<double> levels(std::size_t trial, const std::string& column) const {
+        const auto table = rows();
+        std::istringstream cell{table.rows.at(trial).cells[*table.column(column)]};
+        std::vector<double> all;
+        for (std::string level; std::getline(cell, level, '|');) all.push_back(std::stod(level));
+        EXPECT_EQ(all.size(), 3u);
+        return all;
+    }
     /// The calls of every row, one by one.
     std::vector<std::string> calls() const {
         std::vector<std::string> all;
@@ -232,6 +241,9 @@ TEST_F(AWorldInAStudy, IsDraggedTiltedAndRatedAndEveryLogRendersWhatWasFelt) {
         EXPECT_NEAR(std::get<TiltAction>(inputs.back().action).angleRadians, -juce::degreesToRadians(30.0), 1e-9);
     }
     expectFelt(all);
+    for (const double peak : levels(1, "peak_g")) EXPECT_NEAR(peak, 1.5, 0.015) << "a fixed level, whatever hit what";
+    for (const double rms : levels(1, "rms_g")) EXPECT_GT(rms, 0.0);
+    for (const double peak : levels(0, "peak_g")) EXPECT_GT(peak, 0.0);
 }
 
 TEST_F(AWorldInAStudy, IsPlayedWithAndRatedByKeysAlone) {

@@ -28,7 +28,7 @@ std::string StudyWorld::begin(CallWorld world, bool hasHands, const std::filesys
     setup_.log = LogUse::stream;
     seconds_ = hasHands ? 0.0 : world.seconds;
     feltNs_ = seenNs_ = 0;
-    fadedNs_ = -1;
+    stoppedNs_ = -1;
     fault_.clear();
     std::error_code none;
     std::filesystem::create_directories(file.parent_path(), none);
@@ -53,12 +53,10 @@ void StudyWorld::tellStrips() {
 
 void StudyWorld::end() {
     if (!isMoving()) return;
-    session_->setSlowness(0);
     RenderControl stop;
     stop.kind = RenderControl::Kind::stopAll;
-    session_->post(stop);
-    const double playOut = static_cast<double>(session_->playOutFrames()) / desk_.output().sampleRateHz();
-    fadedNs_ = session_->status().sessionNs + static_cast<std::int64_t>(1e9 * playOut) + fadeNs;
+    session_->setSlowness(0);
+    stoppedNs_ = session_->post(stop); // no room for it: the world goes on with the next look, to be ended later
 }
 
 std::string StudyWorld::act(const Action& action) { return isMoving() ? session_->act(action) : std::string{}; }
@@ -74,7 +72,7 @@ WorldMoment StudyWorld::look() {
         session_->setSlowness(desk_.isSilent() ? 0 : 1); // what is not felt is not shown either
         if (!desk_.isSilent()) feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
-    } else if (now >= fadedNs_) {
+    } else if (session_->nextFeltNs() >= stoppedNs_ + fadeNs) { // L may have grown meanwhile
         finish();
     }
     seenNs_ = now;

@@ -31,7 +31,7 @@ public:
     std::string begin(CallWorld world, bool hasHands, const std::filesystem::path& file);
 
     bool isPlaying() const noexcept { return session_ != nullptr; } ///< it moves, or fades out
-    bool isMoving() const noexcept { return isPlaying() && fadedNs_ < 0; }
+    bool isMoving() const noexcept { return isPlaying() && stoppedNs_ < 0; }
     double feltSeconds() const noexcept { return 1e-9 * static_cast<double>(feltNs_); } ///< of this one, or the last, while it was not silent
 
     /// It stands still, and what rings fades out.
@@ -56,7 +56,7 @@ private:
     std::unique_ptr<SimulationDriver> driver_;
     std::string fault_;
     double seconds_ = 0.0; // of a world without hands
-    std::int64_t feltNs_ = 0, seenNs_ = 0, fadedNs_ = -1;
+    std::int64_t feltNs_ = 0, seenNs_ = 0, stoppedNs_ = -1; // the latter: session time of what stops it
 };
 
 } // namespace physvib
