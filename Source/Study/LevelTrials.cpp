@@ -2,7 +2,6 @@
 // Reversals from the sequence of levels; means in dB or in logarithms.
 #include "Study/LevelTrials.h"
 #include "Study/QuestMethod.h"
-#include "Study/Statistics/Distributions.h"
 #include "Study/Statistics/Moments.h"
 #include <algorithm>
 #include <charconv>
@@ -60,7 +59,7 @@ double staircaseThreshold(const Run& run, LevelSummary& summary) {
 double questThreshold(const Run& run, LevelSummary& summary) {
     QuestPlus quest{*questPlan(run.front()->quest)};
     for (const LevelTrial* trial : run) quest.answerAt(trial->levelDb, trial->value > 0.5);
-    summary.halfInterval = normalQuantile(0.975) * quest.thresholdDeviation(); // unless there are others
+    summary.halfInterval = std::hypot(summary.halfInterval, quest.thresholdHalfInterval(0.95)); // of the sum of thresholds
     return quest.estimate().threshold;
 }
 
@@ -73,6 +72,7 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
         for (const auto& [session, run] : sessions)
             own.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary) : staircaseThreshold(run, summary));
         thresholds.push_back(meanOf(own));
+        summary.halfInterval /= static_cast<double>(own.size());
     }
     const Moments moments{thresholds};
     summary.estimate = moments.mean;

@@ -59,6 +59,7 @@ TEST(Psychometric, SimulatedObserversAreFoundWithoutBias) {
             errors.push_back((fit.function.threshold - truth.threshold) / truth.width);
         }
         EXPECT_LT(std::abs(Moments{errors}.mean), 0.02);
+        std::cout << "bias " << 100.0 * Moments{errors}.mean << " % of the width\n";
     }
 }
 
@@ -71,6 +72,27 @@ TEST(Psychometric, WhatCannotBeFittedIsNamed) {
         const auto fit = fitPsychometric(steps, shapes[2], 0.5);
         EXPECT_TRUE(std::isfinite(fit.function.threshold) && std::isfinite(fit.function.width) && std::isfinite(fit.logLikelihood));
     }
+}
+
+TEST(Psychometric, IntervalsOfFittedParticipantsHoldAsOftenAsTheySay) {
+    SeededRandom random{5, "studies"};
+    constexpr int studies = 500, participants = 6;
+    double off = 0.0, widths = 0.0;
+    int held = 0;
+    for (int study = 0; study < studies; ++study) {
+        std::vector<double> thresholds;
+        for (int p = 0; p < participants; ++p) {
+            const PsychometricFunction truth{shapes[study % 3], 5.0 + random.normal(), 3.0 + 3.0 * random.uniform(), 0.5, 0.02};
+            thresholds.push_back(fitPsychometric(observed(truth, 60, random), truth.shape, 0.5).function.threshold);
+            off += thresholds.back() - truth.threshold;
+            widths += truth.width;
+        }
+        const auto interval = bootstrapMean(thresholds, static_cast<std::uint64_t>(study));
+        held += interval.least < 5.0 && 5.0 < interval.most;
+    }
+    EXPECT_LT(std::abs(off), 0.02 * widths);
+    EXPECT_NEAR(held, 0.95 * studies, 0.02 * studies);
+    std::cout << "bias " << 100.0 * off / widths << " % of the width, intervals hold in " << 100.0 * held / studies << " %\n";
 }
 
 TEST(Bootstrap, IntervalsOfTwelveParticipantsHoldAsOftenAsTheySay) {
@@ -132,6 +154,19 @@ TEST(QuestPlus, BeliefGetsNarrower) {
     for (int i = 0; i < 30; ++i) quest.answer(quest.level() > 10.0 || i % 2);
     EXPECT_LT(quest.thresholdDeviation(), 0.3 * before);
     EXPECT_NEAR(quest.estimate().threshold, 10.0, 3.0);
+}
+
+TEST(QuestPlus, IntervalsHoldTheirShareOfTheBelief) {
+    QuestPlan plan;
+    for (int i = 0; i <= 30; ++i) plan.thresholds.push_back(i);
+    plan.levels = plan.thresholds;
+    plan.widths = {3, 6, 12};
+    EXPECT_NEAR(QuestPlus{plan}.thresholdHalfInterval(0.95), 0.95 * 15.5, 1e-9) << "all alike likely, half a step beyond both ends";
+    plan.thresholds = {4.0};
+    EXPECT_EQ(QuestPlus{plan}.thresholdHalfInterval(0.95), 0.0) << "nothing else is possible";
+    plan.thresholds = {4.0, 5.0, 8.0};
+    const double third = 1.0 / 3.0; // of the belief each: 3.5 to 4.5, to 6.5, to 9.5; the mean is 17 / 3
+    EXPECT_NEAR(QuestPlus{plan}.thresholdHalfInterval(third * (2.0 * 0.5 / 2.0)), 0.5, 1e-9);
 }
 
 TEST(PowerLaw, ExponentAndFactorComeBack) {

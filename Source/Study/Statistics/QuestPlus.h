@@ -26,10 +26,12 @@ public:
     void answerAt(double level, bool isCorrect);                  ///< to a trial at the nearest of the plan's levels, whoever chose it
     PsychometricFunction estimate() const;                        ///< mean over what is still possible
     double thresholdDeviation() const;                            ///< its standard deviation
+    double thresholdHalfInterval(double share) const;             ///< about its mean, that holds this share of the belief
     int trials() const noexcept { return trials_; }
 
 private:
     PsychometricFunction possible(std::size_t index) const;
+    std::vector<double> thresholdBelief() const;
     double correct(std::size_t level, std::size_t index) const { return correct_[level * belief_.size() + index]; }
     void chooseNext();
 
