@@ -5,6 +5,7 @@
 #include "Study/Statistics/Distributions.h"
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -71,11 +72,19 @@ private:
     static Eigen::Index groupOf(const Design& design, Eigen::Index participant) { return static_cast<Eigen::Index>(design.groups[static_cast<std::size_t>(participant)]); }
 };
 
+/// Whether differences between levels are the same for everyone, or follow from others: by the bound of R's qr, which car asks.
+bool isSingular(const Matrix& error) {
+    const Matrix triangle = error.householderQr().matrixQR();
+    for (Eigen::Index i = 0; i < error.cols(); ++i)
+        if (std::abs(triangle(i, i)) < 1e-7 * error.col(i).norm()) return true;
+    return false;
+}
+
 /// Mauchly (1940), p by Box's expansion to the second order. `shape`: the error matrix with a mean diagonal of 1. `cells` stand where Box has p:
 /// so they do in R's mauchly.test and in car, and a p that differs from everybody's in the fourth digit helps nobody.
 void addMauchly(const Matrix& shape, double df, double cells, Sphericity& sphericity) {
     const auto p = static_cast<double>(shape.rows());
-    if (df < p) return;
+    if (df < p || isSingular(shape)) return;
     const Eigen::LLT<Matrix> root{shape};
     if (root.info() != Eigen::Success) return;
     const double logW = 2.0 * root.matrixLLT().diagonal().array().log().sum();

@@ -10,7 +10,7 @@ namespace physvib {
 
 /// Of effects of two and more degrees of freedom within participants.
 struct Sphericity {
-    std::optional<double> mauchlyW, mauchlyP; ///< none where there are fewer participants than the effect has dimensions
+    std::optional<double> mauchlyW, mauchlyP; ///< none where there are too few participants, or some differences follow from others
     double epsilonHuynhFeldt = 1.0;           ///< may exceed 1; its p takes it for 1 then
     double pHuynhFeldt = 1.0;
 };

@@ -28,7 +28,7 @@ std::string sphericityWords(const TestLine& line) {
     const Sphericity& s = *line.sphericity;
     std::string words = " (epsilon " + fixedNumber(*line.epsilon, 3) + "), Huynh-Feldt " + chanceWords(s.pHuynhFeldt) + " (epsilon " + fixedNumber(s.epsilonHuynhFeldt, 3) + ")";
     if (s.mauchlyW) return words + ", Mauchly W = " + fixedNumber(*s.mauchlyW, 3) + " " + chanceWords(*s.mauchlyP);
-    return words + ", too few participants for Mauchly's test";
+    return words + ", no Mauchly's test (too few participants, or differences that follow from others)";
 }
 
 void tell(std::ostream& out, const TestReport& report, const TestLine& line) {
