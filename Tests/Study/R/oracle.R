@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Makes random designs and what R says of them: the tables that Tests/Study/StatisticsTest.cpp reads.
 #   Rscript oracle.R COUNT FOLDER [SEED]      writes FOLDER/designs.txt and FOLDER/results.csv
-# The tables beside this script: Rscript oracle.R 120 . ; all that were compared once: Rscript oracle.R 1000 /tmp/designs, then
-# PHYSVIB_DESIGNS=/tmp/designs physvib-study-tests --gtest_filter='Statistics.AsInR'.
-# Debian 12: apt-get install --no-install-recommends r-base-core r-cran-afex r-cran-car r-cran-rstatix
+# The tables beside this script: Rscript oracle.R 120 . ; others are made, compared and forgotten by compare.sh, which installs R as well.
 suppressMessages({library(afex); library(car); library(rstatix)})
 options(warn = -1)
 arguments <- commandArgs(TRUE)
 count <- as.integer(arguments[1]); folder <- arguments[2]
+dir.create(folder, showWarnings = FALSE, recursive = TRUE)
 set.seed(if (length(arguments) > 2) as.integer(arguments[3]) else 1)
 
 number <- function(x) ifelse(is.nan(x), "NaN", ifelse(is.na(x), "", ifelse(x == Inf, "?", sprintf("%.13g", x))))
@@ -34,9 +33,16 @@ anovaLines <- function(id, test, fit, n, only = NULL) {
       if (effect %in% rownames(whole$sphericity.tests)) whole$pval.adjustments[effect, ] else
       c("GG eps" = Inf, "Pr(>F[GG])" = Inf, "HF eps" = Inf, "Pr(>F[HF])" = Inf)
     mauchly <- if (!is.null(adjusted) && effect %in% rownames(whole$sphericity.tests)) whole$sphericity.tests[effect, ] else c(NA, NA)
-    p <- row[["Pr(>F)"]]
+    p <- row[["Pr(>F)"]]; size <- row[["ges"]]
+    if (!is.null(whole)) {
+      squares <- whole$univariate.tests
+      if (any(squares[, "Error SS"] < 1e-12 * max(squares))) stop("an effect that is the same for everyone has F of rounding") # negative, 1e14 ...
+      # afex adds up what differs of the errors' sums of squares: two errors of the same size count once, which is not the formula
+      errors <- squares[!duplicated(gsub("[^abc]", "", sub("(Intercept)", "", rownames(squares), fixed = TRUE))), "Error SS"]
+      if (length(unique(errors)) < length(errors)) size <- squares[effect, "Sum Sq"] / (squares[effect, "Sum Sq"] + sum(errors))
+    }
     say(id, test, effect, row[["num Df"]], row[["den Df"]], row[["F"]], p,
-        if (is.null(adjusted)) p else adjusted[["Pr(>F[GG])"]], if (is.null(adjusted)) (if (isWithin) 1 else NA) else adjusted[["GG eps"]], row[["ges"]], n,
+        if (is.null(adjusted)) p else adjusted[["Pr(>F[GG])"]], if (is.null(adjusted)) (if (isWithin) 1 else NA) else adjusted[["GG eps"]], size, n,
         if (is.null(adjusted)) NA else adjusted[["HF eps"]], if (is.null(adjusted)) NA else adjusted[["Pr(>F[HF])"]], mauchly[[1]], mauchly[[2]])
   }
 }
