@@ -3,7 +3,11 @@
 #include "Files/Charts/ChartAxis.h"
 #include "Files/Charts/Charts.h"
 #include "Files/Charts/Svg.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <iostream>
 #include <set>
 
 namespace physvib {
@@ -75,6 +79,53 @@ TEST(Charts, SeriesAreToldApartWithoutColours) {
     EXPECT_EQ(markers.size(), chartStyles);
     EXPECT_EQ(dashes.size(), chartStyles);
     EXPECT_EQ(colours.size(), chartStyles);
+}
+
+using Triple = std::array<double, 3>;
+using Mixing = std::array<Triple, 3>;
+
+Triple mixed(const Mixing& rows, const Triple& colour) {
+    Triple out{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) out[i] += rows[i][j] * colour[j];
+    return out;
+}
+
+/// Linear red, green and blue of "#0072B2".
+Triple lightOf(std::string_view words) {
+    Triple light{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double c = std::stoi(std::string{words.substr(1 + 2 * i, 2)}, nullptr, 16) / 255.0;
+        light[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    }
+    return light;
+}
+
+/// CIE L*a*b*, in which 2.3 is a difference that is just seen.
+Triple labOf(Triple light) {
+    for (double& c : light) c = std::clamp(c, 0.0, 1.0);
+    const Triple xyz = mixed({{{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}}, light), white{0.9505, 1.0, 1.089};
+    Triple f{};
+    for (std::size_t i = 0; i < 3; ++i) f[i] = xyz[i] / white[i] > 0.008856 ? std::cbrt(xyz[i] / white[i]) : 7.787 * xyz[i] / white[i] + 16.0 / 116.0;
+    return {116.0 * f[1] - 16.0, 500.0 * (f[0] - f[1]), 200.0 * (f[1] - f[2])};
+}
+
+TEST(Charts, ColourBlindReadersSeeEveryColourAsAnother) {
+    const std::pair<const char*, Mixing> eyes[] = { // Machado and others 2009, complete
+        {"without red", {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}}},
+        {"without green", {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}}},
+        {"without blue", {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}},
+    };
+    for (const auto& [words, eye] : eyes) {
+        double least = 1000.0;
+        for (std::size_t a = 0; a < chartStyles; ++a)
+            for (std::size_t b = 0; b < a; ++b) {
+                const Triple one = labOf(mixed(eye, lightOf(seriesColour(a)))), other = labOf(mixed(eye, lightOf(seriesColour(b))));
+                least = std::min(least, std::hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]));
+            }
+        EXPECT_GT(least, 15.0) << words;
+        std::cout << words << ": the two that are most alike differ by " << least << '\n';
+    }
 }
 
 TEST(Charts, AxesHaveRoundTicksAroundAllValues) {
