@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# Simulates every built-in study, makes its report, and looks at it from outside: pictures as XML, the page in headless Chromium (no complaint
+# Simulates every built-in study and the thesis', makes their reports, and looks at them from outside: pictures as XML, the page in headless Chromium (no complaint
 # on the console, nothing loaded, A4 in print), every p again by R. Pictures of the pages stay in FOLDER, to be looked at.
 # Usage: report.sh PHYSVIB FOLDER [PARTICIPANTS]
 set -euo pipefail
@@ -18,10 +18,11 @@ has() { command -v "$1" >/dev/null 2>&1; }
 # in_chromium FOLDER: prints index.html there.
 in_chromium() {
     chromium-headless-shell --no-sandbox --disable-gpu --enable-logging=stderr --no-pdf-header-footer --print-to-pdf="$1/page.pdf" "file://$(realpath "$1")/index.html" >/dev/null 2>"$1/chromium.txt"
-    if grep -q CONSOLE "$1/chromium.txt"; then fault "$(grep CONSOLE "$1/chromium.txt" | head -n 3)"; fi
+    complaints=$(grep -c CONSOLE "$1/chromium.txt" || true)
+    [ "$complaints" -eq 0 ] || fault "$(grep CONSOLE "$1/chromium.txt" | head -n 3)"
     size=$(pdfinfo "$1/page.pdf" | sed -n 's/^Page size: *//p')
     case $size in *A4*) ;; *) fault "printed as $size" ;; esac
-    echo "  Chromium: no complaint, $(pdfinfo "$1/page.pdf" | sed -n 's/^Pages: *//p') pages, $size"
+    echo "  Chromium: $complaints complaints, $(pdfinfo "$1/page.pdf" | sed -n 's/^Pages: *//p') pages, $size"
     rm -f "$1"/page-*.png
     pdftoppm -r 80 -png "$1/page.pdf" "$1/page"
 }
@@ -34,6 +35,7 @@ look_at() {
         echo "  $pictures pictures are XML"
     fi
     if has chromium-headless-shell && has pdfinfo; then in_chromium "$1"; else echo "  Chromium is not here: the page was not opened"; fi
+    [ -e "$1/report.R" ] || return 0 # the thesis' own page has no tests
     if has Rscript; then
         (cd "$1" && Rscript report.R >r.txt 2>&1) || fault "R: $(grep -m 3 -v '^same' "$1/r.txt")"
         echo "  R: $(tail -n 1 "$1/r.txt")"
@@ -47,6 +49,12 @@ for study in $("$physvib" study list | cut -d' ' -f1); do
     "$physvib" report "$folder/trials/$study"-P*.csv --out "$folder/$study" | sed 's/^/  /' >"$folder/told"
     echo "$study: $(tail -n 1 "$folder/told" | sed 's/.*  //')"
     look_at "$folder/$study"
+done
+rm -rf "${folder:?}/thesis"
+"$physvib" report thesis --out "$folder/thesis" >/dev/null
+for page in "$folder/thesis" "$folder"/thesis/*/; do
+    echo "${page#"$folder/"}"
+    look_at "${page%/}"
 done
 echo "$faults faults"
 [ "$faults" -eq 0 ]

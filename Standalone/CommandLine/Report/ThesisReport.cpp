@@ -90,6 +90,7 @@ void ThesisPage::tellTests() {
     page_.heading("Tests as printed");
     page_.paragraph("p of every printed statistic by its printed degrees of freedom, beside the printed p; both may have been rounded. The degrees of freedom of Table 4.1 are those of an analysis of single trials with a block per participant "
                     "(16 x 175 - 35 - 15 = 2750), not of repeated measures.");
+    page_.paragraph("What cannot be had again from the print: F from means, as no mean has its deviation beside it, and information transfer from counts, as no confusion matrix is printed; there are bounds below, and the rehearsals.");
     ExportTable table{"thesis-tests", false, "where,effect,statistic,df1,df2,value,p_printed,p,as_printed,note"};
     std::size_t differing = 0;
     for (const thesis::Test& test : thesis::tests) {
