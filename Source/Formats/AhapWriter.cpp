@@ -14,8 +14,6 @@ constexpr double intensityTolerance = 0.002, sharpnessTolerance = 0.001;
 constexpr double steepSeconds = 0.001;       // what rises or falls sooner is a step to a hand
 constexpr int rootLines = 6; // of a line of amplitude: its root bends
 
-double shortened(double value) { return std::round(value * 1e6) / 1e6; }
-
 OrderedJson parametersJson(double intensity, double sharpness) {
     return OrderedJson::array({{{"ParameterID", "HapticIntensity"}, {"ParameterValue", shortened(intensity)}}, {{"ParameterID", "HapticSharpness"}, {"ParameterValue", shortened(sharpness)}}});
 }

@@ -37,8 +37,7 @@ std::vector<double> momentsOf(const ClipChannel& channel) {
                     if (p.seconds <= wave.seconds()) moments.push_back(wave.startSeconds + p.seconds);
         }
     std::ranges::sort(moments);
-    const auto twins = std::ranges::unique(moments, [](double a, double b) { return b - a < 1e-6; });
-    moments.erase(twins.begin(), twins.end());
+    moments.erase(std::unique(moments.begin(), moments.end(), [](double a, double b) { return b - a < 1e-6; }), moments.end());
     return moments;
 }
 

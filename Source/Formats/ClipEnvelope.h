@@ -2,6 +2,7 @@
 // A channel as phones know it: one amplitude and one frequency at any moment.
 #pragma once
 #include "Formats/Clip.h"
+#include <cmath>
 #include <vector>
 
 namespace physvib {
@@ -18,5 +19,8 @@ std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSec
 
 /// As few points of `curve` as keep within `tolerance` of it. Any thread.
 std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance);
+
+/// Of a time, an amplitude or a share all that anybody feels, in few digits. Any thread.
+inline double shortened(double value) { return std::round(value * 1e6) / 1e6; }
 
 } // namespace physvib

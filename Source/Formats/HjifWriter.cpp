@@ -12,7 +12,7 @@ namespace {
 using mpeg::tickOf;
 
 /// Of a value up to 10 all that anybody feels, in few digits.
-double shortened(double value) { return std::round(value * 1e8) / 1e8; }
+double eightDigits(double value) { return std::round(value * 1e8) / 1e8; }
 
 constexpr double usualTopHz = 1000.0; // of the bands that we write: all that is felt
 
@@ -41,7 +41,7 @@ OrderedJson keyframesJson(const ClipWave& wave, double gain) {
     const auto addFrequency = [&](OrderedJson& frame) { frame["frequency_modulation"] = (frequency++)->value; };
     for (const ClipPoint& p : wave.amplitude) {
         for (; frequency != wave.frequencyHz.end() && relative(*frequency) < relative(p);) addFrequency(frames.emplace_back(OrderedJson{{"relative_position", relative(*frequency)}}));
-        OrderedJson& frame = frames.emplace_back(OrderedJson{{"relative_position", relative(p)}, {"amplitude_modulation", shortened(p.value / gain)}});
+        OrderedJson& frame = frames.emplace_back(OrderedJson{{"relative_position", relative(p)}, {"amplitude_modulation", eightDigits(p.value / gain)}});
         if (frequency != wave.frequencyHz.end() && relative(*frequency) == relative(p)) addFrequency(frame);
     }
     return frames;
@@ -50,13 +50,13 @@ OrderedJson keyframesJson(const ClipWave& wave, double gain) {
 std::string effectText(const ClipWave& wave, double gain) {
     return jsonLine({{"effect_type", "Basis"},
                      {"position", tickOf(wave.startSeconds)},
-                     {"phase", shortened(std::min(wave.phaseRadians, mpeg::mostPhase))},
+                     {"phase", eightDigits(std::min(wave.phaseRadians, mpeg::mostPhase))},
                      {"base_signal", mpeg::waveforms[static_cast<std::size_t>(wave.waveform)]},
                      {"keyframes", keyframesJson(wave, gain)}});
 }
 
 std::string effectText(const ClipTransient& transient, double gain) {
-    const OrderedJson frame{{"relative_position", 0}, {"amplitude_modulation", shortened(transient.amplitude / gain)}, {"frequency_modulation", transient.frequencyHz}};
+    const OrderedJson frame{{"relative_position", 0}, {"amplitude_modulation", eightDigits(transient.amplitude / gain)}, {"frequency_modulation", transient.frequencyHz}};
     return jsonLine({{"effect_type", "Basis"}, {"position", tickOf(transient.seconds)}, {"keyframes", OrderedJson::array({frame})}});
 }
 

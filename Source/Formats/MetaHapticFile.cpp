@@ -50,8 +50,6 @@ Clip readClip(const JsonField& root, const FrequencyScale& scale) {
     return clip;
 }
 
-double shortened(double value) { return std::round(value * 1e6) / 1e6; }
-
 /// The envelope with a point at each transient, and time enough for two.
 std::vector<ClipPoint> amplitudesOf(const std::vector<EnvelopePoint>& envelope, const std::vector<ClipTransient>& transients) {
     std::vector<ClipPoint> curve;
