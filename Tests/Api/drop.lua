@@ -5,6 +5,7 @@ love = {physics = {getMeter = function() return metre end}}
 
 local function fixture(kind, mass, motion)
     local body = {getType = function() return kind end, getMass = function() return mass end, getGravityScale = function() return 1 end,
+                  getPosition = function() return 0.3 * metre, -(motion.height or 0) * metre end,
                   getLinearVelocityFromWorldPoint = function() return 0, motion.speed * metre end}
     return {getBody = function() return body end, isSensor = function() return false end}
 end

@@ -82,7 +82,7 @@ Attachment.__index = Attachment
 
 -- `world`: a love.physics world. Its callbacks go on being called: those that are there, and those set later.
 function physvib.attach(world, settings)
-    local self = setmetatable({world = world, metre = love.physics.getMeter(), ids = {}, next = 0, touching = {}}, Attachment)
+    local self = setmetatable({world = world, metre = love.physics.getMeter(), ids = {}, next = 0, touching = {}, starts = {}}, Attachment)
     local name = ffi.new("physvib_world[1]")
     call("world_create", filled("world_settings", settings), name)
     self.name = ffi.gc(name[0], c.physvib_world_free)
@@ -95,6 +95,7 @@ end
 function Attachment:set(fixture, values)
     local id = self:id(fixture)
     self:tell(fixture, id, values)
+    self.starts[fixture] = values.is_camera and {} or nil
     return id
 end
 
@@ -118,7 +119,15 @@ end
 -- To be called when a fixture is destroyed, not within update.
 function Attachment:remove(fixture)
     if self.ids[fixture] then call("world_remove_body", self.name, self.ids[fixture]) end
-    self.ids[fixture] = nil
+    self.ids[fixture], self.starts[fixture] = nil, nil
+end
+
+-- How far a camera has come in this step, pixels along the normal: where Box2D stops what is fast at what it strikes, that tells when.
+function Attachment:way(fixture, nx, ny)
+    local start = self.starts[fixture]
+    if not start then return 0 end
+    local x, y = fixture:getBody():getPosition()
+    return (x - start.x) * nx + (y - start.y) * ny
 end
 
 function Attachment:listen()
@@ -168,7 +177,9 @@ function Attachment:look(a, b, contact)
     if not x then return end
     local ax, ay = a:getBody():getLinearVelocityFromWorldPoint(x, y)
     local bx, by = b:getBody():getLinearVelocityFromWorldPoint(x, y)
-    touch.approach = ((ax - bx) * nx + (ay - by) * ny) / self.metre
+    local speed = (ax - bx) * nx + (ay - by) * ny
+    touch.approach = speed / self.metre
+    touch.fraction = speed > 0 and self.dt > 0 and math.max(0, math.min(1, (self:way(a, nx, ny) - self:way(b, nx, ny)) / (speed * self.dt))) or 0
 end
 
 -- LÖVE tells impulses in kg pixels/s: one or two points, normal and tangential.
@@ -183,6 +194,7 @@ function Attachment:push(a, b, contact, n1, t1, n2, t2)
     told.normal_x, told.normal_y = contact:getNormal()
     told.impulse_n_s, told.tangential_n_s = (n1 + (n2 or 0)) / self.metre, (t1 + (t2 or 0)) / self.metre
     told.approach_m_per_s = touch.is_new and touch.approach or -1e300
+    told.fraction = touch.is_new and touch.fraction or -1e300
     call(touch.is_new and "world_begin" or "world_push", self.name, told)
     touch.is_new, touch.is_told = false, true
 end
@@ -193,6 +205,10 @@ function Attachment:update(dt)
     for i = 1, 4 do
         if now[i] ~= self.ours[i] then self:listen() break end -- the game has set others
     end
+    for fixture, start in pairs(self.starts) do
+        start.x, start.y = fixture:getBody():getPosition()
+    end
+    self.dt = dt
     local gx, gy = self.world:getGravity()
     call("world_begin_step", self.name, dt, math.sqrt(gx * gx + gy * gy) / self.metre)
     self.world:update(dt)

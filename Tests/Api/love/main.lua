@@ -1,0 +1,109 @@
+-- SPDX-License-Identifier: MIT
+-- A game of LÖVE's own: twenty balls fall into a room, twice, with PhysVib and without. Their motion is the same to the bit, callbacks are
+-- called as often, and what is felt is what LÖVE's own callbacks say. With PHYSVIB_LIBRARY, and physvib.lua in LUA_PATH.
+local physvib = require("physvib")
+local metre, dt, steps = 30, 1 / 60, 600
+
+local function room()
+    local world = love.physics.newWorld(0, 9.81 * metre)
+    local made = {world = world, balls = {}, calls = {0, 0, 0, 0}, blows = {}, step = 0}
+    local ground = love.physics.newBody(world, 300, 600, "static")
+    for _, at in ipairs({{0, 0, 600, 20}, {-310, -300, 20, 620}, {310, -300, 20, 620}}) do
+        love.physics.newFixture(ground, love.physics.newRectangleShape(unpack(at)))
+    end
+    for i = 1, 20 do
+        local ball = love.physics.newFixture(love.physics.newBody(world, 30 + 27 * i, 100 + 97 * i % 400, "dynamic"), love.physics.newCircleShape(8 + i % 4))
+        ball:setRestitution(0.6)
+        made.balls[i] = ball
+    end
+    return made
+end
+
+local function counter(made, i, more)
+    return function(a, b, contact, ...)
+        made.calls[i] = made.calls[i] + 1
+        if more then more(a, b, contact, ...) end
+    end
+end
+
+-- The impulses of what begins with a ball, as LÖVE tells them.
+local function listen(made)
+    local begun = {}
+    made.world:setCallbacks(counter(made, 1, function(_, _, contact) begun[contact] = true end), counter(made, 2), counter(made, 3),
+        counter(made, 4, function(a, b, contact, impulse, _, second)
+            if begun[contact] and (a == made.balls[1] or b == made.balls[1]) then made.blows[#made.blows + 1] = {made.step, (impulse + (second or 0)) / metre} end
+            begun[contact] = nil
+        end))
+end
+
+local function fail(what, ...)
+    print(what:format(...))
+    love.event.quit(1)
+    error(what:format(...))
+end
+
+-- A ball onto a floor at many heights: how far the onset is from where its surface, on its straight way within a step, meets the floor's.
+function onset()
+    local worst = 0
+    for height = 50, 400, 7 do
+        local world = love.physics.newWorld(0, 9.81 * metre)
+        local floor = love.physics.newFixture(love.physics.newBody(world, 300, 590, "static"), love.physics.newRectangleShape(600, 20))
+        local ball = love.physics.newFixture(love.physics.newBody(world, 300, 570 - height, "dynamic"), love.physics.newCircleShape(10))
+        local haptics = physvib.attach(world, {field_width_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
+        haptics:set(ball, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
+        local events, meets = {}, nil
+        for step = 0, 150 do
+            local _, speed = ball:getBody():getLinearVelocity()
+            local gap, down = 570 - ball:getBody():getY(), speed + 9.81 * metre * dt
+            if not meets and gap < down * dt then meets = step * dt + gap / down end
+            haptics:update(dt)
+        end
+        haptics:take(events, true)
+        worst = math.max(worst, math.abs(tonumber(events[1].time_ns) * 1e-9 - meets))
+    end
+    return worst
+end
+
+function love.load()
+    love.physics.setMeter(metre)
+    local plain, felt = room(), room()
+    listen(plain)
+    listen(felt)
+    local haptics = physvib.attach(felt.world, {field_width_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
+    haptics:set(felt.balls[1], {frequency_hz = 200, decay_per_s = 30, is_camera = true})
+    local events = {}
+    for step = 1, steps do
+        plain.step, felt.step = step, step
+        if step == 300 then listen(plain) listen(felt) end -- the game sets others
+        plain.world:update(dt)
+        haptics:update(dt)
+        haptics:take(events)
+        for i = 1, 20 do
+            local x, y = plain.balls[i]:getBody():getPosition()
+            local u, v = felt.balls[i]:getBody():getPosition()
+            if x ~= u or y ~= v then fail("step %d, ball %d: the motion is another one", step, i) end
+        end
+    end
+    haptics:take(events, true)
+    for i = 1, 4 do
+        if plain.calls[i] ~= felt.calls[i] or plain.calls[i] == 0 then fail("callback %d: %d calls without, %d with", i, plain.calls[i], felt.calls[i]) end
+    end
+
+    -- Each event that was no chain's: its impulse and its step are those of a blow that LÖVE told.
+    local found, heard = 0, 0
+    for _, blow in ipairs(felt.blows) do
+        if blow[2] > 0.5 * felt.balls[1]:getBody():getMass() then
+            heard = heard + 1
+            for _, event in ipairs(events) do
+                local at = tonumber(event.time_ns) * 1e-9 / dt
+                if math.abs(event.impulse_n_s - blow[2]) < 1e-4 * blow[2] and at > blow[1] - 1.01 and at < blow[1] + 0.01 then found = found + 1 break end
+            end
+        end
+    end
+    local worst = onset()
+    print(("onset %.2f ms from the pencil's"):format(1000 * worst))
+    if worst > 0.002 then fail("expected 2 ms") end
+    print(("%d events, %d of %d hard blows of LÖVE's among them; %d begins, %d solved"):format(#events, found, heard, felt.calls[1], felt.calls[4]))
+    if heard < 3 or found ~= heard then fail("expected all blows") end
+    love.event.quit(0)
+end
