@@ -77,6 +77,11 @@ public:
     /// Strikes apart from the world (a test pulse, a material to be heard): each is felt L after session time plus its
     /// own time, and logged. False, and nothing is played, if one cannot be (see isPlayable). Any thread but R.
     bool play(std::span<const CollisionEvent> strikes);
+    /// The same at session times of their own, of which those that are over are late.
+    bool playAt(std::span<const CollisionEvent> strikes);
+
+    /// Session time. Any thread but R.
+    std::int64_t presentNs() const;
 
     /// The scene starts anew when frame `offset` of the next block is the present, as a new take. R, wait-free, or M.
     void restart(int offset = 0) noexcept;
@@ -111,6 +116,7 @@ public:
 private:
     struct LiveSource;
     struct OfflineSource;
+    bool addStrikes(std::span<const CollisionEvent> strikes, std::int64_t startNs);
     bool popControl(RenderControl& control) noexcept;
     int outputs() const noexcept { return setup_.channels + (heard_ ? 1 : 0); }
     ClockLaw lawAt(int sampleRateHz, int maxBlockFrames) const;

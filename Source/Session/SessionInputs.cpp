@@ -55,11 +55,25 @@ std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
 
 bool Session::play(std::span<const CollisionEvent> strikes) {
     const std::scoped_lock lock{inputMutex_, worldMutex_};
-    const std::int64_t now = nowNs();
+    return addStrikes(strikes, nowNs());
+}
+
+bool Session::playAt(std::span<const CollisionEvent> strikes) {
+    const std::scoped_lock lock{inputMutex_, worldMutex_};
+    return addStrikes(strikes, 0);
+}
+
+std::int64_t Session::presentNs() const {
+    const std::lock_guard lock{inputMutex_};
+    return nowNs();
+}
+
+// Both mutexes are held.
+bool Session::addStrikes(std::span<const CollisionEvent> strikes, std::int64_t startNs) {
     const auto isTimely = [](const CollisionEvent& e) { return isPlayable(e) && e.timeNs < limits::maxTimeNs / 2; };
     if (!std::ranges::all_of(strikes, isTimely)) return false;
     for (CollisionEvent strike : strikes) {
-        strike.timeNs += now;
+        strike.timeNs += startNs;
         made_.push_back(setup_.shaping(strike));
         if (setup_.log != LogUse::none) controlLog_.strikes.push_back(strike);
     }

@@ -147,6 +147,24 @@ TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
     EXPECT_FALSE(session.play(bad)) << "one that cannot be played, and none is";
 }
 
+TEST(SessionDesk, AStrikeOfATimeOfItsOwnIsFeltLAfterItWheneverItWasTold) {
+    auto setup = deskSetup();
+    setup.scene = Scene{};
+    setup.scene.name = "empty";
+    setup.scene.fieldWidthMetres = setup.scene.fieldHeightMetres = 1.0;
+    const auto told = [&](double seconds) {
+        Session session{setup};
+        auto live = play(session, 1.0, {{seconds, [](Session& s) { const std::array strikes{pulse(0.3)}; EXPECT_TRUE(s.playAt(strikes)); }}}, 480);
+        EXPECT_EQ(session.status().render.late, 0u);
+        EXPECT_EQ(session.presentNs(), 1'000'000'000);
+        return std::pair{std::move(live), session.playOutFrames()};
+    };
+    const auto [early, delay] = told(0.05);
+    EXPECT_EQ(early, told(0.295).first);
+    const auto first = std::ranges::find_if(early[2], [](float x) { return std::abs(x) > 0.001f; }) - early[2].begin();
+    EXPECT_NEAR(static_cast<double>(first - delay) / rate, 0.3, 0.001);
+}
+
 TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     const auto setup = deskSetup();
     Session session{setup};
