@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-# The library shows physvib_... of its version and nothing else, and is less than a megabyte.
-# Usage: cmake -DLIBRARY=libphysvib.so.0 -DHEADER=physvib.h -P exports.cmake
+# The library shows physvib_... of its version and nothing else, and is less than a megabyte, or as many as are told.
+# Usage: cmake -DLIBRARY=libphysvib.so.0 -DHEADER=physvib.h [-DMEGABYTES=1] -P exports.cmake
 cmake_policy(VERSION 3.22)
 execute_process(COMMAND nm -D --defined-only ${LIBRARY} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[^\n]+" lines "${symbols}")
 set(shown "")
 foreach(line ${lines})
-    if(line MATCHES " T (physvib_[a-z0-9_]+)@@PHYSVIB_[0-9.]+$")
+    if(line MATCHES " T (physvib_[a-z0-9_]+)@@PHYSVIB_(LIVE_)?[0-9.]+$")
         list(APPEND shown ${CMAKE_MATCH_1})
-    elseif(NOT line MATCHES " A PHYSVIB_[0-9.]+$")
+    elseif(NOT line MATCHES " A PHYSVIB_(LIVE_)?[0-9.]+$")
         message(FATAL_ERROR "${LIBRARY}: expected physvib_... alone, found: ${line}")
     endif()
 endforeach()
@@ -21,6 +21,9 @@ if(NOT shown STREQUAL declarations)
     message(FATAL_ERROR "${LIBRARY} shows\n${shown}\nand ${HEADER} declares\n${declarations}")
 endif()
 file(SIZE ${LIBRARY} bytes)
-if(bytes GREATER_EQUAL 1000000)
-    message(FATAL_ERROR "${LIBRARY}: expected less than 1,000,000 bytes, found ${bytes}")
+if(NOT MEGABYTES)
+    set(MEGABYTES 1)
+endif()
+if(bytes GREATER_EQUAL ${MEGABYTES}000000)
+    message(FATAL_ERROR "${LIBRARY}: expected less than ${MEGABYTES},000,000 bytes, found ${bytes}")
 endif()

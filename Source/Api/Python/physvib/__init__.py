@@ -9,8 +9,9 @@
 from ._library import EVENT, PhysVibError, version
 from .files import events, load_events, render, save_events, save_wav
 from .layout import Layout
+from .live import Live, LiveStatus
 from .renderer import Renderer, Status, play_out_s
 from .world import World
 
 __version__ = version()
-__all__ = ["EVENT", "Layout", "PhysVibError", "Renderer", "Status", "World", "events", "load_events", "play_out_s", "render", "save_events", "save_wav"]
+__all__ = ["EVENT", "Layout", "Live", "LiveStatus", "PhysVibError", "Renderer", "Status", "World", "events", "load_events", "play_out_s", "render", "save_events", "save_wav"]
