@@ -15,6 +15,7 @@ foreach(room ${ROOMS})
     endforeach()
 endforeach()
 file(GLOB_RECURSE there RELATIVE ${TO} ${TO}/*/*.h)
+list(FILTER there EXCLUDE REGEX "^engines/") # they have no room's name, and are copied as they are
 foreach(header ${there})
     if(NOT header IN_LIST wanted) # one of ours that has gone
         file(REMOVE ${TO}/${header})
