@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // At every point of any wave, the sum just before and just after it.
 #include "Formats/ClipEnvelope.h"
+#include <algorithm>
 #include <cmath>
 
 namespace physvib {
