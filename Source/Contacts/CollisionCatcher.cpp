@@ -87,7 +87,8 @@ Blow* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachM
     const auto [a, b, number] = pair;
     const bool isDirect = isFelt(a, b);
     const std::size_t count = isDirect ? directBlows_ : blows_.size() - directBlows_;
-    const double lighterMassKg = std::min(table_[a].movableMassKg(), table_[b].movableMassKg());
+    const FixtureTable::Mobility &ofA = table_.mobility(a), &ofB = table_.mobility(b);
+    const double lighterMassKg = std::min(ofA.movableMassKg, ofB.movableMassKg);
     const double expected = lighterMassKg * approachMetresPerSecond;
     Blow* made = nullptr;
     if (count < (isDirect ? maxDirectBlows : maxDistantBlows)) {
@@ -105,7 +106,7 @@ Blow* CollisionCatcher::strike(const TouchingPairs::Name& pair, double approachM
     made->a = a;
     made->b = b;
     made->order = order_++;
-    made->gravityScale = std::max(table_[a].gravityScale(), table_[b].gravityScale());
+    made->gravityScale = std::max(ofA.gravityScale, ofB.gravityScale);
     made->lighterMassKg = lighterMassKg;
     made->expectedNewtonSeconds = expected;
     return made;

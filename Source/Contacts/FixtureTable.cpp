@@ -20,12 +20,13 @@ std::int32_t FixtureTable::know(std::uint64_t fixture, const BodyFacts& body) {
         free_.push_back(size());
         known_.emplace_back();
         isCamera_.push_back(0);
+        mobility_.emplace_back();
         free_.reserve(known_.capacity()); // releasing a slot never allocates
     }
     const std::int32_t slot = free_.back();
     free_.pop_back();
     at(slot).fixture = fixture;
-    at(slot).body = body;
+    noteBody(slot, body);
     at(slot).id = nextNameless_--;
     slots_.set(fixture, slot);
     return slot;
@@ -33,7 +34,7 @@ std::int32_t FixtureTable::know(std::uint64_t fixture, const BodyFacts& body) {
 
 void FixtureTable::know(std::int32_t slot, const BodyFacts& body) {
     if (at(slot).isNamed() && at(slot).isDynamic() != body.isDynamic) isWeightStale_ = true;
-    at(slot).body = body;
+    noteBody(slot, body);
 }
 
 std::int32_t FixtureTable::set(std::int32_t slot, const HapticFixture& values, Vector2 centre, std::int32_t id) {
@@ -62,8 +63,14 @@ void FixtureTable::release(std::int32_t slot) {
     lose(slot);
     slots_.erase(at(slot).fixture);
     at(slot) = {};
+    noteBody(slot, {});
     noteCamera(slot, false);
     free_.push_back(slot);
+}
+
+void FixtureTable::noteBody(std::int32_t slot, const BodyFacts& body) noexcept {
+    at(slot).body = body;
+    mobility_[static_cast<std::size_t>(slot)] = {at(slot).movableMassKg(), at(slot).gravityScale()};
 }
 
 void FixtureTable::noteCamera(std::int32_t slot, bool isCamera) noexcept {

@@ -57,6 +57,13 @@ public:
         return known_[static_cast<std::size_t>(slot)];
     }
     bool isCamera(std::int32_t slot) const noexcept { return isCamera_[static_cast<std::size_t>(slot)] != 0; }
+
+    /// Two numbers of its KnownFixture.
+    struct Mobility {
+        double movableMassKg = std::numeric_limits<double>::infinity();
+        float gravityScale = 0.0F;
+    };
+    const Mobility& mobility(std::int32_t slot) const noexcept { return mobility_[static_cast<std::size_t>(slot)]; }
     bool hasCameras() const noexcept { return cameras_ > 0; }
     std::int32_t size() const noexcept {
         return static_cast<std::int32_t>(known_.size());
@@ -68,11 +75,13 @@ public:
 private:
     KnownFixture& at(std::int32_t slot) noexcept { return known_[static_cast<std::size_t>(slot)]; }
     void lose(std::int32_t slot);
+    void noteBody(std::int32_t slot, const BodyFacts& body) noexcept;
     void noteCamera(std::int32_t slot, bool isCamera) noexcept;
     void weigh(const KnownFixture& known);
 
     std::vector<KnownFixture> known_;
-    std::vector<std::uint8_t> isCamera_; // by slot: asked of each contact in each step, so it is kept close together
+    std::vector<std::uint8_t> isCamera_; // by slot, as the next: asked of each contact in each step, so they are kept close together
+    std::vector<Mobility> mobility_;
     std::int32_t cameras_ = 0;
     std::vector<std::int32_t> free_;
     IntegerMap slots_;   // by the engine's name of the fixture

@@ -80,10 +80,10 @@ void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::Passed& 
     if (!table_.isCamera(handedOn.camera)) return;
     const ChainLoads::Passed& main = now.strongest > handedOn.passed.strongest ? now : handedOn.passed;
     const auto whole = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
-    const KnownFixture& camera = table_[handedOn.camera];
-    const KnownFixture& other = main.other == FixtureTable::none ? camera : table_[main.other];
-    const double lighter = std::min(camera.movableMassKg(), other.movableMassKg());
-    const float gravityScale = std::max(camera.gravityScale(), other.gravityScale());
+    const FixtureTable::Mobility& camera = table_.mobility(handedOn.camera);
+    const FixtureTable::Mobility& other = main.other == FixtureTable::none ? camera : table_.mobility(main.other);
+    const double lighter = std::min(camera.movableMassKg, other.movableMassKg);
+    const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
     if (!span.isStrike(whole, lighter, gravityScale)) return;
     const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
     if (span.isStrike(impulse, lighter, gravityScale))

@@ -101,7 +101,7 @@ void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {
     const std::uint64_t body = table_[camera].body.body;
     push({camera, isKnown ? passed.other : cause->a, cause->a, cause->b, cause->order, false, false,
           span.timeNs(cause->fraction), point, point - bodies_.centre(body), bodies_.motionBefore(body),
-          std::min(table_[camera].movableMassKg(), cause->lighterMassKg), cause->gravityScale});
+          std::min(table_.mobility(camera).movableMassKg, cause->lighterMassKg), cause->gravityScale});
 }
 
 void ReleaseImpacts::push(const Strike& strike) {

@@ -40,20 +40,22 @@ std::int32_t BlowFinder::find(const b2Fixture& fixture) {
 }
 
 // nullptr: one of the fixtures is not known.
-const BlowFinder::Pair* BlowFinder::find(const b2Contact& contact) {
+BlowFinder::Known* BlowFinder::find(const b2Contact& contact) {
     if (const std::int32_t at = knownAt_.find(nameOf(contact)); at != IntegerMap::none) {
         Known& known = known_[static_cast<std::size_t>(at)];
-        if (known.fixtureA == contact.GetFixtureA() && known.fixtureB == contact.GetFixtureB()) {
-            if (!events_.catcher().isKnown(known.pair)) known.pair.number = events_.catcher().know(known.pair.a, known.pair.b);
-            return &known.pair;
-        }
+        if (known.fixtureA == contact.GetFixtureA() && known.fixtureB == contact.GetFixtureB()) return &known;
     }
     const std::int32_t a = find(*contact.GetFixtureA()), b = find(*contact.GetFixtureB());
     if (a == FixtureTable::none || b == FixtureTable::none) return nullptr;
-    return &remember(contact, {a, b, events_.catcher().know(a, b)});
+    return &remember(contact, {.a = a, .b = b});
 }
 
-BlowFinder::Pair& BlowFinder::remember(const b2Contact& contact, Pair pair) {
+const BlowFinder::Pair& BlowFinder::pairOf(Known& known) {
+    if (!events_.catcher().isKnown(known.pair)) known.pair.number = events_.catcher().know(known.pair.a, known.pair.b);
+    return known.pair;
+}
+
+BlowFinder::Known& BlowFinder::remember(const b2Contact& contact, Pair pair) {
     std::int32_t at = knownAt_.find(nameOf(contact));
     if (at == IntegerMap::none) {
         at = static_cast<std::int32_t>(known_.size());
@@ -62,7 +64,7 @@ BlowFinder::Pair& BlowFinder::remember(const b2Contact& contact, Pair pair) {
     }
     Known& known = known_[static_cast<std::size_t>(at)];
     known = {&contact, contact.GetFixtureA(), contact.GetFixtureB(), pair};
-    return known.pair;
+    return known;
 }
 
 void BlowFinder::forget(const b2Contact& contact) noexcept {
@@ -88,21 +90,21 @@ std::int32_t BlowFinder::know(const b2Fixture& fixture) {
     return slot == FixtureTable::none ? events_.know(nameOf(fixture), body) : events_.know(slot, body);
 }
 
-const BlowFinder::Pair& BlowFinder::know(const b2Contact& contact) {
+BlowFinder::Known& BlowFinder::know(const b2Contact& contact) {
     const std::int32_t a = know(*contact.GetFixtureA()), b = know(*contact.GetFixtureB());
-    return remember(contact, {a, b, events_.catcher().know(a, b)});
+    return remember(contact, {.a = a, .b = b});
 }
 
 void BlowFinder::begin(const b2Contact& contact) {
     if (!isSolid(contact) || !contact.IsTouching()) return;
-    const Pair& pair = know(contact);
+    const Pair& pair = know(contact).pair;
     events_.catcher().begin(pair.a, pair.b);
 }
 
 void BlowFinder::end(const b2Contact& contact) {
     fresh_.forget(contact);
-    const Pair* const found = find(contact);
-    const Pair pair = found != nullptr ? *found : Pair{};
+    const Known* const found = find(contact);
+    const Pair pair = found != nullptr ? found->pair : Pair{};
     forget(contact);
     if (found == nullptr) return;
     const BodyMotion motionA = motionOf(bodyA(contact)), motionB = motionOf(bodyB(contact));
@@ -124,7 +126,7 @@ void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
     for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
         if (isIn(fresh, i)) fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
     if (!events_.catcher().isBlow(gravityScaleOf(contact), fastest)) return;
-    const Pair& pair = know(contact);
+    const Pair& pair = pairOf(know(contact));
     if (events_.catcher().blow(pair) != nullptr) return;
     if (Blow* blow = events_.catcher().strike(pair, fastest)) describe(contact, manifold, fresh, *blow);
 }
@@ -166,11 +168,12 @@ double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {
 void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const unsigned fresh = fresh_.solved(contact); // old from the next step on
     if (!events_.catcher().isHearing()) return;
-    const Pair* const pair = find(contact);
-    if (pair == nullptr) return;
-    Blow* const blow = fresh != 0 ? events_.catcher().blow(*pair) : nullptr;
-    const bool isHeard = events_.catcher().isHeard(*pair);
-    if (blow != nullptr || isHeard) share(contact, impulse, *pair, fresh, blow, isHeard);
+    Known* const known = find(contact);
+    if (known == nullptr) return;
+    const Pair& pair = pairOf(*known);
+    Blow* const blow = fresh != 0 ? events_.catcher().blow(pair) : nullptr;
+    const bool isHeard = events_.catcher().isHeard(pair);
+    if (blow != nullptr || isHeard) share(contact, impulse, pair, fresh, blow, isHeard);
 }
 
 void BlowFinder::share(const b2Contact& contact, const b2ContactImpulse& impulse, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard) {

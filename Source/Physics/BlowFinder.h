@@ -41,12 +41,13 @@ private:
     struct Known { // spares a search for both fixtures in every step
         const b2Contact* contact;
         const b2Fixture *fixtureA, *fixtureB;
-        Pair pair;
+        Pair pair; // its number: none until it is asked for
     };
-    const Pair* find(const b2Contact& contact);
+    Known* find(const b2Contact& contact);
+    const Pair& pairOf(Known& known);
     std::int32_t know(const b2Fixture& fixture);
-    const Pair& know(const b2Contact& contact);
-    Pair& remember(const b2Contact& contact, Pair pair);
+    Known& know(const b2Contact& contact);
+    Known& remember(const b2Contact& contact, Pair pair);
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const;
     void share(const b2Contact& contact, const b2ContactImpulse& impulse, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard);
