@@ -3,6 +3,7 @@
 #include "Contacts/ReleaseImpacts.h"
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace physvib {
 
@@ -21,12 +22,16 @@ void ReleaseImpacts::collect(const StepSpan& span, std::vector<Impact>& impacts)
     release(false, span, impacts);
     open(span);
     follow();
+    followCauses();
     release(true, span, impacts);
     expire(span, impacts);
+    std::swap(before_, causes_);
+    causes_.clear();
     for (Strike& strike : strikes_) strike.order = -1;
 }
 
 void ReleaseImpacts::forget(std::int32_t slot, bool withdraws) noexcept {
+    before_.forget(slot);
     const auto isOf = [slot](const Strike& s) { return s.other == slot || s.a == slot || s.b == slot; };
     std::erase_if(strikes_, [&](const Strike& s) { return s.camera == slot || (withdraws && isOf(s)); });
     for (Strike& strike : strikes_) {
@@ -55,6 +60,7 @@ void ReleaseImpacts::findCauses(const StepSpan& span) {
         const Blow& blow = blows[i];
         impulses_[i] = blow.impulse();
         if (!span.isStrike(impulses_[i], blow.lighterMassKg, blow.gravityScale)) continue;
+        causes_.add({blow.a, blow.b, blow.pair, span.timeNs(blow.fraction), impulses_[i], 0.0, 0, 0, SlotMap::none, SlotMap::none});
         for (const std::int32_t slot : {blow.a, blow.b}) {
             const std::int32_t component = graph_.component(slot);
             if (component != ContactGraph::noComponent && isStronger(static_cast<std::int32_t>(i), strongestOf_.find(component)))
@@ -122,6 +128,15 @@ void ReleaseImpacts::follow() {
         camera = strike.camera;
         strike.gained += gained;
     }
+}
+
+// A blow is pushed over two steps.
+void ReleaseImpacts::followCauses() {
+    before_.follow(catcher_);
+    if (causes_.isEmpty() && before_.isEmpty()) return;
+    for (Strike& strike : strikes_)
+        if (!strike.isDirect)
+            strike.causedNewtonSeconds += causes_.find(strike.camera, graph_).newtonSeconds + before_.find(strike.camera, graph_).aftermath;
 }
 
 Vector2 ReleaseImpacts::gain(std::int32_t camera) {
@@ -203,6 +218,7 @@ void ReleaseImpacts::finish(const Strike& strike, const BodyMotion& end, std::in
         const Vector2 withoutFall = felt - seconds * massKg * span.gravityMetresPerSecond2;
         size = std::min(size, static_cast<double>(withoutFall.length()));
     }
+    if (!strike.isDirect) size = std::min(size, strike.causedNewtonSeconds);
     if (span.isStrike(size, strike.lighterMassKg, strike.gravityScale))
         impacts.push_back({strike.camera, strike.other, timeNs, size, strike.point});
 }

@@ -7,6 +7,7 @@
 #include "Contacts/Impact.h"
 #include "Contacts/IntegerMap.h"
 #include "Contacts/SlotMap.h"
+#include "Contacts/StrikeCauses.h"
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace physvib {
 /// ms later, which is the time of the impact, too. A camera that is not dynamic gets the summed momentum
 /// change of the dynamic bodies that touch it. Whatever else changes these velocities meanwhile is in it as
 /// well, gravity for one; where a camera is not struck itself, the smaller value with and without gravity
-/// counts, so that it feels neither rest nor fall. At most one such handed-on impact is under way per camera.
+/// counts, so that it feels neither rest nor fall, and no more than what struck meanwhile gave (a machine that hums on the same floor is
+/// no part of a pebble's blow). At most one such handed-on impact is under way per camera.
 /// M only.
 class ReleaseImpacts {
 public:
@@ -28,7 +30,10 @@ public:
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
 
     /// Forgets what is under way.
-    void reset() noexcept { strikes_.clear(); }
+    void reset() noexcept {
+        strikes_.clear();
+        before_.clear();
+    }
 
     /// All places have moved by this much: the world's origin is another.
     void shift(Vector2 by) noexcept {
@@ -59,7 +64,8 @@ private:
         BodyMotion start;
         double lighterMassKg;
         float gravityScale;
-        Vector2 gained{}; // N s, by what touches an immovable camera
+        Vector2 gained{};                 // N s, by what touches an immovable camera
+        double causedNewtonSeconds = 0.0; // of what is handed on: given so far by all from which a path led here
     };
     void open(const StepSpan& span);
     void openDirect(const Blow& blow, const StepSpan& span);
@@ -69,6 +75,7 @@ private:
     bool isStronger(std::int32_t blow, std::int32_t than) const noexcept;
     void push(const Strike& strike);
     void follow();
+    void followCauses();
     Vector2 gain(std::int32_t camera);
     Vector2 gainOf(std::int32_t slot);
     void release(bool ofThisStep, const StepSpan& span, std::vector<Impact>& impacts);
@@ -89,6 +96,7 @@ private:
     SlotMap isStruckA_, isStruckB_;        // whose contact ends may end strikes
     std::vector<double> impulses_;         // of the blows of this step
     SlotMap strongestOf_;                  // of these, by component
+    StrikeCauses causes_, before_;         // of this step and the last one
     std::vector<std::int32_t> reached_; // components at the camera in question
     IntegerMap counted_; // by body: the sum it was last counted in
     std::int32_t sums_ = 0;
