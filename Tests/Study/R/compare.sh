@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Asks R about new random designs and compares every figure: installs R where it is missing, makes COUNT designs, runs the test on them.
-# Usage: compare.sh STUDY_TESTS [COUNT [SEED]]      STUDY_TESTS: build/release/bin/physvib-study-tests
+# Usage: compare.sh STUDY_TESTS [COUNT [SEED]]      STUDY_TESTS: build/release/bin/physvib-study-tests; COUNT: 100 or more
 set -eu
 tests=$1
 here=$(cd "$(dirname "$0")" && pwd)
