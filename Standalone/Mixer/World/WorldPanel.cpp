@@ -62,6 +62,7 @@ void WorldPanel::takeMix() {
     const auto& scene = desk_.sceneNow();
     if (shown_ != mix.scene) {
         player_.emplace(scene);
+        first_.clear();
         if (!player_->isThere()) player_.reset();
         tiltName_.setText(player_ ? "arrows play" : "gravity", juce::dontSendNotification);
     }
@@ -83,8 +84,17 @@ void WorldPanel::takeMix() {
 /// Who begins to play takes over from the scene's script: the world begins anew without what that did.
 void WorldPanel::play(const std::vector<Action>& actions) {
     if (actions.empty()) return;
-    if (auto scene = sceneForHands(*desk_.mix().scene); scene != *desk_.mix().scene)
+    if (auto scene = sceneForHands(*desk_.mix().scene); scene != *desk_.mix().scene) {
+        takesBefore_ = desk_.saved().log.takes.size();
         desk_.change("Play", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
+        shown_ = desk_.mix().scene; // the same player goes on
+        first_ = actions;
+        return;
+    }
+    if (!first_.empty()) {
+        first_ = actions;
+        return;
+    }
     for (const Action& action : actions)
         if (const auto fault = desk_.act(action); !fault.empty()) desk_.report(utf8(fault));
 }
@@ -119,7 +129,9 @@ std::optional<double> WorldPanel::playersPlace() {
 }
 
 void WorldPanel::lookAfterPlayer() {
-    if (!player_ || !player_->moves()) return;
+    if (!player_) return;
+    if (!first_.empty() && desk_.saved().log.takes.size() > takesBefore_) play(std::exchange(first_, {})); // the world has begun anew
+    if (!player_->moves()) return;
     const auto place = playersPlace();
     if (!place) return;
     if (pointed_) play(player_->moveTowards(*pointed_, *place));

@@ -46,6 +46,8 @@ private:
     juce::Slider drag_;
     std::optional<ScenePlayer> player_; // of a scene that has one
     std::optional<double> pointed_;     // where in the field the mouse holds, m
+    std::vector<Action> first_;         // what takes over from the script, until the world has begun anew
+    std::size_t takesBefore_ = 0;       // of the session, when it took over
     bool isMoving_ = false; // a badge, since the mouse was pressed
     double hitAtMs_ = 0.0;
     CollisionEvent told_;
