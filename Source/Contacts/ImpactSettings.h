@@ -18,8 +18,8 @@ enum class ImpactLocation { contact, fixture };
 /// For an Attachment. All can be changed while it runs.
 struct ImpactSettings {
     double fieldWidthMetres = 1.0;       ///< v_max of Eq. 5.7 is one field width per second
-    std::optional<double> normalisation; ///< A* in s/m, instead of Eq. 5.7's
-    std::optional<double> handMassKg;    ///< m_h, instead of the largest mass in the world (Eq. 5.7); a camera may have its own
+    std::optional<double> normalisation{}; ///< A* in s/m, instead of Eq. 5.7's
+    std::optional<double> handMassKg{};    ///< m_h, instead of the largest mass in the world (Eq. 5.7); a camera may have its own
     double driveGain = 1.0;              ///< on top of Eq. 5.4, which leaves most hits far below full scale
     ImpactTiming timing = ImpactTiming::onset;
     ImpactLocation location = ImpactLocation::contact;
@@ -38,11 +38,11 @@ struct ImpactSettings {
     bool isMuted = false;
 
     /// At most so many hits become events in one step, those that would be the strongest; the others are counted.
-    std::optional<int> hitsPerStep;
+    std::optional<int> hitsPerStep{};
 
     /// Where the field is in the world, now: its lower left corner and how it is turned. Events tell places in the
     /// field. It may move at any time, as a camera that scrolls does.
-    Vector2 fieldOrigin;
+    Vector2 fieldOrigin{};
     float fieldRadians = 0.0F; ///< counter-clockwise
 };
 
