@@ -67,12 +67,15 @@ WorldMoment StudyWorld::look() {
     for (PlayedEvent played; session_->played().pop(played);) journal_->take(played);
     moment.sessionNs = session_->readPoses(moment.poses);
     moment.aheadNs = session_->playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
-    const std::int64_t now = session_->status().sessionNs;
+    const SessionStatus status = session_->status();
+    const std::int64_t now = status.sessionNs;
     if (isMoving()) {
         session_->setSlowness(desk_.isSilent() ? 0 : 1); // what is not felt is not shown either
         if (!desk_.isSilent()) feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
-    } else if (session_->nextFeltNs() >= stoppedNs_ + fadeNs) { // L may have grown meanwhile
+    } else if (status.render.liveModes > 0 || status.render.pending > 0) { // where stalls held it up, the stop is felt later than L after it
+        stoppedNs_ = std::max(stoppedNs_, session_->nextFeltNs());
+    } else if (session_->nextFeltNs() >= stoppedNs_ + fadeNs) {
         finish();
     }
     seenNs_ = now;
