@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Installed headers find each other as <physvib/...>, and ask for no package but Box2D.
+# Installed headers find each other as <physvib/...>, and ask for no package but Box2D; one for an engine asks for it.
 set(include ${INSTALLED}/include/physvib)
 file(GLOB_RECURSE headers ${include}/*.h)
 if(NOT headers)
@@ -8,12 +8,16 @@ endif()
 set(bad "")
 foreach(header ${headers})
     file(STRINGS ${header} lines REGEX "^ *# *include")
+    set(engine box2d)
+    if(header MATCHES "/engines/physvib_([a-z]+)[.]h$")
+        set(engine ${CMAKE_MATCH_1})
+    endif()
     foreach(line ${lines})
         if(line MATCHES "<(physvib/.*)>")
             if(EXISTS ${INSTALLED}/include/${CMAKE_MATCH_1})
                 continue()
             endif()
-        elseif(line MATCHES "<box2d/" OR NOT line MATCHES "<(.*/.*|.*[.]hpp)>|\"")
+        elseif(line MATCHES "<${engine}/" OR NOT line MATCHES "<(.*/.*|.*[.]hpp)>|\"")
             continue() # the standard library has no folders
         endif()
         list(APPEND bad "${header}: ${line}")
