@@ -9,18 +9,18 @@
 namespace physvib {
 namespace {
 
-using Signals = std::vector<std::vector<float>>; // [channel][frame]
+using ClipSignals = std::vector<std::vector<float>>; // [channel][frame]
 
 class ExportCommand : public test::CommandLine {
 protected:
-    Signals wav(const std::string& name) const {
+    ClipSignals wav(const std::string& name) const {
         const std::string bytes = read(name);
         const auto format = bytes.find("fmt "), data = bytes.find("data", format);
         if (format == std::string::npos || data == std::string::npos || data + 8 > bytes.size()) return {};
         std::uint16_t channels = 0;
         std::memcpy(&channels, bytes.data() + format + 10, sizeof channels);
         const std::size_t count = (bytes.size() - data - 8) / sizeof(float);
-        Signals out(channels);
+        ClipSignals out(channels);
         for (std::size_t i = 0; i < count; ++i) {
             float sample;
             std::memcpy(&sample, bytes.data() + data + 8 + i * sizeof sample, sizeof sample);
@@ -34,7 +34,7 @@ protected:
         EXPECT_EQ(outcome.exitCode, 0) << arguments << '\n' << outcome.err;
     }
 
-    static double farthest(const Signals& a, const Signals& b) {
+    static double farthest(const ClipSignals& a, const ClipSignals& b) {
         EXPECT_EQ(a.size(), b.size());
         double most = 0.0;
         for (std::size_t j = 0; j < std::min(a.size(), b.size()); ++j)
@@ -49,7 +49,7 @@ TEST_F(ExportCommand, EveryScenePlaysAsItsRenderDoes) {
         runs("export " + scene + " --seconds 3 --error 0.001 --to a.hjif");
         runs("render a.hjif --seconds 3 --limiter off --out again.wav");
         EXPECT_LE(farthest(wav("direct.wav"), wav("again.wav")), 1e-3) << scene;
-        EXPECT_GE(farthest(wav("direct.wav"), Signals(4, std::vector<float>(144000))), 1e-3) << scene; // there is something to compare
+        EXPECT_GE(farthest(wav("direct.wav"), ClipSignals(4, std::vector<float>(144000))), 1e-3) << scene; // there is something to compare
     }
 }
 
@@ -72,14 +72,14 @@ TEST_F(ExportCommand, KeepsEveryHitOfAnEventListWhereItWasAndWhen) {
         runs("render --from-events hits.csv --field 0.12,0.06 --seconds 8 --limiter off --layout " + layout + " --out direct.wav");
         runs("export hits.csv --field 0.12,0.06 --layout " + layout + " --to a.hjif");
         runs("render a.hjif --seconds 8 --limiter off --out again.wav");
-        const Signals direct = wav("direct.wav"), again = wav("again.wav");
+        const ClipSignals direct = wav("direct.wav"), again = wav("again.wav");
         ASSERT_EQ(direct.size(), again.size());
         for (int k = 0; k < hits; ++k) {
             const auto from = static_cast<std::size_t>(48000 * (0.1 + 0.25 * k)) - 10;
             double centroid[2] = {};
             std::size_t onset[2] = {};
             for (int which = 0; which < 2; ++which) {
-                const Signals& signals = which ? again : direct;
+                const ClipSignals& signals = which ? again : direct;
                 double x = 0.0, sum = 0.0;
                 for (std::size_t j = 0; j < signals.size(); ++j) {
                     double energy = 0.0;
@@ -118,7 +118,7 @@ TEST_F(ExportCommand, KeepsASessionsLayoutsAndInputs) {
     runs("export run.json --error 0.001 --to run.hjif");
     runs("render run.hjif --seconds 6 --limiter off --out again.wav");
     EXPECT_LE(farthest(wav("direct.wav"), wav("again.wav")), 1e-3);
-    EXPECT_GE(farthest(wav("direct.wav"), Signals(2, std::vector<float>(288000))), 0.1);
+    EXPECT_GE(farthest(wav("direct.wav"), ClipSignals(2, std::vector<float>(288000))), 0.1);
 }
 
 TEST_F(ExportCommand, WritesAFileForEachEnchanterWhereAFormatHasOneChannel) {
@@ -136,7 +136,7 @@ TEST_F(ExportCommand, TurnsOneFormatIntoAnother) {
     runs("export a.haptic --to b.hjif");
     runs("export b.hjif --to c.ahap");
     runs("render c.ahap --layout phone1 --out c.wav --picture c.png");
-    EXPECT_GT(farthest(wav("c.wav"), Signals(1, std::vector<float>(96000))), 0.01);
+    EXPECT_GT(farthest(wav("c.wav"), ClipSignals(1, std::vector<float>(96000))), 0.01);
 }
 
 TEST_F(ExportCommand, ReadsClipsWhereARecordingIs) {
@@ -149,7 +149,7 @@ TEST_F(ExportCommand, FeelsChannelsWithoutPlacesOneOnEachEnchanter) {
     write("two.hjif", R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
         {"relative_position": 0, "amplitude_modulation": 0.5, "frequency_modulation": 100}, {"relative_position": 500, "amplitude_modulation": 0.5}]}]}]}, {"bands": []}]}]})");
     runs("render two.hjif --layout ring2 --out two.wav");
-    const Signals two = wav("two.wav");
+    const ClipSignals two = wav("two.wav");
     ASSERT_EQ(two.size(), 2u);
     EXPECT_EQ(two[0].size(), 24000u);
     EXPECT_NEAR(*std::ranges::max_element(two[0]), 0.5, 1e-3);

@@ -143,7 +143,7 @@ TEST(AudioOutput, SwitchesAMotorAsTheConverterSays) {
     settings.onOffThreshold = 0.01;
     ASSERT_EQ(motor.output.open(settings), "");
     const auto all = plain.play(3.0, 64), switched = motor.play(3.0, 64);
-    OnOffSteps steps{plain.interface.rate, settings.onOffThreshold};
+    OnOffSteps steps(static_cast<int>(plain.interface.rate), settings.onOffThreshold);
     std::size_t on = 0, others = 0;
     for (std::size_t n = static_cast<std::size_t>(plain.interface.rate / 100); n < all[2].size(); ++n) on += switched[2][n] == 1.0f, others += switched[2][n] != 0.0f && switched[2][n] != 1.0f;
     EXPECT_EQ(others, 0u);
