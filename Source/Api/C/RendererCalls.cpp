@@ -52,8 +52,7 @@ private:
     bool isAlone_;
 };
 
-/// `write(frame, frames, at)`: so many frames from there on are wanted; renders them to at[channel], and is called again with 0 to say
-/// that they are there.
+/// `block(renderer)` renders, once it is sure that the caller has as many channels; what it returns. R.
 template <class Block>
 int pull(physvib_renderer name, int channels, int frames, Block block) noexcept PHYSVIB_NONBLOCKING {
     const auto renderer = use(name);
@@ -61,7 +60,7 @@ int pull(physvib_renderer name, int channels, int frames, Block block) noexcept 
     if (channels != renderer->channels || frames < 1) return PHYSVIB_ERROR_ARGUMENT;
     const Pulling pulling{*renderer};
     if (!pulling) return PHYSVIB_ERROR_BUSY;
-    block(*renderer);
+    if (const int code = block(*renderer); code != PHYSVIB_OK) return code;
     renderer->status.write(renderer->renderer.status());
     return PHYSVIB_OK;
 }
@@ -102,10 +101,8 @@ int physvib_renderer_strike(physvib_renderer name, const physvib_event* event) {
 
 int physvib_renderer_pull(physvib_renderer name, float* const* channels, int count, int frames) {
     if (channels == nullptr) return PHYSVIB_ERROR_ARGUMENT;
-    if (count < 1 || count > limits::maxEnchanters) return PHYSVIB_ERROR_ARGUMENT;
-    for (int j = 0; j < count; ++j)
-        if (channels[j] == nullptr) return PHYSVIB_ERROR_ARGUMENT;
     return pull(name, count, frames, [=](Renderer& renderer) noexcept {
+        if (std::any_of(channels, channels + count, [](const float* channel) { return channel == nullptr; })) return PHYSVIB_ERROR_ARGUMENT;
         std::array<float*, limits::maxEnchanters> at{};
         for (int done = 0; done < frames;) {
             const int block = std::min(frames - done, limits::maxBlockFrames);
@@ -113,6 +110,7 @@ int physvib_renderer_pull(physvib_renderer name, float* const* channels, int cou
             renderer.renderer.render(renderer.source, at.data(), block);
             done += block;
         }
+        return PHYSVIB_OK;
     });
 }
 
@@ -131,6 +129,7 @@ int physvib_renderer_pull_interleaved(physvib_renderer name, float* samples, int
                     samples[static_cast<std::ptrdiff_t>(done + n) * count + j] = block[static_cast<std::size_t>(j)][static_cast<std::size_t>(n)];
             done += part;
         }
+        return PHYSVIB_OK;
     });
 }
 
