@@ -8,7 +8,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::int64_t fadeNs = 100'000'000; // longer than whatever rings takes to fade, by limits::stealFadePerSecond
+constexpr std::int64_t fadeNs = 400'000'000; // what rings fades within 100 ms (limits::stealFadePerSecond); a busy machine may stop it later than it should
 
 } // namespace
 
