@@ -8,7 +8,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::int64_t fadeNs = 400'000'000; // what rings fades within 100 ms (limits::stealFadePerSecond); a busy machine may stop it later than it should
+constexpr std::int64_t fadeNs = 100'000'000; // longer than whatever rings takes to fade, by limits::stealFadePerSecond
 
 } // namespace
 
@@ -67,15 +67,12 @@ WorldMoment StudyWorld::look() {
     for (PlayedEvent played; session_->played().pop(played);) journal_->take(played);
     moment.sessionNs = session_->readPoses(moment.poses);
     moment.aheadNs = session_->playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
-    const SessionStatus status = session_->status();
-    const std::int64_t now = status.sessionNs;
+    const std::int64_t now = session_->status().sessionNs;
     if (isMoving()) {
         session_->setSlowness(desk_.isSilent() ? 0 : 1); // what is not felt is not shown either
         if (!desk_.isSilent()) feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
-    } else if (status.render.liveModes > 0 || status.render.pending > 0) { // where stalls held it up, the stop is felt later than L after it
-        stoppedNs_ = std::max(stoppedNs_, session_->nextFeltNs());
-    } else if (session_->nextFeltNs() >= stoppedNs_ + fadeNs) {
+    } else if (session_->nextFeltNs() >= stoppedNs_ + fadeNs) { // L may have grown meanwhile
         finish();
     }
     seenNs_ = now;
@@ -87,9 +84,11 @@ void StudyWorld::finish() {
     desk_.output().lend(nullptr);
     driver_.reset();
     session_->advance(); // the world is told as far as time went: a render would let it go on from there
+    // A hit of the last step is known a step later, and there is none: a render that ended where the stand-still does would feel it.
+    const std::int64_t endNs = stoppedNs_ < 0 ? session_->status().sessionNs : stoppedNs_ + fadeNs;
     if (journal_ && journal_->error().empty()) {
         for (PlayedEvent played; session_->played().pop(played);) journal_->take(played);
-        journal_->end(session_->status().sessionNs);
+        journal_->end(endNs);
         fault_ = journal_->finish();
     }
     journal_.reset();
