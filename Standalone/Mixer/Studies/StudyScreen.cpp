@@ -243,7 +243,7 @@ void StudyScreen::pause() {
 /// What is explored is felt at once; else it waits to be confirmed.
 void StudyScreen::asked() {
     if (page_ != Page::trial || isFeeling()) return;
-    if (!isExploring()) return answers_.focusConfirm();
+    if (!isExploring()) return refresh(), answers_.focusConfirm(); // which may be open only now
     exploring_ = answers_->answer();
     play(0);
 }
