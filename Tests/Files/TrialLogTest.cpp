@@ -132,23 +132,36 @@ TEST(TrialLog, BadRowsAreNamed) {
     EXPECT_EQ(readTrialLog(text, "t.csv", p, participant).error, "t.csv:3: column condition: expected a condition of the protocol, found \"GLOVE\"");
 }
 
-using TrialLogFiles = FolderTest;
-
-TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
-    const auto path = folder / "t.csv";
-    const Protocol p = findProtocol("magnitudes").value;
-    const std::string text = wholeFile(p);
-    for (const std::size_t bytes : {std::size_t{0}, std::size_t{40}, text.size() / 3, text.size() / 2, text.size() - 1}) {
-        std::ofstream{path, std::ios::binary} << text.substr(0, bytes);
+class TrialLogFiles : public FolderTest {
+protected:
+    void SetUp() override {
+        FolderTest::SetUp();
+        path = folder / "t.csv";
+    }
+    /// As a study does: what the file has is done again, the rest is answered and kept; `change(answer)` before.
+    template <class Change>
+    void goOn(const Protocol& p, Change change) const {
         TrialLogFile log{path, p, participant, "0"};
         ASSERT_EQ(log.error(), "");
         Experiment experiment{p, participant};
         const SimulatedObserver observer{{}, p, participant};
         for (const auto& record : log.records()) ASSERT_EQ(experiment.redo(record), "");
         while (!experiment.isDone()) {
-            ASSERT_TRUE(log.append(experiment.take(observer.answer(experiment))));
+            Answer answer = observer.answer(experiment);
+            change(answer);
+            ASSERT_TRUE(log.append(experiment.take(answer)));
             EXPECT_EQ(readFile(path, 1'000'000).value.back(), '\n') << "each row is there at once";
         }
+    }
+    std::filesystem::path path;
+};
+
+TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
+    const Protocol p = findProtocol("magnitudes").value;
+    const std::string text = wholeFile(p);
+    for (const std::size_t bytes : {std::size_t{0}, std::size_t{40}, text.size() / 3, text.size() / 2, text.size() - 1}) {
+        std::ofstream{path, std::ios::binary} << text.substr(0, bytes);
+        goOn(p, [](Answer&) {});
         EXPECT_EQ(readFile(path, 1'000'000).value, text) << bytes;
     }
     std::ofstream{path, std::ios::binary} << "my diary";
@@ -157,7 +170,6 @@ TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
 }
 
 TEST_F(TrialLogFiles, OfBeforeAnythingWasMeasuredGoOnInTheirOwnColumns) {
-    const auto path = folder / "t.csv";
     const Protocol p = findProtocol("magnitudes").value;
     std::string old;
     std::istringstream lines{wholeFile(p)};
@@ -169,21 +181,11 @@ TEST_F(TrialLogFiles, OfBeforeAnythingWasMeasuredGoOnInTheirOwnColumns) {
     }
     ASSERT_EQ(old.find("peak_g"), std::string::npos);
     std::ofstream{path, std::ios::binary} << old.substr(0, old.size() / 2);
-    TrialLogFile log{path, p, participant, "0"};
-    ASSERT_EQ(log.error(), "");
-    Experiment experiment{p, participant};
-    const SimulatedObserver observer{{}, p, participant};
-    for (const auto& record : log.records()) ASSERT_EQ(experiment.redo(record), "");
-    while (!experiment.isDone()) {
-        Answer answer = observer.answer(experiment);
-        answer.exposure = 1.0;
-        ASSERT_TRUE(log.append(experiment.take(answer)));
-    }
+    goOn(p, [](Answer& answer) { answer.exposure = 1.0; });
     EXPECT_EQ(readFile(path, 1'000'000).value, old);
 }
 
 TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
-    const auto path = folder / "t.csv";
     const Protocol p = findProtocol("magnitudes").value;
     Experiment experiment{p, participant};
     const SimulatedObserver observer{{}, p, participant};
@@ -198,7 +200,6 @@ TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
 }
 
 TEST_F(TrialLogFiles, AFullDiskLeavesWholeRows) {
-    const auto path = folder / "t.csv";
     const Protocol p = findProtocol("magnitudes").value;
     const std::string text = wholeFile(p);
     for (const std::size_t bytes : {std::size_t{0}, std::size_t{10}, text.size() / 2, text.size() - 1}) {

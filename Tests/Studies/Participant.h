@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A participant with a mouse and a keyboard at the mixer's window, and a folder for the rows.
 #pragma once
+#include "Files/Text/CsvTable.h"
 #include "Host/MessageLoop.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/OnlyNoDevice.h"
@@ -9,8 +10,19 @@
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
+#include <iterator>
+#include <string>
 
 namespace physvib::test {
+
+/// The trial file that the protocol "short" has left in that folder.
+inline CsvTable shortTrials(const juce::File& folder) {
+    std::ifstream file{folder.getChildFile("short-P01.csv").getFullPathName().toStdString()};
+    const std::string text{std::istreambuf_iterator<char>{file}, {}};
+    auto table = readCsvTable(text, "short-P01.csv");
+    EXPECT_TRUE(table) << table.error;
+    return table.value;
+}
 
 /// The mixer in a window of its own.
 class Participant {

@@ -5,7 +5,6 @@
 #include "Files/Text/CsvTable.h"
 #include "Files/ProtocolFile.h"
 #include <cstdlib>
-#include <iterator>
 
 namespace physvib {
 namespace {
@@ -46,13 +45,7 @@ protected:
         ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
         EXPECT_NE(p->find("Tabs"), nullptr) << "the mixer is back";
     }
-    CsvTable rows() const {
-        std::ifstream file{folder.getChildFile("short-P01.csv").getFullPathName().toStdString()};
-        const std::string text{std::istreambuf_iterator<char>{file}, {}};
-        auto table = readCsvTable(text, "short-P01.csv");
-        EXPECT_TRUE(table) << table.error;
-        return table.value;
-    }
+    CsvTable rows() const { return test::shortTrials(folder); }
     /// A column of the rows of a task.
     std::vector<std::string> column(const std::string& name, const std::string& task) const {
         const auto table = rows();

@@ -10,7 +10,6 @@
 #include "Host/FakeAudioDevice.h"
 #include <cmath>
 #include <cstdlib>
-#include <iterator>
 #include <span>
 #include <sstream>
 #include <thread>
@@ -70,13 +69,7 @@ protected:
         ASSERT_EQ(p.tab().begin(), "");
         p.pump();
     }
-    CsvTable rows() const {
-        std::ifstream file{folder.getChildFile("short-P01.csv").getFullPathName().toStdString()};
-        const std::string text{std::istreambuf_iterator<char>{file}, {}};
-        auto table = readCsvTable(text, "short-P01.csv");
-        EXPECT_TRUE(table) << table.error;
-        return table.value;
-    }
+    CsvTable rows() const { return test::shortTrials(folder); }
     /// Of each part of a trial, as the row tells them.
     std::vector<double> levels(std::size_t trial, const std::string& column) const {
         const auto table = rows();

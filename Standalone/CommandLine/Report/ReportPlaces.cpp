@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Places pointed at: responses and normals, perceived rows and columns, territories, percent counts.
+#include "CommandLine/Report/CountsChart.h"
 #include "CommandLine/Report/ReportSections.h"
 #include "Files/Charts/Charts.h"
 #include "Files/StudyCsv.h"
@@ -39,18 +40,6 @@ std::string territoryChart(ReportBuilder& report, const PlacesOf& one) {
     for (const PlaceEllipse& e : chart.ellipses) chart.labels.push_back({e.target, e.x, e.y});
     chart.ellipses.clear();
     return placeChart(chart);
-}
-
-std::string countsChart(ReportBuilder& report, const PercentCounts& counts, const std::string& title) {
-    GridChart chart{{report.chartName(), title, report.isSimulated()}, "row", "column", {}, {}, {}};
-    for (std::size_t r = 0; r < counts.rows; ++r) chart.rows.push_back(std::to_string(r + 1));
-    for (std::size_t c = 0; c < counts.columns; ++c) chart.columns.push_back(std::to_string(c + 1));
-    for (const double percent : counts.percent) chart.values.push_back(percent);
-    chart.most = 10.0;
-    chart.shape = 0.6;
-    chart.decimals = 2;
-    chart.markedBelow = defaultPercentThreshold;
-    return gridChart(chart);
 }
 
 /// Mean perceived place against the intended one, over participants. `isRow`: rows, else columns.
@@ -126,11 +115,11 @@ void tellPlaces(ReportBuilder& report) {
     for (const PlacesOf& one : places) {
         responses.push_back(responsesChart(report, one));
         territories.push_back(territoryChart(report, one));
-        counts.push_back(countsChart(report, one.resolution.counts, one.condition));
+        counts.push_back(countsChart({report.chartName(), one.condition, report.isSimulated()}, one.resolution.counts));
         const auto& ties = one.resolution.resolution.ties;
         if (!ties.empty())
-            grids.push_back(countsChart(report, merged(one.resolution.counts, ties.front()),
-                                        one.condition + ": " + std::to_string(ties.front().columnGroups.size()) + " x " + std::to_string(ties.front().rowGroups.size())));
+            grids.push_back(countsChart({report.chartName(), one.condition + ": " + std::to_string(ties.front().columnGroups.size()) + " x " + std::to_string(ties.front().rowGroups.size()), report.isSimulated()},
+                                        merged(one.resolution.counts, ties.front())));
     }
     report.page.figure(responses, "Every response (dots, coloured by target) and the normal distribution of each target's responses (ellipses of one standard deviation; as thesis Fig. 4.6).");
     const auto& all = report.trials.all;

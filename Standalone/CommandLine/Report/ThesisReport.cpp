@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // First what the print says of itself, then what simulated people make of the same studies.
 #include "CommandLine/Report/ThesisReport.h"
+#include "CommandLine/Report/CountsChart.h"
 #include "CommandLine/Report/Rehearsal.h"
 #include "CommandLine/Report/ReportPage.h"
 #include "CommandLine/Report/StudyReport.h"
@@ -173,15 +174,7 @@ void ThesisPage::tellCounts() {
         table.cell(printed.condition).cell(counts.sum()).cell(printed.deviation).cell(counts.standardDeviation());
         table.cell(std::to_string(printed.columns) + " x " + std::to_string(printed.rows)).cell(std::to_string(resolution.columns) + " x " + std::to_string(resolution.rows)).cell(resolution.ties.size());
         table.endRow();
-        GridChart chart{{chartName(), counts.condition + ": " + std::to_string(resolution.columns) + " x " + std::to_string(resolution.rows), false}, "row", "column", {}, {}, {}};
-        for (std::size_t r = 0; r < counts.rows; ++r) chart.rows.push_back(std::to_string(r + 1));
-        for (std::size_t c = 0; c < counts.columns; ++c) chart.columns.push_back(std::to_string(c + 1));
-        for (const double percent : counts.percent) chart.values.push_back(percent);
-        chart.most = 10.0;
-        chart.decimals = 2;
-        chart.shape = 0.6;
-        chart.markedBelow = defaultPercentThreshold;
-        charts.push_back(gridChart(chart));
+        charts.push_back(countsChart({chartName(), counts.condition + ": " + std::to_string(resolution.columns) + " x " + std::to_string(resolution.rows), false}, counts));
         all.push_back(std::move(counts));
     }
     page_.figure(charts, "Percent counts as printed (framed: below 1.42 %) and the largest grid that merging makes of them, columns x rows.");
