@@ -21,4 +21,4 @@ build asan all
 Tests/Fuzz/run.sh 20000 >build/fuzz.log 2>&1 || { cat build/fuzz.log >&2; exit 1; }
 run_tests asan
 build tsan all
-run_tests tsan
+ctest --preset tsan -j2 --progress -LE live # none of its tests wants a display
