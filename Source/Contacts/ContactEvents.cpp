@@ -40,6 +40,7 @@ ContactEvents::ContactEvents(const BodyReader& bodies, const ImpactSettings& set
     , catcher_(table_, graph_)
     , onset_(catcher_, table_, graph_)
     , release_(catcher_, table_, graph_, bodies)
+    , lasting_(table_)
     , held_(heldImpacts) {
     impacts_.reserve(heldImpacts);
 }
@@ -108,6 +109,7 @@ void ContactEvents::forget(std::int32_t slot, bool isWithdrawn, bool othersToo) 
     catcher_.forget(slot);
     onset_.forget(slot, othersToo);
     release_.forget(slot, othersToo);
+    lasting_.forget(slot);
 }
 
 void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double largestMassKg) {
@@ -123,12 +125,13 @@ void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double larges
 }
 
 void ContactEvents::conclude() {
-    if (catcher_.hasHeard()) finish();
+    if (catcher_.hasHeard() || lasting_.hasHeard()) finish();
 }
 
 void ContactEvents::endStep() {
     finish();
     catcher_.endStep();
+    lasting_.endStep();
 }
 
 void ContactEvents::finish() {
@@ -140,6 +143,7 @@ void ContactEvents::finish() {
     else
         release_.collect(span_, impacts_);
     if (settings_.hitsPerStep) keepStrongest(static_cast<std::size_t>(*settings_.hitsPerStep));
+    lasting_.collect(span_, impacts_);
     addImpacts();
 }
 

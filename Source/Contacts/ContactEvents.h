@@ -9,6 +9,7 @@
 #include "Contacts/Impact.h"
 #include "Contacts/ImpactModel.h"
 #include "Contacts/ImpactSettings.h"
+#include "Contacts/LastingContacts.h"
 #include "Contacts/OnsetImpacts.h"
 #include "Contacts/PairSounds.h"
 #include "Contacts/ReleaseImpacts.h"
@@ -44,6 +45,7 @@ public:
 
     const FixtureTable& fixtures() const noexcept { return table_; }
     CollisionCatcher& catcher() noexcept { return catcher_; }
+    LastingContacts& lasting() noexcept { return lasting_; }
 
     /// Takes the values of a fixture away, and its events that have not been handed out.
     void remove(std::int32_t slot);
@@ -94,6 +96,9 @@ public:
     /// Hits left out so far because they were more than ImpactSettings::hitsPerStep.
     std::uint64_t overBudget() const noexcept { return overBudget_; }
 
+    /// Grains of rough surfaces that were passed and left out so far, their power being in the others.
+    std::uint64_t thinned() const noexcept { return lasting_.thinned(); }
+
     /// The constants of Eq. 5.4 in the last step begun.
     const ImpactModel& impactModel() const noexcept { return model_; }
 
@@ -112,6 +117,7 @@ private:
     CollisionCatcher catcher_;
     OnsetImpacts onset_;
     ReleaseImpacts release_;
+    LastingContacts lasting_;
     EventSorter held_;
     StepSpan span_;
     std::vector<Impact> impacts_;

@@ -21,6 +21,7 @@ std::int32_t FixtureTable::know(std::uint64_t fixture, const BodyFacts& body) {
         known_.emplace_back();
         isCamera_.push_back(0);
         mobility_.emplace_back();
+        isRough_.push_back(0);
         free_.reserve(known_.capacity()); // releasing a slot never allocates
     }
     const std::int32_t slot = free_.back();
@@ -49,6 +50,7 @@ std::int32_t FixtureTable::set(std::int32_t slot, const HapticFixture& values, V
     nextId_ = std::max(nextId_, id + 1);
     weigh(known);
     noteCamera(slot, values.isCamera);
+    isRough_[static_cast<std::size_t>(slot)] = values.texture.isRough() ? 1 : 0;
     return id;
 }
 
@@ -57,6 +59,7 @@ void FixtureTable::unset(std::int32_t slot) {
     at(slot).id = nextNameless_--;
     at(slot).values = {};
     noteCamera(slot, false);
+    isRough_[static_cast<std::size_t>(slot)] = 0;
 }
 
 void FixtureTable::release(std::int32_t slot) {
@@ -65,6 +68,7 @@ void FixtureTable::release(std::int32_t slot) {
     at(slot) = {};
     noteBody(slot, {});
     noteCamera(slot, false);
+    isRough_[static_cast<std::size_t>(slot)] = 0;
     free_.push_back(slot);
 }
 

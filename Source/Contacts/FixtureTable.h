@@ -57,6 +57,7 @@ public:
         return known_[static_cast<std::size_t>(slot)];
     }
     bool isCamera(std::int32_t slot) const noexcept { return isCamera_[static_cast<std::size_t>(slot)] != 0; }
+    bool isRough(std::int32_t slot) const noexcept { return isRough_[static_cast<std::size_t>(slot)] != 0; }
 
     /// Two numbers of its KnownFixture.
     struct Mobility {
@@ -80,8 +81,9 @@ private:
     void weigh(const KnownFixture& known);
 
     std::vector<KnownFixture> known_;
-    std::vector<std::uint8_t> isCamera_; // by slot, as the next: asked of each contact in each step, so they are kept close together
+    std::vector<std::uint8_t> isCamera_; // by slot, as the next two: asked of each contact in each step, so they are kept close together
     std::vector<Mobility> mobility_;
+    std::vector<std::uint8_t> isRough_;
     std::int32_t cameras_ = 0;
     std::vector<std::int32_t> free_;
     IntegerMap slots_;   // by the engine's name of the fixture

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What PhysVib must know of a fixture: the thesis' user data (Fig. 5.1), kept beside the engine's own.
 #pragma once
+#include "Contacts/Texture.h"
 #include "Contacts/Voice.h"
 #include "Core/Limits.h"
 #include <array>
@@ -28,6 +29,7 @@ struct HapticFixture {
     Overtones overtones{};
     int surface = 0;           ///< its kind, for sounds of pairs (see PairSounds); 0: none
     double gain = 1.0;         ///< of what it sends out as a camera; 0: muted, and it may be felt again at any time
+    Texture texture{};         ///< for what rolls and slides along it
     std::optional<double> handMassKg{}; ///< m_h of Eq. 5.4 for this camera, instead of the settings'
 };
 
@@ -44,7 +46,7 @@ inline std::string_view faultOf(const HapticFixture& values) noexcept {
     }
     if (!isWithin(values.gain, 1.0e6)) return "gain: expected 0 to 10^6";
     if (!isWithin(values.handMassKg.value_or(0.0), 1.0e12)) return "hand mass: expected 0 to 10^12 kg";
-    return {};
+    return faultOf(values.texture);
 }
 
 /// What became of values that were given to a fixture.

@@ -2,6 +2,7 @@
 // What the catcher's stages hand to each other: the step, the blows that fell in it, and what a camera felt.
 #pragma once
 #include "Contacts/BodyReader.h"
+#include "Core/CollisionEvent.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -74,6 +75,7 @@ struct Impact {
     std::int64_t timeNs;
     double newtonSeconds;
     Vector2 point;
+    ContactKind kind = ContactKind::hit;
 };
 
 } // namespace physvib

@@ -49,7 +49,7 @@ void addEvents(const Impact& impact, const FixtureTable& table, const PairSounds
     event.amplitude = amplitudeOf(impact, table, bodies, model);
     event.x = static_cast<double>(place.x);
     event.y = static_cast<double>(place.y);
-    event.source = {camera.id, other == nullptr ? -1 : other->id, impact.newtonSeconds, massOf(camera, bodies)};
+    event.source = {camera.id, other == nullptr ? -1 : other->id, impact.newtonSeconds, massOf(camera, bodies), impact.kind};
 
     if (const PairSound* pair = other == nullptr ? nullptr : pairs.find(camera.values.surface, other->values.surface)) {
         event.amplitude *= pair->gain;

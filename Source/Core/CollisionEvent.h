@@ -7,12 +7,16 @@
 
 namespace physvib {
 
+/// What an event came of: two bodies that met, or a grain of a surface that something rolled or slid over.
+enum class ContactKind : std::uint8_t { hit, roll, slide };
+
 /// Who hit whom, and how hard. Not needed for rendering; carried along for event lists, views and studies.
 struct CollisionSource {
     std::int32_t fixture = -1; ///< camera-focused fixture that vibrates; -1: unknown
     std::int32_t other = -1;   ///< the fixture it collided with; -1: unknown
     double impulseNewtonSeconds = 0.0;
     double massKg = 0.0; ///< of the body that carries `fixture`
+    ContactKind kind = ContactKind::hit;
     bool operator==(const CollisionSource&) const = default;
 };
 

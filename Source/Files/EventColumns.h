@@ -4,6 +4,7 @@
 #include "Core/CollisionEvent.h"
 #include "Files/Text/DecimalSeconds.h"
 #include "Files/Text/NumberText.h"
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,9 +33,15 @@ struct WholeColumn {
     std::int32_t& (*field)(CollisionEvent&);
 };
 
+/// What the event came of; a list of hits only has none of it, as all lists had once.
+struct KindColumn {
+    ContactKind& (*field)(CollisionEvent&);
+};
+inline constexpr std::array<std::string_view, 3> contactKindNames{"hit", "roll", "slide"};
+
 struct EventColumn {
     std::string_view name;
-    std::variant<SecondsColumn, NumberColumn, WholeColumn> cell;
+    std::variant<SecondsColumn, NumberColumn, WholeColumn, KindColumn> cell;
 };
 
 template <auto Member>
@@ -47,7 +54,7 @@ auto& ofSource(CollisionEvent& event) {
 }
 
 /// In the order they are written. The bounds are those of isPlayable; a mass is not negative.
-inline constexpr std::array<EventColumn, 11> eventColumns{{
+inline constexpr std::array<EventColumn, 12> eventColumns{{
     {"time_s", SecondsColumn{of<&CollisionEvent::timeNs>}},
     {"frequency_hz", NumberColumn{of<&CollisionEvent::frequencyHz>, 0.0, limits::maxFrequencyHz, true}},
     {"decay_per_s", NumberColumn{of<&CollisionEvent::decayPerSecond>, 0.0, limits::maxDecayPerSecond}},
@@ -59,6 +66,7 @@ inline constexpr std::array<EventColumn, 11> eventColumns{{
     {"other", WholeColumn{ofSource<&CollisionSource::other>}},
     {"impulse_ns", NumberColumn{ofSource<&CollisionSource::impulseNewtonSeconds>}},
     {"mass_kg", NumberColumn{ofSource<&CollisionSource::massKg>, 0.0}},
+    {"kind", KindColumn{ofSource<&CollisionSource::kind>}},
 }};
 
 /// Columns up to y_m must be there when read; an event without the others has their defaults.
@@ -89,6 +97,13 @@ inline std::string readCell(const WholeColumn& column, std::string_view cell, Co
     return {};
 }
 
+inline std::string readCell(const KindColumn& column, std::string_view cell, CollisionEvent& event) {
+    const auto* const found = std::ranges::find(contactKindNames, cell);
+    if (found == contactKindNames.end()) return "hit, roll or slide";
+    column.field(event) = static_cast<ContactKind>(found - contactKindNames.begin());
+    return {};
+}
+
 inline void writeCell(const SecondsColumn& column, CollisionEvent& event, std::string& out) {
     appendSeconds(out, column.field(event));
 }
@@ -97,6 +112,9 @@ inline void writeCell(const NumberColumn& column, CollisionEvent& event, std::st
 }
 inline void writeCell(const WholeColumn& column, CollisionEvent& event, std::string& out) {
     appendNumber(out, column.field(event));
+}
+inline void writeCell(const KindColumn& column, CollisionEvent& event, std::string& out) {
+    out += contactKindNames[static_cast<std::size_t>(column.field(event))];
 }
 
 } // namespace physvib

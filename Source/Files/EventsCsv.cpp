@@ -11,9 +11,12 @@
 namespace physvib {
 namespace {
 
-std::string columnNames() {
+bool isKind(const EventColumn& column) { return std::holds_alternative<KindColumn>(column.cell); }
+
+std::string columnNames(bool hasKinds = false) {
     std::string names;
     for (const EventColumn& column : eventColumns) {
+        if (isKind(column) && !hasKinds) continue;
         if (!names.empty()) names += ',';
         names += column.name;
     }
@@ -187,20 +190,23 @@ Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& p
     return reader().read(found.value);
 }
 
-std::string eventsCsvHead(const Provenance& provenance) { return provenanceComment(provenance) + columnNames() + "\n"; }
+std::string eventsCsvHead(const Provenance& provenance, bool hasKinds) { return provenanceComment(provenance) + columnNames(hasKinds) + "\n"; }
 
-void appendEventRow(std::string& text, CollisionEvent event) {
+void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds) {
     for (const EventColumn& column : eventColumns) {
-        std::visit([&](const auto& kind) { writeCell(kind, event, text); }, column.cell);
-        text += &column == &eventColumns.back() ? '\n' : ',';
+        if (isKind(column) && !hasKinds) continue;
+        std::visit([&](const auto& cell) { writeCell(cell, event, text); }, column.cell);
+        text += ',';
     }
+    text.back() = '\n';
 }
 
 std::string eventsCsv(std::span<const CollisionEvent> events, const Provenance& provenance) {
-    std::string text = eventsCsvHead(provenance);
+    const bool hasKinds = std::ranges::any_of(events, [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; });
+    std::string text = eventsCsvHead(provenance, hasKinds);
     constexpr std::size_t usualRowBytes = 160;
     text.reserve(text.size() + events.size() * usualRowBytes);
-    for (const CollisionEvent& event : events) appendEventRow(text, event);
+    for (const CollisionEvent& event : events) appendEventRow(text, event, hasKinds);
     return text;
 }
 

@@ -25,11 +25,12 @@ Result<std::vector<CollisionEvent>> readEventsCsv(std::string_view text, std::st
 /// The same of a file, of at most limits::maxEventsFileBytes and lines of a million bytes. M only.
 Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& path);
 
-/// Comment and header line, and the line of one event: what eventsCsv puts together. Any thread.
-std::string eventsCsvHead(const Provenance& provenance);
-void appendEventRow(std::string& text, CollisionEvent event);
+/// Comment and header line, and the line of one event: what eventsCsv puts together. `hasKinds`: with the column `kind`, which
+/// a list of hits alone does not need. Any thread.
+std::string eventsCsvHead(const Provenance& provenance, bool hasKinds);
+void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds);
 
-/// The events with every column; readEventsCsv gives them back bit for bit if they are playable and in time
+/// The events with every column (`kind` if there is anything but hits); readEventsCsv gives them back bit for bit if they are playable and in time
 /// order, and refuses them otherwise. Any thread.
 std::string eventsCsv(std::span<const CollisionEvent> events, const Provenance& provenance);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fresh points that near each other fast are blows; everything else is load.
 #include "Physics/BlowFinder.h"
+#include "Physics/SurfacePaths.h"
 #include "Physics/WorldNames.h"
 #include <algorithm>
 
@@ -174,6 +175,7 @@ void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse)
     Blow* const blow = fresh != 0 ? events_.catcher().blow(pair) : nullptr;
     const bool isHeard = events_.catcher().isHeard(pair);
     if (blow != nullptr || isHeard) share(contact, impulse, pair, fresh, blow, isHeard);
+    if (events_.lasting().isHeard(pair.a, pair.b)) tellLasting(contact, impulse, blow != nullptr ? fresh : 0U, pair.a, pair.b, events_.lasting());
 }
 
 void BlowFinder::share(const b2Contact& contact, const b2ContactImpulse& impulse, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard) {

@@ -36,8 +36,10 @@ ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocatio
 }
 
 HapticFixture hapticOf(const SceneWorld::FixtureNow& now) {
-    return {now.material.frequencyHz, now.material.decayPerSecond, now.description.isCamera, now.body.massKg,
-            now.description.voice};
+    HapticFixture values{now.material.frequencyHz, now.material.decayPerSecond, now.description.isCamera, now.body.massKg,
+                         now.description.voice};
+    values.texture = now.material.texture();
+    return values;
 }
 
 } // namespace

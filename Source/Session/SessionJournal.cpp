@@ -23,6 +23,7 @@ SessionJournal::SessionJournal(std::filesystem::path path, Session& session, con
     : path_{std::move(path)}
     , eventsPath_{std::filesystem::path{path_}.replace_extension(".events.csv")}
     , session_{session}
+    , hasKinds_{isAnyRough(setup.scene.materials)}
     , lines_{headOf(setup), std::filesystem::absolute(path_).parent_path()} {
     begin(provenance);
     if (!error_.empty()) return;
@@ -38,7 +39,7 @@ SessionJournal::~SessionJournal() {
 void SessionJournal::begin(const Provenance& provenance) {
     AtomicFile session{path_}, events{eventsPath_};
     session.write(lines_.head());
-    events.write(eventsCsvHead(provenance));
+    events.write(eventsCsvHead(provenance, hasKinds_));
     for (AtomicFile* file : {&session, &events})
         if (error_.empty()) error_ = file->error();
     for (AtomicFile* file : {&events, &session})
@@ -82,7 +83,7 @@ void SessionJournal::write(std::optional<std::int64_t> endNs) {
     for (CollisionEvent event : played) {
         if (rows_++ >= limits::maxEventRows) break;
         event.timeNs = lastNs_ = std::max(lastNs_, event.timeNs); // a late one was played after others, and must not come before them
-        appendEventRow(rows, event);
+        appendEventRow(rows, event, hasKinds_);
     }
     events_.append(rows);
     tell();

@@ -55,6 +55,7 @@ private:
     std::filesystem::path path_, eventsPath_;
     Session& session_;
     std::string error_;
+    const bool hasKinds_; // of the list
     std::optional<AtomicFile> whole_; // the session file to be; nobody else writes one of that name until then
 
     // The thread's; M's once that has ended.

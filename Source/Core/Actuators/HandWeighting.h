@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How much vibration a hand has taken: the weighting W_h of ISO 5349-1 at any rate, and the daily exposure A(8).
 #pragma once
+#include "Core/StandardGravity.h"
 #include "Core/Actuators/Biquad.h"
 #include <array>
 #include <cmath>
@@ -17,7 +18,6 @@ constexpr double transitionHz = 15.915, transitionQ = 0.64;                   //
 double gain(double frequencyHz) noexcept;
 } // namespace handWeighting
 
-constexpr double standardGravity = 9.80665;                                     // m/s^2 in a g
 constexpr double exposureActionValue = 2.5, exposureLimitValue = 5.0;           // m/s^2, A(8) (directive 2002/44/EC)
 constexpr double exposureReferenceSeconds = 8.0 * 3600.0;
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A world as data: what a simulation is built from, and what a picture of it is drawn from. No Box2D here.
 #pragma once
+#include "Contacts/Texture.h"
 #include "Contacts/Voice.h"
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
@@ -24,8 +26,18 @@ struct Material {
     double restitution = 0.0;
     double frequencyHz = 0.0; ///< 0: never vibrates (allowed only where no camera needs it)
     double decayPerSecond = 0.0;
+    double grainMetres = 0.0; ///< these four: of its surface, see Texture
+    double roughness = 1.0;
+    GrainPattern grainPattern = GrainPattern::random;
+    double rolling = 0.2;
     bool operator==(const Material&) const = default;
+
+    Texture texture() const noexcept { return {grainMetres, roughness, grainPattern, rolling}; }
 };
+
+inline bool isAnyRough(const std::vector<Material>& materials) {
+    return std::ranges::any_of(materials, [](const Material& m) { return m.texture().isRough(); });
+}
 
 struct CircleShape {
     double radiusMetres = 0.0;

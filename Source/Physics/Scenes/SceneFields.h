@@ -52,6 +52,8 @@ inline constexpr Bounds accelerationBounds = within(sceneLimits::maxAcceleration
 inline constexpr Bounds torqueBounds = upTo(sceneLimits::maxTorqueNewtonMetres);
 inline constexpr Bounds fixtureBounds = upTo(static_cast<double>(sceneLimits::maxFixturesPerBody - 1));
 
+inline constexpr std::array<std::string_view, 2> grainPatternNames{"random", "regular"};
+
 template <>
 struct FieldsOf<Material> {
     template <class V>
@@ -64,6 +66,10 @@ struct FieldsOf<Material> {
         v.field("restitution", &Material::restitution, upTo(1.0), Need::required);
         v.field("frequency_hz", &Material::frequencyHz, upTo(limits::maxFrequencyHz), Need::optional);
         v.field("decay_per_s", &Material::decayPerSecond, upTo(limits::maxDecayPerSecond), Need::optional);
+        v.field("grain_m", &Material::grainMetres, upTo(Texture::coarsestMetres), Need::optional);
+        v.field("roughness", &Material::roughness, upTo(Texture::mostRoughness), Need::optional);
+        v.choice("grain_pattern", &Material::grainPattern, grainPatternNames);
+        v.field("rolling", &Material::rolling, upTo(1.0), Need::optional);
     }
 };
 

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// The grains of a surface: where they are and how strong, the same whenever they are passed.
+#pragma once
+#include "Contacts/Texture.h"
+#include <cmath>
+#include <cstdint>
+
+namespace physvib {
+
+/// How a point moves along a surface during a step: s(t) = start + speed t + acceleration t^2 / 2, t from 0 to `seconds`.
+struct SurfaceMotion {
+    double startMetres = 0.0, metresPerSecond = 0.0, metresPerSecond2 = 0.0, seconds = 0.0;
+
+    double metresAt(double t) const noexcept { return startMetres + (metresPerSecond + 0.5 * metresPerSecond2 * t) * t; }
+    double speedAt(double t) const noexcept { return metresPerSecond + metresPerSecond2 * t; }
+    /// When it turns back; `seconds` if it does not.
+    double turn() const noexcept {
+        const double t = metresPerSecond2 == 0.0 ? seconds : -metresPerSecond / metresPerSecond2;
+        return t > 0.0 && t < seconds ? t : seconds;
+    }
+};
+
+/// One surface's. Grain `index` lies at (index + 1/2) spacings, +-45 % if they are random, with a strength of 0.2 to 1.8
+/// that depends on surface and index alone: what goes back feels the same grains again, and every run feels the same.
+class Grains {
+public:
+    /// `texture` is rough.
+    Grains(std::uint64_t surface, const Texture& texture) noexcept
+        : surface_{surface}
+        , texture_{texture} {}
+
+    double metresOf(std::int64_t index) const noexcept {
+        const double jitter = isRandom() ? 0.9 * (chance(index, 0) - 0.5) : 0.0;
+        return (static_cast<double>(index) + 0.5 + jitter) * texture_.grainMetres;
+    }
+    double strengthOf(std::int64_t index) const noexcept { return isRandom() ? 0.2 + 1.6 * chance(index, 1) : 1.0; }
+
+    /// Calls `passed(index, t)` for each grain of which the index is a multiple of `every`, in the order in which they are passed.
+    template <class Passed>
+    void along(const SurfaceMotion& motion, std::int64_t every, Passed&& passed) const {
+        const double turn = motion.turn();
+        walk(motion, 0.0, turn, every, passed);
+        if (turn < motion.seconds) walk(motion, turn, motion.seconds, every, passed);
+    }
+
+private:
+    bool isRandom() const noexcept { return texture_.pattern == GrainPattern::random; }
+    /// 0 to 1 (SplitMix64's finaliser; Steele, Lea, Flood 2014).
+    double chance(std::int64_t index, std::uint64_t which) const noexcept;
+
+    /// The first multiple of `every` whose grain lies beyond `metres`, upwards or downwards.
+    std::int64_t next(double metres, bool isUp, std::int64_t every) const noexcept;
+
+    template <class Passed>
+    void walk(const SurfaceMotion& motion, double from, double to, std::int64_t every, Passed& passed) const {
+        const double start = motion.metresAt(from), end = motion.metresAt(to), speed = motion.speedAt(from);
+        const bool isUp = end > start;
+        const double sign = isUp ? 1.0 : -1.0;
+        for (std::int64_t i = next(start, isUp, every);; i += isUp ? every : -every) {
+            const double grain = metresOf(i), far = grain - start;
+            if (sign * (end - grain) < 0.0) return;
+            // The root of the parabola that begins at `from`, in the form that loses no digits.
+            const double root = std::sqrt(std::fmax(0.0, speed * speed + 2.0 * motion.metresPerSecond2 * far));
+            const double denominator = speed + sign * root;
+            const double t = denominator == 0.0 ? to : from + 2.0 * far / denominator;
+            passed(i, std::fmin(std::fmax(t, from), to));
+        }
+    }
+
+    std::uint64_t surface_;
+    const Texture& texture_;
+};
+
+} // namespace physvib

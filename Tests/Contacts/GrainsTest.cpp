@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Grains on a line that is passed, to and fro.
+#include "Contacts/Grains.h"
+#include "Contacts/LastingContacts.h"
+#include <gtest/gtest.h>
+#include <limits>
+#include <vector>
+
+namespace physvib {
+namespace {
+
+struct Pass {
+    std::int64_t index;
+    double t;
+};
+
+std::vector<Pass> passes(const Grains& grains, const SurfaceMotion& motion, std::int64_t every = 1) {
+    std::vector<Pass> all;
+    grains.along(motion, every, [&](std::int64_t index, double t) { all.push_back({index, t}); });
+    return all;
+}
+
+TEST(Grains, LieInTheirOwnCellsAndStayThere) {
+    const Texture texture{0.002};
+    const Grains grains{7, texture}, again{7, texture}, other{8, texture};
+    double sum = 0.0, strengths = 0.0;
+    int same = 0;
+    for (std::int64_t i = -500; i < 500; ++i) {
+        const double cells = grains.metresOf(i) / 0.002 - static_cast<double>(i);
+        EXPECT_GT(cells, 0.049);
+        EXPECT_LT(cells, 0.951);
+        EXPECT_EQ(grains.metresOf(i), again.metresOf(i));
+        EXPECT_EQ(grains.strengthOf(i), again.strengthOf(i));
+        same += grains.metresOf(i) == other.metresOf(i) ? 1 : 0;
+        sum += cells;
+        strengths += grains.strengthOf(i);
+    }
+    EXPECT_EQ(same, 0);
+    EXPECT_NEAR(sum / 1000.0, 0.5, 0.03);
+    EXPECT_NEAR(strengths / 1000.0, 1.0, 0.05);
+}
+
+TEST(Grains, ArePassedOnceEachHoweverTheWayIsCut) {
+    const Texture texture{0.001};
+    const Grains grains{3, texture};
+    const SurfaceMotion whole{-0.05, 0.3, -1.0, 1.0}; // turns after 0.3 s, and goes far back
+    const std::vector<Pass> all = passes(grains, whole);
+    std::vector<Pass> parts;
+    for (int k = 0; k < 1000; ++k) {
+        const double t = 0.001 * k;
+        for (Pass p : passes(grains, {whole.metresAt(t), whole.speedAt(t), whole.metresPerSecond2, 0.001})) parts.push_back({p.index, t + p.t});
+    }
+    ASSERT_EQ(parts.size(), all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(parts[i].index, all[i].index);
+        EXPECT_NEAR(parts[i].t, all[i].t, 1.0e-9);
+        EXPECT_NEAR(whole.metresAt(all[i].t), grains.metresOf(all[i].index), 1.0e-12);
+        if (i > 0) EXPECT_GE(all[i].t, all[i - 1].t);
+    }
+}
+
+TEST(Grains, ThinnedOnesAreSomeOfThem) {
+    const Texture texture{0.001, 1.0, GrainPattern::regular};
+    const Grains grains{0, texture};
+    const std::vector<Pass> fourth = passes(grains, {-0.1, 1.0, 0.0, 0.2}, 4);
+    ASSERT_EQ(fourth.size(), 50U);
+    for (const Pass& p : fourth) EXPECT_EQ(p.index % 4, 0);
+}
+
+TEST(Textures, WhatCannotBeFeltIsRefused) {
+    EXPECT_EQ(faultOf(Texture{}), "");
+    EXPECT_EQ(faultOf(Texture{0.002}), "");
+    EXPECT_FALSE(Texture{1.0e-6}.isRough());
+    for (const double grain : {-1.0, 11.0, std::numeric_limits<double>::quiet_NaN()}) EXPECT_NE(faultOf(Texture{grain}), "") << grain;
+    EXPECT_NE(faultOf(Texture{0.002, -1.0}), "");
+    EXPECT_NE(faultOf(Texture{0.002, 1.0, GrainPattern::random, 1.5}), "");
+}
+
+/// A point of two slots, told as an engine would that has no Box2D.
+class LastingStream : public testing::Test {
+protected:
+    LastingStream() {
+        HapticFixture ground{250.0, 20.0, true, 10.0};
+        ground.texture = {0.002};
+        BodyFacts still, moving;
+        still.body = 1;
+        moving.body = 2;
+        moving.isDynamic = true;
+        moving.massKg = 1.0;
+        groundSlot = table.know(11, still);
+        table.set(groundSlot, ground, {});
+        ballSlot = table.know(12, moving);
+    }
+    /// A step of 10 ms with this load and speed, sliding.
+    std::vector<Impact> step(double newtons, double metresPerSecond) {
+        metres += metresPerSecond * 0.01;
+        LastingPoint point;
+        point.a = groundSlot;
+        point.b = ballSlot;
+        point.normalNewtonSeconds = newtons * 0.01;
+        point.slipMetresPerSecond = metresPerSecond;
+        point.onA = {metres, metresPerSecond};
+        if (newtons >= 0.0) lasting.touch(point);
+        span.startNs = span.endNs;
+        span.endNs += 10'000'000;
+        std::vector<Impact> impacts;
+        lasting.collect(span, impacts);
+        lasting.endStep();
+        return impacts;
+    }
+    double power(double newtons, double metresPerSecond, int steps = 200) {
+        for (int i = 0; i < 3; ++i) step(newtons, metresPerSecond);
+        double sum = 0.0;
+        for (int i = 0; i < steps; ++i)
+            for (const Impact& impact : step(newtons, metresPerSecond)) sum += impact.newtonSeconds * impact.newtonSeconds;
+        return sum / (0.01 * steps);
+    }
+    FixtureTable table;
+    LastingContacts lasting{table};
+    StepSpan span;
+    std::int32_t groundSlot = 0, ballSlot = 0;
+    double metres = 0.0;
+};
+
+TEST_F(LastingStream, GrowsWithLoadAndSpeedThinnedOrNot) {
+    // Power: as many grains as the speed, each as strong as load and speed.
+    const double one = power(1.0, 1.0);
+    for (const double load : {0.1, 1.0, 10.0})
+        for (const double speed : {0.05, 0.5, 1.0, 5.0, 30.0}) { // 25 to 15,000 grains a second
+            const double expected = one * load * load * speed * speed * speed;
+            EXPECT_NEAR(10.0 * std::log10(power(load, speed, speed < 0.1 ? 2000 : 200) / expected), 0.0, 1.0) << load << " N, " << speed << " m/s";
+        }
+    EXPECT_GT(lasting.thinned(), 0U);
+}
+
+TEST_F(LastingStream, WhatIsThinnedHasABoundedRate) {
+    for (int i = 0; i < 3; ++i) step(1.0, 30.0);
+    for (int i = 0; i < 50; ++i) EXPECT_LE(step(1.0, 30.0).size(), 21U);
+}
+
+TEST_F(LastingStream, ALoadThatHasJustComeIsNotFelt) {
+    EXPECT_TRUE(step(1.0, 1.0).empty());
+    const double usual = step(1.0, 1.0).front().newtonSeconds;
+    double most = 0.0;
+    for (const Impact& impact : step(1000.0, 1.0)) most = std::max(most, impact.newtonSeconds); // a blow's
+    EXPECT_LT(most, 20.0 * usual);
+    step(1.0, 1.0);
+    EXPECT_TRUE(step(-1.0, 1.0).empty()); // nothing touches
+    EXPECT_TRUE(step(1.0, 1.0).empty());  // again new
+}
+
+TEST_F(LastingStream, WhatJumpsIsNotFollowedAndWhatIsNoNumberNotTaken) {
+    for (int i = 0; i < 3; ++i) step(1.0, 0.5);
+    metres += 100.0; // put elsewhere
+    EXPECT_LE(step(1.0, 0.5).size(), 4U);
+    EXPECT_TRUE(step(1.0, std::numeric_limits<double>::quiet_NaN()).empty());
+    metres = 0.0;
+    EXPECT_TRUE(step(1.0, std::numeric_limits<double>::infinity()).empty());
+}
+
+TEST_F(LastingStream, ManyTogetherStayBelowTheirBound) {
+    std::vector<Impact> impacts;
+    for (int n = 0; n < 5; ++n) {
+        for (std::uint64_t k = 0; k < 1000; ++k) {
+            LastingPoint point;
+            point.a = groundSlot;
+            point.b = ballSlot;
+            point.feature = k;
+            point.normalNewtonSeconds = 0.01;
+            point.slipMetresPerSecond = 3.0;
+            point.onA = {0.03 * n + 0.0137 * static_cast<double>(k), 3.0};
+            lasting.touch(point);
+        }
+        span.startNs = span.endNs;
+        span.endNs += 10'000'000;
+        impacts.clear();
+        lasting.collect(span, impacts);
+        lasting.endStep();
+    }
+    EXPECT_LE(impacts.size(), 1000U); // of mostTogetherPerSecond, but for what lies at both ends
+    EXPECT_GT(impacts.size(), 200U);
+}
+
+} // namespace
+} // namespace physvib
