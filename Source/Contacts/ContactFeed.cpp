@@ -81,6 +81,8 @@ std::string_view ContactFeed::faultOf(const FedContact& contact) {
     if (!isWithin(contact.fraction.value_or(0.0), -1.0, 1.0)) return "fraction: expected -1 to 1";
     if (!std::isfinite(contact.gapMetres)) return "gap: expected a number of metres";
     if (!isWithin(contact.gapFraction, 0.0, 1.0)) return "fraction of the gap: expected 0 to 1";
+    for (const auto& along : {contact.alongAMetresPerSecond, contact.alongBMetresPerSecond})
+        if (!isWithin(along.value_or(0.0), -most, most)) return "speed along a surface: expected a number of m/s";
     return {};
 }
 
@@ -125,6 +127,7 @@ std::string_view ContactFeed::endStep() {
         else
             pairs_[i].isNew = pairs_[i].isNamed = false;
     }
+    rubs_.endStep(events_.stepSeconds(), events_.lasting());
     events_.endStep();
     return {};
 }
@@ -158,6 +161,7 @@ void ContactFeed::drop(std::size_t pair) {
 void ContactFeed::dropAllOf(std::int32_t slot) {
     for (std::size_t i = pairs_.size(); i-- > 0;)
         if (pairs_[i].a == slot || pairs_[i].b == slot) drop(i);
+    rubs_.forget(slot);
 }
 
 void ContactFeed::strike(const FedContact& contact) {
@@ -194,9 +198,15 @@ void ContactFeed::strike(const FedContact& contact) {
 void ContactFeed::load(const FedContact& contact) {
     if (!contact.impulseNewtonSeconds || !events_.catcher().isHearing()) return;
     const TouchingPairs::Name pair = nameOf(contact);
+    rub(contact, pair);
     if (!events_.catcher().isHeard(pair)) return;
     const auto along = static_cast<float>(*contact.impulseNewtonSeconds), across = static_cast<float>(contact.tangentialNewtonSeconds);
     events_.catcher().push(pair, along * contact.normal + across * contact.normal.turnedLeft(), contact.point);
+}
+
+void ContactFeed::rub(const FedContact& contact, const TouchingPairs::Name& pair) {
+    if (!contact.alongAMetresPerSecond || !contact.alongBMetresPerSecond || !events_.lasting().isHeard(pair.a, pair.b)) return;
+    rubs_.tell({pair.a, pair.b, *contact.impulseNewtonSeconds, contact.point, *contact.alongAMetresPerSecond, *contact.alongBMetresPerSecond});
 }
 
 // Surfaces close a gap, or have closed it, at the speed at which they meet.

@@ -3,6 +3,7 @@
 #pragma once
 #include "Contacts/ContactEvents.h"
 #include "Contacts/FedBodies.h"
+#include "Contacts/FedRubs.h"
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -31,6 +32,10 @@ struct FedContact {
     /// Of an engine whose contacts take several steps to turn a body round, or push overlaps apart: what it pushes in a step is no
     /// measure of a blow. Speed and restitution are; the impulse is what a pair that goes on touching hands on.
     bool isSoft = false;
+
+    /// Of what goes on touching a rough surface (HapticFixture::texture), with its impulse: how fast the point of contact moves along
+    /// each of the two surfaces, m/s. Rolling: both alike; sliding: 0 along what drags its own point. Both, or it is not felt.
+    std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond;
 };
 
 /// The catcher for engines that we do not know; bodies are numbers (>= 0), and stand in events as such. Each step: beginStep,
@@ -81,6 +86,7 @@ public:
     void flush(std::vector<CollisionEvent>& events) { events_.flush(events); }
     std::uint64_t drops() const noexcept { return events_.drops(); }
     std::uint64_t overBudget() const noexcept { return events_.overBudget(); }
+    std::uint64_t thinned() const noexcept { return events_.thinned(); }
     const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }
 
 private:
@@ -97,10 +103,12 @@ private:
     void dropAllOf(std::int32_t slot);
     void strike(const FedContact& contact);
     void load(const FedContact& contact);
+    void rub(const FedContact& contact, const TouchingPairs::Name& pair);
     double fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept;
 
     FedBodies bodies_;
     ContactEvents events_;
+    FedRubs rubs_;
     std::vector<Pair> pairs_;
     IntegerMap pairOf_;
     double lastStepSeconds_ = 0.0;

@@ -131,6 +131,34 @@ TEST(Calls, ALandingIsFeltByItsImpulse) {
     EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
 }
 
+TEST(Calls, WhatRollsOverGrainsIsFelt) {
+    const physvib_world world = worldOfABall();
+    physvib_body floor;
+    physvib_body_init(&floor);
+    floor.frequency_hz = 250.0;
+    floor.decay_per_s = 20.0;
+    floor.grain_m = 0.002;
+    floor.is_ridged = 1;
+    EXPECT_EQ(physvib_world_set_body(world, 0, &floor), PHYSVIB_OK);
+    physvib_contact contact;
+    physvib_contact_init(&contact);
+    contact.a = 0;
+    contact.b = 1;
+    contact.impulse_n_s = 0.2;
+    contact.approach_m_per_s = 0.0;
+    contact.along_a_m_per_s = contact.along_b_m_per_s = 0.4;
+    for (int i = 0; i < 50; ++i) {
+        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK);
+        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    }
+    EXPECT_NEAR(static_cast<double>(physvib_world_take(world, nullptr, 0, 1)), 0.0, 0.0);
+    std::vector<physvib_event> events(1000);
+    EXPECT_NEAR(static_cast<double>(physvib_world_take(world, events.data(), 1000, 1)), 98.0, 2.0); // 200 a second, from the second step on
+    EXPECT_EQ(physvib_world_thinned(world), 0);
+    EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
+}
+
 TEST(Calls, WhatDoesNotFitWaits) {
     const physvib_world world = worldOfABall();
     for (int i = 0; i < 3; ++i) {

@@ -255,6 +255,9 @@ TEST_F(ContactFeedTest, RefusesWhatCannotBeAndNothingIsChanged) {
     contact.approachMetresPerSecond = nan;
     EXPECT_EQ(feed.touch(contact), "approach: expected a number of m/s");
     contact = landing();
+    contact.alongBMetresPerSecond = nan;
+    EXPECT_EQ(feed.touch(contact), "speed along a surface: expected a number of m/s");
+    contact = landing();
     contact.b = ground;
     EXPECT_EQ(feed.touch(contact), "bodies: expected two");
     endStep();
@@ -262,6 +265,55 @@ TEST_F(ContactFeedTest, RefusesWhatCannotBeAndNothingIsChanged) {
     ImpactSettings release;
     release.timing = ImpactTiming::release;
     EXPECT_THROW(ContactFeed{release}, std::invalid_argument);
+}
+
+/// A ball of 2 kg on ridges 2 mm apart, told step by step as its engine would.
+class ContactFeedRubs : public ContactFeedTest {
+protected:
+    ContactFeedRubs() {
+        HapticFixture ridged = camera();
+        ridged.texture = {.grainMetres = 0.002, .pattern = GrainPattern::regular};
+        EXPECT_EQ(feed.set(ground, {}, ridged), "");
+    }
+    /// It moves at 0.4 m/s for a second; its own surface passes at `alongBall`.
+    std::vector<CollisionEvent> pass(double alongBall) {
+        for (int i = 1; i <= 100; ++i) {
+            FedContact contact{.a = ground, .b = ball, .point = {0.004F * static_cast<float>(i), 0.0F}};
+            contact.impulseNewtonSeconds = 2.0 * g * 0.01;
+            contact.approachMetresPerSecond = 0.0;
+            contact.alongAMetresPerSecond = 0.4;
+            contact.alongBMetresPerSecond = alongBall;
+            beginStep(0.01);
+            EXPECT_EQ(feed.touch(contact), "");
+            endStep();
+        }
+        return events();
+    }
+};
+
+TEST_F(ContactFeedRubs, WhatRollsGivesTheTonesOfItsRidgesAndTravels) {
+    const auto rolled = pass(0.4), slid = pass(0.0);
+    ASSERT_GT(rolled.size(), 190U);
+    for (std::size_t i = 1; i < rolled.size(); ++i) EXPECT_NEAR(static_cast<double>(rolled[i].timeNs - rolled[i - 1].timeNs), 5.0e6, 10.0e3);
+    for (const CollisionEvent& e : rolled) {
+        EXPECT_EQ(e.source.kind, ContactKind::roll);
+        EXPECT_NEAR(e.x, 0.4 * 1.0e-9 * static_cast<double>(e.timeNs), 0.004);
+    }
+    ASSERT_GT(slid.size(), 190U);
+    EXPECT_EQ(slid.back().source.kind, ContactKind::slide);
+    EXPECT_NEAR(slid.back().amplitude, 5.0 * rolled.back().amplitude, 1.0e-6); // a fifth is felt of what rolls
+    EXPECT_NEAR(slid.back().source.impulseNewtonSeconds, 0.1 * 2.0 * g / 9.80665 * 0.4, 1.0e-3);
+}
+
+TEST_F(ContactFeedRubs, WhatIsTakenAwayOrNotToldRubsNoMore) {
+    pass(0.4);
+    step();
+    EXPECT_TRUE(events().empty());
+    pass(0.4);
+    EXPECT_EQ(feed.remove(ball), "");
+    EXPECT_EQ(feed.set(ball, {.massKg = 2.0}, camera()), "");
+    step();
+    EXPECT_TRUE(events().empty());
 }
 
 } // namespace

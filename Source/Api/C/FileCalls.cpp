@@ -68,6 +68,8 @@ int physvib_body_init(physvib_body* body) {
     values.gravity_scale = values.gain = 1.0;
     values.hand_mass_kg = PHYSVIB_UNKNOWN;
     for (double& amplitude : values.overtone_amplitude) amplitude = 1.0;
+    values.roughness = Texture{}.roughness;
+    values.rolling = Texture{}.rolling;
     return init(body, values);
 }
 
@@ -75,7 +77,7 @@ int physvib_contact_init(physvib_contact* contact) {
     physvib_contact values{};
     values.a = values.b = -1;
     values.normal_y = 1.0;
-    values.impulse_n_s = values.approach_m_per_s = values.effective_mass_kg = values.fraction = PHYSVIB_UNKNOWN;
+    values.impulse_n_s = values.approach_m_per_s = values.effective_mass_kg = values.fraction = values.along_a_m_per_s = values.along_b_m_per_s = PHYSVIB_UNKNOWN;
     return init(contact, values);
 }
 

@@ -59,6 +59,7 @@ HapticFixture fixtureOf(const physvib_body& body) {
     values.surface = body.surface;
     values.gain = body.gain;
     values.handMassKg = optional(body.hand_mass_kg);
+    values.texture = {body.grain_m, body.roughness, body.is_ridged != 0 ? GrainPattern::regular : GrainPattern::random, body.rolling};
     for (std::size_t i = 0; i < values.overtones.size(); ++i)
         values.overtones[i] = {body.overtone_hz[i], body.overtone_decay_per_s[i], body.overtone_amplitude[i]};
     return values;
@@ -80,6 +81,8 @@ FedContact contactOf(const physvib_contact& from) {
     contact.fraction = optional(from.fraction);
     contact.gapMetres = from.gap_m;
     contact.gapFraction = from.gap_fraction;
+    contact.alongAMetresPerSecond = optional(from.along_a_m_per_s);
+    contact.alongBMetresPerSecond = optional(from.along_b_m_per_s);
     contact.isSoft = from.is_soft != 0;
     return contact;
 }
@@ -195,6 +198,10 @@ physvib_int64 physvib_world_send(physvib_world name, physvib_renderer to, physvi
         world.taken.clear();
         return sent;
     });
+}
+
+physvib_int64 physvib_world_thinned(physvib_world name) {
+    return in(name, [&](World& world) -> physvib_int64 { return static_cast<physvib_int64>(world.feed.thinned()); });
 }
 
 physvib_int64 physvib_world_drops(physvib_world name) {

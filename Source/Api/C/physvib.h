@@ -129,6 +129,10 @@ typedef struct physvib_body {
     double gain;            /* of what it sends out as a camera (1) */
     double hand_mass_kg;    /* m_h for this camera (PHYSVIB_UNKNOWN: the world's) */
     double overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3]; /* relative to the first mode; 0 Hz: none */
+    double grain_m;   /* what rolls or slides along it passes a grain every so often (0: smooth, silent), see Docs/lasting-contacts.md */
+    double roughness; /* strength of its grains, 0 to 1000 (1) */
+    double rolling;   /* share that is felt of what rolls, 0 to 1 (0.2) */
+    int is_ridged;    /* 1: grains at equal distances, a tone (0) */
 } physvib_body;
 
 /* Two bodies touch. Tell the impulse, or how fast they near each other, or neither if physvib_world_move tells the motions. */
@@ -145,6 +149,9 @@ typedef struct physvib_contact {
     double fraction;           /* when they touched, in steps after this one's start, -1 to 1 (PHYSVIB_UNKNOWN: by gap and approach) */
     double gap_m;              /* between the surfaces when the engine looked; below 0: they overlap (0) */
     double gap_fraction;       /* when that was, in steps after this one's start, 0 to 1 (0) */
+    /* Of what goes on touching a rough body, with its impulse: how fast the point moves along each surface. Rolling: both alike; sliding: 0
+     * along what drags its own point (PHYSVIB_UNKNOWN) */
+    double along_a_m_per_s, along_b_m_per_s;
     int is_soft;               /* 1: what the engine pushes in one step is no measure of a blow, which is told by speed and restitution;
                                   the impulse is what a pair that goes on touching hands on (0) */
 } physvib_contact;
@@ -249,6 +256,8 @@ PHYSVIB_API physvib_int64 physvib_world_take(physvib_world world, physvib_event 
 PHYSVIB_API physvib_int64 physvib_world_send(physvib_world world, physvib_renderer renderer, physvib_int64 later_ns, int at_once);
 /* Hits lost so far because more came in a step than there is room for. */
 PHYSVIB_API physvib_int64 physvib_world_drops(physvib_world world);
+/* Grains passed so far and left out, because they were more than 2,000 a second at one contact, or 50,000 in all; their power is in the others. */
+PHYSVIB_API physvib_int64 physvib_world_thinned(physvib_world world);
 
 #ifdef __cplusplus
 }

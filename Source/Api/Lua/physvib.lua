@@ -16,9 +16,9 @@ typedef struct { size_t size; int rate_hz, channels, law, limiter; double expone
 typedef struct { size_t size; int is_muted, hits_per_step, at_body, drops_hits_of_removed; double field_width_m, field_x_m, field_y_m, field_radians,
     normalisation_s_per_m, hand_mass_kg, drive_gain, threshold_m_per_s; } physvib_world_settings;
 typedef struct { size_t size; int is_camera, voice, surface; double mass_kg, inertia_kg_m2, gravity_scale, frequency_hz, decay_per_s, static_mass_kg, gain,
-    hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3]; } physvib_body;
+    hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3], grain_m, roughness, rolling; int is_ridged; } physvib_body;
 typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, impulse_n_s, tangential_n_s, approach_m_per_s, restitution, effective_mass_kg,
-    fraction, gap_m, gap_fraction; int is_soft; } physvib_contact;
+    fraction, gap_m, gap_fraction, along_a_m_per_s, along_b_m_per_s; int is_soft; } physvib_contact;
 const char *physvib_version(void);
 const char *physvib_error(void);
 int physvib_renderer_settings_init(physvib_renderer_settings *);

@@ -48,13 +48,15 @@ class CBody(Structure):
     _fields_ = [("size", c_size_t), ("is_camera", c_int), ("voice", c_int), ("surface", c_int),
                 *[(name, c_double) for name in ("mass_kg", "inertia_kg_m2", "gravity_scale", "frequency_hz", "decay_per_s", "static_mass_kg",
                                                 "gain", "hand_mass_kg")],
-                *[(name, c_double * 3) for name in ("overtone_hz", "overtone_decay_per_s", "overtone_amplitude")]]
+                *[(name, c_double * 3) for name in ("overtone_hz", "overtone_decay_per_s", "overtone_amplitude")],
+                *[(name, c_double) for name in ("grain_m", "roughness", "rolling")], ("is_ridged", c_int)]
 
 
 class CContact(Structure):
     _fields_ = [("size", c_size_t), ("a", c_int), ("b", c_int),
                 *[(name, c_double) for name in ("x_m", "y_m", "normal_x", "normal_y", "impulse_n_s", "tangential_n_s", "approach_m_per_s",
-                                                "restitution", "effective_mass_kg", "fraction", "gap_m", "gap_fraction")],
+                                                "restitution", "effective_mass_kg", "fraction", "gap_m", "gap_fraction", "along_a_m_per_s",
+                                                "along_b_m_per_s")],
                 ("is_soft", c_int)]
 
 
@@ -93,7 +95,7 @@ _signatures = {
     "world_touch": (c_int, _handle, POINTER(CContact)), "world_begin": (c_int, _handle, POINTER(CContact)),
     "world_push": (c_int, _handle, POINTER(CContact)), "world_end": (c_int, _handle, c_int, c_int),
     "world_time_ns": (c_int64, _handle), "world_take": (c_int64, _handle, _events, c_int64, c_int),
-    "world_send": (c_int64, _handle, _handle, c_int64, c_int), "world_drops": (c_int64, _handle),
+    "world_send": (c_int64, _handle, _handle, c_int64, c_int), "world_drops": (c_int64, _handle), "world_thinned": (c_int64, _handle),
 }
 for _name, (_result, *_arguments) in _signatures.items():
     _function = getattr(library, "physvib_" + _name)

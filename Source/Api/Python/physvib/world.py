@@ -31,13 +31,13 @@ class World:
 
     def set_body(self, body: int, *, mass_kg: float = 0.0, is_camera: bool = False, frequency_hz: float = 0.0, decay_per_s: float = 0.0, voice: str = "own",
                  surface: int = 0, inertia_kg_m2: float = 0.0, gravity_scale: float = 1.0, static_mass_kg: float = 0.0, gain: float = 1.0,
-                 hand_mass_kg: float | None = None) -> None:
-        """A body, at first or again; a mass of 0 is a floor or a wall: what strikes it does not move it."""
+                 hand_mass_kg: float | None = None, grain_m: float = 0.0, roughness: float = 1.0, rolling: float = 0.2, is_ridged: bool = False) -> None:
+        """A body, at first or again; a mass of 0 is a floor or a wall: what strikes it does not move it. Grains: see `touch`."""
         if voice not in VOICES:
             raise PhysVibError(f"voice: expected one of {', '.join(VOICES)}", -2)
         values = filled(CBody, "body_init", mass_kg=mass_kg, is_camera=int(is_camera), frequency_hz=frequency_hz, decay_per_s=decay_per_s,
                         voice=VOICES.index(voice), surface=surface, inertia_kg_m2=inertia_kg_m2, gravity_scale=gravity_scale,
-                        static_mass_kg=static_mass_kg, gain=gain, hand_mass_kg=hand_mass_kg)
+                        static_mass_kg=static_mass_kg, gain=gain, hand_mass_kg=hand_mass_kg, grain_m=grain_m, roughness=roughness, rolling=rolling, is_ridged=int(is_ridged))
         call("world_set_body", self._handle, body, ctypes.byref(values))
 
     def remove_body(self, body: int) -> None:
@@ -63,7 +63,7 @@ class World:
         """Two bodies touch in this step. A pair that did not in the step before begins; one that is not named again has ended.
 
         `more`: normal_x, normal_y (from a to b), impulse_n_s, tangential_n_s, or approach_m_per_s with restitution and effective_mass_kg;
-        fraction, or gap_m with gap_fraction; is_soft: see physvib.h."""
+        fraction, or gap_m with gap_fraction; is_soft; along_a_m_per_s and along_b_m_per_s of what rolls or slides over grains: see physvib.h."""
         self._tell("world_touch", a, b, x_m, y_m, more)
 
     def begin(self, a: int, b: int, x_m: float = 0.0, y_m: float = 0.0, **more: float) -> None:
@@ -92,6 +92,11 @@ class World:
     @property
     def time_ns(self) -> int:
         return call("world_time_ns", self._handle)
+
+    @property
+    def thinned(self) -> int:
+        """Grains that were left out, their power being in the others."""
+        return call("world_thinned", self._handle)
 
     def close(self) -> None:
         if self._handle:
