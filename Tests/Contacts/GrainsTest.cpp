@@ -87,9 +87,9 @@ protected:
         moving.body = 2;
         moving.isDynamic = true;
         moving.massKg = 1.0;
-        groundSlot = table.know(11, still);
+        groundSlot = table.know(std::uint64_t{11}, still);
         table.set(groundSlot, ground, {});
-        ballSlot = table.know(12, moving);
+        ballSlot = table.know(std::uint64_t{12}, moving);
     }
     /// A step of 10 ms with this load and speed, sliding.
     std::vector<Impact> step(double newtons, double metresPerSecond) {
