@@ -2,8 +2,12 @@
 // Grains on a line that is passed, to and fro.
 #include "Contacts/Grains.h"
 #include "Contacts/LastingContacts.h"
+#include "Measure/Spectrum.h"
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace physvib {
@@ -65,6 +69,35 @@ TEST(Grains, ThinnedOnesAreSomeOfThem) {
     const std::vector<Pass> fourth = passes(grains, {-0.1, 1.0, 0.0, 0.2}, 4);
     ASSERT_EQ(fourth.size(), 50U);
     for (const Pass& p : fourth) EXPECT_EQ(p.index % 4, 0);
+}
+
+/// Power of half a minute's impulses in third octaves from 63 to 500 Hz, dB.
+std::vector<double> thirdOctaves(const Grains& grains, double metresPerSecond, std::int64_t every) {
+    constexpr double rate = 4096.0, length = 32.0;
+    std::vector<double> impulses(static_cast<std::size_t>(rate * length));
+    grains.along({0.0, metresPerSecond, 0.0, length}, every, [&](std::int64_t index, double t) {
+        const auto at = std::min(static_cast<std::size_t>(t * rate), impulses.size() - 1);
+        impulses[at] += grains.strengthOf(index) * std::sqrt(static_cast<double>(every));
+    });
+    const std::vector<double> bins = magnitudes(impulses);
+    const double perBin = 0.5 * rate / static_cast<double>(bins.size() - 1);
+    std::vector<double> bands;
+    for (double centre = 62.5; centre < 510.0; centre *= std::cbrt(2.0)) {
+        double power = 0.0;
+        for (auto k = static_cast<std::size_t>(centre * 0.89 / perBin); static_cast<double>(k) * perBin < centre * 1.12; ++k) power += bins[k] * bins[k];
+        bands.push_back(10.0 * std::log10(power));
+    }
+    return bands;
+}
+
+TEST(Grains, SoundAlikeBelow500HertzThinnedOrNot) {
+    const Texture texture{0.001};
+    const Grains grains{5, texture};
+    for (const auto& [speed, every] : {std::pair{5.0, 4}, std::pair{20.0, 16}}) { // as LastingContacts does: 1,250 a second
+        const auto all = thirdOctaves(grains, speed, 1), thinned = thirdOctaves(grains, speed, every);
+        ASSERT_EQ(all.size(), 10U);
+        for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(thinned[i], all[i], 1.0) << speed << " m/s, band " << i;
+    }
 }
 
 TEST(Textures, WhatCannotBeFeltIsRefused) {

@@ -73,6 +73,18 @@ TEST(EventsCsv, WriteThenReadGivesTheSameBits) {
     EXPECT_TRUE(readGood(eventsCsv(events, provenance)) == events);
 }
 
+TEST(EventsCsv, KindsAreWrittenWhereThereAreAny) {
+    Events events = randomEvents(5, 100);
+    EXPECT_EQ(eventsCsv(events, provenance).find("kind"), std::string::npos);
+    events[7].source.kind = ContactKind::roll;
+    events[50].source.kind = ContactKind::slide;
+    const std::string text = eventsCsv(events, provenance);
+    EXPECT_NE(text.find("mass_kg,kind\n"), std::string::npos);
+    EXPECT_TRUE(readGood(text) == events);
+    EXPECT_EQ(errorOf(allColumns.substr(0, allColumns.size() - 1) + ",kind\n1,200,10,1,0,0,0,1,2,0,1,fall\n"),
+              "hits.csv:2: column kind: expected hit, roll or slide, found \"fall\"");
+}
+
 TEST(EventsCsv, ReadThenWriteGivesTheSameBytes) {
     const std::string text = eventsCsv(randomEvents(4, 2'000), provenance);
     EXPECT_TRUE(eventsCsv(readGood(text), provenance) == text);

@@ -177,6 +177,26 @@ TEST(SceneFile, WhatIsReadIsWrittenTheSame) {
     EXPECT_EQ(sceneJson(readGood(sceneJson(readGood(small)))), sceneJson(readGood(small)));
 }
 
+TEST(SceneFile, GrainsAreReadAndWrittenTheSame) {
+    std::string rough = full;
+    const std::string felt = "\"frequency_hz\": 60, \"decay_per_s\": 200";
+    const auto at = rough.find(felt) + felt.size();
+    rough.insert(at, ", \"grain_m\": 0.002, \"roughness\": 2.5, \"grain_pattern\": \"regular\", \"rolling\": 0.75");
+    const Scene scene = readGood(rough);
+    const Texture texture = scene.materials[1].texture();
+    EXPECT_EQ(texture.grainMetres, 0.002);
+    EXPECT_EQ(texture.roughness, 2.5);
+    EXPECT_EQ(texture.pattern, GrainPattern::regular);
+    EXPECT_EQ(texture.rolling, 0.75);
+    EXPECT_TRUE(isAnyRough(scene.materials));
+    EXPECT_EQ(readGood(sceneJson(scene)).materials, scene.materials);
+    EXPECT_FALSE(isAnyRough(readGood(full).materials));
+    const auto faultWith = [&](const std::string& fields) { return errorOf(std::string{full}.insert(at, fields)); };
+    EXPECT_EQ(faultWith(", \"grain_m\": -1"), "my.json: materials[1].grain_m: expected 0 to 10, found -1");
+    EXPECT_EQ(faultWith(", \"rolling\": 2"), "my.json: materials[1].rolling: expected 0 to 1, found 2");
+    EXPECT_EQ(faultWith(", \"grain_pattern\": \"even\""), "my.json: materials[1].grain_pattern: expected one of random, regular, found \"even\"");
+}
+
 TEST(SceneFile, EveryBuiltInSceneSurvives) {
     for (const Scene& scene : builtInScenes()) {
         const std::string text = sceneJson(scene);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Session: live is the rendered file, L later, to the bit; and nothing is lost when hosts and timers misbehave.
 #include "FakeHost.h"
+#include "Files/EventsCsv.h"
 #include "Session/Session.h"
 #include "Session/OfflineRender.h"
 #include "Physics/Scenes/SceneRun.h"
@@ -34,6 +35,52 @@ TEST(Session, LiveIsTheRenderedFileLLaterToTheBit) {
     EXPECT_EQ(session.status().render.untold, 0u);
     EXPECT_GT(played.size(), 300u);
     EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 20 * rate));
+}
+
+/// Ten balls slide at 1 m/s each over a floor with a grain every millimetre.
+SessionSetup setupOfSlides() {
+    auto s = shakeTheBoxSetup(0.05);
+    s.scene = {};
+    s.scene.name = "slides";
+    s.scene.fieldWidthMetres = 20.0;
+    s.scene.fieldHeightMetres = 4.0;
+    s.scene.gravityMetresPerSecond2 = {0.0, -9.8};
+    s.scene.normalisation = {0.02, 1.0};
+    Material stone{"stone", 10.0, 0.0, 0.0, 200.0, 60.0};
+    stone.grainMetres = 0.001;
+    s.scene.materials = {stone, {"glass", 10.0, 0.0, 0.0, 480.0, 60.0}};
+    BodyDescription floor;
+    floor.name = "floor";
+    floor.type = BodyType::staticBody;
+    floor.fixtures = {{BoxShape{20.0, 1.0}, {}, 0.0, 0, true}};
+    floor.positionMetres = {10.0, 0.5};
+    floor.massKg = 10.0;
+    s.scene.bodies = {floor};
+    for (int i = 0; i < 10; ++i) {
+        BodyDescription ball;
+        ball.name = "ball" + std::to_string(i);
+        ball.fixtures = {{CircleShape{0.2}, {}, 0.0, 1}};
+        ball.positionMetres = {0.5 + i, 1.2 + 0.01};
+        ball.velocityMetresPerSecond = {1.0, 0.0};
+        s.scene.bodies.push_back(ball);
+    }
+    s.panner = {s.panner.layout(), PanningLaw::linear, 1, 20.0, 4.0};
+    return s;
+}
+
+TEST(Session, TenThousandGrainsASecondAreTheRenderedFileToo) {
+    const auto s = setupOfSlides();
+    Session session{s};
+    std::vector<CollisionEvent> played;
+    const auto signal = playLive(session, 4 * rate, 1024, 0.05, 3, played);
+    EXPECT_EQ(session.status().render.late, 0u);
+    EXPECT_EQ(session.drops(), 0u);
+    EXPECT_GT(played.size(), 36'000u);
+    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 4 * rate));
+    const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, 4'000'000'000).events;
+    const auto list = readEventsCsv(eventsCsv(made, {}), "list");
+    ASSERT_EQ(list.error, "");
+    EXPECT_TRUE(list.value == made);
 }
 
 TEST(Session, ADriverThatShallEndIsHeardAfterEachStep) {
