@@ -14,6 +14,7 @@ namespace {
 
 constexpr double hitMs = 450.0;          // how long the light of a hit is seen
 constexpr std::size_t mostHits = 48;     // at once: more are a glare anyway
+constexpr std::size_t mostTraces = 400;  // 30 pairs that rub
 constexpr float wallPixels = 11.0f;      // what stands around the field shows as a frame of this width
 constexpr int margin = 38;               // badges sit on the field's edge
 constexpr float badgePixels = 30.0f;
@@ -63,6 +64,7 @@ void WorldView::show(const Scene& scene) {
     if (isNew) {
         ahead_.clear();
         hits_.clear();
+        traces_.clear();
     }
     repaint();
 }
@@ -98,10 +100,11 @@ void WorldView::update(WorldMoment moment) {
     const auto before = ahead_.empty() ? std::vector<BodyPose>{} : ahead_.front().poses;
     if (!moment.poses.empty()) ahead_.push_back({moment.sessionNs, std::move(moment.poses)});
     while (ahead_.size() > 1 && ahead_[1].timeNs + moment.aheadNs <= moment.sessionNs) ahead_.pop_front();
-    bool isOther = !hits_.empty() || !moment.hits.empty() || (!ahead_.empty() && !isSame(before, ahead_.front().poses));
+    bool isOther = !hits_.empty() || !traces_.empty() || !moment.hits.empty() || (!ahead_.empty() && !isSame(before, ahead_.front().poses));
     const double now = juce::Time::getMillisecondCounterHiRes();
-    for (const auto& event : moment.hits) hits_.push_back({event, colourOf(event), now});
+    for (const auto& event : moment.hits) take(event, now);
     while (!hits_.empty() && (hits_.size() > mostHits || now - hits_.front().shownAtMs > hitMs)) hits_.pop_front();
+    while (!traces_.empty() && (traces_.size() > mostTraces || now - traces_.front().shownAtMs > hitMs)) traces_.pop_front();
     for (std::size_t j = 0; j < std::min(moment.peaks.size(), peaks_.size()); ++j) {
         isOther = isOther || std::abs(std::sqrt(peaks_[j]) - std::sqrt(moment.peaks[j])) > 0.01f;
         if (isOther) peaks_[j] = moment.peaks[j];
@@ -164,6 +167,7 @@ void WorldView::paint(juce::Graphics& g) {
         drawBodies(g, at);
     }
     drawRays(g, at);
+    drawTraces(g, at);
     drawHits(g, at);
     drawSpot(g);
     drawEnchanters(g, at);
@@ -206,6 +210,32 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
             if (!fixture.isCamera) continue;
             g.setColour(shade(*this, Shade::camera));
             g.strokePath(path, juce::PathStrokeType{isLine ? 1.0f : 2.0f}, place);
+        }
+    }
+}
+
+// All grains of a look are one piece of a pair's way; it begins where the one before ended.
+void WorldView::take(const CollisionEvent& event, double nowMs) {
+    if (event.source.kind == ContactKind::hit) return hits_.push_back({event, colourOf(event), nowMs});
+    const auto isSamePair = [&](const Trace& t) { return t.source.fixture == event.source.fixture && t.source.other == event.source.other; };
+    const auto last = std::find_if(traces_.rbegin(), traces_.rend(), isSamePair);
+    const Vector here{event.x, event.y};
+    if (last == traces_.rend() || last->shownAtMs != nowMs) return traces_.push_back({event.source, last == traces_.rend() ? here : last->toMetres, here, event.amplitude, colourOf(event), nowMs});
+    last->toMetres = here;
+    if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
+}
+
+void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
+    for (const auto& trace : traces_) {
+        const float level = levelOf(trace.amplitude), fade = (1.0f - ageOf(trace.shownAtMs)) * std::sqrt(level);
+        const juce::Line<float> line{at.at(trace.fromMetres.x, trace.fromMetres.y), at.at(trace.toMetres.x, trace.toMetres.y)};
+        const auto colour = trace.colour.interpolatedWith(palette::now, 0.5f);
+        for (const auto& [pixels, alpha] : {std::pair{5.0f + 9.0f * level, 0.25f}, std::pair{2.0f + 2.0f * level, 0.9f}}) {
+            g.setColour(colour.withAlpha(alpha * fade));
+            juce::Path path;
+            path.startNewSubPath(line.getStart());
+            path.lineTo(line.getEnd());
+            g.strokePath(path, juce::PathStrokeType{pixels, juce::PathStrokeType::curved, juce::PathStrokeType::butt});
         }
     }
 }

@@ -89,6 +89,13 @@ private:
         juce::Colour colour;
         double shownAtMs;
     };
+    struct Trace { // what rolled or slid between two looks
+        CollisionSource source;
+        Vector fromMetres, toMetres;
+        double amplitude;
+        juce::Colour colour;
+        double shownAtMs;
+    };
     struct Map {
         juce::Rectangle<float> field;
         float pixelsPerMetre;
@@ -116,6 +123,8 @@ private:
     void drawGround(juce::Graphics& g, const Map& at);
     void drawBodies(juce::Graphics& g, const Map& at) const;
     void drawHits(juce::Graphics& g, const Map& at) const;
+    void take(const CollisionEvent& event, double nowMs);
+    void drawTraces(juce::Graphics& g, const Map& at) const;
     void drawRays(juce::Graphics& g, const Map& at) const;
     void drawHalos(juce::Graphics& g, const Map& at) const;
     void drawEnchanters(juce::Graphics& g, const Map& at) const;
@@ -128,6 +137,7 @@ private:
     PhantomPanner panner_;
     std::deque<Snapshot> ahead_; // not felt yet, but for the first
     std::deque<Hit> hits_;
+    std::deque<Trace> traces_;
     std::array<float, limits::maxEnchanters> peaks_{};
     double displayWidthMetres_ = 0.0;
     int shownGains_ = -1, selected_ = -1, footRoom_ = 0;

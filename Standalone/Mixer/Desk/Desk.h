@@ -11,9 +11,9 @@
 #include "Mixer/Desk/DeskMoment.h"
 #include "Mixer/Desk/DeskRecording.h"
 #include "Mixer/Desk/DeskSignals.h"
+#include "Mixer/Desk/RecentContacts.h"
 #include "Mixer/Desk/ToldMix.h"
 #include <juce_data_structures/juce_data_structures.h>
-#include <deque>
 #include <memory>
 #include <functional>
 #include <optional>
@@ -109,8 +109,7 @@ public:
     const ScopeTrace& scope() const noexcept { return signals_.scope(); }
     const SpectrumTrace& spectrum() const noexcept { return signals_.spectrum(); }
     /// The last that were played, the newest first.
-    static constexpr std::size_t mostRecent = 100;
-    const std::deque<CollisionEvent>& recent() const noexcept { return recent_; }
+    const std::deque<RecentContact>& recent() const noexcept { return recent_.newestFirst(); }
     std::uint64_t scopeFramesLost() const noexcept { return signals_.framesLost(); }
     const juce::String& trouble() const noexcept { return trouble_; } ///< one line; empty while all is well
     void report(const juce::String& trouble);
@@ -150,7 +149,7 @@ private:
     ToldMix told_;
     SavedSession saved_;
     int mostEnchanters_ = 0, added_ = 0;
-    std::deque<CollisionEvent> recent_;
+    RecentContacts recent_;
     DeskMoment now_;
     double maintainedAtMs_ = 0.0;
 };

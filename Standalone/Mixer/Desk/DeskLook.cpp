@@ -13,10 +13,9 @@ DeskMoment Desk::look() {
     now_.hits.clear();
     for (PlayedEvent played; session_.played().pop(played);) {
         now_.hits.push_back(played.event);
-        recent_.push_front(played.event);
+        recent_.add(played.event);
         recording_.take(played);
     }
-    if (recent_.size() > mostRecent) recent_.resize(mostRecent);
     recording_.look(now_.device);
     now_.meters.limiterGain = now_.session.render.limiterGain;
     now_.meters.enchanters = mix_.count();

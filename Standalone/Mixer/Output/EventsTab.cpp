@@ -27,6 +27,14 @@ struct Columns {
 };
 
 juce::String timeText(std::int64_t ns) { return number(1e-9 * static_cast<double>(ns), 3) + " s"; }
+/// What sounds; of what rolls or slides also how, and how many grains it has passed.
+juce::String nameOf(const Scene& scene, const RecentContact& contact) {
+    const auto name = materialName(scene, contact.event);
+    const auto kind = contact.event.source.kind;
+    if (kind == ContactKind::hit) return name;
+    return name + (kind == ContactKind::roll ? ", rolls, " : ", slides, ") + juce::String{contact.grains} + (contact.grains == 1 ? " grain" : " grains");
+}
+
 juce::String placeNumbers(const CollisionEvent& hit) { return number(hit.x, 2) + ", " + number(hit.y, 2) + " m"; }
 
 } // namespace
@@ -51,14 +59,16 @@ void EventsTab::refresh(const DeskMoment& moment) {
 
 juce::String EventsTab::Rows::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
-    const auto& hit = tab_.shown_[static_cast<std::size_t>(row)];
+    const auto& contact = tab_.shown_[static_cast<std::size_t>(row)];
+    const auto& hit = contact.event;
     const auto& scene = tab_.desk_.sceneNow();
-    return materialName(scene, hit) + " at " + timeText(hit.timeNs) + ", " + number(feltMost(tab_.desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
+    return nameOf(scene, contact) + " at " + timeText(hit.timeNs) + ", " + number(feltMost(tab_.desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
 void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
     if (row >= getNumRows()) return;
-    const auto& hit = tab_.shown_[static_cast<std::size_t>(row)];
+    const auto& contact = tab_.shown_[static_cast<std::size_t>(row)];
+    const auto& hit = contact.event;
     const auto& desk = tab_.desk_;
     if (isSelected) {
         g.setColour(shade(tab_, Shade::accent).withAlpha(0.16f));
@@ -75,7 +85,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     };
     g.setFont(juce::Font{text::small});
     cell(timeText(hit.timeNs), at.time, Shade::muted, false);
-    cell(materialName(desk.sceneNow(), hit), at.name, Shade::text, false);
+    cell(nameOf(desk.sceneNow(), contact), at.name, Shade::text, false);
     cell(number(hit.frequencyHz, 1), at.frequency, Shade::text, true);
     cell(number(hit.decayPerSecond, 1), at.decay, Shade::text, true);
     cell(number(most.levelG, 3), at.level, Shade::text, true);

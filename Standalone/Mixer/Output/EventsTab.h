@@ -26,7 +26,7 @@ private:
     };
 
     Desk& desk_;
-    std::vector<CollisionEvent> shown_;
+    std::vector<RecentContact> shown_;
     Rows rows_{*this};
     juce::ListBox list_{"Events", &rows_};
     std::uint64_t seen_ = 0;
