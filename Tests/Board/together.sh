@@ -1,15 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # One world live on a JACK device and on the virtual board; passes if both played all of it in time.
-# Usage: together.sh BIN_FOLDER IMAGE.elf SECONDS
+# Usage: together.sh BIN_FOLDER IMAGE.elf SECONDS [SCENE]
 set -eu
-bin=$1 image=$2 seconds=$3
+bin=$1 image=$2 seconds=$3 scene=${4:-shake-the-box}
 . "$(dirname "$0")/../Live/jack.sh"
 serve 48000 256 8
 "$bin/physvib-virtual-board" "$image" --link "$folder/port" >/dev/null 2>"$folder/board" &
 playing=$!
 for _ in 1 2 3 4 5 6 7 8 9 10; do [ -e "$folder/port" ] || sleep 0.2; done
-"$bin/physvib" play shake-the-box --device JACK:system --board "$folder/port" --driver thread --seconds "$seconds" >"$folder/report" || { cat "$folder/report"; exit 1; }
+"$bin/physvib" play "$scene" --device JACK:system --board "$folder/port" --driver thread --seconds "$seconds" >"$folder/report" || { cat "$folder/report"; exit 1; }
 cat "$folder/report"
 kill -INT "$playing"
 wait "$playing"

@@ -11,7 +11,7 @@ namespace {
 using J = juce::Justification;
 
 constexpr double floorDecibels = -60.0;
-constexpr std::size_t mostDots = 600; // more heads of stems hide each other
+constexpr std::ptrdiff_t mostDots = 600; // more heads of stems hide each other
 constexpr int headRoom = 6;
 
 /// Amplitude to height: floorDecibels at the bottom, 0 dBFS or the next ten above the strongest at the top.
@@ -67,7 +67,9 @@ void drawHits(const Canvas& canvas, const PictureInput& input, const HitColours&
         drawStem(canvas, axis.x(seconds), static_cast<float>(axis.lane.getBottom()),
                  levels.height(decibels(event.amplitude)), colour, dot);
     };
-    for (const auto* event : order) draw(*event, colours.of(*event), order.size() <= mostDots);
+    const auto isHit = [](const CollisionEvent& event) { return event.source.kind == ContactKind::hit; };
+    const bool hasDots = std::ranges::count_if(input.events, isHit) <= mostDots;
+    for (const auto* event : order) draw(*event, colours.of(*event), hasDots && isHit(*event)); // grains are a lawn
     draw(*order.front(), palette::now, true);
 }
 
