@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Version, errors, structures as they begin; layouts, lists and files of sound; a whole list to samples.
 #include "Api/C/Convert.h"
+#include "Contacts/Texture.h"
 #include "Core/OfflineLoop.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
@@ -126,8 +127,8 @@ int physvib_events_save(const char* path, const physvib_event* events, physvib_i
         if (path == nullptr || events == nullptr || count < 1) return nothingThere("events: expected a path and at least one event");
         const std::span list{events, static_cast<std::size_t>(count)};
         if (const auto fault = faultOf(list); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
-        std::string text = eventsCsvHead({PHYSVIB_VERSION, {}});
-        for (const physvib_event& event : list) appendEventRow(text, eventOf(event));
+        std::string text = eventsCsvHead({PHYSVIB_VERSION, {}}, false);
+        for (const physvib_event& event : list) appendEventRow(text, eventOf(event), false);
         return written(writeFile(path, text));
     });
 }
