@@ -32,7 +32,7 @@ struct Balls {
     Balls(int count, double grainMetres) {
         const b2BodyDef def;
         b2EdgeShape edge;
-        edge.SetTwoSided({-100.0F, 0.0F}, {100.0F + 2.0F * static_cast<float>(count), 0.0F});
+        edge.SetTwoSided({-1.0e4F, 0.0F}, {1.0e4F + 2.0F * static_cast<float>(count), 0.0F});
         b2Fixture& floor = *world.CreateBody(&def)->CreateFixture(&edge, 0.0F);
         HapticFixture rough{250.0, 60.0, true, 340.0, Voice::own};
         rough.texture.grainMetres = grainMetres;
@@ -65,7 +65,9 @@ void stepOfRollingBalls(benchmark::State& state) {
     const int count = static_cast<int>(state.range(0));
     Balls smooth(count, 0.0), rough(count, 1.0e-3 * static_cast<double>(state.range(1)));
     const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
-    RendererSettings settings{.sampleRateHz = rate};
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    RendererSettings settings{.sampleRateHz = rate, .panner = {layout, PanningLaw::linear, 1.0, 2.0 * static_cast<double>(count), 1.0}};
     const int channels = settings.outputs();
     renderer->prepare(settings);
     std::vector<std::vector<float>> samples(static_cast<std::size_t>(channels), std::vector<float>(block));
@@ -91,6 +93,6 @@ void stepOfRollingBalls(benchmark::State& state) {
     state.counters["strikes_per_s"] = static_cast<double>(events) / (static_cast<double>(n) * static_cast<double>(stepSeconds));
     state.counters["samples_%_of_core"] = 100.0 * median(rendered) / static_cast<double>(stepSeconds);
 }
-BENCHMARK(stepOfRollingBalls)->ArgNames({"balls", "grain_mm"})->ArgsProduct({{10, 100}, {2, 5, 20}})->MinTime(1.0)->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(stepOfRollingBalls)->ArgNames({"balls", "grain_mm"})->ArgsProduct({{100}, {2, 5, 20}})->MinTime(1.0)->UseManualTime()->Unit(benchmark::kMicrosecond);
 
 } // namespace
