@@ -83,6 +83,8 @@ public struct Body {
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneHz;
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneDecayPerS;
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] OvertoneAmplitude;
+    public double Grain_m, Roughness, Rolling;
+    public int IsRidged;
     public static Body Create() {
         var made = new Body();
         Native.Check(Native.physvib_body_init(ref made));
@@ -95,7 +97,7 @@ public struct Body {
 public struct Contact {
     UIntPtr size;
     public int A, B;
-    public double X_m, Y_m, NormalX, NormalY, Impulse_Ns, Tangential_Ns, ApproachMPerS, Restitution, EffectiveMassKg, Fraction, Gap_m, GapFraction;
+    public double X_m, Y_m, NormalX, NormalY, Impulse_Ns, Tangential_Ns, ApproachMPerS, Restitution, EffectiveMassKg, Fraction, Gap_m, GapFraction, AlongAMPerS, AlongBMPerS;
     public int IsSoft;
     public static Contact Create(int a, int b) {
         var made = new Contact();
