@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t mostPoints = 4096; // a step; who piles up more than this hears noise
 constexpr double farMetres = 1.0e9;      // beyond, a double knows no grains any more
 
-std::uint64_t trackKey(const LastingPoint& point, std::int32_t surface) noexcept {
+std::uint64_t keyOf(const LastingPoint& point) noexcept {
     std::uint64_t key = pairKey(point.a, point.b) * 0x9E3779B97F4A7C15U + point.feature;
-    key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U + (surface == point.a ? 1U : 2U);
+    key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U;
     return key != 0 ? key : 1; // IntegerMap has no 0
 }
 
@@ -23,100 +23,75 @@ bool isUsable(const SurfacePath& path) noexcept {
     return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres; // not NaN
 }
 
-template <class Item>
-void keepNew(std::vector<Item>& items, IntegerMap& places) {
-    for (std::size_t i = 0; i < items.size();) {
-        if (items[i].isNew) {
-            items[i++].isNew = false;
-            continue;
-        }
-        places.erase(items[i].key);
-        if (i + 1 < items.size()) {
-            items[i] = items.back();
-            places.set(items[i].key, static_cast<std::int32_t>(i));
-        }
-        items.pop_back();
-    }
+SurfaceMotion steady(SurfacePath path, double seconds) noexcept {
+    // Half a step's gain of speed behind the engine's own path, see above; of what is new, as if it had come at this speed.
+    return {path.metres - 1.5 * path.metresPerSecond * seconds, path.metresPerSecond, 0.0, seconds};
 }
 
-/// The item of that key, a new one if need be.
-template <class Item>
-Item& itemOf(std::uint64_t key, std::vector<Item>& items, IntegerMap& places, bool& isThere) {
-    const std::int32_t at = places.find(key);
-    isThere = at != IntegerMap::none;
-    if (isThere) return items[static_cast<std::size_t>(at)];
-    places.set(key, static_cast<std::int32_t>(items.size()));
-    Item& item = items.emplace_back();
-    item.key = key;
-    return item;
+bool hasJumped(SurfacePath from, SurfacePath to, double seconds) noexcept {
+    const double gone = to.metresPerSecond * seconds;
+    return std::abs(to.metres - from.metres - gone) > 0.5 * std::abs(gone) + 1.0e-3;
+}
+
+/// From path to path in a step.
+SurfaceMotion between(SurfacePath from, SurfacePath to, double seconds) noexcept {
+    SurfaceMotion motion;
+    motion.seconds = seconds;
+    motion.startMetres = from.metres - 0.5 * from.metresPerSecond * seconds;
+    motion.metresPerSecond2 = (to.metresPerSecond - from.metresPerSecond) / seconds;
+    motion.metresPerSecond = (to.metres - 0.5 * to.metresPerSecond * seconds - motion.startMetres) / seconds - 0.5 * motion.metresPerSecond2 * seconds;
+    return motion;
 }
 
 } // namespace
 
 LastingContacts::LastingContacts(const FixtureTable& table)
-    : table_{table} {
-    points_.reserve(64);
-}
+    : table_{table} {}
 
 void LastingContacts::touch(const LastingPoint& point) {
-    const std::uint64_t key = trackKey(point, point.a);
-    if (points_.size() == mostPoints || !isUsable(point.onA) || !isUsable(point.onB) || !(point.normalNewtonSeconds >= 0.0) || told_.find(key) != IntegerMap::none) return;
-    told_.set(key, 0);
-    points_.push_back(point);
+    if (points_.now().size() == mostPoints || !isUsable(point.onA) || !isUsable(point.onB) || !(point.normalNewtonSeconds >= 0.0)) return;
+    const auto [at, before, isFirst] = points_.tell(keyOf(point));
+    if (!isFirst) return;
+    const auto pair = pairs_.tell(pairKey(point.a, point.b));
+    if (pair.isFirst) pairs_[pair.place].before = pair.before;
+    pairs_[pair.place].newtonSeconds += point.normalNewtonSeconds;
+    points_[at].point = point;
+    points_[at].pair = pair.place;
+    points_[at].before = before;
 }
 
 void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
     const double seconds = span.seconds();
     passages_.clear();
-    if (points_.empty() || !(seconds > 0.0) || seconds > longestStepSeconds) return;
-    for (const LastingPoint& point : points_) addLoad(point, seconds);
-    for (const LastingPoint& point : points_) {
-        if (table_.isRough(point.a)) follow(point, point.a, point.onA, seconds);
-        if (table_.isRough(point.b)) follow(point, point.b, point.onB, seconds);
+    if (!hasHeard()) return;
+    if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
+    for (Pair& pair : pairs_.now()) pair.newtons = pair.newtonSeconds / seconds;
+    for (const Told& told : points_.now()) {
+        if (table_.isRough(told.point.a)) follow(told, told.point.a, &LastingPoint::onA, seconds);
+        if (table_.isRough(told.point.b)) follow(told, told.point.b, &LastingPoint::onB, seconds);
     }
     thinTogether(seconds);
     for (const Passage& passage : passages_) pass(passage, span, impacts);
 }
 
-void LastingContacts::addLoad(const LastingPoint& point, double seconds) {
-    bool isThere = false;
-    Load& load = itemOf(pairKey(point.a, point.b), loads_, loadOf_, isThere);
-    if (!load.isNew) load.lastNewtons = std::exchange(load.newtons, 0.0);
-    load.isNew = true;
-    load.newtons += point.normalNewtonSeconds / seconds;
-}
-
 /// How much of a pair's load was there in the step before, 0 to 1.
-double LastingContacts::steadyShare(const LastingPoint& point) const noexcept {
-    const Load& load = loads_[static_cast<std::size_t>(loadOf_.find(pairKey(point.a, point.b)))];
-    return load.newtons > 0.0 ? std::min(1.0, load.lastNewtons / load.newtons) : 0.0;
+double LastingContacts::steadyShare(const Told& told) const noexcept {
+    const Pair& pair = pairs_[told.pair];
+    if (pair.before == StepMemory<Pair>::none || !(pair.newtons > 0.0)) return 0.0;
+    return std::min(1.0, pairs_.before(pair.before).newtons / pair.newtons);
 }
 
-void LastingContacts::follow(const LastingPoint& point, std::int32_t surface, SurfacePath path, double seconds) {
-    bool isThere = false;
-    Track& track = itemOf(trackKey(point, surface), tracks_, trackOf_, isThere);
-    // Half a step's gain of speed behind the engine's own path, see above; of what is new, as if it had come at this speed.
-    const double end = path.metres - 0.5 * path.metresPerSecond * seconds;
-    const double gone = path.metresPerSecond * seconds;
-    SurfaceMotion motion{end - gone, path.metresPerSecond, 0.0, seconds};
-    const bool hasJumped = isThere && std::abs(path.metres - track.metres - gone) > 0.5 * std::abs(gone) + 1.0e-3;
-    if (isThere && !hasJumped) {
-        motion.startMetres = track.metres - 0.5 * track.metresPerSecond * seconds;
-        motion.metresPerSecond2 = (path.metresPerSecond - track.metresPerSecond) / seconds;
-        motion.metresPerSecond = (end - motion.startMetres) / seconds - 0.5 * motion.metresPerSecond2 * seconds;
-    }
-    track.a = point.a;
-    track.b = point.b;
-    track.metres = path.metres;
-    track.metresPerSecond = path.metresPerSecond;
-    track.isNew = true;
-
+void LastingContacts::follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path, double seconds) {
+    const double newtons = steadyShare(told) * told.point.normalNewtonSeconds / seconds;
+    if (newtons <= 0.0) return;
+    const SurfacePath to = told.point.*path;
+    const SurfacePath* const from = told.before != StepMemory<Told>::none ? &(points_.before(told.before).point.*path) : nullptr;
+    const SurfaceMotion motion = from != nullptr && !hasJumped(*from, to, seconds) ? between(*from, to, seconds) : steady(to, seconds);
     const double fastest = std::max(std::abs(motion.metresPerSecond), std::abs(motion.speedAt(seconds)));
-    const double newtons = steadyShare(point) * point.normalNewtonSeconds / seconds;
-    if (fastest < leastMetresPerSecond || newtons <= 0.0) return;
+    if (fastest < leastMetresPerSecond) return;
     const double perSecond = fastest / table_[surface].values.texture.grainMetres;
     const auto times = static_cast<std::uint64_t>(std::ceil(std::max(1.0, perSecond / mostPerSecond)));
-    passages_.push_back({&point, surface, newtons, motion, static_cast<std::int64_t>(std::bit_ceil(times))});
+    passages_.push_back({&told.point, surface, newtons, motion, static_cast<std::int64_t>(std::bit_ceil(times))});
 }
 
 void LastingContacts::thinTogether(double seconds) {
@@ -154,25 +129,26 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, std::ve
 }
 
 void LastingContacts::endStep() {
-    points_.clear();
-    told_.clear();
-    keepNew(tracks_, trackOf_);
-    keepNew(loads_, loadOf_);
+    points_.endStep();
+    pairs_.endStep();
+}
+
+void LastingContacts::forgetStep() noexcept {
+    points_.forgetStep();
+    pairs_.forgetStep();
 }
 
 void LastingContacts::forget(std::int32_t slot) noexcept {
-    std::erase_if(points_, [slot](const LastingPoint& p) { return p.a == slot || p.b == slot; });
-    for (Track& track : tracks_)
-        if (track.a == slot || track.b == slot) track.metres = farMetres; // what comes next has jumped
+    points_.changeAll([slot](Told& told) {
+        if (told.point.a != slot && told.point.b != slot) return;
+        told.point.onA.metres = told.point.onB.metres = farMetres; // what comes next has jumped
+        told.point.normalNewtonSeconds = 0.0;                      // and what is of this step is not felt
+    });
 }
 
 void LastingContacts::reset() noexcept {
-    points_.clear();
-    told_.clear();
-    tracks_.clear();
-    trackOf_.clear();
-    loads_.clear();
-    loadOf_.clear();
+    points_.reset();
+    pairs_.reset();
 }
 
 } // namespace physvib

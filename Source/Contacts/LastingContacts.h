@@ -4,7 +4,7 @@
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Grains.h"
 #include "Contacts/Impact.h"
-#include "Contacts/IntegerMap.h"
+#include "Contacts/StepMemory.h"
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -54,9 +54,12 @@ public:
         return (table_.isRough(a) || table_.isRough(b)) && (table_.isCamera(a) || table_.isCamera(b));
     }
 
+    /// Only paths along rough surfaces are looked at.
+    bool isRough(std::int32_t slot) const noexcept { return table_.isRough(slot); }
+
     /// After the solver; once a step for each point (what is told again is not heard).
     void touch(const LastingPoint& point);
-    bool hasHeard() const noexcept { return !points_.empty(); }
+    bool hasHeard() const noexcept { return !points_.now().empty(); }
 
     /// What the points of the step have passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
@@ -70,16 +73,15 @@ public:
     std::uint64_t thinned() const noexcept { return thinned_; }
 
 private:
-    struct Track { // of one point on one of the two surfaces
-        std::uint64_t key;
-        std::int32_t a, b;
-        double metres, metresPerSecond;
-        bool isNew; // seen in this step
+    struct Told {
+        std::uint64_t key = 0;
+        LastingPoint point;
+        std::int32_t pair = 0, before = 0; // places in pairs_ and in the step before
     };
-    struct Load { // of a pair
-        std::uint64_t key;
-        double newtons = 0.0, lastNewtons = 0.0;
-        bool isNew = false;
+    struct Pair {
+        std::uint64_t key = 0;
+        std::int32_t before = 0;
+        double newtonSeconds = 0.0, newtons = 0.0; // of all its points in the step
     };
     struct Passage { // of one surface's grains by one point in the step at hand
         const LastingPoint* point;
@@ -89,21 +91,16 @@ private:
         std::int64_t every;
     };
 
-    void follow(const LastingPoint& point, std::int32_t surface, SurfacePath path, double seconds);
-    SurfaceMotion motionOf(const LastingPoint& point, std::int32_t surface, SurfacePath path, double seconds);
-    void addLoad(const LastingPoint& point, double seconds);
-    double steadyShare(const LastingPoint& point) const noexcept;
+    void follow(const Told& told, std::int32_t surface, SurfacePath LastingPoint::*path, double seconds);
+    double steadyShare(const Told& told) const noexcept;
     void thinTogether(double seconds);
+    void forgetStep() noexcept;
     void pass(const Passage& passage, const StepSpan& span, std::vector<Impact>& impacts);
 
     const FixtureTable& table_;
-    std::vector<LastingPoint> points_; // of the present step
-    IntegerMap told_;                  // their keys
+    StepMemory<Told> points_;
+    StepMemory<Pair> pairs_;
     std::vector<Passage> passages_;
-    std::vector<Track> tracks_;
-    IntegerMap trackOf_;
-    std::vector<Load> loads_;
-    IntegerMap loadOf_;
     std::uint64_t thinned_ = 0;
 };
 

@@ -9,20 +9,19 @@ namespace {
 
 /// One side of a contact.
 struct Side {
-    const b2Fixture& fixture;
     const b2Body& body;
-    bool isDisc;
+    bool isDisc, isRough;
     float radius;
 
-    explicit Side(const b2Fixture& f)
-        : fixture{f}
-        , body{*f.GetBody()}
+    Side(const b2Fixture& f, bool rough)
+        : body{*f.GetBody()}
         , isDisc{f.GetType() == b2Shape::e_circle}
+        , isRough{rough}
         , radius{f.GetShape()->m_radius} {}
 
     /// How far around a disc the point lies in that direction, and how fast it goes around if the direction turns so fast.
     SurfacePath around(b2Vec2 direction, float radiansPerSecond) const {
-        if (!isDisc) return {}; // a corner
+        if (!isDisc || !isRough) return {}; // a corner, or nobody asks
         const b2Vec2 local = body.GetLocalVector(direction);
         return {static_cast<double>(radius * b2Atan2(local.y, local.x)), static_cast<double>(radius * (radiansPerSecond - body.GetAngularVelocity()))};
     }
@@ -58,7 +57,7 @@ std::uint64_t featureOf(const b2Contact& contact, const b2ManifoldPoint& point) 
 
 void tellLasting(const b2Contact& contact, const b2ContactImpulse& impulse, unsigned blows, std::int32_t a, std::int32_t b, LastingContacts& lasting) {
     const b2Manifold& manifold = *contact.GetManifold();
-    const Side sideA{*contact.GetFixtureA()}, sideB{*contact.GetFixtureB()};
+    const Side sideA{*contact.GetFixtureA(), lasting.isRough(a)}, sideB{*contact.GetFixtureB(), lasting.isRough(b)};
     b2WorldManifold world;
     contact.GetWorldManifold(&world);
     const b2Vec2 tangent = b2Cross(world.normal, 1.0F);

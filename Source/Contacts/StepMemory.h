@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Records that are told anew in every step, and what they were a step ago.
+#pragma once
+#include "Contacts/IntegerMap.h"
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// Engines tell their contacts in much the same order from step to step, so a record is sought first where it was; a search by key
+/// is left for what has come, gone or changed its place (100 rolling balls: a third of the time that a map took). A `Record` has
+/// `std::uint64_t key`, not 0. Allocates when a step has more records than any before. One thread at a time.
+template <class Record>
+class StepMemory {
+public:
+    static constexpr std::int32_t none = IntegerMap::none;
+    struct Told {
+        std::int32_t place;  ///< of the record among those of this step
+        std::int32_t before; ///< of what it was among those of the step before, or `none`
+        bool isFirst;        ///< in this step: the record is new, with its key alone
+    };
+
+    Told tell(std::uint64_t key) {
+        const std::int32_t before = placeBefore(key);
+        if (before != none) {
+            std::int32_t& at = placeNow_[static_cast<std::size_t>(before)];
+            const bool isFirst = at == none;
+            if (isFirst) at = add(key);
+            return {at, before, isFirst};
+        }
+        if (const std::int32_t at = new_.find(key); at != none) return {at, none, false};
+        const std::int32_t at = add(key);
+        new_.set(key, at);
+        return {at, none, true};
+    }
+
+    Record& operator[](std::int32_t place) noexcept { return now_[static_cast<std::size_t>(place)]; }
+    const Record& operator[](std::int32_t place) const noexcept { return now_[static_cast<std::size_t>(place)]; }
+    const Record& before(std::int32_t place) const noexcept { return before_[static_cast<std::size_t>(place)]; }
+    std::vector<Record>& now() noexcept { return now_; }
+    const std::vector<Record>& now() const noexcept { return now_; }
+
+    /// What is told from here on is a step later.
+    void endStep() {
+        before_.swap(now_);
+        placeNow_.assign(before_.size(), none);
+        forgetStep();
+    }
+
+    /// As if this step had told nothing.
+    void forgetStep() noexcept {
+        now_.clear();
+        new_.clear();
+        isMapped_ = false;
+        next_ = 0;
+        for (std::int32_t& place : placeNow_) place = none;
+    }
+
+    template <class Change>
+    void changeAll(Change&& change) noexcept {
+        for (Record& record : before_) change(record);
+        for (Record& record : now_) change(record);
+    }
+
+    void reset() noexcept {
+        before_.clear();
+        placeNow_.clear();
+        forgetStep();
+    }
+
+private:
+    std::int32_t add(std::uint64_t key) {
+        now_.emplace_back().key = key;
+        return static_cast<std::int32_t>(now_.size()) - 1;
+    }
+
+    std::int32_t placeBefore(std::uint64_t key) {
+        if (next_ < before_.size() && before_[next_].key == key) return static_cast<std::int32_t>(next_++);
+        if (next_ > 0 && before_[next_ - 1].key == key) return static_cast<std::int32_t>(next_ - 1); // told again
+        if (!isMapped_) map();
+        const std::int32_t place = placeOf_.find(key);
+        if (place != none) next_ = static_cast<std::size_t>(place) + 1;
+        return place;
+    }
+    void map() {
+        placeOf_.clear();
+        for (std::size_t i = 0; i < before_.size(); ++i) placeOf_.set(before_[i].key, static_cast<std::int32_t>(i));
+        isMapped_ = true;
+    }
+
+    std::vector<Record> before_, now_;
+    std::vector<std::int32_t> placeNow_; // of records of before_
+    std::size_t next_ = 0;               // in before_
+    IntegerMap placeOf_;                 // in before_, once something is sought
+    bool isMapped_ = false;
+    IntegerMap new_; // records of now_ that were not there before
+};
+
+} // namespace physvib
