@@ -3,7 +3,6 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include <cstddef>
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -33,9 +32,9 @@ public:
 private:
     struct Place {
         std::int64_t timeNs;
-        std::int32_t fixture;
-        std::uint32_t index; // in held_
-        auto operator<=>(const Place&) const = default;
+        std::uint64_t tie; // fixture, then place in held_
+        std::uint32_t index() const noexcept { return static_cast<std::uint32_t>(tie); }
+        friend bool operator<(const Place& a, const Place& b) noexcept { return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.tie < b.tie; }
     };
     std::size_t capacity_;
     std::uint64_t drops_ = 0;

@@ -12,11 +12,14 @@ double Grains::chance(std::int64_t index, std::uint64_t which) const noexcept {
     return static_cast<double>(z >> 11U) * 0x1p-53;
 }
 
-std::int64_t Grains::next(double metres, bool isUp, std::int64_t every) const noexcept {
-    const double cell = metres / texture_.grainMetres / static_cast<double>(every);
-    std::int64_t i = static_cast<std::int64_t>(isUp ? std::floor(cell) : std::ceil(cell)) * every; // at most one step before it
-    while (isUp ? metresOf(i) <= metres : metresOf(i) >= metres) i += isUp ? every : -every;
-    return i;
+Grains::Grain Grains::next(double metres, bool isUp, std::int64_t every) const noexcept {
+    const double cell = metres * perMetre_ / static_cast<double>(every);
+    auto i = static_cast<std::int64_t>(cell); // towards 0
+    if (isUp && cell < static_cast<double>(i)) --i;
+    if (!isUp && cell > static_cast<double>(i)) ++i;
+    Grain grain = at(i * every); // at most one step before it
+    while (isUp ? grain.metres <= metres : grain.metres >= metres) grain = at(grain.index + (isUp ? every : -every));
+    return grain;
 }
 
 } // namespace physvib

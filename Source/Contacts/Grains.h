@@ -27,7 +27,8 @@ public:
     /// `texture` is rough.
     Grains(std::uint64_t surface, const Texture& texture) noexcept
         : surface_{surface}
-        , texture_{texture} {}
+        , texture_{texture}
+        , perMetre_{1.0 / texture.grainMetres} {}
 
     double metresOf(std::int64_t index) const noexcept {
         const double jitter = isRandom() ? 0.9 * (chance(index, 0) - 0.5) : 0.0;
@@ -48,27 +49,32 @@ private:
     /// 0 to 1 (SplitMix64's finaliser; Steele, Lea, Flood 2014).
     double chance(std::int64_t index, std::uint64_t which) const noexcept;
 
-    /// The first multiple of `every` whose grain lies beyond `metres`, upwards or downwards.
-    std::int64_t next(double metres, bool isUp, std::int64_t every) const noexcept;
+    struct Grain {
+        std::int64_t index;
+        double metres;
+    };
+    Grain at(std::int64_t index) const noexcept { return {index, metresOf(index)}; }
+    /// The first of which the index is a multiple of `every`, beyond `metres`, upwards or downwards.
+    Grain next(double metres, bool isUp, std::int64_t every) const noexcept;
 
     template <class Passed>
     void walk(const SurfaceMotion& motion, double from, double to, std::int64_t every, Passed& passed) const {
         const double start = motion.metresAt(from), end = motion.metresAt(to), speed = motion.speedAt(from);
         const bool isUp = end > start;
         const double sign = isUp ? 1.0 : -1.0;
-        for (std::int64_t i = next(start, isUp, every);; i += isUp ? every : -every) {
-            const double grain = metresOf(i), far = grain - start;
-            if (sign * (end - grain) < 0.0) return;
+        for (Grain grain = next(start, isUp, every); sign * (end - grain.metres) >= 0.0; grain = at(grain.index + (isUp ? every : -every))) {
+            const double far = grain.metres - start;
             // The root of the parabola that begins at `from`, in the form that loses no digits.
             const double root = std::sqrt(std::fmax(0.0, speed * speed + 2.0 * motion.metresPerSecond2 * far));
             const double denominator = speed + sign * root;
             const double t = denominator == 0.0 ? to : from + 2.0 * far / denominator;
-            passed(i, std::fmin(std::fmax(t, from), to));
+            passed(grain.index, std::fmin(std::fmax(t, from), to));
         }
     }
 
     std::uint64_t surface_;
     const Texture& texture_;
+    double perMetre_;
 };
 
 } // namespace physvib

@@ -27,13 +27,16 @@ double massOf(const KnownFixture& camera, const BodyReader& bodies) {
     return body.isDynamic ? body.massKg : camera.values.staticMassKg;
 }
 
+double amplitudeOf(double newtonSeconds, double massKg, const HapticFixture& camera, const ImpactModel& model) {
+    ImpactModel own = model;
+    own.handMassKg = camera.handMassKg.value_or(model.handMassKg);
+    return camera.gain * own.amplitude(newtonSeconds, massKg);
+}
+
 } // namespace
 
 double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies, const ImpactModel& model) {
-    const KnownFixture& camera = table[impact.camera];
-    ImpactModel own = model;
-    own.handMassKg = camera.values.handMassKg.value_or(model.handMassKg);
-    return camera.values.gain * own.amplitude(impact.newtonSeconds, massOf(camera, bodies));
+    return amplitudeOf(impact.newtonSeconds, massOf(table[impact.camera], bodies), table[impact.camera].values, model);
 }
 
 void addEvents(const Impact& impact, const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies, const ImpactModel& model,
@@ -46,10 +49,11 @@ void addEvents(const Impact& impact, const FixtureTable& table, const PairSounds
 
     CollisionEvent event;
     event.timeNs = impact.timeNs;
-    event.amplitude = amplitudeOf(impact, table, bodies, model);
+    const double massKg = massOf(camera, bodies);
+    event.amplitude = amplitudeOf(impact.newtonSeconds, massKg, camera.values, model);
     event.x = static_cast<double>(place.x);
     event.y = static_cast<double>(place.y);
-    event.source = {camera.id, other == nullptr ? -1 : other->id, impact.newtonSeconds, massOf(camera, bodies), impact.kind};
+    event.source = {camera.id, other == nullptr ? -1 : other->id, impact.newtonSeconds, massKg, impact.kind};
 
     if (const PairSound* pair = other == nullptr ? nullptr : pairs.find(camera.values.surface, other->values.surface)) {
         event.amplitude *= pair->gain;

@@ -106,8 +106,9 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, std::ve
     const LastingPoint& point = *passage.point;
     const Texture& texture = table_[passage.surface].values.texture;
     const Grains grains{static_cast<std::uint64_t>(table_[passage.surface].id), texture};
-    const double power = std::sqrt(static_cast<double>(passage.every));
-    const double seconds = passage.motion.seconds;
+    const double power = std::sqrt(static_cast<double>(passage.every)), perSecond = 1.0 / passage.motion.seconds;
+    const double backSeconds = 1.5 * passage.motion.seconds;
+    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
     grains.along(passage.motion, passage.every, [&](std::int64_t index, double t) {
         thinned_ += static_cast<std::uint64_t>(passage.every - 1);
         const double speed = std::abs(passage.motion.speedAt(t));
@@ -115,16 +116,17 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, std::ve
         const double slip = std::min(speed, std::abs(point.slipMetresPerSecond));
         const double felt = slip + texture.rolling * (speed - slip);
         Impact impact;
-        impact.timeNs = span.timeNs(t / seconds);
+        impact.timeNs = span.timeNs(t * perSecond);
         impact.newtonSeconds = power * grains.strengthOf(index) * grainImpulse(texture.roughness, passage.loadNewtons, felt);
-        impact.point = point.point + static_cast<float>(t - 1.5 * seconds) * point.metresPerSecond;
+        impact.point = point.point + static_cast<float>(t - backSeconds) * point.metresPerSecond;
         impact.kind = slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll;
-        for (const auto& [camera, other] : {std::pair{point.a, point.b}, std::pair{point.b, point.a}}) {
-            if (!table_.isCamera(camera)) continue;
+        const auto feel = [&](std::int32_t camera, std::int32_t other) {
             impact.camera = camera;
             impact.other = other;
             impacts.push_back(impact);
-        }
+        };
+        if (isFeltByA) feel(point.a, point.b);
+        if (isFeltByB) feel(point.b, point.a);
     });
 }
 

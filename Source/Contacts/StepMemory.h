@@ -9,7 +9,7 @@
 namespace physvib {
 
 /// Engines tell their contacts in much the same order from step to step, so a record is sought first where it was; a search by key
-/// is left for what has come, gone or changed its place (100 rolling balls: a third of the time that a map took). A `Record` has
+/// is left for what has come, gone or changed its place (100 rolling balls: 2.5 us of a step of 80 less than with maps alone). A `Record` has
 /// `std::uint64_t key`, not 0. Allocates when a step has more records than any before. One thread at a time.
 template <class Record>
 class StepMemory {

@@ -174,12 +174,15 @@ void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse)
     const Pair& pair = pairOf(*known);
     Blow* const blow = fresh != 0 ? events_.catcher().blow(pair) : nullptr;
     const bool isHeard = events_.catcher().isHeard(pair);
-    if (blow != nullptr || isHeard) share(contact, impulse, pair, fresh, blow, isHeard);
-    if (events_.lasting().isHeard(pair.a, pair.b)) tellLasting(contact, impulse, blow != nullptr ? fresh : 0U, pair.a, pair.b, events_.lasting());
+    if (!isHeard && blow == nullptr) return;
+    b2WorldManifold manifold;
+    if (isHeard) contact.GetWorldManifold(&manifold);
+    share(impulse, manifold, pair, fresh, blow, isHeard);
+    if (events_.lasting().isHeard(pair.a, pair.b)) // only of heard ones
+        tellLasting(contact, manifold, impulse, blow != nullptr ? fresh : 0U, pair.a, pair.b, events_.lasting());
 }
 
-void BlowFinder::share(const b2Contact& contact, const b2ContactImpulse& impulse, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard) {
-    b2WorldManifold manifold;
+void BlowFinder::share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard) {
     b2Vec2 onB{0.0F, 0.0F};
     bool isLoaded = false;
     for (int i = 0; i < impulse.count; ++i) {
@@ -187,7 +190,6 @@ void BlowFinder::share(const b2Contact& contact, const b2ContactImpulse& impulse
             blow->normalImpulse += static_cast<double>(impulse.normalImpulses[i]);
             blow->tangentialImpulse += static_cast<double>(impulse.tangentImpulses[i]);
         } else if (isHeard) {
-            if (!isLoaded) contact.GetWorldManifold(&manifold);
             isLoaded = true;
             onB += impulse.normalImpulses[i] * manifold.normal + impulse.tangentImpulses[i] * b2Cross(manifold.normal, 1.0F);
         }

@@ -50,7 +50,7 @@ private:
     Known& remember(const b2Contact& contact, Pair pair);
     void forget(const b2Contact& contact) noexcept;
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const;
-    void share(const b2Contact& contact, const b2ContactImpulse& impulse, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard);
+    void share(const b2ContactImpulse& impulse, const b2WorldManifold& manifold, const Pair& pair, unsigned fresh, Blow* blow, bool isHeard);
     double fractionOf(const b2Contact& contact) const noexcept;
     double momentOf(const b2Contact& contact, double secondsAgo) const noexcept;
 
