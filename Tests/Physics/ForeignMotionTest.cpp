@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <random>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -112,18 +113,36 @@ TEST(ForeignMotion, IsTheSameToTheBitInTwoHundredRandomWorlds) {
     EXPECT_GT(events, 2000U);
 }
 
+/// Those of a cluster that meet after they have been struck: what bounces strikes again, and these are blows of their own.
+struct SecondBlows : b2ContactListener {
+    void BeginContact(b2Contact* contact) override { met.emplace_back(contact->GetFixtureA(), contact->GetFixtureB()); }
+    void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
+        const b2Fixture *a = contact->GetFixtureA(), *b = contact->GetFixtureB();
+        if (a != striker && b != striker && have(a, b)) newtonSeconds += static_cast<double>(impulse->normalImpulses[0]);
+    }
+    bool have(const b2Fixture* a, const b2Fixture* b) const {
+        return std::any_of(met.begin(), met.end(), [&](const auto& pair) { return pair == std::pair{a, b} || pair == std::pair{b, a}; });
+    }
+
+    const b2Fixture* striker = nullptr;
+    std::vector<std::pair<const b2Fixture*, const b2Fixture*>> met;
+    double newtonSeconds = 0.0;
+};
+
 class RandomClusters : public testing::TestWithParam<ImpactTiming> {};
 
 TEST_P(RandomClusters, HandOnNoMoreThanWhatStruck) {
-    const bool bounces = GetParam() == ImpactTiming::onset; // in 50 ms those of the cluster strike each other, and what bounces gives more than it got
-    const int stepsToCome = bounces ? 1 : 6;                // until all is told
+    constexpr int stepsToCome = 6; // until all is told in either timing
     std::mt19937 random(3);
     int handedOn = 0;
     for (int round = 0; round < 300; ++round) {
+        SecondBlows second;
         b2World world({0.0F, 0.0F});
+        world.SetContactListener(&second);
         ImpactSettings settings = unity();
         settings.timing = GetParam();
         Attachment attachment(world, settings);
+        std::vector<const b2Fixture*> fixtures; // by id
         const auto add = [&](float x, float y, float vx) {
             b2BodyDef def;
             def.type = b2_dynamicBody;
@@ -132,9 +151,10 @@ TEST_P(RandomClusters, HandOnNoMoreThanWhatStruck) {
             b2CircleShape circle;
             circle.m_radius = 0.25F;
             b2Fixture& fixture = *world.CreateBody(&def)->CreateFixture(&circle, 1.0F + static_cast<float>(random() % 20));
-            const float restitution = 0.1F * static_cast<float>(random() % 10);
-            fixture.SetRestitution(bounces ? restitution : 0.0F);
-            attachment.set(fixture, camera);
+            fixture.SetRestitution(0.1F * static_cast<float>(random() % 10));
+            const auto id = static_cast<std::size_t>(attachment.set(fixture, camera).id);
+            EXPECT_EQ(id, fixtures.size());
+            fixtures.push_back(&fixture);
             return &fixture;
         };
         for (int row = 0; row < 3; ++row) // touching, as oranges in a crate
@@ -146,6 +166,8 @@ TEST_P(RandomClusters, HandOnNoMoreThanWhatStruck) {
         events.clear();
         b2Fixture& fixture = *add(-1.5F, 0.1F * static_cast<float>(random() % 10), 2.0F + static_cast<float>(random() % 10));
         const std::int32_t striker = attachment.set(fixture, camera).id;
+        second.striker = &fixture;
+        second.met.clear();
         const b2Vec2 before = fixture.GetBody()->GetLinearVelocity();
         const auto isDirect = [&](const CollisionEvent& e) { return e.source.fixture == striker || e.source.other == striker; };
         for (int i = 0; i < 100 && std::none_of(events.begin(), events.end(), isDirect); ++i) {
@@ -156,9 +178,10 @@ TEST_P(RandomClusters, HandOnNoMoreThanWhatStruck) {
         attachment.flush(events);
         const double struck = massKg(fixture) * static_cast<double>((fixture.GetBody()->GetLinearVelocity() - before).Length());
         for (const CollisionEvent& event : events) {
-            if (isDirect(event)) continue;
+            const auto fixtureOf = [&](std::int32_t id) { return fixtures[static_cast<std::size_t>(id)]; };
+            if (isDirect(event) || second.have(fixtureOf(event.source.fixture), fixtureOf(event.source.other))) continue;
             ++handedOn;
-            EXPECT_LE(event.source.impulseNewtonSeconds, 1.05 * struck) << round;
+            EXPECT_LE(event.source.impulseNewtonSeconds, 1.05 * (struck + second.newtonSeconds)) << round;
         }
     }
     EXPECT_GT(handedOn, 300);
