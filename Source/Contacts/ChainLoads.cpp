@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Four steps of impulses per pair of a camera and what touches it.
 #include "Contacts/ChainLoads.h"
-#include <algorithm>
 
 namespace physvib {
 
@@ -13,26 +12,27 @@ ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
     : table_(table)
     , pairs_(pairs) {
     contacts_.reserve(expectedContacts);
+    pasts_.reserve(expectedContacts);
     passed_.reserve(expectedContacts);
     receivers_.reserve(expectedContacts);
 }
 
 void ChainLoads::add(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point) {
     Contact& contact = find(pair, true);
-    contact.now += contact.of.b == pair.b ? newtonSeconds : -newtonSeconds; // the points and passes of the step, the parts of a chain
+    contact.now += contact.b == pair.b ? newtonSeconds : -newtonSeconds; // the points and passes of the step, the parts of a chain
     contact.point = point;
     contact.isSolved = true;
 }
 
 void ChainLoads::settle() {
-    for (const Contact& contact : contacts_) {
-        if (!contact.isSolved || contact.isUnknown) continue;
-        const Vector2 load = loadOf(contact);
-        if (contact.now.lengthSquared() <= load.lengthSquared()) continue;
-        const Vector2 beyond = contact.now - load;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        const Contact& contact = contacts_[i];
+        if (!contact.isSolved || contact.isUnknown || contact.now.lengthSquared() <= contact.load.lengthSquared()) continue;
+        const TouchingPairs::Name& of = pasts_[i].of;
+        const Vector2 beyond = contact.now - contact.load;
         const float size = beyond.length();
-        pass(contact.of.a, contact.of.b, -beyond, size, contact.point);
-        pass(contact.of.b, contact.of.a, beyond, size, contact.point);
+        pass(of.a, of.b, -beyond, size, contact.point);
+        pass(of.b, of.a, beyond, size, contact.point);
     }
 }
 
@@ -54,43 +54,48 @@ void ChainLoads::endStep(const ContactGraph& graph) noexcept {
     receivers_.clear();
     for (std::size_t i = contacts_.size(); i-- > 0;) {
         Contact& contact = contacts_[i];
+        Past& past = pasts_[i];
         if (contact.isSolved) {
-            if (contact.isUnknown) contact.past.fill(contact.now);
-            contact.past = {contact.now, contact.past[0], contact.past[1]};
+            if (contact.isUnknown) past.pushed.fill(contact.now);
+            past.pushed = {contact.now, past.pushed[0], past.pushed[1]};
+            contact.load = smallestOf(past.pushed);
             contact.now = {};
             contact.isSolved = contact.isUnknown = false;
-        } else if (!graph.isTouching(contact.of.a, contact.of.b)) {
+        } else if (!graph.isTouching(past.of.a, past.of.b)) {
             drop(i);
         }
     }
 }
 
 void ChainLoads::forget(std::int32_t slot) noexcept {
-    for (std::size_t i = contacts_.size(); i-- > 0;)
-        if (contacts_[i].of.a == slot || contacts_[i].of.b == slot) drop(i);
+    for (std::size_t i = pasts_.size(); i-- > 0;)
+        if (pasts_[i].of.a == slot || pasts_[i].of.b == slot) drop(i);
 }
 
-Vector2 ChainLoads::loadOf(const Contact& contact) noexcept {
-    const auto isLess = [](const Vector2& a, const Vector2& b) {
-        return a.lengthSquared() < b.lengthSquared();
-    };
-    return *std::min_element(contact.past.begin(), contact.past.end(), isLess);
+// No branches: which one it is cannot be foreseen.
+Vector2 ChainLoads::smallestOf(const std::array<Vector2, 3>& pushed) noexcept {
+    const float squared[] = {pushed[0].lengthSquared(), pushed[1].lengthSquared(), pushed[2].lengthSquared()};
+    const auto ofNewer = static_cast<std::size_t>(squared[1] < squared[0]);
+    return pushed[squared[2] < squared[ofNewer] ? 2 : ofNewer];
 }
 
 ChainLoads::Contact& ChainLoads::find(const TouchingPairs::Name& pair, bool isUnknown) {
     std::int32_t& load = pairs_[pair.number].load;
     if (load == TouchingPairs::none) {
         load = static_cast<std::int32_t>(contacts_.size());
-        contacts_.push_back({pair, {}, {}, {}, false, isUnknown});
+        contacts_.push_back({{}, {}, {}, pair.b, false, isUnknown});
+        pasts_.push_back({pair});
     }
     return contacts_[static_cast<std::size_t>(load)];
 }
 
 void ChainLoads::drop(std::size_t index) noexcept {
-    pairs_[contacts_[index].of.number].load = TouchingPairs::none;
+    pairs_[pasts_[index].of.number].load = TouchingPairs::none;
     contacts_[index] = contacts_.back();
+    pasts_[index] = pasts_.back();
     contacts_.pop_back();
-    if (index < contacts_.size()) pairs_[contacts_[index].of.number].load = static_cast<std::int32_t>(index);
+    pasts_.pop_back();
+    if (index < pasts_.size()) pairs_[pasts_[index].of.number].load = static_cast<std::int32_t>(index);
 }
 
 } // namespace physvib

@@ -53,14 +53,18 @@ public:
     void forget(std::int32_t slot) noexcept;
 
 private:
-    struct Contact {
-        TouchingPairs::Name of;
+    struct alignas(32) Contact { // what a push asks for: half a cache line
         Vector2 now, point; // now: on b
-        std::array<Vector2, 3> past;
+        Vector2 load;
+        std::int32_t b;
         bool isSolved;
         bool isUnknown; // met in mid-contact: what it pushes in this step is its load
     };
-    static Vector2 loadOf(const Contact& contact) noexcept;
+    struct Past { // what is asked for once a step
+        TouchingPairs::Name of;
+        std::array<Vector2, 3> pushed{}; // the newest first
+    };
+    static Vector2 smallestOf(const std::array<Vector2, 3>& pushed) noexcept;
     Contact& find(const TouchingPairs::Name& pair, bool isUnknown);
     void pass(std::int32_t slot, std::int32_t other, Vector2 newtonSeconds, float size, Vector2 point);
     void drop(std::size_t index) noexcept;
@@ -68,6 +72,7 @@ private:
     const FixtureTable& table_;
     TouchingPairs& pairs_; // say where the loads of each are
     std::vector<Contact> contacts_;
+    std::vector<Past> pasts_; // of the same contacts
     std::vector<Passed> passed_; // by slot
     std::vector<std::int32_t> receivers_;
 };
