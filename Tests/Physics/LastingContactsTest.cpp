@@ -119,6 +119,49 @@ TEST_F(Lasting, SlidesThenRollsThenRests) {
     EXPECT_TRUE(lasting(100).empty());
 }
 
+TEST_F(Lasting, ThrownWithBackSpinItTurnsBackAndRolls) {
+    slope(0.0, rough(0.001));
+    b2Fixture& ball = ballOnSlope(0.2F);
+    ball.GetBody()->SetLinearVelocity({1.0F, 0.0F});
+    ball.GetBody()->SetAngularVelocity(20.0F); // back-spin of five times as much
+    const double deceleration = std::sqrt(0.2) * g, v = 1.0, spin = 20.0 * 0.25;
+    const std::vector<CollisionEvent> events = lasting(100);
+    const double furthest = v * v / (2.0 * deceleration);
+    const double rolls = (1.5 * v + spin) / (3.5 * deceleration); // on its way back; slips half as fast as it goes
+    ASSERT_GT(events.size(), 300U);
+    for (const CollisionEvent& event : events) {
+        const double t = seconds(event);
+        EXPECT_LT(event.x, furthest + 0.001) << t;
+        if (std::abs(t - rolls) > 0.015) EXPECT_EQ(event.source.kind, t < rolls ? ContactKind::slide : ContactKind::roll) << t;
+        const double slid = (v - 0.5 * deceleration * t) * t - 0.5 * 0.01 * v; // half a step behind what was thrown at once
+        if (t < rolls - 0.02) EXPECT_NEAR(event.x, slid, 0.001) << t;
+    }
+    EXPECT_NEAR(static_cast<double>(ball.GetBody()->GetLinearVelocity().x), v - (v + spin) / 3.0, 0.02);
+}
+
+TEST_F(Lasting, BoxSlidesUntilItSticksAndIsSilentFromThenOn) {
+    slope(0.0, rough(0.001));
+    b2Fixture& fixture = box(0.0F, 0.0F, 0.0F);
+    fixture.SetFriction(0.09F); // and the floor's 1: 0.3 together
+    fixture.SetRestitution(0.0F);
+    fixture.GetBody()->SetLinearVelocity({1.5F, 0.0F});
+    const std::vector<CollisionEvent> events = lasting(150);
+    const double sticks = 1.5 / (0.3 * g);
+    ASSERT_GT(events.size(), 600U); // 0.375 m by each corner
+    EXPECT_NEAR(seconds(events.back()), sticks, 0.02);
+    for (const CollisionEvent& event : events) EXPECT_EQ(event.source.kind, ContactKind::slide);
+}
+
+TEST_F(Lasting, BoxThatFrictionHoldsOnASlopeIsSilent) {
+    slope(10.0, rough(0.0005));
+    b2Fixture& fixture = box(0.0F, 0.0F, 0.0F);
+    const float angle = std::atan2(along.y, along.x);
+    fixture.GetBody()->SetTransform({0.26F * -along.y, 0.26F * along.x}, angle);
+    fixture.SetFriction(0.25F); // holds up to 26 degrees
+    fixture.SetRestitution(0.0F);
+    EXPECT_TRUE(lasting(200).empty());
+}
+
 TEST_F(Lasting, GoingBackFeelsTheSameGrains) {
     slope(0.0, rough(0.002));
     b2Fixture& ball = ballOnSlope(0.0F);
