@@ -32,6 +32,9 @@ std::string refusal(const wire::HelloReply& board) {
     return {};
 }
 
+constexpr std::size_t compactBytes = 16;                // of a strike in the compact form on the line
+constexpr double besidesMs = 3.0;                       // of the line: pings, gains, the last strikes in the long form
+
 constexpr std::int64_t lineNs(std::size_t bytes) { return static_cast<std::int64_t>(bytes) * 10 * second / wire::lineBitsPerSecond; }
 
 } // namespace
@@ -213,7 +216,9 @@ void BoardLink::sendStrikes() {
         backlog_.pop();
         ++now_.refused;
     }
-    while (line_ && now_.state == State::ready && !backlog_.empty() && isLineFree(now) && backlog_.first().onsetNs < now + sendAheadMs * ms) {
+    const bool isReady = line_ && now_.state == State::ready;
+    if (isReady) backlog_.keepTo({std::max(now, lineFreeNs_), lineNs(compactBytes), static_cast<std::int64_t>(1e6 * (transitMs() + besidesMs))});
+    while (line_ && isReady && !backlog_.empty() && isLineFree(now) && backlog_.first().onsetNs < now + sendAheadMs * ms) {
         wire::Strike strike{++sequence_, backlog_.first().event};
         strike.event.frame = static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(clock_.frameAt(backlog_.first().onsetNs))));
         if (backlog_.size() > crowded && wire::fitsCompact(strike.event)) send(wire::compact(strike));
@@ -223,9 +228,9 @@ void BoardLink::sendStrikes() {
     }
 }
 
-double BoardLink::playOutMs() const {
-    return 1e3 * clock_.worstDelaySeconds() + now_.board.aheadFrames * 1e3 / limits::board::sampleRateHz + marginMs;
-}
+double BoardLink::transitMs() const { return 1e3 * clock_.worstDelaySeconds() + now_.board.aheadFrames * 1e3 / limits::board::sampleRateHz; }
+
+double BoardLink::playOutMs() const { return transitMs() + marginMs; }
 
 void BoardLink::publish() {
     if (clock_.isReady()) now_.playOutMs = playOutMs();

@@ -91,6 +91,7 @@ private:
     void obey();
     void sendStrikes();
     void publish();
+    double transitMs() const;
     double playOutMs() const;
     bool isLineFree(std::int64_t now) const;
     template <class Message>

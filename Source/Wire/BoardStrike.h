@@ -35,6 +35,13 @@ inline BoardEvent boardEventOf(const CollisionEvent& e, const std::array<double,
     return b;
 }
 
+/// The line's room, as it is now.
+struct LineRoom {
+    std::int64_t freeNs = 0;    ///< when it has sent what it was given
+    std::int64_t strikeNs = 0;  ///< that a strike takes on it
+    std::int64_t transitNs = 0; ///< from there until the board can play it
+};
+
 /// Strikes that wait for the line, by onset. When it is full, the weakest of all goes, and is counted. One thread.
 class StrikeBacklog {
 public:
@@ -48,11 +55,9 @@ public:
     void push(const BoardStrike& strike) noexcept {
         const auto end = strikes_.begin() + size_;
         if (size_ == capacity) {
-            ++thinned_;
-            const auto weakest = std::min_element(strikes_.begin(), end, [](const auto& a, const auto& b) { return a.peak() < b.peak(); });
-            if (strike.peak() <= weakest->peak()) return;
-            std::copy(weakest + 1, end, weakest);
-            --size_;
+            const auto weakest = weakestBefore(end);
+            if (strike.peak() <= weakest->peak()) return void(++thinned_);
+            thin(weakest);
         }
         const auto filled = strikes_.begin() + size_;
         const auto after = std::upper_bound(strikes_.begin(), filled, strike, [](const auto& a, const auto& b) { return a.onsetNs < b.onsetNs; });
@@ -66,10 +71,38 @@ public:
         --size_;
     }
 
+    /// Where a strike would come too late for those before it, the weakest of them all goes, and is counted. What is late even as
+    /// the first stays: it is not the line's fault.
+    void keepTo(const LineRoom& line) noexcept {
+        for (int i = 1; i < size_;) {
+            if (isInTime(line, i, i + 1) || !isInTime(line, i, 1)) {
+                ++i;
+                continue;
+            }
+            thin(weakestBefore(strikes_.begin() + i + 1));
+            i = std::max(1, i - 1);
+        }
+    }
+
     void clear() noexcept { size_ = 0; }
 
 private:
-    std::array<BoardStrike, static_cast<std::size_t>(capacity) + 1> strikes_{};
+    using Strikes = std::array<BoardStrike, static_cast<std::size_t>(capacity) + 1>;
+
+    Strikes::iterator weakestBefore(Strikes::iterator end) noexcept {
+        return std::min_element(strikes_.begin(), end, [](const auto& a, const auto& b) { return a.peak() < b.peak(); });
+    }
+    void thin(Strikes::iterator strike) noexcept {
+        std::copy(strike + 1, strikes_.begin() + size_, strike);
+        --size_;
+        ++thinned_;
+    }
+    /// Whether that one is, after so many on the line, itself among them.
+    bool isInTime(const LineRoom& line, int strike, int onTheLine) const noexcept {
+        return line.freeNs + onTheLine * line.strikeNs + line.transitNs <= strikes_[static_cast<std::size_t>(strike)].onsetNs;
+    }
+
+    Strikes strikes_{};
     int size_ = 0;
     std::uint64_t thinned_ = 0;
 };

@@ -57,5 +57,38 @@ TEST(StrikeBacklog, FullItLosesTheWeakestAndCounts) {
     EXPECT_EQ(stronger, StrikeBacklog::capacity - 1);
 }
 
+// More than a line carries, in the batches of a world's steps, known 30 ms before they are felt: what is sent is in time.
+TEST(StrikeBacklog, WhatIsMoreThanTheLineCarriesIsThinnedNotLate) {
+    constexpr std::int64_t ms = 1'000'000, each = 1'389'000, transit = 6 * ms, known = 30 * ms;
+    for (const int perSecond : {500, 700, 1000, 2000, 5000}) {
+        StrikeBacklog backlog;
+        std::int64_t lineFree = 0;
+        std::uint64_t told = 0, sent = 0, late = 0, strong = 0;
+        for (std::int64_t now = 0; now < 3000 * ms; now += ms) {
+            if (now % (10 * ms) == 0)
+                for (int i = 0; i < perSecond / 100; ++i, ++told) backlog.push(strike(now + known + i * 1000 * ms / perSecond, told % 20 == 0 ? 4000 : 100 + static_cast<int>(told * 7919 % 100)));
+            backlog.keepTo({std::max(now, lineFree), each, transit});
+            for (; !backlog.empty() && lineFree - now < 4 * ms; backlog.pop(), ++sent) {
+                lineFree = std::max(now, lineFree) + each;
+                late += lineFree + transit > backlog.first().onsetNs ? 1 : 0;
+                strong += backlog.first().peak() == 4000 ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(late, 0u) << perSecond;
+        EXPECT_EQ(sent + backlog.thinned() + static_cast<std::uint64_t>(backlog.size()), told) << perSecond;
+        EXPECT_GE(static_cast<double>(strong), 0.98 * static_cast<double>(told) / 20.0) << perSecond;
+        EXPECT_GE(static_cast<double>(sent) / 3.0, 0.95 * std::min(perSecond, 720)) << perSecond;
+        EXPECT_EQ(backlog.thinned() == 0, perSecond <= 700) << perSecond;
+    }
+}
+
+TEST(StrikeBacklog, WhatIsLateAnywayIsNotThinned) {
+    StrikeBacklog backlog;
+    for (int i = 0; i < 10; ++i) backlog.push(strike(i, 100));
+    backlog.keepTo({1'000'000, 1'389'000, 0});
+    EXPECT_EQ(backlog.size(), 10);
+    EXPECT_EQ(backlog.thinned(), 0u);
+}
+
 } // namespace
 } // namespace physvib
