@@ -20,6 +20,12 @@ struct SurfaceMotion {
     }
 };
 
+/// What chance does to random grains: where they lie in their spacings, and how strong they are, evenly between the ends.
+struct GrainChance {
+    static constexpr double spacingRange = 0.9;
+    static constexpr double leastStrength = 0.2, strengthRange = 1.6;
+};
+
 /// One surface's. Grain `index` lies at (index + 1/2) spacings, +-45 % if they are random, with a strength of 0.2 to 1.8
 /// that depends on surface and index alone: what goes back feels the same grains again, and every run feels the same.
 class Grains {
@@ -31,10 +37,10 @@ public:
         , perMetre_{1.0 / texture.grainMetres} {}
 
     double metresOf(std::int64_t index) const noexcept {
-        const double jitter = isRandom() ? 0.9 * (chance(index, 0) - 0.5) : 0.0;
+        const double jitter = isRandom() ? GrainChance::spacingRange * (chance(index, 0) - 0.5) : 0.0;
         return (static_cast<double>(index) + 0.5 + jitter) * texture_.grainMetres;
     }
-    double strengthOf(std::int64_t index) const noexcept { return isRandom() ? 0.2 + 1.6 * chance(index, 1) : 1.0; }
+    double strengthOf(std::int64_t index) const noexcept { return isRandom() ? GrainChance::leastStrength + GrainChance::strengthRange * chance(index, 1) : 1.0; }
 
     /// Calls `passed(index, t)` for each grain of which the index is a multiple of `every`, in the order in which they are passed.
     template <class Passed>

@@ -20,15 +20,37 @@ Complex<double> pointOfSpectrum(std::span<const double> samples, double rateHz, 
     return sum;
 }
 
-std::vector<double> magnitudes(std::span<const double> samples) {
+namespace {
+
+using Transform = Eigen::FFT<double>;
+
+/// Bins 0 to n/2 of the n points to which the samples are padded.
+std::vector<std::complex<double>> binsOf(Transform& transform, std::span<const double> samples) {
     std::vector<double> padded(samples.begin(), samples.end());
     padded.resize(std::bit_ceil(2 * samples.size()));
     std::vector<std::complex<double>> bins;
-    Eigen::FFT<double> transform;
-    transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+    transform.SetFlag(Transform::HalfSpectrum);
     transform.fwd(bins, padded);
+    return bins;
+}
+
+} // namespace
+
+std::vector<double> magnitudes(std::span<const double> samples) {
+    Transform transform;
+    const auto bins = binsOf(transform, samples);
     std::vector<double> all(bins.size());
     std::ranges::transform(bins, all.begin(), [](const std::complex<double>& bin) { return std::abs(bin); });
+    return all;
+}
+
+std::vector<double> autocorrelation(std::span<const double> samples) {
+    Transform transform;
+    auto bins = binsOf(transform, samples);
+    for (auto& bin : bins) bin = std::norm(bin); // Wiener, Khinchin
+    std::vector<double> all;
+    transform.inv(all, bins);
+    all.resize(samples.size());
     return all;
 }
 

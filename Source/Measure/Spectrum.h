@@ -15,4 +15,7 @@ Complex<double> pointOfSpectrum(std::span<const double> samples, double rateHz, 
 /// bin k is k rateHz / n. M only (allocates).
 std::vector<double> magnitudes(std::span<const double> samples);
 
+/// sum x[i] x[i + lag], for lags of 0 to size - 1. M only (allocates).
+std::vector<double> autocorrelation(std::span<const double> samples);
+
 } // namespace physvib

@@ -60,6 +60,56 @@ TEST_F(MaterialCommand, BadRecordingsAreOneLine) {
     refuses("material none-in-it.wav", 1, "none-in-it.wav: expected samples, found none", 6);
 }
 
+/// A crate is pushed over a ridged floor at a steady speed, as `render` plays it.
+constexpr const char* ridges = R"({"physvib_scene": 1, "name": "ridges", "description": "a crate on ridges", "field_m": [8, 4], "gravity_m_per_s2": [0, -10], "normalisation": {"a_star_s_per_m": 1, "hand_mass_kg": 0},
+  "materials": [{"name": "steel", "density_kg_per_m2": 10, "friction": 0, "restitution": 0, "frequency_hz": 349, "decay_per_s": 107, "grain_m": 0.004, "grain_pattern": "regular", "roughness": 0.5},
+                {"name": "felt", "density_kg_per_m2": 10, "friction": 0, "restitution": 0}],
+  "bodies": [{"name": "floor", "type": "static", "position_m": [4, 1], "mass_kg": 20, "fixtures": [{"shape": "box", "size_m": [8, 0.2], "material": "steel", "camera": true}]},
+             {"name": "ball", "position_m": [1, 1.3], "velocity_m_per_s": [0.8, 0], "fixtures": [{"shape": "circle", "radius_m": 0.2, "material": "felt"}]}]})";
+
+TEST_F(MaterialCommand, TexturesOfARenderedScrapeAreThoseOfItsScene) {
+    write("ridges.json", ridges);
+    ASSERT_EQ(call("render ridges.json --layout phone1 --seconds 3 --limiter off --out scrape.wav").exitCode, 0);
+    const double newtons = 10.0 * 10.0 * 3.14159265 * 0.2 * 0.2;
+    const auto outcome = call("material --texture scrape.wav --speed 0.8 --mass 20 --load " + std::to_string(newtons));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::istringstream lines{outcome.out};
+    std::string header, cell;
+    std::getline(lines, header);
+    EXPECT_EQ(header, "frequency_hz,decay_per_s,grain_m,roughness,grain_pattern");
+    for (const auto& [expected, share] : {std::pair{349.0, 0.02}, {107.0, 0.25}, {0.004, 0.01}, {0.5, 0.1}}) {
+        std::getline(lines, cell, ',');
+        EXPECT_NEAR(std::stod(cell) / expected, 1.0, share) << outcome.out;
+    }
+    std::getline(lines, cell);
+    EXPECT_EQ(cell, "regular");
+    EXPECT_NE(outcome.err.find(" grains a second, "), std::string::npos) << outcome.err;
+}
+
+TEST_F(MaterialCommand, ATexturesModelNearestToTheScrapeIsTaken) {
+    write("ours.xml", "<modelSet><SampleRate>10000</SampleRate>"
+                      "<model><ARcoeff><value>1</value><value>-1.9554</value><value>0.9802</value></ARcoeff><var>0.01</var><speedMod>100</speedMod><forceMod>1</forceMod></model>"
+                      "<model><ARcoeff><value>1</value><value>-1.9</value><value>0.95</value></ARcoeff><var>0.01</var><speedMod>200</speedMod><forceMod>1</forceMod></model></modelSet>");
+    const auto outcome = call("material --texture ours.xml --speed 0.09 --load 1.1");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("the model of 0.1 m/s, 1 N and 1 kg, of 2"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.out.find(",random\n"), std::string::npos) << outcome.out;
+    write("tap.xml", "<tapSet></tapSet>");
+    refuses("material --texture tap.xml --speed 0.1", 1, "tap.xml: line 1: expected a modelSet, found \"tapSet\"", 2);
+    refuses("material --texture none.xml --speed 0.1", 1, "none.xml: cannot be read", 2);
+}
+
+TEST_F(MaterialCommand, WhatIsNoScrapeIsOneLine) {
+    record("0.1,349,106.99,0,0,0");
+    refuses("material --texture hit.wav --speed 1", 1, "hit.wav: expected a scrape, found silence", 2);
+    record("0.1,349,106.99,0.5,0,0");
+    refuses("material --texture hit.wav --speed 1", 1, "hit.wav: expected a scrape whose grains stand out or repeat, found none that do", 2);
+    refuses("material --texture hit.wav", 2, "--texture and --speed go together", 2);
+    refuses("material hit.wav --speed 1", 2, "--texture and --speed go together", 2);
+    refuses("material hit.wav --texture hit.wav --speed 1", 2, "give either FILE.wav or --list or --texture FILE", 2);
+    for (const char* speed : {"0", "-1", "nan", "101", "fast"}) refuses(std::string{"material --texture hit.wav --speed="} + speed, 2, "--speed", 2);
+}
+
 TEST_F(MaterialCommand, BadCallsAreUsageErrors) {
     for (const char* band : {"90", "90-", "1000-90", "-90-100", "a-b", "0-100", "90-90"})
         refuses(std::string{"material a.wav --band="} + band, 2, "--band: expected LO-HI in Hz like 90-1000");

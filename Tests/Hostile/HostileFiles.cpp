@@ -75,7 +75,7 @@ std::string knock(const std::string& ending, const fs::path& folder) {
 
 std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
     const fs::path corpus = source / "Tests/Fuzz/corpus";
-    const std::vector<std::string> recordingCalls{"material FILE", "attenuation FILE FILE", "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav", "render drop --seconds 0.5 --method SV --sound 80=FILE --sound 349=FILE --sound 430=FILE --out o.wav"};
+    const std::vector<std::string> recordingCalls{"material FILE", "material --texture FILE --speed 0.3", "attenuation FILE FILE", "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav", "render drop --seconds 0.5 --method SV --sound 80=FILE --sound 349=FILE --sound 430=FILE --out o.wav"};
     const std::vector<std::string> clipCalls{"render FILE --out o.wav --picture p.png", "render FILE --layout ring3 --out o.wav", "export FILE --to o.hjif", "export FILE --to o.haptic", "export FILE --to o.ahap",
                                              "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav"};
     auto scenes = filesIn(corpus / "scene");
@@ -94,6 +94,7 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
             {"hjif", "hjif", filesIn(corpus / "hjif"), clipCalls},
             {"haptic", "haptic", filesIn(corpus / "haptic"), clipCalls},
             {"ahap", "ahap", filesIn(corpus / "ahap"), clipCalls},
+            {"texture", "xml", filesIn(corpus / "texture"), {"material --texture FILE --speed 0.1"}},
             {"wav", "wav", {knock("wav", folder)}, recordingCalls},
             {"flac", "flac", {knock("flac", folder)}, recordingCalls},
             {"ogg", "ogg", {knock("ogg", folder)}, recordingCalls}};

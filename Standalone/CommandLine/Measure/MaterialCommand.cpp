@@ -2,6 +2,7 @@
 // From a file to two numbers, and how far they can be trusted.
 #include "CommandLine/Measure/MaterialCommand.h"
 #include "CommandLine/Measure/BandText.h"
+#include "CommandLine/Measure/TextureText.h"
 #include "CommandLine/ExitCode.h"
 #include "Files/MaterialTable.h"
 #include "Files/Text/NumberText.h"
@@ -41,12 +42,19 @@ void declareMaterial(CLI::App& command, MaterialOptions& o) {
     command.add_option("recording", o.path, "one contact; of several, the strongest is taken")->type_name("FILE.wav");
     command.add_option("--band", o.band, "Hz within which the frequency is looked for")->type_name("LO-HI")->capture_default_str();
     command.add_option("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks")->check(CLI::IsMember({"fit", "two-peaks"}))->capture_default_str();
+    command.add_option("--texture", o.texturePath, "a scrape at a steady speed, or an autoregressive texture: grains instead of one contact")->type_name("FILE.wav|FILE.xml");
+    command.add_option("--speed", o.speedMetresPerSecond, "m/s at which it was scraped")->type_name("V")->check(CLI::Range(0.001, 100.0));
+    command.add_option("--load", o.loadNewtons, "N that pressed")->type_name("N")->check(CLI::Range(0.001, 1000.0))->capture_default_str();
+    command.add_option("--mass", o.massKg, "kg of what vibrated")->type_name("KG")->check(CLI::Range(0.0001, 10000.0))->capture_default_str();
     command.add_flag("--list", o.lists, "the built-in materials that sound, and where their numbers are from");
 }
 
 int runMaterial(const MaterialOptions& o) {
-    if (o.lists == !o.path.empty()) return leave(exitUsage, "material: give either FILE.wav or --list");
+    if ((o.lists ? 1 : 0) + (o.path.empty() ? 0 : 1) + (o.texturePath.empty() ? 0 : 1) != 1) return leave(exitUsage, "material: give either FILE.wav or --list or --texture FILE");
+    if (o.texturePath.empty() == o.speedMetresPerSecond.has_value()) return leave(exitUsage, "material: --texture and --speed go together");
+    if (std::isnan(o.speedMetresPerSecond.value_or(0.0) + o.loadNewtons + o.massKg)) return leave(exitUsage, "--speed, --load, --mass: expected numbers"); // nan is in every range
     if (o.lists) return listMaterials();
+    if (!o.texturePath.empty()) return tellTexture(o.texturePath, {*o.speedMetresPerSecond, o.loadNewtons, o.massKg});
     const auto band = parseBand(o.band);
     if (!band) return leave(exitUsage, "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band));
     const auto recording = readRecording(o.path);

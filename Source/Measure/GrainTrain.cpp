@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Pulses above the noise; and what repeats, by its autocorrelation.
+#include "Measure/GrainTrain.h"
+#include "Contacts/Grains.h"
+#include "Measure/ScrapePulses.h"
+#include "Measure/Spectrum.h"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace physvib {
+namespace {
+
+constexpr double narrowestSeconds = 0.000125, widestSeconds = 0.012;
+constexpr double leastSkewness = 1.2;
+constexpr std::size_t fewestGrains = 20;
+constexpr double mostLost = 0.3;
+constexpr double mostSpread = 0.8; // of heights, in means: chance makes 0.46, ringing of another partial above 1
+
+struct Peak {
+    double at, height;
+};
+
+/// The vertex of the parabola through x[i - 1], x[i] and x[i + 1], of which the middle one is the highest.
+Peak vertex(std::span<const double> x, std::size_t i) {
+    const double bend = x[i - 1] - 2.0 * x[i] + x[i + 1], at = bend < 0.0 ? 0.5 * (x[i - 1] - x[i + 1]) / bend : 0.0;
+    return {static_cast<double>(i) + at, x[i] - 0.25 * (x[i - 1] - x[i + 1]) * at};
+}
+
+bool isPeak(std::span<const double> x, std::size_t i) { return x[i] > x[i - 1] && x[i] >= x[i + 1]; }
+
+std::vector<Peak> peaksOf(std::span<const double> x) {
+    std::vector<Peak> all;
+    for (std::size_t i = 1; i + 1 < x.size(); ++i)
+        if (isPeak(x, i) && x[i] > 0.0) all.push_back(vertex(x, i));
+    return all;
+}
+
+/// Noise goes both ways, pulses one.
+double noiseOf(std::span<const double> x) {
+    double sum = 0.0, count = 0.0;
+    for (const double height : x)
+        if (height < 0.0) sum += height * height, count += 1.0;
+    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+struct Standing {
+    std::vector<Peak> peaks; ///< that stand out
+    double threshold, mean;  ///< height of all grains, those too low included
+};
+
+/// Of evenly spread heights those above the threshold have the mean (mean x most + threshold) / 2.
+Standing standingOut(const std::vector<Peak>& peaks, double noise) {
+    constexpr double most = GrainChance::leastStrength + GrainChance::strengthRange, sure = 5.0, leastShare = 0.12;
+    Standing out{{}, sure * noise, 0.0};
+    for (int round = 0; round < 10; ++round) {
+        out.peaks.clear();
+        double sum = 0.0;
+        for (const Peak& peak : peaks)
+            if (peak.height > out.threshold) sum += peak.height, out.peaks.push_back(peak);
+        if (out.peaks.size() < fewestGrains) break;
+        const double seen = sum / static_cast<double>(out.peaks.size());
+        out.mean = out.threshold > GrainChance::leastStrength * seen ? std::max(0.3 * seen, (2.0 * seen - out.threshold) / most) : seen;
+        out.threshold = std::max(sure * noise, leastShare * out.mean);
+    }
+    return out;
+}
+
+double spreadOf(const std::vector<Peak>& peaks) {
+    double sum = 0.0, squares = 0.0;
+    for (const Peak& peak : peaks) sum += peak.height, squares += peak.height * peak.height;
+    return std::sqrt(std::max(0.0, squares * static_cast<double>(peaks.size()) / (sum * sum) - 1.0));
+}
+
+/// Between one and the next, but for pauses, which are longer than any that chance makes.
+std::vector<double> gapsOf(const std::vector<Peak>& peaks) {
+    constexpr double pause = 4.0; // medians
+    std::vector<double> gaps;
+    for (std::size_t i = 1; i < peaks.size(); ++i) gaps.push_back(peaks[i].at - peaks[i - 1].at);
+    std::vector<double> sorted = gaps;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    std::erase_if(gaps, [longest = pause * *middle](double gap) { return gap > longest; });
+    return gaps;
+}
+
+double meanOf(const std::vector<double>& x) { return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size()); }
+
+double unevennessOf(const std::vector<double>& gaps) {
+    const double mean = meanOf(gaps);
+    double sum = 0.0;
+    for (const double gap : gaps) sum += (gap / mean - 1.0) * (gap / mean - 1.0);
+    return std::sqrt(sum / static_cast<double>(gaps.size()));
+}
+
+/// Share of random grains that is nearer to the one before than this, in spacings: the difference of two even chances.
+double nearerThan(double spacings) {
+    constexpr double range = GrainChance::spacingRange;
+    return std::pow(std::max(0.0, spacings - (1.0 - range)) / range, 2.0) / 2.0;
+}
+
+std::optional<GrainTrain> countedAt(std::span<const double> samples, double rateHz, double halfWidthSeconds) {
+    const auto pulses = scrapePulses(samples, rateHz, halfWidthSeconds);
+    if (!pulses || pulses->skewness < leastSkewness) return std::nullopt;
+    const Standing out = standingOut(peaksOf(pulses->heights), noiseOf(pulses->heights));
+    if (out.peaks.size() < fewestGrains || spreadOf(out.peaks) > mostSpread) return std::nullopt;
+    GrainTrain train;
+    train.frequencyHz = pulses->frequencyHz;
+    train.decayPerSecond = pulses->decayPerSecond;
+    train.counted = out.peaks.size();
+    const std::vector<double> gaps = gapsOf(out.peaks);
+    train.perSecond = pulses->heightsPerSecond / meanOf(gaps);
+    train.unevenness = unevennessOf(gaps);
+    const double weak = std::clamp((out.threshold / out.mean - GrainChance::leastStrength) / GrainChance::strengthRange, 0.0, 0.95);
+    constexpr double apart = 0.75; // of the half width: nearer pulses are one
+    const double near = nearerThan(apart * halfWidthSeconds * train.perSecond / (1.0 - weak));
+    train.lostShare = weak + near;
+    if (train.isEven()) { // all alike, and none near another
+        train.strength = 0.0;
+        for (const Peak& peak : out.peaks) train.strength += peak.height / static_cast<double>(train.counted);
+        return train;
+    }
+    train.strength = out.mean;
+    train.perSecond *= (1.0 + near) / (1.0 - weak);
+    return train;
+}
+
+/// Products of x with itself `lag` later, as shares of what the stronger of both parts has: what dies away is not alike.
+std::vector<double> likenessOf(std::span<const double> x) {
+    std::vector<double> likeness = autocorrelation(x), energy{0.0};
+    for (const double sample : x) energy.push_back(energy.back() + sample * sample);
+    for (std::size_t lag = 0; lag < likeness.size(); ++lag) {
+        const double stronger = std::max(energy[x.size() - lag], energy[x.size()] - energy[lag]);
+        likeness[lag] = stronger > 0.0 ? likeness[lag] / stronger : 0.0;
+    }
+    return likeness;
+}
+
+Peak highestWithin(std::span<const double> x, std::size_t from, std::size_t to) {
+    return vertex(x, static_cast<std::size_t>(std::max_element(x.begin() + static_cast<std::ptrdiff_t>(from), x.begin() + static_cast<std::ptrdiff_t>(to)) - x.begin()));
+}
+
+} // namespace
+
+std::optional<GrainTrain> grainTrain(std::span<const double> samples, double rateHz) {
+    std::optional<GrainTrain> best;
+    for (double width = narrowestSeconds; width < widestSeconds && !(best && best->lostShare == 0.0); width *= std::sqrt(2.0)) {
+        const auto train = countedAt(samples, rateHz, width);
+        if (train && train->lostShare <= mostLost && (!best || train->lostShare < best->lostShare)) best = train;
+    }
+    return best;
+}
+
+double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
+    constexpr double smoothSeconds = 0.00025, leastLikeness = 0.6;
+    const std::vector<double> slope = smoothSlope(samples, rateHz, smoothSeconds);
+    if (slope.size() < 200) return 0.0;
+    const auto likeness = likenessOf(std::span{slope}.subspan(slope.size() / 5)); // without what it begins with
+    const std::size_t n = likeness.size();
+    const double far = highestWithin(likeness, n / 4, n / 2).height; // what rings is not alike for so long
+    if (far < leastLikeness) return 0.0;
+    double lag = 0.0;
+    for (std::size_t i = 1; lag == 0.0 && i + 1 < n / 2; ++i)
+        if (isPeak(likeness, i))
+            if (const Peak peak = vertex(likeness, i); peak.height >= 1.0 - 3.0 * (1.0 - far) - 0.003) lag = peak.at;
+    for (double times = 2.0; lag > 4.0 && lag * times < 0.5 * static_cast<double>(n) - lag; times *= 2.0) // the longer, the finer
+        lag = highestWithin(likeness, static_cast<std::size_t>((times - 0.25) * lag), static_cast<std::size_t>((times + 0.25) * lag) + 2).at / times;
+    return lag > 4.0 ? rateHz / lag : 0.0;
+}
+
+} // namespace physvib

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Textures from scrapes: what our own engine was given comes out of what it plays; what is no scrape is told.
+#include "Contacts/LastingContacts.h"
+#include "Measure/TextureExtractor.h"
+#include "Study/SeededRandom.h"
+#include "Support/Rendering.h"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+constexpr int rate = 48'000;
+constexpr double massKg = 5.0, newtons = 2.0;
+
+/// What slides over a surface, as one enchanter plays it.
+std::vector<float> scrape(const Texture& texture, double metresPerSecond, double frequencyHz, double decayPerSecond, double length = 2.0) {
+    HapticFixture ground{frequencyHz, decayPerSecond, true, massKg};
+    ground.texture = texture;
+    BodyFacts still, moving;
+    still.body = 1;
+    moving.body = 2;
+    FixtureTable table;
+    const std::int32_t surface = table.know(std::uint64_t{11}, still), slider = table.know(std::uint64_t{12}, moving);
+    table.set(surface, ground, {});
+    LastingContacts lasting{table};
+    std::vector<CollisionEvent> events;
+    std::vector<Impact> impacts;
+    constexpr double step = 0.01;
+    constexpr std::int64_t stepNs = 10'000'000;
+    for (std::int64_t n = 0; n < static_cast<std::int64_t>(length / step); ++n) {
+        LastingPoint point;
+        point.a = surface;
+        point.b = slider;
+        point.normalNewtonSeconds = newtons * step;
+        point.slipMetresPerSecond = metresPerSecond;
+        point.onA = {metresPerSecond * step * static_cast<double>(n + 1), metresPerSecond};
+        lasting.touch(point);
+        impacts.clear();
+        lasting.collect({(n - 1) * stepNs, n * stepNs, (n + 1) * stepNs, 0.0, {}}, impacts);
+        lasting.endStep();
+        for (const Impact& impact : impacts) {
+            CollisionEvent event;
+            event.timeNs = impact.timeNs;
+            event.frequencyHz = frequencyHz;
+            event.decayPerSecond = decayPerSecond;
+            event.amplitude = impact.newtonSeconds / massKg;
+            events.push_back(event);
+        }
+    }
+    EnchanterLayout layout;
+    layoutPreset("phone1", layout);
+    RendererSettings settings{rate, 1, {layout, PanningLaw::linear, 1.0, 1.0, 1.0}};
+    settings.limiterEnabled = false;
+    return test::renderEvents(events, settings, static_cast<int>(length * rate)).channels[0];
+}
+
+void addNoise(std::vector<float>& samples, double decibels) {
+    SeededRandom random{1, "scrape"};
+    double power = 0.0;
+    for (const float x : samples) power += static_cast<double>(x) * static_cast<double>(x) / static_cast<double>(samples.size());
+    const double rms = std::sqrt(power) * std::pow(10.0, decibels / 20.0);
+    for (float& x : samples) x += static_cast<float>(rms * random.normal());
+}
+
+/// Within 5 % of the spacing and 10 % of the roughness; where it is told, 2 % of the frequency and a quarter of the decay.
+void expectFound(const Texture& texture, double speed, double hz, double tau, double noiseDecibels) {
+    auto samples = scrape(texture, speed, hz, tau);
+    addNoise(samples, noiseDecibels);
+    const auto found = extractTexture(samples, rate, {speed, newtons, massKg});
+    const auto where = testing::Message() << texture.grainMetres << " m, " << speed << " m/s, " << hz << " Hz, " << tau << " /s, " << noiseDecibels << " dB";
+    ASSERT_TRUE(found) << found.error << ": " << where;
+    EXPECT_EQ(found.value.texture.pattern, texture.pattern) << where;
+    const bool isRegular = texture.pattern == GrainPattern::regular;
+    EXPECT_NEAR(found.value.texture.grainMetres / texture.grainMetres, 1.0, isRegular ? 0.01 : 0.05) << where;
+    if (found.value.strength == 0.0) {
+        EXPECT_TRUE(isRegular && speed / texture.grainMetres > 0.9 * hz) << where;
+        return;
+    }
+    EXPECT_NEAR(found.value.texture.roughness / texture.roughness, 1.0, 0.1) << where;
+    EXPECT_NEAR(found.value.frequencyHz / hz, 1.0, 0.02) << where;
+    EXPECT_NEAR(found.value.decayPerSecond / tau, 1.0, 0.25) << where;
+}
+
+TEST(TextureExtractor, FindsRandomGrains) {
+    expectFound({0.002, 1.0}, 0.4, 349.0, 106.99, -80.0);
+    expectFound({0.002, 3.0}, 0.1, 120.0, 20.0, -40.0);
+    expectFound({0.001, 0.2}, 0.9, 800.0, 107.0, -40.0);
+    expectFound({0.01, 1.0}, 0.4, 349.0, 106.99, -30.0);
+}
+
+TEST(TextureExtractor, FindsRidgesAndTheirTone) {
+    expectFound({0.002, 1.0, GrainPattern::regular}, 0.4, 349.0, 106.99, -80.0);
+    expectFound({0.01, 2.0, GrainPattern::regular}, 0.3, 120.0, 40.0, -40.0);
+    expectFound({0.001, 1.0, GrainPattern::regular}, 0.9, 349.0, 106.99, -40.0); // faster than it rings
+    expectFound({0.001, 1.0, GrainPattern::regular}, 1.9, 120.0, 60.0, -60.0);
+}
+
+TEST(TextureExtractor, APauseLeavesRidgesEven) {
+    auto samples = scrape({0.004, 1.0, GrainPattern::regular}, 0.8, 349.0, 106.99);
+    std::fill(samples.begin() + rate / 2, samples.begin() + rate, 0.0f);
+    const auto found = extractTexture(samples, rate, {0.8, newtons, massKg});
+    EXPECT_EQ(found.value.texture.pattern, GrainPattern::regular) << found.error;
+    EXPECT_NEAR(found.value.texture.grainMetres, 0.004, 0.00004);
+    EXPECT_NEAR(found.value.texture.roughness, 1.0, 0.1);
+}
+
+TEST(TextureExtractor, TwiceTheLoadTellsHalfTheRoughness) {
+    const auto samples = scrape({0.002, 1.0}, 0.4, 349.0, 106.99);
+    const auto once = extractTexture(samples, rate, {0.4, newtons, massKg}), twice = extractTexture(samples, rate, {0.4, 2.0 * newtons, massKg});
+    EXPECT_NEAR(once.value.texture.roughness, 2.0 * twice.value.texture.roughness, 1e-9);
+    EXPECT_EQ(once.value.strength, twice.value.strength);
+}
+
+TEST(TextureExtractor, WhatWasRecordedUpsideDownIsTheSame) {
+    auto samples = scrape({0.002, 1.0}, 0.4, 349.0, 106.99);
+    const auto up = extractTexture(samples, rate, {0.4});
+    for (float& x : samples) x = -x;
+    const auto down = extractTexture(samples, rate, {0.4});
+    ASSERT_TRUE(up && down) << up.error << down.error;
+    EXPECT_NEAR(up.value.strength, down.value.strength, 1e-9);
+    EXPECT_EQ(up.value.counted, down.value.counted);
+}
+
+// A partial of 0.3 of the height makes grains look rougher, not more; at 10 a second its ringing is not counted.
+TEST(TextureExtractor, ASecondPartialLeavesTheSpacing) {
+    for (const double speed : {0.02, 0.1, 0.4}) {
+        auto samples = scrape({0.002, 1.0}, speed, 349.0, 107.0, 3.0);
+        const auto second = scrape({0.002, 1.0}, speed, 555.0, 180.0, 3.0);
+        for (std::size_t n = 0; n < samples.size(); ++n) samples[n] += 0.3f * second[n];
+        addNoise(samples, -50.0);
+        const auto found = extractTexture(samples, rate, {speed, newtons, massKg});
+        EXPECT_NEAR(found.value.texture.grainMetres, 0.002, 0.0001) << found.error;
+    }
+}
+
+TEST(TextureExtractor, WhatIsNoScrapeIsTold) {
+    const auto expectFault = [](const std::vector<float>& samples, const std::string& words) {
+        const auto found = extractTexture(samples, rate, {0.4});
+        EXPECT_NE(found.error.find(words), std::string::npos) << found.error;
+    };
+    expectFault({}, "expected at least 0.5 s, found 0 samples");
+    expectFault(std::vector<float>(1000, 0.5f), "expected at least 0.5 s, found 1000 samples");
+    expectFault(std::vector<float>(48000), "expected a scrape, found silence");
+    SeededRandom random{3, "noise"};
+    std::vector<float> noise(48000), ringing(48000);
+    for (float& x : noise) x = static_cast<float>(0.1 * random.normal());
+    expectFault(noise, "expected a scrape whose grains stand out or repeat, found none that do");
+    const double r = std::exp(-50.0 / rate), turn = 2.0 * r * std::cos(2.0 * std::numbers::pi * 300.0 / rate); // a material that noise shakes
+    for (std::size_t n = 2; n < ringing.size(); ++n) ringing[n] = noise[n] * 0.01f + static_cast<float>(turn) * ringing[n - 1] - static_cast<float>(r * r) * ringing[n - 2];
+    expectFault(ringing, "found none that do");
+    for (std::size_t n = 0; n < ringing.size(); ++n) ringing[n] = static_cast<float>(0.5 * std::sin(0.03 * static_cast<double>(n)) * std::exp(-5.0 * static_cast<double>(n) / rate));
+    expectFault(ringing, "found none that do"); // one hit
+    noise[4800] = std::numeric_limits<float>::quiet_NaN();
+    expectFault(noise, "expected finite samples, found NaN at 0.1000 s");
+    auto clipped = scrape({0.002, 1.0}, 0.4, 349.0, 106.99, 1.0);
+    float peak = 0.0f;
+    for (const float x : clipped) peak = std::max(peak, std::abs(x));
+    for (float& x : clipped) x = std::clamp(x, -0.5f * peak, 0.5f * peak);
+    expectFault(clipped, "expected a recording that is not clipped");
+}
+
+/// Two poles at this frequency and decay, of this rms.
+AutoregressiveModel model(double hz, double tau, double rms) {
+    constexpr double modelRate = 10'000.0;
+    const double r = std::exp(-tau / modelRate), angle = 2.0 * std::numbers::pi * hz / modelRate, a1 = -2.0 * r * std::cos(angle), a2 = r * r;
+    const double gain = (1.0 + a2) / ((1.0 - a2) * ((1.0 + a2) * (1.0 + a2) - a1 * a1)); // power of y for noise of 1
+    return {modelRate, rms * rms / gain, {a1, a2}};
+}
+
+// A model is read as grains; a scrape of them, by our engine, has the model's frequency, decay and power.
+TEST(TextureOfAModel, IsFeltAsTheModelIs) {
+    constexpr double speed = 0.1, rms = 0.5;
+    for (const auto& [hz, tau] : {std::pair{250.0, 100.0}, {120.0, 30.0}, {500.0, 300.0}}) {
+        const auto found = textureOf(model(hz, tau, rms), {speed, newtons, massKg});
+        ASSERT_TRUE(found) << found.error;
+        EXPECT_NEAR(found.value.frequencyHz, std::sqrt(hz * hz - std::pow(tau / 2.0 / std::numbers::pi, 2.0)), 0.02 * hz);
+        EXPECT_NEAR(found.value.decayPerSecond, tau, 0.1 * tau);
+        EXPECT_NEAR(found.value.texture.grainMetres, speed / 2.0 / found.value.frequencyHz, 1e-12);
+        const auto samples = scrape(found.value.texture, speed, found.value.frequencyHz, found.value.decayPerSecond, 4.0);
+        double power = 0.0; // of J / m; an acceleration is omega times as much
+        for (std::size_t n = rate / 2; n < samples.size(); ++n) power += std::pow(2.0 * std::numbers::pi * hz * static_cast<double>(samples[n]), 2.0);
+        EXPECT_NEAR(10.0 * std::log10(power / static_cast<double>(samples.size() - rate / 2) / (rms * rms)), 0.0, 2.0) << hz;
+    }
+}
+
+TEST(TextureOfAModel, WhatGrowsOrIsNotFeltIsTold) {
+    AutoregressiveModel grows = model(250.0, 100.0, 1.0);
+    grows.coefficients[1] = 1.01;
+    EXPECT_NE(textureOf(grows, {0.1}).error.find("expected a model that comes to rest"), std::string::npos);
+    AutoregressiveModel still = model(250.0, 100.0, 0.0);
+    EXPECT_NE(textureOf(still, {0.1}).error.find("expected a model that is felt"), std::string::npos);
+    EXPECT_NE(textureOf({30.0, 1.0, {}}, {0.1}).error.find("expected a model that is felt"), std::string::npos);
+}
+
+} // namespace
+} // namespace physvib
