@@ -2,6 +2,7 @@
 // One collision as the renderer needs it: the thesis' L_col node (Eq. 5.1, 6.2), the only type on this edge.
 #pragma once
 #include "Core/Limits.h"
+#include "Core/Spread.h"
 #include <cmath>
 #include <cstdint>
 
@@ -20,6 +21,15 @@ struct CollisionSource {
     bool operator==(const CollisionSource&) const = default;
 };
 
+/// By what a strike differs from a hit: it may go somewhere, be spread in its own way, and be the rest of a longer tone.
+struct StrikeCourse {
+    double toX = 0.0, toY = 0.0; ///< metres of the field; where it is after travelNs, in a straight line at one speed
+    std::int64_t travelNs = 0;   ///< 0: it stays where it is struck
+    std::int64_t sinceNs = 0;    ///< the tone began that long before: phase and decay go on from there
+    Spread spread = Spread::layout;
+    bool operator==(const StrikeCourse&) const = default;
+};
+
 /// x(t) = amplitude sin(2 pi frequencyHz t) exp(-decayPerSecond t), t = time since `timeNs` (Eq. 5.1).
 struct CollisionEvent {
     std::int64_t timeNs = 0; ///< onset, nanoseconds since the session began; between frames as a rule
@@ -30,6 +40,7 @@ struct CollisionEvent {
     double y = 0.0;
     std::int64_t durationNs = 0; ///< 0: until it has decayed; else the vibration is cut after this time
     CollisionSource source;
+    StrikeCourse course{}; ///< of what is struck apart from a world
     bool operator==(const CollisionEvent&) const = default;
 };
 
@@ -41,7 +52,10 @@ inline bool isPlayable(const CollisionEvent& e) noexcept {
                          e.decayPerSecond >= 0.0 && e.decayPerSecond <= limits::maxDecayPerSecond &&
                          std::abs(e.amplitude) <= limits::maxAmplitude;
     const bool ends = e.decayPerSecond > 0.0 || e.durationNs > 0;
-    return inTime && audible && ends && std::isfinite(e.x) && std::isfinite(e.y);
+    const StrikeCourse& c = e.course;
+    const bool goes = c.travelNs >= 0 && c.travelNs <= limits::maxTimeNs && c.sinceNs >= 0 && c.sinceNs <= limits::maxTimeNs &&
+                      std::isfinite(c.toX) && std::isfinite(c.toY);
+    return inTime && audible && ends && goes && std::isfinite(e.x) && std::isfinite(e.y);
 }
 
 } // namespace physvib

@@ -52,7 +52,7 @@ private:
     void cut(CollisionEvent& event) const noexcept {
         const double seconds = -std::log(truncation) / event.decayPerSecond;
         if (!(seconds < 1e9)) return; // it hardly decays
-        const auto life = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(seconds * 1e9)));
+        const auto life = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(seconds * 1e9)) - event.course.sinceNs);
         event.durationNs = event.durationNs > 0 ? std::min(event.durationNs, life) : life;
     }
 };

@@ -28,6 +28,7 @@ bool HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     gains_.fill(0.0);
     bank_.prepare(settings.sampleRateHz, channels_, settings.instructions);
     player_.prepare(settings.sampleRateHz, channels_);
+    moving_.prepare(settings.sampleRateHz, channels_);
     actuators_.prepare(settings.sampleRateHz, channels_, settings.equalised);
     prepareLimiter();
     pending_.clear();
@@ -55,6 +56,7 @@ bool HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     settings_.sampleRateHz = sampleRateHz;
     clock_ = FrameClock{sampleRateHz};
     player_.prepare(sampleRateHz, channels_);
+    moving_.prepare(sampleRateHz, channels_);
     actuators_.changeRate(sampleRateHz);
     prepareLimiter();
     position_ = frame;
@@ -93,7 +95,10 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
     if (control.kind == Kind::recordings) player_.setContacts(control.recordings);
     const bool isSilence = control.kind == Kind::silence;
     if (isSilence) silentUntilNs_ = std::max(silentUntilNs_, control.untilNs);
-    if (isSilence || control.kind == Kind::stopAll) bank_.fadeAll(position_, isSilence ? limits::silenceFadePerSecond : limits::stealFadePerSecond);
+    if (isSilence || control.kind == Kind::stopAll) {
+        bank_.fadeAll(position_, isSilence ? limits::silenceFadePerSecond : limits::stealFadePerSecond);
+        moving_.fadeAll(position_);
+    }
     if (isSilence || control.kind == Kind::stopAll || control.kind == Kind::recordings) player_.fadeAll(position_);
 }
 
@@ -103,17 +108,35 @@ void HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset)
     if (delay > 0) onset = {position_, 0.0}; // late: the whole vibration, at once
     const bool isGated = event.durationNs > 0;
     const std::int64_t end = isGated ? clock_.at(event.timeNs + event.durationNs).frame + std::max<std::int64_t>(delay, 0) : Strike::never;
-    panner_.gainsAt(event.x, event.y, gains_);
-    std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
-    const Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, end};
-    const bool isRecorded = player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz));
-    const bool taken = isRecorded    ? player_.strike(s.frequencyHz, s.amplitude, onset.frame, end, gains_.data())
-                       : isCoupled() ? strikeCoupled(s)
-                                     : bank_.strike(s, gains_.data());
+    const bool taken = event.course.travelNs > 0 ? end <= onset.frame || moving_.strike(event, onset, end) : strikeStill(event, onset, end);
     if (taken) playedQueue_.push({event, onset.frame, delay > 0});
     played_ += taken ? 1 : 0;
     late_ += taken && delay > 0 ? 1 : 0;
     rejected_ += taken ? 0 : 1;
+}
+
+template <class P>
+bool HapticRenderer<P>::strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {
+    panner_.gainsAt(event.x, event.y, event.course.spread, gains_);
+    std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
+    Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, closeFrame};
+    if (event.course.sinceNs > 0) {
+        const double seconds = static_cast<double>(event.course.sinceNs) * 1e-9;
+        s.phase = phaseAfter(event.frequencyHz * seconds);
+        s.amplitude *= shareLeft(event.decayPerSecond, seconds);
+    }
+    const bool isRecorded = player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz));
+    if (isRecorded) return player_.strike(s.frequencyHz, s.amplitude, onset.frame, closeFrame, gains_.data());
+    return isCoupled() ? strikeCoupled(s) : bank_.strike(s, gains_.data());
+}
+
+template <class P>
+typename MovingTones<P>::Drive HapticRenderer<P>::driveAt(const CollisionEvent& event, double x, double y) noexcept {
+    typename MovingTones<P>::Drive drive;
+    panner_.gainsAt(x, y, event.course.spread, gains_);
+    if (isCoupled()) settings_.drives.apply(event.frequencyHz, gains_.data(), drive.inPhase.data(), drive.ahead.data());
+    else std::copy_n(gains_.begin(), panner_.channels(), drive.inPhase.begin());
+    return drive;
 }
 
 // A complex drive is two strikes of one mode, a quarter turn apart: they merge, so it costs no mode. Both or none.
@@ -123,7 +146,7 @@ bool HapticRenderer<P>::strikeCoupled(Strike strike) noexcept {
     std::array<double, static_cast<std::size_t>(P::maxChannels)> inPhase{}, ahead{};
     settings_.drives.apply(strike.frequencyHz, gains_.data(), inPhase.data(), ahead.data());
     bank_.strike(strike, inPhase.data());
-    strike.phase = std::uint64_t{1} << 62;
+    strike.phase += std::uint64_t{1} << 62;
     return bank_.strike(strike, ahead.data());
 }
 

@@ -12,6 +12,7 @@
 #include "Core/FrameClock.h"
 #include "Core/Actuators/LinkedLimiter.h"
 #include "Core/Modes/ModeBank.h"
+#include "Core/MovingTones.h"
 #include "Core/Nonblocking.h"
 #include "Core/PendingEvents.h"
 #include "Core/PhantomPanner.h"
@@ -24,7 +25,7 @@
 
 namespace physvib {
 
-/// All memory is inside the object (29 MB for the desktop: keep it on the heap).
+/// All memory is inside the object (30 MB for the desktop: keep it on the heap).
 template <class Profile>
 class HapticRenderer {
 public:
@@ -39,8 +40,8 @@ public:
     /// forget them. M, not while rendering.
     void setContacts(std::span<const RecordedContact> contacts, bool othersAreModes = false) noexcept;
 
-    /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains stay; the
-    /// limiter starts afresh. False, and nothing has changed, at a rate outside the limits, or if it is not prepared. M, not
+    /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains stay; what moves
+    /// stops, the limiter starts afresh. False, and nothing has changed, at a rate outside the limits, or if it is not prepared. M, not
     /// while rendering.
     bool moveTo(int sampleRateHz, std::int64_t frame) noexcept;
 
@@ -72,7 +73,9 @@ private:
     void apply(const RenderControl& control) noexcept;
     void prepareLimiter() noexcept;
     void strike(const CollisionEvent& event, FramePosition onset) noexcept;
+    bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
+    typename MovingTones<Profile>::Drive driveAt(const CollisionEvent& event, double x, double y) noexcept;
     bool isCoupled() const noexcept { return settings_.drives.isOn() && settings_.drives.channels == static_cast<std::size_t>(panner_.channels()); }
     std::int64_t nextChange(int most) const noexcept;
 
@@ -81,6 +84,7 @@ private:
     PhantomPanner::Gains gains_{};
     ModeBank<Profile> bank_;
     SamplePlayer<Profile> player_;
+    MovingTones<Profile> moving_;
     ActuatorStage<Profile> actuators_;
     LinkedLimiter<Profile> limiter_;
     PendingEvents<Profile::maxPending> pending_;

@@ -47,6 +47,7 @@ struct DesktopProfile {
     static constexpr int maxFadingModes = 64; // stolen modes on their way out
     static constexpr int maxGates = 4096;    // strikes with a duration that are open at once
     static constexpr int maxSampleVoices = 64; // recorded contacts sounding at once: 128 a second of half a second each
+    static constexpr int maxMovingTones = 16; // phantoms on their way at once: more than hands can tell apart
     static constexpr int maxPending = 8192;  // events ahead of their time: 80 ms at 10^5 strikes per second
     static constexpr int maxLookAheadFrames = 192; // 1 ms at 192 kHz
     static constexpr int maxDelayFrames = 9600;    // maxChannelDelaySeconds at 192 kHz
@@ -64,6 +65,7 @@ struct BoardProfile {
     static constexpr int maxFadingModes = 4;
     static constexpr int maxGates = 16;
     static constexpr int maxSampleVoices = 1; // no recordings on the board
+    static constexpr int maxMovingTones = 1; // of a renderer of one's own; our board's strikes do not move
     static constexpr int maxPending = 32;
     static constexpr int maxLookAheadFrames = 16;
     static constexpr int maxDelayFrames = 0; // no room

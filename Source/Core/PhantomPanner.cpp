@@ -3,6 +3,7 @@
 #include "Core/PhantomPanner.h"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace physvib {
 
@@ -94,6 +95,28 @@ void PhantomPanner::gainsAt(double x, double y, Gains& gains) const noexcept {
     case Arrangement::triangle: triangleGains(p, gains); break;
     case Arrangement::scattered: scatteredGains(p, gains); break;
     }
+}
+
+void PhantomPanner::gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept {
+    if (spread == Spread::layout) return gainsAt(x, y, gains);
+    if (spread == Spread::alone) return nearestGains({x * scaleX_, y * scaleY_}, gains);
+    PhantomPanner other = *this;
+    other.law_ = spread == Spread::equal ? PanningLaw::energy : static_cast<PanningLaw>(static_cast<int>(spread) - static_cast<int>(Spread::linear));
+    other.exponent_ = 1.0;
+    other.gainsAt(x, y, gains);
+    if (spread != Spread::equal) return;
+    const auto end = gains.begin() + layout_.count;
+    const double energy = std::accumulate(gains.begin(), end, 0.0, [](double sum, double g) { return sum + g * g; });
+    if (energy > 0.0) std::for_each(gains.begin(), end, [scale = 1.0 / std::sqrt(energy)](double& g) { g *= scale; });
+}
+
+void PhantomPanner::nearestGains(Vector p, Gains& gains) const noexcept {
+    const auto distance = [&](int j) { return std::hypot(p.x - place(j).x, p.y - place(j).y); };
+    int nearest = 0;
+    for (int j = 1; j < layout_.count; ++j)
+        if (distance(j) < distance(nearest)) nearest = j;
+    std::fill_n(gains.begin(), layout_.count, 0.0);
+    if (layout_.count > 0) gains[static_cast<std::size_t>(nearest)] = 1.0;
 }
 
 void PhantomPanner::lineGains(Vector p, Gains& gains) const noexcept {

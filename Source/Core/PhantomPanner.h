@@ -2,6 +2,7 @@
 // Phantom sensations: from the place of a hit to one gain per enchanter (thesis Eq. 4.2, 4.3, 6.2).
 #pragma once
 #include "Core/EnchanterLayout.h"
+#include "Core/Spread.h"
 #include <array>
 #include <string_view>
 
@@ -35,6 +36,9 @@ public:
     /// One gain per channel for a hit at (x, y) metres of the field; the rest of `gains` stays. Any thread.
     void gainsAt(double x, double y, Gains& gains) const noexcept;
 
+    /// The same, spread otherwise. Any thread.
+    void gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept;
+
     int channels() const noexcept { return layout_.count; }
 
     /// What it was made of. Any thread.
@@ -60,6 +64,7 @@ private:
     void rectangleGains(Vector p, Gains& gains) const noexcept;
     void triangleGains(Vector p, Gains& gains) const noexcept;
     void scatteredGains(Vector p, Gains& gains) const noexcept;
+    void nearestGains(Vector p, Gains& gains) const noexcept;
 
     EnchanterLayout layout_;
     PanningLaw law_ = PanningLaw::linear;

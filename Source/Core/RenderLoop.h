@@ -55,7 +55,8 @@ void HapticRenderer<Profile>::render(Source& source, float* const* out, int fram
     for (int done = 0; done < frames;) {
         const int part = strikeAndReach(source, frames - done);
         const bool modesSound = bank_.render(at.data(), position_, part), recordingsSound = player_.render(at.data(), position_, part);
-        const bool isSilent = actuators_.process(at.data(), part, !modesSound && !recordingsSound);
+        const bool movingSounds = moving_.render(at.data(), position_, part, [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
+        const bool isSilent = actuators_.process(at.data(), part, !modesSound && !recordingsSound && !movingSounds);
         limiter_.process(at.data(), part, isSilent);
         position_ += part;
         done += part;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Striking, merging, gating, stealing and retiring of modes.
 #include "Core/Modes/ModeBank.h"
+#include "Core/Modes/ModeIncrements.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -91,7 +92,7 @@ bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
     refreshTile(slot);
     if constexpr (P::hasTiles)
         if (tiles_.isOn()) tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_), phasor, scaled.data());
-    const std::int64_t life = lifeFrames(struck.decayIncrement);
+    const std::int64_t life = lifeFramesOf(struck.decayIncrement);
     struck.endFrame = std::max(struck.endFrame, life == Strike::never ? life : strike.onset.frame + life);
     nextEnd_ = std::min(nextEnd_, struck.endFrame);
     return !isGated || openGate(slot, strike, gains);
@@ -110,8 +111,8 @@ typename ModeBank<P>::Mode ModeBank<P>::modeFor(const Strike& strike) const noex
 
 template <class P>
 void ModeBank<P>::setIncrements(Mode& m) const noexcept {
-    m.phaseIncrement = static_cast<std::uint64_t>(m.frequencyHz / rate_ * 18446744073709551616.0);
-    m.decayIncrement = static_cast<std::int64_t>(m.decayPerSecond / rate_ * (std::numbers::log2e * octaveUnit) + 0.5);
+    m.phaseIncrement = phaseIncrementOf(m.frequencyHz, rate_);
+    m.decayIncrement = decayIncrementOf(m.decayPerSecond, rate_);
 }
 
 template <class P>
@@ -163,7 +164,7 @@ void ModeBank<P>::fade(int slot, std::int64_t frame, double perSecond) noexcept 
     m.decayPerSecond += perSecond;
     setIncrements(m);
     m.isFading = true;
-    m.endFrame = std::min(m.endFrame, frame + lifeFrames(m.decayIncrement));
+    m.endFrame = std::min(m.endFrame, frame + lifeFramesOf(m.decayIncrement));
     nextEnd_ = std::min(nextEnd_, m.endFrame);
     const Real backwards = decayFactor<Real>((before - m.decayIncrement) * (frame - tileStart_)); // so that nothing changes at `frame`
     for (int j = 0; j < channels_; ++j) {
@@ -361,13 +362,6 @@ Complex<typename ModeBank<P>::Real> ModeBank<P>::onsetPhasor(const Mode& m, Fram
     const std::int64_t decay = hasDied ? inaudible : m.decayIncrement * age + leadDecay;
     return unitPhasor<Real>(phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame)) *
            decayFactor<Real>(decay);
-}
-
-template <class P>
-std::int64_t ModeBank<P>::lifeFrames(std::int64_t decayIncrement) const noexcept {
-    constexpr auto octaves =
-        static_cast<std::int64_t>(limits::retireDecibels / (20.0 * (std::numbers::ln2 / std::numbers::ln10)) * octaveUnit);
-    return decayIncrement == 0 ? Strike::never : octaves / decayIncrement + 1;
 }
 
 template <class P>

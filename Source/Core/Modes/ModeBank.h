@@ -122,7 +122,6 @@ private:
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<Real> carrier(const Mode& mode) const noexcept;
     Complex<Real> onsetPhasor(const Mode& mode, FramePosition onset, std::uint64_t phase) const noexcept;
-    std::int64_t lifeFrames(std::int64_t decayIncrement) const noexcept;
     Mode& mode(int slot) noexcept { return modes_[static_cast<std::size_t>(slot)]; }
     const Mode& mode(int slot) const noexcept { return modes_[static_cast<std::size_t>(slot)]; }
     std::size_t row(int slot) const noexcept { return static_cast<std::size_t>(slot * channels_); }

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Strikes that go somewhere: one tone each, whose gains move with its place.
+//
+// The place is exact in every frame; its gains are taken at both ends of each tile of the absolute frame grid and lie on a
+// line between them. A sample depends on its own frame alone, so block sizes do not matter. Why lines, and what they cost
+// beside the tone: Docs/decisions/0069-what-moves-is-a-row-of-strikes.md.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Core/FadingVoices.h"
+#include "Core/FrameClock.h"
+#include "Core/Modes/ModeIncrements.h"
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace physvib {
+
+/// Adds them to what the modes made. All memory is inside the object. R only, but for prepare: M.
+template <class Profile>
+class MovingTones {
+public:
+    using Real = typename Profile::Real;
+    /// Per output, for the part in phase with the tone and for the one a quarter turn ahead.
+    struct Drive {
+        std::array<double, static_cast<std::size_t>(Profile::maxChannels)> inPhase{}, ahead{};
+    };
+
+    /// Silence. M, not while rendering.
+    void prepare(int sampleRateHz, int channels) noexcept {
+        rate_ = sampleRateHz;
+        channels_ = static_cast<std::size_t>(channels);
+        voices_.prepare(sampleRateHz);
+    }
+
+    /// From `onset` on, until `closeFrame`. False if too many sound at once.
+    bool strike(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {
+        Voice* const voice = voices_.add(onset.frame);
+        if (voice == nullptr) return false;
+        voice->event = event;
+        voice->leadFrames = onset.leadFrames;
+        voice->phaseIncrement = phaseIncrementOf(event.frequencyHz, rate_);
+        voice->decayIncrement = decayIncrementOf(event.decayPerSecond, rate_);
+        voice->phase = phaseAfter(event.frequencyHz * static_cast<double>(event.course.sinceNs) * 1e-9);
+        voice->level = static_cast<Real>(event.amplitude * shareLeft(event.decayPerSecond, static_cast<double>(event.course.sinceNs) * 1e-9));
+        const std::int64_t life = lifeFramesOf(voice->decayIncrement);
+        voice->end = voice->closeFrame = std::min({closeFrame, VoiceTime::never, life < VoiceTime::never ? onset.frame + life : life});
+        return true;
+    }
+
+    void fadeAll(std::int64_t frame) noexcept { voices_.fadeAll(frame); }
+
+    /// Adds to io[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. `driveAt(event, x, y)`
+    /// is the Drive of a strike there. False if there was nothing to add.
+    template <class DriveAt>
+    bool render(float* const* io, std::int64_t first, int frames, DriveAt driveAt) noexcept {
+        bool sounds = false;
+        for (Voice& voice : voices_) {
+            const std::int64_t from = std::max(first, voice.onset), to = std::min(first + frames, voice.end);
+            if (from >= to) continue;
+            enterTile(voice, first - first % Profile::tileFrames, driveAt);
+            for (std::int64_t frame = from; frame < to; ++frame) add(voice, frame, io, frame - first);
+            sounds = true;
+        }
+        voices_.forget(first + frames);
+        return sounds;
+    }
+
+private:
+    struct Voice : VoiceTime {
+        CollisionEvent event;
+        double leadFrames = 0.0; // the onset lies that much before its frame
+        std::uint64_t phase = 0, phaseIncrement = 0;
+        std::int64_t decayIncrement = 0, closeFrame = 0; // before which it may be faded out
+        Real level = 0;
+        std::int64_t first = 0, last = 0; // frames of the line between these
+        Drive from, to;
+    };
+
+    template <class DriveAt>
+    void enterTile(Voice& voice, std::int64_t tile, DriveAt driveAt) noexcept {
+        if (voice.last > tile) return;
+        voice.first = std::max(tile, voice.onset);
+        voice.last = std::min(tile + Profile::tileFrames, voice.closeFrame);
+        voice.from = voice.first == voice.onset ? at(voice, voice.first, driveAt) : voice.to; // as it was: the law may be another by now
+        voice.to = at(voice, voice.last, driveAt);
+    }
+
+    double ageFrames(const Voice& voice, std::int64_t frame) const noexcept { return static_cast<double>(frame - voice.onset) + voice.leadFrames; }
+
+    template <class DriveAt>
+    Drive at(const Voice& voice, std::int64_t frame, DriveAt driveAt) const noexcept {
+        const CollisionEvent& e = voice.event;
+        const double share = std::min(1.0, ageFrames(voice, frame) * 1e9 / (static_cast<double>(e.course.travelNs) * rate_));
+        return driveAt(e, e.x + share * (e.course.toX - e.x), e.y + share * (e.course.toY - e.y));
+    }
+
+    void add(const Voice& voice, std::int64_t frame, float* const* io, std::int64_t n) const noexcept {
+        const auto lead = [&](auto increment) { return static_cast<decltype(increment)>(static_cast<double>(increment) * voice.leadFrames); };
+        const std::int64_t k = frame - voice.onset;
+        const auto tone = unitPhasor<Real>(voice.phase + lead(voice.phaseIncrement) + voice.phaseIncrement * static_cast<std::uint64_t>(k)) *
+                          (decayFactor<Real>(voice.decayIncrement * k + lead(voice.decayIncrement)) * voice.level * static_cast<Real>(voices_.fadeAt(voice, frame)));
+        const auto share = static_cast<Real>(frame - voice.first) / static_cast<Real>(voice.last - voice.first);
+        const auto between = [share](double from, double to) { return static_cast<Real>(from) + share * static_cast<Real>(to - from); };
+        for (std::size_t j = 0; j < channels_; ++j)
+            io[j][n] += static_cast<float>(between(voice.from.inPhase[j], voice.to.inPhase[j]) * tone.im + between(voice.from.ahead[j], voice.to.ahead[j]) * tone.re);
+    }
+
+    double rate_ = 48000.0;
+    std::size_t channels_ = 1;
+    FadingVoices<Voice, Profile::maxMovingTones> voices_;
+};
+
+} // namespace physvib
