@@ -104,8 +104,24 @@ void readCeilings(const JsonField& list, SavedSession& session) {
 
 } // namespace
 
+namespace {
+
+StrikeCourse readCourse(const JsonField& strike) {
+    StrikeCourse course;
+    if (strike.has("travel_s")) {
+        course.travelNs = readTime(strike["travel_s"]);
+        course.toX = strike["to_x_m"].number();
+        course.toY = strike["to_y_m"].number();
+    }
+    if (strike.has("since_s")) course.sinceNs = readTime(strike["since_s"]);
+    if (strike.has("spread")) course.spread = static_cast<Spread>(strike["spread"].oneOf(spreadNames));
+    return course;
+}
+
+} // namespace
+
 CollisionEvent readStrike(const JsonField& json) {
-    json.expectObject({"time_s", "frequency_hz", "decay_per_s", "amplitude", "x_m", "y_m", "duration_s"});
+    json.expectObject({"time_s", "frequency_hz", "decay_per_s", "amplitude", "x_m", "y_m", "duration_s", "to_x_m", "to_y_m", "travel_s", "since_s", "spread"});
     CollisionEvent strike;
     strike.timeNs = readTime(json["time_s"]);
     strike.frequencyHz = json["frequency_hz"].positiveNumber();
@@ -114,6 +130,7 @@ CollisionEvent readStrike(const JsonField& json) {
     strike.x = json["x_m"].number();
     strike.y = json["y_m"].number();
     if (json.has("duration_s")) strike.durationNs = readTime(json["duration_s"]);
+    strike.course = readCourse(json);
     if (!isPlayable(strike)) json.fail("expected a strike that can be played: within the ranges of an event list, with a decay or a duration");
     return strike;
 }
@@ -205,6 +222,10 @@ OrderedJson strikeJson(const CollisionEvent& strike) {
     OrderedJson json{{"time_s", seconds(strike.timeNs)}, {"frequency_hz", strike.frequencyHz}, {"decay_per_s", strike.decayPerSecond},
                      {"amplitude", strike.amplitude}, {"x_m", strike.x}, {"y_m", strike.y}};
     if (strike.durationNs > 0) json["duration_s"] = seconds(strike.durationNs);
+    const StrikeCourse& course = strike.course;
+    if (course.travelNs > 0) json.update({{"to_x_m", course.toX}, {"to_y_m", course.toY}, {"travel_s", seconds(course.travelNs)}});
+    if (course.sinceNs > 0) json["since_s"] = seconds(course.sinceNs);
+    if (course.spread != Spread::layout) json["spread"] = spreadNames[static_cast<std::size_t>(course.spread)];
     return json;
 }
 

@@ -15,7 +15,7 @@
 namespace physvib {
 
 /// The version of the format that is written, and the newest that is read.
-constexpr int sessionFormatVersion = 4; // 2: desk, strikes, slow motion; 3: recordings, gain, perceived level; 4: drags by metres of the screen
+constexpr int sessionFormatVersion = 5; // 2: desk, strikes, slow motion; 3: recordings, gain, perceived level; 4: drags by metres of the screen; 5: strikes that move
 
 /// A session as it was played.
 struct SavedSession {

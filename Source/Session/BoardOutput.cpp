@@ -23,7 +23,11 @@ void BoardOutput::feed() {
     if (const FeltMoment felt = device_.felt(); felt.steadyNs != 0) clock_.add(felt);
     if (clock_.isReady()) {
         takeControls();
-        for (CollisionEvent event; told_.events.pop(event);) strike(event);
+        for (CollisionEvent event; told_.events.pop(event);) {
+            if (event.course.travelNs > 0 && isPlayable(event)) moving_.emplace_back(event);
+            else strike(event);
+        }
+        takeSteps();
     }
     setGains();
 }
@@ -40,10 +44,21 @@ void BoardOutput::takeControls() {
 
 void BoardOutput::apply(const RenderControl& control) {
     const auto channel = static_cast<std::size_t>(control.channel);
-    if (control.kind == RenderControl::Kind::stopAll) return link_.stopAll();
+    if (control.kind == RenderControl::Kind::stopAll) {
+        moving_.clear();
+        return link_.stopAll();
+    }
     if (channel >= gains_.size()) return;
     if (control.kind == RenderControl::Kind::gain) gains_[channel] = control.value;
     if (control.kind == RenderControl::Kind::mute) muted_[channel] = control.value != 0.0f;
+}
+
+// Not before the link would send them: a path of a minute must not fill its queue.
+void BoardOutput::takeSteps() {
+    const std::int64_t until = BoardLink::nowNs() + BoardLink::sendAheadMs * 1'000'000;
+    for (BoardSteps& steps : moving_)
+        while (!steps.isOver() && clock_.steadyAt(steps.nextNs()) < until) strike(steps.take());
+    std::erase_if(moving_, [](const BoardSteps& steps) { return steps.isOver(); });
 }
 
 void BoardOutput::setGains() {
@@ -59,7 +74,7 @@ void BoardOutput::strike(const CollisionEvent& event) {
     if (!isPlayable(event)) return; // as the renderer, which counts it
     for (; !layouts_.empty() && layouts_.front().timeNs <= event.timeNs; layouts_.erase(layouts_.begin())) panner_ = layouts_.front().panner;
     PhantomPanner::Gains gains{};
-    panner_.gainsAt(event.x, event.y, gains);
+    panner_.gainsAt(event.x, event.y, event.course.spread, gains);
     link_.push({clock_.steadyAt(event.timeNs), boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
 }
 

@@ -9,6 +9,7 @@
 #include "Session/FeltClock.h"
 #include "Session/FeltOutput.h"
 #include "Session/Session.h"
+#include "Wire/BoardSteps.h"
 #include <array>
 #include <optional>
 #include <vector>
@@ -33,6 +34,7 @@ private:
     void apply(const RenderControl& control);
     void setGains();
     void strike(const CollisionEvent& event);
+    void takeSteps();
 
     ToldEvents& told_;
     FeltOutput& device_;
@@ -42,6 +44,7 @@ private:
     FeltClock clock_;
     PhantomPanner panner_;
     std::vector<RenderControl> layouts_, others_; // that wait for their time
+    std::vector<BoardSteps> moving_;
     std::array<double, limits::board::channels> gains_{1.0, 1.0, 1.0, 1.0};
     std::optional<std::array<double, limits::board::channels>> sent_; // to the link
     std::array<bool, limits::board::channels> muted_{};

@@ -80,6 +80,11 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     forgetBirths();
     check_.reset();
     controlLog_ = {};
+    waiting_ = {};
+    begun_.clear();
+    panner_ = setup_.panner;
+    stops_.clear();
+    nextStopNs_ = never;
     if (!setup_.recordings.empty() && setup_.log != LogUse::none) controlLog_.recordings.push_back({0, filesOf(setup_.recordings)});
     slippedNs_ = 0;
     leastMarginFrames_ = noMargin;
@@ -114,6 +119,7 @@ bool Session::popControl(RenderControl& control) noexcept {
 }
 
 int Session::advance(const StepWatch& goesOn) {
+    takeDueStops();
     const std::lock_guard lock{worldMutex_};
     if (offline_.load(std::memory_order_acquire)) return 0;
     isDriven_.store(true, std::memory_order_release);
@@ -127,6 +133,7 @@ int Session::catchUp(const StepWatch& goesOn) {
         slippedNs_ += lag - law().safeLagNs();
         world_.standStill(lag - law().safeLagNs());
     }
+    takeDue();
     takeOwnInputs(world_); // what R did until `now` is in the queue: it came before the frames were told
     int steps = 0;
     for (; world_.timeNs() < now && (steps == 0 || !goesOn || goesOn(world_.timeNs())); ++steps) {
@@ -200,9 +207,11 @@ void Session::renderBehind(float* const* out, std::int64_t done, int frames, Ren
 }
 
 void Session::renderOwnWorld(float* const* out, int frames, std::int64_t endNs) {
+    takeDueStops();
     const std::lock_guard lock{worldMutex_};
     offline_.store(true, std::memory_order_release);
     takeUp();
+    takeDue();
     takeOwnInputs(world_);
     OfflineSource source{*this, endNs};
     if (frames > 0) renderer_->render(source, out, frames);

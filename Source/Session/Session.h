@@ -12,6 +12,7 @@
 #include "Session/SessionTime.h"
 #include "Session/SessionWorld.h"
 #include "Session/ToldEvents.h"
+#include "Session/WaitingStrikes.h"
 #include "Session/WantedTake.h"
 #include "Session/WorldPace.h"
 #include <array>
@@ -40,6 +41,9 @@ public:
     void resume(int sampleRateHz, int maxBlockFrames);
 
     int channels() const noexcept { return setup_.channels; }
+
+    /// What becomes of all collisions, and of strikes, before they are rendered. Any thread.
+    const EventShaping& shaping() const noexcept { return setup_.shaping; }
 
     /// Whether render also writes out[channels()], what is heard of each hit, in sync with the others.
     bool hasContactSound() const noexcept { return heard_ != nullptr; }
@@ -80,8 +84,22 @@ public:
     /// The same at session times of their own, of which those that are over are late.
     bool playAt(std::span<const CollisionEvent> strikes);
 
+    /// The same, but each waits in the session until its time, up to which stopAt can take it back. False, and nothing is
+    /// played, if one cannot be or too many wait.
+    bool schedule(std::span<const CollisionEvent> strikes);
+
+    /// At that session time, or now if it is over, what sounds fades out, and what was scheduled for then or later before this
+    /// call is forgotten. Felt and logged as a control; false if too many stops wait. Any thread but R.
+    bool stopAt(std::int64_t timeNs);
+
+    /// How later strikes are spread, as far as has been posted. Any thread but R.
+    PhantomPanner panner() const;
+
     /// Session time. Any thread but R.
     std::int64_t presentNs() const;
+
+    /// L. Any thread but R.
+    double playOutSeconds() const;
 
     /// The scene starts anew when frame `offset` of the next block is the present, as a new take. R, wait-free, or M.
     void restart(int offset = 0) noexcept;
@@ -114,9 +132,15 @@ public:
     SessionStatus status() noexcept { return status_.read(); }
 
 private:
+    static constexpr std::int64_t never = INT64_MAX;
+    static constexpr std::size_t mostStops = 256;
     struct LiveSource;
     struct OfflineSource;
     bool addStrikes(std::span<const CollisionEvent> strikes, std::int64_t startNs);
+    void takeDue();
+    std::int64_t postNow(RenderControl control);
+    void postDueStops();
+    void takeDueStops();
     bool popControl(RenderControl& control) noexcept;
     int outputs() const noexcept { return setup_.channels + (heard_ ? 1 : 0); }
     ClockLaw lawAt(int sampleRateHz, int maxBlockFrames) const;
@@ -145,11 +169,16 @@ private:
     SessionWorld world_;
     std::vector<CollisionEvent> made_; // events that the queue had no room for yet, from handed_ on
     std::size_t handed_ = 0;
+    WaitingStrikes waiting_;
+    std::vector<CollisionEvent> begun_; // of those that waited, for the log
 
     mutable std::mutex inputMutex_; // taken first; guards what follows, and the producer's side of controls_
     std::optional<InputCheck> check_;
     std::size_t checkedTake_ = 0;
     SessionLog controlLog_; // without takes, of what has not been read
+    PhantomPanner panner_;
+    std::vector<std::int64_t> stops_; // ahead, in time order
+    std::atomic<std::int64_t> nextStopNs_{never}; // the first of them; to be read without the mutex
 };
 
 } // namespace physvib

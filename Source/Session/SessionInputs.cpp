@@ -24,13 +24,20 @@ std::string Session::act(Action action) {
 
 std::int64_t Session::post(RenderControl control) {
     const std::lock_guard lock{inputMutex_};
+    postDueStops();
     control.timeNs = nowNs();
+    return postNow(control);
+}
+
+// At its own time, which is not before that of any other. The input mutex is held.
+std::int64_t Session::postNow(RenderControl control) {
     if (!controls_.push(control)) return -1;
     if (told_) told_->controls.push(control);
     if (control.kind == RenderControl::Kind::ceiling && control.channel >= 0 && control.channel < setup_.channels) {
         auto& most = ceilings_[static_cast<std::size_t>(control.channel)];
         most = std::max(most.load(), control.value);
     }
+    if (control.kind == RenderControl::Kind::panner) panner_ = control.panner;
     if (setup_.log == LogUse::none) return control.timeNs;
     if (control.kind == RenderControl::Kind::panner)
         controlLog_.panners.push_back({control.timeNs, control.panner});
@@ -63,9 +70,64 @@ bool Session::playAt(std::span<const CollisionEvent> strikes) {
     return addStrikes(strikes, 0);
 }
 
+bool Session::schedule(std::span<const CollisionEvent> strikes) {
+    const std::lock_guard lock{worldMutex_};
+    if (!std::ranges::all_of(strikes, [](const CollisionEvent& e) { return isPlayable(e); }) || !waiting_.add(strikes)) return false;
+    takeDue();
+    handOver();
+    return true;
+}
+
+// The world mutex is held.
+void Session::takeDue() {
+    std::vector<CollisionEvent> due;
+    waiting_.take(nowNs(), due);
+    std::ranges::transform(due, std::back_inserter(made_), setup_.shaping);
+    if (setup_.log != LogUse::none) std::ranges::move(due, std::back_inserter(begun_));
+}
+
+bool Session::stopAt(std::int64_t timeNs) {
+    const std::scoped_lock lock{inputMutex_, worldMutex_};
+    if (stops_.size() == mostStops) return false;
+    timeNs = std::max(timeNs, nowNs());
+    takeDue();
+    handOver();
+    waiting_.forget(timeNs);
+    stops_.insert(std::ranges::upper_bound(stops_, timeNs), timeNs);
+    postDueStops();
+    return true;
+}
+
+// Those whose time has come: a control of a later time must not be logged before them. The input mutex is held.
+void Session::postDueStops() {
+    RenderControl stop;
+    stop.kind = RenderControl::Kind::stopAll;
+    for (; !stops_.empty() && stops_.front() <= nowNs(); stops_.erase(stops_.begin())) {
+        stop.timeNs = stops_.front();
+        postNow(stop);
+    }
+    nextStopNs_ = stops_.empty() ? never : stops_.front();
+}
+
+void Session::takeDueStops() {
+    if (nextStopNs_ > nowNs()) return;
+    const std::lock_guard lock{inputMutex_};
+    postDueStops();
+}
+
+PhantomPanner Session::panner() const {
+    const std::lock_guard lock{inputMutex_};
+    return panner_;
+}
+
 std::int64_t Session::presentNs() const {
     const std::lock_guard lock{inputMutex_};
     return nowNs();
+}
+
+double Session::playOutSeconds() const {
+    const std::lock_guard lock{inputMutex_};
+    return static_cast<double>(playOutFrames()) / law().sampleRateHz;
 }
 
 // Both mutexes are held.
@@ -96,13 +158,16 @@ std::int64_t Session::readLog(SessionLog& log) {
     move(controlLog_.channels, log.channels);
     move(controlLog_.recordings, log.recordings);
     move(controlLog_.strikes, log.strikes);
+    move(begun_, log.strikes);
     world_.moveLog(log.takes);
     return std::min(nowNs(), world_.timeNs());
 }
 
 SessionSize Session::size() const {
     const std::lock_guard lock{worldMutex_};
-    return world_.size();
+    SessionSize size = world_.size();
+    size.strikes = waiting_.size();
+    return size;
 }
 
 std::int64_t Session::readPoses(std::vector<BodyPose>& poses) const {

@@ -59,6 +59,7 @@ struct SessionSetup {
 struct SessionSize {
     std::size_t bodies = 0; ///< in Box2D's world
     std::size_t inputs = 0; ///< waiting, or of the log and not read
+    std::size_t strikes = 0; ///< scheduled, and not begun
 };
 
 /// The part of it that can be exchanged while it plays.

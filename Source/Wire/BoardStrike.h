@@ -3,6 +3,7 @@
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Core/CollisionEvent.h"
+#include "Core/Modes/ModeIncrements.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,15 +24,17 @@ struct BoardStrike {
 };
 
 /// Rounded to the numbers of the link; amplitudes beyond 8 times full scale stay there. `gains`: one per board channel,
-/// of the panner. A frequency that the board cannot play gives an event that isPlayable refuses. Any thread.
+/// of the panner. A frequency that the board cannot play gives an event that isPlayable refuses. The rest of a longer tone is as
+/// strong as that, from phase 0. Any thread.
 inline BoardEvent boardEventOf(const CollisionEvent& e, const std::array<double, limits::board::channels>& gains) noexcept {
     const auto rounded = [](double value, double low, double high) { return std::clamp(std::nearbyint(value), low, high); };
     BoardEvent b;
     b.frequency16 = static_cast<std::uint16_t>(rounded(e.frequencyHz * limits::board::gridPerHz, 0.0, 65535.0));
     b.decay16 = static_cast<std::uint16_t>(rounded(e.decayPerSecond * limits::board::gridPerHz, e.decayPerSecond > 0.0 ? 1.0 : 0.0, 65535.0));
     if (e.durationNs > 0) b.durationMs = static_cast<std::uint16_t>(rounded(static_cast<double>(e.durationNs) * 1e-6, 1.0, 65535.0));
+    const double amplitude = e.course.sinceNs > 0 ? e.amplitude * shareLeft(e.decayPerSecond, static_cast<double>(e.course.sinceNs) * 1e-9) : e.amplitude;
     for (std::size_t j = 0; j < gains.size(); ++j)
-        b.amplitudes[j] = static_cast<std::int16_t>(rounded(e.amplitude * gains[j] * limits::board::amplitudeUnit, -32768.0, 32767.0));
+        b.amplitudes[j] = static_cast<std::int16_t>(rounded(amplitude * gains[j] * limits::board::amplitudeUnit, -32768.0, 32767.0));
     return b;
 }
 

@@ -114,6 +114,21 @@ std::size_t JsonField::oneOf(std::span<const std::string_view> names) const {
     fail("expected one of " + list + ", found " + inQuotes(word));
 }
 
+std::vector<std::string> JsonField::names() const {
+    expectObject();
+    std::vector<std::string> names;
+    for (const auto& item : value_.items()) names.push_back(item.key());
+    return names;
+}
+
+bool JsonField::isNumber() const {
+    return value_.is_number();
+}
+
+bool JsonField::isArray() const {
+    return value_.is_array();
+}
+
 bool JsonField::isNull() const {
     return value_.is_null();
 }

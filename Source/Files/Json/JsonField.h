@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace physvib {
 
@@ -26,6 +27,7 @@ public:
     void expectOnly(std::span<const std::string_view> known) const;
 
     bool has(std::string_view key) const;
+    std::vector<std::string> names() const; ///< of an object's fields
     JsonField operator[](std::string_view key) const;
     std::size_t arraySize() const;
     JsonField item(std::size_t index) const;
@@ -43,6 +45,8 @@ public:
     /// Index of the word it is among `names`.
     std::size_t oneOf(std::span<const std::string_view> names) const;
     bool isNull() const;
+    bool isNumber() const;
+    bool isArray() const;
     bool is(std::string_view word) const;
 
 private:

@@ -2,6 +2,7 @@
 // Which of the kinds a line is; their fields are read where those of files are.
 #include "Files/Text/InputLine.h"
 #include "Files/ControlJson.h"
+#include "Files/Json/JsonLines.h"
 #include "Files/Json/JsonReader.h"
 
 namespace physvib {
@@ -22,8 +23,36 @@ struct FieldsOf<ActionLine> {
 
 namespace {
 
+constexpr std::size_t mostNumbers = 1024; // of a list
+
+void addNumbers(const JsonField& list, std::vector<double>& numbers, bool isPair) {
+    const std::size_t count = list.arraySize();
+    if (isPair && count != 2) list.fail("expected a pair of numbers");
+    if (count > mostNumbers) list.fail("expected at most " + std::to_string(mostNumbers) + " numbers");
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!isPair && list.item(i).isArray()) addNumbers(list.item(i), numbers, true);
+        else numbers.push_back(list.item(i).number());
+    }
+}
+
+PlainValue readPlain(const JsonField& json) {
+    if (json.isNumber()) return json.number();
+    if (!json.isArray()) return json.text();
+    std::vector<double> numbers;
+    addNumbers(json, numbers, false);
+    return numbers;
+}
+
+PlainMessage readMessage(const JsonField& json) {
+    PlainMessage message{json["message"].text(), {}};
+    for (const std::string& name : json.names())
+        if (name != "message") message.values.push_back({name, readPlain(json[name])});
+    return message;
+}
+
 LineInput readLine(const JsonField& json, const std::vector<Material>& materials, int channels) {
     json.expectObject();
+    if (json.has("message")) return readMessage(json);
     if (!json.has("control")) {
         ActionLine line;
         detail::readValue(json, line, {}, materials);
@@ -34,7 +63,17 @@ LineInput readLine(const JsonField& json, const std::vector<Material>& materials
     return SilenceControl{json["on"].truth()};
 }
 
+OrderedJson plainJson(const PlainValue& value) {
+    return std::visit([](const auto& plain) { return OrderedJson(plain); }, value);
+}
+
 } // namespace
+
+std::string answerLine(const PlainMessage& answer) {
+    OrderedJson json{{"answer", answer.name}};
+    for (const NamedValue& value : answer.values) json[value.name] = plainJson(value.value);
+    return jsonLine(json);
+}
 
 Result<LineInput> readInputLine(std::string_view line, std::string_view name, const std::vector<Material>& materials, int channels) {
     try {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One line of JSON that does something to a session now: an input, or a control.
+// One line of JSON that does something to a session: an input, a control, or a message.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Files/Result.h"
+#include "Files/Text/PlainMessage.h"
 #include "Physics/Scenes/Scene.h"
 #include <string_view>
 #include <variant>
@@ -15,11 +16,12 @@ struct SilenceControl {
     bool isOn = true;
 };
 
-using LineInput = std::variant<Action, RenderControl, SilenceControl>;
+using LineInput = std::variant<Action, RenderControl, SilenceControl, PlainMessage>;
 
 /// `{"input": "impulse", "body": "ball", "impulse_ns": [0, 5]}`: as in a scene's script, without a time.
 /// `{"control": "gain", "channel": 1, "value": 0.5}`: as in a session file, without a time; `{"control": "silence",
-/// "on": true}` as well. Or, of the first thing that is wrong, one line `name: body: ...`. Any thread.
+/// "on": true}` as well. `{"message": "path", "places": [[0, 0], [1, 2]], "seconds": 1}`: a message with values that are numbers,
+/// words, or lists of numbers or of pairs of them. Or, of the first thing that is wrong, one line `name: body: ...`. Any thread.
 Result<LineInput> readInputLine(std::string_view line, std::string_view name, const std::vector<Material>& materials, int channels);
 
 } // namespace physvib

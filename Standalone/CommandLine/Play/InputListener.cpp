@@ -3,6 +3,7 @@
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/ExitCode.h"
 #include "Files/Text/InputLine.h"
+#include <iostream>
 #include <poll.h>
 #include <type_traits>
 #include <unistd.h>
@@ -18,6 +19,7 @@ constexpr int pollMilliseconds = 50; // only the end of the program waits for it
 InputListener::InputListener(Session& session, AudioOutput& output)
     : session_{session}
     , output_{output}
+    , messages_{session}
     , thread_{[this] { run(); }} {}
 
 InputListener::~InputListener() {
@@ -51,6 +53,11 @@ std::string InputListener::act(std::string_view line, const std::string& name) {
     if (const auto* action = std::get_if<Action>(&read.value)) {
         const std::string fault = session_.act(*action);
         return fault.empty() ? fault : name + ": " + fault;
+    }
+    if (const auto* message = std::get_if<PlainMessage>(&read.value)) {
+        const auto answer = messages_.take(*message);
+        if (!answer.value.name.empty()) std::cout << answerLine(answer.value) << std::endl; // who asked waits for it
+        return answer ? "" : name + ": " + answer.error;
     }
     if (const auto* control = std::get_if<RenderControl>(&read.value)) return session_.post(*control) < 0 ? name + ": too many controls at once" : "";
     output_.setSilent(std::get<SilenceControl>(read.value).isOn);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines of standard input that act on a live session as they come.
+// Lines of standard input that act on a live session as they come; answers go to standard output, a line each.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
+#include "Session/Messages/MessageRouter.h"
 #include "Session/Session.h"
 #include "CommandLine/Play/LineCutter.h"
 #include <atomic>
@@ -24,6 +25,7 @@ private:
 
     Session& session_;
     AudioOutput& output_;
+    MessageRouter messages_;
     std::uint64_t lines_ = 0;
     std::atomic<bool> stop_{false};
     std::thread thread_;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Names, times and answers.
+#include "Session/Messages/MessageRouter.h"
+#include "Files/Text/NumberText.h"
+#include "Session/Messages/MessageStrikes.h"
+#include "Session/Messages/MessageValues.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+namespace {
+
+constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz; // of any rate: what is that much later has a later frame
+
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+std::string knownNames() {
+    std::string names;
+    for (const MessageDescription& one : messageTable) names.append(names.empty() ? "" : ", ").append(one.name);
+    return names;
+}
+
+PlainMessage layoutAnswer(const PhantomPanner& panner) {
+    const EnchanterLayout& layout = panner.layout();
+    const double scaleX = panner.fieldWidthMetres() / layout.extentWidthMetres, scaleY = panner.fieldHeightMetres() / layout.extentHeightMetres;
+    std::vector<double> places;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j)
+        places.insert(places.end(), {layout.places[j].xMetres * scaleX, layout.places[j].yMetres * scaleY});
+    return {"layout",
+            {{"law", std::string(panningLawNames[static_cast<std::size_t>(panner.law())])},
+             {"exponent", panner.exponent()},
+             {"field_m", std::vector{panner.fieldWidthMetres(), panner.fieldHeightMetres()}},
+             {"enchanters_m", places}}};
+}
+
+} // namespace
+
+Result<PlainMessage> MessageRouter::take(const PlainMessage& message) {
+    const auto description = std::ranges::find(messageTable, message.name, &MessageDescription::name);
+    if (description == messageTable.end()) return Failure{inQuotes(message.name) + ": expected one of " + knownNames()};
+    const auto kind = static_cast<MessageKind>(description - messageTable.begin());
+    const std::lock_guard lock{mutex_};
+    try {
+        const PhantomPanner panner = session_.panner();
+        const MessageValues values{message, *description, panner};
+        if (description->isQuery) return answer(kind);
+        if (kind == MessageKind::stop) stop(values);
+        else strike(strikesOf(kind, values, session_.state().scene->materials), values);
+        return PlainMessage{};
+    } catch (const MessageError& error) {
+        return Failure{message.name + ": " + error.what()};
+    }
+}
+
+std::int64_t MessageRouter::nowNs() const { return std::max(session_.presentNs(), latestNs_); }
+
+// Session times that are over are refused: what is rendered again would not be what was felt.
+std::int64_t MessageRouter::timeOf(const MessageValues& values) const {
+    values.expectOneOf({"at", "in"});
+    if (values.has("in")) return nowNs() + std::llround(values.number("in") * 1e9);
+    if (!values.has("at") || values.isWord("at")) {
+        if (values.word("at") != "now") values.fail("at", "expected a session time, or now");
+        return nowNs();
+    }
+    const std::int64_t at = std::llround(values.number("at") * 1e9), present = session_.presentNs();
+    if (at < present) values.fail("at", "expected a session time that is not over: it is " + fixedNumber(seconds(present), 3) + " s, found " + numberText(seconds(at)) + " s");
+    if (at > present + std::llround(messages::mostAheadSeconds * 1e9)) values.fail("at", "expected at most " + plainNumber(messages::mostAheadSeconds) + " s from now");
+    return at;
+}
+
+void MessageRouter::strike(std::vector<CollisionEvent> strikes, const MessageValues& values) {
+    const std::int64_t start = timeOf(values);
+    if (!values.has("at") && !values.has("in")) latestNs_ = start;
+    const double sceneGain = session_.shaping().gain;
+    for (CollisionEvent& strike : strikes) {
+        strike.timeNs += start;
+        if (sceneGain > 0.0) strike.amplitude /= sceneGain; // a level is of full scale, in every scene
+    }
+    if (!session_.schedule(strikes)) throw MessageError{"too many strikes wait: at most " + std::to_string(WaitingStrikes::most)};
+}
+
+// Of two messages of one moment, the second acts on the first.
+void MessageRouter::stop(const MessageValues& values) {
+    std::int64_t at = timeOf(values);
+    if (at == latestNs_) at = latestNs_ = at + frameNs;
+    if (!session_.stopAt(at)) throw MessageError{"too many stops wait"};
+}
+
+PlainMessage MessageRouter::answer(MessageKind query) const {
+    if (query == MessageKind::layout) return layoutAnswer(session_.panner());
+    if (query == MessageKind::latency) return {"latency", {{"play_out_s", session_.playOutSeconds()}}};
+    const SessionSize size = session_.size();
+    return {"status",
+            {{"session_s", seconds(session_.presentNs())},
+             {"waiting", static_cast<double>(size.strikes)},
+             {"bodies", static_cast<double>(size.bodies)},
+             {"lost", static_cast<double>(session_.drops())},
+             {"stalls_s", seconds(session_.slippedNs())}}};
+}
+
+} // namespace physvib

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Every message that a session takes, in one table: doors (lines, OSC) read it, Docs/messages.md is held against it.
+#pragma once
+#include "Core/Limits.h"
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace physvib {
+
+enum class MessageKind { strike, pattern, phantom, path, stop, status, layout, latency };
+
+/// Where values have no names (OSC), they come in the order of the table.
+struct MessageArgument {
+    enum class Type {
+        number,  ///< from `least` to `most`
+        word,
+        place,   ///< an enchanter's letter, or x and y in metres of the field
+        places,  ///< letters, or x, y, x, y...
+        numbers  ///< rising, each from `least` to `most`
+    };
+    std::string_view name;
+    Type type = Type::number;
+    double least = 0.0, most = 0.0;
+    std::string_view usual;   ///< what stands for it if it is left out, as in a line; empty: see `meaning`
+    std::string_view meaning;
+};
+
+struct MessageDescription {
+    std::string_view name, meaning;
+    std::span<const MessageArgument> arguments; ///< without those that all but queries have
+    bool isQuery = false;
+};
+
+namespace messages {
+
+using Type = MessageArgument::Type;
+constexpr double mostSeconds = 3600.0;        // of one vibration
+constexpr double mostAheadSeconds = 86'400.0; // a day's programme, sent in the morning
+constexpr int mostPlaces = 64, mostPulses = 64;
+
+/// What a name means is the same in every message.
+inline constexpr MessageArgument frequency{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "205", "of the tone"};
+inline constexpr MessageArgument level{"level", Type::number, 0.0, 1.0, "0.5", "peak at gain 1, in shares of full scale"};
+inline constexpr MessageArgument place{"place", Type::place, 0.0, 0.0, "", "where; left out: the middle of the field"};
+inline constexpr MessageArgument law{"law", Type::word, 0.0, 0.0, "layout", "how it is spread: `layout` (as hits are), `linear`, `log`, `log-outer`, `energy`, `equal`, `alone`"};
+
+inline constexpr std::array when{
+    MessageArgument{"at", Type::number, 0.0, limits::maxTimeNs * 1e-9, "now", "session time in s, or `now`; felt the play-out delay later"},
+    MessageArgument{"in", Type::number, 0.0, mostAheadSeconds, "0", "seconds from now, instead of `at`"}};
+
+inline constexpr std::array strike{
+    MessageArgument{"material", Type::word, 0.0, 0.0, "", "of the scene, for its frequency and decay"},
+    MessageArgument{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "", "instead of a material"},
+    MessageArgument{"decay_per_s", Type::number, 0.0, limits::maxDecayPerSecond, "", "with it; left out: 0"},
+    place, level,
+    MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0", "after which it is cut; 0: when it has decayed"},
+    law};
+inline constexpr std::array pattern{
+    MessageArgument{"pattern", Type::word, 0.0, 0.0, "", "one to three enchanters and a pulse's ms: `ABA-250`"},
+    MessageArgument{"enchanters", Type::word, 0.0, 0.0, "", "instead of it, letters of up to 64 pulses: `ABCDDCBA`"},
+    MessageArgument{"pulse_s", Type::number, 0.001, 10.0, "0.25", "length of each of those"},
+    MessageArgument{"gap_s", Type::number, 0.0, 10.0, "0.1", "silence between two pulses"},
+    frequency, level};
+inline constexpr std::array phantom{
+    place,
+    MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "length"},
+    law, frequency, level};
+inline constexpr std::array path{
+    MessageArgument{"places", Type::places, 0.0, 0.0, "", "2 to 64 of them, joined by straight lines: `AD`, `[[0, 0], [1, 0.5]]`"},
+    MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "for all of it, at one speed"},
+    MessageArgument{"speed_m_per_s", Type::number, 1e-6, 1e6, "", "instead of `seconds`"},
+    MessageArgument{"times_s", Type::numbers, 0.0, mostSeconds, "", "instead of `seconds`: when each place is reached"},
+    MessageArgument{"strokes", Type::number, 0.0, 64.0, "0", "so many still vibrations along it, timed as Tactile Brush does; 0: one that moves"},
+    MessageArgument{"law", Type::word, 0.0, 0.0, "equal", "as of a strike; `equal` is felt equally strong all the way"},
+    frequency, level};
+
+} // namespace messages
+
+/// As MessageKind.
+inline constexpr std::array<MessageDescription, 8> messageTable{{
+    {"strike", "a vibration that decays, or is cut", messages::strike},
+    {"pattern", "pulses, each on one enchanter alone", messages::pattern},
+    {"phantom", "a vibration that stays at a place", messages::phantom},
+    {"path", "a vibration that moves", messages::path},
+    {"stop", "what sounds fades out within 10 ms; what was asked for before and has not begun is forgotten", {}},
+    {"status", "answers session time, strikes that wait, bodies, collisions lost, and time given up in stalls", {}, true},
+    {"layout", "answers the law, the field, and the enchanters' places in metres of the field", {}, true},
+    {"latency", "answers the play-out delay: how long after its time each vibration is felt", {}, true},
+}};
+
+} // namespace physvib

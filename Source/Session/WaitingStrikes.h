@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Strikes that were asked for ahead of their time, and may still be taken back.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace physvib {
+
+/// In session time. One thread at a time: Session guards it by its world mutex.
+class WaitingStrikes {
+public:
+    static constexpr std::size_t most = 65'536; ///< an hour of one every 50 ms
+
+    /// False, and nothing has changed, if they would be too many.
+    bool add(std::span<const CollisionEvent> strikes) {
+        if (waiting_.size() + strikes.size() > most) return false;
+        waiting_.insert(waiting_.end(), strikes.begin(), strikes.end());
+        std::ranges::stable_sort(waiting_, {}, &CollisionEvent::timeNs);
+        return true;
+    }
+
+    /// Moves those to the end of `due` whose time is `untilNs` or before.
+    void take(std::int64_t untilNs, std::vector<CollisionEvent>& due) {
+        if (waiting_.empty() || waiting_.front().timeNs > untilNs) return;
+        const auto end = std::ranges::upper_bound(waiting_, untilNs, {}, &CollisionEvent::timeNs);
+        due.insert(due.end(), waiting_.begin(), end);
+        waiting_.erase(waiting_.begin(), end);
+    }
+
+    /// Those from `fromNs` on are not wanted any more.
+    void forget(std::int64_t fromNs) { waiting_.erase(std::ranges::lower_bound(waiting_, fromNs, {}, &CollisionEvent::timeNs), waiting_.end()); }
+
+    std::size_t size() const noexcept { return waiting_.size(); }
+
+private:
+    std::vector<CollisionEvent> waiting_; // in time order
+};
+
+} // namespace physvib

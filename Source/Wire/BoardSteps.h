@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What moves, as the board can play it: a row of short still strikes, since a strike of the link has one amplitude per channel.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Core/Modes/ModeIncrements.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace physvib {
+
+/// One after the other, in time order. Each lasts whole milliseconds, as the link counts them, and nearly whole periods, since each
+/// begins at phase 0 on the board. Any thread.
+class BoardSteps {
+public:
+    static constexpr int leastMs = 20, mostMs = 60; ///< fewer than 50 a second, of the 720 that the line brings
+
+    explicit BoardSteps(const CollisionEvent& moving) noexcept
+        : moving_{moving}
+        , stepNs_{lengthMs(moving.frequencyHz) * 1'000'000LL}
+        , endNs_{moving.durationNs > 0 ? moving.durationNs : lifeNs(moving.decayPerSecond)} {}
+
+    bool isOver() const noexcept { return doneNs_ >= endNs_; }
+    std::int64_t nextNs() const noexcept { return moving_.timeNs + doneNs_; }
+
+    /// The next one, where the strike is in the middle of it. Not when it is over.
+    CollisionEvent take() noexcept {
+        CollisionEvent step = moving_;
+        step.timeNs = nextNs();
+        step.durationNs = std::min(stepNs_, endNs_ - doneNs_);
+        const double middle = static_cast<double>(doneNs_) + 0.5 * static_cast<double>(step.durationNs);
+        const double share = std::min(1.0, middle / static_cast<double>(moving_.course.travelNs));
+        step.x += share * (moving_.course.toX - moving_.x);
+        step.y += share * (moving_.course.toY - moving_.y);
+        step.course = {.sinceNs = moving_.course.sinceNs + doneNs_, .spread = moving_.course.spread};
+        doneNs_ += step.durationNs;
+        return step;
+    }
+
+    /// The length that is nearest to whole periods.
+    static int lengthMs(double frequencyHz) noexcept {
+        const auto off = [=](int ms) { return std::abs(std::remainder(frequencyHz * ms * 1e-3, 1.0)); };
+        int best = leastMs;
+        for (int ms = leastMs + 1; ms <= mostMs; ++ms)
+            if (off(ms) < off(best)) best = ms;
+        return best;
+    }
+
+private:
+    static std::int64_t lifeNs(double decayPerSecond) noexcept { return static_cast<std::int64_t>(limits::retireDecibels / (20.0 * std::numbers::log10e) / decayPerSecond * 1e9); }
+
+    CollisionEvent moving_;
+    std::int64_t stepNs_, endNs_, doneNs_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Fuzz target of messages in lines; what is taken is played for a while.
+#include "Files/SceneCatalogue.h"
+#include "Files/Text/InputLine.h"
+#include "Fuzzing.h"
+#include "Session/Messages/MessageRouter.h"
+#include <array>
+#include <memory>
+
+namespace {
+
+using namespace physvib;
+
+std::unique_ptr<Session> makeSession() {
+    SessionSetup setup;
+    setup.scene = *findBuiltInScene("drop");
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    setup.panner = {layout, PanningLaw::linear, 1.0, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
+    setup.log = LogUse::none;
+    return std::make_unique<Session>(setup);
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const std::unique_ptr<Session> session = makeSession();
+    static std::array<std::array<float, 256>, 4> samples;
+    const auto read = readInputLine(fuzz::asText(data, size), "f", session->state().scene->materials, 4);
+    const auto* message = std::get_if<PlainMessage>(&read.value);
+    if (message == nullptr) return 0;
+    session->prepare(8000, 256);
+    session->advance();
+    MessageRouter router{*session};
+    const auto answer = router.take(*message);
+    fuzz::demand(answer.error.size() < 600, "too long a message", answer.error);
+    for (const char c : answer.error) fuzz::demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", answer.error);
+    fuzz::demand(answer || session->size().strikes == 0, "refused, and half done", answer.error);
+    for (int block = 0; block < 4; ++block) {
+        std::array<float*, 4> out{};
+        for (std::size_t j = 0; j < out.size(); ++j) out[j] = samples[j].data();
+        session->render(out.data(), 256, RenderMode::realtime);
+        session->advance();
+        for (const auto& channel : samples)
+            for (const float sample : channel) fuzz::demand(sample >= -1.0f && sample <= 1.0f, "beyond full scale, or not a number");
+    }
+    return 0;
+}
