@@ -28,11 +28,22 @@ RenderControl randomEdit(test::Random& random) {
     return edit;
 }
 
-// Layouts, gains, mutes and stops; now and then an input, another scene, or the same one from its start.
+CollisionEvent randomPath(test::Random& random, std::int64_t fromNs) {
+    CollisionEvent path;
+    path.timeNs = fromNs;
+    path.durationNs = 1'000'000 * (1 + random.below(200));
+    path.frequencyHz = random.uniform(50, 400);
+    path.amplitude = 0.1;
+    path.course = {random.uniform(0, 6.4), random.uniform(0, 3.6), path.durationNs, 0, static_cast<Spread>(random.below(static_cast<int>(spreadNames.size())))};
+    return path;
+}
+
+// Layouts, gains, mutes and stops; now and then an input, a strike that moves, another scene, or the same one from its start.
 bool edit(Session& session, test::Random& random) {
     const int kind = random.below(200);
     if (kind < 4) return session.act(TiltAction{random.uniform(-3, 3)}).empty();
     if (kind == 4) session.restart(random.below(64));
+    if (kind >= 6 && kind < 16) return session.schedule(std::array{randomPath(random, session.presentNs() + random.below(1'000'000))});
     if (kind == 5) {
         const char* const scenes[] = {"shake-the-box", "fruit-basket", "drop"};
         session.setState({std::make_shared<const Scene>(*findBuiltInScene(scenes[random.below(3)])), 1});

@@ -143,7 +143,7 @@ struct Played {
 };
 
 /// Lines at session times, in seconds; blocks of random size.
-Played play(Session& session, std::multimap<double, std::string> lines, double seconds, std::function<void(SessionLog&)> read = {}) {
+Played play(Session& session, std::multimap<double, std::string> lines, double seconds, std::function<void(SessionLog&)> read = {}, RenderMode mode = RenderMode::realtime) {
     Played played;
     Random random{5};
     Block block;
@@ -156,7 +156,7 @@ Played play(Session& session, std::multimap<double, std::string> lines, double s
             EXPECT_EQ(router.take(messageOf(lines.begin()->second)).error, "") << lines.begin()->second;
         session.advance();
         const int size = static_cast<int>(std::min<std::int64_t>(frames - done, 1 + random.below(512)));
-        session.render(block.at.data(), size, RenderMode::realtime);
+        session.render(block.at.data(), size, mode);
         append(played.signal, block.at.data(), size);
         done += size;
         for (const auto& event : drain(session)) played.events.push_back(event);
@@ -205,6 +205,11 @@ TEST(Messages, WhatWasFeltIsRenderedAgainToTheBit) {
     ASSERT_EQ(again.size(), felt.signal.size());
     const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
     EXPECT_TRUE(differs.first == again.end()) << "at frame " << (differs.first - again.begin()) / hostChannels;
+}
+
+TEST(Messages, AHostThatDoesNotPlayInRealTimeGetsTheSame) {
+    Session live{shakeTheBoxSetup(0.05)}, bounced{shakeTheBoxSetup(0.05)};
+    EXPECT_TRUE(play(live, everything, 3.0).signal == play(bounced, everything, 3.0, {}, RenderMode::offline).signal);
 }
 
 TEST(Messages, TheJournalHoldsThem) {
