@@ -133,7 +133,7 @@ int Session::catchUp(const StepWatch& goesOn) {
         slippedNs_ += lag - law().safeLagNs();
         world_.standStill(lag - law().safeLagNs());
     }
-    takeDue();
+    takeDue(now);
     takeOwnInputs(world_); // what R did until `now` is in the queue: it came before the frames were told
     int steps = 0;
     for (; world_.timeNs() < now && (steps == 0 || !goesOn || goesOn(world_.timeNs())); ++steps) {
@@ -211,7 +211,7 @@ void Session::renderOwnWorld(float* const* out, int frames, std::int64_t endNs) 
     const std::lock_guard lock{worldMutex_};
     offline_.store(true, std::memory_order_release);
     takeUp();
-    takeDue();
+    takeDue(endNs);
     takeOwnInputs(world_);
     OfflineSource source{*this, endNs};
     if (frames > 0) renderer_->render(source, out, frames);

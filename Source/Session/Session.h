@@ -137,9 +137,9 @@ private:
     struct LiveSource;
     struct OfflineSource;
     bool addStrikes(std::span<const CollisionEvent> strikes, std::int64_t startNs);
-    void takeDue();
+    void takeDue(std::int64_t untilNs);
     std::int64_t postNow(RenderControl control);
-    void postDueStops();
+    void postDueStops(std::int64_t untilNs);
     void takeDueStops();
     bool popControl(RenderControl& control) noexcept;
     int outputs() const noexcept { return setup_.channels + (heard_ ? 1 : 0); }

@@ -24,8 +24,8 @@ std::string Session::act(Action action) {
 
 std::int64_t Session::post(RenderControl control) {
     const std::lock_guard lock{inputMutex_};
-    postDueStops();
     control.timeNs = nowNs();
+    postDueStops(control.timeNs);
     return postNow(control);
 }
 
@@ -73,15 +73,15 @@ bool Session::playAt(std::span<const CollisionEvent> strikes) {
 bool Session::schedule(std::span<const CollisionEvent> strikes) {
     const std::lock_guard lock{worldMutex_};
     if (!std::ranges::all_of(strikes, [](const CollisionEvent& e) { return isPlayable(e); }) || !waiting_.add(strikes)) return false;
-    takeDue();
+    takeDue(nowNs());
     handOver();
     return true;
 }
 
 // The world mutex is held.
-void Session::takeDue() {
+void Session::takeDue(std::int64_t untilNs) {
     std::vector<CollisionEvent> due;
-    waiting_.take(nowNs(), due);
+    waiting_.take(untilNs, due);
     std::ranges::transform(due, std::back_inserter(made_), setup_.shaping);
     if (setup_.log != LogUse::none) std::ranges::move(due, std::back_inserter(begun_));
 }
@@ -89,30 +89,33 @@ void Session::takeDue() {
 bool Session::stopAt(std::int64_t timeNs) {
     const std::scoped_lock lock{inputMutex_, worldMutex_};
     if (stops_.size() == mostStops) return false;
-    timeNs = std::max(timeNs, nowNs());
-    takeDue();
+    const std::int64_t now = nowNs();
+    timeNs = std::max(timeNs, now);
+    takeDue(now);
     handOver();
     waiting_.forget(timeNs);
     stops_.insert(std::ranges::upper_bound(stops_, timeNs), timeNs);
-    postDueStops();
+    postDueStops(now);
     return true;
 }
 
-// Those whose time has come: a control of a later time must not be logged before them. The input mutex is held.
-void Session::postDueStops() {
+// Those whose time has come by then: a control of a later time must not be logged before them. The input mutex is held.
+void Session::postDueStops(std::int64_t untilNs) {
     RenderControl stop;
     stop.kind = RenderControl::Kind::stopAll;
-    for (; !stops_.empty() && stops_.front() <= nowNs(); stops_.erase(stops_.begin())) {
+    while (!stops_.empty() && stops_.front() <= untilNs) {
         stop.timeNs = stops_.front();
-        postNow(stop);
+        if (postNow(stop) < 0) break; // the queue is full: with the next call
+        stops_.erase(stops_.begin());
     }
     nextStopNs_ = stops_.empty() ? never : stops_.front();
 }
 
 void Session::takeDueStops() {
-    if (nextStopNs_ > nowNs()) return;
+    const std::int64_t now = nowNs();
+    if (nextStopNs_ > now) return;
     const std::lock_guard lock{inputMutex_};
-    postDueStops();
+    postDueStops(now);
 }
 
 PhantomPanner Session::panner() const {
@@ -150,6 +153,7 @@ void Session::restart(int offset) noexcept {
 std::int64_t Session::readLog(SessionLog& log) {
     const std::scoped_lock lock{inputMutex_, worldMutex_};
     if (setup_.log == LogUse::none) return nowNs();
+    postDueStops(nowNs());
     const auto move = [](auto& from, auto& to) {
         std::ranges::move(from, std::back_inserter(to));
         from.clear();
