@@ -36,8 +36,8 @@ struct Edge {
 void addEdges(std::vector<Edge>& edges, const Mode& mode, const CollisionEvent& event, double gain) {
     const FrameClock clock{ticks};
     const FramePosition onset = clock.at(event.timeNs);
-    const double lead = onset.leadFrames / ticks;
-    const Phasor begun = event.amplitude * gain * mode.turn(lead);
+    const double age = onset.leadFrames / ticks + static_cast<double>(event.course.sinceNs) * 1e-9;
+    const Phasor begun = event.amplitude * gain * mode.turn(age);
     edges.push_back({onset.frame, begun});
     if (event.durationNs == 0) return;
     const std::int64_t close = clock.at(event.timeNs + event.durationNs).frame;

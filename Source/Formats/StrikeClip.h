@@ -19,7 +19,7 @@ struct StrikeClipSettings {
     StrikeGains gains;
 };
 
-/// The strikes (playable, in time order) as bands of `settings.channels` channels without labels or places. Strikes of one
+/// The strikes (playable, in time order, none of which moves) as bands of `settings.channels` channels without labels or places. Strikes of one
 /// frequency and decay are merged exactly, as in the mode bank: at each onset the wave of that mode ends and one with the
 /// sum's amplitude and phase begins. Of more than a clip may have only so much that clipFault says so. Any thread.
 Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSettings& settings);

@@ -121,6 +121,19 @@ TEST_F(ExportCommand, KeepsASessionsLayoutsAndInputs) {
     EXPECT_GE(farthest(wav("direct.wav"), ClipSignals(2, std::vector<float>(288000))), 0.1);
 }
 
+TEST_F(ExportCommand, WhatMovesIsExportedInStepsThatGoOnInPhase) {
+    write("moves.json", R"({"physvib_session": 5, "seconds": 1, "steps_per_second": 100, "timing": "onset", "location": "contact", "limiter": false, "channels": 2,
+        "panning": {"layout": {"extent_m": [1, 1], "enchanters": [{"label": "A", "x_m": 0, "y_m": 0}, {"label": "B", "x_m": 1, "y_m": 0}]}, "law": "linear", "exponent": 1, "field_m": [1, 1]},
+        "takes": [{"start_s": 0, "world_end_s": 1, "seed": 1, "scene": {"name": "quiet", "field_m": [1, 1], "gravity_m_per_s2": [0, 0], "materials": [], "bodies": []}, "inputs": [], "stalls": []}],
+        "strikes": [{"time_s": 0.1, "frequency_hz": 149.7, "decay_per_s": 0, "amplitude": 0.5, "x_m": 0, "y_m": 0, "duration_s": 0.3, "to_x_m": 0.4, "to_y_m": 0, "travel_s": 0.3, "spread": "linear"},
+                    {"time_s": 0.4, "frequency_hz": 149.7, "decay_per_s": 0, "amplitude": 0.5, "x_m": 0.4, "y_m": 0, "duration_s": 0.5, "to_x_m": 1, "to_y_m": 0, "travel_s": 0.5, "since_s": 0.3, "spread": "linear"}]})");
+    runs("render moves.json --out direct.wav");
+    runs("export moves.json --error 0.001 --to moves.hjif");
+    runs("render moves.hjif --seconds 1 --limiter off --out again.wav");
+    EXPECT_LE(farthest(wav("direct.wav"), wav("again.wav")), 0.01) << "half a step"; // 0.35 if it stayed
+    EXPECT_GE(farthest(wav("direct.wav"), ClipSignals(2, std::vector<float>(48000))), 0.4);
+}
+
 TEST_F(ExportCommand, WritesAFileForEachEnchanterWhereAFormatHasOneChannel) {
     const auto outcome = call("export shake-the-box --seconds 7 --to box.ahap");
     EXPECT_EQ(outcome.exitCode, 0);

@@ -10,7 +10,9 @@
 #include "Formats/ClipFile.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/StrikeClip.h"
+#include "Wire/BoardSteps.h"
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <list>
 #include <set>
@@ -25,8 +27,20 @@ StrikeGains gainsOf(const RenderJob& job) {
     return [&job, panner = job.panner(), next = std::size_t{0}](const CollisionEvent& event, PhantomPanner::Gains& gains) mutable {
         while (job.keepsLayouts() && next < job.session->log.panners.size() && job.session->log.panners[next].timeNs <= event.timeNs) panner = job.session->log.panners[next++].panner;
         gains = {};
-        panner.gainsAt(event.x, event.y, gains);
+        panner.gainsAt(event.x, event.y, event.course.spread, gains);
     };
+}
+
+/// Other formats do not move what sounds: its steps, as the board's.
+std::vector<CollisionEvent> stillStrikes(const std::vector<CollisionEvent>& events) {
+    std::vector<CollisionEvent> still;
+    for (const CollisionEvent& event : events) {
+        if (event.course.travelNs == 0) still.push_back(event);
+        else
+            for (BoardSteps steps{event}; !steps.isOver();) still.push_back(steps.take());
+    }
+    std::ranges::stable_sort(still, {}, &CollisionEvent::timeNs);
+    return still;
 }
 
 /// What is known of an enchanter's actuator; nothing, if it has none.
@@ -44,7 +58,7 @@ Result<ClipDevice> deviceOf(const RenderJob& job, const EnchanterDescription& en
 Result<Clip> struckClip(RenderJob& job, double error) {
     if (const std::size_t hits = job.made.events.size(); hits > limits::maxClipStrikes)
         return Failure{job.source() + ": expected at most " + std::to_string(limits::maxClipStrikes) + " hits, found " + std::to_string(hits)};
-    Clip clip = clipOfStrikes(job.made.events, {error, static_cast<std::size_t>(job.channels()), gainsOf(job)});
+    Clip clip = clipOfStrikes(stillStrikes(job.made.events), {error, static_cast<std::size_t>(job.channels()), gainsOf(job)});
     clip.title = std::filesystem::path{job.source()}.filename().string();
     clip.extentWidthMetres = job.layout.geometry.extentWidthMetres;
     clip.extentHeightMetres = job.layout.geometry.extentHeightMetres;
