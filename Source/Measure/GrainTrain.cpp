@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Pulses above the noise; and what repeats, by its autocorrelation.
+// Pulses above the noise.
 #include "Measure/GrainTrain.h"
 #include "Contacts/Grains.h"
+#include "Measure/Peaks.h"
 #include "Measure/ScrapePulses.h"
-#include "Measure/Spectrum.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -17,18 +17,6 @@ constexpr double leastSkewness = 1.2;
 constexpr std::size_t fewestGrains = 20;
 constexpr double mostLost = 0.3;
 constexpr double mostSpread = 0.8; // of heights, in means: chance makes 0.46, ringing of another partial above 1
-
-struct Peak {
-    double at, height;
-};
-
-/// The vertex of the parabola through x[i - 1], x[i] and x[i + 1], of which the middle one is the highest.
-Peak vertex(std::span<const double> x, std::size_t i) {
-    const double bend = x[i - 1] - 2.0 * x[i] + x[i + 1], at = bend < 0.0 ? 0.5 * (x[i - 1] - x[i + 1]) / bend : 0.0;
-    return {static_cast<double>(i) + at, x[i] - 0.25 * (x[i - 1] - x[i + 1]) * at};
-}
-
-bool isPeak(std::span<const double> x, std::size_t i) { return x[i] > x[i - 1] && x[i] >= x[i + 1]; }
 
 std::vector<Peak> peaksOf(std::span<const double> x) {
     std::vector<Peak> all;
@@ -102,7 +90,7 @@ double nearerThan(double spacings) {
 
 std::optional<GrainTrain> countedAt(std::span<const double> samples, double rateHz, double halfWidthSeconds) {
     const auto pulses = scrapePulses(samples, rateHz, halfWidthSeconds);
-    if (!pulses || pulses->skewness < leastSkewness) return std::nullopt;
+    if (!pulses || !(pulses->skewness >= leastSkewness)) return std::nullopt;
     const Standing out = standingOut(peaksOf(pulses->heights), noiseOf(pulses->heights));
     if (out.peaks.size() < fewestGrains || spreadOf(out.peaks) > mostSpread) return std::nullopt;
     GrainTrain train;
@@ -126,21 +114,6 @@ std::optional<GrainTrain> countedAt(std::span<const double> samples, double rate
     return train;
 }
 
-/// Products of x with itself `lag` later, as shares of what the stronger of both parts has: what dies away is not alike.
-std::vector<double> likenessOf(std::span<const double> x) {
-    std::vector<double> likeness = autocorrelation(x), energy{0.0};
-    for (const double sample : x) energy.push_back(energy.back() + sample * sample);
-    for (std::size_t lag = 0; lag < likeness.size(); ++lag) {
-        const double stronger = std::max(energy[x.size() - lag], energy[x.size()] - energy[lag]);
-        likeness[lag] = stronger > 0.0 ? likeness[lag] / stronger : 0.0;
-    }
-    return likeness;
-}
-
-Peak highestWithin(std::span<const double> x, std::size_t from, std::size_t to) {
-    return vertex(x, static_cast<std::size_t>(std::max_element(x.begin() + static_cast<std::ptrdiff_t>(from), x.begin() + static_cast<std::ptrdiff_t>(to)) - x.begin()));
-}
-
 } // namespace
 
 std::optional<GrainTrain> grainTrain(std::span<const double> samples, double rateHz) {
@@ -150,23 +123,6 @@ std::optional<GrainTrain> grainTrain(std::span<const double> samples, double rat
         if (train && train->lostShare <= mostLost && (!best || train->lostShare < best->lostShare)) best = train;
     }
     return best;
-}
-
-double repetitionsPerSecond(std::span<const double> samples, double rateHz) {
-    constexpr double smoothSeconds = 0.00025, leastLikeness = 0.6;
-    const std::vector<double> slope = smoothSlope(samples, rateHz, smoothSeconds);
-    if (slope.size() < 200) return 0.0;
-    const auto likeness = likenessOf(std::span{slope}.subspan(slope.size() / 5)); // without what it begins with
-    const std::size_t n = likeness.size();
-    const double far = highestWithin(likeness, n / 4, n / 2).height; // what rings is not alike for so long
-    if (far < leastLikeness) return 0.0;
-    double lag = 0.0;
-    for (std::size_t i = 1; lag == 0.0 && i + 1 < n / 2; ++i)
-        if (isPeak(likeness, i))
-            if (const Peak peak = vertex(likeness, i); peak.height >= 1.0 - 3.0 * (1.0 - far) - 0.003) lag = peak.at;
-    for (double times = 2.0; lag > 4.0 && lag * times < 0.5 * static_cast<double>(n) - lag; times *= 2.0) // the longer, the finer
-        lag = highestWithin(likeness, static_cast<std::size_t>((times - 0.25) * lag), static_cast<std::size_t>((times + 0.25) * lag) + 2).at / times;
-    return lag > 4.0 ? rateHz / lag : 0.0;
 }
 
 } // namespace physvib

@@ -24,7 +24,4 @@ struct GrainTrain {
 /// By the width of pulses at which fewest are lost. None if fewer than 20 stand out, or more than 30 % are lost. M only.
 std::optional<GrainTrain> grainTrain(std::span<const double> samples, double rateHz);
 
-/// Repetitions in a second of what repeats steadily, within 0.1 %; 0 if nothing does. M only.
-double repetitionsPerSecond(std::span<const double> samples, double rateHz);
-
 } // namespace physvib

@@ -51,7 +51,7 @@ double halfWidthHz(const std::vector<double>& spectrum, std::size_t peak) {
     return stepHz * static_cast<double>(high - low);
 }
 
-/// How much of a grain's power is there, once for each: random spacings leave some of their mean rate's regularity, see Docs/materials.md.
+/// How much of a grain's power is there, once for each: random spacings leave some of their mean rate's regularity, see decision 68.
 double unevenPower() {
     const double angle = std::numbers::pi * GrainChance::spacingRange / grainsPerPeriod, order = std::sin(angle) / angle;
     const double mean = GrainChance::leastStrength + 0.5 * GrainChance::strengthRange;

@@ -3,6 +3,7 @@
 #include "Measure/TextureExtractor.h"
 #include "Measure/GrainTrain.h"
 #include "Measure/RecordingFaults.h"
+#include "Measure/Repetition.h"
 #include <algorithm>
 #include <string>
 
