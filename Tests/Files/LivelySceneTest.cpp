@@ -82,8 +82,12 @@ TEST_P(SceneLevel, PeaksNearMinusSixDecibelsFromSeedToSeed) {
     EXPECT_NEAR((levels[2] + levels[3]) / 2.0, -6.0, 1.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SceneLevel, testing::Values("fruit-basket", "driving"),
-                         [](const auto& scene) { return scene.index == 0 ? "Basket" : "Driving"; });
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneLevel, testing::Values("fruit-basket", "driving", "marbles", "drawing"),
+                         [](const auto& scene) {
+                             std::string name = scene.param;
+                             std::erase(name, '-');
+                             return name;
+                         });
 
 class TenMinutesOfScene : public testing::TestWithParam<Run> {};
 

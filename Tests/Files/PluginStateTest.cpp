@@ -69,6 +69,22 @@ void expectSame(const PluginState& a, const PluginState& b) {
     EXPECT_EQ(a.parameters, b.parameters);
 }
 
+TEST(PluginState, GrainsAreHeldAndOlderStatesAreSmooth) {
+    auto state = sampleState();
+    const std::string older = pluginStateJson(state);
+    EXPECT_EQ(older.find("grain"), std::string::npos) << "as it was written before there were any";
+    const auto smooth = readPluginState(older, "f");
+    ASSERT_TRUE(smooth) << smooth.error;
+    for (const Material& m : smooth.value.scene.materials) EXPECT_FALSE(m.texture().isRough());
+    state.scene.materials[0].setTexture({0.004, 2.5, GrainPattern::regular, 0.75});
+    const auto rough = readPluginState(pluginStateJson(state), "f");
+    ASSERT_TRUE(rough) << rough.error;
+    expectSame(rough.value, state);
+    std::string wrong = pluginStateJson(state);
+    wrong.replace(wrong.find("\"roughness\": 2.5"), 16, "\"roughness\": -2 ");
+    EXPECT_EQ(readPluginState(wrong, "f").error, "f: scene: materials[0].roughness: expected 0 to 1000, found -2");
+}
+
 TEST(PluginState, EverySceneComesBackBitForBit) {
     for (const Scene& scene : builtInScenes()) {
         const auto state = sampleState(scene.name.c_str());

@@ -121,7 +121,18 @@ const std::string full = R"({
       "input": "spawn",
       "body": { "name": "coin", "position_m": [3, 4], "fixtures": [{ "shape": "circle", "radius_m": 0.1, "material": "wood" }] }
     },
-    { "time_s": 13, "input": "impulse", "body": "coin", "impulse_ns": [1, 2] }
+    { "time_s": 13, "input": "impulse", "body": "coin", "impulse_ns": [1, 2] },
+    {
+      "time_s": 13.5,
+      "input": "texture",
+      "material": "felt",
+      "grain_m": 0.003,
+      "roughness": 2,
+      "grain_pattern": "regular",
+      "rolling": 0.5
+    },
+    { "time_s": 14, "input": "grip", "body": "coin", "to_m": [3, 2], "point_m": [0, 0.05], "over_s": 0.5 },
+    { "time_s": 15, "input": "grip", "body": "coin" }
   ]
 }
 )";
@@ -170,6 +181,9 @@ TEST(SceneFile, ReadsEveryField) {
     EXPECT_EQ(scene.scriptPeriodSeconds, 10.0);
     EXPECT_EQ(scene.inputs[0], (LiveInput{12.25, SoundAction{1, 70.0, 150.0}}));
     EXPECT_EQ(std::get<SpawnAction>(scene.inputs[1].action).body.name, "coin");
+    EXPECT_EQ(scene.inputs[3].action, (Action{TextureAction{1, 0.003, 2.0, GrainPattern::regular, 0.5}}));
+    EXPECT_EQ(scene.inputs[4].action, (Action{GripAction{"coin", Vector{3.0, 2.0}, Vector{0.0, 0.05}, 0.5}}));
+    EXPECT_EQ(scene.inputs[5].action, (Action{GripAction{"coin", {}, {}}}));
 }
 
 TEST(SceneFile, WhatIsReadIsWrittenTheSame) {
@@ -263,7 +277,7 @@ TEST(SceneFile, NamesTheFieldByItsPath) {
         {"\"times\": 3", "\"times\": 1000000", "script[2].times: expected 1 to 100000, found 1e+06"},
         {"\"input\": \"tilt\"", "\"input\": \"roll\"",
          "script[1].input: expected one of gravity, tilt, impulse, velocity, spawn, remove, motor, camera, "
-         "material, sound, hold, found \"roll\""},
+         "material, sound, hold, texture, grip, found \"roll\""},
         {"\"time_s\": 13", "\"time_s\": 12",
          "inputs[2].time_s: expected a time that is not before that of the input above"},
         {"\"body\": \"coin\"", "\"body\": \"coil\"",

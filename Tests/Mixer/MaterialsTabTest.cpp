@@ -58,6 +58,45 @@ TEST_F(Materials, AreSetWhileTheyArePlayedAndTakenBack) {
     EXPECT_EQ(now().frequencyHz, 205.0);
 }
 
+TEST_F(Materials, SurfacesAreMadeRoughAndTakenBack) {
+    tab.choose(0);
+    EXPECT_FALSE(find(tab, "Frequency")->isEnabled()) << "rubber is silent there";
+    EXPECT_FALSE(find(tab, "Roughness")->isEnabled()) << "a smooth surface has none";
+    slider("Grain").setValue(0.004, juce::sendNotificationSync);
+    desk.dispatchPendingMessages();
+    EXPECT_TRUE(find(tab, "Roughness")->isEnabled()) << "another's camera feels what slides over it";
+    slider("Roughness").setValue(2.5, juce::sendNotificationSync);
+    slider("Rolling").setValue(0.75, juce::sendNotificationSync);
+    dynamic_cast<juce::ComboBox&>(*find(tab, "Pattern")).setSelectedItemIndex(1, juce::sendNotificationSync);
+    ASSERT_EQ(inputs().size(), 4u);
+    EXPECT_EQ(inputs()[3].action, (Action{TextureAction{0, 0.004, 2.5, GrainPattern::regular, 0.75}}));
+    EXPECT_EQ(desk.sceneNow().materials[0].texture().pattern, GrainPattern::regular);
+    tab.choose(wood);
+    EXPECT_EQ(slider("Grain").getValue(), 0.0) << "of another";
+    tab.choose(0);
+    EXPECT_EQ(slider("Grain").getValue(), 0.004);
+    EXPECT_EQ(slider("Grain").getTextFromValue(0.004), "grain 4.0 mm");
+    EXPECT_DOUBLE_EQ(slider("Grain").getValueFromText("grain 8 mm"), 0.008);
+    EXPECT_DOUBLE_EQ(slider("Grain").getValueFromText("0,5"), 0.0005);
+    EXPECT_DOUBLE_EQ(slider("Grain").getValueFromText("1.5 m"), 1.5);
+    EXPECT_EQ(slider("Grain").getTextFromValue(0.0), "smooth");
+    desk.restart(desk.mix().seed);
+    EXPECT_EQ(desk.sceneNow().materials[0].roughness, 2.5) << "start anew keeps it";
+    for (int k = 0; k < 4; ++k) desk.undoManager().undo();
+    EXPECT_EQ(desk.sceneNow().materials[0].texture().grainMetres, 0.0);
+    EXPECT_EQ(desk.sceneNow().materials[0].texture().rolling, 0.2);
+    EXPECT_EQ(desk.editWorld("Grain", TextureAction{0, 11.0}), "grain_m: expected 0 to 10, found 11");
+    EXPECT_EQ(desk.editWorld("Grain", TextureAction{99, 0.1}), "material: expected one of the 6 materials of the scene");
+}
+
+TEST_F(Materials, ASurfaceThatIsTurnedIsOneThingToUndo) {
+    for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.editWorld("Grain", TextureAction{wood, 0.001 * k}, k > 1), "");
+    EXPECT_EQ(now().grainMetres, 0.02);
+    desk.undoManager().undo();
+    EXPECT_EQ(now().grainMetres, 0.0);
+    EXPECT_FALSE(desk.undoManager().canUndo());
+}
+
 TEST_F(Materials, ASliderThatIsHeldIsOneThingToUndo) {
     for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.editWorld("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
     EXPECT_EQ(now().frequencyHz, 120.0);
@@ -213,12 +252,14 @@ TEST_F(Materials, AClickInTheWorldFeelsItThereWhileTheTabIsShown) {
 TEST_F(Materials, ASavedSessionHasThemAndRendersTheSameBytes) {
     ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 300'000'000; }));
     EXPECT_EQ(desk.editWorld("Sound", SoundAction{wood, 205.0, 30.0}), "");
+    EXPECT_EQ(desk.editWorld("Grain", TextureAction{wood, 0.01}), "");
     tab.feelAt({0.25, 0.75});
     ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 1'500'000'000; }));
     const auto& saved = desk.saved();
     const auto read = readSession(sessionJson(saved), "again");
     ASSERT_TRUE(read) << read.error;
     EXPECT_EQ(mixOf(read.value).scene->materials[wood].frequencyHz, 205.0);
+    EXPECT_EQ(mixOf(read.value).scene->materials[wood].grainMetres, 0.01);
     for (const auto& [session, name] : {std::pair{&saved, "one.wav"}, {&read.value, "two.wav"}})
         EXPECT_EQ(renderSessionWav(*session, {48000, 1.5, [](double) { return true; }}, folder(name).getFullPathName().toStdString(), "test"), "");
     juce::MemoryBlock one, two;

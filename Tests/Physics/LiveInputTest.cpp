@@ -19,7 +19,7 @@ BodyDescription stone(const std::string& name, Vector at) {
 Action anyInput(std::mt19937& random, int& stones) {
     const auto some = [&](double reach) { return (static_cast<double>(random()) * 0x1p-31 - 1.0) * reach; };
     const std::string ball = "ball " + std::to_string(random() % 10);
-    switch (random() % 9) {
+    switch (random() % 11) {
     case 0: return GravityAction{{some(10.0), some(10.0)}};
     case 1: return TiltAction{some(3.0)};
     case 2: return VelocityAction{ball, {some(5.0), some(5.0)}, some(3.0)};
@@ -30,6 +30,8 @@ Action anyInput(std::mt19937& random, int& stones) {
     case 5: return CameraAction{ball, everyFixture, random() % 2 == 0};
     case 6: return MaterialAction{ball, 0, static_cast<int>(random() % 2)};
     case 7: return SoundAction{static_cast<int>(random() % 2), 100.0 + some(50.0), 50.0 + some(20.0)};
+    case 8: return TextureAction{static_cast<int>(random() % 2), 0.005 + 0.001 * some(4.0), 1.0 + some(1.0), static_cast<GrainPattern>(random() % 2)};
+    case 9: return random() % 4 == 0 ? GripAction{ball, {}, {}} : GripAction{ball, Vector{2.0 + some(2.0), 2.0 + some(2.0)}, Vector{some(0.1), some(0.1)}, 0.1 + some(0.1)};
     default: return ImpulseAction{ball, {some(20.0), some(20.0)}, Vector{some(0.1), some(0.1)}};
     }
 }

@@ -215,12 +215,15 @@ TEST(SessionDesk, BodiesThatCameAndWentAreInTheSceneAsItWasLeft) {
     ball.name = "added 1";
     ball.fixtures.push_back({CircleShape{0.2}, {}, 0.0, 1, false, Voice::own});
     ball.positionMetres = {3.0, 3.0};
-    take.inputs = {{0.5, SpawnAction{ball, {}}}, {0.6, MaterialAction{"added 1", everyFixture, 2}}, {0.7, RemoveAction{"large rubber ball"}}, {0.8, SoundAction{3, 90.0, 20.0}}};
+    take.inputs = {{0.5, SpawnAction{ball, {}}}, {0.6, MaterialAction{"added 1", everyFixture, 2}}, {0.7, RemoveAction{"large rubber ball"}}, {0.8, SoundAction{3, 90.0, 20.0}},
+                   {0.9, TextureAction{3, 0.004, 2.0, GrainPattern::regular, 0.5}}, {0.9, GripAction{"added 1", Vector{1.0, 1.0}, {}}}};
     const Scene left = sceneAsLeft(take);
     EXPECT_EQ(left.bodies.size(), take.scene->bodies.size());
     EXPECT_EQ(left.bodies.back().name, "added 1");
     EXPECT_EQ(left.bodies.back().fixtures[0].material, 2);
     EXPECT_EQ(left.materials[3].frequencyHz, 90.0);
+    EXPECT_EQ(left.materials[3].grainMetres, 0.004);
+    EXPECT_EQ(left.materials[3].grainPattern, GrainPattern::regular);
     EXPECT_TRUE(left.inputs.empty());
     EXPECT_NO_THROW(Session{[&] { auto s = deskSetup(); s.scene = left; return s; }()});
 }

@@ -16,8 +16,8 @@ using namespace test;
 constexpr int rate = hostRate, channels = hostChannels;
 
 Action anyInput(Random& random, int& stones) {
-    const std::string body = "ball " + std::to_string(1 + random.below(3));
-    switch (random.below(5)) {
+    const std::string body = random.below(2) == 0 ? "small rubber ball" : "large rubber ball";
+    switch (random.below(7)) {
     case 0: return TiltAction{random.uniform(-3, 3)};
     case 1: return GravityAction{{random.uniform(-20, 20), random.uniform(-20, 20)}};
     case 2: {
@@ -25,6 +25,8 @@ Action anyInput(Random& random, int& stones) {
         return SpawnAction{stone, {}};
     }
     case 3: return SoundAction{random.below(2), random.uniform(50, 300), random.uniform(20, 90)};
+    case 4: return TextureAction{random.below(2), random.uniform(0.002, 0.02), random.uniform(0, 3)};
+    case 5: return GripAction{body, Vector{random.uniform(0, 4), random.uniform(0, 3)}, Vector{0.05, 0.05}, random.uniform(0, 0.3)};
     default: return CameraAction{"no such body", everyFixture, true}; // refused
     }
 }

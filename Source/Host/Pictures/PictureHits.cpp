@@ -67,7 +67,6 @@ void drawHits(const Canvas& canvas, const PictureInput& input, const HitColours&
         drawStem(canvas, axis.x(seconds), static_cast<float>(axis.lane.getBottom()),
                  levels.height(decibels(event.amplitude)), colour, dot);
     };
-    const auto isHit = [](const CollisionEvent& event) { return event.source.kind == ContactKind::hit; };
     const bool hasDots = std::ranges::count_if(input.events, isHit) <= mostDots;
     for (const auto* event : order) draw(*event, colours.of(*event), hasDots && isHit(*event)); // grains are a lawn
     draw(*order.front(), palette::now, true);

@@ -6,6 +6,9 @@
 
 namespace physvib::picture {
 
+/// Or a grain that was passed.
+inline bool isHit(const CollisionEvent& event) noexcept { return event.source.kind == ContactKind::hit; }
+
 /// What a colour of a hit means: its material where the scene tells, else its frequency.
 class HitColours {
 public:
@@ -58,7 +61,7 @@ void drawHits(const Canvas& canvas, const PictureInput& input, const HitColours&
 /// What the colours of hits mean, right-aligned; if the names are too long, each gets its share of the row.
 void drawLegend(const Canvas& canvas, const HitColours& colours, Area row);
 
-/// The field to scale, bodies, hits as glows, enchanters, and one sentence on the strongest hit.
+/// The field to scale, bodies, hits as glows, what rolls and slides as lines of light, enchanters, and one sentence on the strongest hit.
 void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours& colours, Area panel);
 
 /// 100 ms around the strongest hit, a lane per channel; the eight loudest if there are more.

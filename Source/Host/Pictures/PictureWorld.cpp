@@ -93,14 +93,16 @@ void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours
     const auto strongest = strongestEvent(input.events);
     if (strongest < 0) return;
     const double loudest = decibels(input.events[static_cast<std::size_t>(strongest)].amplitude);
-    Light light(spill);
+    Light hits(spill), traces(spill); // each exposed for itself: thousands of grains would outshine any hit
     for (const auto& event : input.events) {
         const auto level = static_cast<float>(1.0 + (decibels(event.amplitude) - loudest) / 40.0);
-        if (level > 0.0f)
-            light.add(map.at(event.x, event.y), 5.0f + 33.0f * level * level, 0.05f + 0.9f * level * level,
-                      colours.of(event));
+        if (level <= 0.0f) continue;
+        const auto at = map.at(event.x, event.y);
+        if (isHit(event)) hits.add(at, 5.0f + 33.0f * level * level, 0.05f + 0.9f * level * level, colours.of(event));
+        else traces.add(at, 4.0f + 4.0f * level, 0.2f + 0.75f * level, colours.of(event)); // they join to a line
     }
-    light.draw(canvas.graphics);
+    traces.draw(canvas.graphics);
+    hits.draw(canvas.graphics);
 }
 
 /// What a channel plays of the strongest hit, 1 for the loudest; 0 if the picture has no sound of it.
@@ -140,7 +142,7 @@ void drawStrongest(const Canvas& canvas, const PictureInput& input, const FieldM
 }
 
 juce::String sentenceOn(const CollisionEvent& hit) {
-    return "Strongest hit at " + number(static_cast<double>(hit.timeNs) * 1e-9, 3) +
+    return (isHit(hit) ? "Strongest hit at " : "Strongest grain at ") + number(static_cast<double>(hit.timeNs) * 1e-9, 3) +
            " s: " + shortNumber(hit.frequencyHz) + " Hz, " + juce::String::charToString(0x03c4) + " " +
            shortNumber(hit.decayPerSecond) + " /s, " + decibelText(hit.amplitude) + ", at (" +
            number(hit.x, 2) + ", " + number(hit.y, 2) + ") m";
@@ -154,7 +156,8 @@ juce::String whoHitWhom(const PictureInput& input, const CollisionEvent& hit) {
         return body < cast.size() ? wordsOf(cast[body].name) : juce::String();
     };
     const auto felt = name(hit.source.fixture), by = name(hit.source.other);
-    return felt.isEmpty() || by.isEmpty() ? felt : felt + ", struck by " + by;
+    const auto how = isHit(hit) ? ", struck by " : hit.source.kind == ContactKind::roll ? ", rolled over by " : ", slid over by ";
+    return felt.isEmpty() || by.isEmpty() ? felt : felt + how + by;
 }
 
 // ---- enchanters

@@ -31,7 +31,9 @@ juce::String dot() {
 
 juce::String eventNumbers(const PictureInput& input) {
     const auto count = static_cast<double>(input.events.size());
-    const auto words = number(count, 0) + (input.events.size() == 1 ? " hit" : " hits");
+    const auto hits = std::ranges::count_if(input.events, isHit), grains = std::ranges::ssize(input.events) - hits;
+    auto words = number(static_cast<double>(hits), 0) + (hits == 1 ? " hit" : " hits");
+    if (grains > 0) words += ", " + number(static_cast<double>(grains), 0) + (grains == 1 ? " grain" : " grains");
     return input.durationSeconds > 0.0
                ? words + ", " + shortNumber(count / input.durationSeconds) + " per second"
                : words;

@@ -48,6 +48,19 @@ void drawFader(juce::Graphics& g, juce::Rectangle<float> area, float place, cons
     g.fillRect(cap.withSizeKeepingCentre(18.0f, 1.5f));
 }
 
+/// Its number is written over it.
+void drawBar(juce::Graphics& g, juce::Rectangle<float> area, float place, const juce::Slider& slider) {
+    juce::Path bar;
+    bar.addRoundedRectangle(area.reduced(0.5f), corner);
+    g.setColour(shade(slider, Shade::raised));
+    g.fillPath(bar);
+    if (!slider.isEnabled()) return;
+    const juce::Graphics::ScopedSaveState whole{g};
+    g.reduceClipRegion(bar);
+    g.setColour(tintOf(slider).withMultipliedAlpha(0.4f));
+    g.fillRect(area.withRight(place));
+}
+
 } // namespace
 
 juce::Colour shade(const juce::Component& component, Shade which) { return component.findColour(idOf(which)); }
@@ -147,6 +160,7 @@ void Look::positionComboBoxText(juce::ComboBox& box, juce::Label& label) {
 void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float, juce::Slider::SliderStyle style, juce::Slider& slider) {
     const auto area = juce::Rectangle<int>{x, y, width, height}.toFloat();
     if (isTrue(slider, faderProperty)) return drawFader(g, area, place, slider);
+    if (slider.isBar()) return drawBar(g, area, place, slider);
     const bool isUpright = style == juce::Slider::LinearVertical;
     const auto track = isUpright ? area.withSizeKeepingCentre(4.0f, area.getHeight()) : area.withSizeKeepingCentre(area.getWidth(), 4.0f);
     g.setColour(shade(slider, Shade::raised));
@@ -155,6 +169,12 @@ void Look::drawLinearSlider(juce::Graphics& g, int x, int y, int width, int heig
     g.fillRoundedRectangle(isUpright ? track.withTop(place) : track.withRight(place), 2.0f);
     g.setColour(shade(slider, Shade::text));
     g.fillEllipse(juce::Rectangle<float>{13.0f, 13.0f}.withCentre(isUpright ? juce::Point<float>{area.getCentreX(), place} : juce::Point<float>{place, area.getCentreY()}));
+}
+
+juce::Label* Look::createSliderTextBox(juce::Slider& slider) {
+    auto* box = juce::LookAndFeel_V4::createSliderTextBox(slider);
+    if (slider.isBar()) box->setFont(juce::Font{text::small});
+    return box;
 }
 
 void Look::drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float start, float end, juce::Slider& slider) {

@@ -51,6 +51,7 @@ public:
     void positionComboBoxText(juce::ComboBox& box, juce::Label& label) override;
     void drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float, juce::Slider::SliderStyle,
                           juce::Slider& slider) override;
+    juce::Label* createSliderTextBox(juce::Slider& slider) override;
     void drawRotarySlider(juce::Graphics& g, int x, int y, int width, int height, float place, float start, float end, juce::Slider& slider) override;
     int getSliderThumbRadius(juce::Slider&) override { return 9; }
     std::unique_ptr<juce::FocusOutline> createFocusOutlineForComponent(juce::Component&) override;

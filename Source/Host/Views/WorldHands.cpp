@@ -53,18 +53,29 @@ void WorldView::mouseDown(const juce::MouseEvent& e) {
     }
     if (onPull) grip_.body = body;
     if (onSelect) onSelect(grip_.enchanter);
+    if (!onHold || body < 0 || !e.mods.isShiftDown()) return;
+    grip_.held = cast_[static_cast<std::size_t>(body)].name;
+    grip_.point = pointOf(grip_);
+    hold();
+}
+
+void WorldView::hold() {
+    const auto share = map().shareAt(grip_.to);
+    onHold(grip_.held, grip_.point, {share.x * scene_.fieldWidthMetres, share.y * scene_.fieldHeightMetres});
 }
 
 void WorldView::mouseDrag(const juce::MouseEvent& e) {
     grip_.to = e.position;
     grip_.isOutside = !getLocalBounds().toFloat().contains(e.position);
     if (grip_.enchanter >= 0 && onMove && !grip_.isOutside && isDrag(e)) onMove(grip_.enchanter, map().shareAt(e.position));
+    if (isHolding()) hold();
     if (grip_.body >= 0) repaint();
 }
 
 void WorldView::mouseUp(const juce::MouseEvent& e) {
     const Grip grip = std::exchange(grip_, {});
     repaint();
+    if (!grip.held.empty()) return onLetGo(grip.held);
     if (grip.enchanter >= 0 && grip.isOutside && onDetach) return onDetach(grip.enchanter);
     if (onSpot && grip.enchanter < 0 && !e.mods.isPopupMenu() && !isDrag(e) && map().field.contains(e.position)) return onSpot(map().shareAt(e.position));
     if (grip.body < 0 || !onPull || !isDrag(e)) return;

@@ -7,6 +7,7 @@
 #include <juce_audio_basics/juce_audio_basics.h>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace physvib {
 
@@ -54,7 +55,7 @@ juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour c
 WorldView::WorldView() {
     setOpaque(true);
     setTitle("World");
-    setDescription("Bodies as they are felt now. Drag a body to push it.");
+    setDescription("Bodies as they are felt now. Drag a body to push it, with Shift to hold it.");
 }
 
 void WorldView::show(const Scene& scene) {
@@ -65,6 +66,8 @@ void WorldView::show(const Scene& scene) {
         ahead_.clear();
         hits_.clear();
         traces_.clear();
+        grip_.body = -1; // its number may be another's
+        if (std::ranges::find(cast_, grip_.held, &BodyDescription::name) == cast_.end()) grip_.held.clear();
     }
     repaint();
 }
@@ -225,16 +228,16 @@ void WorldView::take(const CollisionEvent& event, double nowMs) {
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
 }
 
+// On top of the outlines that they follow, so their core is white as that of a hit. However weak, they are seen.
 void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
     for (const auto& trace : traces_) {
-        const float level = levelOf(trace.amplitude), fade = (1.0f - ageOf(trace.shownAtMs)) * std::sqrt(level);
-        const juce::Line<float> line{at.at(trace.fromMetres.x, trace.fromMetres.y), at.at(trace.toMetres.x, trace.toMetres.y)};
-        const auto colour = trace.colour.interpolatedWith(palette::now, 0.5f);
-        for (const auto& [pixels, alpha] : {std::pair{5.0f + 9.0f * level, 0.25f}, std::pair{2.0f + 2.0f * level, 0.9f}}) {
+        const float level = levelOf(trace.amplitude), fade = (1.0f - ageOf(trace.shownAtMs)) * (0.4f + 0.6f * level);
+        juce::Path path;
+        path.startNewSubPath(at.at(trace.fromMetres.x, trace.fromMetres.y));
+        path.lineTo(at.at(trace.toMetres.x, trace.toMetres.y));
+        const auto amber = trace.colour.interpolatedWith(palette::now, 0.7f);
+        for (const auto& [colour, pixels, alpha] : {std::tuple{amber, 10.0f + 12.0f * level, 0.22f}, {amber, 5.0f + 6.0f * level, 0.45f}, {juce::Colours::white, 1.5f + 1.5f * level, 0.9f}}) {
             g.setColour(colour.withAlpha(alpha * fade));
-            juce::Path path;
-            path.startNewSubPath(line.getStart());
-            path.lineTo(line.getEnd());
             g.strokePath(path, juce::PathStrokeType{pixels, juce::PathStrokeType::curved, juce::PathStrokeType::butt});
         }
     }
@@ -301,6 +304,18 @@ void WorldView::drawSpot(juce::Graphics& g) const {
     for (const auto& way : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}}) g.drawLine({centre + way * 5.0f, centre + way * 13.0f}, 1.5f);
 }
 
+// A string from the body to the hand.
+void WorldView::drawHold(juce::Graphics& g) const {
+    if (grip_.body < 0) return;
+    const auto at = map();
+    const auto point = juce::Point<float>{static_cast<float>(grip_.point.x), static_cast<float>(-grip_.point.y)} * at.pixelsPerMetre;
+    const auto start = point.transformedBy(placeOf(poseOf(static_cast<std::size_t>(grip_.body)), at)), hand = placeOfShare(at.shareAt(grip_.to));
+    g.setColour(shade(*this, Shade::text));
+    g.drawLine({start, hand}, 1.8f);
+    g.fillEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(start));
+    g.drawEllipse(juce::Rectangle<float>{18.0f, 18.0f}.withCentre(hand), 1.8f);
+}
+
 void WorldView::drawGrip(juce::Graphics& g) const {
     if (dropAt_) {
         const auto badge = juce::Rectangle<float>{badgePixels, badgePixels}.withCentre(*dropAt_);
@@ -309,6 +324,7 @@ void WorldView::drawGrip(juce::Graphics& g) const {
         g.setFont(juce::Font{text::large});
         g.drawText("+", badge, juce::Justification::centred, false);
     }
+    if (isHolding()) return drawHold(g);
     if (grip_.body < 0 || grip_.from.getDistanceFrom(grip_.to) < 3.0f) return;
     juce::Path line, dashed;
     line.startNewSubPath(grip_.from);

@@ -55,6 +55,8 @@ public:
 
     // What a hand does; what is not set cannot be done. M.
     std::function<void(const std::string& body, Vector screenMetres, Vector pointMetres)> onPull; ///< in the field's axes; the point on the body, in the field's metres
+    std::function<void(const std::string& body, Vector pointMetres, Vector toMetres)> onHold; ///< with Shift, while it is held: which point, as for onPull, and where in the field the hand is
+    std::function<void(const std::string& body)> onLetGo;                                     ///< of what was held
     std::function<juce::String(double screenMetres)> pullText; ///< beside the line while it is pulled
     std::function<void(int enchanter, FieldShare to)> onMove;                                ///< while it is moved
     std::function<void(int enchanter)> onDetach;                                             ///< dropped outside
@@ -78,6 +80,7 @@ public:
     juce::Point<float> placeOfShare(FieldShare at) const;
     juce::Point<float> placeOfEnchanter(int enchanter) const;
     juce::Point<float> placeOfBody(const std::string& name) const; ///< outside the view if it is not there
+    bool isHolding() const noexcept { return !grip_.held.empty(); }
 
 private:
     struct Snapshot {
@@ -111,9 +114,13 @@ private:
         int enchanter = -1, body = -1;
         juce::Point<float> from, to;
         bool isOutside = false;
+        std::string held{}; // the body's name
+        Vector point{};     // where on it
     };
     Map map() const;
     Vector pointOf(const Grip& grip) const;
+    void hold();
+    void drawHold(juce::Graphics& g) const;
     juce::Colour colourOf(const CollisionEvent& event) const;
     BodyPose poseOf(std::size_t body) const;
     juce::AffineTransform placeOf(const BodyPose& pose, const Map& at) const;

@@ -32,6 +32,12 @@ struct Material {
     double rolling = 0.2;
     bool operator==(const Material&) const = default;
 
+    void setTexture(const Texture& t) noexcept {
+        grainMetres = t.grainMetres;
+        roughness = t.roughness;
+        grainPattern = t.pattern;
+        rolling = t.rolling;
+    }
     Texture texture() const noexcept { return {grainMetres, roughness, grainPattern, rolling}; }
 };
 
@@ -212,6 +218,17 @@ struct SoundAction {
     double decayPerSecond = 0.0;
     bool operator==(const SoundAction&) const = default;
 };
+/// Changes the grains of a material's surface, see Texture: of what passes them from now on.
+struct TextureAction {
+    int material = 0;
+    double grainMetres = 0.0;
+    double roughness = 1.0;
+    GrainPattern grainPattern = GrainPattern::random;
+    double rolling = 0.2;
+    bool operator==(const TextureAction&) const = default;
+
+    Texture texture() const noexcept { return {grainMetres, roughness, grainPattern, rolling}; }
+};
 /// Whoever holds the device turns it counter-clockwise and makes it heavier or lighter, on top of what gravity and tilt say
 /// before and after.
 struct HoldAction {
@@ -219,8 +236,17 @@ struct HoldAction {
     double angleRadians = 0.0;
     bool operator==(const HoldAction&) const = default;
 };
+/// A hand holds a point of a body and pulls it towards `toMetres`, where it is `overSeconds` later, in a straight line from where
+/// it is now; nowhere: it lets go. See SceneGrips. A body that is not there or not dynamic does not notice.
+struct GripAction {
+    std::string body;
+    std::optional<Vector> toMetres;
+    std::optional<Vector> pointMetres; ///< on the body, from its origin; none: the centre of mass. Counts when the grip begins
+    double overSeconds = 0.0;
+    bool operator==(const GripAction&) const = default;
+};
 using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAction, SpawnAction, RemoveAction,
-                            MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction>;
+                            MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction, TextureAction, GripAction>;
 
 /// What happens at `timeSeconds`, and `times` - 1 times more, `everySeconds` apart.
 struct ScriptInput {

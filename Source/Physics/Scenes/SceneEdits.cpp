@@ -37,6 +37,7 @@ void describeEdit(Scene& scene, const Action& action) {
         material.frequencyHz = sound->frequencyHz;
         material.decayPerSecond = sound->decayPerSecond;
     }
+    if (const auto* texture = std::get_if<TextureAction>(&action)) scene.materials[static_cast<std::size_t>(texture->material)].setTexture(texture->texture());
 }
 
 Scene sceneAsLeft(const SceneTake& take) {
@@ -57,7 +58,7 @@ Scene sceneForHands(Scene scene) {
         const Action& a = input.action;
         if (player.isThere()) return player.isPlayedBy(a) || std::holds_alternative<TiltAction>(a);
         return std::holds_alternative<GravityAction>(a) || std::holds_alternative<TiltAction>(a) || std::holds_alternative<ImpulseAction>(a) || std::holds_alternative<VelocityAction>(a) ||
-               std::holds_alternative<HoldAction>(a);
+               std::holds_alternative<HoldAction>(a) || std::holds_alternative<GripAction>(a);
     });
     return scene;
 }

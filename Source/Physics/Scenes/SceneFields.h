@@ -54,6 +54,15 @@ inline constexpr Bounds fixtureBounds = upTo(static_cast<double>(sceneLimits::ma
 
 inline constexpr std::array<std::string_view, 2> grainPatternNames{"random", "regular"};
 
+/// The grains of T's surface: of a material, and of what changes them.
+template <class T, class V>
+void visitTexture(V& v) {
+    v.field("grain_m", &T::grainMetres, upTo(Texture::coarsestMetres), Need::optional);
+    v.field("roughness", &T::roughness, upTo(Texture::mostRoughness), Need::optional);
+    v.choice("grain_pattern", &T::grainPattern, grainPatternNames);
+    v.field("rolling", &T::rolling, upTo(1.0), Need::optional);
+}
+
 template <>
 struct FieldsOf<Material> {
     template <class V>
@@ -66,10 +75,7 @@ struct FieldsOf<Material> {
         v.field("restitution", &Material::restitution, upTo(1.0), Need::required);
         v.field("frequency_hz", &Material::frequencyHz, upTo(limits::maxFrequencyHz), Need::optional);
         v.field("decay_per_s", &Material::decayPerSecond, upTo(limits::maxDecayPerSecond), Need::optional);
-        v.field("grain_m", &Material::grainMetres, upTo(Texture::coarsestMetres), Need::optional);
-        v.field("roughness", &Material::roughness, upTo(Texture::mostRoughness), Need::optional);
-        v.choice("grain_pattern", &Material::grainPattern, grainPatternNames);
-        v.field("rolling", &Material::rolling, upTo(1.0), Need::optional);
+        visitTexture<Material>(v);
     }
 };
 
@@ -302,8 +308,28 @@ struct FieldsOf<HoldAction> {
     }
 };
 
-inline constexpr std::array<std::string_view, 11> actionNames{
-    "gravity", "tilt", "impulse", "velocity", "spawn", "remove", "motor", "camera", "material", "sound", "hold"};
+template <>
+struct FieldsOf<TextureAction> {
+    template <class V>
+    static void visit(V& v) {
+        v.material("material", &TextureAction::material);
+        visitTexture<TextureAction>(v);
+    }
+};
+
+template <>
+struct FieldsOf<GripAction> {
+    template <class V>
+    static void visit(V& v) {
+        v.field("body", &GripAction::body, anyText, Need::required);
+        v.field("to_m", &GripAction::toMetres, positionBounds, Need::optional);
+        v.field("point_m", &GripAction::pointMetres, positionBounds, Need::optional);
+        v.field("over_s", &GripAction::overSeconds, upTo(sceneLimits::maxScriptSeconds), Need::optional);
+    }
+};
+
+inline constexpr std::array<std::string_view, 13> actionNames{
+    "gravity", "tilt", "impulse", "velocity", "spawn", "remove", "motor", "camera", "material", "sound", "hold", "texture", "grip"};
 
 template <>
 struct FieldsOf<ScriptInput> {

@@ -89,6 +89,7 @@ private:
     std::string checkAction(const HoldAction&, const std::string&) const { return {}; }
     std::string checkAction(const SpawnAction&, const std::string&) const { return {}; }
     std::string checkAction(const SoundAction&, const std::string&) const { return {}; }
+    std::string checkAction(const TextureAction&, const std::string&) const { return {}; }
     std::string checkAction(const MotorAction& action, const std::string& path) const {
         const auto joint = joints_.find(action.joint);
         const bool hasMotor =

@@ -129,8 +129,9 @@ void SceneWorld::forgetDone() {
 bool SceneWorld::act(std::int64_t step) {
     step_ = step;
     destroyRemoved(step);
-    const bool live = actOnInputs(step);
-    return actOnScript(step) || live;
+    const bool live = actOnInputs(step), script = actOnScript(step);
+    grips_.move(step + 1);
+    return live || script;
 }
 
 // They have neither contacts nor places in Box2D's tree since they were disabled: the others' order stays as it is.
@@ -221,6 +222,7 @@ bool SceneWorld::act(const SpawnAction& action, int repetition) {
         setMaterial(body, i, body.described.fixtures[i].material);
         body.now.fixtures[i].isCamera = body.described.fixtures[i].isCamera;
     }
+    grips_.letGo(*body.body); // it starts anew
     restartBody(*body.body, body.described, startOf(body.described));
     startHalfAStepBehind(*body.body);
     return true;
@@ -229,7 +231,9 @@ bool SceneWorld::act(const SpawnAction& action, int repetition) {
 bool SceneWorld::act(const RemoveAction& action) {
     const auto place = bodyNames_.find(action.body);
     if (place == bodyNames_.end()) return false;
-    bodies_.at(place->second).body->SetEnabled(false);
+    b2Body& body = *bodies_.at(place->second).body;
+    grips_.letGo(body);
+    body.SetEnabled(false);
     if (place->second < scripted_) return false;
     leaving_.push_back({step_ + clock_.firstStepAt(heldSeconds), place->second});
     bodyNames_.erase(place);
@@ -271,6 +275,16 @@ bool SceneWorld::act(const SoundAction& action) {
     material.frequencyHz = action.frequencyHz;
     material.decayPerSecond = action.decayPerSecond;
     return true;
+}
+
+bool SceneWorld::act(const TextureAction& action) {
+    materials_[static_cast<std::size_t>(action.material)].setTexture(action.texture());
+    return true;
+}
+
+bool SceneWorld::act(const GripAction& action) {
+    if (b2Body* body = findInWorld(action.body)) grips_.act(*body, action, step_);
+    return false;
 }
 
 BodyPose SceneWorld::pose(std::size_t number) const noexcept {

@@ -4,6 +4,7 @@
 #include "Physics/BodyStart.h"
 #include "Physics/ContactBound.h"
 #include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneGrips.h"
 #include "Physics/Scenes/SceneScript.h"
 #include "Physics/StepClock.h"
 #include <box2d/box2d.h>
@@ -41,7 +42,7 @@ public:
     void addInput(std::int64_t step, Action action);
 
     /// Does what live inputs, then the script, want done in `step` or before; true if a fixture may be new or
-    /// have another sound or camera since. Allocates for new bodies only.
+    /// have another sound, texture or camera since. Allocates for new bodies and grips only.
     bool act(std::int64_t step);
 
     /// Drops from scene() the live inputs that have acted, for worlds without end whose inputs are kept elsewhere.
@@ -123,6 +124,8 @@ private:
     bool act(const CameraAction& action);
     bool act(const MaterialAction& action);
     bool act(const SoundAction& action);
+    bool act(const TextureAction& action);
+    bool act(const GripAction& action);
 
     Scene scene_; // only its inputs grow
     StepClock clock_;
@@ -133,7 +136,8 @@ private:
     HoldAction hold_;
     b2World world_;
     ContactBound bound_{world_};
-    std::vector<Material> materials_; // with the sounds of now
+    SceneGrips grips_{world_, clock_};
+    std::vector<Material> materials_; // with the sounds and textures of now
     std::map<std::size_t, Body> bodies_; // by number
     std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0; // numbers; below scripted_ stands scriptedCast()
     std::map<std::string, std::size_t, std::less<>> bodyNames_;

@@ -124,7 +124,7 @@ private:
     Action renamed(const Action& action);
     void watchOutput();
     void showEdit(const Action& action);
-    void takeScene(bool keepsSounds);
+    void takeScene(bool keepsMaterials);
     void apply(const Mix& next);
     std::vector<int> outputMap() const;
     void strike(int enchanter, std::vector<CollisionEvent> strikes);

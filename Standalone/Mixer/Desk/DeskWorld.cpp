@@ -26,18 +26,20 @@ public:
     bool perform() override { return run(forth_, back_); }
     bool undo() override { return run(back_, forth_); }
     int getSizeInUnits() override { return 1; }
-    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override { // a sound that is turned
+    juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override { // a sound or a texture that is turned
         const auto* other = dynamic_cast<WorldEdit*>(next);
-        const auto *here = soundOf(this), *there = soundOf(other);
-        if (here == nullptr || there == nullptr || here->material != there->material) return nullptr;
-        auto* both = new WorldEdit{desk_, *there};
+        if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other))) return nullptr;
+        auto* both = new WorldEdit{desk_, other->forth_.front()};
         both->back_ = back_;
         return both;
     }
 
 private:
-    static const SoundAction* soundOf(const WorldEdit* edit) {
-        return edit != nullptr && edit->forth_.size() == 1 ? std::get_if<SoundAction>(&edit->forth_.front()) : nullptr;
+    template <class Turned>
+    bool isTurned(const WorldEdit& next) const {
+        if (forth_.size() != 1 || next.forth_.size() != 1) return false;
+        const auto *here = std::get_if<Turned>(&forth_.front()), *there = std::get_if<Turned>(&next.forth_.front());
+        return here != nullptr && there != nullptr && here->material == there->material;
     }
     bool run(const std::vector<Action>& actions, std::vector<Action>& opposite) {
         opposite.clear();
@@ -63,7 +65,8 @@ std::string Desk::act(const Action& action) {
 
 void Desk::showEdit(const Action& action) {
     if (std::holds_alternative<SpawnAction>(action)) sceneNow_.inputs.push_back({0.0, action});
-    else if (std::holds_alternative<MaterialAction>(action) || std::holds_alternative<SoundAction>(action) || std::holds_alternative<CameraAction>(action))
+    else if (std::holds_alternative<MaterialAction>(action) || std::holds_alternative<SoundAction>(action) || std::holds_alternative<TextureAction>(action) ||
+             std::holds_alternative<CameraAction>(action))
         describeEdit(sceneNow_, action);
     else return;
     ++worldEdits_;
@@ -102,6 +105,10 @@ std::vector<Action> Desk::undoOf(const Action& action) const {
         const auto& old = sceneNow_.materials[static_cast<std::size_t>(sound->material)];
         return {SoundAction{sound->material, old.frequencyHz, old.decayPerSecond}};
     }
+    if (const auto* texture = std::get_if<TextureAction>(&action)) {
+        const auto& old = sceneNow_.materials[static_cast<std::size_t>(texture->material)];
+        return {TextureAction{texture->material, old.grainMetres, old.roughness, old.grainPattern, old.rolling}};
+    }
     return {};
 }
 
@@ -123,11 +130,12 @@ void Desk::restart(std::uint32_t seed) {
 }
 
 // The world begins anew. What was measured or tuned stays, as the strips do.
-void Desk::takeScene(bool keepsSounds) {
+void Desk::takeScene(bool keepsMaterials) {
     auto scene = std::make_shared<Scene>(*mix_.scene);
-    for (std::size_t i = 0; keepsSounds && i < scene->materials.size(); ++i) {
+    for (std::size_t i = 0; keepsMaterials && i < scene->materials.size(); ++i) {
         scene->materials[i].frequencyHz = sceneNow_.materials[i].frequencyHz;
         scene->materials[i].decayPerSecond = sceneNow_.materials[i].decayPerSecond;
+        scene->materials[i].setTexture(sceneNow_.materials[i].texture());
     }
     sceneNow_ = *scene;
     ++worldEdits_;

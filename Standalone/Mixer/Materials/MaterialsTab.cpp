@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list, two numbers, a spot, and a thread that measures.
+// The list, two numbers, a surface, a spot, and a thread that measures.
 #include "Mixer/Materials/MaterialsTab.h"
+#include "Mixer/Materials/FeltRange.h"
 #include "Mixer/Materials/MaterialColumns.h"
 #include "Mixer/Window/Parts.h"
 #include "Physics/Scenes/SceneLimits.h"
@@ -10,17 +11,8 @@ namespace physvib {
 namespace {
 
 constexpr int rowPixels = 28, headPixels = 20;
+constexpr int tallPixels = 300; // of the tab; below, half a row of the list tells that there are more
 constexpr double arrowRatio = 1.01;
-
-/// The middle nine tenths of the slider are what is felt; the rest of what can be played is at its ends.
-juce::NormalisableRange<double> rangeOf(double least, double low, double high, double most) {
-    constexpr double end = 0.05;
-    const auto part = [](double from, double to, double share) { return from * std::pow(to / from, share); };
-    const auto shareOf = [](double from, double to, double value) { return std::log(value / from) / std::log(to / from); };
-    return {least, most,
-            [=](double, double, double s) { return s < end ? part(least, low, s / end) : s > 1.0 - end ? part(high, most, (s - 1.0 + end) / end) : part(low, high, (s - end) / (1.0 - 2.0 * end)); },
-            [=](double, double, double v) { return v < low ? end * shareOf(least, low, v) : v > high ? 1.0 - end + end * shareOf(high, most, v) : end + (1.0 - 2.0 * end) * shareOf(low, high, v); }};
-}
 
 } // namespace
 
@@ -70,6 +62,7 @@ MaterialsTab::MaterialsTab(Desk& desk, WorldView& world)
     decay_.textFromValueFunction = [this](double perSecond) { return decay_.isEnabled() ? decayText(perSecond) + " /s" : juce::String{"silent"}; };
     onSlide(frequency_, [this](bool goesOn) { setSound(true, goesOn); });
     onSlide(decay_, [this](bool goesOn) { setSound(false, goesOn); });
+    texture_.onChange = [this](const Texture& texture, const juce::String& what, bool goesOn) { setTexture(texture, what, goesOn); };
     for (auto* slider : {&spotX_, &spotY_}) {
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
         slider->setSliderStyle(juce::Slider::LinearHorizontal);
@@ -88,7 +81,7 @@ MaterialsTab::MaterialsTab(Desk& desk, WorldView& world)
     feel_.onClick = [this] { feelAt(spot_); };
     browse_ = quietButton(juce::String::fromUTF8("Recording\xe2\x80\xa6"), "Measure frequency and decay from a recording of one hit; it can be dropped here as well");
     browse_->onClick = [this] { browse(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&list_, &frequencyName_, &frequency_, &decayName_, &decay_, &feel_, &spotXName_, &spotX_, &spotYName_, &spotY_, browse_.get(), &spectrum_, &course_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&list_, &frequencyName_, &frequency_, &decayName_, &decay_, &texture_, &feel_, &spotXName_, &spotX_, &spotYName_, &spotY_, browse_.get(), &spectrum_, &course_})
         addAndMakeVisible(c);
     showSpot();
     takeMix();
@@ -105,7 +98,7 @@ void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title,
     slider.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
     slider.setSliderStyle(juce::Slider::LinearHorizontal);
     slider.setTextBoxStyle(juce::Slider::TextBoxRight, false, 74, 24);
-    slider.setNormalisableRange(rangeOf(least, low, high, most));
+    slider.setNormalisableRange(feltRange(least, low, high, most));
     slider.valueFromTextFunction = [](const juce::String& words) { return words.trim().replaceCharacter(',', '.').getDoubleValue(); };
 }
 
@@ -153,6 +146,7 @@ void MaterialsTab::showChosen() {
     if (sounds && !decay_.isMouseButtonDown()) decay_.setValue(material->decayPerSecond, juce::dontSendNotification);
     frequency_.updateText();
     decay_.updateText();
+    texture_.show(material != nullptr ? std::optional{material->texture()} : std::nullopt);
     ShownHit shown;
     const auto* recording = recordingOf(chosenIndex());
     if (sounds) shown = {material->frequencyHz, material->decayPerSecond, palette::material(chosenIndex()), recording};
@@ -170,6 +164,13 @@ void MaterialsTab::setSound(bool isFrequency, bool goesOn) {
     (isFrequency ? sound.frequencyHz : sound.decayPerSecond) = isFrequency ? frequency_.getValue() : decay_.getValue();
     const auto name = (isFrequency ? "Frequency of " : "Decay of ") + utf8(material->name);
     if (const auto fault = desk_.editWorld(name, sound, goesOn); !fault.empty()) desk_.report(utf8(fault));
+}
+
+void MaterialsTab::setTexture(const Texture& texture, const juce::String& what, bool goesOn) {
+    const auto* material = chosen();
+    if (material == nullptr) return;
+    const TextureAction surface{chosenIndex(), texture.grainMetres, texture.roughness, texture.pattern, texture.rolling};
+    if (const auto fault = desk_.editWorld(what + " of " + utf8(material->name), surface, goesOn); !fault.empty()) desk_.report(utf8(fault));
 }
 
 void MaterialsTab::typeFrequency() {
@@ -286,11 +287,13 @@ void MaterialsTab::paintOverChildren(juce::Graphics& g) {
 void MaterialsTab::resized() {
     auto area = getLocalBounds();
     headArea_ = area.removeFromTop(headPixels);
-    const int controls = 2 * (rowHeight + 6) + 6, least = 3 * rowPixels, plots = std::max(70, std::min(230, (area.getHeight() - controls) * 52 / 100));
+    const bool isTall = area.getHeight() >= tallPixels;
+    const int line = isTall ? rowHeight : rowHeight - 4, between = isTall ? 6 : 4;
+    const int controls = 3 * line + 4 * between, least = isTall ? 3 * rowPixels : 5 * rowPixels / 2, plots = std::max(70, std::min(230, (area.getHeight() - controls) * 52 / 100));
     const int rows = std::max(least, std::min(static_cast<int>(order_.size()) * rowPixels, area.getHeight() - controls - plots));
     list_.setBounds(area.removeFromTop(rows));
-    area.removeFromTop(6);
-    auto row = area.removeFromTop(rowHeight);
+    area.removeFromTop(between);
+    auto row = area.removeFromTop(line);
     const auto place = [&row](juce::Label& name, juce::Component& control, int nameWidth, int width) {
         auto both = row.removeFromLeft(width);
         name.setBounds(both.removeFromLeft(nameWidth));
@@ -300,8 +303,10 @@ void MaterialsTab::resized() {
     const int half = (row.getWidth() - gap) / 2;
     place(frequencyName_, frequency_, 64, half + 12);
     place(decayName_, decay_, 42, row.getWidth());
-    area.removeFromTop(6);
-    row = area.removeFromTop(rowHeight);
+    area.removeFromTop(between);
+    texture_.setBounds(area.removeFromTop(line));
+    area.removeFromTop(between);
+    row = area.removeFromTop(line);
     feel_.setBounds(row.removeFromLeft(70));
     row.removeFromLeft(gap);
     browse_->setBounds(row.removeFromRight(84));
@@ -309,7 +314,7 @@ void MaterialsTab::resized() {
     const int each = (row.getWidth() - gap) / 2;
     place(spotXName_, spotX_, 12, each);
     place(spotYName_, spotY_, 12, row.getWidth());
-    area.removeFromTop(6);
+    area.removeFromTop(between);
     if (area.getHeight() >= 150) {
         spectrum_.setBounds(area.removeFromTop((area.getHeight() - 6) / 2));
         area.removeFromTop(6);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The materials of the scene: frequency and decay to be set, measured from a recording that is dropped here, and felt at a spot
-// of the field.
+// of the field; the grains of their surfaces.
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Mixer/Materials/HitPlots.h"
+#include "Mixer/Materials/TextureRow.h"
 #include "Mixer/Window/TabPanel.h"
 #include <deque>
 #include <map>
@@ -70,6 +71,7 @@ private:
     int chosenIndex() const;
     void prepareSlider(RatioSlider& slider, const juce::String& title, double least, double low, double high, double most);
     void setSound(bool isFrequency, bool goesOn);
+    void setTexture(const Texture& texture, const juce::String& what, bool goesOn);
     void setDropping(bool isDropping);
     void typeFrequency();
     void showChosen();
@@ -90,6 +92,7 @@ private:
     Rows rows_{*this};
     juce::ListBox list_{"Materials", &rows_};
     RatioSlider frequency_, decay_;
+    TextureRow texture_;
     juce::Slider spotX_, spotY_;
     juce::Label frequencyName_, decayName_, spotXName_, spotYName_;
     juce::TextButton feel_{juce::String::fromUTF8("Feel it \xe2\x96\xb8")};

@@ -107,9 +107,10 @@ void onSlide(juce::Slider& slider, std::function<void(bool)> use) {
 void prepareControls(juce::Component& root) {
     auto* slider = dynamic_cast<juce::Slider*>(&root);
     if (slider != nullptr) slider->setWantsKeyboardFocus(true);
-    const bool isControl = slider != nullptr || root.getWantsKeyboardFocus() || dynamic_cast<juce::Button*>(&root) != nullptr;
+    const bool isBox = dynamic_cast<juce::ComboBox*>(&root) != nullptr; // also one that is disabled now, and wants no focus
+    const bool isControl = slider != nullptr || isBox || root.getWantsKeyboardFocus() || dynamic_cast<juce::Button*>(&root) != nullptr;
     if (isControl && root.getParentComponent() != nullptr) root.setHasFocusOutline(true);
-    if (slider == nullptr && dynamic_cast<juce::ComboBox*>(&root) == nullptr) // their parts are theirs
+    if (slider == nullptr && !isBox) // their parts are theirs
         for (auto* child : root.getChildren()) prepareControls(*child);
 }
 

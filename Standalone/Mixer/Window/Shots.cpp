@@ -2,7 +2,9 @@
 // States are reached as a person would reach them, with a clock instead of a device.
 #include "Mixer/Window/Shots.h"
 #include "Files/Disk/AtomicFile.h"
+#include "Files/SceneCatalogue.h"
 #include "Mixer/Materials/MaterialShots.h"
+#include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
 #include "Mixer/Studies/StudyShots.h"
@@ -36,6 +38,18 @@ juce::Component* find(juce::Component& root, const juce::String& title) {
     return nullptr;
 }
 
+void showScene(Desk& desk, const char* name) {
+    desk.change("Scene", [name](Mix& m) { m.scene = std::make_shared<const Scene>(*findBuiltInScene(name)), m.levelDb = -3.0; });
+}
+
+void showSurface(Desk& desk, MixerView& view, const std::string& material) {
+    desk.dispatchPendingMessages();
+    view.tabs().choose("Materials");
+    const auto& materials = desk.sceneNow().materials;
+    if (auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials")))
+        tab->choose(static_cast<int>(std::ranges::find(materials, material, &Material::name) - materials.begin()));
+}
+
 std::vector<State> mixerStates() {
     return {
         {"first-start", 1440, 900, 2.0, [](Desk&, MixerView& v) { v.setHint(true); }},
@@ -43,6 +57,8 @@ std::vector<State> mixerStates() {
         {"materials", 1440, 900, 0.2, showMaterials},
         {"materials-small", MixerView::leastWidth, MixerView::leastHeight, 0.2, [](Desk& d, MixerView& v) { v.setGround(Ground::light), showMaterials(d, v); }},
         {"events", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Events"); }},
+        {"marbles", 1440, 900, 4.0, [](Desk& d, MixerView& v) { showScene(d, "marbles"), v.scope().choose("Events"); }},
+        {"drawing", 1440, 900, 7.2, [](Desk& d, MixerView& v) { showScene(d, "drawing"), showSurface(d, v, "cloth"); }},
         {"telemetry", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Telemetry"); }},
         {"output", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }},
         {"board", 1440, 900, 4.5, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }, "/dev/ttyACM0"},

@@ -10,6 +10,8 @@ namespace physvib {
 namespace {
 
 constexpr double tellMs = 900.0; // a sentence stays at least so long, unless a stronger hit comes
+constexpr double handMs = 10.0;  // between inputs of a hand that holds; mice tell of themselves up to a thousand times a second
+constexpr double handSeconds = 0.02; // for each way: the next input comes before it has ended, and the hand does not stop between
 constexpr int lawNeeds = 700; // pixels of the panel; else there is no room for what the tab says as well
 const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
 const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
@@ -21,6 +23,8 @@ WorldPanel::WorldPanel(Desk& desk)
     setTitle("World");
     setWantsKeyboardFocus(true);
     view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) { pull(body, screenMetres, point); };
+    view_.onHold = [this](const std::string& body, Vector point, Vector to) { hold(body, point, to); };
+    view_.onLetGo = [this](const std::string& body) { letGo(body); };
     view_.pullText = [this](double screenMetres) { return "drag " + number(1e-3 * desk_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " + kiloNewtonSeconds; };
     view_.onAttach = [this](FieldShare at) { desk_.attach(at.x, at.y); };
     view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
@@ -116,7 +120,7 @@ bool WorldPanel::keyStateChanged(bool isDown) {
 
 void WorldPanel::mouseDrag(const juce::MouseEvent& e) {
     const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x;
-    if (player_ && player_->moves() && e.eventComponent == &view_) pointed_ = desk_.sceneNow().fieldWidthMetres * static_cast<double>((e.position.x - left) / (right - left));
+    if (player_ && player_->moves() && e.eventComponent == &view_ && !view_.isHolding()) pointed_ = desk_.sceneNow().fieldWidthMetres * static_cast<double>((e.position.x - left) / (right - left));
 }
 
 void WorldPanel::mouseUp(const juce::MouseEvent&) {
@@ -144,6 +148,22 @@ void WorldPanel::pull(const std::string& body, Vector screenMetres, Vector point
     if (!fault.empty()) desk_.report(utf8(fault));
 }
 
+void WorldPanel::hold(const std::string& body, Vector point, Vector to) {
+    hand_ = GripAction{body, to, point, handSeconds};
+    moveHand();
+}
+
+void WorldPanel::letGo(const std::string& body) {
+    hand_.reset();
+    if (const auto fault = desk_.act(GripAction{body, {}, {}}); !fault.empty()) desk_.report(utf8(fault));
+}
+
+void WorldPanel::moveHand() {
+    if (!hand_ || nowMs() - handAtMs_ < handMs) return;
+    handAtMs_ = nowMs();
+    if (const auto fault = desk_.act(*std::exchange(hand_, {})); !fault.empty()) desk_.report(utf8(fault));
+}
+
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = desk_.sceneNow();
     return materialName(scene, hit) + dot + number(hit.frequencyHz, 0) + " Hz" + dot + juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
@@ -159,6 +179,7 @@ void WorldPanel::refresh(const DeskMoment& moment) {
             sentence_.setText(sentenceOn(hit), juce::dontSendNotification);
         }
     lookAfterPlayer();
+    moveHand();
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits, std::span{moment.meters.peaks}.first(static_cast<std::size_t>(desk_.mix().count()))});
 }
 

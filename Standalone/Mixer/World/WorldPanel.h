@@ -31,6 +31,9 @@ public:
 
 private:
     void pull(const std::string& body, Vector screenMetres, Vector point);
+    void hold(const std::string& body, Vector point, Vector to);
+    void letGo(const std::string& body);
+    void moveHand();
     void showMenu(const std::string& body, FieldShare at);
     void addBody(FieldShare at, int material, bool isBox);
     void edit(const juce::String& name, const Action& action);
@@ -48,6 +51,8 @@ private:
     std::optional<double> pointed_;     // where in the field the mouse holds, m
     std::vector<Action> first_;         // what takes over from the script, until the world has begun anew
     std::size_t takesBefore_ = 0;       // of the session, when it took over
+    std::optional<GripAction> hand_;    // where it is since moveHand() has last told
+    double handAtMs_ = 0.0;
     bool isMoving_ = false; // a badge, since the mouse was pressed
     double hitAtMs_ = 0.0;
     CollisionEvent told_;

@@ -37,11 +37,12 @@ public:
         timeMs_ += 1000;
         release(placeOf(c, inIt));
     }
-    void drag(juce::Point<float> from, juce::Point<float> to) {
-        send(from, 0);
-        press(from);
-        for (int k = 1; k <= 10; ++k) move(from + (to - from) * (static_cast<float>(k) / 10.0f), juce::ModifierKeys::leftButtonModifier);
-        release(to);
+    void drag(juce::Point<float> from, juce::Point<float> to, int keys = 0) {
+        const int pressed = juce::ModifierKeys::leftButtonModifier | keys;
+        send(from, keys);
+        send(from, pressed);
+        for (int k = 1; k <= 10; ++k) move(from + (to - from) * (static_cast<float>(k) / 10.0f), pressed);
+        send(to, keys);
     }
     void key(int code, int modifiers = 0) {
         window_.getPeer()->handleKeyPress(juce::KeyPress{code, modifiers, 0});
@@ -52,6 +53,7 @@ public:
 
 private:
     void send(juce::Point<float> at, int buttons) {
+        juce::ModifierKeys::currentModifiers = juce::ModifierKeys{buttons}.withoutMouseButtons(); // keys are told apart from the mouse
         timeMs_ = std::max(timeMs_ + 20, juce::Time::currentTimeMillis()); // not behind what JUCE itself tells of the mouse
         window_.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at, juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
         runFor(0.03);
@@ -98,6 +100,37 @@ TEST(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindows
     }
 }
 
+TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    Hand hand{window};
+    auto& view = window.view().world().view();
+    ASSERT_TRUE(runUntil([&] { return window.desk().look().session.sessionNs > 500'000'000; }));
+    window.desk().setSlowness(0);
+    runFor(0.3);
+    const auto ball = view.placeOfBody("large rubber ball");
+    ASSERT_TRUE(view.getLocalBounds().toFloat().contains(ball));
+    const auto to = ball + juce::Point<float>{-80.0f, 30.0f};
+    hand.drag(hand.placeOf(view, ball + juce::Point<float>{5.0f, 0.0f}), hand.placeOf(view, to), juce::ModifierKeys::shiftModifier);
+    const auto inputs = window.desk().saved().log.takes.back().inputs;
+    ASSERT_GE(inputs.size(), 3u);
+    const Scene& scene = window.desk().sceneNow();
+    const auto left = view.placeOfShare({0.0, 0.0}), right = view.placeOfShare({1.0, 1.0});
+    for (std::size_t i = 0; i + 1 < inputs.size(); ++i) {
+        const auto& grip = std::get<GripAction>(inputs[i].action);
+        EXPECT_EQ(grip.body, "large rubber ball");
+        ASSERT_TRUE(grip.toMetres && grip.pointMetres) << i << " of " << inputs.size();
+        EXPECT_NEAR(std::hypot(grip.pointMetres->x, grip.pointMetres->y), 5.0 / static_cast<double>(right.x - left.x) * scene.fieldWidthMetres, 0.001) << "where it was taken, turned with the ball";
+        EXPECT_GT(grip.overSeconds, 0.0);
+    }
+    const auto& last = std::get<GripAction>(inputs[inputs.size() - 2].action);
+    EXPECT_NEAR(last.toMetres->x, static_cast<double>((to.x - left.x) / (right.x - left.x)) * scene.fieldWidthMetres, 0.01) << "the last place is told";
+    EXPECT_NEAR(last.toMetres->y, static_cast<double>((left.y - to.y) / (left.y - right.y)) * scene.fieldHeightMetres, 0.01);
+    EXPECT_FALSE(std::get<GripAction>(inputs.back().action).toMetres.has_value()) << "let go";
+    EXPECT_FALSE(view.isHolding());
+    EXPECT_TRUE(window.desk().trouble().isEmpty()) << window.desk().trouble();
+}
+
 TEST(Window, APersonsWayThroughTheMixer) {
     TestFolder folder;
     juce::File wav;
@@ -113,7 +146,6 @@ TEST(Window, APersonsWayThroughTheMixer) {
         const auto ball = view.placeOfBody("large rubber ball");
         ASSERT_TRUE(view.getLocalBounds().toFloat().contains(ball));
         hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{60.0f, -40.0f}));
-        window.desk().setSlowness(1);
         const auto& pulls = window.desk().saved().log.takes.back().inputs;
         ASSERT_EQ(pulls.size(), 1u);
         const auto& pull = std::get<ImpulseAction>(pulls[0].action);
@@ -121,6 +153,9 @@ TEST(Window, APersonsWayThroughTheMixer) {
         EXPECT_GT(pull.newtonSeconds.x, 0.0);
         EXPECT_GT(pull.newtonSeconds.y, 0.0);
         EXPECT_TRUE(window.isChanged());
+        window.desk().setSlowness(1);
+        hand.drag(hand.placeOf(view, view.placeOfBody("large rubber ball")), hand.placeOf(view, view.placeOfShare({0.8, 0.5})), juce::ModifierKeys::shiftModifier);
+        EXPECT_TRUE(std::holds_alternative<GripAction>(window.desk().saved().log.takes.back().inputs.back().action)) << "what is held renders again to the bit as well";
 
         auto* place = find(window.view(), "Attach an enchanter");
         ASSERT_NE(place, nullptr);
