@@ -224,7 +224,7 @@ void WorldView::take(const CollisionEvent& event, double nowMs) {
     const auto last = std::find_if(traces_.rbegin(), traces_.rend(), isSamePair);
     const Vector here{event.x, event.y};
     if (last == traces_.rend() || last->shownAtMs != nowMs) return traces_.push_back({event.source, last == traces_.rend() ? here : last->toMetres, here, event.amplitude, colourOf(event), nowMs});
-    last->toMetres = here;
+    last->toMetres = {0.5 * (last->toMetres.x + here.x), 0.5 * (last->toMetres.y + here.y)}; // between the points of what has two
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
 }
 
