@@ -34,7 +34,7 @@ TextureRow::TextureRow() {
     prepare(rolling_, "Rolling", "How much of it is felt of what rolls; what slides is felt whole");
     grain_.setNormalisableRange(feltRangeWithZero(Texture::finestMetres, lowGrainMetres, highGrainMetres, Texture::coarsestMetres));
     roughness_.setNormalisableRange(feltRangeWithZero(leastRoughness, lowRoughness, highRoughness, Texture::mostRoughness));
-    rolling_.setRange(0.0, 1.0, 0.01);
+    rolling_.setRange(0.0, 1.0);
     roughness_.setDoubleClickReturnValue(true, Texture{}.roughness);
     grain_.textFromValueFunction = grainText;
     grain_.valueFromTextFunction = grainOf;
