@@ -11,6 +11,7 @@ CollisionCatcher::CollisionCatcher(const FixtureTable& table, ContactGraph& grap
     blows_.reserve(maxDirectBlows + maxDistantBlows);
     ends_.reserve(maxDirectBlows + maxDistantBlows);
     last_.reserve(maxDirectBlows + maxDistantBlows);
+    struck_.reserve(2 * (maxDirectBlows + maxDistantBlows));
 }
 
 void CollisionCatcher::beginStep(const StepSpan& span) noexcept {
@@ -26,10 +27,16 @@ void CollisionCatcher::settle() {
 void CollisionCatcher::endStep() {
     for (const Aftermath& last : last_) pairs_[last.pair].last = TouchingPairs::none;
     last_.clear();
+    for (const std::uint64_t fixture : struck_) struckNames_.remove(fixture);
+    struck_.clear();
     for (const Blow& blow : blows_) {
         pairs_[blow.pair].blow = TouchingPairs::none;
         pairs_[blow.pair].last = static_cast<std::int32_t>(last_.size());
         last_.push_back({blow.pair, {}});
+        for (const std::int32_t slot : {blow.a, blow.b}) {
+            struck_.push_back(table_[slot].fixture);
+            struckNames_.add(struck_.back());
+        }
     }
     loads_.endStep(graph_);
     pairs_.endStep(graph_);

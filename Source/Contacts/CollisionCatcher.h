@@ -5,6 +5,7 @@
 #include "Contacts/ContactGraph.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
+#include "Contacts/NameSketch.h"
 #include "Contacts/TouchingPairs.h"
 #include <cstddef>
 #include <cstdint>
@@ -78,6 +79,12 @@ public:
         return isFelt(pair.a, pair.b) || pairs_[pair.number].last != TouchingPairs::none;
     }
 
+    /// Whether it may matter, by the engine's names of the two fixtures: false is certain, and spares most contacts of a
+    /// world with few cameras the search for their pair.
+    bool mayBeHeard(std::uint64_t a, std::uint64_t b) const noexcept {
+        return table_.mayBeCamera(a) || table_.mayBeCamera(b) || (struckNames_.mayHave(a) && struckNames_.mayHave(b));
+    }
+
     /// What parts of a heard pair that are no blow have pushed b by, and a by its opposite, N s in the world.
     void push(const TouchingPairs::Name& pair, Vector2 newtonSeconds, Vector2 point);
 
@@ -106,6 +113,8 @@ private:
     std::vector<Blow> blows_; // of the present step
     std::vector<ContactEnd> ends_;
     std::vector<Aftermath> last_;
+    std::vector<std::uint64_t> struck_; // the engine's names, of the blows of the last step
+    NameSketch struckNames_;
     std::size_t directBlows_ = 0;
     std::int32_t order_ = 0;
     bool isStepping_ = false, hasHeard_ = false;

@@ -65,9 +65,9 @@ void FixtureTable::unset(std::int32_t slot) {
 void FixtureTable::release(std::int32_t slot) {
     lose(slot);
     slots_.erase(at(slot).fixture);
+    noteCamera(slot, false);
     at(slot) = {};
     noteBody(slot, {});
-    noteCamera(slot, false);
     isRough_[static_cast<std::size_t>(slot)] = 0;
     free_.push_back(slot);
 }
@@ -79,8 +79,13 @@ void FixtureTable::noteBody(std::int32_t slot, const BodyFacts& body) noexcept {
 
 void FixtureTable::noteCamera(std::int32_t slot, bool isCamera) noexcept {
     std::uint8_t& flag = isCamera_[static_cast<std::size_t>(slot)];
-    cameras_ += (isCamera ? 1 : 0) - flag;
+    if (isCamera == (flag != 0)) return;
     flag = isCamera ? 1 : 0;
+    cameras_ += isCamera ? 1 : -1;
+    if (isCamera)
+        cameraNames_.add(at(slot).fixture);
+    else
+        cameraNames_.remove(at(slot).fixture);
 }
 
 // What the slot has been given so far counts no more.

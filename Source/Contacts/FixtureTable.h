@@ -4,6 +4,7 @@
 #include "Contacts/BodyReader.h"
 #include "Contacts/HapticFixture.h"
 #include "Contacts/IntegerMap.h"
+#include "Contacts/NameSketch.h"
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -57,6 +58,8 @@ public:
         return known_[static_cast<std::size_t>(slot)];
     }
     bool isCamera(std::int32_t slot) const noexcept { return isCamera_[static_cast<std::size_t>(slot)] != 0; }
+    /// By the engine's name, without a search: false is certain.
+    bool mayBeCamera(std::uint64_t fixture) const noexcept { return cameraNames_.mayHave(fixture); }
     bool isRough(std::int32_t slot) const noexcept { return isRough_[static_cast<std::size_t>(slot)] != 0; }
 
     /// Two numbers of its KnownFixture.
@@ -85,6 +88,7 @@ private:
     std::vector<Mobility> mobility_;
     std::vector<std::uint8_t> isRough_;
     std::int32_t cameras_ = 0;
+    NameSketch cameraNames_;
     std::vector<std::int32_t> free_;
     IntegerMap slots_;   // by the engine's name of the fixture
     IntegerMap slotOfId_; // by id + 1

@@ -169,6 +169,7 @@ double BlowFinder::fractionOf(const b2Contact& contact) const noexcept {
 void BlowFinder::push(const b2Contact& contact, const b2ContactImpulse& impulse) {
     const unsigned fresh = fresh_.solved(contact); // old from the next step on
     if (!events_.catcher().isHearing()) return;
+    if (fresh == 0 && !events_.catcher().mayBeHeard(nameOf(*contact.GetFixtureA()), nameOf(*contact.GetFixtureB()))) return;
     Known* const known = find(contact);
     if (known == nullptr) return;
     const Pair& pair = pairOf(*known);
