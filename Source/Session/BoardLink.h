@@ -12,6 +12,7 @@
 #include "Wire/FrameDecoder.h"
 #include "Wire/LinkClock.h"
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -50,6 +51,10 @@ public:
     ~BoardLink();
     BoardLink(const BoardLink&) = delete;
     BoardLink& operator=(const BoardLink&) = delete;
+
+    /// Waits until the board is ready and has told how it does; empty, or why not. A port that could never be opened is
+    /// not waited for long, a board that starts is. Any thread but L.
+    std::string awaitReady(const std::function<bool()>& goesOn) const;
 
     /// The clock of BoardStrike::onsetNs. Any thread.
     static std::int64_t nowNs() noexcept;

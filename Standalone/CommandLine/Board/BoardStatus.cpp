@@ -5,25 +5,9 @@
 #include <iostream>
 
 namespace physvib {
-namespace {
-
-using State = BoardLinkStatus::State;
-
-std::string troubleOf(const BoardLinkStatus& status, const std::string& otherwise) { return status.trouble.empty() ? otherwise : status.trouble; }
-
-} // namespace
 
 std::string connectBoard(const BoardLink& link) {
-    const std::int64_t patience = BoardLink::nowNs() + 2'000'000'000;
-    bool isReady = false;
-    waitFor(
-        [&] {
-            const BoardLinkStatus s = link.status();
-            isReady = s.state == State::ready && s.telemetry.good > 0;
-            return isReady || (s.port.empty() && !s.trouble.empty() && BoardLink::nowNs() > patience);
-        },
-        20'000);
-    return isReady ? "" : troubleOf(link.status(), "no board answers");
+    return link.awaitReady([] { return !interrupted; });
 }
 
 void printBoardInfo(const BoardLinkStatus& s) {
@@ -42,7 +26,8 @@ std::string reportBoard(const BoardLink& link, const wire::Telemetry& before) {
     std::cout << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call; " << s.sent << " strikes sent, " << s.thinned << " thinned, " << s.refused
               << " refused; the board played " << s.telemetry.played - before.played << ", " << s.telemetry.late - before.late << " late, " << s.telemetry.dropped - before.dropped
               << " dropped, " << s.telemetry.lost << " lost\n";
-    return s.state == State::ready ? "" : troubleOf(s, "the board is gone");
+    if (s.state == BoardLinkStatus::State::ready) return {};
+    return s.trouble.empty() ? "the board is gone" : s.trouble;
 }
 
 } // namespace physvib

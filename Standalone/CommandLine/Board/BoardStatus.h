@@ -21,8 +21,7 @@ bool waitFor(Condition isTrue, int milliseconds) {
 /// The port of the option: a path, or "auto".
 inline std::string boardPort(const std::string& option) { return option == "auto" ? "" : option; }
 
-/// Waits until the board is ready and has told how it does; empty, or why not. A port that could never be opened is
-/// not waited for long, a board that starts is.
+/// BoardLink::awaitReady, until the user interrupts.
 std::string connectBoard(const BoardLink& link);
 
 void printBoardInfo(const BoardLinkStatus& status);
