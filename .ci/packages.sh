@@ -5,7 +5,7 @@
 physvib_run_packages="g++ cmake ninja-build ccache juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev fonts-dejavu-core \
     libgtest-dev libbenchmark-dev libhwy-dev libeigen3-dev libboost-dev pkg-config libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang libclang-rt-14-dev \
-    python3-numpy luajit love mono-mcs libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
+    python3-numpy luajit love mono-mcs doxygen libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 
 say() { printf 'physvib: %s\n' "$*" >&2; }

@@ -14,7 +14,8 @@ namespace physvib {
 /// Two bodies touch. Either the impulse is told, or how fast they near each other; if both are, the impulse counts (unless contacts
 /// are soft), and the speed says whether it is a blow at all, and when. With neither, the speed is that of the motions told.
 struct FedContact {
-    std::int32_t a = -1, b = -1; ///< bodies
+    std::int32_t a = -1;         ///< a body
+    std::int32_t b = -1;         ///< the other
     Vector2 point;               ///< m, in the plane of the field
     Vector2 normal{0.0F, 1.0F};  ///< of length 1, from a to b
     std::optional<double> impulseNewtonSeconds; ///< along the normal, in this step
@@ -26,7 +27,7 @@ struct FedContact {
     /// When they touched, in steps after the start of this one: -1 (start of the step before) to 1. If it is not told, it follows from
     /// the gap between the surfaces (m, less than 0: they overlap) at the moment when the engine looked, and from the speed.
     std::optional<double> fraction;
-    double gapMetres = 0.0;
+    double gapMetres = 0.0; ///< between the surfaces; below 0: they overlap
     double gapFraction = 0.0; ///< that moment in steps: 0 (before bodies are moved) to 1 (after)
 
     /// Of an engine whose contacts take several steps to turn a body round, or push overlaps apart: what it pushes in a step is no
@@ -35,7 +36,7 @@ struct FedContact {
 
     /// Of what goes on touching a rough surface (HapticFixture::texture), with its impulse: how fast the point of contact moves along
     /// each of the two surfaces, m/s. Rolling: both alike; sliding: 0 along what drags its own point. Both, or it is not felt.
-    std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond;
+    std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond; ///< each along its own surface; nullopt: unknown
 };
 
 /// The catcher for engines that we do not know; bodies are numbers (>= 0), and stand in events as such. Each step: beginStep,
@@ -52,7 +53,7 @@ public:
 
     /// Takes effect with the next step. Throws as the constructor does.
     void configure(const ImpactSettings& settings);
-    const ImpactSettings& settings() const noexcept { return events_.settings(); }
+    const ImpactSettings& settings() const noexcept { return events_.settings(); } ///< Any thread but while it is stepped.
 
     /// A body, at first or again. What is wrong with it; empty: it is set. Each of the following says so.
     std::string_view set(std::int32_t id, const FedBody& body, const HapticFixture& values);
@@ -63,7 +64,7 @@ public:
     /// A body that goes: what it felt and gave so far stays, or not (ImpactSettings::keepsHitsOfDestroyed). Not within a step.
     std::string_view remove(std::int32_t id);
 
-    std::string_view setPair(int surface, int other, const PairSound& sound) { return events_.setPair(surface, other, sound); }
+    std::string_view setPair(int surface, int other, const PairSound& sound) { return events_.setPair(surface, other, sound); } ///< Empty, or what is wrong with it: see PairSounds.
 
     /// The step ends at `endNs` (not before timeNs()); gravity, m/s^2, says what a resting body is pushed by.
     std::string_view beginStep(std::int64_t endNs, double gravityMetresPerSecond2);
@@ -76,18 +77,18 @@ public:
     std::string_view begin(const FedContact& contact);
     /// What a pair that goes on touching pushes in this step: how blows are handed on.
     std::string_view push(const FedContact& contact);
-    std::string_view end(std::int32_t a, std::int32_t b);
+    std::string_view end(std::int32_t a, std::int32_t b); ///< A pair has parted.
 
-    std::string_view endStep();
+    std::string_view endStep(); ///< All that touches has been told.
 
-    std::int64_t timeNs() const noexcept { return events_.timeNs(); }
-    std::int64_t settledNs() const noexcept { return events_.settledNs(); }
-    void take(std::vector<CollisionEvent>& events) { events_.take(events); }
-    void flush(std::vector<CollisionEvent>& events) { events_.flush(events); }
-    std::uint64_t drops() const noexcept { return events_.drops(); }
-    std::uint64_t overBudget() const noexcept { return events_.overBudget(); }
-    std::uint64_t thinned() const noexcept { return events_.thinned(); }
-    const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }
+    std::int64_t timeNs() const noexcept { return events_.timeNs(); } ///< After the steps done.
+    std::int64_t settledNs() const noexcept { return events_.settledNs(); } ///< No event before it is still to come.
+    void take(std::vector<CollisionEvent>& events) { events_.take(events); } ///< Those before settledNs(), in time order, to the end of `events`.
+    void flush(std::vector<CollisionEvent>& events) { events_.flush(events); } ///< All of them.
+    std::uint64_t drops() const noexcept { return events_.drops(); } ///< Hits lost because more came in a step than there is room for.
+    std::uint64_t overBudget() const noexcept { return events_.overBudget(); } ///< Hits left out by ImpactSettings::hitsPerStep.
+    std::uint64_t thinned() const noexcept { return events_.thinned(); } ///< Grains left out, their power being in the others.
+    const ImpactModel& impactModel() const noexcept { return events_.impactModel(); } ///< How hard a hit is felt.
 
 private:
     struct Pair {

@@ -14,7 +14,7 @@ namespace physvib {
 /// A mode that sounds together with a first one.
 struct Overtone {
     double frequencyHz = 0.0; ///< 0: none
-    double decayPerSecond = 0.0;
+    double decayPerSecond = 0.0; ///< of this mode
     double relativeAmplitude = 1.0; ///< to the first mode's
 };
 using Overtones = std::array<Overtone, 3>; ///< more of them, struck at once, are felt as one anyway
@@ -22,11 +22,11 @@ using Overtones = std::array<Overtone, 3>; ///< more of them, struck at once, ar
 /// Contact sound and camera flag of one fixture. The engine's user data stay the user's.
 struct HapticFixture {
     double frequencyHz = 0.0; ///< 0: silent, but felt by what it strikes
-    double decayPerSecond = 0.0;
-    bool isCamera = false;
+    double decayPerSecond = 0.0; ///< of its vibration
+    bool isCamera = false; ///< its collisions are felt
     double staticMassKg = 0.0; ///< mass for Eq. 5.4 if the body is not dynamic; a dynamic body has its own
     Voice voice = Voice::own;  ///< of a camera; without a partner that sounds: own
-    Overtones overtones{};
+    Overtones overtones{}; ///< further modes
     int surface = 0;           ///< its kind, for sounds of pairs (see PairSounds); 0: none
     double gain = 1.0;         ///< of what it sends out as a camera; 0: muted, and it may be felt again at any time
     Texture texture{};         ///< for what rolls and slides along it
@@ -53,7 +53,7 @@ inline std::string_view faultOf(const HapticFixture& values) noexcept {
 struct SetResult {
     std::int32_t id = -1;     ///< of the fixture in events; -1: refused, and nothing has changed
     std::string_view refusal; ///< why; empty: they are set
-    explicit operator bool() const noexcept { return refusal.empty(); }
+    explicit operator bool() const noexcept { return refusal.empty(); } ///< Done.
 };
 
 } // namespace physvib

@@ -21,8 +21,8 @@ struct ImpactSettings {
     std::optional<double> normalisation{}; ///< A* in s/m, instead of Eq. 5.7's
     std::optional<double> handMassKg{};    ///< m_h, instead of the largest mass in the world (Eq. 5.7); a camera may have its own
     double driveGain = 1.0;              ///< on top of Eq. 5.4, which leaves most hits far below full scale
-    ImpactTiming timing = ImpactTiming::onset;
-    ImpactLocation location = ImpactLocation::contact;
+    ImpactTiming timing = ImpactTiming::onset; ///< when, and how hard, a hit is
+    ImpactLocation location = ImpactLocation::contact; ///< where it is felt
 
     /// Hits that change the velocity of the lighter body by less than this are no strikes, nor are those of surfaces
     /// that near each other at less than two thirds of it: 0.15 m/s is a landing from about a millimetre. Never less

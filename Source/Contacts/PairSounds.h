@@ -12,8 +12,8 @@ namespace physvib {
 /// What a camera sends out when a fixture of another kind strikes it, whatever its voice is.
 struct PairSound {
     double frequencyHz = 0.0; ///< 0: silent
-    double decayPerSecond = 0.0;
-    Overtones overtones{};
+    double decayPerSecond = 0.0; ///< of that mode
+    Overtones overtones{}; ///< further modes
     double gain = 1.0; ///< on top of the camera's
 };
 

@@ -11,16 +11,16 @@ enum class GrainPattern { random, regular };
 
 /// Grains of a surface. What passes one gives a small blow to both bodies, and their cameras feel it as any other.
 struct Texture {
-    static constexpr double finestMetres = 1.0e-5;
-    static constexpr double coarsestMetres = 10.0;
-    static constexpr double mostRoughness = 1000.0;
+    static constexpr double finestMetres = 1.0e-5; ///< between grains
+    static constexpr double coarsestMetres = 10.0; ///< between grains
+    static constexpr double mostRoughness = 1000.0; ///< of `roughness`
 
     double grainMetres = 0.0; ///< mean spacing; 0, or finer than finestMetres: smooth, and silent
     double roughness = 1.0;   ///< strength, see grainImpulse()
-    GrainPattern pattern = GrainPattern::random;
+    GrainPattern pattern = GrainPattern::random; ///< how they lie
     double rolling = 0.2; ///< share that is felt of what rolls; 1: as much as of what slides
 
-    bool isRough() const noexcept { return grainMetres >= finestMetres && roughness > 0.0; }
+    bool isRough() const noexcept { return grainMetres >= finestMetres && roughness > 0.0; } ///< Something is felt of it.
 };
 
 /// N s that one grain gives, for a load in N and the speed in m/s at which it is passed: it lifts the mass that presses

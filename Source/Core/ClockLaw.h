@@ -10,9 +10,9 @@ namespace physvib {
 
 /// What the play-out delay L has to cover.
 struct ClockLaw {
-    int sampleRateHz = 48000;
+    int sampleRateHz = 48000; ///< of the device
     int blockFrames = 512;             ///< the largest block
-    int stepsPerSecond = 100;
+    int stepsPerSecond = 100; ///< of the world
     double longestGapSeconds = 0.0;    ///< between two calls of the driver that are still in time
     int limiterFrames = 0;             ///< the renderer's own latency, part of L
     double boardSeconds = 0.0;         ///< how long before it is felt a board beside the renderer has to know an event
@@ -33,8 +33,8 @@ struct ClockLaw {
     std::int64_t longestLagNs() const noexcept {
         return safeLagNs() + static_cast<std::int64_t>(1e9 * blockFrames / sampleRateHz);
     }
-    double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; }
-    std::int64_t framesUp(double seconds) const noexcept { return static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999); }
+    double playOutSeconds() const noexcept { return static_cast<double>(playOutFrames()) / sampleRateHz; } ///< L.
+    std::int64_t framesUp(double seconds) const noexcept { return static_cast<std::int64_t>(seconds * sampleRateHz + 0.999999); } ///< Any thread.
 };
 
 /// How long a driver may be silent and still be in time, as measured: a JUCE timer of 10 ms under load waits up to

@@ -15,10 +15,10 @@ enum class ContactKind : std::uint8_t { hit, roll, slide };
 struct CollisionSource {
     std::int32_t fixture = -1; ///< camera-focused fixture that vibrates; -1: unknown
     std::int32_t other = -1;   ///< the fixture it collided with; -1: unknown
-    double impulseNewtonSeconds = 0.0;
+    double impulseNewtonSeconds = 0.0; ///< 0: unknown
     double massKg = 0.0; ///< of the body that carries `fixture`
-    ContactKind kind = ContactKind::hit;
-    bool operator==(const CollisionSource&) const = default;
+    ContactKind kind = ContactKind::hit; ///< hit, or grain
+    bool operator==(const CollisionSource&) const = default; ///< Member by member.
 };
 
 /// By what a strike differs from a hit: it may go somewhere, be spread in its own way, and be the rest of a longer tone.
@@ -33,15 +33,15 @@ struct StrikeCourse {
 /// x(t) = amplitude sin(2 pi frequencyHz t) exp(-decayPerSecond t), t = time since `timeNs` (Eq. 5.1).
 struct CollisionEvent {
     std::int64_t timeNs = 0; ///< onset, nanoseconds since the session began; between frames as a rule
-    double frequencyHz = 0.0;
-    double decayPerSecond = 0.0;
+    double frequencyHz = 0.0; ///< above 0, to limits::maxFrequencyHz
+    double decayPerSecond = 0.0; ///< 0 to limits::maxDecayPerSecond; 0 needs a duration
     double amplitude = 0.0; ///< 1 = full scale of an enchanter
     double x = 0.0;         ///< place of the hit in metres of the field, origin lower left
-    double y = 0.0;
+    double y = 0.0; ///< upwards
     std::int64_t durationNs = 0; ///< 0: until it has decayed; else the vibration is cut after this time
-    CollisionSource source;
+    CollisionSource source; ///< whom it came of
     StrikeCourse course{}; ///< of what is struck apart from a world
-    bool operator==(const CollisionEvent&) const = default;
+    bool operator==(const CollisionEvent&) const = default; ///< Member by member.
 };
 
 /// True if the event can be played: finite, inside `limits`, and sure to end (a decay or a duration). Any thread.

@@ -9,16 +9,16 @@ namespace physvib {
 
 /// One enchanter's place on the layout, metres from its lower left corner.
 struct EnchanterPlace {
-    double xMetres = 0.0;
-    double yMetres = 0.0;
+    double xMetres = 0.0; ///< from the left
+    double yMetres = 0.0; ///< from below
 };
 
 /// Places of the enchanters, in channel order; the field of the world is mapped onto `extent`.
 struct EnchanterLayout {
-    double extentWidthMetres = 0.0;
-    double extentHeightMetres = 0.0;
+    double extentWidthMetres = 0.0; ///< above 0
+    double extentHeightMetres = 0.0; ///< above 0
     int count = 0; ///< 1 to limits::maxEnchanters; channel j is places[j]
-    std::array<EnchanterPlace, limits::maxEnchanters> places{};
+    std::array<EnchanterPlace, limits::maxEnchanters> places{}; ///< the first `count` of them
 };
 
 /// True if the layout can be panned over: count in range, extent positive, everything finite. Any thread.

@@ -29,7 +29,7 @@ namespace physvib {
 template <class Profile>
 class HapticRenderer {
 public:
-    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(Profile::playedQueueSize)>;
+    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(Profile::playedQueueSize)>; ///< What was played, and when.
 
     /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most Profile::maxChannels outputs:
     /// then render writes zeros, takes no events and moves nowhere, as before the first call. M, not while rendering.
@@ -56,7 +56,7 @@ public:
 
     /// Frames by which the output lags the event times (the limiter's look-ahead). Any thread after prepare.
     int latencyFrames() const noexcept { return limiter_.latencyFrames(); }
-    static int latencyFramesAt(int sampleRateHz) noexcept { return LinkedLimiter<Profile>::latencyFramesAt(sampleRateHz); }
+    static int latencyFramesAt(int sampleRateHz) noexcept { return LinkedLimiter<Profile>::latencyFramesAt(sampleRateHz); } ///< Any thread.
 
     /// R only.
     RenderStatus status() const noexcept;

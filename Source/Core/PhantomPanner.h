@@ -25,7 +25,7 @@ bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept;
 /// Gains of one layout. Formulas for every arrangement stand in Docs/panning.md.
 class PhantomPanner {
 public:
-    using Gains = std::array<double, limits::maxEnchanters>;
+    using Gains = std::array<double, limits::maxEnchanters>; ///< One per enchanter.
 
     PhantomPanner() = default;
 
@@ -39,14 +39,14 @@ public:
     /// The same, spread otherwise. Any thread.
     void gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept;
 
-    int channels() const noexcept { return layout_.count; }
+    int channels() const noexcept { return layout_.count; } ///< Enchanters.
 
     /// What it was made of. Any thread.
     const EnchanterLayout& layout() const noexcept { return layout_; }
-    PanningLaw law() const noexcept { return law_; }
-    double exponent() const noexcept { return exponent_; }
-    double fieldWidthMetres() const noexcept { return fieldWidthMetres_; }
-    double fieldHeightMetres() const noexcept { return fieldHeightMetres_; }
+    PanningLaw law() const noexcept { return law_; } ///< As it was given.
+    double exponent() const noexcept { return exponent_; } ///< Of the law.
+    double fieldWidthMetres() const noexcept { return fieldWidthMetres_; } ///< That x spans.
+    double fieldHeightMetres() const noexcept { return fieldHeightMetres_; } ///< That y spans.
 
 private:
     enum class Arrangement { single, line, rectangle, triangle, scattered };

@@ -10,7 +10,7 @@ namespace physvib {
 
 /// One change of how events are rendered, at a session time.
 struct RenderControl {
-    enum class Kind : std::uint8_t {
+    /** What is changed. */ enum class Kind : std::uint8_t {
         panner,  ///< later strikes are panned by `panner`; what rings, rings out where it is
         gain,    ///< of `channel`, to `value`
         mute,    ///< of `channel`: value not 0
@@ -21,20 +21,20 @@ struct RenderControl {
         level,      ///< of all channels, on top of their gains: `value`, 0 or more
         silence     ///< as stopAll, and events before `untilNs` are not played. These two are born in the render call: no file names them
     };
-    std::int64_t timeNs = 0;
-    Kind kind = Kind::stopAll;
-    int channel = 0;
-    float value = 0.0f;
-    PhantomPanner panner;
-    std::int64_t untilNs = 0;
+    std::int64_t timeNs = 0; ///< from which on
+    Kind kind = Kind::stopAll; ///< which of the values below counts
+    int channel = 0; ///< of gain and mute
+    float value = 0.0f; ///< gain; of mute, not 0: silent
+    PhantomPanner panner; ///< of panner
+    std::int64_t untilNs = 0; ///< of silence
     std::span<const RecordedContact> recordings{}; ///< at the renderer's rate; empty: modes
 };
 
 /// What was really played, and when: the way back from the renderer to log, view and board.
 struct PlayedEvent {
-    CollisionEvent event;
+    CollisionEvent event; ///< as it was struck
     std::int64_t frame = 0; ///< the renderer's first frame of it
-    bool isLate = false;
+    bool isLate = false; ///< after its time, at once
 };
 
 } // namespace physvib

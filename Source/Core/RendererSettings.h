@@ -25,27 +25,27 @@ struct RendererSettings {
     EqualisedActuators equalised{}; ///< per channel; without figures it is played as it is
     DriveMatrices drives{}; ///< of the panner's enchanters, against their coupling; empty: none. They outlive the renderer
 
-    int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); }
+    int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); } ///< Channels that are rendered.
 
     static constexpr std::array<float, limits::maxEnchanters> fullScale() {
         std::array<float, limits::maxEnchanters> all{};
         all.fill(1.0f);
         return all;
-    }
+    } ///< 1 for each.
 };
 
 /// Counts since prepare, and the state after the last call.
 struct RenderStatus {
-    std::int64_t framesRendered = 0;
+    std::int64_t framesRendered = 0; ///< since prepare
     std::uint64_t played = 0;   ///< events struck
     std::uint64_t late = 0;     ///< of these: after their time, at once
     std::uint64_t rejected = 0; ///< not playable, above half the sample rate, or no gate was free
     std::uint64_t stolen = 0;   ///< modes faded out early to make room
-    std::uint64_t nonFinite = 0;
+    std::uint64_t nonFinite = 0; ///< samples that became silence
     std::uint64_t untold = 0;     ///< played, but the played queue was full
-    int liveModes = 0;
-    int pending = 0;
-    float limiterGain = 1.0f;
+    int liveModes = 0; ///< that ring
+    int pending = 0; ///< events whose time has not come
+    float limiterGain = 1.0f; ///< now; 1: it does nothing
 };
 
 } // namespace physvib

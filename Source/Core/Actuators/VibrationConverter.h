@@ -20,9 +20,9 @@ public:
 class OnOffSteps {
 public:
     static constexpr long long stepsPerSecond = 100; ///< the thesis' rendering loop
-    static constexpr double thesisThreshold = 0.1;
+    static constexpr double thesisThreshold = 0.1; ///< of full scale
 
-    OnOffSteps(int sampleRateHz, double threshold) noexcept : rate_{sampleRateHz}, threshold_{static_cast<float>(threshold)} {}
+    OnOffSteps(int sampleRateHz, double threshold) noexcept : rate_{sampleRateHz}, threshold_{static_cast<float>(threshold)} {} ///< Any thread.
 
     /// One frame of one channel. `change(stepIndex, isOn)` is called where a step differs from the one before.
     template <class Change>
@@ -34,7 +34,7 @@ public:
         isLoud_ = false;
         ++step_;
     }
-    bool isOn() const noexcept { return isOn_; }
+    bool isOn() const noexcept { return isOn_; } ///< R.
     long long steps() const noexcept { return step_; } ///< complete ones
 
 private:
