@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Does what a page says: saves its programs, pastes its commands one after another, and looks at the sound that they end in.
+# Does what a page says: saves its programs, pastes its commands one after another, and looks at the sound that they end in. What the page
+# installs and builds once is there; ten-minutes.sh does that as well.
 # Usage: pages.sh ROOT BUILD PAGE PROGRAM... - the programs are those of this folder, and stand in the page as they are.
 set -eu
 root=$1 build=$2 page=$3
@@ -8,12 +9,14 @@ shift 3
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-PATH=/usr/bin:$PATH # what Debian installs
+PATH=/usr/bin:/usr/games:$PATH # what Debian installs
 mkdir build
-ln -s "$build" build/release
+ln -s "$build" build/library
 ln -s "$root/Source" "$root/Tests" .
-# ```c drop.c ... ```: a file; ```sh ... ```: commands
-awk '/^```/ { name = (name == "" && NF == 2) ? $2 : (name == "" && $1 == "```sh") ? "commands" : ""; next } name != "" { print > name }' "$root/Docs/$page"
+awk -f "$root/Tests/Api/page.awk" "$root/Docs/$page"
 for program in "$@"; do cmp "$program" "$root/Tests/Api/$program"; done
-sh -eu commands
+paste() { # on a display of its own if it wants one
+    if [ "$page" = lua.md ]; then ALSOFT_DRIVERS=null xvfb-run -a sh -eu commands; else sh -eu commands; fi
+}
+paste
 [ "$(head -c 4 drop.wav)" = RIFF ] && [ "$(wc -c <drop.wav)" -gt 100000 ]
