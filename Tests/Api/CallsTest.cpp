@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The library as a program in another language sees it.
 #include "Files/WavFile.h"
+#include "Support/BegunStructs.h"
 #include "Support/RandomCalls.h"
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <random>
@@ -16,7 +19,7 @@ namespace {
 
 physvib_renderer_settings settings() {
     physvib_renderer_settings values;
-    physvib_renderer_settings_init(&values);
+    physvib_renderer_settings_init(&values, sizeof values);
     return values;
 }
 
@@ -42,7 +45,7 @@ physvib_world worldOfABall() {
     physvib_world world = nullptr;
     EXPECT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK) << physvib_error();
     physvib_body body;
-    physvib_body_init(&body);
+    physvib_body_init(&body, sizeof body);
     EXPECT_EQ(physvib_world_set_body(world, 0, &body), PHYSVIB_OK);
     body.mass_kg = 2.0;
     body.is_camera = 1;
@@ -54,7 +57,7 @@ physvib_world worldOfABall() {
 
 int land(physvib_world world, double impulse) {
     physvib_contact contact;
-    physvib_contact_init(&contact);
+    physvib_contact_init(&contact, sizeof contact);
     contact.a = 0;
     contact.b = 1;
     contact.impulse_n_s = impulse;
@@ -106,7 +109,7 @@ TEST(Calls, WhatIsPulledIsWhatIsRendered) {
         }
     EXPECT_GT(sum, 1.0);
     physvib_renderer_status status;
-    physvib_renderer_status_init(&status);
+    physvib_renderer_status_init(&status, sizeof status);
     ASSERT_EQ(physvib_renderer_get_status(one, &status), PHYSVIB_OK);
     EXPECT_EQ(status.played, 2);
     EXPECT_EQ(status.late, 0);
@@ -134,14 +137,14 @@ TEST(Calls, ALandingIsFeltByItsImpulse) {
 TEST(Calls, WhatRollsOverGrainsIsFelt) {
     const physvib_world world = worldOfABall();
     physvib_body floor;
-    physvib_body_init(&floor);
+    physvib_body_init(&floor, sizeof floor);
     floor.frequency_hz = 250.0;
     floor.decay_per_s = 20.0;
     floor.grain_m = 0.002;
     floor.is_ridged = 1;
     EXPECT_EQ(physvib_world_set_body(world, 0, &floor), PHYSVIB_OK);
     physvib_contact contact;
-    physvib_contact_init(&contact);
+    physvib_contact_init(&contact, sizeof contact);
     contact.a = 0;
     contact.b = 1;
     contact.impulse_n_s = 0.2;
@@ -187,10 +190,30 @@ TEST(Calls, AnOlderProgramsStructureIsTakenAndANewerOneRefused) {
     }
 }
 
+TEST(Calls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
+    test::expectBegunWithin(physvib_renderer_settings_init);
+    test::expectBegunWithin(physvib_renderer_status_init);
+    test::expectBegunWithin(physvib_world_settings_init);
+    test::expectBegunWithin(physvib_body_init);
+    test::expectBegunWithin(physvib_contact_init);
+    const physvib_renderer one = renderer();
+    physvib_renderer_status status;
+    std::memset(&status, 0xAB, sizeof status);
+    constexpr std::size_t size = offsetof(physvib_renderer_status, played); // which it does not know
+    ASSERT_EQ(physvib_renderer_status_init(&status, size), PHYSVIB_OK);
+    ASSERT_EQ(physvib_renderer_get_status(one, &status), PHYSVIB_OK);
+    EXPECT_EQ(status.size, size);
+    EXPECT_EQ(status.frames, 0);
+    unsigned char beyond[sizeof status - size];
+    std::memcpy(beyond, reinterpret_cast<const unsigned char*>(&status) + size, sizeof beyond);
+    for (const unsigned char byte : beyond) EXPECT_EQ(byte, 0xAB);
+    EXPECT_EQ(physvib_renderer_free(one), PHYSVIB_OK);
+}
+
 TEST(Calls, WrongOrderIsOneAndNothingHappens) {
     const physvib_world world = worldOfABall();
     physvib_contact contact;
-    physvib_contact_init(&contact);
+    physvib_contact_init(&contact, sizeof contact);
     contact.a = 0;
     contact.b = 1;
     EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_ERROR_ORDER);
@@ -284,7 +307,7 @@ TEST(Calls, OneThreadStrikesAnotherPullsAThirdFrees) {
     });
     while (!isOver) {
         physvib_renderer_status status;
-        physvib_renderer_status_init(&status);
+        physvib_renderer_status_init(&status, sizeof status);
         physvib_renderer_get_status(one, &status);
         std::this_thread::yield();
     }

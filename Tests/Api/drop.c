@@ -23,7 +23,7 @@ int main(void) {
     int step;
 
     if (physvib_world_create(NULL, &world) != PHYSVIB_OK) return failed("world");
-    physvib_body_init(&body);
+    physvib_body_init(&body, sizeof body);
     physvib_world_set_body(world, 0, &body); /* the floor: no mass, so nothing moves it */
     body.mass_kg = 0.2;
     body.is_camera = 1; /* it feels */
@@ -31,7 +31,7 @@ int main(void) {
     body.decay_per_s = 30.0;
     physvib_world_set_body(world, 1, &body);
 
-    physvib_contact_init(&contact);
+    physvib_contact_init(&contact, sizeof contact);
     contact.a = 0;
     contact.b = 1;
     contact.restitution = e;
@@ -51,7 +51,7 @@ int main(void) {
     count = physvib_world_take(world, events, 100, 1);
     physvib_world_free(world);
 
-    physvib_renderer_settings_init(&settings); /* 48 kHz, four enchanters on the corners of a phone */
+    physvib_renderer_settings_init(&settings, sizeof settings); /* 48 kHz, four enchanters on the corners of a phone */
     settings.field_width_m = settings.field_height_m = 1.0;
     if (samples == NULL || physvib_render(&settings, events, count, frames, samples) != PHYSVIB_OK) return failed("render");
     if (physvib_wav_save("drop.wav", samples, 4, frames, settings.rate_hz) != PHYSVIB_OK) return failed("drop.wav");

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The Python package, against the command line and by hand: python.py LIBRARY PHYSVIB, PYTHONPATH set to the package."""
+import inspect
 import os
 import resource
 import subprocess
@@ -40,8 +41,10 @@ class Package(unittest.TestCase):
 
     def test_lists_come_back_to_the_bit(self) -> None:
         events = many(1000)
-        physvib.save_events(self.folder / "events.csv", events)
-        self.assertEqual(physvib.load_events(self.folder / "events.csv").tobytes(), events.tobytes())
+        for kinds in (physvib.HIT, np.arange(1000) % 3):  # bodies that meet, and grains
+            events["kind"] = kinds
+            physvib.save_events(self.folder / "events.csv", events)
+            self.assertEqual(physvib.load_events(self.folder / "events.csv").tobytes(), events.tobytes())
 
     def test_layouts_come_back(self) -> None:
         layout = physvib.Layout([(0.0, 0.0), (0.1, 0.05)], (0.1, 0.05))
@@ -91,6 +94,20 @@ class Package(unittest.TestCase):
         closed.close()
         with self.assertRaises(physvib.PhysVibError):
             closed.take()
+
+    def test_every_public_name_is_described_and_has_types(self) -> None:
+        functions = {name: getattr(physvib, name) for name in physvib.__all__ if callable(getattr(physvib, name))}
+        for owner, what in list(functions.items()):
+            for name, member in vars(what).items() if inspect.isclass(what) else ():
+                function = member.fget if isinstance(member, property) else getattr(member, "__func__", member)
+                if inspect.isfunction(function) and (name == "__init__" or not name.startswith("_")):
+                    functions[f"{owner}.{name}"] = function
+        for name, function in functions.items():
+            self.assertTrue(function.__doc__ or name.endswith(".__init__"), f"{name}: expected a docstring")
+            if inspect.isfunction(function):
+                untyped = [p.name for p in inspect.signature(function).parameters.values() if p.annotation is p.empty and p.name not in ("self", "cls")]
+                self.assertEqual(untyped, [], f"{name}: expected types")
+                self.assertIn("return", function.__annotations__, f"{name}: expected a type of what it returns")
 
     def test_no_call_leaves_memory_behind(self) -> None:
         calls = int(os.environ.get("PHYSVIB_CALLS", "8000"))  # a million by hand

@@ -30,16 +30,16 @@ constexpr double allowedMs = 0.1, allowedPart = 0.02; ///< of onsets and of ampl
 
 inline physvib_world worldOf(int balls, int camera) {
     physvib_world_settings settings;
-    physvib_world_settings_init(&settings);
+    physvib_world_settings_init(&settings, sizeof settings);
     settings.normalisation_s_per_m = 1.0;
     settings.hand_mass_kg = 0.0;
     physvib_world world = nullptr;
     physvib_world_create(&settings, &world);
     physvib_body body;
-    physvib_body_init(&body);
+    physvib_body_init(&body, sizeof body);
     physvib_world_set_body(world, 0, &body);
     for (int i = 1; i <= balls; ++i) {
-        physvib_body_init(&body);
+        physvib_body_init(&body, sizeof body);
         body.mass_kg = massKg;
         body.is_camera = i == camera;
         body.frequency_hz = 200.0;

@@ -9,7 +9,7 @@ set(Files_may "Files/|Physics/|Contacts/|Study/|Core/|nlohmann/")
 set(Formats_may "Formats/|Files/(Result|SampledSound)\\.h|Files/(Disk|Json|Text)/|Core/|nlohmann/") # reads and writes as Files does
 set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Files/(Result|Text/NumberText)\\.h|Contacts/(Grains|Texture)\\.h|Core/") # one line of words for what a recording lacks
 set(Api_may "Api/C/|Files/|Contacts/|Core/")
-set(Api/Live_may "Api/|Host/|Session/|Core/|juce_")
+set(Api/Live_may "Api/|Host/|Session/|Files/|Core/|juce_")
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
 set(Host_may "Host/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
 set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder

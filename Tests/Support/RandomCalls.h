@@ -55,8 +55,8 @@ private:
 
     /// Now and then none, one of another version, or one whose numbers are anything.
     template <class Struct>
-    Struct* of(Struct& values, int (*init)(Struct*)) {
-        init(&values);
+    Struct* of(Struct& values, int (*init)(Struct*, std::size_t)) {
+        init(&values, isRare() ? byte() : sizeof values);
         if (isRare()) return nullptr;
         if (isRare()) values.size = byte();
         if (isRare()) { // past the size; all members are numbers, for which every pattern is a value
@@ -83,6 +83,7 @@ private:
         event_.decay_per_s = 10.0 * number();
         event_.amplitude = number();
         event_.x_m = number();
+        event_.kind = small();
         return isRare() ? nullptr : &event_;
     }
 

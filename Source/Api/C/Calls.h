@@ -52,10 +52,28 @@ auto guarded(Call call) noexcept -> decltype(call()) {
     }
 }
 
+/// Also between its members, which other languages may see.
+template <class Struct>
+Struct zeroed() noexcept {
+    Struct values;
+    std::memset(&values, 0, sizeof values);
+    return values;
+}
+
+/// `values`, as far as the caller's version of the structure goes.
+template <class Struct>
+int begin(Struct* filled, std::size_t size, const Struct& values) noexcept {
+    if (filled == nullptr) return nothingThere("structure: expected one, found NULL");
+    if (size < sizeof size || size > sizeof values) return nothingThere("structure: expected its size, and a library that is as new as the header");
+    std::memcpy(filled, &values, size);
+    filled->size = size;
+    return PHYSVIB_OK;
+}
+
 /// A structure of the caller's as this version knows it: what an older one lacks is as init has it. False, and said, if it is none.
 template <class Struct>
-bool take(const Struct* from, Struct& to, int (*init)(Struct*)) noexcept {
-    init(&to);
+bool take(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noexcept {
+    init(&to, sizeof to);
     if (from == nullptr) return nothingThere("structure: expected one, found NULL"), false;
     std::size_t size = 0;
     std::memcpy(&size, from, sizeof size);

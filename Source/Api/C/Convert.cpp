@@ -18,7 +18,7 @@ std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexce
 }
 
 physvib_layout layoutOf(const EnchanterLayout& from) noexcept {
-    physvib_layout to{};
+    auto to = zeroed<physvib_layout>();
     to.extent_width_m = from.extentWidthMetres;
     to.extent_height_m = from.extentHeightMetres;
     to.count = from.count;
@@ -51,6 +51,7 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
 std::string_view faultOf(std::span<const physvib_event> events) noexcept {
     const auto isOut = [](const physvib_event& e) { return !isPlayable(eventOf(e)); };
     if (std::ranges::any_of(events, isOut)) return "event: expected 0 to 20000 Hz, a decay of 0 to 2000 per second or a duration, numbers, a time from 0 on";
+    if (std::ranges::any_of(events, [](int kind) { return kind < PHYSVIB_HIT || kind > PHYSVIB_SLIDE; }, &physvib_event::kind)) return "kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE";
     if (!std::ranges::is_sorted(events, {}, &physvib_event::time_ns)) return "events: expected in the order of their times";
     return {};
 }

@@ -18,14 +18,6 @@ static_assert(PHYSVIB_MAX_ENCHANTERS == limits::maxEnchanters);
 
 namespace {
 
-template <class Struct>
-int init(Struct* filled, const Struct& values) noexcept {
-    if (filled == nullptr) return nothingThere("structure: expected one, found NULL");
-    *filled = values;
-    filled->size = sizeof values;
-    return PHYSVIB_OK;
-}
-
 int written(const std::string& error) noexcept { return resultOf(error, PHYSVIB_ERROR_FILE); }
 
 /// A list of the caller's as a renderer takes it.
@@ -44,42 +36,42 @@ struct ListSource {
 const char* physvib_version(void) { return PHYSVIB_VERSION; }
 const char* physvib_error(void) { return lastError().data(); }
 
-int physvib_renderer_settings_init(physvib_renderer_settings* settings) {
-    physvib_renderer_settings values{};
+int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t size) {
+    auto values = zeroed<physvib_renderer_settings>();
     values.rate_hz = 48000;
     values.limiter = 1;
     values.exponent = 1.0;
     physvib_layout_preset("phone4", &values.layout);
-    return init(settings, values);
+    return begin(settings, size, values);
 }
 
-int physvib_renderer_status_init(physvib_renderer_status* status) { return init(status, {}); }
+int physvib_renderer_status_init(physvib_renderer_status* status, size_t size) { return begin(status, size, zeroed<physvib_renderer_status>()); }
 
-int physvib_world_settings_init(physvib_world_settings* settings) {
-    physvib_world_settings values{};
+int physvib_world_settings_init(physvib_world_settings* settings, size_t size) {
+    auto values = zeroed<physvib_world_settings>();
     values.hits_per_step = -1;
     values.field_width_m = values.drive_gain = 1.0;
     values.normalisation_s_per_m = values.hand_mass_kg = PHYSVIB_UNKNOWN;
     values.threshold_m_per_s = 0.15;
-    return init(settings, values);
+    return begin(settings, size, values);
 }
 
-int physvib_body_init(physvib_body* body) {
-    physvib_body values{};
+int physvib_body_init(physvib_body* body, size_t size) {
+    auto values = zeroed<physvib_body>();
     values.gravity_scale = values.gain = 1.0;
     values.hand_mass_kg = PHYSVIB_UNKNOWN;
     for (double& amplitude : values.overtone_amplitude) amplitude = 1.0;
     values.roughness = Texture{}.roughness;
     values.rolling = Texture{}.rolling;
-    return init(body, values);
+    return begin(body, size, values);
 }
 
-int physvib_contact_init(physvib_contact* contact) {
-    physvib_contact values{};
+int physvib_contact_init(physvib_contact* contact, size_t size) {
+    auto values = zeroed<physvib_contact>();
     values.a = values.b = -1;
     values.normal_y = 1.0;
     values.impulse_n_s = values.approach_m_per_s = values.effective_mass_kg = values.fraction = values.along_a_m_per_s = values.along_b_m_per_s = PHYSVIB_UNKNOWN;
-    return init(contact, values);
+    return begin(contact, size, values);
 }
 
 int physvib_layout_preset(const char* name, physvib_layout* layout) {
@@ -127,8 +119,9 @@ int physvib_events_save(const char* path, const physvib_event* events, physvib_i
         if (path == nullptr || events == nullptr || count < 1) return nothingThere("events: expected a path and at least one event");
         const std::span list{events, static_cast<std::size_t>(count)};
         if (const auto fault = faultOf(list); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
-        std::string text = eventsCsvHead({PHYSVIB_VERSION, {}}, false);
-        for (const physvib_event& event : list) appendEventRow(text, eventOf(event), false);
+        const bool hasKinds = std::ranges::any_of(list, [](int kind) { return kind != PHYSVIB_HIT; }, &physvib_event::kind);
+        std::string text = eventsCsvHead({PHYSVIB_VERSION, {}}, hasKinds);
+        for (const physvib_event& event : list) appendEventRow(text, eventOf(event), hasKinds);
         return written(writeFile(path, text));
     });
 }

@@ -57,16 +57,18 @@ public:
         return 0;
     }
 
-    /// Ends the object of that name, after all that use it. False if there is none. Any thread but R.
-    bool remove(std::uintptr_t name) noexcept {
+    /// The object of that name, which nobody uses any more; null if there is none. Any thread but R.
+    std::unique_ptr<Object> take(std::uintptr_t name) noexcept {
         const std::lock_guard lock{mutex_};
         Slot& slot = slotOf(name);
-        if (name == 0 || slot.name.load() != name) return false;
+        if (name == 0 || slot.name.load() != name) return {};
         slot.name.store(0);
         while (slot.users.load() != 0) std::this_thread::yield();
-        slot.object.reset();
-        return true;
+        return std::move(slot.object);
     }
+
+    /// Ends it. False if there is none. Any thread but R.
+    bool remove(std::uintptr_t name) noexcept { return take(name) != nullptr; }
 
     /// Any thread, wait-free.
     Use use(std::uintptr_t name) noexcept PHYSVIB_NONBLOCKING {

@@ -30,7 +30,7 @@ int inOrder(std::string_view fault) noexcept {
 bool convert(const physvib_world_settings* from, ImpactSettings& to) {
     physvib_world_settings taken;
     if (from == nullptr)
-        physvib_world_settings_init(&taken);
+        physvib_world_settings_init(&taken, sizeof taken);
     else if (!take(from, taken, physvib_world_settings_init))
         return false;
     for (const double number : {taken.field_x_m, taken.field_y_m, taken.field_radians})

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* PhysVib for any language: contacts in, haptics out. C89 and later, C++.
+/** @file
+ * PhysVib for any language: contacts in, haptics out. C89 and later, C++.
  *
  * Link libphysvib (MIT). Nothing here throws, ends the program or keeps a pointer of yours beyond the call.
  *
@@ -12,21 +13,21 @@
  * Threads. "Any thread": any, several at once. "One at a time": any, and a second one waits for the first. "R": the audio callback; wait-free:
  * never allocates, frees, locks, waits or calls the system; one thread at a time.
  *
- * Version 0: symbols may change with the second number of the version. */
+ * What may change, and what not: Docs/stable.md. */
 #ifndef PHYSVIB_PHYSVIB_H
 #define PHYSVIB_PHYSVIB_H
 #include <stddef.h>
 
 #if defined(_MSC_VER)
-typedef __int64 physvib_int64;
+typedef __int64 physvib_int64; /**< of 64 bits */
 #elif defined(__GNUC__)
-__extension__ typedef long long physvib_int64;
+__extension__ typedef long long physvib_int64; /**< of 64 bits */
 #else
-typedef long long physvib_int64;
+typedef long long physvib_int64; /**< of 64 bits */
 #endif
 
 #if defined(__GNUC__)
-#define PHYSVIB_API __attribute__((visibility("default")))
+#define PHYSVIB_API __attribute__((visibility("default"))) /**< shown by the library */
 #else
 #define PHYSVIB_API
 #endif
@@ -35,190 +36,226 @@ typedef long long physvib_int64;
 extern "C" {
 #endif
 
-#define PHYSVIB_OK 0
-#define PHYSVIB_ERROR_HANDLE (-1)   /* none of ours, or freed */
-#define PHYSVIB_ERROR_ARGUMENT (-2) /* NULL, NaN, out of range */
-#define PHYSVIB_ERROR_ORDER (-3)    /* not now: outside a step, within one, time going back */
-#define PHYSVIB_ERROR_FILE (-4)     /* cannot be read, or written */
-#define PHYSVIB_ERROR_MEMORY (-5)
-#define PHYSVIB_ERROR_FULL (-6)     /* no room: a queue, 256 handles of a kind */
-#define PHYSVIB_ERROR_BUSY (-7)     /* another thread is pulling from this renderer */
-#define PHYSVIB_ERROR_INTERNAL (-8) /* ours: please tell us */
+#define PHYSVIB_OK 0                /**< done */
+#define PHYSVIB_ERROR_HANDLE (-1)   /**< none of ours, or freed */
+#define PHYSVIB_ERROR_ARGUMENT (-2) /**< NULL, NaN, out of range */
+#define PHYSVIB_ERROR_ORDER (-3)    /**< not now: outside a step, within one, time going back */
+#define PHYSVIB_ERROR_FILE (-4)     /**< cannot be read, or written */
+#define PHYSVIB_ERROR_MEMORY (-5)   /**< there is no more */
+#define PHYSVIB_ERROR_FULL (-6)     /**< no room: a queue, 256 handles of a kind */
+#define PHYSVIB_ERROR_BUSY (-7)     /**< another thread is pulling from this renderer */
+#define PHYSVIB_ERROR_INTERNAL (-8) /**< ours: please tell us */
 
-#define PHYSVIB_UNKNOWN (-1.0e300) /* of a number that need not be told; NaN is an error */
-#define PHYSVIB_MAX_ENCHANTERS 64
+#define PHYSVIB_UNKNOWN (-1.0e300) /**< of a number that need not be told; NaN is an error */
+#define PHYSVIB_MAX_ENCHANTERS 64  /**< of a layout */
 
-typedef struct physvib_renderer_name *physvib_renderer;
-typedef struct physvib_world_name *physvib_world;
+typedef struct physvib_renderer_name *physvib_renderer; /**< strikes in, samples out */
+typedef struct physvib_world_name *physvib_world;       /**< contacts in, events out */
 
-/* A collision as it is felt: amplitude * sin(2 pi frequency_hz t) * exp(-decay_per_s t), t counted from time_ns. */
+#define PHYSVIB_HIT 0   /**< an event came of bodies that met */
+#define PHYSVIB_ROLL 1  /**< of a grain of a surface that something rolled over */
+#define PHYSVIB_SLIDE 2 /**< of a grain of a surface that something slid over */
+
+/** A collision as it is felt: amplitude * sin(2 pi frequency_hz t) * exp(-decay_per_s t), t counted from time_ns. */
 typedef struct physvib_event {
-    physvib_int64 time_ns;
-    physvib_int64 duration_ns; /* 0: until it has decayed; a decay of 0 needs a duration */
-    double frequency_hz;       /* above 0, to 20,000 */
-    double decay_per_s;        /* 0 to 2,000 */
-    double amplitude;          /* 1: full scale of an enchanter */
-    double x_m, y_m;           /* in the field, from its lower left corner */
-    double impulse_n_s, mass_kg; /* what it came from; 0: unknown. Not needed for samples */
-    int fixture, other;          /* the body that feels, and what struck it; -1: unknown */
+    physvib_int64 time_ns;     /**< onset, from 0 on */
+    physvib_int64 duration_ns; /**< 0: until it has decayed; a decay of 0 needs a duration */
+    double frequency_hz;       /**< above 0, to 20,000 */
+    double decay_per_s;        /**< 0 to 2,000 */
+    double amplitude;          /**< 1: full scale of an enchanter */
+    double x_m;                /**< in the field, from its lower left corner */
+    double y_m;                /**< the same upwards */
+    double impulse_n_s;        /**< that it came from; 0: unknown. Not needed for samples, as what follows */
+    double mass_kg;            /**< of the body that feels; 0: unknown */
+    int fixture;               /**< the body that feels; -1: unknown */
+    int other;                 /**< what struck it; -1: unknown */
+    int kind;                  /**< PHYSVIB_HIT (0) and so on */
+    int unused;                /**< 0 */
 } physvib_event;
 
-/* Where the enchanters sit: channel j at x_m[j], y_m[j] from the lower left corner of the extent, onto which the field is mapped. */
+/** Where the enchanters sit: channel j at x_m[j], y_m[j] from the lower left corner of the extent, onto which the field is mapped. */
 typedef struct physvib_layout {
-    double extent_width_m, extent_height_m;
-    double x_m[PHYSVIB_MAX_ENCHANTERS], y_m[PHYSVIB_MAX_ENCHANTERS];
-    int count; /* 1 to PHYSVIB_MAX_ENCHANTERS */
+    double extent_width_m;              /**< above 0 */
+    double extent_height_m;             /**< above 0 */
+    double x_m[PHYSVIB_MAX_ENCHANTERS]; /**< of each enchanter */
+    double y_m[PHYSVIB_MAX_ENCHANTERS]; /**< of each enchanter */
+    int count;                          /**< 1 to PHYSVIB_MAX_ENCHANTERS */
 } physvib_layout;
 
-/* Laws of panning, see Docs/panning.md. */
-#define PHYSVIB_LAW_LINEAR 0
-#define PHYSVIB_LAW_LOG 1
-#define PHYSVIB_LAW_LOG_OUTER 2
-#define PHYSVIB_LAW_ENERGY 3
+#define PHYSVIB_LAW_LINEAR 0    /**< of panning: see Docs/panning.md */
+#define PHYSVIB_LAW_LOG 1       /**< of panning: see Docs/panning.md */
+#define PHYSVIB_LAW_LOG_OUTER 2 /**< of panning: see Docs/panning.md */
+#define PHYSVIB_LAW_ENERGY 3    /**< of panning: see Docs/panning.md */
 
-/* Structures with a `size` are filled by their ..._init(), and then changed: later versions have more members. */
+/* Structures with a `size` are filled by their ..._init(&it, sizeof it), and then changed. They grow at their end only: a program that was
+ * built when they were shorter is read, and written to, as far as its own go. */
+
+/** How a renderer is made. */
 typedef struct physvib_renderer_settings {
-    size_t size;
-    int rate_hz;  /* 5,000 to 192,000 (48,000) */
-    int channels; /* 0: as many as the layout has enchanters; more are silent, to PHYSVIB_MAX_ENCHANTERS */
-    int law;      /* (PHYSVIB_LAW_LINEAR) */
-    int limiter;  /* (1); 0: samples may exceed 1 */
-    double exponent;                      /* of the law (1) */
-    double field_width_m, field_height_m; /* 0: the layout's extent */
-    physvib_layout layout;                /* (phone4) */
+    size_t size;  /**< set by init */
+    int rate_hz;  /**< 5,000 to 192,000 (48,000) */
+    int channels; /**< 0: as many as the layout has enchanters; more are silent, to PHYSVIB_MAX_ENCHANTERS */
+    int law;      /**< (PHYSVIB_LAW_LINEAR) */
+    int limiter;  /**< (1); 0: samples may exceed 1 */
+    double exponent;        /**< of the law (1) */
+    double field_width_m;   /**< that x spans; 0: the layout's extent (0) */
+    double field_height_m;  /**< that y spans; 0: the layout's extent (0) */
+    physvib_layout layout;  /**< (phone4) */
 } physvib_renderer_settings;
 
+/** What a renderer has done. */
 typedef struct physvib_renderer_status {
-    size_t size;
-    int live_modes, pending;
-    physvib_int64 frames;  /* pulled so far */
-    physvib_int64 played;  /* events struck */
-    physvib_int64 late;    /* of these: after their time, at once */
-    physvib_int64 rejected; /* could not be played */
-    physvib_int64 refused;  /* by a full queue */
+    size_t size;            /**< set by init */
+    int live_modes;         /**< that ring */
+    int pending;            /**< events whose time has not come */
+    physvib_int64 frames;   /**< pulled so far */
+    physvib_int64 played;   /**< events struck */
+    physvib_int64 late;     /**< of these: after their time, at once */
+    physvib_int64 rejected; /**< could not be played */
+    physvib_int64 refused;  /**< by a full queue */
 } physvib_renderer_status;
 
+/** How contacts become events. */
 typedef struct physvib_world_settings {
-    size_t size;
-    int is_muted;
-    int hits_per_step;         /* at most so many become events in a step, the strongest; -1: all (-1) */
-    int at_body;               /* 1: a hit is felt at the body's centre, see physvib_world_move; 0: at the point of contact (0) */
-    int drops_hits_of_removed; /* 1: events not yet taken go with a body (0) */
-    double field_width_m;      /* v_max of Eq. 5.7 is one field width per second (1) */
-    double field_x_m, field_y_m, field_radians; /* where its lower left corner is in the world, and how it is turned */
-    double normalisation_s_per_m; /* A* of Eq. 5.4 (PHYSVIB_UNKNOWN: by the field's width) */
-    double hand_mass_kg;          /* m_h of Eq. 5.4 (PHYSVIB_UNKNOWN: the largest mass in the world) */
-    double drive_gain;            /* (1) */
-    double threshold_m_per_s;     /* a hit changes the velocity of the lighter body by as much (0.15) */
+    size_t size;               /**< set by init */
+    int is_muted;              /**< 1: nothing is felt (0) */
+    int hits_per_step;         /**< at most so many become events in a step, the strongest; -1: all (-1) */
+    int at_body;               /**< 1: a hit is felt at the body's centre, see physvib_world_move; 0: at the point of contact (0) */
+    int drops_hits_of_removed; /**< 1: events not yet taken go with a body (0) */
+    double field_width_m;      /**< v_max of Eq. 5.7 is one field width per second (1) */
+    double field_x_m;          /**< where its lower left corner is in the world (0) */
+    double field_y_m;          /**< where its lower left corner is in the world (0) */
+    double field_radians;      /**< how it is turned (0) */
+    double normalisation_s_per_m; /**< A* of Eq. 5.4 (PHYSVIB_UNKNOWN: by the field's width) */
+    double hand_mass_kg;          /**< m_h of Eq. 5.4 (PHYSVIB_UNKNOWN: the largest mass in the world) */
+    double drive_gain;            /**< (1) */
+    double threshold_m_per_s;     /**< a hit changes the velocity of the lighter body by as much (0.15) */
 } physvib_world_settings;
 
-#define PHYSVIB_VOICE_OWN 0   /* what is struck sounds */
-#define PHYSVIB_VOICE_OTHER 1 /* what strikes it sounds */
-#define PHYSVIB_VOICE_BOTH 2
+#define PHYSVIB_VOICE_OWN 0   /**< what is struck sounds */
+#define PHYSVIB_VOICE_OTHER 1 /**< what strikes it sounds */
+#define PHYSVIB_VOICE_BOTH 2  /**< both sound */
 
+/** A body, and how it feels and sounds. */
 typedef struct physvib_body {
-    size_t size;
-    int is_camera; /* 1: its collisions are felt (0) */
-    int voice;     /* (PHYSVIB_VOICE_OWN) */
-    int surface;   /* its kind, above 0, for physvib_world_pair (0: none) */
-    double mass_kg;         /* 0: what strikes it does not move it */
-    double inertia_kg_m2;   /* about its centre of mass; 0: blows are taken as if they went through it */
-    double gravity_scale;   /* (1) */
-    double frequency_hz, decay_per_s; /* how it vibrates; 0 Hz: not at all */
-    double static_mass_kg;  /* mass for Eq. 5.4 of a camera whose mass_kg is 0 */
-    double gain;            /* of what it sends out as a camera (1) */
-    double hand_mass_kg;    /* m_h for this camera (PHYSVIB_UNKNOWN: the world's) */
-    double overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3]; /* relative to the first mode; 0 Hz: none */
-    double grain_m;   /* what rolls or slides along it passes a grain every so often (0: smooth, silent), see Docs/lasting-contacts.md */
-    double roughness; /* strength of its grains, 0 to 1000 (1) */
-    double rolling;   /* share that is felt of what rolls, 0 to 1 (0.2) */
-    int is_ridged;    /* 1: grains at equal distances, a tone (0) */
+    size_t size;   /**< set by init */
+    int is_camera; /**< 1: its collisions are felt (0) */
+    int voice;     /**< (PHYSVIB_VOICE_OWN) */
+    int surface;   /**< its kind, above 0, for physvib_world_pair (0: none) */
+    double mass_kg;         /**< 0: what strikes it does not move it */
+    double inertia_kg_m2;   /**< about its centre of mass; 0: blows are taken as if they went through it */
+    double gravity_scale;   /**< (1) */
+    double frequency_hz;    /**< at which it vibrates; 0: not at all (0) */
+    double decay_per_s;     /**< of its vibration (0) */
+    double static_mass_kg;  /**< mass for Eq. 5.4 of a camera whose mass_kg is 0 */
+    double gain;            /**< of what it sends out as a camera (1) */
+    double hand_mass_kg;    /**< m_h for this camera (PHYSVIB_UNKNOWN: the world's) */
+    double overtone_hz[3];          /**< further modes; 0: none (0) */
+    double overtone_decay_per_s[3]; /**< of these (0) */
+    double overtone_amplitude[3];   /**< relative to the first mode (1) */
+    double grain_m;   /**< what rolls or slides along it passes a grain every so often (0: smooth, silent), see Docs/lasting-contacts.md */
+    double roughness; /**< strength of its grains, 0 to 1000 (1) */
+    double rolling;   /**< share that is felt of what rolls, 0 to 1 (0.2) */
+    int is_ridged;    /**< 1: grains at equal distances, a tone (0) */
 } physvib_body;
 
-/* Two bodies touch. Tell the impulse, or how fast they near each other, or neither if physvib_world_move tells the motions. */
+/** Two bodies touch. Tell the impulse, or how fast they near each other, or neither if physvib_world_move tells the motions. */
 typedef struct physvib_contact {
-    size_t size;
-    int a, b;                  /* bodies */
-    double x_m, y_m;           /* where, in the plane of the field */
-    double normal_x, normal_y; /* of length 1, from a to b */
-    double impulse_n_s;        /* along the normal, in this step (PHYSVIB_UNKNOWN) */
-    double tangential_n_s;     /* across it (0) */
-    double approach_m_per_s;   /* before the engine's solver (PHYSVIB_UNKNOWN) */
-    double restitution;        /* 0 to 1; where no impulse is told (0) */
-    double effective_mass_kg;  /* where no impulse is told (PHYSVIB_UNKNOWN: by masses, inertias and places) */
-    double fraction;           /* when they touched, in steps after this one's start, -1 to 1 (PHYSVIB_UNKNOWN: by gap and approach) */
-    double gap_m;              /* between the surfaces when the engine looked; below 0: they overlap (0) */
-    double gap_fraction;       /* when that was, in steps after this one's start, 0 to 1 (0) */
-    /* Of what goes on touching a rough body, with its impulse: how fast the point moves along each surface. Rolling: both alike; sliding: 0
-     * along what drags its own point (PHYSVIB_UNKNOWN) */
-    double along_a_m_per_s, along_b_m_per_s;
-    int is_soft;               /* 1: what the engine pushes in one step is no measure of a blow, which is told by speed and restitution;
+    size_t size;               /**< set by init */
+    int a;                     /**< a body */
+    int b;                     /**< the other */
+    double x_m;                /**< where, in the plane of the field */
+    double y_m;                /**< where, in the plane of the field */
+    double normal_x;           /**< of length 1, from a to b (0) */
+    double normal_y;           /**< of length 1, from a to b (1) */
+    double impulse_n_s;        /**< along the normal, in this step (PHYSVIB_UNKNOWN) */
+    double tangential_n_s;     /**< across it (0) */
+    double approach_m_per_s;   /**< before the engine's solver (PHYSVIB_UNKNOWN) */
+    double restitution;        /**< 0 to 1; where no impulse is told (0) */
+    double effective_mass_kg;  /**< where no impulse is told (PHYSVIB_UNKNOWN: by masses, inertias and places) */
+    double fraction;           /**< when they touched, in steps after this one's start, -1 to 1 (PHYSVIB_UNKNOWN: by gap and approach) */
+    double gap_m;              /**< between the surfaces when the engine looked; below 0: they overlap (0) */
+    double gap_fraction;       /**< when that was, in steps after this one's start, 0 to 1 (0) */
+    double along_a_m_per_s;    /**< of what goes on touching a rough body, with its impulse: how fast the point moves along a's surface. Rolling: as
+                                  along b's; sliding: 0 along what drags its own point (PHYSVIB_UNKNOWN) */
+    double along_b_m_per_s;    /**< the same along b's (PHYSVIB_UNKNOWN) */
+    int is_soft;               /**< 1: what the engine pushes in one step is no measure of a blow, which is told by speed and restitution;
                                   the impulse is what a pair that goes on touching hands on (0) */
 } physvib_contact;
 
-/* "0.1.0". Any thread. */
+/** "0.1.0". Any thread. */
 PHYSVIB_API const char *physvib_version(void);
 
-/* What the last error of this thread was about, in one line; "" before the first. Valid until this thread's next call. pull says
+/** What the last error of this thread was about, in one line; "" before the first. Valid until this thread's next call. pull says
  * nothing: it returns its code alone. Any thread. */
 PHYSVIB_API const char *physvib_error(void);
 
-PHYSVIB_API int physvib_renderer_settings_init(physvib_renderer_settings *settings);
-PHYSVIB_API int physvib_renderer_status_init(physvib_renderer_status *status);
-PHYSVIB_API int physvib_world_settings_init(physvib_world_settings *settings);
-PHYSVIB_API int physvib_body_init(physvib_body *body);
-PHYSVIB_API int physvib_contact_init(physvib_contact *contact);
+/** As it begins, in brackets above; `size`: sizeof *settings. Any thread, as the four that follow. */
+PHYSVIB_API int physvib_renderer_settings_init(physvib_renderer_settings *settings, size_t size);
+/** Empty; `size`: sizeof *status. */
+PHYSVIB_API int physvib_renderer_status_init(physvib_renderer_status *status, size_t size);
+/** As it begins; `size`: sizeof *settings. */
+PHYSVIB_API int physvib_world_settings_init(physvib_world_settings *settings, size_t size);
+/** As it begins; `size`: sizeof *body. */
+PHYSVIB_API int physvib_body_init(physvib_body *body, size_t size);
+/** As it begins; `size`: sizeof *contact. */
+PHYSVIB_API int physvib_contact_init(physvib_contact *contact, size_t size);
 
 /* ---- Layouts and files. Any thread; they allocate, and read or write files. ---- */
 
-/* "phone1" to "phone4", "ring1" to "ring4". */
+/** "phone1" to "phone4", "ring1" to "ring4". */
 PHYSVIB_API int physvib_layout_preset(const char *name, physvib_layout *layout);
-/* Layout files (JSON), see README.md. `path` is UTF-8. */
+/** Layout files (JSON), see README.md. `path` is UTF-8. */
 PHYSVIB_API int physvib_layout_load(const char *path, physvib_layout *layout);
+/** The same; PHYSVIB_ERROR_ARGUMENT if nobody could load it. */
 PHYSVIB_API int physvib_layout_save(const char *path, const char *name, const physvib_layout *layout);
 
-/* Event lists (CSV), see Docs/events.md. How many there are; the first `capacity` of them are written to `events`, which may be NULL if
+/** Event lists (CSV), see Docs/events.md. How many there are; the first `capacity` of them are written to `events`, which may be NULL if
  * that is 0. */
 PHYSVIB_API physvib_int64 physvib_events_load(const char *path, physvib_event *events, physvib_int64 capacity);
-/* Playable events, in time order. */
+/** Playable events, in time order. */
 PHYSVIB_API int physvib_events_save(const char *path, const physvib_event *events, physvib_int64 count);
 
-/* 32-bit float, channel j's frame n is samples[j * frames + n]. */
+/** 32-bit float, channel j's frame n is samples[j * frames + n]. */
 PHYSVIB_API int physvib_wav_save(const char *path, const float *samples, int channels, physvib_int64 frames, int rate_hz);
 
-/* Events, in time order, to samples[channel * frames + n], frame n at n / rate_hz; the same samples as `physvib render --from-events`. */
+/** Events, in time order, to samples[channel * frames + n], frame n at n / rate_hz; the same samples as `physvib render --from-events`. */
 PHYSVIB_API int physvib_render(const physvib_renderer_settings *settings, const physvib_event *events, physvib_int64 count,
                                physvib_int64 frames, float *samples);
 
 /* ---- A renderer: strikes in, samples out. ---- */
 
-/* 29 MB. Any thread. */
+/** 29 MB. PHYSVIB_ERROR_FULL: 256 of them. Any thread. */
 PHYSVIB_API int physvib_renderer_create(const physvib_renderer_settings *settings, physvib_renderer *renderer);
-/* Waits until a call that is under way, on another thread, is over. Any thread but R. */
+/** Waits until a call that is under way, on another thread, is over. Any thread but R. */
 PHYSVIB_API int physvib_renderer_free(physvib_renderer renderer);
 
-/* Plays an event at its time; one whose time is over, at once. PHYSVIB_ERROR_FULL: 8,192 events are waiting to be pulled. One at a time. */
+/** Plays an event at its time; one whose time is over, at once. PHYSVIB_ERROR_FULL: 8,192 events are waiting to be pulled. One at a time. */
 PHYSVIB_API int physvib_renderer_strike(physvib_renderer renderer, const physvib_event *event);
 
-/* The next `frames` (1 or more) of each channel, in channels[channel][0..frames), or frame by frame. `channel_count`: the renderer's. R. */
+/** The next `frames` (1 or more) of each channel, in channels[channel][0..frames). `channel_count`: the renderer's. PHYSVIB_ERROR_BUSY. R. */
 PHYSVIB_API int physvib_renderer_pull(physvib_renderer renderer, float *const *channels, int channel_count, int frames);
+/** The same frame by frame. R. */
 PHYSVIB_API int physvib_renderer_pull_interleaved(physvib_renderer renderer, float *samples, int channel_count, int frames);
 
-/* From that time on. Gains from 0 to 10,000; they glide for 10 ms. PHYSVIB_ERROR_FULL: 256 changes are waiting. One at a time. */
+/** From that time on. Gains from 0 to 10,000; they glide for 10 ms. PHYSVIB_ERROR_FULL: 256 changes are waiting. One at a time. */
 PHYSVIB_API int physvib_renderer_set_gain(physvib_renderer renderer, physvib_int64 time_ns, int channel, double gain);
+/** The same: 1 is silent. One at a time. */
 PHYSVIB_API int physvib_renderer_set_mute(physvib_renderer renderer, physvib_int64 time_ns, int channel, int is_muted);
-PHYSVIB_API int physvib_renderer_set_level(physvib_renderer renderer, physvib_int64 time_ns, double gain); /* of all channels, on top */
-/* At most as many enchanters as channels. What rings, rings out where it is. Of `settings` the layout, law, exponent and field are taken. */
+/** The same of all channels, on top. One at a time. */
+PHYSVIB_API int physvib_renderer_set_level(physvib_renderer renderer, physvib_int64 time_ns, double gain);
+/** At most as many enchanters as channels. What rings, rings out where it is. Of `settings` the layout, law, exponent and field are taken. One
+ * at a time. */
 PHYSVIB_API int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 time_ns, const physvib_renderer_settings *settings);
-/* Whatever rings at that time fades within 10 ms, and no event before `until_ns` is played. */
+/** Whatever rings at that time fades within 10 ms, and no event before `until_ns` is played. One at a time. */
 PHYSVIB_API int physvib_renderer_silence(physvib_renderer renderer, physvib_int64 time_ns, physvib_int64 until_ns);
 
-/* Frames by which samples lag the events' times: the limiter's look-ahead. Any thread. */
+/** Frames by which samples lag the events' times: the limiter's look-ahead. Any thread. */
 PHYSVIB_API int physvib_renderer_latency_frames(physvib_renderer renderer);
-/* Of the last pull. One at a time. */
+/** Of the last pull. One at a time. */
 PHYSVIB_API int physvib_renderer_get_status(physvib_renderer renderer, physvib_renderer_status *status);
 
-/* L, see Docs/threads.md: what happens at world time w, struck at w + L, comes in time whatever block (frames) and step it falls into,
+/** L, see Docs/threads.md: what happens at world time w, struck at w + L, comes in time whatever block (frames) and step it falls into,
  * if the world's thread is never silent for longer than `longest_gap_s`. Nanoseconds. Any thread. */
 PHYSVIB_API physvib_int64 physvib_play_out_ns(int rate_hz, int block_frames, int steps_per_s, double longest_gap_s);
 
@@ -226,37 +263,44 @@ PHYSVIB_API physvib_int64 physvib_play_out_ns(int rate_hz, int block_frames, int
  * Each step: begin_step, move (only what was told above), touch every pair that touches, end_step; then take, or send. Bodies are
  * numbers of yours, from 0 on, and stand in the events. */
 
-PHYSVIB_API int physvib_world_create(const physvib_world_settings *settings, physvib_world *world); /* NULL: as init has it */
+/** `settings` may be NULL: as init has them. PHYSVIB_ERROR_FULL: 256 of them. Any thread. */
+PHYSVIB_API int physvib_world_create(const physvib_world_settings *settings, physvib_world *world);
+/** Waits until a call that is under way, on another thread, is over. Any thread. */
 PHYSVIB_API int physvib_world_free(physvib_world world);
+/** From the next step on. */
 PHYSVIB_API int physvib_world_configure(physvib_world world, const physvib_world_settings *settings);
 
-/* A body, at first or again. */
+/** A body, at first or again. */
 PHYSVIB_API int physvib_world_set_body(physvib_world world, int body, const physvib_body *values);
-PHYSVIB_API int physvib_world_remove_body(physvib_world world, int body); /* not within a step */
-/* Centre of mass, velocity and spin before the engine's solver. */
+/** Not within a step. */
+PHYSVIB_API int physvib_world_remove_body(physvib_world world, int body);
+/** Centre of mass, velocity and spin before the engine's solver. */
 PHYSVIB_API int physvib_world_move(physvib_world world, int body, double x_m, double y_m, double vx_m_per_s, double vy_m_per_s, double spin_rad_per_s);
-/* How two kinds of surfaces sound together, whatever the camera's voice is. */
+/** How two kinds of surfaces sound together, whatever the camera's voice is. */
 PHYSVIB_API int physvib_world_pair(physvib_world world, int surface, int other, double frequency_hz, double decay_per_s, double gain);
 
-/* The next step, of so many seconds (0 to 3,600); gravity says what resting bodies are pushed by. */
+/** The next step, of so many seconds (0 to 3,600); gravity says what resting bodies are pushed by. */
 PHYSVIB_API int physvib_world_begin_step(physvib_world world, double seconds, double gravity_m_per_s2);
-/* For engines that are asked what touches: a pair that did not in the step before begins, one that is not named again has ended. */
+/** For engines that are asked what touches: a pair that did not in the step before begins, one that is not named again has ended. */
 PHYSVIB_API int physvib_world_touch(physvib_world world, const physvib_contact *contact);
-/* For engines that tell: parts that were apart meet; a pair goes on pushing; it ends. */
+/** For engines that tell: parts that were apart meet. */
 PHYSVIB_API int physvib_world_begin(physvib_world world, const physvib_contact *contact);
+/** For engines that tell: a pair goes on pushing. */
 PHYSVIB_API int physvib_world_push(physvib_world world, const physvib_contact *contact);
+/** For engines that tell: a pair has parted. */
 PHYSVIB_API int physvib_world_end(physvib_world world, int a, int b);
+/** All that touches has been told. */
 PHYSVIB_API int physvib_world_end_step(physvib_world world);
 
-/* After the steps done. */
+/** After the steps done, in nanoseconds. */
 PHYSVIB_API physvib_int64 physvib_world_time_ns(physvib_world world);
-/* Events that are final (a step later, in order; or, with `at_once`, all of them), at most `capacity`; the rest waits. How many. */
+/** Events that are final (a step later, in order; or, with `at_once`, all of them), at most `capacity`; the rest waits. How many. */
 PHYSVIB_API physvib_int64 physvib_world_take(physvib_world world, physvib_event *events, physvib_int64 capacity, int at_once);
-/* The same into a renderer, `later_ns` (L) after they happened. How many. Events that find its queue full are counted there, and gone. */
+/** The same into a renderer, `later_ns` (L) after they happened. How many. Events that find its queue full are counted there, and gone. */
 PHYSVIB_API physvib_int64 physvib_world_send(physvib_world world, physvib_renderer renderer, physvib_int64 later_ns, int at_once);
-/* Hits lost so far because more came in a step than there is room for. */
+/** Hits lost so far because more came in a step than there is room for. */
 PHYSVIB_API physvib_int64 physvib_world_drops(physvib_world world);
-/* Grains passed so far and left out, because they were more than 2,000 a second at one contact, or 50,000 in all; their power is in the others. */
+/** Grains passed so far and left out, because they were more than 2,000 a second at one contact, or 50,000 in all; their power is in the others. */
 PHYSVIB_API physvib_int64 physvib_world_thinned(physvib_world world);
 
 #ifdef __cplusplus

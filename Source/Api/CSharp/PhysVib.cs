@@ -5,12 +5,17 @@ using System.Runtime.InteropServices;
 
 namespace PhysVib {
 
+/// <summary>What an event came of: bodies that met, or a grain of what rolled or slid.</summary>
+public enum Kind { Hit, Roll, Slide }
+
 /// <summary>A collision as it is felt; see physvib_event.</summary>
 [StructLayout(LayoutKind.Sequential)]
 public struct Event {
     public long TimeNs, DurationNs;
     public double FrequencyHz, DecayPerS, Amplitude, X_m, Y_m, Impulse_Ns, MassKg;
     public int Fixture, Other;
+    public Kind Kind;
+    int unused;
 }
 
 /// <summary>Where the enchanters sit; see physvib_layout.</summary>
@@ -44,7 +49,7 @@ public struct RendererSettings {
     public Layout Layout;
     public static RendererSettings Create() {
         var made = new RendererSettings();
-        Native.Check(Native.physvib_renderer_settings_init(ref made));
+        Native.Check(Native.physvib_renderer_settings_init(ref made, Native.SizeOf(made)));
         return made;
     }
 }
@@ -56,7 +61,7 @@ public struct RendererStatus {
     public long Frames, Played, Late, Rejected, Refused;
     internal static RendererStatus Create() {
         var made = new RendererStatus();
-        Native.Check(Native.physvib_renderer_status_init(ref made));
+        Native.Check(Native.physvib_renderer_status_init(ref made, Native.SizeOf(made)));
         return made;
     }
 }
@@ -69,7 +74,7 @@ public struct WorldSettings {
     public double FieldWidth_m, FieldX_m, FieldY_m, FieldRadians, NormalisationSPerM, HandMassKg, DriveGain, ThresholdMPerS;
     public static WorldSettings Create() {
         var made = new WorldSettings();
-        Native.Check(Native.physvib_world_settings_init(ref made));
+        Native.Check(Native.physvib_world_settings_init(ref made, Native.SizeOf(made)));
         return made;
     }
 }
@@ -87,7 +92,7 @@ public struct Body {
     public int IsRidged;
     public static Body Create() {
         var made = new Body();
-        Native.Check(Native.physvib_body_init(ref made));
+        Native.Check(Native.physvib_body_init(ref made, Native.SizeOf(made)));
         return made;
     }
 }
@@ -101,7 +106,7 @@ public struct Contact {
     public int IsSoft;
     public static Contact Create(int a, int b) {
         var made = new Contact();
-        Native.Check(Native.physvib_contact_init(ref made));
+        Native.Check(Native.physvib_contact_init(ref made, Native.SizeOf(made)));
         made.A = a;
         made.B = b;
         return made;
@@ -209,15 +214,16 @@ static class Native {
         if (result < 0) throw new PhysVibException((int)result, Marshal.PtrToStringAnsi(physvib_error()));
         return result;
     }
+    internal static UIntPtr SizeOf<T>(T what) { return (UIntPtr)(uint)Marshal.SizeOf(typeof(T)); }
     internal static byte[] Utf8(string text) { return System.Text.Encoding.UTF8.GetBytes(text + "\0"); }
 
     [DllImport(Library)] internal static extern IntPtr physvib_version();
     [DllImport(Library)] internal static extern IntPtr physvib_error();
-    [DllImport(Library)] internal static extern int physvib_renderer_settings_init(ref RendererSettings settings);
-    [DllImport(Library)] internal static extern int physvib_renderer_status_init(ref RendererStatus status);
-    [DllImport(Library)] internal static extern int physvib_world_settings_init(ref WorldSettings settings);
-    [DllImport(Library)] internal static extern int physvib_body_init(ref Body body);
-    [DllImport(Library)] internal static extern int physvib_contact_init(ref Contact contact);
+    [DllImport(Library)] internal static extern int physvib_renderer_settings_init(ref RendererSettings settings, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_renderer_status_init(ref RendererStatus status, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_world_settings_init(ref WorldSettings settings, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_body_init(ref Body body, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_contact_init(ref Contact contact, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_layout_preset(byte[] name, ref Layout layout);
     [DllImport(Library)] internal static extern int physvib_layout_load(byte[] path, ref Layout layout);
     [DllImport(Library)] internal static extern int physvib_layout_save(byte[] path, byte[] name, ref Layout layout);

@@ -32,7 +32,7 @@ static void physvib_chipmunk_push(cpArbiter *arbiter, cpSpace *space, cpDataPoin
     CP_ARBITER_GET_SHAPES(arbiter, a, b);
     const cpVect normal = cpArbiterGetNormal(arbiter), point = cpArbiterGetPointA(arbiter, 0);
     physvib_contact contact;
-    physvib_contact_init(&contact);
+    physvib_contact_init(&contact, sizeof contact);
     contact.a = physvib_chipmunk_id(a), contact.b = physvib_chipmunk_id(b);
     contact.x_m = point.x, contact.y_m = point.y, contact.normal_x = normal.x, contact.normal_y = normal.y;
     contact.impulse_n_s = cpfabs(cpvdot(cpArbiterTotalImpulse(arbiter), normal)); /* whichever of the two it is told of */

@@ -18,7 +18,7 @@ static void physvib_mujoco_touch(const mjModel *m, const mjData *d, physvib_worl
     mjtNum force[6];
     physvib_contact contact;
     if (found->dist > 0) return; /* near, and not yet there */
-    physvib_contact_init(&contact);
+    physvib_contact_init(&contact, sizeof contact);
     contact.a = m->geom_bodyid[found->geom1], contact.b = m->geom_bodyid[found->geom2];
     contact.x_m = found->pos[0], contact.y_m = found->pos[2], contact.normal_x = found->frame[0], contact.normal_y = found->frame[2];
     mj_contactForce(m, d, index, force);

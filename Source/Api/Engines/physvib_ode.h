@@ -6,14 +6,15 @@
 #include <ode/ode.h>
 #include <physvib/physvib.h>
 #include <stdint.h>
-#define PHYSVIB_ODE_MOST 1024
+#define PHYSVIB_ODE_MOST 1024 /**< joints in a step */
 
+/** What is told between two steps; zero it, and set `world`. */
 typedef struct physvib_ode {
-    physvib_world world;
-    int count; /* of joints in this step; what is beyond the most is not felt */
-    dJointFeedback feedback[PHYSVIB_ODE_MOST];
-    physvib_contact contact[PHYSVIB_ODE_MOST];
-    double pull_kg[PHYSVIB_ODE_MOST]; /* of what falls onto another kind: its mass, towards the first geom or from it */
+    physvib_world world; /**< that feels */
+    int count; /**< of joints in this step; what is beyond the most is not felt */
+    dJointFeedback feedback[PHYSVIB_ODE_MOST]; /**< of each joint */
+    physvib_contact contact[PHYSVIB_ODE_MOST]; /**< of each joint */
+    double pull_kg[PHYSVIB_ODE_MOST]; /**< of what falls onto another kind: its mass, towards the first geom or from it */
 } physvib_ode;
 
 static double physvib_ode_mass(dGeomID geom) { /* 0: nothing moves it */
@@ -36,7 +37,7 @@ static void physvib_ode_touch(physvib_ode *ode, dJointID joint, const dContactGe
     physvib_contact *contact = &ode->contact[ode->count];
     const double a = physvib_ode_mass(geom->g1), b = physvib_ode_mass(geom->g2);
     if (ode->count == PHYSVIB_ODE_MOST) return;
-    physvib_contact_init(contact);
+    physvib_contact_init(contact, sizeof *contact);
     contact->a = (int)(intptr_t)dGeomGetData(geom->g1), contact->b = (int)(intptr_t)dGeomGetData(geom->g2);
     contact->x_m = geom->pos[0], contact->y_m = geom->pos[1], contact->normal_x = -geom->normal[0], contact->normal_y = -geom->normal[1];
     contact->approach_m_per_s = physvib_ode_speed(geom->g2, geom) - physvib_ode_speed(geom->g1, geom);

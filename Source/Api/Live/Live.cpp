@@ -1,53 +1,90 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The message thread: JUCE's, and so the device's, from its beginning to its end.
 #include "Api/Live/Live.h"
+#include "Host/Devices/NoDevice.h"
 #include "Host/Devices/SimulationDriver.h"
+#include "Session/BoardOutput.h"
+#include "Session/SessionJournal.h"
+#include <physvib/Version.h>
 #include <utility>
 
 namespace physvib::api {
 
+namespace {
+
+// Of the system, and the one that is not there.
+std::vector<std::unique_ptr<juce::AudioIODeviceType>> liveDeviceTypes() {
+    auto types = systemAudioDeviceTypes();
+    types.push_back(std::make_unique<NoDeviceType>());
+    return types;
+}
+
+} // namespace
+
 // Empties what the session tells, keeps the device, ends the loop.
 class Live::Watch final : private juce::Timer {
 public:
-    explicit Watch(Live& live)
-        : live_{live} {
+    Watch(Live& live, const BoardOutput* onBoard, SessionJournal* journal)
+        : live_{live}
+        , onBoard_{onBoard}
+        , journal_{journal} {
         timerCallback();
         startTimer(milliseconds);
     }
-    ~Watch() override { stopTimer(); }
+    ~Watch() override {
+        stopTimer();
+        drain();
+        if (journal_) journal_->end(live_.session_.status().sessionNs);
+    }
 
 private:
     static constexpr int milliseconds = 20;
 
     void timerCallback() override {
-        for (PlayedEvent event; live_.session_.played().pop(event);) {}
-        if (ticks_++ % (1000 / milliseconds) == 0) trouble_ = live_.output_->maintain();
-        LiveStatus now{live_.output_->status(), live_.session_.status().render, live_.output_->sampleRateHz(), live_.output_->blockFrames(), trouble_};
+        drain();
+        LiveStatus now{live_.output_->status(), live_.session_.status().render, live_.output_->sampleRateHz(), live_.output_->blockFrames(), {}, 0, {}};
+        if (onBoard_) now.board = live_.settings_.board->status(), now.untold = onBoard_->untold();
+        if (ticks_++ % (1000 / milliseconds) == 0) trouble_ = troubleOf(now);
+        now.trouble = trouble_;
         const std::lock_guard lock{live_.statusMutex_};
         live_.status_ = std::move(now);
         if (live_.isEnding_) juce::MessageManager::getInstance()->stopDispatchLoop();
     }
 
+    std::string troubleOf(const LiveStatus& now) {
+        std::string trouble = live_.output_->maintain();
+        if (trouble.empty() && now.board) trouble = now.board->trouble;
+        if (trouble.empty() && journal_) trouble = journal_->news();
+        return trouble;
+    }
+
+    void drain() {
+        for (PlayedEvent event; live_.session_.played().pop(event);)
+            if (journal_) journal_->take(event);
+    }
+
     Live& live_;
+    const BoardOutput* onBoard_;
+    SessionJournal* journal_;
     int ticks_ = 0;
     std::string trouble_;
 };
 
-Live::Live(const SessionSetup& setup, AudioOutputSettings output)
-    : session_{setup}
-    , settings_{std::move(output)}
-    , stepsPerSecond_{setup.stepsPerSecond} {}
-
-Live::~Live() {
-    isEnding_ = true;
-    if (messages_.joinable()) messages_.join();
-}
+Live::Live(LiveSettings settings)
+    : settings_{std::move(settings)}
+    , session_{settings_.setup} {}
 
 std::string Live::open() {
     std::promise<std::string> opened;
     auto told = opened.get_future();
     messages_ = std::thread{[this, opened = std::move(opened)]() mutable { run(std::move(opened)); }};
     return told.get();
+}
+
+std::string Live::end() {
+    isEnding_ = true;
+    if (messages_.joinable()) messages_.join();
+    return unsaved_;
 }
 
 LiveStatus Live::status() const {
@@ -57,17 +94,31 @@ LiveStatus Live::status() const {
 
 void Live::run(std::promise<std::string> opened) {
     const juce::ScopedJuceInitialiser_GUI juce;
-    output_.emplace(session_);
-    {
-        std::string error = output_->open(settings_);
-        const bool isOpen = error.empty();
-        std::optional<ThreadDriver> driver;
-        std::optional<Watch> watch;
-        if (isOpen) driver.emplace(session_, stepsPerSecond_), watch.emplace(*this);
-        opened.set_value(std::move(error));
-        if (isOpen) juce::MessageManager::getInstance()->runDispatchLoop();
-    }
+    output_.emplace(session_, liveDeviceTypes);
+    play(opened);
     output_.reset(); // before JUCE
+}
+
+void Live::play(std::promise<std::string>& opened) {
+    std::string error = output_->open(settings_.output);
+    std::optional<SessionJournal> journal;
+    if (error.empty() && !settings_.savePath.empty()) {
+        journal.emplace(settings_.savePath, session_, settings_.setup, Provenance{PHYSVIB_VERSION, {{"session", settings_.savePath}}});
+        error = journal->error();
+    }
+    const bool isOpen = error.empty();
+    if (isOpen) {
+        std::optional<BoardOutput> onBoard;
+        if (settings_.board) onBoard.emplace(session_, *output_, *settings_.board, settings_.setup.panner);
+        const ThreadDriver driver{session_, settings_.setup.stepsPerSecond};
+        const Watch watch{*this, onBoard ? &*onBoard : nullptr, journal ? &*journal : nullptr};
+        opened.set_value({});
+        juce::MessageManager::getInstance()->runDispatchLoop();
+    } else {
+        opened.set_value(std::move(error));
+    }
+    output_->close();
+    if (isOpen && journal) unsaved_ = journal->finish();
 }
 
 } // namespace physvib::api

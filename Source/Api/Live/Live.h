@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A session without a world of its own on a device, with a message thread for both: what a program that has none is lent.
+// A session without a world of its own on a device, a board or both, with a message thread for it: what a program that has none is lent.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
+#include "Session/BoardLink.h"
 #include "Session/Session.h"
 #include <atomic>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -17,36 +19,51 @@ struct LiveStatus {
     AudioOutputStatus output;
     RenderStatus render;
     int rateHz = 0, blockFrames = 0;
+    std::optional<BoardLinkStatus> board;
+    std::uint64_t untold = 0; ///< to the board
     std::string trouble;
+};
+
+/// What it plays on, and what it keeps.
+struct LiveSettings {
+    SessionSetup setup;
+    AudioOutputSettings output;
+    std::unique_ptr<BoardLink> board{}; ///< ready, and setup.boardSeconds with it; null: none
+    std::string savePath{};             ///< of the session as a file, beside which a list of its events stands; empty: none
 };
 
 /// One at a time in a process. Made and ended on any thread, the same for each.
 class Live {
 public:
-    Live(const SessionSetup& setup, AudioOutputSettings output);
-    ~Live();
+    explicit Live(LiveSettings settings);
+    ~Live() { end(); }
     Live(const Live&) = delete;
     Live& operator=(const Live&) = delete;
 
     /// Empty, or one line with the reason; waits for the device.
     std::string open();
 
+    /// Silent, and closed; empty, or why the session is not saved whole. Waits for both.
+    std::string end();
+
     /// Any thread, after open().
     Session& session() noexcept { return session_; }
     AudioOutput& output() noexcept { return *output_; }
     LiveStatus status() const;
+    double longestGapSeconds() const noexcept { return settings_.setup.longestGapSeconds; }
 
 private:
     class Watch;
     void run(std::promise<std::string> opened);
+    void play(std::promise<std::string>& opened);
 
+    const LiveSettings settings_;
     Session session_;
-    const AudioOutputSettings settings_;
-    const int stepsPerSecond_;
     std::optional<AudioOutput> output_; // of the message thread
     std::atomic<bool> isEnding_{false};
     mutable std::mutex statusMutex_;
     LiveStatus status_;
+    std::string unsaved_; // of the message thread, until it has ended
     std::thread messages_;
 };
 

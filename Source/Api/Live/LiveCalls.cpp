@@ -1,86 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The functions of physvib-live.h.
-#include "Api/Live/physvib-live.h"
-#include "Api/C/Convert.h"
-#include "Api/C/Handles.h"
-#include "Api/Live/Live.h"
-#include <cmath>
-#include <cstdlib>
+#include "Api/Live/Lives.h"
+#include <algorithm>
+#include <array>
+#include <cstring>
 
 using namespace physvib;
 using namespace physvib::api;
 
 namespace {
-
-Handles<Live, 3>& lives() {
-    static auto* const all = new Handles<Live, 3>; // never destroyed: threads may outlive main
-    return *all;
-}
-
-std::uintptr_t nameOf(physvib_live live) noexcept { return reinterpret_cast<std::uintptr_t>(live); }
-
-std::mutex& openMutex() {
-    static std::mutex mutex;
-    return mutex;
-}
-std::uintptr_t openName = 0; // under it
-
-int close(std::uintptr_t name) noexcept {
-    const std::lock_guard lock{openMutex()};
-    if (!lives().remove(name)) return unknownHandle();
-    openName = 0;
-    return PHYSVIB_OK;
-}
-
-// JUCE has statics, which end after what was registered later than they were made.
-void closeAtExit() {
-    static const int registered = std::atexit([] {
-        if (openName != 0) close(openName);
-    });
-    static_cast<void>(registered);
-}
-
-/// `call(live)`, or that there is none.
-template <class Call>
-auto in(physvib_live name, Call call) noexcept -> decltype(call(std::declval<Live&>())) {
-    const auto live = lives().use(nameOf(name));
-    if (!live) return unknownHandle();
-    return guarded([&] { return call(*live); });
-}
-
-bool isLevel(double db) noexcept { return db >= -90.0 && db <= 0.0; } // not NaN
-
-float gainOf(double db) noexcept { return static_cast<float>(std::pow(10.0, db / 20.0)); }
-
-std::string_view faultOf(const physvib_live_settings& s) noexcept {
-    if (s.rate_hz != 0 && !isSampleRate(s.rate_hz)) return "rate: expected 0, or 5000 to 192000 Hz";
-    if (s.block_frames < 0 || s.block_frames > limits::maxBlockFrames) return "block: expected 0 to 8192 frames";
-    if (s.steps_per_s < 20 || s.steps_per_s > 1000) return "steps: expected 20 to 1000 per second";
-    if (!(s.longest_gap_s >= 0.0 && s.longest_gap_s <= 1.0)) return "longest gap: expected 0 to 1 s";
-    if (!isLevel(s.level_db)) return "level: expected -90 to 0 dB";
-    return {};
-}
-
-SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& renderer) {
-    SessionSetup setup;
-    setup.scene.name = "live"; // empty: the world is the caller's
-    setup.scene.fieldWidthMetres = setup.scene.fieldHeightMetres = 1.0;
-    setup.stepsPerSecond = s.steps_per_s;
-    setup.longestGapSeconds = s.longest_gap_s;
-    setup.channels = renderer.outputs();
-    setup.panner = renderer.panner;
-    setup.limiterEnabled = renderer.limiterEnabled;
-    setup.log = LogUse::none;
-    return setup;
-}
-
-bool takeRenderer(const physvib_renderer_settings* from, RendererSettings& to) {
-    physvib_renderer_settings taken;
-    if (from == nullptr) physvib_renderer_settings_init(&taken);
-    else if (!take(from, taken, physvib_renderer_settings_init)) return false;
-    const std::string_view fault = convert(taken, to);
-    return fault.empty() || (nothingThere(fault), false);
-}
 
 int post(Live& live, RenderControl control) {
     return live.session().post(control) < 0 ? fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait") : PHYSVIB_OK;
@@ -99,7 +27,7 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
     events.reserve(told.size());
     for (const physvib_event& event : told) {
         events.push_back(eventOf(event));
-        events.back().timeNs += startNs;
+        if (startNs != 0) events.back().timeNs = std::max<std::int64_t>(0, events.back().timeNs + startNs); // before all began: late, at once
     }
     return live.session().playAt(events) ? PHYSVIB_OK : nothingThere("event: expected 0 to 20000 Hz, a decay or a duration, numbers, a time from 0 on");
 }
@@ -108,48 +36,7 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
 
 const char* physvib_live_error() { return lastError().data(); }
 
-int physvib_live_settings_init(physvib_live_settings* settings) {
-    if (settings == nullptr) return nothingThere("settings: expected a place for them, found NULL");
-    *settings = {sizeof *settings, 0, 0, 100, messageTimerGapSeconds, safeStartDecibels};
-    return PHYSVIB_OK;
-}
-
-int physvib_live_status_init(physvib_live_status* status) {
-    if (status == nullptr) return nothingThere("status: expected a place for it, found NULL");
-    *status = {};
-    status->size = sizeof *status;
-    return PHYSVIB_OK;
-}
-
-int physvib_live_open(const char* device, const physvib_renderer_settings* renderer, const physvib_live_settings* settings, physvib_live* name) {
-    return guarded([&] {
-        if (name == nullptr || device == nullptr) return nothingThere("live: expected a device and a place for it, found NULL");
-        *name = nullptr;
-        physvib_live_settings taken;
-        if (settings == nullptr) physvib_live_settings_init(&taken);
-        else if (!take(settings, taken, physvib_live_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
-        RendererSettings wanted;
-        if (const auto fault = faultOf(taken); !fault.empty()) return nothingThere(fault);
-        if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-
-        const std::lock_guard lock{openMutex()};
-        if (openName != 0) return fail(PHYSVIB_ERROR_FULL, "live: expected the one that is open to be closed before");
-        AudioOutputSettings output;
-        output.device = device;
-        output.sampleRateHz = taken.rate_hz;
-        output.blockFrames = taken.block_frames;
-        output.level = gainOf(taken.level_db);
-        output.enchanters = wanted.panner.channels();
-        auto live = std::make_unique<Live>(setupOf(taken, wanted), output);
-        if (const std::string error = live->open(); !error.empty()) return fail(PHYSVIB_ERROR_DEVICE, error);
-        openName = lives().add(std::move(live));
-        closeAtExit();
-        *name = reinterpret_cast<physvib_live>(openName);
-        return PHYSVIB_OK;
-    });
-}
-
-int physvib_live_close(physvib_live live) { return close(nameOf(live)); }
+int physvib_live_status_init(physvib_live_status* status, size_t size) { return begin(status, size, zeroed<physvib_live_status>()); }
 
 physvib_int64 physvib_live_now_ns(physvib_live name) {
     return in(name, [](Live& live) -> physvib_int64 { return live.session().presentNs(); });
@@ -166,9 +53,21 @@ int physvib_live_strike(physvib_live name, const physvib_event* events, physvib_
     });
 }
 
+int physvib_live_align(physvib_live name, physvib_world world, physvib_int64* startNs) {
+    return in(name, [&](Live& live) {
+        if (startNs == nullptr) return nothingThere("start: expected a place for it, found NULL");
+        const physvib_int64 timeNs = physvib_world_time_ns(world);
+        if (timeNs < 0) return fail(static_cast<int>(timeNs), physvib_error());
+        const physvib_int64 wanted = live.session().presentNs() - timeNs;
+        const auto gapNs = static_cast<physvib_int64>(live.longestGapSeconds() * 1.0e9);
+        if (*startNs < wanted - gapNs || *startNs > wanted + gapNs) *startNs = wanted;
+        return PHYSVIB_OK;
+    });
+}
+
 physvib_int64 physvib_live_send(physvib_live name, physvib_world world, physvib_int64 startNs, int atOnce) {
     return in(name, [&](Live& live) -> physvib_int64 {
-        if (startNs < 0 || startNs > limits::maxTimeNs / 4) return nothingThere("start: expected 0 to 2.5 * 10^16 ns");
+        if (startNs < -limits::maxTimeNs / 4 || startNs > limits::maxTimeNs / 4) return nothingThere("start: expected at most 2.5 * 10^16 ns from 0");
         std::array<physvib_event, 128> part;
         for (physvib_int64 sent = 0;;) {
             const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), atOnce);
@@ -228,6 +127,11 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
         told.played = static_cast<physvib_int64>(now.render.played);
         told.late = static_cast<physvib_int64>(now.render.late);
         told.rejected = static_cast<physvib_int64>(now.render.rejected);
+        if (now.board) {
+            told.board = now.board->state == BoardLinkStatus::State::ready ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;
+            told.board_sent = static_cast<physvib_int64>(now.board->sent);
+            told.board_lost = static_cast<physvib_int64>(now.board->thinned + now.board->refused + now.untold);
+        }
         const std::size_t length = std::min(now.trouble.size(), sizeof told.trouble - 1);
         std::copy_n(now.trouble.data(), length, told.trouble);
         told.trouble[length] = '\0';

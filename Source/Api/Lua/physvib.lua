@@ -10,7 +10,7 @@ local ffi = require("ffi")
 ffi.cdef [[
 typedef struct physvib_renderer_name *physvib_renderer;
 typedef struct physvib_world_name *physvib_world;
-typedef struct { int64_t time_ns, duration_ns; double frequency_hz, decay_per_s, amplitude, x_m, y_m, impulse_n_s, mass_kg; int fixture, other; } physvib_event;
+typedef struct { int64_t time_ns, duration_ns; double frequency_hz, decay_per_s, amplitude, x_m, y_m, impulse_n_s, mass_kg; int fixture, other, kind, unused; } physvib_event;
 typedef struct { double extent_width_m, extent_height_m, x_m[64], y_m[64]; int count; } physvib_layout;
 typedef struct { size_t size; int rate_hz, channels, law, limiter; double exponent, field_width_m, field_height_m; physvib_layout layout; } physvib_renderer_settings;
 typedef struct { size_t size; int is_muted, hits_per_step, at_body, drops_hits_of_removed; double field_width_m, field_x_m, field_y_m, field_radians,
@@ -21,10 +21,10 @@ typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, imp
     fraction, gap_m, gap_fraction, along_a_m_per_s, along_b_m_per_s; int is_soft; } physvib_contact;
 const char *physvib_version(void);
 const char *physvib_error(void);
-int physvib_renderer_settings_init(physvib_renderer_settings *);
-int physvib_world_settings_init(physvib_world_settings *);
-int physvib_body_init(physvib_body *);
-int physvib_contact_init(physvib_contact *);
+int physvib_renderer_settings_init(physvib_renderer_settings *, size_t);
+int physvib_world_settings_init(physvib_world_settings *, size_t);
+int physvib_body_init(physvib_body *, size_t);
+int physvib_contact_init(physvib_contact *, size_t);
 int physvib_layout_preset(const char *, physvib_layout *);
 int physvib_layout_load(const char *, physvib_layout *);
 int physvib_events_save(const char *, const physvib_event *, int64_t);
@@ -47,22 +47,46 @@ int physvib_world_end_step(physvib_world);
 int64_t physvib_world_time_ns(physvib_world);
 int64_t physvib_world_take(physvib_world, physvib_event *, int64_t, int);
 int64_t physvib_world_send(physvib_world, physvib_renderer, int64_t, int);
+
+typedef struct physvib_live_name *physvib_live;
+typedef struct { size_t size; int rate_hz, block_frames, steps_per_s; double longest_gap_s, level_db; char save[1024]; } physvib_live_settings;
+typedef struct { size_t size; int is_running, is_silent, rate_hz, block_frames, live_modes, losses, xruns; double load, worst_load;
+    int64_t played, late, rejected; char trouble[256]; int board, unused; int64_t board_sent, board_lost; } physvib_live_status;
+const char *physvib_live_error(void);
+int physvib_live_settings_init(physvib_live_settings *, size_t);
+int physvib_live_status_init(physvib_live_status *, size_t);
+int physvib_live_open(const char *, const physvib_renderer_settings *, const physvib_live_settings *, physvib_live *);
+int physvib_live_close(physvib_live);
+int64_t physvib_live_now_ns(physvib_live);
+int64_t physvib_live_latency_ns(physvib_live);
+int physvib_live_strike(physvib_live, const physvib_event *, int64_t);
+int physvib_live_align(physvib_live, physvib_world, int64_t *);
+int physvib_live_set_gain(physvib_live, int, double);
+int physvib_live_set_mute(physvib_live, int, int);
+int physvib_live_set_layout(physvib_live, const physvib_renderer_settings *);
+int physvib_live_set_level(physvib_live, double);
+int physvib_live_silence(physvib_live, int);
+int physvib_live_get_status(physvib_live, physvib_live_status *);
 ]]
-local c = ffi.load(os.getenv("PHYSVIB_LIBRARY") or "libphysvib.so.0")
+local library = os.getenv("PHYSVIB_LIBRARY") or "libphysvib.so.0"
+local c = ffi.load(library)
 local physvib = {c = c, version = ffi.string(c.physvib_version())}
 
--- A code or a count; of an error, a Lua error of one line.
-local function call(name, ...)
-    local result = tonumber(c["physvib_" .. name](...))
-    if result < 0 then error("physvib: " .. ffi.string(c.physvib_error()), 2) end
-    return result
+-- `name(...)` of a library: a code or a count; of an error, a Lua error of one line.
+local function caller(from, prefix)
+    return function(name, ...)
+        local result = tonumber(from[prefix .. name](...))
+        if result < 0 then error("physvib: " .. ffi.string(from[prefix .. "error"]()), 2) end
+        return result
+    end
 end
+local call = caller(c, "physvib_")
 physvib.call = call
 
 -- A structure as its init has it, and the values given.
-local function filled(kind, values)
+local function filled(kind, values, from)
     local made = ffi.new("physvib_" .. kind)
-    call(kind .. "_init", made)
+    if (from or c)["physvib_" .. kind .. "_init"](made, ffi.sizeof(made)) < 0 then error("physvib.lua and its library differ in version", 2) end
     for name, value in pairs(values or {}) do made[name] = value end
     return made
 end
@@ -223,6 +247,52 @@ function Attachment:take(events, at_once)
         for i = 0, count - 1 do events[#events + 1] = ffi.new("physvib_event", room[i]) end
     until count < 256
     return events
+end
+
+local Live = {}
+Live.__index = Live
+
+-- A device, "JACK:system", a board, "BOARD:auto", or both, "JACK:system+BOARD:auto", by libphysvib-live.so.0 (GPL) beside the other library or
+-- named by PHYSVIB_LIVE_LIBRARY. `settings` of physvib_live_settings, `renderer` of physvib_renderer_settings.
+function physvib.open(device, settings, renderer)
+    local from = ffi.load(os.getenv("PHYSVIB_LIVE_LIBRARY") or (library:gsub("libphysvib%.so", "libphysvib-live.so")))
+    local self = setmetatable({c = from, call = caller(from, "physvib_live_"), start = ffi.new("int64_t[1]")}, Live)
+    local name = ffi.new("physvib_live[1]")
+    self.call("open", device, filled("renderer_settings", renderer), filled("live_settings", settings, from), name)
+    self.name = ffi.gc(name[0], from.physvib_live_close)
+    return self
+end
+
+-- After each update of a world that goes on with time: what is final is felt L after it happened. Appended to `events`, if they are given,
+-- with their session times.
+function Live:follow(haptics, events)
+    self.call("align", self.name, haptics.name, self.start)
+    for _, event in ipairs(haptics:take({})) do
+        event.time_ns = math.max(0, tonumber(event.time_ns + self.start[0])) -- before all began: at once
+        self:strike(event)
+        if events then events[#events + 1] = event end
+    end
+end
+
+-- One event, at a session time.
+function Live:strike(event) self.call("strike", self.name, event, 1) end
+-- Session time and L, in nanoseconds.
+function Live:now_ns() return tonumber(self.c.physvib_live_now_ns(self.name)) end
+function Live:latency_ns() return tonumber(self.c.physvib_live_latency_ns(self.name)) end
+-- See physvib-live.h.
+function Live:set_gain(channel, gain) self.call("set_gain", self.name, channel, gain) end
+function Live:set_mute(channel, is_muted) self.call("set_mute", self.name, channel, is_muted and 1 or 0) end
+function Live:set_layout(renderer) self.call("set_layout", self.name, filled("renderer_settings", renderer)) end
+function Live:set_level(level_db) self.call("set_level", self.name, level_db) end
+function Live:silence(is_silent) self.call("silence", self.name, is_silent == false and 0 or 1) end
+function Live:status()
+    local told = filled("live_status", nil, self.c)
+    self.call("get_status", self.name, told)
+    return told
+end
+function Live:close()
+    self.call("close", ffi.gc(self.name, nil))
+    self.name = nil
 end
 
 return physvib

@@ -6,12 +6,13 @@
 >>> samples = physvib.render(hit, seconds=1.0, layout="phone4")  # float32, shape (4, 48000)
 >>> physvib.save_wav("hit.wav", samples)
 """
-from ._library import EVENT, PhysVibError, version
+from ._library import EVENT, HIT, ROLL, SLIDE, PhysVibError, version
 from .files import events, load_events, render, save_events, save_wav
 from .layout import Layout
 from .live import Live, LiveStatus
 from .renderer import Renderer, Status, play_out_s
+from .session import Session
 from .world import World
 
 __version__ = version()
-__all__ = ["EVENT", "Layout", "Live", "LiveStatus", "PhysVibError", "Renderer", "Status", "World", "events", "load_events", "play_out_s", "render", "save_events", "save_wav"]
+__all__ = ["EVENT", "HIT", "Layout", "Live", "LiveStatus", "PhysVibError", "ROLL", "Renderer", "SLIDE", "Session", "Status", "World", "events", "load_events", "play_out_s", "render", "save_events", "save_wav"]

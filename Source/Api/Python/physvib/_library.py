@@ -12,7 +12,10 @@ MAX_ENCHANTERS = 64
 
 #: A collision as it is felt, as numpy has it: fields as in physvib.h, times in whole nanoseconds.
 EVENT = np.dtype([("time_ns", "<i8"), ("duration_ns", "<i8"), ("frequency_hz", "<f8"), ("decay_per_s", "<f8"), ("amplitude", "<f8"),
-                  ("x_m", "<f8"), ("y_m", "<f8"), ("impulse_n_s", "<f8"), ("mass_kg", "<f8"), ("fixture", "<i4"), ("other", "<i4")])
+                  ("x_m", "<f8"), ("y_m", "<f8"), ("impulse_n_s", "<f8"), ("mass_kg", "<f8"), ("fixture", "<i4"), ("other", "<i4"), ("kind", "<i4"), ("unused", "<i4")])
+
+#: What an event came of, as its field `kind` says it.
+HIT, ROLL, SLIDE = 0, 1, 2
 
 
 class PhysVibError(ValueError):
@@ -73,8 +76,8 @@ library = _load()
 _handle, _time, _events, _samples = c_void_p, c_int64, c_void_p, c_void_p
 _signatures = {
     "version": (c_char_p,), "error": (c_char_p,),
-    "renderer_settings_init": (c_int, POINTER(CRendererSettings)), "renderer_status_init": (c_int, POINTER(CRendererStatus)),
-    "world_settings_init": (c_int, POINTER(CWorldSettings)), "body_init": (c_int, POINTER(CBody)), "contact_init": (c_int, POINTER(CContact)),
+    "renderer_settings_init": (c_int, POINTER(CRendererSettings), c_size_t), "renderer_status_init": (c_int, POINTER(CRendererStatus), c_size_t),
+    "world_settings_init": (c_int, POINTER(CWorldSettings), c_size_t), "body_init": (c_int, POINTER(CBody), c_size_t), "contact_init": (c_int, POINTER(CContact), c_size_t),
     "layout_preset": (c_int, c_char_p, POINTER(CLayout)), "layout_load": (c_int, c_char_p, POINTER(CLayout)),
     "layout_save": (c_int, c_char_p, c_char_p, POINTER(CLayout)),
     "events_load": (c_int64, c_char_p, _events, c_int64), "events_save": (c_int, c_char_p, _events, c_int64),
@@ -113,7 +116,7 @@ def call(name: str, *arguments: object) -> int:
 def filled(structure: type, init: str, **values: object) -> Structure:
     """A structure as its init has it, and the values that are given; None is what init says."""
     made = structure()
-    call(init, ctypes.byref(made))
+    call(init, ctypes.byref(made), ctypes.sizeof(made))
     for name, value in values.items():
         if value is not None:
             setattr(made, name, value)

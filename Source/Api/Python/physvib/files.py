@@ -8,19 +8,20 @@ import os
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._library import EVENT, PhysVibError, call, encoded
+from ._library import EVENT, HIT, PhysVibError, call, encoded
 from .layout import Layout, settings
 
 
 def events(time_s: ArrayLike, *, frequency_hz: ArrayLike, decay_per_s: ArrayLike, amplitude: ArrayLike = 1.0, x_m: ArrayLike = 0.0, y_m: ArrayLike = 0.0,
-           duration_s: ArrayLike = 0.0) -> NDArray[np.void]:
-    """Events of dtype EVENT, shape (n,), sorted by time; each argument one number, or n of them. Times are rounded to nanoseconds."""
+           duration_s: ArrayLike = 0.0, kind: ArrayLike = HIT) -> NDArray[np.void]:
+    """Events of dtype EVENT, shape (n,), sorted by time; each argument one number, or n of them. Times are rounded to nanoseconds.
+    `kind`: HIT, or ROLL or SLIDE of a grain."""
     seconds, durations = np.asarray(time_s, dtype=np.float64), np.asarray(duration_s, dtype=np.float64)
     if not (np.isfinite(seconds).all() and np.isfinite(durations).all()) or np.abs(seconds).max(initial=0.0) > 1e8 or np.abs(durations).max(initial=0.0) > 1e8:
         raise PhysVibError("time: expected 0 to 10^8 s", -2)
-    made = np.zeros(np.broadcast(seconds, frequency_hz, decay_per_s, amplitude, x_m, y_m, durations).shape or (1,), dtype=EVENT)
+    made = np.zeros(np.broadcast(seconds, frequency_hz, decay_per_s, amplitude, x_m, y_m, durations, kind).shape or (1,), dtype=EVENT)
     made["time_ns"], made["duration_ns"] = np.rint(seconds * 1e9), np.rint(durations * 1e9)
-    for name, values in (("frequency_hz", frequency_hz), ("decay_per_s", decay_per_s), ("amplitude", amplitude), ("x_m", x_m), ("y_m", y_m)):
+    for name, values in (("frequency_hz", frequency_hz), ("decay_per_s", decay_per_s), ("amplitude", amplitude), ("x_m", x_m), ("y_m", y_m), ("kind", kind)):
         made[name] = values
     made["fixture"] = made["other"] = -1
     return made[np.argsort(made["time_ns"], kind="stable")]

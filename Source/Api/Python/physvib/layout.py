@@ -29,11 +29,13 @@ class Layout:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Layout:
+        """A layout file (JSON)."""
         c = CLayout()
         call("layout_load", encoded(path), ctypes.byref(c))
         return cls._of(c)
 
     def save(self, path: str | os.PathLike[str], name: str) -> None:
+        """A layout file (JSON) of that name."""
         call("layout_save", encoded(path), name.encode(), ctypes.byref(self._c()))
 
     def __len__(self) -> int:

@@ -4,45 +4,19 @@ from __future__ import annotations
 
 import ctypes
 import os
-from ctypes import POINTER, c_char, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
-from pathlib import Path
+from ctypes import c_int64, c_void_p
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import CRendererSettings, PhysVibError, Structure, library
+from ._library import PhysVibError, encoded
+from ._live_library import CLiveSettings, CLiveStatus, live_call
 from .files import checked
 from .layout import Layout, settings
 from .world import World
 
-
-class CLiveSettings(Structure):
-    _fields_ = [("size", c_size_t), ("rate_hz", c_int), ("block_frames", c_int), ("steps_per_s", c_int), ("longest_gap_s", c_double), ("level_db", c_double)]
-
-
-class CLiveStatus(Structure):
-    _fields_ = [("size", c_size_t), *[(name, c_int) for name in ("is_running", "is_silent", "rate_hz", "block_frames", "live_modes", "losses", "xruns")],
-                ("load", c_double), ("worst_load", c_double), ("played", c_int64), ("late", c_int64), ("rejected", c_int64), ("trouble", c_char * 256)]
-
-
-_signatures = {
-    "error": (c_char_p,), "settings_init": (c_int, POINTER(CLiveSettings)), "status_init": (c_int, POINTER(CLiveStatus)),
-    "open": (c_int, c_char_p, POINTER(CRendererSettings), POINTER(CLiveSettings), POINTER(c_void_p)), "close": (c_int, c_void_p),
-    "now_ns": (c_int64, c_void_p), "latency_ns": (c_int64, c_void_p), "strike": (c_int, c_void_p, c_void_p, c_int64),
-    "send": (c_int64, c_void_p, c_void_p, c_int64, c_int), "set_gain": (c_int, c_void_p, c_int, c_double), "set_mute": (c_int, c_void_p, c_int, c_int),
-    "set_layout": (c_int, c_void_p, POINTER(CRendererSettings)), "set_level": (c_int, c_void_p, c_double), "silence": (c_int, c_void_p, c_int),
-    "get_status": (c_int, c_void_p, POINTER(CLiveStatus)),
-}
-
-
-def _load() -> ctypes.CDLL:
-    beside = Path(library._name).parent / "libphysvib-live.so.0"
-    found = ctypes.CDLL(os.environ.get("PHYSVIB_LIVE_LIBRARY") or (str(beside) if beside.exists() else "libphysvib-live.so.0"))
-    for name, (result, *arguments) in _signatures.items():
-        function = getattr(found, "physvib_live_" + name)
-        function.restype, function.argtypes = result, arguments
-    return found
+BOARDS = ("none", "sought", "plays")
 
 
 class LiveStatus(NamedTuple):
@@ -60,83 +34,97 @@ class LiveStatus(NamedTuple):
     late: int      #: played at once, after their time
     rejected: int  #: could not be played
     trouble: str   #: what is missing; "": nothing
+    board: str     #: "none", "sought" (it has gone) or "plays"
+    board_sent: int  #: strikes on their way to the board so far
+    board_lost: int  #: of what was struck: more than the line carries, too old, or not playable there
 
 
 class Live:
     """Strikes told from any thread are felt at session time + L, to a fraction of a frame, however busy the interpreter is: it only has
-    to have told them by then. One at a time."""
+    to have told them by then. One at a time.
+
+    `device`: "JACK:system" for instance, a board ("BOARD:auto", "BOARD:/dev/ttyACM0"), or both ("JACK:system+BOARD:auto"). `save`: a session
+    file (.json) of all that is struck, written while it plays; see Session."""
 
     def __init__(self, device: str = "JACK:system", *, layout: str | Layout = "phone4", channels: int = 0, law: str = "linear", exponent: float = 1.0,
                  field_m: tuple[float, float] | None = None, limiter: bool = True, rate_hz: int = 0, block_frames: int = 0, steps_per_s: int = 100,
-                 longest_gap_s: float = 0.026, level_db: float = -12.0) -> None:
+                 longest_gap_s: float = 0.026, level_db: float = -12.0, save: str | os.PathLike[str] = "") -> None:
         self._handle = c_void_p()
-        self._library = _load()
         wanted = CLiveSettings()
-        self._call("settings_init", ctypes.byref(wanted))
+        live_call("live_settings_init", ctypes.byref(wanted), ctypes.sizeof(wanted))
         wanted.rate_hz, wanted.block_frames, wanted.steps_per_s = rate_hz, block_frames, steps_per_s
         wanted.longest_gap_s, wanted.level_db = longest_gap_s, level_db
+        if len(encoded(save)) >= CLiveSettings.save.size:
+            raise PhysVibError("save: expected a path of at most 1023 bytes", -2)
+        wanted.save = encoded(save)
         renderer = settings(layout, 48000, law, exponent, field_m, limiter, channels)
-        self._call("open", device.encode(), ctypes.byref(renderer), ctypes.byref(wanted), ctypes.byref(self._handle))
+        live_call("live_open", device.encode(), ctypes.byref(renderer), ctypes.byref(wanted), ctypes.byref(self._handle))
 
     @property
     def now_ns(self) -> int:
         """Session time."""
-        return self._call("now_ns", self._handle)
+        return live_call("live_now_ns", self._handle)
 
     @property
     def latency_ns(self) -> int:
         """L: what is struck at session time t leaves for the device at t + L."""
-        return self._call("latency_ns", self._handle)
+        return live_call("live_latency_ns", self._handle)
 
     def strike(self, events: NDArray[np.void]) -> None:
         """Plays events (dtype EVENT), whose times are session times; those that are over, at once."""
         array = checked(events)
-        self._call("strike", self._handle, array.ctypes.data, len(array))
+        live_call("live_strike", self._handle, array.ctypes.data, len(array))
 
     def send(self, world: World, start_ns: int, at_once: bool = False) -> int:
         """The events of a world whose time 0 is session time start_ns. How many."""
-        return self._call("send", self._handle, world._handle, start_ns, int(at_once))
+        return live_call("live_send", self._handle, world._handle, start_ns, int(at_once))
+
+    def follow(self, world: World, start_ns: int = 0) -> int:
+        """For a world that is stepped as time goes on, after each step: sends what is final, and returns the session time of the world's time 0,
+        to be given to the next call. It stays the same unless the world is held up, or runs ahead, by more than longest_gap_s."""
+        start = c_int64(start_ns)
+        live_call("live_align", self._handle, world._handle, ctypes.byref(start))
+        self.send(world, start.value)
+        return start.value
 
     def set_gain(self, channel: int, gain: float) -> None:
-        self._call("set_gain", self._handle, channel, gain)
+        """From session time on, felt L later: 0 to 10,000, in a glide of 10 ms."""
+        live_call("live_set_gain", self._handle, channel, gain)
 
     def set_mute(self, channel: int, is_muted: bool) -> None:
-        self._call("set_mute", self._handle, channel, int(is_muted))
+        """From session time on, felt L later."""
+        live_call("live_set_mute", self._handle, channel, int(is_muted))
 
     def set_layout(self, layout: str | Layout, *, law: str = "linear", exponent: float = 1.0, field_m: tuple[float, float] | None = None) -> None:
-        self._call("set_layout", self._handle, ctypes.byref(settings(layout, 48000, law, exponent, field_m, True, 0)))
+        """Later strikes sit there; at most as many enchanters as channels."""
+        live_call("live_set_layout", self._handle, ctypes.byref(settings(layout, 48000, law, exponent, field_m, True, 0)))
 
     def set_level(self, level_db: float) -> None:
         """Of all, -90 to 0 dB; at once, in a ramp."""
-        self._call("set_level", self._handle, level_db)
+        live_call("live_set_level", self._handle, level_db)
 
     def silence(self, is_silent: bool = True) -> None:
         """Within a block; back in a ramp."""
-        self._call("silence", self._handle, int(is_silent))
+        live_call("live_silence", self._handle, int(is_silent))
 
     @property
     def status(self) -> LiveStatus:
+        """What it does, and what is wrong."""
         told = CLiveStatus()
-        self._call("status_init", ctypes.byref(told))
-        self._call("get_status", self._handle, ctypes.byref(told))
+        live_call("live_status_init", ctypes.byref(told), ctypes.sizeof(told))
+        live_call("live_get_status", self._handle, ctypes.byref(told))
         values = {name: getattr(told, name) for name in LiveStatus._fields}
-        values.update(is_running=bool(told.is_running), is_silent=bool(told.is_silent), trouble=told.trouble.decode(errors="replace"))
+        values.update(is_running=bool(told.is_running), is_silent=bool(told.is_silent), trouble=told.trouble.decode(errors="replace"), board=BOARDS[told.board])
         return LiveStatus(**values)
 
     def close(self) -> None:
-        """Silent within two blocks, then closed."""
+        """Silent within two blocks, then closed, also if it says that not all of the session is saved."""
         if self._handle:
-            self._call("close", self._handle)
-            self._handle = c_void_p()
+            handle, self._handle = self._handle, c_void_p()
+            live_call("live_close", handle)
 
     def __enter__(self) -> Live:
         return self
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-    def _call(self, name: str, *arguments: object) -> int:
-        result = getattr(self._library, "physvib_live_" + name)(*arguments)
-        if result < 0:
-            raise PhysVibError(self._library.physvib_live_error().decode(errors="replace"), result)
-        return result

@@ -55,9 +55,11 @@ class Renderer:
         return out
 
     def set_gain(self, channel: int, gain: float, time_ns: int = 0) -> None:
+        """From time_ns on: 0 to 10,000, in a glide of 10 ms."""
         call("renderer_set_gain", self._handle, time_ns, channel, gain)
 
     def set_mute(self, channel: int, is_muted: bool, time_ns: int = 0) -> None:
+        """From time_ns on."""
         call("renderer_set_mute", self._handle, time_ns, channel, int(is_muted))
 
     def set_level(self, gain: float, time_ns: int = 0) -> None:
@@ -65,6 +67,7 @@ class Renderer:
         call("renderer_set_level", self._handle, time_ns, gain)
 
     def set_layout(self, layout: str | Layout, *, law: str = "linear", exponent: float = 1.0, field_m: tuple[float, float] | None = None, time_ns: int = 0) -> None:
+        """Later strikes sit there; at most as many enchanters as channels."""
         call("renderer_set_layout", self._handle, time_ns, ctypes.byref(settings(layout, self.rate_hz, law, exponent, field_m, True, 0)))
 
     def silence(self, until_ns: int, time_ns: int = 0) -> None:
@@ -78,11 +81,13 @@ class Renderer:
 
     @property
     def status(self) -> Status:
+        """As of the last pull."""
         told = filled(CRendererStatus, "renderer_status_init")
         call("renderer_get_status", self._handle, ctypes.byref(told))
         return Status(*[getattr(told, name) for name in Status._fields])
 
     def close(self) -> None:
+        """Frees it; later calls raise."""
         if self._handle:
             call("renderer_free", self._handle)
             self._handle = c_void_p()

@@ -41,6 +41,7 @@ class World:
         call("world_set_body", self._handle, body, ctypes.byref(values))
 
     def remove_body(self, body: int) -> None:
+        """A body that goes; not within a step."""
         call("world_remove_body", self._handle, body)
 
     def move(self, body: int, x_m: float, y_m: float, vx_m_per_s: float = 0.0, vy_m_per_s: float = 0.0, spin_rad_per_s: float = 0.0) -> None:
@@ -48,6 +49,7 @@ class World:
         call("world_move", self._handle, body, x_m, y_m, vx_m_per_s, vy_m_per_s, spin_rad_per_s)
 
     def pair(self, surface: int, other: int, *, frequency_hz: float, decay_per_s: float, gain: float = 1.0) -> None:
+        """How two kinds of surfaces sound together, whatever the camera's voice is."""
         call("world_pair", self._handle, surface, other, frequency_hz, decay_per_s, gain)
 
     @contextlib.contextmanager
@@ -67,12 +69,15 @@ class World:
         self._tell("world_touch", a, b, x_m, y_m, more)
 
     def begin(self, a: int, b: int, x_m: float = 0.0, y_m: float = 0.0, **more: float) -> None:
+        """For engines that tell: parts that were apart meet. `more` as of touch."""
         self._tell("world_begin", a, b, x_m, y_m, more)
 
     def push(self, a: int, b: int, x_m: float = 0.0, y_m: float = 0.0, **more: float) -> None:
+        """For engines that tell: a pair goes on pushing. `more` as of touch."""
         self._tell("world_push", a, b, x_m, y_m, more)
 
     def end(self, a: int, b: int) -> None:
+        """For engines that tell: a pair has parted."""
         call("world_end", self._handle, a, b)
 
     def take(self, at_once: bool = False) -> NDArray[np.void]:
@@ -91,6 +96,7 @@ class World:
 
     @property
     def time_ns(self) -> int:
+        """After the steps done."""
         return call("world_time_ns", self._handle)
 
     @property
@@ -99,6 +105,7 @@ class World:
         return call("world_thinned", self._handle)
 
     def close(self) -> None:
+        """Frees it; later calls raise."""
         if self._handle:
             call("world_free", self._handle)
             self._handle = c_void_p()

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the functions of physvib-live.h have in common.
+#pragma once
+#include "Api/C/Convert.h"
+#include "Api/C/Handles.h"
+#include "Api/Live/Live.h"
+#include "Api/Live/physvib-live.h"
+#include <cmath>
+
+namespace physvib::api {
+
+inline Handles<Live, 3>& lives() {
+    static auto* const all = new Handles<Live, 3>; // never destroyed: threads may outlive main
+    return *all;
+}
+
+inline std::uintptr_t nameOf(physvib_live live) noexcept { return reinterpret_cast<std::uintptr_t>(live); }
+
+/// `call(live)`, or that there is none.
+template <class Call>
+auto in(physvib_live name, Call call) noexcept -> decltype(call(std::declval<Live&>())) {
+    return guarded([&]() -> decltype(call(std::declval<Live&>())) {
+        const auto live = lives().use(nameOf(name));
+        if (!live) return unknownHandle();
+        return call(*live);
+    });
+}
+
+inline bool isLevel(double db) noexcept { return db >= -90.0 && db <= 0.0; } // not NaN
+inline float gainOf(double db) noexcept { return static_cast<float>(std::pow(10.0, db / 20.0)); }
+
+/// Null: as init has it. False, and said, if they are none.
+inline bool takeRenderer(const physvib_renderer_settings* from, RendererSettings& to) {
+    physvib_renderer_settings taken;
+    if (from == nullptr) physvib_renderer_settings_init(&taken, sizeof taken);
+    else if (!take(from, taken, physvib_renderer_settings_init)) return false;
+    const std::string_view fault = convert(taken, to);
+    return fault.empty() || (nothingThere(fault), false);
+}
+
+} // namespace physvib::api

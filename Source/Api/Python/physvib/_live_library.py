@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT
+"""The library with devices, boards and sessions, which is GPL: physvib-live.h, line by line. It is loaded when something of it is first wanted."""
+from __future__ import annotations
+
+import ctypes
+import functools
+import os
+from ctypes import POINTER, Structure, c_char, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
+from pathlib import Path
+
+from ._library import CRendererSettings, PhysVibError, library
+
+
+class CLiveSettings(Structure):
+    _fields_ = [("size", c_size_t), ("rate_hz", c_int), ("block_frames", c_int), ("steps_per_s", c_int), ("longest_gap_s", c_double), ("level_db", c_double),
+                ("save", c_char * 1024)]
+
+
+class CLiveStatus(Structure):
+    _fields_ = [("size", c_size_t), *[(name, c_int) for name in ("is_running", "is_silent", "rate_hz", "block_frames", "live_modes", "losses", "xruns")],
+                ("load", c_double), ("worst_load", c_double), ("played", c_int64), ("late", c_int64), ("rejected", c_int64), ("trouble", c_char * 256),
+                ("board", c_int), ("unused", c_int), ("board_sent", c_int64), ("board_lost", c_int64)]
+
+
+_handle = c_void_p
+_signatures = {
+    "live_error": (c_char_p,), "live_settings_init": (c_int, POINTER(CLiveSettings), c_size_t), "live_status_init": (c_int, POINTER(CLiveStatus), c_size_t),
+    "live_open": (c_int, c_char_p, POINTER(CRendererSettings), POINTER(CLiveSettings), POINTER(_handle)), "live_close": (c_int, _handle),
+    "live_now_ns": (c_int64, _handle), "live_latency_ns": (c_int64, _handle), "live_strike": (c_int, _handle, c_void_p, c_int64),
+    "live_align": (c_int, _handle, _handle, POINTER(c_int64)), "live_send": (c_int64, _handle, _handle, c_int64, c_int),
+    "live_set_gain": (c_int, _handle, c_int, c_double), "live_set_mute": (c_int, _handle, c_int, c_int),
+    "live_set_layout": (c_int, _handle, POINTER(CRendererSettings)), "live_set_level": (c_int, _handle, c_double), "live_silence": (c_int, _handle, c_int),
+    "live_get_status": (c_int, _handle, POINTER(CLiveStatus)),
+    "session_load": (c_int, c_char_p, POINTER(_handle)), "session_free": (c_int, _handle), "session_save": (c_int, _handle, c_char_p),
+    "session_create": (c_int, POINTER(CRendererSettings), c_void_p, c_int64, c_int64, POINTER(_handle)),
+    "session_length_ns": (c_int64, _handle), "session_get_renderer": (c_int, _handle, POINTER(CRendererSettings)),
+    "session_events": (c_int64, _handle, c_int64, c_void_p, c_int64), "session_render": (c_int, _handle, c_int, c_int64, c_void_p),
+}
+
+
+@functools.lru_cache(maxsize=None)
+def live_library() -> ctypes.CDLL:
+    """PHYSVIB_LIVE_LIBRARY, or libphysvib-live.so.0 beside the other one or where the system finds it."""
+    beside = Path(library._name).parent / "libphysvib-live.so.0"
+    found = ctypes.CDLL(os.environ.get("PHYSVIB_LIVE_LIBRARY") or (str(beside) if beside.exists() else "libphysvib-live.so.0"))
+    for name, (result, *arguments) in _signatures.items():
+        function = getattr(found, "physvib_" + name)
+        function.restype, function.argtypes = result, arguments
+    return found
+
+
+def live_call(name: str, *arguments: object) -> int:
+    """A code or a count; of an error, PhysVibError."""
+    result = getattr(live_library(), "physvib_" + name)(*arguments)
+    if result < 0:
+        raise PhysVibError(live_library().physvib_live_error().decode(errors="replace"), result)
+    return result

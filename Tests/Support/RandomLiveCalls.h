@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Bytes as calls of the library with devices and sessions: any call, in any order, with any handle, number or pointer; on no device.
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <physvib/physvib-live.h>
+#include <vector>
+
+namespace physvib::test {
+
+/// Handles stay from one call to the next, also those that have been closed or freed.
+class RandomLiveCalls {
+public:
+    RandomLiveCalls() { physvib_world_create(nullptr, &world_); }
+    ~RandomLiveCalls() {
+        physvib_live_close(lives_[0]);
+        for (const auto session : sessions_) physvib_session_free(session);
+        physvib_world_free(world_);
+    }
+
+    /// How many calls they were.
+    int run(const std::uint8_t* data, std::size_t size) {
+        at_ = data;
+        end_ = data + size;
+        int calls = 0;
+        for (; at_ < end_; ++calls) demandCode(call(byte()));
+        return calls;
+    }
+
+private:
+    static void demandCode(physvib_int64 result) {
+        const bool isTold = result != PHYSVIB_ERROR_INTERNAL && result >= PHYSVIB_ERROR_DEVICE;
+        if (result >= 0 || (isTold && std::strlen(physvib_live_error()) > 0)) return;
+        std::fprintf(stderr, "result %lld: %s\n", result, physvib_live_error());
+        std::abort();
+    }
+
+    std::uint8_t byte() { return at_ < end_ ? *at_++ : std::uint8_t{0}; }
+    bool isRare() { return byte() % 32 == 0; }
+    bool isVeryRare() { return isRare() && byte() % 64 == 0; }
+    int small() { return static_cast<int>(byte() % 8) - 1; }
+    physvib_int64 impossible() {
+        static constexpr physvib_int64 odd[] = {std::numeric_limits<physvib_int64>::min(), std::numeric_limits<physvib_int64>::max(), -1};
+        return odd[byte() % std::size(odd)];
+    }
+    physvib_int64 ns() { return isRare() ? impossible() : 1'000'000LL * byte(); }
+    double number() {
+        constexpr double inf = std::numeric_limits<double>::infinity();
+        static constexpr double odd[] = {0.0, -1.0, 1.0, inf, -inf, std::numeric_limits<double>::quiet_NaN(), 1.0e308, PHYSVIB_UNKNOWN, 1.0e-310, -12.0};
+        const std::uint8_t b = byte();
+        return b % 4 == 0 ? odd[b / 4 % std::size(odd)] : b / 16.0;
+    }
+    physvib_live live() { return isRare() ? reinterpret_cast<physvib_live>(ns()) : isRare() ? reinterpret_cast<physvib_live>(world_) : lives_[byte() % 16 == 0]; }
+    physvib_session session() { return isRare() ? reinterpret_cast<physvib_session>(ns()) : sessions_[byte() % 4]; }
+    physvib_world world() { return isRare() ? reinterpret_cast<physvib_world>(lives_[0]) : world_; }
+
+    /// Now and then none, one of another version, or one whose numbers are anything.
+    template <class Struct>
+    Struct* of(Struct& values, int (*init)(Struct*, std::size_t)) {
+        init(&values, isRare() ? byte() : sizeof values);
+        if (isRare()) return nullptr;
+        if (isRare()) values.size = byte();
+        if (isRare()) {
+            auto* bytes = reinterpret_cast<unsigned char*>(&values);
+            for (std::size_t i = 0; i < 8; ++i) bytes[sizeof values.size + byte() * std::size_t{8} % (sizeof values - sizeof values.size)] = byte();
+        }
+        return &values;
+    }
+    const physvib_event* events() {
+        for (physvib_event& event : events_) {
+            event = {};
+            event.time_ns = ns();
+            event.frequency_hz = 100.0 * number();
+            event.decay_per_s = 10.0 * number();
+            event.amplitude = number();
+            event.kind = isRare() ? small() : 0;
+        }
+        return isRare() ? nullptr : events_.data();
+    }
+
+    physvib_int64 call(std::uint8_t which) {
+        switch (which % 24) {
+        case 0: return open();
+        case 1: return isVeryRare() ? close() : 0;
+        case 2: return physvib_live_now_ns(live());
+        case 3: return physvib_live_latency_ns(live());
+        case 4:
+        case 5: return physvib_live_strike(live(), events(), small());
+        case 6: return step();
+        case 7: return physvib_live_align(live(), world(), isRare() ? nullptr : &start_);
+        case 8: return physvib_live_send(live(), world(), ns(), byte() % 2);
+        case 9: return physvib_live_set_gain(live(), small(), number());
+        case 10: return physvib_live_set_mute(live(), small(), byte());
+        case 11: return physvib_live_set_layout(live(), of(renderer_, physvib_renderer_settings_init));
+        case 12: return physvib_live_set_level(live(), number());
+        case 13: return physvib_live_silence(live(), byte() % 2);
+        case 14: return physvib_live_get_status(live(), of(status_, physvib_live_status_init));
+        case 15: return physvib_session_load(isRare() ? nullptr : "/nowhere/session.json", isRare() ? nullptr : &sessions_[2]);
+        case 16:
+        case 17: return createSession();
+        case 18: return isRare() ? physvib_session_free(session()) : 0;
+        case 19: return physvib_session_save(session(), isRare() ? nullptr : "/nowhere/session.json");
+        case 20: return physvib_session_length_ns(session());
+        case 21: return physvib_session_get_renderer(session(), of(renderer_, physvib_renderer_settings_init));
+        case 22: return physvib_session_events(session(), ns(), isRare() ? nullptr : events_.data(), small());
+        default: return physvib_session_render(session(), 8000 * small(), isRare() ? impossible() : byte(), isRare() ? nullptr : samples_.data());
+        }
+    }
+
+    // A tenth of a second each, so not often once it is open.
+    physvib_int64 open() {
+        if (lives_[0] != nullptr && !isVeryRare()) return 0;
+        physvib_live made = nullptr;
+        const char* devices[] = {"None:no device", "None:no device", "nobody:nothing", nullptr};
+        const physvib_live_settings* const settings = of(settings_, physvib_live_settings_init);
+        std::memset(settings_.save, isRare() ? 'x' : '\0', sizeof settings_.save); // without an end, or no file
+        const int code = physvib_live_open(devices[byte() % 4], of(renderer_, physvib_renderer_settings_init), settings, isRare() ? nullptr : &made);
+        if (made != nullptr) lives_[0] = made;
+        return code;
+    }
+    physvib_int64 close() {
+        lives_[1] = lives_[0];
+        lives_[0] = nullptr;
+        return physvib_live_close(lives_[1]);
+    }
+    physvib_int64 step() {
+        physvib_world_begin_step(world_, 0.01 * byte(), 9.81);
+        return physvib_world_end_step(world_) == PHYSVIB_OK ? 0 : 0;
+    }
+    physvib_int64 createSession() {
+        physvib_session& kept = sessions_[byte() % 2];
+        sessions_[3] = kept;
+        physvib_session_free(kept);
+        return physvib_session_create(of(renderer_, physvib_renderer_settings_init), events(), small(), ns(), isRare() ? nullptr : &kept);
+    }
+
+    const std::uint8_t *at_ = nullptr, *end_ = nullptr;
+    std::array<physvib_live, 2> lives_{};       // the one that is open, and one that has gone
+    std::array<physvib_session, 4> sessions_{}; // two of ours, null, and one that has gone
+    physvib_world world_ = nullptr;
+    physvib_int64 start_ = 0;
+    std::array<physvib_event, 8> events_{};
+    std::vector<float> samples_ = std::vector<float>(64 * 256);
+    physvib_renderer_settings renderer_{};
+    physvib_live_settings settings_{};
+    physvib_live_status status_{};
+};
+
+} // namespace physvib::test
