@@ -23,11 +23,11 @@ struct CollisionSource {
 
 /// By what a strike differs from a hit: it may go somewhere, be spread in its own way, and be the rest of a longer tone.
 struct StrikeCourse {
-    double toX = 0.0, toY = 0.0; ///< metres of the field; where it is after travelNs, in a straight line at one speed
+    /** Its end. */ double toX = 0.0, toY = 0.0; ///< metres of the field; where it is after travelNs, in a straight line at one speed
     std::int64_t travelNs = 0;   ///< 0: it stays where it is struck
     std::int64_t sinceNs = 0;    ///< the tone began that long before: phase and decay go on from there
-    Spread spread = Spread::layout;
-    bool operator==(const StrikeCourse&) const = default;
+    Spread spread = Spread::layout; ///< over the enchanters
+    bool operator==(const StrikeCourse&) const = default; ///< Member by member.
 };
 
 /// x(t) = amplitude sin(2 pi frequencyHz t) exp(-decayPerSecond t), t = time since `timeNs` (Eq. 5.1).

@@ -82,7 +82,7 @@ PHYSVIB_API physvib_int64 physvib_live_now_ns(physvib_live live);
 PHYSVIB_API physvib_int64 physvib_live_latency_ns(physvib_live live);
 
 /** Events at session times, in any order; those that are over are played at once, and counted as late if L is over too. All of them or, if one
- * cannot be played, none. Any thread. */
+ * cannot be played, none. PHYSVIB_ERROR_FULL: 65,536 wait for their time. Any thread. */
 PHYSVIB_API int physvib_live_strike(physvib_live live, const physvib_event *events, physvib_int64 count);
 /** For a world that is stepped as time goes on: `*start_ns`, at first 0, becomes the session time of the world's time 0, and stays so for as long
  * as the world is within `longest_gap_s` of session time. If it has been held up, or runs ahead, it is set anew. Any thread; one at a time per world. */
