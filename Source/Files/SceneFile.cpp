@@ -2,8 +2,8 @@
 // The outer shape of a scene file; its fields are read and written after the table in SceneFields.h.
 #include "Files/SceneFile.h"
 #include "Files/Disk/FileLimits.h"
-#include "Files/Json/JsonFile.h"
 #include "Files/Json/JsonReader.h"
+#include "Files/Json/JsonText.h"
 #include "Files/Json/JsonVariables.h"
 #include "Files/Json/JsonVersion.h"
 #include "Files/Json/JsonWriter.h"
@@ -28,11 +28,6 @@ Scene readSceneRoot(Json& root, const SceneSettings& settings) {
 
 Result<Scene> readScene(std::string_view text, std::string_view name, const SceneSettings& settings) {
     return readJson(text, name, limits::maxSceneFileBytes, [&](Json& root) { return readSceneRoot(root, settings); });
-}
-
-Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& settings) {
-    return loadText(path, limits::maxSceneFileBytes,
-                    [&](std::string_view text, std::string_view name) { return readScene(text, name, settings); });
 }
 
 std::string sceneJson(const Scene& scene) {

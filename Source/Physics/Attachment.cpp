@@ -3,8 +3,8 @@
 #include "Physics/Attachment.h"
 #include "Physics/WorldNames.h"
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 namespace physvib {
@@ -13,10 +13,13 @@ namespace {
 
 // Worlds may call these for as long as the program runs.
 void keepForEver(std::unique_ptr<WorldListener> listener) {
-    static std::mutex mutex; // worlds may live on threads of their own
-    static auto* const kept = new std::vector<std::unique_ptr<WorldListener>>; // never destroyed: worlds may be, later
-    const std::lock_guard lock{mutex};
-    kept->push_back(std::move(listener));
+    struct Kept {
+        std::unique_ptr<WorldListener> listener;
+        Kept* next;
+    };
+    static std::atomic<Kept*> newest{nullptr}; // worlds may live on threads of their own; never destroyed: worlds may be, later
+    auto* const kept = new Kept{std::move(listener), newest.load()};
+    while (!newest.compare_exchange_weak(kept->next, kept)) {}
 }
 
 } // namespace

@@ -2,9 +2,8 @@
 // Checks every field of the table in SceneFields.h against its range, and names the first that is outside.
 #pragma once
 #include "Physics/Scenes/SceneFields.h"
+#include <charconv>
 #include <concepts>
-#include <locale>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,11 +11,14 @@ namespace physvib {
 
 namespace detail {
 
+/// In six digits, the same in every locale.
+inline std::string shortNumber(double number) {
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6).ptr};
+}
+
 inline std::string outside(const std::string& path, double least, double most, double found) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text << path << ": expected " << least << " to " << most << ", found " << found;
-    return text.str();
+    return path + ": expected " + shortNumber(least) + " to " + shortNumber(most) + ", found " + shortNumber(found);
 }
 
 inline std::string itemPath(const std::string& path, std::size_t index) {
