@@ -185,6 +185,7 @@ TEST_F(Render, BadOptionsAreUsageErrors) {
     refuses(good + "--seed -1", 2, "--seed");
     refuses(good + "--limiter maybe", 2, "--limiter");
     refuses(good + "--timing never", 2, "--timing");
+    refuses(good + "--instructions fast", 2, "--instructions");
     refuses(good + "--location nowhere", 2, "--location");
     refuses(good + "--colour red", 2, "--colour");
     refuses("render shake-the-box --seconds nan --out a.wav", 2, "--seconds");

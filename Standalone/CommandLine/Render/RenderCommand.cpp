@@ -46,6 +46,8 @@ void warn(const RenderStatus& status, const RenderJob& job) {
     say(static_cast<std::uint64_t>(beyond), "events that begin after the end of the render (see --seconds)");
 }
 
+InstructionSet instructionsOf(const RenderOptions& o) { return o.instructions == "scalar" ? InstructionSet::scalar : InstructionSet::best; }
+
 OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls, const ContactSounds& sounds) {
     const RenderOptions& o = job.options;
     const RendererSettings renderer{.sampleRateHz = o.sampleRateHz,
@@ -53,6 +55,7 @@ OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl
                                     .panner = job.panner(),
                                     .limiterEnabled = job.isLimited(),
                                     .ceilings = job.ceilings(),
+                                    .instructions = instructionsOf(o),
                                     .equalised = job.equalised(),
                                     .drives = job.coupling.drives.view()};
     return {renderer, job.frames(), o.blockFrames, controls, sounds.contacts()};

@@ -108,6 +108,8 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
         ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
     command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
         ->check(between(1, limits::maxBlockFrames, " frames"))->capture_default_str();
+    command.add_option("--instructions", o.instructions, "best: the fastest here; scalar: the same bytes of the same hits on every machine")
+        ->check(CLI::IsMember({"best", "scalar"}))->capture_default_str();
     command.add_option("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds more")
         ->check(between(0.0, 1e7, " s"))->capture_default_str();
 }

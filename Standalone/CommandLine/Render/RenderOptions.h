@@ -28,6 +28,7 @@ struct RenderOptions {
     double seconds = 10.0;
     int sampleRateHz = 48000;
     int blockFrames = 256;
+    std::string instructions = "best"; ///< or "scalar"
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
     double patienceSeconds = Patience::usualSeconds; ///< with a world that is simulated slower than it lasts
