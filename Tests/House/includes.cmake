@@ -11,13 +11,14 @@ set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Files/(Result|Text/NumberTex
 set(Api_may "Api/C/|Files/|Contacts/|Core/")
 set(Api/Live_may "Api/|Host/|Session/|Files/|Core/|juce_")
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
+set(Standalone/Web_may "PageWorld\\.h|Files/|Physics/|Contacts/|Core/")
 set(Host_may "Host/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
 set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
 # Core also stays free of what a board without an operating system lacks.
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Study Contacts Physics Files Formats Measure Api Api/Live Session Host Plugin)
+foreach(room Core Wire Study Contacts Physics Files Formats Measure Api Api/Live Session Host Plugin Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # a room of its own, under another licence
         list(FILTER files EXCLUDE REGEX "/Api/Live/")

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-# GPL-3.0-or-later for what links JUCE (Host, Plugin, Standalone and their tests), MIT for the rest.
+# GPL-3.0-or-later for what links JUCE (Host, Plugin, Standalone but its page, and their tests), MIT for the rest.
 file(GLOB_RECURSE files ${ROOT}/Source/* ${ROOT}/Plugin/* ${ROOT}/Standalone/* ${ROOT}/Firmware/* ${ROOT}/Tests/*)
 set(bad "")
 foreach(file ${files})
-    if(NOT file MATCHES "\\.(h|cpp|cmake|sh|py|ld)$|CMakeLists.txt$")
+    if(NOT file MATCHES "\\.(h|cpp|cmake|sh|py|ld|html|css|js)$|CMakeLists.txt$")
         continue()
     endif()
     set(licence "MIT")
-    if(file MATCHES "/(Host|Plugin|Standalone|CommandLine|Live|Board|Realtime|Mixer|Studies|Hostile|Benchmarks)/")
+    if(file MATCHES "/(Host|Plugin|Standalone|CommandLine|Live|Board|Realtime|Mixer|Studies|Hostile|Benchmarks)/" AND NOT file MATCHES "/Standalone/Web/")
         set(licence "GPL-3.0-or-later")
     endif()
     file(STRINGS ${file} head LIMIT_COUNT 3)

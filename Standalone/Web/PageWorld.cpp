@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Stepping, pulling, and rendering behind.
+#include "PageWorld.h"
+#include "Physics/Scenes/SceneCast.h"
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr double pullPerSecond = 12.0, fastestPull = 12.0; // of the way that is left; m/s
+
+} // namespace
+
+PageWorld::PageWorld(const Scene& scene, std::uint32_t seed, int sampleRateHz, int outputs)
+    : simulation_{scene, seed, stepsPerSecond}
+    , check_{scene, InputCheck::endless}
+    , player_{scene}
+    , cast_{sceneCast(scene)}
+    , fieldMetres_{scene.fieldWidthMetres, scene.fieldHeightMetres}
+    , law_{.sampleRateHz = sampleRateHz, .blockFrames = 0, .stepsPerSecond = stepsPerSecond}
+    , outputs_{static_cast<std::size_t>(outputs)} {
+    layoutPreset("phone4", layout_);
+    if (!renderer_->prepare({.sampleRateHz = sampleRateHz, .channels = outputs, .panner = panner(), .instructions = InstructionSet::scalar}))
+        throw std::invalid_argument("sound: expected 5000 to 192000 Hz and 4 to 64 outputs");
+    law_.limiterFrames = renderer_->latencyFrames();
+}
+
+PhantomPanner PageWorld::panner() const noexcept { return {layout_, PanningLaw::linear, 1.0, fieldMetres_.x, fieldMetres_.y}; }
+
+std::int64_t PageWorld::nsOf(std::int64_t frame) const noexcept { return static_cast<std::int64_t>(static_cast<double>(frame) * 1e9 / law_.sampleRateHz); }
+
+void PageWorld::act(const Action& action) {
+    if (fault_ = check_.take(action); fault_.empty()) simulation_.addInput(static_cast<double>(simulation_.timeNs()) * 1e-9, action);
+}
+
+void PageWorld::steer(int way) {
+    for (const Action& action : player_.steer(way)) act(action);
+}
+
+void PageWorld::grip(std::size_t body, Vector toMetres) {
+    if (body < cast_.size()) hand_ = Hand{body, toMetres};
+}
+
+// What moves as it is told would go on.
+void PageWorld::letGo() {
+    const auto held = std::exchange(hand_, {});
+    if (held && cast_[held->body].type == BodyType::kinematicBody) act(VelocityAction{cast_[held->body].name, {}});
+}
+
+void PageWorld::pull() {
+    if (!hand_) return;
+    const BodyPose at = simulation_.pose(hand_->body);
+    if (!at.isPresent) return;
+    const Vector way{pullPerSecond * (hand_->to.x - at.xMetres), pullPerSecond * (hand_->to.y - at.yMetres)};
+    const double share = std::min(1.0, fastestPull / std::max(1e-9, std::hypot(way.x, way.y)));
+    act(VelocityAction{cast_[hand_->body].name, {share * way.x, share * way.y}});
+}
+
+void PageWorld::placed() { controls_.push_back({.timeNs = nsOf(std::max<std::int64_t>(0, done_ - firstFrame())), .kind = RenderControl::Kind::panner, .panner = panner()}); }
+
+void PageWorld::stepTo(std::int64_t frame) {
+    while (simulation_.timeNs() < nsOf(frame)) {
+        pull();
+        simulation_.step(made_);
+        simulation_.forgetDone();
+    }
+    events_.insert(events_.end(), made_.begin(), made_.end());
+    made_.clear();
+}
+
+const float* PageWorld::render(int frames) {
+    stepTo(done_ + frames);
+    samples_.resize(outputs_ * static_cast<std::size_t>(frames));
+    const int silent = static_cast<int>(std::clamp<std::int64_t>(firstFrame() - done_, 0, frames));
+    std::array<float*, limits::maxEnchanters> out{};
+    for (std::size_t j = 0; j < outputs_; ++j) out[j] = std::fill_n(samples_.data() + j * static_cast<std::size_t>(frames), silent, 0.0f);
+    if (silent < frames) renderer_->render(*this, out.data(), frames - silent);
+    done_ += frames;
+    return samples_.data();
+}
+
+const std::vector<float>& PageWorld::poses() {
+    poses_.clear();
+    for (std::size_t i = 0; i < cast_.size(); ++i) {
+        const BodyPose at = simulation_.pose(i);
+        for (const double value : {at.xMetres, at.yMetres, at.angleRadians, at.isPresent ? 1.0 : 0.0}) poses_.push_back(static_cast<float>(value));
+    }
+    return poses_;
+}
+
+bool PageWorld::takeHit(CollisionEvent& hit) {
+    PlayedEvent played;
+    if (!renderer_->played().pop(played)) return false;
+    hit = played.event;
+    return true;
+}
+
+} // namespace physvib
