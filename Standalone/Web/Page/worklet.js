@@ -70,6 +70,7 @@ class PhysVib extends AudioWorkletProcessor {
         calls.enchanters(places.length);
         places.forEach(([x, y], i) => calls.place(i, x, y));
         calls.placed();
+        if (this.count !== places.length) this.blocks = []; // one message tells of one number of enchanters
         this.count = places.length;
     }
 
