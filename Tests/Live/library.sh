@@ -12,6 +12,7 @@ serve 48000 256 8
 
 "$bin/physvib-jack-recorder" "$folder/live.raw" 4 "$((seconds + 4))" >"$folder/ready" &
 recording=$!
+playing=$recording # ends with the script, also where the program has failed
 for _ in $(seq 100); do grep -qs ready "$folder/ready" && break; sleep 0.1; done
 PHYSVIB_LIVE_LIBRARY="$library" PHYSVIB_LIBRARY="$(dirname "$library")/libphysvib.so.0" "$@" "$folder/expected.raw" "$seconds"
 wait "$recording"

@@ -68,7 +68,7 @@ end
 function finish()
     local count, start = #told, tonumber(live.start[0])
     while tonumber(live:status().played) < count do love.timer.sleep(0.005) end
-    local stop = live:now_ns() + live:latency_ns()
+    local stop = live:now_ns() + live:latency_ns() + 0.7 * second -- the last hit has rung out
     while live:now_ns() < stop do love.timer.sleep(0.005) end
     local status, latency = live:status(), live:latency_ns()
     live:close()
