@@ -27,7 +27,7 @@ struct GrainChance {
 };
 
 /// One surface's. Grain `index` lies at (index + 1/2) spacings, +-45 % if they are random, with a strength of 0.2 to 1.8
-/// that depends on surface and index alone: what goes back feels the same grains again, and every run feels the same.
+/// that depends on surface and index alone: what goes back feels the same grains again, and every run feels the same. Any thread.
 class Grains {
 public:
     /// `texture` is rough.

@@ -55,11 +55,17 @@ physvib_world worldOfABall() {
     return world;
 }
 
-int land(physvib_world world, double impulse) {
+/// The ball on the floor, and nothing else told yet.
+physvib_contact touching() {
     physvib_contact contact;
     physvib_contact_init(&contact, sizeof contact);
     contact.a = 0;
     contact.b = 1;
+    return contact;
+}
+
+int land(physvib_world world, double impulse) {
+    physvib_contact contact = touching();
     contact.impulse_n_s = impulse;
     EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
     const int result = physvib_world_touch(world, &contact);
@@ -143,10 +149,7 @@ TEST(Calls, WhatRollsOverGrainsIsFelt) {
     floor.grain_m = 0.002;
     floor.is_ridged = 1;
     EXPECT_EQ(physvib_world_set_body(world, 0, &floor), PHYSVIB_OK);
-    physvib_contact contact;
-    physvib_contact_init(&contact, sizeof contact);
-    contact.a = 0;
-    contact.b = 1;
+    physvib_contact contact = touching();
     contact.impulse_n_s = 0.2;
     contact.approach_m_per_s = 0.0;
     contact.along_a_m_per_s = contact.along_b_m_per_s = 0.4;
@@ -212,10 +215,7 @@ TEST(Calls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
 
 TEST(Calls, WrongOrderIsOneAndNothingHappens) {
     const physvib_world world = worldOfABall();
-    physvib_contact contact;
-    physvib_contact_init(&contact, sizeof contact);
-    contact.a = 0;
-    contact.b = 1;
+    physvib_contact contact = touching();
     EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_ERROR_ORDER);
     EXPECT_STREQ(physvib_error(), "step: expected to be within one");
     EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_ERROR_ORDER);

@@ -8,11 +8,14 @@
 
 namespace physvib {
 
-/// Tactile Brush (Israr and Poupyrev 2011): strokes of d seconds feel like one motion if they begin this long after each other.
-constexpr double strokeOnsetsSeconds(double strokeSeconds) noexcept { return 0.32 * strokeSeconds + 0.0473; }
+/// Tactile Brush (Israr and Poupyrev 2011): the onset of the next stroke is so much later, by a share of the stroke and in s.
+constexpr double strokeOnsetShare = 0.32, strokeOnsetSeconds = 0.0473;
 
-/// How long each of `strokes` (2 or more) is, so that all take `seconds`; 0 or less: there is no time for so many.
-constexpr double strokeSeconds(int strokes, double seconds) noexcept { return (seconds - 0.0473 * (strokes - 1)) / (0.32 * (strokes - 1) + 1.0); }
+/// Strokes of so many seconds feel like one motion if they begin this long after each other. Any thread.
+constexpr double strokeOnsetsSeconds(double strokeSeconds) noexcept { return strokeOnsetShare * strokeSeconds + strokeOnsetSeconds; }
+
+/// How long each of `strokes` (2 or more) is, so that all take `seconds`; 0 or less: there is no time for so many. Any thread.
+constexpr double strokeSeconds(int strokes, double seconds) noexcept { return (seconds - strokeOnsetSeconds * (strokes - 1)) / (strokeOnsetShare * (strokes - 1) + 1.0); }
 
 /// The strikes of a message, in time order, from time 0 on; none of a stop or a query. `materials` are the scene's. Throws
 /// MessageError. Any thread but R.

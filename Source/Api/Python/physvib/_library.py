@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The shared library, its structures and its errors: physvib.h, line by line."""
+import contextlib
 import ctypes
 import os
 from ctypes import POINTER, Structure, c_char_p, c_double, c_float, c_int, c_int64, c_size_t, c_void_p
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -111,6 +113,33 @@ def call(name: str, *arguments: object) -> int:
     if result < 0:
         raise PhysVibError(library.physvib_error().decode(errors="replace"), result)
     return result
+
+
+_AnyOwned = TypeVar("_AnyOwned", bound="Owned")
+
+
+class Owned:
+    """What a library has made for its owner, who frees it by close(), or at the end of a `with`."""
+    _call = staticmethod(call)
+    _frees: str  # the function's name
+    _handle: c_void_p
+
+    def close(self) -> None:
+        """Frees it; later calls raise."""
+        if self._handle:
+            self._call(self._frees, self._handle)
+            self._handle = c_void_p()
+
+    def __enter__(self: _AnyOwned) -> _AnyOwned:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None) and library is not None:  # what was never made, or a moment at which modules have gone
+            with contextlib.suppress(PhysVibError):
+                self.close()
 
 
 def filled(structure: type, init: str, **values: object) -> Structure:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import CRendererStatus, PhysVibError, call, filled, library
+from ._library import CRendererStatus, Owned, PhysVibError, call, filled, library
 from .files import checked
 from .layout import Layout, settings
 
@@ -25,9 +25,10 @@ class Status(NamedTuple):
     refused: int   #: found 8,192 others waiting
 
 
-class Renderer:
+class Renderer(Owned):
     """Strikes in from any thread, samples out to one. Time 0 is the first frame pulled; a strike is heard on its place between two
     frames, however busy the interpreter is, if it is told before that block is pulled."""
+    _frees = "renderer_free"
 
     def __init__(self, *, layout: str | Layout = "phone4", rate_hz: int = 48000, channels: int = 0, law: str = "linear", exponent: float = 1.0,
                  field_m: tuple[float, float] | None = None, limiter: bool = True) -> None:
@@ -85,22 +86,6 @@ class Renderer:
         told = filled(CRendererStatus, "renderer_status_init")
         call("renderer_get_status", self._handle, ctypes.byref(told))
         return Status(*[getattr(told, name) for name in Status._fields])
-
-    def close(self) -> None:
-        """Frees it; later calls raise."""
-        if self._handle:
-            call("renderer_free", self._handle)
-            self._handle = c_void_p()
-
-    def __enter__(self) -> Renderer:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None) and library is not None:
-            library.physvib_renderer_free(self._handle)
 
 
 def play_out_s(*, rate_hz: int = 48000, block_frames: int = 256, steps_per_s: int = 100, longest_gap_s: float = 0.026) -> float:

@@ -9,15 +9,17 @@ from ctypes import c_void_p
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import EVENT, CRendererSettings, PhysVibError, encoded, filled
-from ._live_library import live_call, live_library
+from ._library import EVENT, CRendererSettings, Owned, PhysVibError, encoded, filled
+from ._live_library import live_call
 from .files import checked
 from .layout import LAWS, Layout, settings
 
 
-class Session:
+class Session(Owned):
     """What was done in a session, so that it can be felt again: worlds and what was done to them, strikes, changes of gains and layouts. It does
     not change; any thread."""
+    _call = staticmethod(live_call)
+    _frees = "session_free"
 
     def __init__(self, list_of: NDArray[np.void], seconds: float, *, layout: str | Layout = "phone4", channels: int = 0, law: str = "linear",
                  exponent: float = 1.0, field_m: tuple[float, float] | None = None, limiter: bool = True) -> None:
@@ -82,22 +84,6 @@ class Session:
         samples = np.zeros((self.channels, round(length_ns * 1e-9 * rate_hz)), dtype=np.float32)
         live_call("session_render", self._handle, rate_hz, samples.shape[1], samples.ctypes.data)
         return samples
-
-    def close(self) -> None:
-        """Frees it; later calls raise."""
-        if self._handle:
-            live_call("session_free", self._handle)
-            self._handle = c_void_p()
-
-    def __enter__(self) -> Session:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None) and live_library is not None:
-            live_library().physvib_session_free(self._handle)
 
     def _renderer(self) -> CRendererSettings:
         told = filled(CRendererSettings, "renderer_settings_init")

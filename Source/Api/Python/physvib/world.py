@@ -10,15 +10,16 @@ from typing import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import EVENT, CBody, CContact, CWorldSettings, PhysVibError, call, filled, library
+from ._library import EVENT, CBody, CContact, CWorldSettings, Owned, PhysVibError, call, filled
 from .renderer import Renderer
 
 VOICES = ("own", "other", "both")
 
 
-class World:
+class World(Owned):
     """Tell which bodies there are and, in each step, which of them touch. Bodies are numbers of yours, from 0 on, and stand in the
     events. None: as physvib.h says under the same name."""
+    _frees = "world_free"
 
     def __init__(self, *, field_width_m: float | None = None, field_x_m: float | None = None, field_y_m: float | None = None, field_radians: float | None = None,
                  normalisation_s_per_m: float | None = None, hand_mass_kg: float | None = None, drive_gain: float | None = None,
@@ -103,22 +104,6 @@ class World:
     def thinned(self) -> int:
         """Grains that were left out, their power being in the others."""
         return call("world_thinned", self._handle)
-
-    def close(self) -> None:
-        """Frees it; later calls raise."""
-        if self._handle:
-            call("world_free", self._handle)
-            self._handle = c_void_p()
-
-    def __enter__(self) -> World:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None) and library is not None:
-            library.physvib_world_free(self._handle)
 
     def _tell(self, name: str, a: int, b: int, x_m: float, y_m: float, more: dict[str, float]) -> None:
         unknown = more.keys() - {field for field, *_ in CContact._fields_[3:]}
