@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Through a trial: its parts are felt, its answer is given and kept.
+#include "Mixer/Studies/StudyScreen.h"
+#include <cmath>
+
+namespace physvib {
+
+bool StudyScreen::isExploring() const { return experiment().trial().task == StudyTask::explore; }
+
+bool StudyScreen::canAnswer() const { return progress_->canAnswer() && !isFeeling(); }
+
+/// A world with hands has the whole screen until it is left for the answer.
+bool StudyScreen::isAnswerSeen() const { return answers_.standsAlone() || !hasHands() || canAnswer(); }
+
+double StudyScreen::restLeft() const { return std::max(0.0, 1e-3 * (restEndsMs_ - nowMs())); }
+
+/// The one after the last that was felt, and the first to begin with.
+std::size_t StudyScreen::nextPart() const { return progress_->plays() == 0 ? 0 : (part_ + 1) % parts_.size(); }
+
+void StudyScreen::play(std::size_t part) {
+    if (page_ != Page::trial || desk_.isSilent() || !progress_->canPlay(part)) return;
+    if (isFeeling()) {
+        if (!hasHands() || (part == part_ && pane_.world().isMoving())) return;
+        wanted_ = part;
+        return pane_.world().end();
+    }
+    noteFelt();
+    if (const auto fault = begin(part); !fault.empty()) return fail(fault);
+    if (progress_->plays() == 0) firstFeltMs_ = nowMs();
+    progress_->played(part);
+    part_ = part;
+    counted_ = 0.0;
+    if (hasHands()) resized();
+    refresh();
+}
+
+std::string StudyScreen::begin(std::size_t part) {
+    const TrialRecord asked{experiment().trial(), exploring_.value_or(answers_->answer())};
+    const auto call = partCallsOf(study_->protocol(), asked)[part];
+    if (worldSet() == nullptr) {
+        const auto stimulus = StudySound::make(desk_, call, study_->protocol().folder);
+        return stimulus ? sound_.play(stimulus.value) : stimulus.error;
+    }
+    auto world = worldOfCall(call, study_->protocol().folder);
+    if (!world) return world.error;
+    const auto number = std::to_string(experiment().trialsTaken() + 1);
+    const auto name = "trial-" + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + "-" + std::to_string(sessions_.size() + 1) + ".json";
+    const auto folder = study_->feltFolder();
+    sessions_.push_back((folder.filename() / name).string());
+    return pane_.begin(std::move(world.value), worldSet()->hasHands, folder / name);
+}
+
+void StudyScreen::playWanted() {
+    if (!wanted_ || isFeeling()) return;
+    const auto part = *wanted_;
+    wanted_.reset();
+    play(part);
+}
+
+void StudyScreen::pause() {
+    if (!hasHands() || !progress_->canAnswer()) return;
+    wanted_.reset();
+    pane_.world().end();
+    refresh();
+}
+
+/// What is explored is felt at once; else it waits to be confirmed.
+void StudyScreen::asked() {
+    if (page_ != Page::trial || isFeeling()) return;
+    if (!isExploring()) return refresh(), answers_.focusConfirm(); // which may be open only now
+    exploring_ = answers_->answer();
+    play(0);
+}
+
+void StudyScreen::confirm() {
+    if (page_ != Page::trial) return;
+    if (isExploring()) {
+        if (!experiment().mayEnd() || isFeeling()) return;
+        study_->endSession();
+        return showNext();
+    }
+    if (answers_->isComplete() && canAnswer()) take(answers_->answer());
+}
+
+/// Of the part that was felt last, before another is.
+void StudyScreen::noteFelt() {
+    desk_.exposure().update();
+    if (progress_->plays() > 0) felt_[part_] = desk_.exposure().felt(feltSeconds());
+}
+
+/// A(8) of what this study's trials of today have cost the participant.
+double StudyScreen::exposure() const { return dailyExposure(std::max(0.0, squaresBefore_ + desk_.exposure().squareGSeconds())); }
+
+void StudyScreen::take(Answer answer) {
+    noteFelt();
+    answer.felt = felt_;
+    answer.exposure = exposure();
+    answer.plays = std::max(1, progress_->plays());
+    answer.seconds = std::round(nowMs() - firstFeltMs_) * 1e-3;
+    answer.sessions = sessions_;
+    const auto session = experiment().sessionNumber();
+    if (!study_->take(std::move(answer))) return fail(study_->error());
+    const bool staysOpen = !experiment().isDone() && isExploring() && experiment().sessionNumber() == session && experiment().trial().restSeconds <= 0.0 && !isExposed();
+    if (!staysOpen) return showNext();
+    exploring_.reset(); // the same screen, with what was felt marked
+    progress_.emplace(experiment().session(), experiment().trial());
+    answers_->mark(experiment().explored());
+    refresh();
+    answers_->repaint();
+}
+
+void StudyScreen::updateTrial() {
+    if (progress_->plays() > 0) { // what was felt since the last time
+        const double felt = feltSeconds();
+        progress_->spent(part_, felt - counted_);
+        counted_ = felt;
+    }
+    const bool wasFeeling = isFeeling();
+    pane_.refresh();
+    if (wasFeeling && !isFeeling()) resized();
+    if (!pane_.world().fault().empty()) return fail(pane_.world().fault());
+    playWanted();
+    if (exploring_ && !isFeeling() && progress_->plays() > 0) return take(*exploring_);
+    const bool isOpen = !isFeeling() && !desk_.isSilent() && (progress_->canAnswer() || answers_->isOpen() || isExploring());
+    answers_.setVisible(isAnswerSeen());
+    if (isOpen != answers_->isEnabled()) answers_->setEnabled(isOpen);
+    if (isOpen && (answers_.standsAlone() ? answers_.hasKeyboardFocus(false) : hasKeyboardFocus(false))) answers_->begin();
+    const bool mayConfirm = isExploring() ? experiment().mayEnd() && !isFeeling() : canAnswer() && answers_->isComplete();
+    answers_.setConfirm(true, mayConfirm, say_(worldSet() != nullptr ? "OK" : "Next"));
+    answers_.setQuestion(headline());
+    updateParts();
+    updatePause();
+}
+
+void StudyScreen::updatePause() {
+    pause_.setEnabled(hasHands() && pane_.world().isMoving() && progress_->canAnswer());
+    pause_.setWords(say_("PAUSE"), say_(pause_.isEnabled() ? "space bar: answer" : "when each was felt for long enough"));
+}
+
+} // namespace physvib
