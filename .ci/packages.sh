@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: MIT
 # What PhysVib needs from Debian, and how it gets there. Sourced by run.sh and test.sh.
 
+# What the programs, the library and the plug-ins are made with, beside a compiler.
+physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
+    pkg-config libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev liblo-dev libaubio-dev"
 # Configuring covers the tests as well, so run.sh needs their libraries too.
-physvib_run_packages="g++ cmake ninja-build ccache juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev fonts-dejavu-core \
-    libgtest-dev libbenchmark-dev libhwy-dev libeigen3-dev libboost-dev pkg-config libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev \
-    liblo-dev libaubio-dev"
+physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang libclang-rt-14-dev \
     liblo-tools python3-numpy luajit love mono-mcs doxygen libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 # Of Standalone/Web/build-web.sh and Tests/web.sh alone.
 physvib_web_packages="clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
 physvib_web_test_packages="$physvib_web_packages chromium python3"
-# Of the packages of a release and their test on a bare Debian.
-physvib_release_packages="debhelper dpkg-dev lintian piuparts debootstrap desktop-file-utils appstream"
+# Of Standalone/Packaging/release.sh, and of Tests/Release.
+physvib_release_packages="$physvib_build_packages g++ git debhelper dh-python python3 dpkg-dev"
+physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
 # Of the tests on other processors and systems.
 physvib_cross_packages="g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 wine cmake ninja-build ccache dpkg-dev"
 # Of the test of sweeps on a cluster.

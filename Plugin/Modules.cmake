@@ -47,6 +47,12 @@ function(physvib_plugin target name code lv2uri buses channels)
         add_custom_command(TARGET ${target}_LV2 POST_BUILD VERBATIM # after JUCE's command, which writes it
             COMMAND ${CMAKE_COMMAND} -DFOLDER=${plugins}/${file}.lv2 -P ${CMAKE_CURRENT_SOURCE_DIR}/lv2-description.cmake)
     endif()
+    foreach(format vst3 lv2) # where hosts look
+        string(TOUPPER ${format} module)
+        if(PHYSVIB_INSTALL AND TARGET ${target}_${module})
+            install(DIRECTORY ${plugins}/${file}.${format} DESTINATION lib/${format} COMPONENT plugins USE_SOURCE_PERMISSIONS)
+        endif()
+    endforeach()
     if(TARGET ${target}_AU)
         set_target_properties(${target}_AU PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${plugins})
     endif()

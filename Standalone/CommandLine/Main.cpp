@@ -11,6 +11,7 @@
 #include "CommandLine/Measure/MaterialCommand.h"
 #include "CommandLine/Play/PlayCommand.h"
 #include "CommandLine/Process.h"
+#include "CommandLine/Reference/Reference.h"
 #include "CommandLine/Render/ExportCommand.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Report/ReportCommand.h"
@@ -34,6 +35,11 @@ int listScenes() {
         std::cout << '\n';
     }
     return exitDone;
+}
+
+int writeOwnReference(const CLI::App& app, const char* folder) {
+    const std::string error = writeReference(listedCommand(app, "physvib"), folder);
+    return error.empty() ? exitDone : leave(exitFailed, error);
 }
 
 int run(int argc, char** argv) {
@@ -79,6 +85,7 @@ int run(int argc, char** argv) {
     CalibrateOptions calibrateOptions;
     CLI::App* calibrate = app.add_subcommand("calibrate", "measure an actuator and write its profile");
     declareCalibrate(*calibrate, calibrateOptions);
+    if (argc == 3 && std::string_view{argv[1]} == referenceWord) return writeOwnReference(app, argv[2]);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

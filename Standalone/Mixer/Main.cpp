@@ -2,6 +2,7 @@
 // The application `physvib-mixer`: its window, or pictures of it.
 #include "CommandLine/Play/Interrupt.h"
 #include "CommandLine/Process.h"
+#include "CommandLine/Reference/Reference.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/Window/Shots.h"
 #include "Host/Devices/NoDevice.h"
@@ -37,6 +38,10 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     if (arguments.containsOption("--help|-h")) return std::cout << usage, 0;
     if (arguments.containsOption("--version")) return std::cout << "physvib-mixer " PHYSVIB_VERSION "\n", 0;
     if (arguments.containsOption("--states")) return std::cout << shotStates().joinIntoString("\n") << '\n', 0;
+    if (const auto folder = valueOf(arguments, referenceWord); folder.isNotEmpty()) {
+        const std::string error = writeReference(listedUsage("physvib-mixer", "see a world, feel it, and mix what each enchanter plays", usage), folder.toStdString());
+        return error.empty() ? 0 : (std::cerr << "physvib-mixer: " << error << '\n', exitFailed);
+    }
     if (!arguments.containsOption("--shot")) return {};
     const auto path = valueOf(arguments, "--shot");
     const auto state = valueOf(arguments, "--state");

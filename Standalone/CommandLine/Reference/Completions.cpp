@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Completions for bash, zsh and fish. The first two find out which command is meant by going over the words that stand already.
+#include "CommandLine/Reference/Completions.h"
+#include <functional>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+using Visit = std::function<void(const ListedCommand&)>;
+
+void each(const ListedCommand& command, const Visit& visit) {
+    visit(command);
+    for (const ListedCommand& inner : command.commands) each(inner, visit);
+}
+
+std::string quoted(std::string_view text) {
+    std::string out(1, '\'');
+    for (const char c : text) {
+        if (c == '\'') out += "'\\'";
+        out += c;
+    }
+    out += '\'';
+    return out;
+}
+
+std::string joinedWords(const std::vector<std::string>& words) {
+    std::string out;
+    for (const std::string& word : words) out += (out.empty() ? "" : " ") + word;
+    return out;
+}
+
+std::string bracketed(const std::vector<std::string>& words) {
+    std::string out = joinedWords(words);
+    out.insert(out.begin(), '(');
+    out += ')';
+    return out;
+}
+
+std::string lastWord(const ListedCommand& command) { return command.words.substr(command.words.rfind(' ') + 1); }
+
+std::vector<std::string> namesWithin(const ListedCommand& command) {
+    std::vector<std::string> names;
+    for (const ListedCommand& inner : command.commands) names.push_back(lastWord(inner));
+    return names;
+}
+
+/// A function's name may hold no hyphen everywhere.
+std::string functionOf(const ListedCommand& program) {
+    std::string name(1, '_');
+    for (const char c : program.words) name += c == '-' ? '_' : c;
+    return name;
+}
+
+/// "physvib render"|"physvib play": all that a command may be called beyond the program's own name.
+std::string allCalls(const ListedCommand& program) {
+    std::string calls;
+    each(program, [&](const ListedCommand& command) {
+        if (&command != &program) (calls += calls.empty() ? "" : "|") += quoted(command.words);
+    });
+    return calls.empty() ? "''" : calls;
+}
+
+void heading(std::ostream& out, const ListedCommand& program) { out << "# SPDX-License-Identifier: GPL-3.0-or-later\n# Completions of " << program.words << ".\n"; }
+
+/// Of one option of zsh: '--law[panning law]:TEXT:(linear log)'.
+std::string zshOption(const ListedOption& option, const std::string& spelling) {
+    std::string text = spelling;
+    text += '[';
+    for (const char c : option.meaning) {
+        if (std::string_view{"[]:\\"}.find(c) != std::string_view::npos) text += '\\';
+        text += c;
+    }
+    text += ']';
+    if (!option.value.empty()) (text += ": :") += option.choices.empty() ? "_files" : bracketed(option.choices);
+    return quoted(text);
+}
+
+std::string zshPlace(const ListedCommand& command) {
+    if (!command.commands.empty()) return quoted(std::string{"*: :"}.append(bracketed(namesWithin(command))));
+    for (const ListedOption& option : command.options)
+        if (option.isPlace && !option.choices.empty()) return quoted(std::string{"*: :{_alternative \"n: :"}.append(bracketed(option.choices)) + "\" \"f: :_files\"}");
+    return "'*: :_files'";
+}
+
+std::string fishCondition(const ListedCommand& program, const ListedCommand& command) {
+    if (program.commands.empty()) return {};
+    if (&command == &program) return " -n __fish_use_subcommand";
+    std::string condition;
+    std::istringstream words{command.words.substr(program.words.size())};
+    for (std::string word; words >> word;) condition += (condition.empty() ? "__fish_seen_subcommand_from " : "; and __fish_seen_subcommand_from ") + word;
+    if (!command.commands.empty()) (condition += "; and not __fish_seen_subcommand_from ") += joinedWords(namesWithin(command));
+    return std::string{" -n "}.append(quoted(condition));
+}
+
+std::string fishOption(const ListedOption& option) {
+    std::string words;
+    if (!option.isPlace)
+        for (const std::string& name : option.spellings) words += name.starts_with("--") ? std::string{" -l "}.append(name, 2) : std::string{" -s "}.append(name, 1);
+    if (!option.choices.empty()) return words + (option.isPlace ? " -a " : " -x -a ") + quoted(joinedWords(option.choices));
+    return option.isPlace || option.value.empty() ? words : words + " -r";
+}
+
+} // namespace
+
+std::string bashCompletion(const ListedCommand& program) {
+    std::ostringstream out;
+    heading(out, program);
+    out << functionOf(program) << "() {\n    local word call=" << program.words << " choices=\n"
+        << "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+        << "    for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n        case \"$call $word\" in " << allCalls(program) << ") call=\"$call $word\" ;; esac\n    done\n"
+        << "    case \"$call $previous\" in\n";
+    each(program, [&](const ListedCommand& command) {
+        for (const ListedOption& option : command.options)
+            for (const std::string& name : option.spellings)
+                if (!option.isPlace && !option.value.empty())
+                    out << "        " << quoted(command.words + ' ' + name) << ") " << (option.choices.empty() ? "return" : std::string{"choices="}.append(quoted(joinedWords(option.choices)))) << " ;;\n";
+    });
+    out << "    esac\n    [ -n \"$choices\" ] || case $call in\n";
+    each(program, [&](const ListedCommand& command) {
+        std::vector<std::string> words = namesWithin(command);
+        for (const ListedOption& option : command.options) {
+            const auto& more = option.isPlace ? option.choices : option.spellings;
+            words.insert(words.end(), more.begin(), more.end());
+        }
+        out << "        " << quoted(command.words) << ") choices=" << quoted(joinedWords(words)) << " ;;\n";
+    });
+    out << "    esac\n    COMPREPLY=($(compgen -W \"$choices\" -- \"$current\"))\n}\ncomplete -o default -F " << functionOf(program) << ' ' << program.words << '\n';
+    return out.str();
+}
+
+std::string zshCompletion(const ListedCommand& program) {
+    std::ostringstream out;
+    out << "#compdef " << program.words << '\n';
+    heading(out, program);
+    out << "local word call=" << program.words << "\nfor word in ${words[2,CURRENT-1]}; do\n    case \"$call $word\" in (" << allCalls(program)
+        << ") call=\"$call $word\" ;; esac\ndone\ncase $call in\n";
+    each(program, [&](const ListedCommand& command) {
+        out << "    (" << quoted(command.words) << ") _arguments";
+        for (const ListedOption& option : command.options)
+            for (const std::string& name : option.spellings)
+                if (!option.isPlace) out << " \\\n        " << zshOption(option, name);
+        out << " \\\n        " << zshPlace(command) << " ;;\n";
+    });
+    out << "esac\n";
+    return out.str();
+}
+
+// Fish asks for each proposal whether it holds here: a command's hold after its words, until one of a command within it follows.
+std::string fishCompletion(const ListedCommand& program) {
+    std::ostringstream out;
+    heading(out, program);
+    each(program, [&](const ListedCommand& command) {
+        const std::string begin = "complete -c " + program.words + fishCondition(program, command);
+        for (const ListedCommand& inner : command.commands) out << begin << " -f -a " << lastWord(inner) << " -d " << quoted(inner.meaning) << '\n';
+        for (const ListedOption& option : command.options) out << begin << fishOption(option) << " -d " << quoted(option.meaning) << '\n';
+    });
+    return out.str();
+}
+
+} // namespace physvib

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Manual pages, from the table of calls.
+#pragma once
+#include "CommandLine/Reference/CallTable.h"
+#include <string>
+
+namespace physvib {
+
+/// Its page in man's own language: its options, and those of the commands within it. `pages` are named at the end. M.
+std::string manPage(const ListedCommand& command, const std::vector<std::string>& pages);
+
+/// "physvib render" as "physvib-render", which is its page's name. M.
+std::string pageName(const ListedCommand& command);
+
+} // namespace physvib

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which files the reference of a program is.
+#include "CommandLine/Reference/Reference.h"
+#include "CommandLine/Reference/Completions.h"
+#include "CommandLine/Reference/ManPage.h"
+#include "Files/Disk/AtomicFile.h"
+#include <system_error>
+
+namespace physvib {
+namespace {
+
+std::string writeInto(const std::filesystem::path& folder, const std::string& name, const std::string& text) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    return error ? folder.string() + ": cannot be made: " + error.message() : writeFile(folder / name, text);
+}
+
+std::string writePages(const ListedCommand& program, const std::filesystem::path& folder) {
+    std::vector<std::string> pages{pageName(program)};
+    for (const ListedCommand& command : program.commands) pages.push_back(pageName(command));
+    if (auto error = writeInto(folder, pages.front() + ".1", manPage(program, pages)); !error.empty()) return error;
+    for (const ListedCommand& command : program.commands)
+        if (auto error = writeInto(folder, pageName(command) + ".1", manPage(command, {pages.front()})); !error.empty()) return error;
+    return {};
+}
+
+} // namespace
+
+std::string writeReference(const ListedCommand& program, const std::filesystem::path& folder) {
+    if (auto error = writePages(program, folder / "man1"); !error.empty()) return error;
+    if (auto error = writeInto(folder / "bash", program.words, bashCompletion(program)); !error.empty()) return error;
+    if (auto error = writeInto(folder / "zsh", "_" + program.words, zshCompletion(program)); !error.empty()) return error;
+    return writeInto(folder / "fish", program.words + ".fish", fishCompletion(program));
+}
+
+} // namespace physvib
