@@ -8,6 +8,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . .ci/packages.sh
+. Tests/bare-machine.sh
 
 commands="run.sh test.sh"
 keep=""
@@ -22,38 +23,10 @@ while [ $# -gt 0 ]; do
     esac
     shift
 done
-[ "$(id -u)" -eq 0 ] || { say "a machine within a folder needs root" && exit 1; }
 ensure_packages debootstrap git
 
-# shellcheck disable=SC2016 # apt's own variable
-bookworm_mirror() { apt-get indextargets --no-release-info --format '$(REPO_URI)' 'Release: bookworm' | head -n 1; }
-[ -n "$mirror" ] || mirror=$(bookworm_mirror)
-[ -n "$mirror" ] || { say "no mirror of Debian 12 in the apt sources of this system: give one with --mirror" && exit 1; }
-
-# Namespaces of its own: mounts and processes end with the command, so nothing is ever mounted when a folder is removed.
-apart() { unshare --mount --pid --fork --kill-child "$@"; }
-in_machine() {
-    apart --mount-proc="$machine/proc" chroot "$machine" env -i HOME=/root TERM=dumb \
-        PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin ${http_proxy:+http_proxy="$http_proxy"} "$@"
-}
-
-machine=$(mktemp -d)
-chmod 755 "$machine" # its /, which users who are not root must be able to enter
-leave() {
-    status=$?
-    rm -f "$machine.log"
-    if [ -n "$keep" ]; then say "left in $machine"; else rm -rf --one-file-system -- "${machine:?}"; fi
-    minutes=$((($(date +%s) - begin + 30) / 60))
-    [ $status -eq 0 ] && result="succeeded" || result="FAILED"
-    echo "fresh machine: $commands $result on a bare Debian 12, $minutes minutes in all"
-    exit $status
-}
-begin=$(date +%s)
-trap leave EXIT
-trap 'exit 130' INT TERM
-
-say "a bare Debian 12 in $machine"
-apart debootstrap --variant=minbase bookworm "$machine" "$mirror" >"$machine.log" 2>&1 || { tail "$machine.log" && exit 1; }
+tried="fresh machine: $commands"
+make_machine "$mirror"
 [ -z "$(git status --porcelain)" ] || say "changes that are not committed stay out"
 git clone --quiet . "$machine/root/PhysVib"
 for command in $commands; do

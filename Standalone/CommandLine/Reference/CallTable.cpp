@@ -37,7 +37,8 @@ std::vector<std::string> spellingsOf(const CLI::Option& option) {
 ListedOption listed(const CLI::Option& option) {
     const bool takesNothing = option.get_items_expected_max() == 0;
     const std::string value = takesNothing ? "" : option.get_type_name();
-    ListedOption made{spellingsOf(option), value, option.get_default_str(), option.get_description(), choicesIn(value), option.get_positional()};
+    ListedOption made{spellingsOf(option), value, option.get_default_str(), option.get_description(), choicesIn(value), option.get_positional(),
+                      option.get_required()};
     if (made.isPlace && made.spellings.front() == "scene") made.choices = sceneNames();
     return made;
 }
@@ -59,7 +60,7 @@ ListedCommand listedUsage(const std::string& program, const std::string& meaning
     for (auto found = std::sregex_iterator{made.usage.begin(), made.usage.end(), shown}; found != std::sregex_iterator{}; ++found) {
         const std::string name = found->str(1), value = found->str(2);
         const auto isSame = [&](const ListedOption& option) { return option.spellings.front() == name; };
-        if (std::ranges::none_of(made.options, isSame)) made.options.push_back({{name}, value.empty() ? value : value.substr(1), {}, {}, {}, false});
+        if (std::ranges::none_of(made.options, isSame)) made.options.push_back({{name}, value.empty() ? value : value.substr(1), {}, {}, {}, false, false});
     }
     return made;
 }

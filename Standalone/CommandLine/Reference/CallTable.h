@@ -17,7 +17,7 @@ struct ListedOption {
     std::string initial;                ///< what it is if nobody says it
     std::string meaning;
     std::vector<std::string> choices; ///< all that it may be, or some that are built in
-    bool isPlace = false;
+    bool isPlace = false, isRequired = false;
 };
 
 struct ListedCommand {

@@ -38,6 +38,11 @@ void writeOption(std::ostream& out, const ListedOption& option) {
     out << '\n' << shown(option.meaning) << '\n';
 }
 
+void writeInCall(std::ostream& out, const ListedOption& option) {
+    const std::string name = shown(option.spellings.back());
+    out << (option.isRequired ? " " : " [") << (option.isPlace ? "\\fI" + name : "\\fB" + name + "\\fR \\fI" + shown(option.value)) << (option.isRequired ? "\\fR" : "\\fR]");
+}
+
 void writeCall(std::ostream& out, const ListedCommand& command) {
     if (!command.usage.empty()) {
         out << ".nf\n" << shown(command.usage) << ".fi\n";
@@ -45,7 +50,7 @@ void writeCall(std::ostream& out, const ListedCommand& command) {
     }
     out << "\\fB" << shown(command.words) << "\\fR [\\fIoptions\\fR]";
     for (const ListedOption& option : command.options)
-        if (option.isPlace) out << " [\\fI" << shown(option.spellings.front()) << "\\fR]";
+        if (option.isPlace || option.isRequired) writeInCall(out, option);
     out << (command.commands.empty() ? "\n" : " \\fIcommand\\fR ...\n");
 }
 

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What a system shows of the programs is whole: every kind of our files has a MIME type, and what menus and software centres read agrees with it,
+and every package of debian/ is told of in Docs/install.md. packaging.py ROOT"""
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+root = Path(sys.argv[1])
+packaging = root / "Standalone" / "Packaging"
+bad = []
+
+
+def expect(holds: bool, words: str) -> None:
+    if not holds:
+        bad.append(words)
+
+
+mime = {"m": "http://www.freedesktop.org/standards/shared-mime-info"}
+kinds = ElementTree.parse(packaging / "physvib-mime.xml").getroot().findall("m:mime-type", mime)
+types = {kind.attrib["type"] for kind in kinds}
+marks = {match.attrib["value"].strip('"') for kind in kinds for match in kind.findall(".//m:match", mime)}
+for file in sorted((root / "Source" / "Files").glob("*.cpp")):
+    for mark in re.findall(r'"(physvib_[a-z]+)"', file.read_text()): # a plug-in's state is no file
+        expect(mark in marks, f"{file.name}: no MIME type for files with {mark}")
+columns = re.search(r'value="(time_s,[^"]*)"', (packaging / "physvib-mime.xml").read_text()).group(1).split(",")
+expect(all(f'"{column}"' in (root / "Source/Files/EventColumns.h").read_text() for column in columns), f"event lists begin otherwise than {columns}")
+
+desktop = (packaging / "org.physvib.mixer.desktop").read_text()
+opened = set(re.search(r"^MimeType=(.*);$", desktop, re.M).group(1).split(";"))
+component = ElementTree.parse(packaging / "org.physvib.mixer.metainfo.xml.in").getroot()
+expect(opened <= types, f"the entry of menus opens {opened - types}, which has no MIME type")
+expect({told.text for told in component.iter("mediatype")} == opened, "what the mixer opens is told differently in the entry of menus and the metainfo")
+expect(component.findtext("launchable") == "org.physvib.mixer.desktop", "metainfo: launchable")
+ElementTree.parse(packaging / "org.physvib.mixer.svg")
+
+page = (root / "Docs" / "install.md").read_text()
+for name in re.findall(r"^Package: (\S+)$", (packaging / "debian" / "control.in").read_text(), re.M):
+    expect(f"`{name}`" in page, f"Docs/install.md: not a word of {name}")
+if shutil.which("desktop-file-validate"):
+    expect(subprocess.run(["desktop-file-validate", packaging / "org.physvib.mixer.desktop"]).returncode == 0, "desktop-file-validate")
+
+sys.exit("\n".join(bad) or 0)
