@@ -50,7 +50,7 @@ step "installed on a bare Debian: $(echo "$names" | xargs)"
 there 'physvib --version && physvib render shake-the-box --out box.wav --events box.csv --picture box.png && test -s box.png'
 there 'python3 /usr/share/doc/python3-physvib/examples/drop.py && test -s drop.wav'
 
-apt install gcc g++ libc6-dev pkg-config cmake make lilv-utils man-db bash zsh fish libglib2.0-bin shared-mime-info desktop-file-utils \
+apt install gcc g++ libc6-dev pkg-config cmake make lilv-utils jalv jackd2 man-db bash zsh fish libglib2.0-bin shared-mime-info desktop-file-utils \
     appstream xvfb xauth xdotool imagemagick ardour
 there 'cc /usr/share/doc/libphysvib-dev/examples/drop.c $(pkg-config --cflags --libs physvib-c) -o drop && ./drop'
 there 'echo "#include <physvib/physvib-live.h>
@@ -59,7 +59,15 @@ there 'echo "#include <physvib/physvib-live.h>
 there 'cmake -S /usr/share/doc/libphysvib-dev/examples/Example -B example >/dev/null && cmake --build example >/dev/null && example/example'
 step "programs in C by pkg-config and in C++ by CMake"
 
-[ "$(there 'lv2ls' | grep -c '^urn:physvib:plugin')" -eq 4 ] && there 'lv2bench urn:physvib:plugin:8' && step "lilv finds four LV2 and runs one"
+[ "$(there 'lv2ls' | grep -c '^urn:physvib:plugin')" -eq 4 ]
+there 'export JACK_DEFAULT_SERVER=physvib-release
+    jackd -n physvib-release -d dummy -r 48000 -p 512 >jackd.log 2>&1 & server=$!
+    jack_wait -w -t 30 >/dev/null
+    sleep 60 | jalv -x -n physvib urn:physvib:plugin:8 >jalv.log 2>&1 & host=$!
+    for try in $(seq 50); do [ "$(jack_lsp 2>/dev/null | grep -c physvib:audio_out_)" -ne 8 ] || break; sleep 1; done
+    jack_lsp | grep -c physvib:audio_out_ | grep -qx 8
+    kill $host $server'
+step "lilv finds four LV2; jalv plays one on eight ports"
 cp Tests/Release/ardour.lua "$machine/root"
 there 'export LD_LIBRARY_PATH=/usr/lib/ardour7
     for name in PhysVib PhysVib-Pairs; do timeout 120 /usr/lib/ardour7/ardour-vst3-scanner -f /usr/lib/vst3/$name.vst3 >scan-$name.log 2>&1; done

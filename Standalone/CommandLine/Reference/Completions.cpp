@@ -97,8 +97,10 @@ std::string fishOption(const ListedOption& option) {
     std::string words;
     if (!option.isPlace)
         for (const std::string& name : option.spellings) words += name.starts_with("--") ? std::string{" -l "}.append(name, 2) : std::string{" -s "}.append(name, 1);
-    if (!option.choices.empty()) return words + (option.isPlace ? " -a " : " -x -a ") + quoted(joinedWords(option.choices));
-    return option.isPlace || option.value.empty() ? words : words + " -r";
+    if (!option.choices.empty()) words += std::string{option.isPlace ? " -a " : " -x -a "}.append(quoted(joinedWords(option.choices)));
+    else if (!option.isPlace && !option.value.empty()) words += " -r";
+    if (!option.meaning.empty()) (words += " -d ") += quoted(option.meaning);
+    return words;
 }
 
 } // namespace
@@ -153,7 +155,7 @@ std::string fishCompletion(const ListedCommand& program) {
     each(program, [&](const ListedCommand& command) {
         const std::string begin = "complete -c " + program.words + fishCondition(program, command);
         for (const ListedCommand& inner : command.commands) out << begin << " -f -a " << lastWord(inner) << " -d " << quoted(inner.meaning) << '\n';
-        for (const ListedOption& option : command.options) out << begin << fishOption(option) << " -d " << quoted(option.meaning) << '\n';
+        for (const ListedOption& option : command.options) out << begin << fishOption(option) << '\n';
     });
     return out.str();
 }
