@@ -43,8 +43,9 @@ for file in "$source"/debian/*.in; do
     sed "s/@MAINTAINER@/$maintainer/; s/@BUILD_DEPENDS@/$depends/; s/@MINOR@/$minor/g; s/@NEXT@/$next/g" "$file" >"${file%.in}"
     rm "$file"
 done
+# Not Debian's own packages: those would come after.
 cat >"$source/debian/changelog" <<END
-physvib ($release-1) unstable; urgency=medium
+physvib ($release-0physvib1) unstable; urgency=medium
 
   * What has changed is told in changelog.gz.
 

@@ -14,7 +14,7 @@ void each(const ListedCommand& command, const Visit& visit) {
     for (const ListedCommand& inner : command.commands) each(inner, visit);
 }
 
-std::string inQuotes(std::string_view text) {
+std::string shellWord(std::string_view text) {
     std::string out(1, '\'');
     for (const char c : text) {
         if (c == '\'') out += "'\\'";
@@ -56,7 +56,7 @@ std::string functionOf(const ListedCommand& program) {
 std::string allCalls(const ListedCommand& program) {
     std::string calls;
     each(program, [&](const ListedCommand& command) {
-        if (&command != &program) (calls += calls.empty() ? "" : "|") += inQuotes(command.words);
+        if (&command != &program) (calls += calls.empty() ? "" : "|") += shellWord(command.words);
     });
     return calls.empty() ? "''" : calls;
 }
@@ -73,13 +73,13 @@ std::string zshOption(const ListedOption& option, const std::string& spelling) {
     }
     text += ']';
     if (!option.value.empty()) (text += ": :") += option.choices.empty() ? "_files" : bracketed(option.choices);
-    return inQuotes(text);
+    return shellWord(text);
 }
 
 std::string zshPlace(const ListedCommand& command) {
-    if (!command.commands.empty()) return inQuotes(std::string{"*: :"}.append(bracketed(namesWithin(command))));
+    if (!command.commands.empty()) return shellWord(std::string{"*: :"}.append(bracketed(namesWithin(command))));
     for (const ListedOption& option : command.options)
-        if (option.isPlace && !option.choices.empty()) return inQuotes(std::string{"*: :{_alternative \"n: :"}.append(bracketed(option.choices)) + "\" \"f: :_files\"}");
+        if (option.isPlace && !option.choices.empty()) return shellWord(std::string{"*: :{_alternative \"n: :"}.append(bracketed(option.choices)) + "\" \"f: :_files\"}");
     return "'*: :_files'";
 }
 
@@ -90,16 +90,16 @@ std::string fishCondition(const ListedCommand& program, const ListedCommand& com
     std::istringstream words{command.words.substr(program.words.size())};
     for (std::string word; words >> word;) condition += (condition.empty() ? "__fish_seen_subcommand_from " : "; and __fish_seen_subcommand_from ") + word;
     if (!command.commands.empty()) (condition += "; and not __fish_seen_subcommand_from ") += joinedWords(namesWithin(command));
-    return std::string{" -n "}.append(inQuotes(condition));
+    return std::string{" -n "}.append(shellWord(condition));
 }
 
 std::string fishOption(const ListedOption& option) {
     std::string words;
     if (!option.isPlace)
         for (const std::string& name : option.spellings) words += name.starts_with("--") ? std::string{" -l "}.append(name, 2) : std::string{" -s "}.append(name, 1);
-    if (!option.choices.empty()) words += std::string{option.isPlace ? " -a " : " -x -a "}.append(inQuotes(joinedWords(option.choices)));
+    if (!option.choices.empty()) words += std::string{option.isPlace ? " -a " : " -x -a "}.append(shellWord(joinedWords(option.choices)));
     else if (!option.isPlace && !option.value.empty()) words += " -r";
-    if (!option.meaning.empty()) (words += " -d ") += inQuotes(option.meaning);
+    if (!option.meaning.empty()) (words += " -d ") += shellWord(option.meaning);
     return words;
 }
 
@@ -116,7 +116,7 @@ std::string bashCompletion(const ListedCommand& program) {
         for (const ListedOption& option : command.options)
             for (const std::string& name : option.spellings)
                 if (!option.isPlace && !option.value.empty())
-                    out << "        " << inQuotes(command.words + ' ' + name) << ") " << (option.choices.empty() ? "return" : std::string{"choices="}.append(inQuotes(joinedWords(option.choices)))) << " ;;\n";
+                    out << "        " << shellWord(command.words + ' ' + name) << ") " << (option.choices.empty() ? "return" : std::string{"choices="}.append(shellWord(joinedWords(option.choices)))) << " ;;\n";
     });
     out << "    esac\n    [ -n \"$choices\" ] || case $call in\n";
     each(program, [&](const ListedCommand& command) {
@@ -125,7 +125,7 @@ std::string bashCompletion(const ListedCommand& program) {
             const auto& more = option.isPlace ? option.choices : option.spellings;
             words.insert(words.end(), more.begin(), more.end());
         }
-        out << "        " << inQuotes(command.words) << ") choices=" << inQuotes(joinedWords(words)) << " ;;\n";
+        out << "        " << shellWord(command.words) << ") choices=" << shellWord(joinedWords(words)) << " ;;\n";
     });
     out << "    esac\n    COMPREPLY=($(compgen -W \"$choices\" -- \"$current\"))\n}\ncomplete -o default -F " << functionOf(program) << ' ' << program.words << '\n';
     return out.str();
@@ -138,7 +138,7 @@ std::string zshCompletion(const ListedCommand& program) {
     out << "local word call=" << program.words << "\nfor word in ${words[2,CURRENT-1]}; do\n    case \"$call $word\" in (" << allCalls(program)
         << ") call=\"$call $word\" ;; esac\ndone\ncase $call in\n";
     each(program, [&](const ListedCommand& command) {
-        out << "    (" << inQuotes(command.words) << ") _arguments";
+        out << "    (" << shellWord(command.words) << ") _arguments";
         for (const ListedOption& option : command.options)
             for (const std::string& name : option.spellings)
                 if (!option.isPlace) out << " \\\n        " << zshOption(option, name);
@@ -154,7 +154,7 @@ std::string fishCompletion(const ListedCommand& program) {
     heading(out, program);
     each(program, [&](const ListedCommand& command) {
         const std::string begin = "complete -c " + program.words + fishCondition(program, command);
-        for (const ListedCommand& inner : command.commands) out << begin << " -f -a " << lastWord(inner) << " -d " << inQuotes(inner.meaning) << '\n';
+        for (const ListedCommand& inner : command.commands) out << begin << " -f -a " << lastWord(inner) << " -d " << shellWord(inner.meaning) << '\n';
         for (const ListedOption& option : command.options) out << begin << fishOption(option) << '\n';
     });
     return out.str();
