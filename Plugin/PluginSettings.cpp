@@ -79,6 +79,7 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     setup.seed = state.seed;
     setup.stepsPerSecond = state.stepsPerSecond;
     setup.channels = enchantersOf(state);
+    setup.modes = 256; // a take's memory follows it, and a host holds many; what it steals beyond is shown
     setup.panner = pannerOf(state, PanningLaw::linear, 1.0);
     setup.limiterEnabled = state.limiterEnabled;
     setup.equalised = state.equalised;

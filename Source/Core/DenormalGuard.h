@@ -8,11 +8,16 @@
 
 namespace physvib {
 
-/// Sets flush-to-zero (and denormals-are-zero) for this thread and restores the mode it found. R, wait-free.
+/// Sets flush-to-zero (and denormals-are-zero) for this thread and restores the mode it found. Within another, or wherever the
+/// mode is set, it costs next to nothing: writing it waits for all arithmetic that is under way. R, wait-free.
 class DenormalGuard {
 public:
-    DenormalGuard() noexcept : saved_{read()} { write(saved_ | flushBits); }
-    ~DenormalGuard() { write(saved_); }
+    DenormalGuard() noexcept : saved_{read()} {
+        if (!isSet()) write(saved_ | flushBits);
+    }
+    ~DenormalGuard() {
+        if (!isSet()) write(saved_);
+    }
     DenormalGuard(const DenormalGuard&) = delete;
     DenormalGuard& operator=(const DenormalGuard&) = delete;
 
@@ -48,7 +53,8 @@ private:
 #else
 #error "say here how this machine flushes denormals"
 #endif
-    Mode saved_;
+    bool isSet() const noexcept { return (saved_ & flushBits) == flushBits; }
+    Mode saved_; // as it was found
 };
 
 } // namespace physvib

@@ -18,16 +18,22 @@ class EventQueue {
 public:
     /// False if the queue is full: the item is not taken and the loss is counted. Producer only, wait-free.
     bool push(const T& item) noexcept PHYSVIB_NONBLOCKING {
-        const std::size_t write = write_.load(std::memory_order_relaxed);
-        if (write - readSeen_ == Capacity) {
+        return pushBy([&](T& place) noexcept { place = item; });
+    }
+
+    /// The same, and `write(T&)` writes all of the item where it will lie. Producer only, wait-free.
+    template <class Write>
+    bool pushBy(Write write) noexcept PHYSVIB_NONBLOCKING {
+        const std::size_t written = write_.load(std::memory_order_relaxed);
+        if (written - readSeen_ == Capacity) {
             readSeen_ = read_.load(std::memory_order_acquire);
-            if (write - readSeen_ == Capacity) {
+            if (written - readSeen_ == Capacity) {
                 overflows_.store(overflows_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
                 return false;
             }
         }
-        items_[write & (Capacity - 1)] = item;
-        write_.store(write + 1, std::memory_order_release);
+        write(items_[written & (Capacity - 1)]);
+        write_.store(written + 1, std::memory_order_release);
         return true;
     }
 

@@ -9,7 +9,7 @@ namespace physvib {
 template <class P>
 bool HapticRenderer<P>::canTake(const RendererSettings& settings) noexcept {
     const int outputs = settings.outputs();
-    if (!isSampleRate(settings.sampleRateHz) || settings.channels < 0 || outputs < 1 || outputs > P::maxChannels) return false;
+    if (!isSampleRate(settings.sampleRateHz) || settings.channels < 0 || settings.modes < 0 || settings.modes > P::maxModes || outputs < 1 || outputs > P::maxChannels) return false;
     if (settings.panner.channels() < 0 || settings.panner.channels() > outputs) return false;
     return std::all_of(settings.ceilings.begin(), settings.ceilings.begin() + outputs,
                        [](float ceiling) { return ceiling > 0.0f && std::isfinite(ceiling); });
@@ -26,21 +26,25 @@ bool HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     clock_ = FrameClock{settings.sampleRateHz};
     panner_ = settings.panner;
     gains_.fill(0.0);
-    bank_.prepare(settings.sampleRateHz, channels_, settings.instructions);
     player_.prepare(settings.sampleRateHz, channels_);
     moving_.prepare(settings.sampleRateHz, channels_);
-    actuators_.prepare(settings.sampleRateHz, channels_, settings.equalised);
-    prepareLimiter();
-    pending_.clear();
-    controls_.clear();
     silentUntilNs_ = INT64_MIN;
-    return true;
+    return isPrepared_ = takeMemory();
 }
 
 template <class P>
-void HapticRenderer<P>::prepareLimiter() noexcept {
-    limiter_.prepare(settings_.sampleRateHz, channels_, settings_.limiterEnabled);
+bool HapticRenderer<P>::takeMemory() noexcept {
+    const auto share = [this](int most, int least) { return settings_.shareOf(most, P::maxModes, std::min(most, least)); };
+    return bank_.prepare(settings_.sampleRateHz, channels_, settings_.instructions, share(P::maxModes, 1), share(P::maxGates, 256)) &&
+           actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) && prepareLimiter() && pending_.resize(share(P::maxPending, 512)) &&
+           controls_.resize(share(P::maxControls, 64));
+}
+
+template <class P>
+bool HapticRenderer<P>::prepareLimiter() noexcept {
+    const bool has = limiter_.prepare(settings_.sampleRateHz, channels_, settings_.limiterEnabled, settings_.instructions);
     for (int j = 0; j < channels_; ++j) limiter_.setCeiling(j, settings_.ceilings[static_cast<std::size_t>(j)]);
+    return has;
 }
 
 template <class P>
@@ -57,16 +61,8 @@ bool HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     clock_ = FrameClock{sampleRateHz};
     player_.prepare(sampleRateHz, channels_);
     moving_.prepare(sampleRateHz, channels_);
-    actuators_.changeRate(sampleRateHz);
-    prepareLimiter();
     position_ = frame;
-    return true;
-}
-
-template <class P>
-void HapticRenderer<P>::schedule(const CollisionEvent& event) noexcept {
-    if (isPlayable(event) && event.frequencyHz < 0.5 * clock_.sampleRateHz()) pending_.push(event.timeNs, event);
-    else ++rejected_;
+    return isPrepared_ = actuators_.changeRate(sampleRateHz) && prepareLimiter();
 }
 
 // A gate that ends where a strike begins closes first; a control acts before the strikes of its frame.
@@ -109,7 +105,12 @@ void HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset)
     const bool isGated = event.durationNs > 0;
     const std::int64_t end = isGated ? clock_.at(event.timeNs + event.durationNs).frame + std::max<std::int64_t>(delay, 0) : Strike::never;
     const bool taken = event.course.travelNs > 0 ? end <= onset.frame || moving_.strike(event, onset, end) : strikeStill(event, onset, end);
-    if (taken) playedQueue_.push({event, onset.frame, delay > 0});
+    if (taken)
+        playedQueue_.pushBy([&](PlayedEvent& told) noexcept {
+            told.event = event;
+            told.frame = onset.frame;
+            told.isLate = delay > 0;
+        });
     played_ += taken ? 1 : 0;
     late_ += taken && delay > 0 ? 1 : 0;
     rejected_ += taken ? 0 : 1;

@@ -25,14 +25,14 @@
 
 namespace physvib {
 
-/// All memory is inside the object (30 MB for the desktop: keep it on the heap).
+/// Its memory follows channels and modes and is taken in prepare (DesktopProfile), or inside the object: keep it on the heap.
 template <class Profile>
 class HapticRenderer {
 public:
     using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(Profile::playedQueueSize)>; ///< What was played, and when.
 
-    /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most Profile::maxChannels outputs:
-    /// then render writes zeros, takes no events and moves nowhere, as before the first call. M, not while rendering.
+    /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most Profile::maxChannels outputs, or
+    /// if there is no memory: then render writes zeros, takes no events and moves nowhere, as before the first call. M, not while rendering.
     bool prepare(const RendererSettings& settings) noexcept;
 
     /// From now on events play these recordings instead of modes; none: modes. Events without one are rejected, or, with
@@ -41,8 +41,8 @@ public:
     void setContacts(std::span<const RecordedContact> contacts, bool othersAreModes = false) noexcept;
 
     /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains stay; what moves
-    /// stops, the limiter starts afresh. False, and nothing has changed, at a rate outside the limits, or if it is not prepared. M, not
-    /// while rendering.
+    /// stops, the limiter starts afresh. False, and nothing has changed, at a rate outside the limits, or if it is not prepared; without
+    /// memory it is not prepared any more. M, not while rendering.
     bool moveTo(int sampleRateHz, std::int64_t frame) noexcept;
 
     /// Writes out[channel][0..frames), 1 to limits::maxBlockFrames. `source.pop(CollisionEvent&)` gives events until
@@ -66,12 +66,13 @@ private:
     template <class Source>
     void refill(Source& source) noexcept;
     static bool canTake(const RendererSettings& settings) noexcept;
-    void schedule(const CollisionEvent& event) noexcept;
+    bool canPlay(const CollisionEvent& event) const noexcept { return isPlayable(event) && event.frequencyHz < 0.5 * clock_.sampleRateHz(); }
     template <class Source>
     int strikeAndReach(Source& source, int most) noexcept;
     void actOnDue() noexcept;
     void apply(const RenderControl& control) noexcept;
-    void prepareLimiter() noexcept;
+    bool prepareLimiter() noexcept;
+    bool takeMemory() noexcept;
     void strike(const CollisionEvent& event, FramePosition onset) noexcept;
     bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
@@ -87,8 +88,8 @@ private:
     MovingTones<Profile> moving_;
     ActuatorStage<Profile> actuators_;
     LinkedLimiter<Profile> limiter_;
-    PendingEvents<Profile::maxPending> pending_;
-    TimeOrdered<RenderControl, Profile::maxControls> controls_;
+    PendingEvents<Profile> pending_;
+    TimeOrdered<RenderControl, Profile::maxControls, Profile::isOnHeap> controls_;
     PlayedQueue playedQueue_;
     RendererSettings settings_;
     int channels_ = 1;

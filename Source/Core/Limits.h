@@ -53,6 +53,7 @@ struct DesktopProfile {
     static constexpr int maxDelayFrames = 9600;    // maxChannelDelaySeconds at 192 kHz
     static constexpr int maxControls = 256;  // edits ahead of their time: a hand makes tens a second
     static constexpr int playedQueueSize = 4096; // 40 ms at 10^5 strikes per second until somebody reads
+    static constexpr bool isOnHeap = true;   // memory for as many channels and modes as are asked for, taken in prepare
     static constexpr bool hasTiles = true;   // vector kernels on whole tiles (Core/Modes/ModeTiles.h)
 };
 
@@ -71,6 +72,7 @@ struct BoardProfile {
     static constexpr int maxDelayFrames = 0; // no room
     static constexpr int maxControls = 2;
     static constexpr int playedQueueSize = 16;
+    static constexpr bool isOnHeap = false;  // there is none
     static constexpr bool hasTiles = false;  // 8 frames on 12 KB: the scalar kernel alone
 };
 

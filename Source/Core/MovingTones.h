@@ -48,6 +48,7 @@ public:
     }
 
     void fadeAll(std::int64_t frame) noexcept { voices_.fadeAll(frame); }
+    int count() const noexcept { return voices_.count(); }
 
     /// Adds to io[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. `driveAt(event, x, y)`
     /// is the Drive of a strike there. False if there was nothing to add.

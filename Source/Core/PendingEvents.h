@@ -7,7 +7,7 @@
 namespace physvib {
 
 /// Collision events by onset time in nanoseconds.
-template <int Capacity>
-using PendingEvents = TimeOrdered<CollisionEvent, Capacity>;
+template <class Profile>
+using PendingEvents = TimeOrdered<CollisionEvent, Profile::maxPending, Profile::isOnHeap>;
 
 } // namespace physvib

@@ -163,17 +163,20 @@ void PhantomPanner::triangleGains(Vector p, Gains& gains) const noexcept {
 }
 
 void PhantomPanner::scatteredGains(Vector p, Gains& gains) const noexcept {
-    // Shepard's weights 1/d^2; a hit on an enchanter is that enchanter's alone.
+    // Shepard's weights 1/d^2; a hit on an enchanter is that enchanter's alone. Loops without branches are vectors.
+    constexpr double least = 1e-18; // a nanometre: no division by zero
     std::array<double, limits::maxEnchanters> weight; // only `count` of them are used: not worth clearing per strike
     const auto count = static_cast<std::size_t>(layout_.count);
     for (std::size_t j = 0; j < count; ++j) {
         const double dx = p.x - layout_.places[j].xMetres, dy = p.y - layout_.places[j].yMetres;
-        weight[j] = 1.0 / std::max(dx * dx + dy * dy, 1e-18); // a nanometre: no division by zero
+        const double square = dx * dx + dy * dy;
+        weight[j] = square < least ? least : square;
     }
+    for (std::size_t j = 0; j < count; ++j) weight[j] = 1.0 / weight[j];
     double sum = 0.0;
     for (std::size_t j = 0; j < count; ++j) sum += weight[j];
     if (isPlain())
-        for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - std::clamp(1.0 - weight[j] / sum, 0.0, 1.0);
+        for (std::size_t j = 0; j < count; ++j) gains[j] = 1.0 - (1.0 - weight[j] / sum); // within 0 and 1, as factor() has it
     else
         for (std::size_t j = 0; j < count; ++j) gains[j] = factor(1.0 - weight[j] / sum);
 }

@@ -8,8 +8,10 @@ namespace physvib {
 template <class Profile>
 template <class Source>
 void HapticRenderer<Profile>::refill(Source& source) noexcept {
-    CollisionEvent event;
-    while (!pending_.full() && source.pop(event)) schedule(event);
+    while (!pending_.full() && source.pop(pending_.blank())) {
+        if (const CollisionEvent& event = pending_.blank(); canPlay(event)) pending_.pushBlank(event.timeNs);
+        else ++rejected_;
+    }
     if constexpr (requires(RenderControl c) { source.pop(c); }) {
         RenderControl control;
         while (!controls_.full() && source.pop(control)) controls_.push(control.timeNs, control);
@@ -17,28 +19,25 @@ void HapticRenderer<Profile>::refill(Source& source) noexcept {
 }
 
 // Strikes what comes before the next change that needs a cut, and says how many frames lie before it: at the next
-// onset as well, unless the bank takes strikes ahead. Taking an event makes room in the pending store for another.
+// onset as well, unless the bank takes strikes ahead. Taking an event makes room in the pending store for another, and one
+// with a duration is a change.
 template <class Profile>
 template <class Source>
 int HapticRenderer<Profile>::strikeAndReach(Source& source, int most) noexcept {
     for (;;) {
         refill(source);
         actOnDue();
-        std::int64_t end = nextChange(most);
-        if (!pending_.empty() && pending_.nextTime() < silentUntilNs_) {
-            pending_.pop();
-            continue;
-        }
-        if (!pending_.empty()) {
+        const std::int64_t end = nextChange(most);
+        const bool wasFull = pending_.full();
+        for (bool isSame = true; isSame;) {
+            if (pending_.empty()) return static_cast<int>(end - position_);
             const FramePosition onset = clock_.at(pending_.nextTime());
-            if (onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead())) {
-                strike(pending_.next(), onset);
-                pending_.pop();
-                continue;
-            }
-            end = std::min(end, onset.frame);
+            const bool isDue = onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead()), isHeard = pending_.nextTime() >= silentUntilNs_;
+            if (isHeard && !isDue) return static_cast<int>(std::min(end, onset.frame) - position_);
+            isSame = !wasFull && pending_.next().durationNs == 0;
+            if (isHeard) strike(pending_.next(), onset);
+            pending_.pop();
         }
-        return static_cast<int>(end - position_);
     }
 }
 
@@ -50,12 +49,12 @@ void HapticRenderer<Profile>::render(Source& source, float* const* out, int fram
         return;
     }
     const DenormalGuard guard;
-    Channels at{};
+    Channels at; // the first channels_ of them
     std::copy_n(out, channels_, at.begin());
     for (int done = 0; done < frames;) {
         const int part = strikeAndReach(source, frames - done);
         const bool modesSound = bank_.render(at.data(), position_, part), recordingsSound = player_.render(at.data(), position_, part);
-        const bool movingSounds = moving_.render(at.data(), position_, part, [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
+        const bool movingSounds = moving_.count() > 0 && moving_.render(at.data(), position_, part, [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
         const bool isSilent = actuators_.process(at.data(), part, !modesSound && !recordingsSound && !movingSounds);
         limiter_.process(at.data(), part, isSilent);
         position_ += part;

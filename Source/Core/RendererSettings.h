@@ -6,6 +6,7 @@
 #include "Core/Limits.h"
 #include "Core/Modes/InstructionSet.h"
 #include "Core/PhantomPanner.h"
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -21,10 +22,14 @@ struct RendererSettings {
     PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
     bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
     std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
+    int modes = 0; ///< that sound at once; one more steals the quietest, which is counted. Memory follows it. At most, and if it is 0, Profile::maxModes
     InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
     EqualisedActuators equalised{}; ///< per channel; without figures it is played as it is
     DriveMatrices drives{}; ///< of the panner's enchanters, against their coupling; empty: none. They outlive the renderer
 
+    /** What grows with the modes: of `most` at `mostModes` as many, but for `least`. */ int shareOf(int most, int mostModes, int least) const noexcept {
+        return modes == 0 ? most : std::min(most, std::max(least, static_cast<int>(static_cast<std::int64_t>(most) * modes / mostModes)));
+    }
     int outputs() const noexcept { return channels > 0 ? channels : panner.channels(); } ///< Channels that are rendered.
 
     static constexpr std::array<float, limits::maxEnchanters> fullScale() {

@@ -1,64 +1,111 @@
 // SPDX-License-Identifier: MIT
-// A fixed store that gives its items back in time order, equal times in the order of arrival: a binary heap.
+// A fixed store that gives its items back in time order, equal times in the order of arrival: a queue of those that came in
+// order, which is nearly all of them, and beside it a binary heap of the others.
 #pragma once
+#include "Core/Storage.h"
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 namespace physvib {
 
-/// At most `Capacity` items of type T, each with an integer time. R, bounded by log2(Capacity) moves a call, of small
-/// nodes: items stay where they are.
-template <class T, int Capacity>
+/// At most `Capacity` items of type T, or fewer, each with an integer time. R: in order, one step a call; else bounded by
+/// log2(Capacity) moves of small numbers. Items stay where they are.
+template <class T, int Capacity, bool isOnHeap = false>
 class TimeOrdered {
 public:
-    TimeOrdered() noexcept {
-        for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].item = static_cast<std::uint32_t>(i);
+    /// Empty, with room for so many, at most `Capacity`; on the heap it has none before. False: no memory. M, not while rendering.
+    bool resize(int capacity) noexcept {
+        clear();
+        const auto count = static_cast<std::size_t>(capacity);
+        const bool has = nodes_.resize(count) && items_.resize(count) && heap_.resize(count);
+        capacity_ = has ? capacity : 0;
+        return has;
     }
+
     bool empty() const noexcept { return size_ == 0; }
-    bool full() const noexcept { return size_ == Capacity; }
+    bool full() const noexcept { return size_ == capacity_; }
     int size() const noexcept { return size_; }
-    void clear() noexcept { size_ = 0; }
+    void clear() noexcept {
+        size_ = heaped_ = used_ = 0;
+        free_ = first_ = last_ = none;
+    }
 
     /// False if the store is full; then nothing has changed.
     bool push(std::int64_t time, const T& item) noexcept {
         if (full()) return false;
-        Node& node = nodes_[static_cast<std::size_t>(size_++)];
-        node.time = time;
-        node.arrival = arrivals_++;
-        items_[node.item] = item;
-        std::push_heap(nodes_.begin(), nodes_.begin() + size_, isLater);
+        blank() = item;
+        pushBlank(time);
         return true;
     }
 
+    /// Where the next item will lie: to be written in place, and then pushed. Only when not full.
+    T& blank() noexcept { return items_[index(free_ != none ? free_ : used_)]; }
+    void pushBlank(std::int64_t time) noexcept {
+        const std::int32_t at = free_ != none ? free_ : used_++;
+        if (free_ != none) free_ = node(at).next;
+        node(at) = {time, arrivals_++, none};
+        ++size_;
+        if (first_ == none) first_ = last_ = at;
+        else if (time >= node(last_).time) last_ = node(last_).next = at;
+        else heapUp(at);
+    }
+
     /// Time and item that come first. Only when not empty.
-    std::int64_t nextTime() const noexcept { return nodes_.front().time; }
-    const T& next() const noexcept { return items_[nodes_.front().item]; }
+    std::int64_t nextTime() const noexcept { return node(firstPlace()).time; }
+    const T& next() const noexcept { return items_[index(firstPlace())]; }
 
     /// Removes the first item. Only when not empty.
-    void pop() noexcept { std::pop_heap(nodes_.begin(), nodes_.begin() + size_--, isLater); }
+    void pop() noexcept {
+        const std::int32_t at = firstPlace();
+        if (at == first_) first_ = node(at).next;
+        else std::pop_heap(heap_.data(), heap_.data() + heaped_--, later());
+        node(at).next = free_;
+        free_ = at;
+        --size_;
+    }
 
     /// Gives every item a new time: `newTime(oldTime, item)`, which may change the item too. M, not while rendering.
     template <class Function>
     void retime(Function newTime) noexcept {
-        const auto end = nodes_.begin() + size_;
-        for (auto n = nodes_.begin(); n != end; ++n) n->time = newTime(n->time, items_[n->item]);
-        std::make_heap(nodes_.begin(), end, isLater);
+        for (; first_ != none; first_ = node(first_).next) heap_[index(heaped_++)] = first_;
+        std::for_each(heap_.data(), heap_.data() + heaped_, [&](std::int32_t at) { node(at).time = newTime(node(at).time, items_[index(at)]); });
+        std::make_heap(heap_.data(), heap_.data() + heaped_, later());
     }
 
 private:
+    static constexpr std::int32_t none = -1;
     struct Node {
         std::int64_t time = 0;
-        std::uint32_t arrival = 0; // may wrap: those in the store are never 2^31 apart
-        std::uint32_t item = 0;    // where it lies; nodes behind the heap hold the free places
+        std::uint32_t arrival = 0;  // may wrap: those in the store are never 2^31 apart
+        std::int32_t next = none;   // in the queue, or among the free places
     };
+    static constexpr std::size_t index(std::int32_t at) noexcept { return static_cast<std::size_t>(at); }
+    Node& node(std::int32_t at) noexcept { return nodes_[index(at)]; }
+    const Node& node(std::int32_t at) const noexcept { return nodes_[index(at)]; }
     static bool isLater(const Node& a, const Node& b) noexcept {
         return a.time != b.time ? a.time > b.time : static_cast<std::int32_t>(a.arrival - b.arrival) > 0;
     }
-    std::array<Node, static_cast<std::size_t>(Capacity)> nodes_{};
-    std::array<T, static_cast<std::size_t>(Capacity)> items_{};
+    auto later() const noexcept {
+        return [this](std::int32_t a, std::int32_t b) { return isLater(node(a), node(b)); };
+    }
+    void heapUp(std::int32_t at) noexcept {
+        heap_[index(heaped_++)] = at;
+        std::push_heap(heap_.data(), heap_.data() + heaped_, later());
+    }
+    std::int32_t firstPlace() const noexcept {
+        if (heaped_ == 0) return first_;
+        return first_ == none || isLater(node(first_), node(heap_[0])) ? heap_[0] : first_;
+    }
+
+    static constexpr auto most = static_cast<std::size_t>(Capacity);
+    Storage<Node, most, isOnHeap> nodes_;
+    Storage<T, most, isOnHeap> items_;
+    Storage<std::int32_t, most, isOnHeap> heap_; // places of what came out of order
     std::uint32_t arrivals_ = 0;
-    int size_ = 0;
+    std::int32_t first_ = none, last_ = none; // of the queue
+    std::int32_t free_ = none, used_ = 0;     // places from `used_` on have never been taken
+    int size_ = 0, heaped_ = 0;
+    int capacity_ = isOnHeap ? 0 : Capacity;
 };
 
 } // namespace physvib

@@ -35,12 +35,14 @@ constexpr Complex<Real> unitPhasor(std::uint64_t phase) noexcept {
                           (1 - q * over(110))))));
     const Real cosine = 1 - q * over(2) * (1 - q * over(12) * (1 - q * over(30) * (1 - q * over(56) *
                             (1 - q * over(90) * (1 - q * over(132))))));
-    switch (quadrant & 3) {
-    case 0: return {cosine, sine};
-    case 1: return {-sine, cosine};
-    case 2: return {-cosine, -sine};
-    default: return {sine, -cosine};
-    }
+    // Phases are as good as random: a branch here would be foretold wrongly three times of four.
+    using Bits = std::conditional_t<std::is_same_v<Real, double>, std::uint64_t, std::uint32_t>;
+    constexpr int sign = 8 * static_cast<int>(sizeof(Bits)) - 1;
+    const auto isOdd = static_cast<Bits>(0) - static_cast<Bits>(quadrant & 1);
+    const auto c = std::bit_cast<Bits>(cosine), swapped = static_cast<Bits>((c ^ std::bit_cast<Bits>(sine)) & isOdd);
+    const auto re = static_cast<Bits>((quadrant + 1) >> 1 & 1), im = static_cast<Bits>(quadrant >> 1 & 1); // whether negative
+    return {std::bit_cast<Real>(static_cast<Bits>((c ^ swapped) ^ re << sign)),
+            std::bit_cast<Real>(static_cast<Bits>((std::bit_cast<Bits>(sine) ^ swapped) ^ im << sign))};
 }
 
 /// Decays are counted in octaves (halvings) as signed fixed point with 56 fractional bits: +-128 octaves.

@@ -51,7 +51,7 @@ Session::Session(const SessionSetup& setup)
     , heard_{setup.contactSound ? std::make_unique<HeardContacts>(*setup.contactSound) : nullptr}
     , told_{setup.boardSeconds > 0.0 ? std::make_unique<ToldEvents>() : nullptr}
     , world_{setup.run(), setup.shaping, setup.log != LogUse::none} {
-    made_.reserve(4096);
+    made_.reserve(1024); // of a step; more are rare
     std::ranges::copy(setup.ceilings, ceilings_.begin());
     const SessionState first = state();
     world_.start(0, first.scene, first.seed);
@@ -64,6 +64,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
                         .panner = setup_.panner,
                         .limiterEnabled = setup_.limiterEnabled,
                         .ceilings = setup_.ceilings,
+                        .modes = setup_.modes,
                         .equalised = setup_.equalised});
     setLaw(lawAt(sampleRateHz, maxBlockFrames));
     renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings));

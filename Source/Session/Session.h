@@ -155,7 +155,7 @@ private:
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
     RecordingSets recordings_; // under the input mutex
     const std::unique_ptr<HeardContacts> heard_;
-    EventQueue<CollisionEvent, 8192> queue_; // from whoever holds the world
+    EventQueue<CollisionEvent, 4096> queue_; // from whoever holds the world, who keeps what finds no room
     EventQueue<RenderControl, 256> controls_;
     const std::unique_ptr<ToldEvents> told_;
     std::atomic<std::int64_t> steppedNs_{0}; // session time of the world up to which all is in the queue

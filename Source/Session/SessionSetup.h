@@ -39,6 +39,7 @@ struct SessionSetup {
     ImpactTiming timing = ImpactTiming::onset;
     ImpactLocation location = ImpactLocation::contact;
     int channels = 4;
+    int modes = 0; ///< of RendererSettings
     PhantomPanner panner; ///< at most `channels` enchanters
     bool limiterEnabled = true;
     std::array<float, limits::maxEnchanters> ceilings = RendererSettings::fullScale(); ///< drive ceiling per channel, > 0

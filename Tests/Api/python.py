@@ -120,7 +120,7 @@ class Package(unittest.TestCase):
 
         def some(count: int) -> None:
             for _ in range(8):
-                physvib.Renderer().close()  # 29 MB each, of which the allocator keeps some for the next
+                physvib.Renderer().close()  # megabytes each, of which the allocator keeps some for the next
             for i in range(count // 4):
                 with world.step(0.01):
                     if i % 2 == 0:

@@ -2,6 +2,8 @@
 // LinkedLimiter at 20 dB of random overload: ceilings, ratios, slopes, release to exactly 1, and what never passes.
 #include "Core/Actuators/LinkedLimiter.h"
 #include "Support/ClosedForm.h"
+#include "Support/Sets.h"
+#include <bit>
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>
@@ -22,7 +24,7 @@ Block noise(int frames, double level, std::uint32_t seed) {
 
 struct Limited {
     std::unique_ptr<LinkedLimiter<DesktopProfile>> limiter = std::make_unique<LinkedLimiter<DesktopProfile>>();
-    explicit Limited(bool enabled = true) { limiter->prepare(rate, channels, enabled); }
+    explicit Limited(bool enabled = true, InstructionSet set = InstructionSet::best) { limiter->prepare(rate, channels, enabled, set); }
     Block operator()(Block block, int size = 100) {
         for (std::size_t done = 0; done < block[0].size(); done += static_cast<std::size_t>(size)) {
             std::vector<float*> at;
@@ -128,6 +130,26 @@ TEST(LinkedLimiter, SilenceThatIsToldIsSilenceThatIsSeen) {
             ASSERT_EQ(a, seen(b)) << i;
         }
         EXPECT_EQ(told.limiter->gain(), 1.0f);
+    }
+}
+
+TEST(LinkedLimiter, IsTheSameToTheBitOnEachInstructionSetAndAtEachBlockSize) {
+    Block in = noise(rate / 2, 1.05, 9); // over now and then
+    in[3][777] = std::numeric_limits<float>::infinity();
+    in[4][778] = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t n = 5000; n < 6000; ++n) in[5][n] = n % 2 == 0 ? 1e-39f : -0.0f;
+    for (const bool enabled : {true, false}) {
+        Limited oracle{enabled, InstructionSet::scalar};
+        const Block expected = oracle(in);
+        for (const auto set : test::runnableSets())
+            for (const int size : {1, 13, 64, 1000}) {
+                Limited limited{enabled, set};
+                const Block out = limited(in, size);
+                for (std::size_t j = 0; j < channels; ++j)
+                    for (std::size_t n = 0; n < in[0].size(); ++n)
+                        ASSERT_EQ(std::bit_cast<std::uint32_t>(out[j][n]), std::bit_cast<std::uint32_t>(expected[j][n])) << nameOf(set) << ", block " << size << ", frame " << n;
+                EXPECT_EQ(limited.limiter->nonFiniteSamples(), 2U);
+            }
     }
 }
 

@@ -123,6 +123,7 @@ TEST(LowRankBasis, RowsOfTheChosenRankGiveTheModeBack) {
 
 TEST(ModeIndex, FindsWhatIsThereWhateverCameAndWent) {
     ModeIndex<100> index;
+    ASSERT_TRUE(index.resize(100));
     std::map<int, std::uint64_t> hashes; // by slot
     test::Random random{3};
     for (int i = 0; i < 100'000; ++i) {

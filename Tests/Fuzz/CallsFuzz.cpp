@@ -3,7 +3,7 @@
 #include "Support/RandomCalls.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static physvib::test::RandomCalls calls; // a renderer is 29 MB: they go on from one input to the next
+    static physvib::test::RandomCalls calls; // a renderer is megabytes: they go on from one input to the next
     calls.run(data, size);
     return 0;
 }

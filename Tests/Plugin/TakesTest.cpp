@@ -17,7 +17,7 @@ std::atomic<void (*)()> beforeLarge{nullptr}; // is called before memory for a r
 #if !defined(PHYSVIB_THREAD_SANITIZER) // it has functions of its own, which cannot be replaced
 constexpr bool ownsMemory = true;
 void* operator new(std::size_t size, std::align_val_t alignment) {
-    if (auto* const call = beforeLarge.load(); call && size > 10'000'000) call();
+    if (auto* const call = beforeLarge.load(); call && size > 500'000) call();
     const auto grain = static_cast<std::size_t>(alignment);
     void* const memory = std::aligned_alloc(grain, (size + grain - 1) / grain * grain);
     return memory ? memory : throw std::bad_alloc{};

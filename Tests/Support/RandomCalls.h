@@ -124,7 +124,7 @@ private:
         }
     }
 
-    physvib_int64 createRenderer() { // 29 MB: not often
+    physvib_int64 createRenderer() { // megabytes: not often
         if (!isRare()) return 0;
         physvib_renderer& kept = renderers_[alive(renderers_)];
         renderers_[3] = kept;

@@ -225,7 +225,7 @@ PHYSVIB_API int physvib_render(const physvib_renderer_settings *settings, const 
 
 /* ---- A renderer: strikes in, samples out. ---- */
 
-/** 29 MB. PHYSVIB_ERROR_FULL: 256 of them. Any thread. */
+/** 13 to 25 MB, by its channels. PHYSVIB_ERROR_FULL: 256 of them. Any thread. */
 PHYSVIB_API int physvib_renderer_create(const physvib_renderer_settings *settings, physvib_renderer *renderer);
 /** Waits until a call that is under way, on another thread, is over. Any thread but R. */
 PHYSVIB_API int physvib_renderer_free(physvib_renderer renderer);

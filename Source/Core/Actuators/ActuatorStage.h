@@ -5,6 +5,7 @@
 #include "Core/Actuators/ChannelDelay.h"
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Limits.h"
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -15,8 +16,8 @@ namespace physvib {
 template <class Profile>
 class ActuatorStage {
 public:
-    /// All gains 1, nothing muted or delayed, equalisers at rest. M, not while rendering.
-    void prepare(int sampleRateHz, int channels, const EqualisedActuators& equalised = {}) noexcept {
+    /// All gains 1, nothing muted or delayed, equalisers at rest. False: no memory. M, not while rendering.
+    bool prepare(int sampleRateHz, int channels, const EqualisedActuators& equalised = {}) noexcept {
         channels_ = channels;
         hasBegun_ = false;
         actuators_ = equalised;
@@ -26,14 +27,15 @@ public:
         level_ = 1.0f;
         muted_.fill(false);
         delaySeconds_.fill(0.0f);
-        prepareDelays(sampleRateHz);
+        return prepareDelays(sampleRateHz);
     }
 
-    /// Goes on at another rate, all as it is, but what was on its way through an equaliser or a delay. M, not while rendering.
-    void changeRate(int sampleRateHz) noexcept {
+    /// Goes on at another rate, all as it is, but what was on its way through an equaliser or a delay. False: no memory. M, not
+    /// while rendering.
+    bool changeRate(int sampleRateHz) noexcept {
         prepareEqualisers(sampleRateHz);
         for (int j = 0; j < channels_; ++j) ramps_[index(j)].prepare(sampleRateHz, limits::channelRampSeconds, aimOf(j));
-        prepareDelays(sampleRateHz);
+        return prepareDelays(sampleRateHz);
     }
 
     /// Negative gains turn the polarity.
@@ -58,17 +60,23 @@ public:
     void setDelay(int channel, float seconds) noexcept {
         delaySeconds_[index(channel)] = seconds;
         delays_[index(channel)].moveTo(framesOf(channel));
+        isAsleep_ = false;
     }
 
     /// In place. `isSilent`: all of it is 0. True if all of it is 0 afterwards: an equaliser rings out.
     bool process(float* const* io, int frames, bool isSilent) noexcept {
         hasBegun_ = true;
+        if (isSilent && isAsleep_) return true;
         bool allSilent = true;
+        isAsleep_ = isSilent;
         for (int j = 0; j < channels_; ++j) {
-            const bool none = delays_[index(j)].process(io[j], frames, equalisers_[index(j)].process(io[j], frames, isSilent));
-            if (none) ramps_[index(j)].pass(frames);
-            else ramps_[index(j)].apply(io + j, 1, frames);
+            const auto c = index(j);
+            const bool isQuiet = equalisers_[c].isOn() ? equalisers_[c].process(io[j], frames, isSilent) : isSilent;
+            const bool none = delays_[c].process(io[j], frames, isQuiet);
+            if (none) ramps_[c].pass(frames);
+            else ramps_[c].apply(io + j, 1, frames);
             allSilent = allSilent && none;
+            isAsleep_ = isAsleep_ && none && delays_[c].isResting() && ramps_[c].isResting();
         }
         return allSilent;
     }
@@ -80,19 +88,25 @@ private:
     static constexpr std::size_t index(int channel) noexcept { return static_cast<std::size_t>(channel); }
     float aimOf(int channel) const noexcept { return muted_[index(channel)] ? 0.0f : level_ * gains_[index(channel)]; }
     void aim(int channel) noexcept {
+        isAsleep_ = false;
         if (hasBegun_) ramps_[index(channel)].moveTo(aimOf(channel));
         else ramps_[index(channel)].jumpTo(aimOf(channel));
     }
 
     int framesOf(int channel) const noexcept { return static_cast<int>(std::lround(delaySeconds_[index(channel)] * static_cast<float>(sampleRateHz_))); }
-    void prepareDelays(int sampleRateHz) noexcept {
+    bool prepareDelays(int sampleRateHz) noexcept {
         sampleRateHz_ = sampleRateHz;
-        for (int j = 0; j < channels_; ++j) delays_[index(j)].prepare(static_cast<int>(limits::channelRampSeconds * sampleRateHz), framesOf(j));
+        isAsleep_ = false;
+        const int most = std::min(Profile::maxDelayFrames, static_cast<int>(std::lround(limits::maxChannelDelaySeconds * sampleRateHz)));
+        bool has = true;
+        for (int j = 0; j < channels_; ++j) has = delays_[index(j)].prepare(static_cast<int>(limits::channelRampSeconds * sampleRateHz), framesOf(j), most) && has;
+        return has;
     }
 
     static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
     int channels_ = 0;
     bool hasBegun_ = false;
+    bool isAsleep_ = false; // nothing goes on in any channel, so that silence needs no look at them
     int sampleRateHz_ = 48000;
     std::array<ChannelDelay<Profile::maxDelayFrames>, width> delays_{};
     std::array<float, width> delaySeconds_{};

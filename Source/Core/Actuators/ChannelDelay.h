@@ -1,29 +1,35 @@
 // SPDX-License-Identifier: MIT
 // A delay of one channel that can be changed while it plays: the old and the new place of reading are faded over.
 #pragma once
+#include "Core/Storage.h"
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 
 namespace physvib {
 
-/// At most `Capacity` frames. R only, but for prepare: M.
+/// R only, but for prepare: M.
 template <int Capacity>
 class ChannelDelay {
 public:
-    /// Rests at `frames`, with silence in it. M, not while rendering.
-    void prepare(int fadeFrames, int frames) noexcept {
+    /// Rests at `frames`, with silence in it; `most`, at most Capacity, is the longest. False: no memory. M, not while rendering.
+    bool prepare(int fadeFrames, int frames, int most = Capacity) noexcept {
+        size_ = static_cast<std::size_t>(most) + 1;
+        if (!ring_.resize(size_)) return false;
         fadeFrames_ = std::max(1, fadeFrames);
-        delay_ = before_ = std::clamp(frames, 0, Capacity);
+        most_ = most;
+        delay_ = before_ = std::clamp(frames, 0, most);
         faded_ = fadeFrames_;
         next_ = none;
-        ring_.fill(0.0f);
-        silentFrames_ = Capacity;
+        write_ = 0;
+        std::fill_n(ring_.data(), size_, 0.0f);
+        silentFrames_ = most;
+        return true;
     }
 
     void moveTo(int frames) noexcept {
-        frames = std::clamp(frames, 0, Capacity);
+        frames = std::clamp(frames, 0, most_);
         if (faded_ < fadeFrames_) { // one fade after the other
             next_ = frames;
             return;
@@ -37,30 +43,50 @@ public:
     /// True if what comes out is what goes in.
     bool isOut() const noexcept { return delay_ == 0 && faded_ == fadeFrames_; }
 
+    /// Nothing in it, and nothing changes.
+    bool isResting() const noexcept { return silentFrames_ >= most_ && faded_ == fadeFrames_; }
+
     /// In place. `isSilent`: all of the input is 0. True if all of the output is.
     bool process(float* io, int frames, bool isSilent) noexcept {
-        if (isSilent && silentFrames_ >= Capacity) {
+        if (isSilent && silentFrames_ >= most_) {
             faded_ = std::min(fadeFrames_, faded_ + frames);
             goOn();
             return true;
         }
-        const bool passes = isOut(); // what passes is kept as well: a delay that is set later begins with it
-        for (int n = 0; n < frames; ++n) {
-            if (passes) keep(io[n]);
-            else io[n] = step(io[n]);
-        }
-        silentFrames_ = isSilent ? std::min(Capacity, silentFrames_ + frames) : 0;
+        const bool passes = isOut();
+        if (passes) keep(io, static_cast<std::size_t>(frames));
+        else std::transform(io, io + frames, io, [this](float x) { return step(x); });
+        silentFrames_ = isSilent ? std::min(most_, silentFrames_ + frames) : 0;
         return passes && isSilent;
     }
 
 private:
     static constexpr int none = -1;
-    static constexpr std::size_t size = static_cast<std::size_t>(Capacity) + 1;
 
-    float at(int delay) const noexcept { return ring_[(write_ + size - static_cast<std::size_t>(delay)) % size]; }
+    float at(int delay) const noexcept {
+        const auto back = static_cast<std::size_t>(delay);
+        return ring_[write_ >= back ? write_ - back : write_ + size_ - back];
+    }
     void keep(float x) noexcept {
-        write_ = write_ + 1 == size ? 0 : write_ + 1;
+        write_ = write_ + 1 == size_ ? 0 : write_ + 1;
         ring_[write_] = x;
+    }
+    // Blocks are short: copies of a known size need no call.
+    static void copy(const float* from, std::size_t count, float* to) noexcept {
+        constexpr std::size_t whole = 16;
+        std::size_t k = 0;
+        for (; k + whole <= count; k += whole) std::memcpy(to + k, from + k, whole * sizeof(float));
+        std::copy_n(from + k, count - k, to + k);
+    }
+    // What passes is kept as well: a delay that is set later begins with it.
+    void keep(const float* x, std::size_t frames) noexcept {
+        while (frames > 0) {
+            const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1, part = std::min(frames, size_ - next);
+            copy(x, part, ring_.data() + next);
+            write_ = next + part - 1;
+            x += part;
+            frames -= part;
+        }
     }
     float step(float x) noexcept {
         keep(x);
@@ -74,18 +100,19 @@ private:
         if (faded_ == fadeFrames_ && next_ != none) moveTo(std::exchange(next_, none));
     }
 
-    std::array<float, size> ring_{};
-    std::size_t write_ = 0;
+    Storage<float, static_cast<std::size_t>(Capacity) + 1, true> ring_;
+    std::size_t write_ = 0, size_ = 0;
     int delay_ = 0, before_ = 0, faded_ = 1, fadeFrames_ = 1, next_ = none;
-    int silentFrames_ = Capacity; // put in last; no more than matters
+    int most_ = 0, silentFrames_ = 0; // put in last; no more than matters
 };
 
 /// No delay where there is no room for one.
 template <>
 class ChannelDelay<0> {
 public:
-    void prepare(int, int) noexcept {}
+    bool prepare(int, int, int) noexcept { return true; }
     void moveTo(int) noexcept {}
+    bool isResting() const noexcept { return true; }
     bool process(float*, int, bool isSilent) noexcept { return isSilent; }
 };
 

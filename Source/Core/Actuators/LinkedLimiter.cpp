@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sliding minimum, linear release, moving average, delayed multiply.
 #include "Core/Actuators/LinkedLimiter.h"
+#include "Core/Modes/TileKernel.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -8,14 +9,22 @@
 
 namespace physvib {
 
+static constexpr std::int32_t infiniteBits = 0x7f800000;
+
 template <class P>
-void LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled) noexcept {
+bool LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled, [[maybe_unused]] InstructionSet set) noexcept {
     channels_ = channels;
     enabled_ = enabled;
     window_ = windowAt(sampleRateHz);
     releaseStep_ = static_cast<std::int64_t>(unit / (sampleRateHz * limits::limiterReleaseSeconds));
-    ceilings_.fill(1.0f);
-    delayed_ = {};
+    if constexpr (P::hasTiles) {
+        const TileKernel* kernels = tileKernel(set);
+        kernel_ = kernels != nullptr ? &kernels->limiter : nullptr;
+    }
+    for (int j = 0; j < P::maxChannels; ++j) setCeiling(j, 1.0f);
+    const auto floats = static_cast<std::size_t>(channels) * floatsPerLine;
+    if (!lines_.resize(floats)) return false;
+    std::fill_n(lines_.data(), floats, 0.0f);
     silentFrames_ = 0;
     position_ = 0;
     frame_ = 0;
@@ -25,6 +34,15 @@ void LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled) noe
     sum_ = unit * window_;
     gain_ = 1.0f;
     nonFinite_ = 0;
+    return true;
+}
+
+template <class P>
+void LinkedLimiter<P>::setCeiling(int channel, float ceiling) noexcept {
+    const auto j = static_cast<std::size_t>(channel);
+    ceilings_[j] = ceiling;
+    bounds_[j] = enabled_ ? ceiling : std::numeric_limits<float>::infinity();
+    mostBits_[j] = std::min(std::bit_cast<std::int32_t>(bounds_[j]), infiniteBits - 1);
 }
 
 template <class P>
@@ -43,31 +61,44 @@ void LinkedLimiter<P>::process(float* const* io, int frames, bool isSilent) noex
 // Channel by channel, so that the loops over frames are vectors.
 template <class P>
 void LinkedLimiter<P>::processPart(float* const* io, std::size_t first, std::size_t frames) noexcept {
-    bool isOver = false;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j)
-        if (cleanAndCompare(io[j] + first, frames, ceilings_[j])) isOver = true;
-    Gains gains;
-    if (!isOver && isResting()) {
-        gains.fill(1.0f);
+    const LimiterLines lines{io, first, frames, static_cast<std::size_t>(channels_), lines_.data(), floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())};
+    if (!takeIn(lines) && isResting()) {
         rest(frames);
-    } else {
-        followGains(io, first, frames, gains);
+        return giveOut(lines, nullptr);
     }
-    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) delayAndLimit(j, io[j] + first, frames, gains);
+    Gains gains;
+    followGains(lines, gains);
+    giveOut(lines, gains.data());
 }
 
-// True if a sample exceeds the ceiling. Sizes are compared as integers, which order as the floats do (IEEE 754).
+// True if a sample exceeds its ceiling.
 template <class P>
-bool LinkedLimiter<P>::cleanAndCompare(float* samples, std::size_t frames, float ceiling) noexcept {
-    constexpr std::int32_t least = 0x00800000, infinite = 0x7f800000;
+bool LinkedLimiter<P>::takeIn(const LimiterLines& lines) noexcept {
+    if (kernel_ != nullptr && !kernel_->take(lines, mostBits_.data())) return false;
+    bool isOver = false;
+    for (std::size_t j = 0; j < lines.channels; ++j)
+        if (cleanAndCompare(lines.io[j] + lines.first, lines.frames, ceilings_[j], lines.line(j) + lines.front)) isOver = true;
+    return isOver;
+}
+
+template <class P>
+void LinkedLimiter<P>::giveOut(const LimiterLines& lines, const float* gains) noexcept {
+    if (kernel_ != nullptr) return kernel_->give(lines, gains, bounds_.data());
+    for (std::size_t j = 0; j < lines.channels; ++j) delayAndLimit(lines.line(j), lines.io[j] + lines.first, lines.frames, gains, bounds_[j]);
+}
+
+// Sizes are compared as integers, which order as the floats do (IEEE 754).
+template <class P>
+bool LinkedLimiter<P>::cleanAndCompare(const float* samples, std::size_t frames, float ceiling, float* line) noexcept {
+    constexpr std::int32_t least = 0x00800000;
     std::int32_t most = 0, bad = 0;
     for (std::size_t n = 0; n < frames; ++n) {
         const auto bits = std::bit_cast<std::int32_t>(samples[n]);
         const std::int32_t size = bits & 0x7fffffff;
-        const std::int32_t isFinite = size < infinite ? -1 : 0, isNormal = size >= least ? isFinite : 0;
+        const std::int32_t isFinite = size < infiniteBits ? -1 : 0, isNormal = size >= least ? isFinite : 0;
         bad += 1 + isFinite;
         most = std::max(most, size & isNormal);
-        samples[n] = std::bit_cast<float>(bits & isNormal);
+        line[n] = std::bit_cast<float>(bits & isNormal);
     }
     nonFinite_ += static_cast<std::uint64_t>(bad);
     return enabled_ && most > std::bit_cast<std::int32_t>(ceiling);
@@ -75,13 +106,14 @@ bool LinkedLimiter<P>::cleanAndCompare(float* samples, std::size_t frames, float
 
 // The gain, in units, that keeps every channel that is heard at its ceiling, and what the limiter makes of it.
 template <class P>
-void LinkedLimiter<P>::followGains(float* const* io, std::size_t first, std::size_t frames, Gains& gains) noexcept {
+void LinkedLimiter<P>::followGains(const LimiterLines& lines, Gains& gains) noexcept {
     std::array<Real, partMost> excess;
     excess.fill(1);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j)
-        for (std::size_t n = 0; n < frames; ++n)
-            excess[n] = std::max(excess[n], static_cast<Real>(std::abs(io[j][first + n])) / static_cast<Real>(ceilings_[j]));
-    for (std::size_t n = 0; n < frames; ++n) {
+    for (std::size_t j = 0; j < lines.channels; ++j) {
+        const float* const samples = lines.line(j) + lines.front;
+        for (std::size_t n = 0; n < lines.frames; ++n) excess[n] = std::max(excess[n], static_cast<Real>(std::abs(samples[n])) / static_cast<Real>(ceilings_[j]));
+    }
+    for (std::size_t n = 0; n < lines.frames; ++n) {
         const bool isOver = enabled_ && excess[n] > 1;
         gain_ = gains[n] = advanceGain(isOver ? static_cast<std::int64_t>(static_cast<Real>(unit) / excess[n]) : unit);
         position_ = position_ + 1 == window_ ? 0 : position_ + 1;
@@ -97,19 +129,15 @@ void LinkedLimiter<P>::rest(std::size_t frames) noexcept {
     candidateCount_ = 1;
 }
 
+// The product may round up past the ceiling by its last bit, or down into the denormals.
 template <class P>
-void LinkedLimiter<P>::delayAndLimit(std::size_t channel, float* samples, std::size_t frames, const Gains& gains) noexcept {
-    const auto latency = static_cast<std::size_t>(latencyFrames());
-    std::array<float, windowMax + partMost> line; // delayed frames, then new ones
-    std::copy_n(delayed_[channel].begin(), latency, line.begin());
-    std::copy_n(samples, frames, line.begin() + static_cast<std::ptrdiff_t>(latency));
-    std::copy_n(line.begin() + static_cast<std::ptrdiff_t>(frames), latency, delayed_[channel].begin());
-    // The product may round up past the ceiling by its last bit, or down into the denormals.
-    const float ceiling = enabled_ ? ceilings_[channel] : std::numeric_limits<float>::infinity();
+void LinkedLimiter<P>::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains, float ceiling) const noexcept {
+    const float* const delayed = line + front() - latencyFrames();
     for (std::size_t n = 0; n < frames; ++n) {
-        const float y = std::min(std::max(line[n] * gains[n], -ceiling), ceiling);
+        const float y = std::min(std::max(gains != nullptr ? delayed[n] * gains[n] : delayed[n], -ceiling), ceiling);
         samples[n] = std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
     }
+    std::copy_n(line + frames, front(), line);
 }
 
 // The classic monotone queue: whoever needs more gain than a newcomer will never be the minimum again.

@@ -7,23 +7,27 @@
 // 1/W a frame, the release by 1/(limits::limiterReleaseSeconds * rate). Gains are integers (2^30 = 1): their running
 // sum neither drifts nor differs between machines, and the gain returns to exactly 1.
 #pragma once
+#include "Core/Actuators/LimiterKernel.h"
 #include "Core/Limits.h"
+#include "Core/Modes/InstructionSet.h"
+#include "Core/Storage.h"
 #include <array>
 #include <cstdint>
 
 namespace physvib {
 
-/// All memory is inside the object. R only, but for prepare: M.
+/// R only, but for prepare: M.
 template <class Profile>
 class LinkedLimiter {
 public:
     using Real = typename Profile::Real;
 
-    /// Forgets everything; ceilings 1. Disabled, it only delays and cleans. M, not while rendering.
-    void prepare(int sampleRateHz, int channels, bool enabled) noexcept;
+    /// Forgets everything; ceilings 1. Disabled, it only delays and cleans. The bits do not depend on the set of instructions.
+    /// False: no memory. M, not while rendering.
+    bool prepare(int sampleRateHz, int channels, bool enabled, InstructionSet set = InstructionSet::best) noexcept;
 
     /// Largest absolute sample of that channel, > 0.
-    void setCeiling(int channel, float ceiling) noexcept { ceilings_[static_cast<std::size_t>(channel)] = ceiling; }
+    void setCeiling(int channel, float ceiling) noexcept;
 
     /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
     /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite). `isSilent`: all of it is +0, so
@@ -47,9 +51,11 @@ private:
 
     static int windowAt(int sampleRateHz) noexcept;
     void processPart(float* const* io, std::size_t first, std::size_t frames) noexcept;
-    bool cleanAndCompare(float* samples, std::size_t frames, float ceiling) noexcept;
-    void followGains(float* const* io, std::size_t first, std::size_t frames, Gains& gains) noexcept;
-    void delayAndLimit(std::size_t channel, float* samples, std::size_t frames, const Gains& gains) noexcept;
+    bool takeIn(const LimiterLines& lines) noexcept;
+    void giveOut(const LimiterLines& lines, const float* gains) noexcept;
+    bool cleanAndCompare(const float* samples, std::size_t frames, float ceiling, float* line) noexcept;
+    void followGains(const LimiterLines& lines, Gains& gains) noexcept;
+    void delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains, float ceiling) const noexcept;
     bool isResting() const noexcept { return released_ == unit && sum_ == unit * window_; }
     void rest(std::size_t frames) noexcept;
     std::int64_t slidingMinimum(std::int64_t needed) noexcept;
@@ -59,8 +65,12 @@ private:
     int window_ = 1;
     bool enabled_ = true;
     std::int64_t releaseStep_ = unit;
-    std::array<float, width> ceilings_{};
-    std::array<std::array<float, windowMax>, width> delayed_{}; // the last latencyFrames() inputs, in order
+    static constexpr std::size_t step = Profile::isOnHeap ? LimiterLines::padding : 1, floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
+    std::size_t front() const noexcept { return (static_cast<std::size_t>(window_) + step - 2) / step * step; } // of latencyFrames(), whole vectors
+    const LimiterKernel* kernel_ = nullptr;
+    std::array<float, width> ceilings_{}, bounds_{};            // bounds: infinite if it is off
+    std::array<std::int32_t, width> mostBits_{};                // sizes up to here are neither over nor infinite
+    Storage<float, width * floatsPerLine, Profile::isOnHeap> lines_; // of each channel the last latencyFrames() inputs, in order
     std::int64_t silentFrames_ = 0;                             // up to now
     int position_ = 0; // in the ring of `window_` gains
     std::int64_t frame_ = 0;

@@ -3,26 +3,39 @@
 #include "Core/Modes/ModeBank.h"
 #include "Core/Modes/ModeIncrements.h"
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
 namespace physvib {
 
 template <class P>
-void ModeBank<P>::prepare(int sampleRateHz, int channels, InstructionSet set) noexcept {
+bool ModeBank<P>::prepare(int sampleRateHz, int channels, InstructionSet set, int modes, int gates) noexcept {
     channels_ = channels;
     rate_ = sampleRateHz;
     tileStart_ = 0;
+    modes_ = modes;
+    slots_ = modes + P::maxFadingModes;
     activeCount_ = fadingCount_ = 0;
     stolen_ = 0;
-    freeCount_ = slotCount;
-    for (int i = 0; i < slotCount; ++i) free_[static_cast<std::size_t>(i)] = slotCount - 1 - i;
     nextEnd_ = Strike::never;
-    index_.clear();
-    tiles_.prepare(channels, set);
-    gates_.clear();
-    freeGateCount_ = P::maxGates;
-    for (int i = 0; i < P::maxGates; ++i) freeGates_[static_cast<std::size_t>(i)] = P::maxGates - 1 - i;
+    if (!takeMemory(set, gates)) return false;
+    recent_.fill(0);
+    freeCount_ = slots_;
+    for (int i = 0; i < slots_; ++i) freeSlots_[static_cast<std::size_t>(i)] = slots_ - 1 - i;
+    for (int i = 0; i < slots_; ++i) mode(i).life = 0;
+    freeGateCount_ = gates;
+    for (int i = 0; i < gates; ++i) freeGates_[static_cast<std::size_t>(i)] = gates - 1 - i;
+    return true;
+}
+
+template <class P>
+bool ModeBank<P>::takeMemory(InstructionSet set, int gates) noexcept {
+    const auto count = static_cast<std::size_t>(slots_), each = static_cast<std::size_t>(channels_);
+    if (!index_.resize(slots_) || !tiles_.prepare(channels_, set, slots_)) return false;
+    return active_.resize(count) && freeSlots_.resize(count) && slotModes_.resize(count) && amplitudes_.resize(count * each + padding) &&
+           tileAmplitudes_.resize(tiles_.isOn() ? 0 : count * each) && cosPowers_.resize(count * tileSize) && sinPowers_.resize(count * tileSize) &&
+           gates_.resize(gates) && gateGains_.resize(static_cast<std::size_t>(gates) * each) && freeGates_.resize(static_cast<std::size_t>(gates));
 }
 
 template <class P>
@@ -71,31 +84,40 @@ bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
     if (isGated && freeGateCount_ == 0) return false;
     enterTile(strike.onset.frame);
     if constexpr (P::hasTiles) tiles_.settle();
+    const int slot = slotFor(strike);
+    Mode& struck = mode(slot);
+    rebase(slot);
+    add(slot, strike, onsetPhasor(struck, strike.onset, strike.phase), gains);
+    struck.endFrame = std::max(struck.endFrame, struck.lifeFrames == Strike::never ? Strike::never : strike.onset.frame + struck.lifeFrames);
+    nextEnd_ = std::min(nextEnd_, struck.endFrame);
+    return !isGated || openGate(slot, strike, gains);
+}
+
+// The mode that it is merged into, or a new one.
+template <class P>
+int ModeBank<P>::slotFor(const Strike& strike) noexcept {
+    const auto hash = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(strike.frequencyHz) * 0x9e3779b97f4a7c15 >> 32);
+    auto& recent = recent_[(hash >> 24) % recent_.size()];
+    if (mode(recent).isOf(strike)) return recent;
     const Mode wanted = modeFor(strike);
     int slot = find(wanted);
     if (slot < 0) {
-        if (activeCount_ - fadingCount_ == P::maxModes) {
+        if (activeCount_ - fadingCount_ == modes_) {
             fade(quietest(false), strike.onset.frame);
             ++stolen_;
         }
         if (freeCount_ == 0) release(quietest(true));
         slot = create(wanted);
     }
-    Mode& struck = mode(slot);
-    rebase(slot);
-    const auto phasor = onsetPhasor(struck, strike.onset, strike.phase);
-    std::array<Real, width> scaled;
-    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) {
-        scaled[j] = static_cast<Real>(strike.amplitude * gains[j]);
-        amplitudes_[row(slot) + j] += phasor * scaled[j];
-    }
-    refreshTile(slot);
+    return recent = slot;
+}
+
+template <class P>
+void ModeBank<P>::add(int slot, const Strike& strike, const Complex<Real>& phasor, const double* gains) noexcept {
     if constexpr (P::hasTiles)
-        if (tiles_.isOn()) tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_), phasor, scaled.data());
-    const std::int64_t life = lifeFramesOf(struck.decayIncrement);
-    struck.endFrame = std::max(struck.endFrame, life == Strike::never ? life : strike.onset.frame + life);
-    nextEnd_ = std::min(nextEnd_, struck.endFrame);
-    return !isGated || openGate(slot, strike, gains);
+        if (tiles_.isOn()) return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_), phasor, strike.amplitude, gains, &amplitudes_[row(slot)]);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) amplitudes_[row(slot) + j] += phasor * static_cast<Real>(strike.amplitude * gains[j]);
+    refreshTile(slot);
 }
 
 template <class P>
@@ -113,6 +135,7 @@ template <class P>
 void ModeBank<P>::setIncrements(Mode& m) const noexcept {
     m.phaseIncrement = phaseIncrementOf(m.frequencyHz, rate_);
     m.decayIncrement = decayIncrementOf(m.decayPerSecond, rate_);
+    m.lifeFrames = lifeFramesOf(m.decayIncrement);
 }
 
 template <class P>
@@ -125,11 +148,11 @@ int ModeBank<P>::find(const Mode& wanted) const noexcept {
 
 template <class P>
 int ModeBank<P>::create(const Mode& m) noexcept {
-    const int slot = free_[static_cast<std::size_t>(--freeCount_)];
+    const int slot = freeSlots_[static_cast<std::size_t>(--freeCount_)];
     active_[static_cast<std::size_t>(activeCount_++)] = slot;
     mode(slot) = m;
     mode(slot).life = ++lives_;
-    std::fill_n(amplitudes_.begin() + static_cast<std::ptrdiff_t>(row(slot)), channels_, Complex<Real>{});
+    std::fill_n(amplitudes_.data() + row(slot), channels_, Complex<Real>{});
     index_.insert(m.hash(), slot);
     shape(slot);
     return slot;
@@ -137,8 +160,8 @@ int ModeBank<P>::create(const Mode& m) noexcept {
 
 template <class P>
 void ModeBank<P>::release(int slot) noexcept {
-    const auto end = active_.begin() + activeCount_;
-    const auto at = std::find(active_.begin(), end, slot);
+    int* const end = active_.data() + activeCount_;
+    int* const at = std::find(active_.data(), end, slot);
     std::copy(at + 1, end, at);
     --activeCount_;
     recycle(slot);
@@ -151,7 +174,7 @@ void ModeBank<P>::recycle(int slot) noexcept {
     if constexpr (P::hasTiles)
         if (tiles_.isOn()) tiles_.remove(slot);
     mode(slot).life = 0; // gates that are still open find nothing to close
-    free_[static_cast<std::size_t>(freeCount_++)] = slot;
+    freeSlots_[static_cast<std::size_t>(freeCount_++)] = slot;
 }
 
 // From `frame` on the mode decays faster: same phase, no step, gone within milliseconds.
@@ -164,7 +187,7 @@ void ModeBank<P>::fade(int slot, std::int64_t frame, double perSecond) noexcept 
     m.decayPerSecond += perSecond;
     setIncrements(m);
     m.isFading = true;
-    m.endFrame = std::min(m.endFrame, frame + lifeFramesOf(m.decayIncrement));
+    m.endFrame = std::min(m.endFrame, frame + m.lifeFrames);
     nextEnd_ = std::min(nextEnd_, m.endFrame);
     const Real backwards = decayFactor<Real>((before - m.decayIncrement) * (frame - tileStart_)); // so that nothing changes at `frame`
     for (int j = 0; j < channels_; ++j) {
@@ -358,7 +381,7 @@ Complex<typename ModeBank<P>::Real> ModeBank<P>::onsetPhasor(const Mode& m, Fram
     // A gate may close long after its own strike has died away inside a mode that others keep alive.
     constexpr std::int64_t inaudible = 120 * static_cast<std::int64_t>(octaveUnit);
     const std::int64_t age = m.referenceFrame - onset.frame;
-    const bool hasDied = m.decayIncrement > 0 && age > inaudible / m.decayIncrement;
+    const bool hasDied = age > 0 && m.decayIncrement > 0 && age > inaudible / m.decayIncrement;
     const std::int64_t decay = hasDied ? inaudible : m.decayIncrement * age + leadDecay;
     return unitPhasor<Real>(phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame)) *
            decayFactor<Real>(decay);

@@ -12,6 +12,7 @@
 #include "Core/Modes/ModeIndex.h"
 #include "Core/Modes/ModeTable.h"
 #include "Core/Modes/ModeTiles.h"
+#include "Core/Storage.h"
 #include "Core/TimeOrdered.h"
 #include <array>
 #include <cstdint>
@@ -30,7 +31,7 @@ struct Strike {
     static constexpr std::int64_t never = INT64_MAX;
 };
 
-/// All memory is inside the object (megabytes for the desktop: keep it on the heap). R only, but for prepare: M.
+/// Its memory follows channels and modes, and is taken when it is prepared. R only, but for prepare: M.
 template <class Profile>
 class ModeBank {
 public:
@@ -39,8 +40,10 @@ public:
     static constexpr int slotCount = Profile::maxModes + Profile::maxFadingModes;
 
     /// Silence, for this rate and number of channels (1 to Profile::maxChannels). A set of instructions that is not
-    /// available means the scalar kernel. M, not while rendering.
-    void prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best) noexcept;
+    /// available means the scalar kernel. `modes`: that sound at once without one being stolen, 1 to Profile::maxModes; `gates`:
+    /// strikes with a duration that are open at once. False: no memory for them, and it is not to be used. M, not while rendering.
+    bool prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best, int modes = Profile::maxModes,
+                 int gates = Profile::maxGates) noexcept;
 
     /// What it runs on. Any thread after prepare.
     InstructionSet instructionSet() const noexcept { return tiles_.set(); }
@@ -84,11 +87,15 @@ private:
         std::int64_t decayIncrement = 0;  // octaves / 2^56 per frame
         std::int64_t referenceFrame = 0;  // amplitudes are as of this frame's decay; their phase is absolute
         std::int64_t endFrame = 0;        // over from here on
+        std::int64_t lifeFrames = 0;      // of a strike
         std::uint32_t life = 0;           // tells this use of the slot from earlier ones
         int openGates = 0;
         bool isGated = false; // gated strikes do not merge with free ones, so that closing can leave exact zeros
         bool isFading = false;
         std::uint64_t hash() const noexcept { return modeHash(phaseIncrement, decayIncrement, isGated); }
+        bool isOf(const Strike& s) const noexcept { // sufficient, not necessary: other frequencies may have the same increments
+            return life != 0 && !isFading && frequencyHz == s.frequencyHz && decayPerSecond == s.decayPerSecond && isGated == (s.closeFrame != Strike::never);
+        }
         bool matches(const Mode& o) const noexcept {
             return phaseIncrement == o.phaseIncrement && decayIncrement == o.decayIncrement &&
                    isGated == o.isGated && !isFading;
@@ -102,10 +109,13 @@ private:
         std::uint64_t phase = 0;
     };
 
+    bool takeMemory(InstructionSet set, int gates) noexcept;
     Mode modeFor(const Strike& strike) const noexcept;
     void setIncrements(Mode& mode) const noexcept;
+    int slotFor(const Strike& strike) noexcept;
     int find(const Mode& wanted) const noexcept;
     int create(const Mode& mode) noexcept;
+    void add(int slot, const Strike& strike, const Complex<Real>& phasor, const double* gains) noexcept;
     void release(int slot) noexcept;
     void recycle(int slot) noexcept;
     void fade(int slot, std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
@@ -122,36 +132,41 @@ private:
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<Real> carrier(const Mode& mode) const noexcept;
     Complex<Real> onsetPhasor(const Mode& mode, FramePosition onset, std::uint64_t phase) const noexcept;
-    Mode& mode(int slot) noexcept { return modes_[static_cast<std::size_t>(slot)]; }
-    const Mode& mode(int slot) const noexcept { return modes_[static_cast<std::size_t>(slot)]; }
+    Mode& mode(int slot) noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
+    const Mode& mode(int slot) const noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     std::size_t row(int slot) const noexcept { return static_cast<std::size_t>(slot * channels_); }
 
     static constexpr auto slots = static_cast<std::size_t>(slotCount);
     static constexpr auto tileSize = static_cast<std::size_t>(tile);
     static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
     static constexpr auto gateCount = static_cast<std::size_t>(Profile::maxGates);
+    static constexpr std::size_t padding = Profile::hasTiles ? tiles::channelsPerLine : 0; // tiles read whole lines
+    template <class T, std::size_t most>
+    using Room = Storage<T, most, Profile::isOnHeap>;
 
     int channels_ = 1;
     double rate_ = 48000.0;
     std::int64_t tileStart_ = 0;
-    std::array<int, slots> active_{}; // slots in the order of their first strike
-    std::array<int, slots> free_{};   // a stack
+    int slots_ = 0, modes_ = 0;
+    Room<int, slots> active_; // slots in the order of their first strike
+    Room<int, slots> freeSlots_; // a stack
     int activeCount_ = 0;
     int freeCount_ = 0;
     int fadingCount_ = 0;
     std::int64_t nextEnd_ = Strike::never; // no mode ends earlier
     std::uint64_t stolen_ = 0;
     std::uint32_t lives_ = 0;
-    std::array<Mode, slots> modes_{};
+    Room<Mode, slots> slotModes_;
     [[no_unique_address]] Index index_; // of modes that do not fade
     [[no_unique_address]] Tiles tiles_;
-    std::array<Complex<Real>, slots * width> amplitudes_{};     // as of the mode's reference frame
-    std::array<Complex<Real>, slots * width> tileAmplitudes_{}; // as of the tile's first frame; scalar kernel
-    std::array<Real, slots * tileSize> cosPowers_{};
-    std::array<Real, slots * tileSize> sinPowers_{};
-    TimeOrdered<Gate, Profile::maxGates> gates_;
-    std::array<Real, gateCount * width> gateGains_{}; // amplitude times gain, per channel
-    std::array<int, gateCount> freeGates_{};
+    std::array<std::int32_t, Profile::hasTiles ? 256 : 1> recent_{}; // slots that were struck, by their frequency's bits
+    Room<Complex<Real>, slots * width + padding> amplitudes_;     // as of the mode's reference frame
+    Room<Complex<Real>, slots * width> tileAmplitudes_; // as of the tile's first frame; scalar kernel
+    Room<Real, slots * tileSize> cosPowers_;
+    Room<Real, slots * tileSize> sinPowers_;
+    TimeOrdered<Gate, Profile::maxGates, Profile::isOnHeap> gates_;
+    Room<Real, gateCount * width> gateGains_; // amplitude times gain, per channel
+    Room<int, gateCount> freeGates_;
     int freeGateCount_ = 0;
 };
 

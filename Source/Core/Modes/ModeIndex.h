@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From a mode's increments to its slot: a hash table with linear probing, so that a strike does not search all modes.
 #pragma once
-#include <array>
+#include "Core/Storage.h"
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,15 @@ inline std::uint64_t modeHash(std::uint64_t phaseIncrement, std::int64_t decayIn
 template <int Slots>
 class ModeIndex {
 public:
-    void clear() noexcept { entries_.fill({}); }
+    /// Empty, for so many slots; before, it has room for none. False: no memory. M, not while rendering.
+    bool resize(int slots) noexcept {
+        bits_ = bitsFor(slots);
+        size_ = std::size_t{1} << bits_;
+        if (!entries_.resize(size_)) return false;
+        clear();
+        return true;
+    }
+    void clear() noexcept { std::fill_n(entries_.data(), size_, Entry{}); }
 
     /// The slot for which `isMeant(slot)` holds, -1 if there is none.
     template <class Predicate>
@@ -39,8 +48,8 @@ public:
         std::size_t gap = home(hash);
         while (entries_[gap].slot != slot) gap = after(gap);
         for (std::size_t at = after(gap); entries_[at].slot >= 0; at = after(at)) {
-            const std::size_t wanted = entries_[at].hash >> (32 - bits);
-            if (((at - wanted) & mask) < ((at - gap) & mask)) continue; // its home lies behind the gap
+            const std::size_t wanted = entries_[at].hash >> (32 - bits_);
+            if (((at - wanted) & mask()) < ((at - gap) & mask())) continue; // its home lies behind the gap
             entries_[gap] = entries_[at];
             gap = at;
         }
@@ -48,20 +57,23 @@ public:
     }
 
 private:
-    static constexpr int bits = std::bit_width(static_cast<unsigned>(2 * Slots));
-    static constexpr std::size_t size = std::size_t{1} << bits, mask = size - 1;
+    static constexpr int bitsFor(int slots) noexcept { return static_cast<int>(std::bit_width(static_cast<unsigned>(2 * slots))); }
     struct Entry {
         std::uint32_t hash = 0;
         std::int32_t slot = -1;
     };
     static std::uint32_t tag(std::uint64_t hash) noexcept { return static_cast<std::uint32_t>(hash >> 32); }
-    static std::size_t home(std::uint64_t hash) noexcept { return tag(hash) >> (32 - bits); }
-    static std::size_t after(std::size_t at) noexcept { return (at + 1) & mask; }
-    std::array<Entry, size> entries_{};
+    std::size_t mask() const noexcept { return size_ - 1; }
+    std::size_t home(std::uint64_t hash) const noexcept { return tag(hash) >> (32 - bits_); }
+    std::size_t after(std::size_t at) const noexcept { return (at + 1) & mask(); }
+    Storage<Entry, std::size_t{1} << bitsFor(Slots), true> entries_;
+    std::size_t size_ = 0;
+    int bits_ = 1;
 };
 
 /// For profiles of a few modes: a search through them is as quick, and needs no memory.
 struct NoIndex {
+    static constexpr bool resize(int) noexcept { return true; }
     static constexpr void clear() noexcept {}
     static constexpr void insert(std::uint64_t, int) noexcept {}
     static constexpr void erase(std::uint64_t, int) noexcept {}

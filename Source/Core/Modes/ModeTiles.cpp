@@ -12,26 +12,39 @@ bool isAvailable(InstructionSet set) noexcept {
     return set == InstructionSet::best || set == InstructionSet::scalar || tileKernel(set) != nullptr;
 }
 
-void ModeTiles::prepare(int channels, InstructionSet set) noexcept {
+bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcept {
     static const LowRankBasis basis;
     basis_ = &basis;
     kernel_ = tileKernel(set);
     channels_ = channels;
+    slots_ = isOn() ? slotsMost : 0;
     floatsPerSlot_ = (channels + tiles::channelsPerLine - 1) / tiles::channelsPerLine * 4 * tiles::channelsPerLine;
     highest_ = 0;
-    places_.fill({});
-    amplitudes_.fill(0.0f);
-    for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) values->fill(0.0);
+    if (!takeMemory()) return false;
+    for (std::size_t s = 0; s < index(slots_); ++s) places_[s].isUsed = false;
+    std::fill_n(amplitudes_.data(), slots_ * floatsPerSlot_, 0.0f);
+    for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) std::fill_n(values->data(), (slots_ + 7) / 8 * 8, 0.0);
     for (auto& layer : layers_) {
-        layer.tails.fill(0.0);
+        std::fill_n(layer.tails.data(), isOn() ? channels_ * tiles::frames : 0, 0.0);
         layer.counts.fill(0);
         layer.hasBase = layer.hasTails = false;
     }
     begin();
+    return true;
+}
+
+bool ModeTiles::takeMemory() noexcept {
+    const auto count = index(slots_), wide = (count + 7) / 8 * 8, tile = isOn() ? index(channels_) * frames : 0;
+    bool has = places_.resize(count) && amplitudes_.resize(count * index(floatsPerSlot_)) && rows_.resize(count * rowFloats);
+    for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) has = has && values->resize(wide);
+    for (auto* values : {&roundedRe_, &roundedIm_}) has = has && values->resize(wide);
+    for (auto& row : rowSlots_) has = has && row.resize(count);
+    for (auto& layer : layers_) has = has && layer.base.resize(tile) && layer.tails.resize(tile);
+    return has;
 }
 
 float* ModeTiles::rowAt(std::size_t rank, int row) noexcept {
-    return rows_.data() + rowOffsets[rank] + index(row) * 2 * index(tiles::ranks[rank]);
+    return rows_.data() + index(slots_) * floatsBefore[rank] + index(row) * 2 * index(tiles::ranks[rank]);
 }
 
 void ModeTiles::add(int slot, const TileMode& mode) noexcept {
@@ -106,7 +119,7 @@ void ModeTiles::make(Layer& layer, bool isGated) noexcept {
     const auto from = index(layer.redo);
     layer.redo = tiles::frames;
     const auto clear = [&](auto& values) {
-        for (std::size_t j = 0; j < index(channels_); ++j) std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(j * frames + from), frames - from, 0);
+        for (std::size_t j = 0; j < index(channels_); ++j) std::fill_n(values.data() + j * frames + from, frames - from, 0);
     };
     if (layer.hasTails) clear(layer.tails);
     layer.hasTails = layer.hasTails && from > 0;
@@ -118,11 +131,11 @@ void ModeTiles::make(Layer& layer, bool isGated) noexcept {
         kernel_->render(view(layer, isGated), layer.base.data());
         layer.hasBase = true;
     } else {
-        if (!layer.hasBase) layer.base.fill(0.0f);
+        if (!layer.hasBase) std::fill_n(layer.base.data(), index(channels_) * frames, 0.0f);
         alignas(64) std::array<float, width * frames> whole;
         kernel_->render(view(layer, isGated), whole.data());
         for (std::size_t at = from; at < index(channels_) * frames; at += frames)
-            std::copy_n(whole.begin() + static_cast<std::ptrdiff_t>(at), frames - from, layer.base.begin() + static_cast<std::ptrdiff_t>(at));
+            std::copy_n(whole.data() + at, frames - from, layer.base.data() + at);
         layer.hasBase = true;
     }
 }
@@ -130,16 +143,17 @@ void ModeTiles::make(Layer& layer, bool isGated) noexcept {
 TileLayer ModeTiles::view(const Layer& layer, bool isGated) noexcept {
     TileLayer view{{}, channels_, floatsPerSlot_, amplitudes_.data(), roundedRe_.data(), roundedIm_.data(), basis_->halves()};
     for (std::size_t r = 0; r < rankCount; ++r) {
-        const int first = isGated ? slotCount - layer.counts[r] : 0;
+        const int first = isGated ? slots_ - layer.counts[r] : 0;
         view.modes[r] = {rowAt(r, first), rowSlots_[r].data() + first, layer.counts[r], tiles::ranks[r]};
     }
     return view;
 }
 
-void ModeTiles::strike(int slot, int from, Complex<double> phasor, const double* gains) noexcept {
+void ModeTiles::strike(int slot, int from, const Complex<double>& phasor, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept {
     const TileMode& mode = places_[index(slot)].mode;
     Layer& layer = layers_[mode.isGated];
-    kernel_->strike({mode.cosPowers, mode.sinPowers, gains, phasor * carrier(slot), from, channels_}, layer.tails.data());
+    kernel_->strike({mode.cosPowers, mode.sinPowers, gains, amplitude, phasor.re, phasor.im, re_[index(slot)], im_[index(slot)], from, channels_},
+                    {&amplitudes->re, amplitudes_.data() + index(slot) * index(floatsPerSlot_), layer.tails.data()});
     layer.hasTails = true;
 }
 
@@ -153,8 +167,7 @@ bool ModeTiles::render(float* const* out, int first, int count) noexcept {
     else if (!isPlain) sum(out, first, count);
     else if (layers_[0].hasBase)
         for (std::size_t j = 0; j < index(channels_); ++j) std::copy_n(layers_[0].base.data() + j * frames + index(first), count, out[j]);
-    else
-        for (int j = 0; j < channels_; ++j) std::fill_n(out[j], count, 0.0f);
+    else kernel_->clear(out, channels_, count);
     return !isPlain || layers_[0].hasBase;
 }
 

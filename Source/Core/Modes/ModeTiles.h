@@ -8,6 +8,7 @@
 #include "Core/Modes/InstructionSet.h"
 #include "Core/Modes/LowRankBasis.h"
 #include "Core/Modes/TileKernel.h"
+#include "Core/Storage.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -23,14 +24,14 @@ struct TileMode {
     bool isGated = false;
 };
 
-/// For DesktopProfile. All memory is inside the object. R only, but for prepare: M. Off when there is no kernel.
+/// For DesktopProfile. R only, but for prepare: M. Off when there is no kernel.
 class ModeTiles {
 public:
     static constexpr int slotCount = DesktopProfile::maxModes + DesktopProfile::maxFadingModes;
     static_assert(DesktopProfile::tileFrames == tiles::frames);
 
-    /// Nothing sounds; off if the set has no kernel here.
-    void prepare(int channels, InstructionSet set) noexcept;
+    /// Nothing sounds; off, and without memory, if the set has no kernel here. At most slotCount slots. False: no memory for them.
+    bool prepare(int channels, InstructionSet set, int slotsMost) noexcept;
     bool isOn() const noexcept { return kernel_ != nullptr; }
     InstructionSet set() const noexcept { return isOn() ? kernel_->set : InstructionSet::scalar; }
 
@@ -56,8 +57,8 @@ public:
 
     /// To be called before amplitudes change by a strike at `from`: what is to be redone is redone without it.
     void settle() noexcept;
-    /// Adds a strike from frame `from` of the tile on; its amplitude is gains[j] * phasor.
-    void strike(int slot, int from, Complex<double> phasor, const double* gains) noexcept;
+    /// Adds a strike of amplitude * gains[j] * phasor from frame `from` of the tile on, there and to the mode's amplitudes.
+    void strike(int slot, int from, const Complex<double>& phasor, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept;
 
     /// out[j][0..frames) = frames [first, first + frames) of the tile. False if all of them are zero.
     bool render(float* const* out, int first, int frames) noexcept;
@@ -69,8 +70,10 @@ private:
     static constexpr auto width = static_cast<std::size_t>(DesktopProfile::maxChannels);
     static constexpr auto frames = static_cast<std::size_t>(tiles::frames);
     static constexpr auto rankCount = tiles::ranks.size();
-    using PerSlot = std::array<double, padded>;
-    using RoundedPerSlot = std::array<float, padded>;
+    template <class T, std::size_t most>
+    using Room = Storage<T, most, true>;
+    using PerSlot = Room<double, padded>;
+    using RoundedPerSlot = Room<float, padded>;
 
     // Rows of one rank: those of free modes from the front, of gated ones from the back, each without gaps.
     struct Place {
@@ -80,40 +83,41 @@ private:
         bool isUsed = false;
     };
     struct Layer {
-        alignas(64) std::array<float, width * frames> base{};   // modes as of the tile's first frame
-        alignas(64) std::array<double, width * frames> tails{}; // strikes since then
+        Room<float, width * frames> base;   // modes as of the tile's first frame
+        Room<double, width * frames> tails; // strikes since then
         std::array<int, rankCount> counts{};
         int redo = tiles::frames; // frames from here on are not made yet
         bool hasBase = false, hasTails = false;
     };
     float* rowAt(std::size_t rank, int row) noexcept;
-    static int rowFor(bool isGated, int place) noexcept { return isGated ? slotCount - 1 - place : place; }
+    int rowFor(bool isGated, int place) const noexcept { return isGated ? slots_ - 1 - place : place; }
     void make(Layer& layer, bool isGated) noexcept;
     TileLayer view(const Layer& layer, bool isGated) noexcept;
+    bool takeMemory() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
 
-    static constexpr std::array<std::size_t, rankCount> rowOffsets = [] {
+    static constexpr std::array<std::size_t, rankCount> floatsBefore = [] { // of rows of lower rank, per slot
         std::array<std::size_t, rankCount> offsets{};
-        for (std::size_t r = 1; r < rankCount; ++r) offsets[r] = offsets[r - 1] + slots * 2 * static_cast<std::size_t>(tiles::ranks[r - 1]);
+        for (std::size_t r = 1; r < rankCount; ++r) offsets[r] = offsets[r - 1] + 2 * static_cast<std::size_t>(tiles::ranks[r - 1]);
         return offsets;
     }();
-    static constexpr std::size_t rowFloats = rowOffsets.back() + slots * 2 * static_cast<std::size_t>(tiles::ranks.back());
+    static constexpr std::size_t rowFloats = floatsBefore.back() + 2 * static_cast<std::size_t>(tiles::ranks.back());
 
     const TileKernel* kernel_ = nullptr;
     const LowRankBasis* basis_ = nullptr;
-    int channels_ = 0, floatsPerSlot_ = 0, highest_ = 0;
-    std::array<Place, slots> places_{};
-    std::array<Layer, 2> layers_{}; // free, gated
-    alignas(64) PerSlot re_{}, im_{}, stepRe_{}, stepIm_{};
-    alignas(64) RoundedPerSlot roundedRe_{}, roundedIm_{};
-    alignas(64) std::array<float, slots * width * 4> amplitudes_{};
-    alignas(64) std::array<float, rowFloats> rows_{};
-    std::array<std::array<std::int32_t, slots>, rankCount> rowSlots_{};
+    int slots_ = 0, channels_ = 0, floatsPerSlot_ = 0, highest_ = 0;
+    Room<Place, slots> places_;
+    std::array<Layer, 2> layers_; // free, gated
+    PerSlot re_, im_, stepRe_, stepIm_;
+    RoundedPerSlot roundedRe_, roundedIm_;
+    Room<float, slots * width * 4> amplitudes_;
+    Room<float, slots * rowFloats> rows_;
+    std::array<Room<std::int32_t, slots>, rankCount> rowSlots_;
 };
 
 /// For profiles without vector kernels: never on, no memory.
 struct NoTiles {
-    static constexpr void prepare(int, InstructionSet) noexcept {}
+    static constexpr bool prepare(int, InstructionSet, int) noexcept { return true; }
     static constexpr bool isOn() noexcept { return false; }
     static constexpr InstructionSet set() noexcept { return InstructionSet::scalar; }
 };

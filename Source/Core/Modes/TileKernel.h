@@ -6,6 +6,7 @@
 // (LowRankBasis.h). A mode is a row of complex coefficients, fixed for life; a tile is the product of the modes'
 // amplitudes with these rows, summed over modes, and one expansion per channel at the end, whatever the number of modes.
 #pragma once
+#include "Core/Actuators/LimiterKernel.h"
 #include "Core/Modes/InstructionSet.h"
 #include "Core/Limits.h"
 #include "Core/Trigonometry.h"
@@ -50,14 +51,23 @@ struct TileCarriers {
     float *roundedRe = nullptr, *roundedIm = nullptr;
 };
 
-/// One strike inside a tile: channel j of frame k >= from gains gains[j] * im(z p^k).
+/// One strike inside a tile: its amplitude in channel j is amplitude * gains[j] * phasor, and frame k >= from gains
+/// amplitude * gains[j] * im(phasor * carrier * p^k).
 struct TileStrike {
     const double* cosPowers = nullptr; ///< p^k, 64 of each
     const double* sinPowers = nullptr;
     const double* gains = nullptr;
-    Complex<double> z;
+    double amplitude = 0.0;
+    double phasorRe = 0.0, phasorIm = 0.0, carrierRe = 0.0, carrierIm = 0.0;
     int from = 0;
     int channels = 0;
+};
+
+/// What it is added to, of one mode.
+struct TileStruck {
+    double* amplitudes = nullptr; ///< re, im of each channel; readable in whole lines
+    float* lines = nullptr;       ///< the same as TileLayer has them
+    double* tails = nullptr;      ///< [channel * 64 + frame], of all modes; on a cache line
 };
 
 /// One instruction set's functions. R, wait-free.
@@ -65,8 +75,10 @@ struct TileKernel {
     InstructionSet set = InstructionSet::scalar;
     void (*advance)(const TileCarriers& carriers) = nullptr;
     void (*render)(const TileLayer& layer, float* out) = nullptr;         ///< out[channel * 64 + frame]
-    void (*strike)(const TileStrike& strike, double* tails) = nullptr;    ///< tails[channel * 64 + frame], on a line
+    void (*strike)(const TileStrike& strike, const TileStruck& struck) = nullptr;
     void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr; ///< out = base + tails
+    void (*clear)(float* const* out, int channels, int frames) = nullptr; ///< out[channel][frame] = 0
+    LimiterKernel limiter;
 };
 
 /// Null for scalar and for sets that this program or processor lacks. Any thread.

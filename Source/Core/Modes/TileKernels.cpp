@@ -13,6 +13,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "Core/Actuators/LimiterKernels.inc"
+
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128 // for those there is renderScalar
 HWY_BEFORE_NAMESPACE();
 namespace physvib::HWY_NAMESPACE {
@@ -182,12 +184,35 @@ void advance(const TileCarriers& carriers) {
     }
 }
 
+// The mode's amplitudes move by a strike, and are rounded for the tiles that follow. scaled: each channel's amplitude, twice.
+HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, const TileStruck& struck) {
+    const Doubles d;
+    const hn::Rebind<float, Doubles> narrow;
+    constexpr std::size_t lanes = hn::MaxLanes(Doubles());
+    const auto phasor = hn::OddEven(hn::Set(d, s.phasorIm), hn::Set(d, s.phasorRe));
+    const auto values = 2 * static_cast<std::size_t>(s.channels);
+    std::size_t k = 0;
+    for (; k + lanes <= values; k += lanes) hn::StoreU(hn::Add(hn::LoadU(d, struck.amplitudes + k), hn::Mul(phasor, hn::Load(d, scaled + k))), d, struck.amplitudes + k);
+    for (; k < values; k += 2) {
+        struck.amplitudes[k] += s.phasorRe * scaled[k];
+        struck.amplitudes[k + 1] += s.phasorIm * scaled[k];
+    }
+    for (k = 0; k < values; k += 8) // whole lines: what stands behind the last channel is never summed
+        for (std::size_t v = 0; v < 8; v += lanes) {
+            float* const line = struck.lines + 2 * k + v;
+            const auto z = hn::DemoteTo(narrow, hn::LoadU(d, struck.amplitudes + k + v)), turned = hn::Shuffle2301(z);
+            hn::StoreU(z, narrow, line);
+            hn::StoreU(hn::OddEven(turned, hn::Neg(turned)), narrow, line + 8);
+        }
+}
+
 // Eight frames stay in registers while the channels pass by.
-void strike(const TileStrike& s, double* tails) {
+HWY_INLINE void addToTails(const TileStrike& s, const double* scaled, double* tails) {
     const Doubles d;
     constexpr std::size_t lanes = hn::MaxLanes(Doubles()), vectors = 8 / lanes;
     const auto channels = static_cast<std::size_t>(s.channels);
-    const auto re = hn::Set(d, s.z.re), im = hn::Set(d, s.z.im), from = hn::Set(d, static_cast<double>(s.from));
+    const auto z = Complex<double>{s.phasorRe, s.phasorIm} * Complex<double>{s.carrierRe, s.carrierIm};
+    const auto re = hn::Set(d, z.re), im = hn::Set(d, z.im), from = hn::Set(d, static_cast<double>(s.from));
     for (auto k = static_cast<std::size_t>(s.from) / 8 * 8; k < frames; k += 8) {
         hn::Vec<Doubles> y[vectors];
         for (std::size_t v = 0; v < vectors; ++v) {
@@ -196,15 +221,22 @@ void strike(const TileStrike& s, double* tails) {
             y[v] = hn::IfThenElseZero(sounds, hn::MulAdd(re, hn::LoadU(d, s.sinPowers + at), hn::Mul(im, hn::LoadU(d, s.cosPowers + at))));
         }
         double* at = tails + k;
-        const double* gain = s.gains;
+        const double* gain = scaled;
 #if defined(__GNUC__)
 #pragma GCC unroll 4
 #endif
-        for (const double* end = gain + channels; gain != end; ++gain, at += frames) {
+        for (const double* end = gain + 2 * channels; gain != end; gain += 2, at += frames) {
             const auto g = hn::Set(d, *gain);
             for (std::size_t v = 0; v < vectors; ++v) hn::Store(hn::MulAdd(g, y[v], hn::Load(d, at + v * lanes)), d, at + v * lanes);
         }
     }
+}
+
+void strike(const TileStrike& s, const TileStruck& struck) {
+    HWY_ALIGN double scaled[2 * limits::maxEnchanters];
+    for (std::size_t j = 0; j < static_cast<std::size_t>(s.channels); ++j) scaled[2 * j] = scaled[2 * j + 1] = s.amplitude * s.gains[j];
+    addToAmplitudes(s, scaled, struck);
+    addToTails(s, scaled, struck.tails);
 }
 
 void sum(const float* base, const double* tails, int count, float* out) {
@@ -218,7 +250,25 @@ void sum(const float* base, const double* tails, int count, float* out) {
     for (; k < all; ++k) out[k] = static_cast<float>(static_cast<double>(base[k]) + tails[k]);
 }
 
-TileKernel kernel(InstructionSet set) { return {set, advance, render, strike, sum}; }
+// The two ends anywhere, all between on whole vectors: a store across two cache lines costs two.
+HWY_INLINE void clearChannel(float* out, std::size_t count) {
+    const Panel d;
+    constexpr std::size_t lanes = hn::MaxLanes(Panel()), bytes = lanes * sizeof(float);
+    if (count < lanes) {
+        for (std::size_t k = 0; k < count; ++k) out[k] = 0.0f;
+        return;
+    }
+    float* const last = out + count - lanes;
+    hn::StoreU(hn::Zero(d), d, out);
+    for (float* at = out + (bytes - reinterpret_cast<std::uintptr_t>(out) % bytes) / sizeof(float); at < last; at += lanes) hn::StoreU(hn::Zero(d), d, at);
+    hn::StoreU(hn::Zero(d), d, last);
+}
+
+void clear(float* const* out, int channels, int count) {
+    for (int j = 0; j < channels; ++j) clearChannel(out[j], static_cast<std::size_t>(count));
+}
+
+TileKernel kernel(InstructionSet set) { return {set, advance, render, strike, sum, clear, {take, give}}; }
 
 } // namespace physvib::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

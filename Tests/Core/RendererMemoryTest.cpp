@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// What a renderer takes from the heap, and when: in prepare, by channels and modes; and what happens beyond them.
+#include "Support/ClosedForm.h"
+#include "Support/Rendering.h"
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <new>
+
+namespace {
+
+std::size_t bytesTaken = 0; // on cache lines, as a renderer's memory is
+bool hasMemory = true;
+
+} // namespace
+
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+    if (!hasMemory) return nullptr;
+    bytesTaken += size;
+    const auto grain = static_cast<std::size_t>(alignment);
+    return std::aligned_alloc(grain, (size + grain - 1) / grain * grain);
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
+    void* const memory = operator new(size, alignment, std::nothrow);
+    return memory != nullptr ? memory : throw std::bad_alloc{};
+}
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace physvib {
+namespace {
+
+RendererSettings settingsFor(int channels, int modes) {
+    const auto layout = test::gridLayout(channels / 2, 2);
+    return {.channels = channels, .panner = {layout, PanningLaw::linear, 1.0, 1.0, 1.0}, .modes = modes};
+}
+
+/// `count` frequencies, struck one after the other, the last ones softest.
+std::vector<CollisionEvent> tones(int count) {
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < count; ++i) {
+        CollisionEvent e;
+        e.timeNs = 1'000'000 * i;
+        e.frequencyHz = 100.0 + i;
+        e.decayPerSecond = 1.0;
+        e.amplitude = 0.01 / (1 + i);
+        e.x = e.y = 0.5;
+        events.push_back(e);
+    }
+    return events;
+}
+
+TEST(RendererMemory, FollowsChannelsAndModes) {
+    const auto bytesFor = [](int channels, int modes) {
+        const std::size_t before = bytesTaken;
+        const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+        EXPECT_TRUE(renderer->prepare(settingsFor(channels, modes)));
+        const std::size_t first = bytesTaken - before;
+        EXPECT_TRUE(renderer->prepare(settingsFor(channels, modes)));
+        EXPECT_EQ(bytesTaken - before, first) << "what it has is used again";
+        return first;
+    };
+    EXPECT_LT(bytesFor(4, 64), 2'000'000U);
+    EXPECT_LT(bytesFor(4, 0), 14'000'000U);
+    EXPECT_LT(bytesFor(4, 512), bytesFor(8, 512));
+    EXPECT_LT(bytesFor(8, 512), bytesFor(8, 513));
+}
+
+TEST(RendererMemory, ABudgetThatSufficesChangesNoBit) {
+    auto events = test::randomEvents(300, 0.5, 8);
+    for (std::size_t i = 0; i < events.size(); ++i) events[i].frequencyHz = 50.0 + static_cast<double>(i % 40), events[i].decayPerSecond = 20.0;
+    const auto all = test::renderEvents(events, settingsFor(4, 0), 30000), few = test::renderEvents(events, settingsFor(4, 80), 30000);
+    EXPECT_EQ(few.status.stolen, 0U);
+    EXPECT_EQ(all.channels, few.channels);
+}
+
+TEST(RendererMemory, BeyondItTheQuietestModesFadeAndAreCounted) {
+    const auto rendered = test::renderEvents(tones(100), settingsFor(4, 64), 12000);
+    EXPECT_EQ(rendered.status.played, 100U);
+    EXPECT_EQ(rendered.status.rejected, 0U);
+    EXPECT_EQ(rendered.status.stolen, 36U);
+    EXPECT_LE(rendered.status.liveModes, 64 + DesktopProfile::maxFadingModes);
+}
+
+TEST(RendererMemory, MoreModesThanTheProfileHasAreRefused) {
+    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    EXPECT_FALSE(renderer->prepare(settingsFor(4, DesktopProfile::maxModes + 1)));
+    EXPECT_FALSE(renderer->prepare(settingsFor(4, -1)));
+}
+
+TEST(RendererMemory, WithoutItAllIsSilentUntilThereIsSome) {
+    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    hasMemory = false;
+    EXPECT_FALSE(renderer->prepare(settingsFor(2, 0)));
+    hasMemory = true;
+    const auto events = tones(1);
+    test::ListSource source{events};
+    std::vector<float> left(64, 1.0f), right(64, 1.0f);
+    float* const out[] = {left.data(), right.data()};
+    renderer->render(source, out, 64);
+    EXPECT_EQ(left, std::vector<float>(64, 0.0f));
+    EXPECT_EQ(source.next, 0U) << "takes no events";
+    EXPECT_TRUE(renderer->prepare(settingsFor(2, 0)));
+    renderer->render(source, out, 64);
+    EXPECT_EQ(renderer->status().played, 1U);
+}
+
+} // namespace
+} // namespace physvib
