@@ -23,6 +23,8 @@ struct ClockLaw {
         const double seconds = longestGapSeconds + 2.0 / stepsPerSecond;
         return blockFrames + framesUp(seconds) + std::max<std::int64_t>(limiterFrames, framesUp(boardSeconds));
     }
+    /// The same of what needs neither world nor board: the block in which it comes, and the limiter.
+    std::int64_t directFrames() const noexcept { return blockFrames + limiterFrames; }
     /// How far behind session time the world may be so that whatever it makes until it has caught up comes in time, even
     /// at the very end of a block: the longest gap and the step that may not have begun.
     std::int64_t safeLagNs() const noexcept {

@@ -28,7 +28,7 @@ bool HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     gains_.fill(0.0);
     player_.prepare(settings.sampleRateHz, channels_);
     moving_.prepare(settings.sampleRateHz, channels_);
-    silentUntilNs_ = INT64_MIN;
+    silentUntilNs_ = strikesSilentUntilNs_ = INT64_MIN;
     return isPrepared_ = takeMemory();
 }
 
@@ -90,7 +90,10 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
     }
     if (control.kind == Kind::recordings) player_.setContacts(control.recordings);
     const bool isSilence = control.kind == Kind::silence;
-    if (isSilence) silentUntilNs_ = std::max(silentUntilNs_, control.untilNs);
+    if (isSilence) {
+        silentUntilNs_ = std::max(silentUntilNs_, control.untilNs);
+        strikesSilentUntilNs_ = std::max(strikesSilentUntilNs_, control.value != 0.0f ? control.timeNs : control.untilNs);
+    }
     if (isSilence || control.kind == Kind::stopAll) {
         bank_.fadeAll(position_, isSilence ? limits::silenceFadePerSecond : limits::stealFadePerSecond);
         moving_.fadeAll(position_);
@@ -99,7 +102,13 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
 }
 
 template <class P>
-void HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset) noexcept {
+bool HapticRenderer<P>::isSilenced(const CollisionEvent& event) const noexcept {
+    return event.timeNs < (event.source.fixture < 0 ? strikesSilentUntilNs_ : silentUntilNs_);
+}
+
+// False: it could not be played.
+template <class P>
+bool HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset) noexcept {
     const std::int64_t delay = position_ - onset.frame;
     if (delay > 0) onset = {position_, 0.0}; // late: the whole vibration, at once
     const bool isGated = event.durationNs > 0;
@@ -114,6 +123,7 @@ void HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset)
     played_ += taken ? 1 : 0;
     late_ += taken && delay > 0 ? 1 : 0;
     rejected_ += taken ? 0 : 1;
+    return taken;
 }
 
 template <class P>

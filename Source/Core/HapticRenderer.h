@@ -47,7 +47,8 @@ public:
 
     /// Writes out[channel][0..frames), 1 to limits::maxBlockFrames. `source.pop(CollisionEvent&)` gives events until
     /// it says false; more than the pending store holds stay there, which is right if they come in time order.
-    /// If it also has `pop(RenderControl&)`, controls come the same way. R, wait-free.
+    /// If it also has `pop(RenderControl&)`, controls come the same way; if it has `struck(const CollisionEvent&, std::int64_t frame)`, it is
+    /// told of what is played, and of which frame of the renderer's on. R, wait-free.
     template <class Source>
     void render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
@@ -73,7 +74,8 @@ private:
     void apply(const RenderControl& control) noexcept;
     bool prepareLimiter() noexcept;
     bool takeMemory() noexcept;
-    void strike(const CollisionEvent& event, FramePosition onset) noexcept;
+    bool strike(const CollisionEvent& event, FramePosition onset) noexcept;
+    bool isSilenced(const CollisionEvent& event) const noexcept;
     bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
     typename MovingTones<Profile>::Drive driveAt(const CollisionEvent& event, double x, double y) noexcept;
@@ -95,7 +97,7 @@ private:
     int channels_ = 1;
     bool isPrepared_ = false;
     bool othersAreModes_ = false; // events without a recording
-    std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN; // no event before it is played
+    std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, strikesSilentUntilNs_ = INT64_MIN; // no event before it is played; none that is apart from a world
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
 };
 

@@ -19,12 +19,12 @@ struct RenderControl {
         ceiling,  ///< of `channel`: largest sample while the limiter is on, `value` > 0
         recordings, ///< from now on `recordings` are played instead of modes; recordings that sound fade out
         level,      ///< of all channels, on top of their gains: `value`, 0 or more
-        silence     ///< as stopAll, and events before `untilNs` are not played. These two are born in the render call: no file names them
+        silence     ///< as stopAll, and events before `untilNs` are not played; if `value` is not 0, of those apart from a world only what is before `timeNs`. These two are born in the render call: no file names them
     };
     std::int64_t timeNs = 0; ///< from which on
     Kind kind = Kind::stopAll; ///< which of the values below counts
     int channel = 0; ///< of gain and mute
-    float value = 0.0f; ///< gain; of mute, not 0: silent
+    float value = 0.0f; ///< gain; of mute, not 0: silent; of silence, see there
     PhantomPanner panner; ///< of panner
     std::int64_t untilNs = 0; ///< of silence
     std::span<const RecordedContact> recordings{}; ///< at the renderer's rate; empty: modes

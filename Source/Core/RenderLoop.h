@@ -32,10 +32,11 @@ int HapticRenderer<Profile>::strikeAndReach(Source& source, int most) noexcept {
         for (bool isSame = true; isSame;) {
             if (pending_.empty()) return static_cast<int>(end - position_);
             const FramePosition onset = clock_.at(pending_.nextTime());
-            const bool isDue = onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead()), isHeard = pending_.nextTime() >= silentUntilNs_;
+            const bool isDue = onset.frame <= position_ || (onset.frame < end && bank_.takesStrikesAhead()), isHeard = !isSilenced(pending_.next());
             if (isHeard && !isDue) return static_cast<int>(std::min(end, onset.frame) - position_);
             isSame = !wasFull && pending_.next().durationNs == 0;
-            if (isHeard) strike(pending_.next(), onset);
+            if (isHeard && strike(pending_.next(), onset))
+                if constexpr (requires(const CollisionEvent& e, std::int64_t frame) { source.struck(e, frame); }) source.struck(pending_.next(), std::max(onset.frame, position_));
             pending_.pop();
         }
     }

@@ -4,6 +4,7 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/HapticRenderer.h"
+#include "Session/OnsetMarks.h"
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -18,6 +19,7 @@ struct OfflineSettings {
     std::span<const RenderControl> controls{}; ///< in time order
     std::span<const RecordedContact> contacts{}; ///< played instead of modes, at the renderer's rate; none: modes
     bool othersAreModes = false; ///< events without a recording
+    OnsetMarks* marks = nullptr; ///< write one channel more
 };
 
 /// Takes channels[channel][0..frames), the next frames in order; false stops the render.

@@ -8,12 +8,12 @@ namespace physvib {
 
 bool OwnBirths::strike(CollisionEvent event, int frame) noexcept {
     event = shaping_(event);
-    event.timeNs = time_.nextNs(frame);
+    event.timeNs = time_.nextBornNs(frame);
     return strikes_.push(event);
 }
 
 bool OwnBirths::control(RenderControl control, int frame) noexcept {
-    control.timeNs = time_.nextNs(frame);
+    control.timeNs = time_.nextBornNs(frame);
     return controls_.push(control);
 }
 
@@ -22,6 +22,7 @@ bool OwnBirths::silence(int frame) noexcept {
     control.kind = RenderControl::Kind::silence;
     control.timeNs = time_.nextRenderedNs(frame); // which leaves us now
     control.untilNs = time_.nextNs(frame);
+    control.value = time_.isBornDirect() ? 1.0f : 0.0f; // strikes that come behind it stand before the world's
     return controls_.push(control);
 }
 

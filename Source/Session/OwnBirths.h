@@ -15,7 +15,8 @@ namespace physvib {
 /// Part of a session.
 class OwnBirths {
 public:
-    /// Each `frame` frames into the block that is rendered next: it is felt L later like everything else, at an exact frame.
+    /// Each `frame` frames into the block that is rendered next: it is felt L later like everything else, or the renderer's latency later where
+    /// the session is direct, at an exact frame.
     /// False, and counted, if it found no room. R, wait-free.
     bool strike(CollisionEvent event, int frame) noexcept;
     bool control(RenderControl control, int frame) noexcept;

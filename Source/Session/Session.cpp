@@ -20,6 +20,7 @@ struct Session::LiveSource {
         return true;
     }
     bool pop(RenderControl& control) noexcept { return session.popControl(control); }
+    void struck(const CollisionEvent& event, std::int64_t frame) noexcept { session.mark(event, frame); }
 };
 
 // Non-realtime, the world is ours: step it whenever the queue runs dry, until `endNs`.
@@ -27,6 +28,7 @@ struct Session::OfflineSource {
     Session& session;
     std::int64_t endNs;
     bool pop(RenderControl& control) noexcept { return session.popControl(control); }
+    void struck(const CollisionEvent& event, std::int64_t frame) noexcept { session.mark(event, frame); }
     bool pop(CollisionEvent& event) {
         if (!take(event)) return false;
         if (session.heard_) session.heard_->tell(event);
@@ -48,7 +50,8 @@ Session::Session(const SessionSetup& setup)
     , OwnBirths{*this, setup}
     , setup_{setup}
     , renderer_{std::make_unique<HapticRenderer<DesktopProfile>>()}
-    , heard_{setup.contactSound ? std::make_unique<HeardContacts>(*setup.contactSound) : nullptr}
+    , heard_{setup.contactSound ? std::make_unique<HeardContacts>(*setup.contactSound, setup.ears, setup.panner) : nullptr}
+    , marks_{setup.marks ? std::make_unique<OnsetMarks>(*setup.marks) : nullptr}
     , told_{setup.boardSeconds > 0.0 ? std::make_unique<ToldEvents>() : nullptr}
     , world_{setup.run(), setup.shaping, setup.log != LogUse::none} {
     made_.reserve(1024); // of a step; more are rare
@@ -66,16 +69,17 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
                         .ceilings = setup_.ceilings,
                         .modes = setup_.modes,
                         .equalised = setup_.equalised});
-    setLaw(lawAt(sampleRateHz, maxBlockFrames));
+    setLaw(lawAt(sampleRateHz, maxBlockFrames), setup_.direct != Direct::no, setup_.direct == Direct::born);
     renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings));
     if (heard_) heard_->prepare(sampleRateHz);
-    setFrames(0);
+    if (marks_) marks_->prepare(sampleRateHz, -renderer_->latencyFrames());
+    setFrames(firstFrame()); // the renderer begins with the first block where something may be felt in it
     setRestart(-1);
     takeUp();
-    world_.forget();
+    world_.forget(nowNs());
     made_.clear();
     handed_ = 0;
-    steppedNs_ = 0;
+    steppedNs_ = nowNs();
     for (CollisionEvent unplayed; queue_.pop(unplayed);) {}
     for (RenderControl undone; controls_.pop(undone);) {}
     forgetBirths();
@@ -84,6 +88,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     waiting_ = {};
     begun_.clear();
     panner_ = setup_.panner;
+    lastControlNs_ = 0;
     stops_.clear();
     nextStopNs_ = never;
     if (!setup_.recordings.empty() && setup_.log != LogUse::none) controlLog_.recordings.push_back({0, filesOf(setup_.recordings)});
@@ -105,10 +110,11 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     const FrameClock clock{sampleRateHz};
     const std::int64_t frames = clock.at(nowNs()).frame;
     if (const std::int64_t restart = restartFrame(); restart >= 0) setRestart(clock.at(sessionNs(restart)).frame);
-    setLaw(lawAt(sampleRateHz, maxBlockFrames));
+    setLaw(lawAt(sampleRateHz, maxBlockFrames), setup_.direct != Direct::no, setup_.direct == Direct::born);
     const auto rendered = std::max<std::int64_t>(0, frames - playOutFrames() + law().limiterFrames);
     renderer_->moveTo(sampleRateHz, rendered);
     if (heard_) heard_->moveTo(sampleRateHz, rendered);
+    if (marks_) marks_->prepare(sampleRateHz, rendered - renderer_->latencyFrames());
     renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings)); // recordings that sound stop
     setFrames(frames);
 }
@@ -172,6 +178,15 @@ bool Session::handOver() {
 
 std::int64_t Session::framesMissing(int frames) const noexcept { return SessionTime::framesMissing(frames, steppedNs_); }
 
+// The world first: whoever steps it must not take what is added for a stall.
+void Session::startLater(std::int64_t frames) noexcept {
+    if (frames <= 0) return;
+    lengthen(frames);
+    if (setup_.direct != Direct::born) return;
+    setRestart(framesRendered() + frames);
+    setFrames(framesRendered() + frames);
+}
+
 void Session::wait(int frames) noexcept {
     offline_.store(false, std::memory_order_release);
     waitFrames(frames);
@@ -193,7 +208,7 @@ void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
 void Session::renderBehind(float* const* out, std::int64_t done, int frames, RenderMode mode) noexcept {
     const std::int64_t start = playOutFrames() - renderer_->latencyFrames();
     const int silent = static_cast<int>(std::clamp<std::int64_t>(start - done, 0, frames));
-    std::array<float*, limits::maxEnchanters + 1> rest{};
+    std::array<float*, limits::maxEnchanters + 3> rest{};
     for (int j = 0; j < outputs(); ++j) {
         std::fill_n(out[j], silent, 0.0f);
         rest[static_cast<std::size_t>(j)] = out[j] + silent;
@@ -204,7 +219,8 @@ void Session::renderBehind(float* const* out, std::int64_t done, int frames, Ren
         LiveSource source{*this, FrameClock{law().sampleRateHz}, done + silent - start};
         renderer_->render(source, rest.data(), frames - silent);
     }
-    if (heard_ && silent < frames) heard_->render(rest[static_cast<std::size_t>(setup_.channels)], frames - silent);
+    if (heard_ && silent < frames) heard_->render(rest.data() + setup_.channels, frames - silent);
+    if (marks_ && silent < frames) marks_->render(rest[static_cast<std::size_t>(outputs() - 1)], frames - silent);
 }
 
 void Session::renderOwnWorld(float* const* out, int frames, std::int64_t endNs) {

@@ -7,6 +7,7 @@
 #include "Files/SessionLog.h"
 #include "Physics/InputCheck.h"
 #include "Session/HeardContacts.h"
+#include "Session/OnsetMarks.h"
 #include "Session/OwnBirths.h"
 #include "Session/RecordingSets.h"
 #include "Session/SessionTime.h"
@@ -45,8 +46,14 @@ public:
     /// What becomes of all collisions, and of strikes, before they are rendered. Any thread.
     const EventShaping& shaping() const noexcept { return setup_.shaping; }
 
-    /// Whether render also writes out[channels()], what is heard of each hit, in sync with the others.
-    bool hasContactSound() const noexcept { return heard_ != nullptr; }
+    /// How many channels behind the enchanters' ones tell what is heard of each hit, in sync with them: 0, 1, or left and right.
+    int heardChannels() const noexcept { return heard_ ? heard_->ears() : 0; }
+
+    /// Whether render also writes the last of outputs(): a pulse at each onset. Neither gains nor ceilings nor delays act on it. Null: it does not.
+    const OnsetMarks* marks() const noexcept { return marks_.get(); }
+
+    /// Channels that render writes: the enchanters', what is heard, the marks.
+    int outputs() const noexcept { return setup_.channels + heardChannels() + (marks_ ? 1 : 0); }
 
     /// The largest that a sample of that channel has been allowed to be while the limiter is on. Any thread.
     float ceiling(int channel) const noexcept { return ceilings_[static_cast<std::size_t>(channel)].load(std::memory_order_relaxed); }
@@ -54,7 +61,7 @@ public:
     /// Steps the world up to session time, or until `goesOn` (asked after each step) says no; the number of steps made. D.
     int advance(const StepWatch& goesOn = {});
 
-    /// Writes out[channel][0..frames), and the contact sound's channel behind them if there is one. R; wait-free if `mode` is realtime.
+    /// Writes out[0..outputs())[0..frames). R; wait-free if `mode` is realtime.
     void render(float* const* out, int frames, RenderMode mode) noexcept;
 
     /// How many frames L is too short for the next `frames` to be in time, as far as the world has been stepped; 0 or less: it
@@ -101,6 +108,14 @@ public:
     /// L. Any thread but R.
     double playOutSeconds() const;
 
+    /// How long after its time what is told is felt where a session is direct, and by how much of session time such a one lets it stand ahead:
+    /// L is their sum, the latter 0 if it is not direct. Any thread but R.
+    double directSeconds() const;
+    std::int64_t toldAheadNs() const;
+
+    /// Before the first block, as lengthen: what is born is felt as soon as before, the world begins so much later. R, or M.
+    void startLater(std::int64_t frames) noexcept;
+
     /// The scene starts anew when frame `offset` of the next block is the present, as a new take. R, wait-free, or M.
     void restart(int offset = 0) noexcept;
 
@@ -139,10 +154,14 @@ private:
     bool addStrikes(std::span<const CollisionEvent> strikes, std::int64_t startNs);
     void takeDue(std::int64_t untilNs);
     std::int64_t postNow(RenderControl control);
+    std::int64_t toldNs() const noexcept { return std::max<std::int64_t>(0, nowNs() - leadNs()); }
+    std::int64_t firstFrame() const noexcept { return setup_.direct == Direct::born ? playOutFrames() - law().limiterFrames : 0; }
     void postDueStops(std::int64_t untilNs);
     void takeDueStops();
     bool popControl(RenderControl& control) noexcept;
-    int outputs() const noexcept { return setup_.channels + (heard_ ? 1 : 0); }
+    void mark(const CollisionEvent& event, std::int64_t frame) noexcept {
+        if (marks_) marks_->strike(event, frame);
+    }
     ClockLaw lawAt(int sampleRateHz, int maxBlockFrames) const;
     void takeUp();
     int catchUp(const StepWatch& goesOn = {});
@@ -155,6 +174,7 @@ private:
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
     RecordingSets recordings_; // under the input mutex
     const std::unique_ptr<HeardContacts> heard_;
+    const std::unique_ptr<OnsetMarks> marks_;
     EventQueue<CollisionEvent, 4096> queue_; // from whoever holds the world, who keeps what finds no room
     EventQueue<RenderControl, 256> controls_;
     const std::unique_ptr<ToldEvents> told_;
@@ -177,6 +197,7 @@ private:
     std::size_t checkedTake_ = 0;
     SessionLog controlLog_; // without takes, of what has not been read
     PhantomPanner panner_;
+    std::int64_t lastControlNs_ = 0;
     std::vector<std::int64_t> stops_; // ahead, in time order
     std::atomic<std::int64_t> nextStopNs_{never}; // the first of them; to be read without the mutex
 };

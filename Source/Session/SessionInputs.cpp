@@ -24,14 +24,16 @@ std::string Session::act(Action action) {
 
 std::int64_t Session::post(RenderControl control) {
     const std::lock_guard lock{inputMutex_};
-    control.timeNs = nowNs();
-    postDueStops(control.timeNs);
+    postDueStops(nowNs());
+    control.timeNs = toldNs();
     return postNow(control);
 }
 
 // At its own time, which is not before that of any other. The input mutex is held.
 std::int64_t Session::postNow(RenderControl control) {
+    control.timeNs = std::max(control.timeNs, lastControlNs_); // a stop ahead may have been told before
     if (!controls_.push(control)) return -1;
+    lastControlNs_ = control.timeNs;
     if (told_) told_->controls.push(control);
     if (control.kind == RenderControl::Kind::ceiling && control.channel >= 0 && control.channel < setup_.channels) {
         auto& most = ceilings_[static_cast<std::size_t>(control.channel)];
@@ -48,7 +50,7 @@ std::int64_t Session::postNow(RenderControl control) {
 
 std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
     const std::lock_guard lock{inputMutex_};
-    const std::int64_t now = nowNs();
+    const std::int64_t now = toldNs();
     if (recordings == setup_.recordings) return now;
     RenderControl control;
     control.timeNs = now;
@@ -62,7 +64,7 @@ std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
 
 bool Session::play(std::span<const CollisionEvent> strikes) {
     const std::scoped_lock lock{inputMutex_, worldMutex_};
-    return addStrikes(strikes, nowNs());
+    return addStrikes(strikes, toldNs());
 }
 
 bool Session::playAt(std::span<const CollisionEvent> strikes) {
@@ -90,7 +92,7 @@ bool Session::stopAt(std::int64_t timeNs) {
     const std::scoped_lock lock{inputMutex_, worldMutex_};
     if (stops_.size() == mostStops) return false;
     const std::int64_t now = nowNs();
-    timeNs = std::max(timeNs, now);
+    timeNs = std::max(timeNs, toldNs());
     takeDue(now);
     handOver();
     waiting_.forget(timeNs);
@@ -126,6 +128,16 @@ PhantomPanner Session::panner() const {
 std::int64_t Session::presentNs() const {
     const std::lock_guard lock{inputMutex_};
     return nowNs();
+}
+
+double Session::directSeconds() const {
+    const std::lock_guard lock{inputMutex_};
+    return static_cast<double>(law().directFrames()) / law().sampleRateHz;
+}
+
+std::int64_t Session::toldAheadNs() const {
+    const std::lock_guard lock{inputMutex_};
+    return leadNs();
 }
 
 double Session::playOutSeconds() const {

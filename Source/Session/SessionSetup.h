@@ -5,6 +5,7 @@
 #include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"
 #include "Session/ContactSounds.h"
+#include "Session/OnsetMarks.h"
 #include "Physics/Scenes/SceneRun.h"
 #include <array>
 #include <cstdint>
@@ -22,6 +23,13 @@ struct RenderInput {
     double scale = 1.0;      ///< of the group's impulses, and of the velocities of what it spawns
     HoldAction hold;         ///< if `group` is device
     std::int64_t timeNs = 0; ///< given by the session
+};
+
+/// How soon that is felt which needs no world: strikes apart from it, and controls. Its own collisions are felt L later in any case.
+enum class Direct {
+    no,   ///< L later as well
+    told, ///< ClockLaw::directFrames() after it was told
+    born  ///< so is what is told, and what is born in the render call the renderer's latency after its frame, from the first one on; of a session without a log
 };
 
 /// Who reads the log of a session; it keeps what has not been read.
@@ -48,6 +56,9 @@ struct SessionSetup {
     std::vector<ContactRecording> recordings; ///< played instead of modes; none: modes
     /// Heard on a channel behind the enchanters' ones: by these recordings where there is one, else by modes; nullopt: not made.
     std::optional<std::vector<ContactRecording>> contactSound{};
+    int ears = 1; ///< of the contact sound: 1, at one place; 2, left and right
+    Direct direct = Direct::no;
+    std::optional<MarkedOnsets> marks{}; ///< pulses at onsets, on the last channel; nullopt: not made
     double longestGapSeconds = messageTimerGapSeconds;
     double boardSeconds = 0.0; ///< of ClockLaw; above 0 the session tells what it makes (Session::told) for a BoardOutput
     std::vector<std::vector<Action>> groups; ///< what notes do; valid inputs of the scene

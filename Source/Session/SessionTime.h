@@ -16,6 +16,10 @@ public:
     /// L. Any thread after prepare.
     std::int64_t playOutFrames() const noexcept { return playOutFrames_.load(std::memory_order_relaxed); }
 
+    /// How long after its frame is felt what is born in the render call: L, or less where the session is direct. R, or M while nobody renders.
+    bool isBornDirect() const noexcept { return isBornDirect_; } ///< as bornLatencyFrames
+    std::int64_t bornLatencyFrames() const noexcept { return isBornDirect_ ? law_.limiterFrames : playOutFrames(); }
+
     /// By how much L has grown since prepare. Any thread.
     std::int64_t framesGrown() const noexcept { return grownFrames_.load(std::memory_order_acquire); }
 
@@ -31,6 +35,9 @@ public:
     /// The session time of a frame of the next block; before it, of one that is past, none of them before session time 0. R.
     std::int64_t nextNs(std::int64_t frame) const noexcept { return sessionNs(std::max<std::int64_t>(0, framesRendered() + frame)); }
 
+    /// The session time at which what is born in a frame of the next block stands. R.
+    std::int64_t nextBornNs(std::int64_t frame) const noexcept { return isBornDirect_ ? nextRenderedNs(frame) : nextNs(frame); }
+
     /// The session time of what leaves the renderer, whose latency is part of L, as the next block's frame `frame`. R.
     std::int64_t nextRenderedNs(std::int64_t frame) const noexcept { return nextNs(frame - playOutFrames() + law_.limiterFrames); }
 
@@ -41,8 +48,10 @@ protected:
     ~SessionTime() = default;
 
     /// L is the law's, nothing has been added to it. M, while nobody renders.
-    void setLaw(const ClockLaw& law) noexcept {
+    void setLaw(const ClockLaw& law, bool isToldDirect, bool isBornDirect) noexcept {
         law_ = law;
+        isToldDirect_ = isToldDirect;
+        isBornDirect_ = isBornDirect;
         playOutFrames_ = law_.playOutFrames();
         grownFrames_ = 0;
     }
@@ -77,6 +86,8 @@ protected:
     std::int64_t sessionNs(std::int64_t frames) const noexcept {
         return frames / law_.sampleRateHz * 1'000'000'000 + frames % law_.sampleRateHz * 1'000'000'000 / law_.sampleRateHz;
     }
+    /// How much session time what is told lies ahead of what it is told at, to be felt sooner. Whoever holds one of the mutexes.
+    std::int64_t leadNs() const noexcept { return isToldDirect_ ? sessionNs(playOutFrames() - law_.directFrames()) : 0; }
     std::int64_t nowNs() const noexcept { return sessionNs(sessionFrames_.load(std::memory_order_acquire)); }
 
     /// How far behind session time a driver that is in time sees the world at most, with what L has grown by.
@@ -84,6 +95,7 @@ protected:
 
 private:
     ClockLaw law_;
+    bool isToldDirect_ = false, isBornDirect_ = false;
     std::atomic<std::int64_t> playOutFrames_{0}, grownFrames_{0}; // L, and what of it R has added to the law's
     std::atomic<std::int64_t> sessionFrames_{0};
 };

@@ -37,7 +37,7 @@ void SessionWorld::start(std::int64_t sessionNs, std::shared_ptr<const Scene> sc
     take_ = {sessionNs, 0, seed, std::move(scene), {}, {}};
 }
 
-void SessionWorld::forget() {
+void SessionWorld::forget(std::int64_t sessionNs) {
     const SceneTake last = std::move(take_);
     ended_.clear();
     isBegun_ = false;
@@ -45,7 +45,7 @@ void SessionWorld::forget() {
     world_.reset();
     dropsBefore_ = 0;
     shaper_.forget();
-    start(0, last.scene, last.seed);
+    start(sessionNs, last.scene, last.seed);
 }
 
 void SessionWorld::step(std::vector<CollisionEvent>& made) {

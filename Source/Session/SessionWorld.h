@@ -25,8 +25,8 @@ public:
     /// A new take from `sessionNs` on. Throws what Simulation throws; then all stays as it was.
     void start(std::int64_t sessionNs, std::shared_ptr<const Scene> scene, std::uint32_t seed);
 
-    /// The take that runs is the first again, at session time 0; the log begins anew.
-    void forget();
+    /// The take that runs is the first again, at that session time; the log begins anew.
+    void forget(std::int64_t sessionNs = 0);
 
     /// Session time up to which the world has been stepped.
     std::int64_t timeNs() const noexcept { return originNs_ + world_->timeNs(); }

@@ -43,6 +43,25 @@ TEST_F(SoundMethod, TheRecordingPlaysAtEachHitWithTheHitsAmplitudeAsItsPeak) {
     EXPECT_NEAR(peakOf(samplesOf("a.wav"), 0.2, 0.55, 44100), 0.4f, 0.002f);
 }
 
+TEST_F(SoundMethod, MarksAreAFileOfTheirOwnInSyncWithWhatIsFelt) {
+    write("close.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.2000005,349,40,0.4,0,0\n0.6000005,349,40,0.1,0,0\n0.6002,349,40,0.1,0,0\n");
+    const std::string render = "render --from-events close.csv --layout phone1 --seconds 1 --out a.wav --marker m.wav";
+    const auto outcome = call(render);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("m.wav  a pulse at each onset: 1 channel, 2 pulses for 3 onsets: 1 came within 0.5 ms of another"), std::string::npos) << outcome.out;
+    const auto felt = samplesOf("a.wav"), marks = samplesOf("m.wav");
+    ASSERT_EQ(felt.size(), marks.size());
+    for (const std::size_t onset : {9601u, 28801u}) {
+        EXPECT_EQ(marks[onset - 1], 0.0f);
+        for (std::size_t n = onset; n < onset + 96; ++n) ASSERT_EQ(marks[n], 1.0f) << n;
+        EXPECT_EQ(marks[onset + 96], 0.0f);
+    }
+    EXPECT_EQ(felt[9600], 0.0f);
+    EXPECT_NE(felt[9601], 0.0f);
+    EXPECT_EQ(call(render + " --marker-of hits").out.find("0 pulses") == std::string::npos, false) << "a list without fixtures has no hits of a world";
+    EXPECT_EQ(call(render + " --marker-of some").exitCode, 2);
+}
+
 TEST_F(SoundMethod, TheContactSoundIsAFileOfItsOwnInSyncWithWhatIsFelt) {
     const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav --contact-sound b.wav ";
     auto outcome = call(render);

@@ -13,6 +13,7 @@ using namespace test;
 using Signals = std::vector<std::vector<float>>;
 
 constexpr int felt = 4, blockFrames = 64;
+constexpr double interfaceRate = 48000.0;
 
 SessionSetup setupOn(const std::string& layout, bool hasContactSound) {
     auto s = shakeTheBoxSetup(0.02);
@@ -185,8 +186,10 @@ TEST(Listening, NoneOfManyStopsIsLost) {
     heard.tell(stop);
     EXPECT_EQ(heard.lost(), 0u);
     std::vector<float> begun(4800), ended(4800);
-    heard.render(begun.data(), 4800);
-    heard.render(ended.data(), 4800);
+    float* at = begun.data();
+    heard.render(&at, 4800);
+    at = ended.data();
+    heard.render(&at, 4800);
     EXPECT_GT(peakOf(begun), 0.4f);
     EXPECT_LT(peakOf(ended), 1e-6f);
 }
@@ -194,16 +197,115 @@ TEST(Listening, NoneOfManyStopsIsLost) {
 TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
     Rig rig{setupOn("phone4", false)};
     EXPECT_EQ(rig.open(noiseOn({3}, -40.0)), "output 4 is an enchanter's; expected another one to listen to");
-    EXPECT_EQ(rig.open(noiseOn({8}, -40.0)), "hands: has 8 outputs; expected one of them to listen to, found output 9");
+    EXPECT_EQ(rig.open(noiseOn({8}, -40.0)), "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
     EXPECT_EQ(rig.open(contactsOn({5}, -20.0)), "expected a session that makes contact sounds, found none");
     EXPECT_EQ(rig.open(noiseOn({0, 1, 2, 3, 4, 5, 6, 7, 8}, -40.0)), "expected at most 8 outputs to listen to, found 9");
     EXPECT_EQ(rig.interface.timesStarted, 0) << "nothing half-done";
     ASSERT_EQ(rig.open(noiseOn({4}, -40.0)), "");
     EXPECT_EQ(rig.output.assign({0, 1, 2, 4}, 4), "output 5 is an enchanter's; expected another one to listen to");
     EXPECT_EQ(rig.output.hear(noiseOn({2}, -40.0)), "output 3 is an enchanter's; expected another one to listen to");
-    EXPECT_EQ(rig.output.hear(noiseOn({11}, -40.0)), "Fake:hands: has 8 outputs; expected one of them to listen to, found output 12");
+    EXPECT_EQ(rig.output.hear(noiseOn({11}, -40.0)), "Fake:hands: has 8 outputs; expected one of them to listen to or for marks, found output 12");
     rig.play(3.0);
     EXPECT_NEAR(rmsDb(rig.play(6.0)[felt], 0), -40.0, 0.5) << "all is as before";
+}
+
+TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
+    auto setup = setupOn("phone4", true);
+    setup.ears = 2;
+    Rig rig{setup};
+    ASSERT_EQ(rig.open(contactsOn({4, 5}, 0.0)), "");
+    rig.session.setSlowness(0);
+    rig.play(0.2);
+    const auto heardAt = [&](double x) {
+        CollisionEvent hit;
+        hit.frequencyHz = 205.0;
+        hit.decayPerSecond = 50.0;
+        hit.amplitude = 0.5;
+        hit.x = x;
+        EXPECT_TRUE(rig.session.play(std::array{hit}));
+        const auto out = rig.play(1.0);
+        return std::pair{peakOf(out[felt]), peakOf(out[felt + 1])};
+    };
+    const double width = setup.scene.fieldWidthMetres;
+    const auto [leftOnly, none] = heardAt(0.0);
+    EXPECT_GT(leftOnly, 0.4f);
+    EXPECT_EQ(none, 0.0f);
+    const auto [left, right] = heardAt(0.5 * width);
+    EXPECT_NEAR(left, leftOnly * std::sqrt(0.5f), 1e-4f);
+    EXPECT_NEAR(left, right, 1e-6f);
+    PhantomPanner wider{setup.panner.layout(), PanningLaw::linear, 1, 2.0 * width, setup.scene.fieldHeightMetres};
+    ASSERT_GE(rig.session.post({0, RenderControl::Kind::panner, 0, 0.0f, wider}), 0);
+    rig.play(0.2);
+    const auto [leftOfWider, rightOfWider] = heardAt(width);
+    EXPECT_NEAR(leftOfWider, rightOfWider, 1e-4f) << "in the middle of the new field";
+    EXPECT_GT(rightOfWider, 0.2f);
+}
+
+ListeningSettings marksOn(std::vector<int> outputs) {
+    ListeningSettings l;
+    l.marks = std::move(outputs);
+    return l;
+}
+
+SessionSetup marked(bool hasContactSound = false) {
+    auto setup = setupOn("phone1", hasContactSound);
+    setup.marks = MarkedOnsets::all;
+    return setup;
+}
+
+TEST(Listening, MarksStandAtTheOnsetsOnTheirOutputAndNeitherLevelNorCeilingMovesThem) {
+    Rig rig{marked(true)}, quiet{marked()};
+    auto all = contactsOn({3}, -20.0);
+    all.marks = {5};
+    ASSERT_EQ(rig.open(all), "");
+    ASSERT_EQ(quiet.open(marksOn({5})), "");
+    quiet.output.setLevel(0.0f);
+    quiet.session.post({0, RenderControl::Kind::mute, 0, 1.0f, {}});
+    const auto out = rig.play(6.0), muted = quiet.play(6.0);
+    ASSERT_EQ(out.size(), 3u);
+    EXPECT_EQ(out[2], muted[1]);
+    EXPECT_EQ(peakOf(muted[0]), 0.0f);
+    EXPECT_GT(rig.session.marks()->made(), 5u);
+    std::size_t edge = 0;
+    while (out[2][edge] == 0.0f) ++edge;
+    EXPECT_EQ(out[2][edge], 1.0f);
+    EXPECT_EQ(onsetOf(out[0]), edge) << "the first hit lies between two frames";
+}
+
+TEST(Listening, WhatIsSilencedIsNotMarkedAndNoPulseBeginsInItsMiddle) {
+    Rig rig{marked()};
+    ASSERT_EQ(rig.open(marksOn({2})), "");
+    rig.session.setSlowness(0);
+    rig.play(0.2);
+    CollisionEvent hit;
+    hit.frequencyHz = 205.0;
+    hit.decayPerSecond = 50.0;
+    hit.amplitude = 0.5;
+    const auto marksAfter = [&](bool isSilentAtFirst) {
+        EXPECT_TRUE(rig.session.play(std::array{hit}));
+        const auto blocks = static_cast<int>(rig.session.playOutFrames() / blockFrames); // the pulse of 96 frames begins in the last of these
+        float most = 0.0f;
+        for (int b = 0; b < blocks + 20; ++b) {
+            rig.output.setSilent(isSilentAtFirst && b <= blocks);
+            most = std::max(most, peakOf(rig.play(blockFrames / interfaceRate)[1]));
+        }
+        return most;
+    };
+    EXPECT_EQ(marksAfter(false), 1.0f);
+    EXPECT_EQ(marksAfter(true), 0.0f);
+    EXPECT_EQ(marksAfter(false), 1.0f);
+}
+
+TEST(Listening, MarksAreNeitherFeltNorHeard) {
+    Rig rig{marked()}, without{setupOn("phone1", false)};
+    EXPECT_EQ(rig.open(marksOn({0})), "output 1 is an enchanter's; expected another one for marks");
+    auto both = noiseOn({4}, -40.0);
+    both.marks = {4};
+    EXPECT_EQ(rig.open(both), "output 5 is listened to; expected another one for marks");
+    EXPECT_EQ(without.open(marksOn({4})), "expected a session that marks its onsets, found none");
+    EXPECT_EQ(rig.open(marksOn({8})), "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
+    ASSERT_EQ(rig.open(marksOn({4})), "");
+    EXPECT_EQ(rig.output.assign({4}, 1), "output 5 is an enchanter's; expected another one for marks");
 }
 
 TEST(Listening, BeginsAndEndsWhileItPlays) {

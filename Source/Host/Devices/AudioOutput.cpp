@@ -63,9 +63,10 @@ void AudioOutput::setHeardLevels() {
 
 // Unlike an enchanter without an output, which is felt as missing, noise that is missing would go unnoticed.
 std::string AudioOutput::listeningFault() const {
-    if (!settings_.listening.contacts.empty() && !own_.hasContactSound()) return "expected a session that makes contact sounds, found none";
+    if (!settings_.listening.contacts.empty() && own_.heardChannels() == 0) return "expected a session that makes contact sounds, found none";
+    if (!settings_.listening.marks.empty() && !own_.marks()) return "expected a session that marks its onsets, found none";
     if (!found_.device || map_.highestHeard() < deviceOutputs()) return {};
-    return settings_.device + ": has " + std::to_string(deviceOutputs()) + " outputs; expected one of them to listen to, found output " + std::to_string(map_.highestHeard() + 1);
+    return settings_.device + ": has " + std::to_string(deviceOutputs()) + " outputs; expected one of them to listen to or for marks, found output " + std::to_string(map_.highestHeard() + 1);
 }
 
 std::string AudioOutput::openDevice() {
@@ -182,7 +183,7 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
 void AudioOutput::prepareBuffers(int block) {
     block_ = block;
     noiseScratch_.assign(static_cast<std::size_t>(block), 0.0f);
-    scratch_.assign(static_cast<std::size_t>(own_.channels() + (own_.hasContactSound() ? 1 : 0)), std::vector<float>(static_cast<std::size_t>(block)));
+    scratch_.assign(static_cast<std::size_t>(own_.outputs()), std::vector<float>(static_cast<std::size_t>(block)));
     scratchAt_.clear();
     for (auto& channel : scratch_) scratchAt_.push_back(channel.data());
 }
@@ -205,14 +206,17 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
         if (rests) ramp->moveTo(0.0f, frames);
         else ramp->moveTo(gain->load(std::memory_order_relaxed));
     }
-    for (int done = 0; done < frames; done += block_) renderPart(session, out, outputs, done, std::min(block_, frames - done));
+    if (rests) areMarksOpen_ = false;
+    for (int done = 0; done < frames; done += block_) renderPart(session, out, outputs, done, std::min(block_, frames - done), rests);
     if (session.nextFeltNs() != felt.sessionNs) felt_.write(felt); // else nobody steps the world: session time stands still
     isInBlock_.store(false);
     measure(start, frames);
 }
 
-void AudioOutput::renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept {
+void AudioOutput::renderPart(Session& session, float* const* out, int outputs, int first, int frames, bool rests) noexcept {
     session.render(scratchAt_.data(), frames, RenderMode::realtime);
+    renderHeard(session, out, outputs, first, frames);
+    renderMarks(session, out, outputs, first, frames, rests);
     for (int j = session.channels(); j < own_.channels(); ++j) juce::FloatVectorOperations::clear(scratchAt_[static_cast<std::size_t>(j)], frames);
     if (auto* recorder = recorder_.load(std::memory_order_acquire)) recorder->take(scratchAt_.data(), frames, session.framesRendered() - frames);
     if (tap_ != nullptr) tap_->take(scratchAt_.data(), frames);
@@ -230,7 +234,6 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
         if (std::ranges::find(motors_, static_cast<std::size_t>(j), &Motor::enchanter) == motors_.end()) exposure_.take(j, at, frames); // how a motor shakes, nobody says
     }
     exposure_.publish();
-    renderHeard(session, out, outputs, first, frames);
 }
 
 // A step late, as it says what was in it; then as loud as ceiling and master level let it be.
@@ -248,19 +251,30 @@ void AudioOutput::renderHeard(const Session& session, float* const* out, int out
         float* noise = noiseScratch_.data();
         std::generate_n(noise, frames, [this] { return noise_.next(); });
         noiseRamp_.apply(&noise, 1, frames);
-        addTo(Heard::noise, noise, out, outputs, first, frames);
+        addTo(Heard::noise, &noise, 1, out, outputs, first, frames);
     }
-    if (!session.hasContactSound()) return;
-    contactRamp_.apply(&scratchAt_.back(), 1, frames);
-    addTo(Heard::contacts, scratchAt_.back(), out, outputs, first, frames);
+    if (session.heardChannels() == 0) return;
+    float* const* const ears = scratchAt_.data() + session.channels();
+    contactRamp_.apply(ears, session.heardChannels(), frames);
+    addTo(Heard::contacts, ears, session.heardChannels(), out, outputs, first, frames);
 }
 
-// Nothing else plays on these outputs; together the two stay within full scale.
-void AudioOutput::addTo(Heard source, const float* samples, float* const* out, int outputs, int first, int frames) noexcept {
+// What is silenced is not felt, so it is not marked; what is left of a pulse when all comes back has its edge in the silence.
+void AudioOutput::renderMarks(const Session& session, float* const* out, int outputs, int first, int frames, bool rests) noexcept {
+    if (!session.marks()) return;
+    float* marks = scratchAt_[static_cast<std::size_t>(session.outputs() - 1)];
+    int begin = rests ? frames : 0;
+    while (begin < frames && !areMarksOpen_) areMarksOpen_ = marks[begin] == 0.0f, begin += areMarksOpen_ ? 0 : 1;
+    marks += begin;
+    addTo(Heard::marks, &marks, 1, out, outputs, first + begin, frames - begin);
+}
+
+// Of two signals the outputs take turns: left, right, left... Nothing else plays on them; together noise and contacts stay within full scale.
+void AudioOutput::addTo(Heard source, float* const* signals, int count, float* const* out, int outputs, int first, int frames) noexcept {
     for (int i = 0; i < OutputMap::mostHeard; ++i) {
         const int k = map_.heardAt(source, i);
         if (k < 0 || k >= outputs) continue;
-        juce::FloatVectorOperations::add(out[k] + first, samples, frames);
+        juce::FloatVectorOperations::add(out[k] + first, signals[i % count], frames);
         juce::FloatVectorOperations::clip(out[k] + first, out[k] + first, -1.0f, 1.0f, frames);
     }
 }

@@ -50,7 +50,7 @@ public:
     std::string hear(const ListeningSettings& listening);
 
     /// Plays `other` from the next block on, from its beginning, instead of the output's own session, which stands still meanwhile; null: the
-    /// own one goes on. `other` has no more channels, no contact sound, and is prepared here. R has left the one that was played when this
+    /// own one goes on. `other` has no more channels and outputs, no contact sound, and is prepared here. R has left the one that was played when this
     /// returns; what rings in it is cut. False, and nothing changes, while no device has run. M.
     bool lend(Session* other);
 
@@ -111,10 +111,11 @@ private:
     std::string unfelt() const;
     void prepareBuffers(int block);
     void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
-    void renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept;
+    void renderPart(Session& session, float* const* out, int outputs, int first, int frames, bool rests) noexcept;
     void switchMotors(int frames) noexcept;
     void renderHeard(const Session& session, float* const* out, int outputs, int first, int frames) noexcept;
-    void addTo(Heard source, const float* samples, float* const* out, int outputs, int first, int frames) noexcept;
+    void renderMarks(const Session& session, float* const* out, int outputs, int first, int frames, bool rests) noexcept;
+    void addTo(Heard source, float* const* signals, int count, float* const* out, int outputs, int first, int frames) noexcept;
     void measure(juce::int64 startTicks, int frames) noexcept;
 
     struct Load {
@@ -151,6 +152,7 @@ private:
     GainRamp master_, noiseRamp_, contactRamp_;
     PinkNoise noise_;
     std::vector<float> noiseScratch_;
+    bool areMarksOpen_ = true; // the next pulse is whole
     ExposureMeter exposure_;
     struct Motor {
         std::size_t enchanter;

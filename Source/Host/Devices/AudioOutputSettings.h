@@ -23,7 +23,10 @@ struct ListeningSettings {
     std::vector<int> contacts;      ///< the contact sound of each hit; of a session that makes one
     double contactDb = safeContactDb; ///< no sample is larger: that of a hit at full scale, leastContactDb to mostContactDb
 
-    HeardOutputs outputs() const { return {noise, contacts}; }
+    std::vector<int> marks;         ///< pulses at onsets, at full scale, for machines; of a session that makes them
+
+    bool operator==(const ListeningSettings&) const = default;
+    HeardOutputs outputs() const { return {noise, contacts, marks}; }
 };
 
 /// What is wanted of a device.

@@ -10,11 +10,24 @@ namespace {
 
 // Noise in a motor would be felt; a motor's drive in headphones would be far too loud.
 std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) {
-    for (const auto& outputs : heard) {
+    for (const Heard source : {Heard::noise, Heard::contacts}) {
+        const auto& outputs = heard[static_cast<std::size_t>(source)];
         if (outputs.size() > OutputMap::mostHeard) return "expected at most " + std::to_string(OutputMap::mostHeard) + " outputs to listen to, found " + std::to_string(outputs.size());
         for (const int output : outputs)
             if (output >= 0 && std::ranges::find(felt, output) != felt.end())
                 return "output " + std::to_string(output + 1) + " is an enchanter's; expected another one to listen to";
+    }
+    return {};
+}
+
+// A pulse at full scale, for a box that looks for its edge.
+std::string marksFault(const std::vector<int>& felt, const HeardOutputs& heard) {
+    const auto& marks = heard[static_cast<std::size_t>(Heard::marks)];
+    const auto has = [](const std::vector<int>& outputs, int output) { return std::ranges::find(outputs, output) != outputs.end(); };
+    if (marks.size() > OutputMap::mostHeard) return "expected at most " + std::to_string(OutputMap::mostHeard) + " outputs for marks, found " + std::to_string(marks.size());
+    for (const int output : marks) {
+        const bool isFelt = output >= 0 && has(felt, output), isHeard = has(heard[static_cast<std::size_t>(Heard::noise)], output) || has(heard[static_cast<std::size_t>(Heard::contacts)], output);
+        if (isFelt || isHeard) return "output " + std::to_string(output + 1) + " is " + (isFelt ? "an enchanter's" : "listened to") + "; expected another one for marks";
     }
     return {};
 }
@@ -29,6 +42,7 @@ std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int 
         if (output >= 0 && std::count(outputs.begin(), outputs.end(), output) > 1)
             return "output " + std::to_string(output + 1) + " is given to two enchanters; expected one each";
     if (auto fault = heardFault(outputs, heard); !fault.empty()) return fault;
+    if (auto fault = marksFault(outputs, heard); !fault.empty()) return fault;
     wanted_ = std::move(outputs);
     heard_ = heard;
     felt_ = felt > 0 ? std::min(felt, enchanters) : enchanters;

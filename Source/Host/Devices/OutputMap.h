@@ -11,11 +11,12 @@
 
 namespace physvib {
 
-/// What is heard, on outputs that are no enchanter's.
-enum class Heard { noise, contacts };
+/// What else is played, on outputs that are no enchanter's: noise and contacts for ears, which may share one, and marks for machines.
+enum class Heard { noise, contacts, marks };
+constexpr std::size_t heardKinds = 3;
 
 /// Device outputs from 0, per Heard.
-using HeardOutputs = std::array<std::vector<int>, 2>;
+using HeardOutputs = std::array<std::vector<int>, heardKinds>;
 
 /// M, but for at(), any thread, and play(), R.
 class OutputMap {
@@ -29,7 +30,7 @@ public:
 
     /// Enchanter j is wanted on device output wanted[j], from 0; with an empty list on j; those not in the list on none. `felt`
     /// of them are to be felt (0: all); `heard` is listened to. Refuses two enchanters on one output, which would add up
-    /// beyond its ceiling, and an enchanter on one that is listened to: empty, or one line with the reason, and all is as
+    /// beyond its ceiling, an enchanter on one that is listened to, and marks on either: empty, or one line with the reason, and all is as
     /// before. place() makes it so.
     std::string want(int enchanters, const std::vector<int>& wanted, int felt = 0, const HeardOutputs& heard = {});
 
@@ -66,7 +67,7 @@ private:
     int felt_ = 0;
     HeardOutputs heard_;
     std::array<std::atomic<int>, limits::maxEnchanters> at_{};
-    std::array<std::array<std::atomic<int>, mostHeard>, 2> heardAt_{};
+    std::array<std::array<std::atomic<int>, mostHeard>, heardKinds> heardAt_{};
 
     // R, set while it does not run
     std::array<int, limits::maxEnchanters> playing_; // as at_, behind it by the fades

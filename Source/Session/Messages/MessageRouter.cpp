@@ -53,7 +53,7 @@ Result<PlainMessage> MessageRouter::take(const PlainMessage& message) {
     }
 }
 
-std::int64_t MessageRouter::nowNs() const { return std::max(session_.presentNs(), latestNs_); }
+std::int64_t MessageRouter::nowNs() const { return std::max({std::int64_t{0}, session_.presentNs() - session_.toldAheadNs(), latestNs_}); }
 
 // Session times that are over are refused: what is rendered again would not be what was felt.
 std::int64_t MessageRouter::timeOf(const MessageValues& values) const {
@@ -66,7 +66,7 @@ std::int64_t MessageRouter::timeOf(const MessageValues& values) const {
     const std::int64_t at = std::llround(values.number("at") * 1e9), present = session_.presentNs();
     if (at < present) values.fail("at", "expected a session time that is not over: it is " + fixedNumber(seconds(present), 3) + " s, found " + numberText(seconds(at)) + " s");
     if (at > present + std::llround(messages::mostAheadSeconds * 1e9)) values.fail("at", "expected at most " + plainNumber(messages::mostAheadSeconds) + " s from now");
-    return at;
+    return std::max<std::int64_t>(0, at - session_.toldAheadNs());
 }
 
 void MessageRouter::strike(std::vector<CollisionEvent> strikes, const MessageValues& values) {
@@ -89,7 +89,9 @@ void MessageRouter::stop(const MessageValues& values) {
 
 PlainMessage MessageRouter::answer(MessageKind query) const {
     if (query == MessageKind::layout) return layoutAnswer(session_.panner());
-    if (query == MessageKind::latency) return {"latency", {{"play_out_s", session_.playOutSeconds()}}};
+    if (query == MessageKind::latency) return {"latency", {{"play_out_s", session_.playOutSeconds()},
+                                                               {"direct_s", session_.directSeconds()},
+                                                               {"messages_s", session_.playOutSeconds() - seconds(session_.toldAheadNs())}}};
     const SessionSize size = session_.size();
     return {"status",
             {{"session_s", seconds(session_.presentNs())},

@@ -8,6 +8,7 @@
 #include "Host/Recordings/PlayedRecorder.h"
 #include "Session/SessionJournal.h"
 #include "Host/Devices/SimulationDriver.h"
+#include "CommandLine/Render/MarkWords.h"
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -96,6 +97,8 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
               << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.slippedNs()) * 1e-6 << " ms of stalls; ";
     if (status.leastMarginFrames != noMargin) std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs << " ms; ";
     std::cout << "worst load " << 100 * o.worstLoad << " %, " << o.deviceXruns << " xruns of the device\n";
+    if (session.toldAheadNs() > 0) std::cout << "messages were felt " << 1e3 * session.directSeconds() << " ms after they came\n";
+    if (session.marks()) std::cout << "marked: " << markWords(*session.marks()) << '\n';
     if (o.losses > 0) std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
 }
 

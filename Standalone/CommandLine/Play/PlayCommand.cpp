@@ -41,6 +41,8 @@ bool parseCeilings(const std::string& text, int channels, std::array<float, limi
 SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     SessionSetup setup = sessionSetup(job);
     if (!o.scene.contactSound.empty()) setup.contactSound = job.recordings;
+    setup.marks = o.scene.marks();
+    if (o.isDirect) setup.direct = Direct::told;
     setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
     return setup;
 }
@@ -61,10 +63,12 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     command.add_option("--noise", o.noise, "other outputs of the device that play pink noise, from 1: masks what actuators sound like")->type_name("5,6");
     command.add_option("--noise-db", o.noiseDb, "its root mean square, in dB of full scale")->check(CLI::Range(PinkNoise::leastDb, PinkNoise::mostDb))->capture_default_str();
     command.add_option("--contact-sound", o.scene.contactSound, "other outputs of the device on which each hit is heard, from 1")->type_name("5,6");
+    command.add_option("--marker", o.scene.marker, "other outputs of the device with a pulse at the sample of each onset, from 1: for trigger boxes")->type_name("8");
     command.add_option("--block", o.blockFrames, "frames per block; 0: as the device stands")->check(CLI::Range(0, limits::maxBlockFrames));
     command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav")->check(writtenFile);
     command.add_option("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv")->type_name("FILE.json")->check(writtenFile);
     command.add_flag("--hands", o.hasHands, "what the scene's script does of what hands do is left out: lines of --listen do it");
+    command.add_flag("--direct", o.isDirect, "messages and controls are felt a block and the limiter after they came, not the play-out delay; collisions as ever");
     command.add_flag("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
 }
 
@@ -74,6 +78,7 @@ int runPlay(PlayOptions& o) {
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
     const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 && o.scene.perceivedLevel == "off";
     if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
+    if (o.isDirect && !o.board.empty()) return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.hasHands) job.scene = sceneForHands(std::move(*job.scene));
@@ -90,7 +95,8 @@ int runPlay(PlayOptions& o) {
     for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) tell("warning: " + line);
     if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty()) return leave(exitFailed, fault);
     for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
-    if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty())) return leave(exitUsage, "--noise, --contact-sound: expected a --device that they are heard on");
+    if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty() && o.scene.marker.empty()))
+        return leave(exitUsage, "--noise, --contact-sound, --marker: expected a --device that they leave by");
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
         return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
@@ -106,6 +112,7 @@ int runPlay(PlayOptions& o) {
     if (!parseMap(o.noise, settings.listening.noise)) return leave(exitUsage, "--noise: expected outputs like 5,6, found \"" + o.noise + "\"");
     if (!parseMap(o.scene.contactSound, settings.listening.contacts))
         return leave(exitUsage, "--contact-sound: expected outputs like 5,6, found \"" + o.scene.contactSound + "\"");
+    if (!parseMap(o.scene.marker, settings.listening.marks)) return leave(exitUsage, "--marker: expected outputs like 8, found \"" + o.scene.marker + "\"");
     SessionSetup setup = setupOf(o, job);
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
         return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (" + std::to_string(setup.channels) + "), found \"" +

@@ -20,7 +20,7 @@ struct PlayOptions {
     std::string driver = "message"; ///< or "thread"
     std::string recordPath;         ///< WAV of what was played; empty: not wanted
     std::string savePath;           ///< the session as JSON; empty: not wanted
-    bool listens = false, hasHands = false;           ///< to standard input
+    bool listens = false, hasHands = false, isDirect = false; ///< to standard input
     double levelDb = safeStartDecibels; ///< master level
     std::string ceilings = "0";     ///< dB of full scale: one for all enchanters, or one each
     int blockFrames = 0;            ///< 0: as the device stands

@@ -57,7 +57,7 @@ Result<FrequencyScale> frequencyScaleOf(const RenderOptions& options) {
 
 int takeClip(RenderJob& job) {
     const RenderOptions& o = job.options;
-    for (const char* other : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--method", "--sound", "--perceived-level", "--remap", "--contact-sound", "--events", "--coupling"})
+    for (const char* other : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--method", "--sound", "--perceived-level", "--remap", "--contact-sound", "--marker", "--events", "--coupling"})
         if (o.given.contains(other)) return leave(exitUsage, std::string{other} + ": a clip has no collisions");
     const auto scale = frequencyScaleOf(o);
     if (!scale) return leave(exitFailed, scale.error);

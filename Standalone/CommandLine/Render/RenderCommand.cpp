@@ -77,12 +77,24 @@ RenderStatus renderClip(const RenderJob& job, RenderOutputs& outputs) {
     return renderOffline(voices.events(), settings, [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
 }
 
+/// Samples, and marks if they are wanted, beside each other.
+RenderStatus renderMarked(const RenderJob& job, OfflineSettings settings, RenderOutputs& outputs) {
+    const auto which = job.options.marks();
+    if (!which) return renderOffline(job.made.events, settings, [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
+    OnsetMarks marks{*which};
+    settings.marks = &marks;
+    const auto status = renderOffline(job.made.events, settings, [&](const float* const* channels, int frames) {
+        return outputs.take(channels, frames) && outputs.takeMarks(channels[job.channels()], frames);
+    });
+    outputs.tellMarks(marks);
+    return status;
+}
+
 RenderStatus renderEvents(const RenderJob& job, RenderOutputs& outputs) {
     const ContactSounds sounds{job.feltRecordings(), job.options.sampleRateHz};
     const SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings, job.options.sampleRateHz};
     const auto controls = again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{});
-    const auto take = [&](const float* const* channels, int frames) { return outputs.take(channels, frames); };
-    const RenderStatus status = renderOffline(job.made.events, settingsOf(job, controls, sounds), take);
+    const RenderStatus status = renderMarked(job, settingsOf(job, controls, sounds), outputs);
     if (!job.options.contactSound.empty()) renderContactSound(job, controls, outputs);
     return status;
 }

@@ -86,6 +86,8 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
         ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
         ->check(between(leastContactDb, mostContactDb, " dB"))->capture_default_str();
+    command.add_option("--marker-of", o.markerOf, "what --marker marks: all onsets, hits (no grains, no messages), or messages")
+        ->check(CLI::IsMember({"all", "hits", "messages"}))->capture_default_str();
     command.add_option("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file")->capture_default_str();
     command.add_option("--equalise", o.equalise, "with an actuator: make it flat within its band (on or off)")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--remap", o.remap, "with an actuator: move all frequencies into its band, in their order (on or off)")
@@ -104,6 +106,7 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
         ->check(between(0.001, 1000.0, " V"));
     command.add_option("--contact-sound", o.contactSound, "what is heard of each hit, for headphones: one channel, in sync with --out")->type_name("FILE.wav")->check(writtenFile);
+    command.add_option("--marker", o.marker, "a pulse at the sample of each onset: one channel, in sync with --out")->type_name("FILE.wav")->check(writtenFile);
     command.add_option("--rate", o.sampleRateHz, "sample rate")
         ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
     command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
@@ -112,6 +115,11 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
         ->check(CLI::IsMember({"best", "scalar"}))->capture_default_str();
     command.add_option("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds more")
         ->check(between(0.0, 1e7, " s"))->capture_default_str();
+}
+
+std::optional<MarkedOnsets> RenderOptions::marks() const {
+    if (marker.empty()) return {};
+    return markerOf == "hits" ? MarkedOnsets::hits : markerOf == "messages" ? MarkedOnsets::messages : MarkedOnsets::all;
 }
 
 void noteGiven(const CLI::App& command, RenderOptions& o) {
@@ -138,7 +146,7 @@ std::string checkSceneOptions(RenderOptions& o) {
 std::string checkRenderOptions(RenderOptions& o) {
     if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
     if (!o.sets.empty() && o.scene.empty()) return "--set: only a scene has variables";
-    if (std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return "render: nothing to write; give --out, --events, --picture, --pattern or --contact-sound";
+    if (std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return "render: nothing to write; give --out, --events, --picture, --pattern, --contact-sound or --marker";
     if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";
     if (!o.coupling.empty() && o.playsRecordings()) return "--coupling: expected a --method of modes; a recording has no one frequency";
     return checkSceneOptions(o);

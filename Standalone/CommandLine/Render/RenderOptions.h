@@ -5,8 +5,10 @@
 #include "Core/RenderingMethod.h"
 #include "Files/SceneFile.h"
 #include "Host/Devices/AudioOutput.h"
+#include "Session/OnsetMarks.h"
 #include "Session/Patience.h"
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -45,6 +47,8 @@ struct RenderOptions {
     std::vector<std::string> sounds; ///< "HZ=FILE.wav" for SV and the contact sound
     std::string contactSound;        ///< where it is heard: a WAV of `render`, outputs of `play`; empty: not wanted
     double contactSoundDb = safeContactDb; ///< of a hit at full scale
+    std::string marker;              ///< where onsets are marked: a WAV of `render`, outputs of `play`; empty: not wanted
+    std::string markerOf = "all";    ///< of which
     std::string actuator = "none"; ///< or "layout", a profile's name, a profile's path
     std::string equalise = "on", remap = "off"; ///< with an actuator
     std::string coupling; ///< path of a measured coupling that drives shall make up for; empty: none
@@ -53,7 +57,8 @@ struct RenderOptions {
     SceneSettings settings; ///< from `sets` by checkRenderOptions
     double fieldWidthMetres = 0.0, fieldHeightMetres = 0.0; ///< from `field` by checkRenderOptions; 0: not given
     PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
-    std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, patternPath, contactSound}; } ///< of `render`
+    std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, patternPath, contactSound, marker}; } ///< of `render`
+    std::optional<MarkedOnsets> marks() const; ///< nullopt: not wanted
     bool playsRecordings() const { return method == "SV"; }
     std::vector<std::pair<double, std::string>> recordings; ///< from `sounds`: of which frequency, in which file
     RenderingMethod renderingMethod;                        ///< from `method`; its amplitude needs the layout

@@ -2,6 +2,7 @@
 // Writing beside, then renaming; progress on a terminal only.
 #include "CommandLine/Render/RenderOutputs.h"
 #include "CommandLine/Render/LevelReport.h"
+#include "CommandLine/Render/MarkWords.h"
 #include "Host/Pictures/RenderPicture.h"
 #include <cmath>
 #include <cstdio>
@@ -36,6 +37,7 @@ std::string RenderOutputs::open() {
     const RenderOptions& o = job_.options;
     std::string error = physvib::open(wav_, o.wavPath, job_.channels(), o.sampleRateHz, provenanceText());
     if (error.empty()) error = physvib::open(contactWav_, o.contactSound, 1, o.sampleRateHz, provenanceText() + " heard=contact_sound");
+    if (error.empty()) error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz, provenanceText() + " marked=" + o.markerOf);
     for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}})
         if (error.empty()) error = physvib::open(*file, *path);
     return error;
@@ -76,14 +78,16 @@ bool RenderOutputs::takeContactSound(const float* samples, int frames) {
     return contactWav_->write(&at, frames);
 }
 
+void RenderOutputs::tellMarks(const OnsetMarks& marks) { markWords_ = physvib::markWords(marks); }
+
 std::string RenderOutputs::finish() {
     std::string error;
-    for (auto* wav : {wav_.get(), contactWav_.get()})
+    for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
         if (error.empty() && wav) error = wav->complete();
     if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
-    for (auto* wav : {wav_.get(), contactWav_.get()})
+    for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
         if (error.empty() && wav) error = wav->finish();
     for (auto* file : {&eventsFile_, &pictureFile_, &patternFile_})
         if (error.empty() && *file) error = (*file)->commit();
@@ -169,6 +173,7 @@ void RenderOutputs::summarise(std::ostream& out) const {
     if (eventsFile_) out << o.eventsPath << "  " << collisionWords(job_) << '\n';
     if (patternFile_) out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
     if (contactWav_) out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale " << numberText(o.contactSoundDb) << " dBFS\n";
+    if (markerWav_) out << o.marker << "  a pulse at each onset: 1 channel, " << markWords_ << '\n';
     if (pictureFile_) out << o.picturePath << (job_.clip ? "  every channel\n" : "  the world, every channel and every hit\n");
 }
 

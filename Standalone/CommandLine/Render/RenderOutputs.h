@@ -31,6 +31,11 @@ public:
     /// The next frames of what is heard, if that is wanted; false after an error.
     bool takeContactSound(const float* samples, int frames);
 
+    /// The same of marks.
+    bool takeMarks(const float* samples, int frames) { return markerWav_->write(&samples, frames); }
+
+    void tellMarks(const OnsetMarks& marks); ///< how many there were
+
     /// Completes all files and puts them in place.
     std::string finish();
 
@@ -47,8 +52,9 @@ private:
 
     const RenderJob& job_;
     std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_;
-    std::unique_ptr<WavSink> wav_, contactWav_;
+    std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;
     std::vector<std::vector<float>> scaled_; // for the interface's voltage
+    std::string markWords_;
     std::vector<float> heard_;
     OnOffPattern pattern_;
     WaveformEnvelope whole_;

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Pulses for machines: where they begin and end, and that they stand at the sample of what is felt, live and offline.
+#include "FakeHost.h"
+#include "Session/OfflineRender.h"
+#include "Session/OnsetMarks.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+CollisionEvent hitAt(std::int64_t timeNs, double amplitude = 0.5) {
+    CollisionEvent e;
+    e.timeNs = timeNs;
+    e.frequencyHz = 205.0;
+    e.decayPerSecond = 60.0;
+    e.amplitude = amplitude;
+    e.source.fixture = 3;
+    return e;
+}
+
+/// Frames at which the signal rises.
+std::vector<std::int64_t> edgesOf(const std::vector<float>& x) {
+    std::vector<std::int64_t> edges;
+    for (std::size_t n = 0; n < x.size(); ++n)
+        if (x[n] > 0.5f && (n == 0 || x[n - 1] < 0.5f)) edges.push_back(static_cast<std::int64_t>(n));
+    return edges;
+}
+
+std::vector<float> marked(OnsetMarks& marks, int frames, int block) {
+    std::vector<float> out(static_cast<std::size_t>(frames));
+    for (int done = 0; done < frames; done += block) marks.render(out.data() + done, std::min(block, frames - done));
+    return out;
+}
+
+TEST(OnsetMarks, APulseLastsTwoMillisecondsOrRestsBeforeTheNext) {
+    OnsetMarks marks{MarkedOnsets::all};
+    marks.prepare(48000, 0);
+    for (const std::int64_t frame : {100, 1000, 1030, 2000, 2024, 2100}) marks.strike(hitAt(0), frame);
+    const auto out = marked(marks, 4800, 64);
+    EXPECT_EQ(edgesOf(out), (std::vector<std::int64_t>{100, 1000, 1030, 2000, 2100}));
+    EXPECT_EQ(marks.made(), 5u);
+    EXPECT_EQ(marks.shared(), 1u) << "24 frames are half a millisecond";
+    for (int n = 100; n < 196; ++n) EXPECT_EQ(out[static_cast<std::size_t>(n)], 1.0f) << n;
+    EXPECT_EQ(out[196], 0.0f);
+    EXPECT_EQ(out[1017], 1.0f);
+    for (int n = 1018; n < 1030; ++n) EXPECT_EQ(out[static_cast<std::size_t>(n)], 0.0f) << n << ": a quarter of a millisecond";
+}
+
+TEST(OnsetMarks, OnlyTheWantedOnesAndNoLegOfALongerTone) {
+    CollisionEvent hit = hitAt(0), grain = hit, message = hit, leg = hit;
+    grain.source.kind = ContactKind::roll;
+    message.source = {};
+    leg.source = {};
+    leg.course.sinceNs = 1;
+    const auto made = [&](MarkedOnsets which) {
+        OnsetMarks marks{which};
+        marks.prepare(48000, 0);
+        for (std::int64_t frame = 0; const CollisionEvent& e : {hit, grain, message, leg}) marks.strike(e, frame += 1000);
+        return edgesOf(marked(marks, 4800, 4800));
+    };
+    EXPECT_EQ(made(MarkedOnsets::all), (std::vector<std::int64_t>{1000, 2000, 3000}));
+    EXPECT_EQ(made(MarkedOnsets::hits), (std::vector<std::int64_t>{1000}));
+    EXPECT_EQ(made(MarkedOnsets::messages), (std::vector<std::int64_t>{3000}));
+}
+
+TEST(OnsetMarks, ABlockOfTheMostOnsetsKeepsThemAll) {
+    OnsetMarks marks{MarkedOnsets::all};
+    marks.prepare(limits::minSampleRateHz, -4);
+    for (std::int64_t frame = 0; frame < limits::maxBlockFrames; ++frame) marks.strike(hitAt(0), frame);
+    EXPECT_EQ(marks.made(), 2048u);
+    EXPECT_EQ(edgesOf(marked(marks, limits::maxBlockFrames, limits::maxBlockFrames)).size(), 2047u);
+}
+
+SessionSetup quietSetup() {
+    auto setup = shakeTheBoxSetup(0.02);
+    EnchanterLayout one;
+    layoutPreset("phone1", one);
+    setup.panner = {one, PanningLaw::linear, 1, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
+    setup.channels = 1;
+    setup.scene.bodies.clear();
+    setup.scene.script.clear();
+    setup.scene.joints.clear();
+    setup.marks = MarkedOnsets::all;
+    return setup;
+}
+
+/// What a live session plays of these strikes: the enchanter's samples, and the marks.
+std::array<std::vector<float>, 2> playedLive(const std::vector<CollisionEvent>& strikes, int block, int rate) {
+    Session session{quietSetup()};
+    session.prepare(rate, block);
+    EXPECT_TRUE(session.playAt(strikes));
+    std::array<std::vector<float>, 2> all;
+    for (auto& x : all) x.resize(static_cast<std::size_t>(rate / block * block));
+    for (int done = 0; done + block <= rate; done += block) {
+        session.advance();
+        float* const at[] = {all[0].data() + done, all[1].data() + done};
+        session.render(at, block, RenderMode::realtime);
+    }
+    for (auto& x : all) x.erase(x.begin(), x.begin() + session.playOutFrames());
+    return all;
+}
+
+TEST(OnsetMarks, AMarkAndItsOnsetAreOnTheSameSampleWhateverTheBlockAndOffline) {
+    for (const int rate : {44100, 48000}) {
+        const std::int64_t atNs[] = {100'000'000, 300'000'007, 500'010'000, 700'123'457}; // on a frame, and between two
+        std::vector<CollisionEvent> strikes;
+        for (const auto at : atNs) strikes.push_back(hitAt(at));
+        std::vector<float> offline, offlineMarks;
+        OnsetMarks marks{MarkedOnsets::all};
+        OfflineSettings settings{{.sampleRateHz = rate, .channels = 1, .panner = quietSetup().panner}, rate, 333};
+        settings.marks = &marks;
+        renderOffline(strikes, settings, [&](const float* const* at, int n) {
+            offline.insert(offline.end(), at[0], at[0] + n);
+            offlineMarks.insert(offlineMarks.end(), at[1], at[1] + n);
+            return true;
+        });
+        const FrameClock clock{rate};
+        const auto edges = edgesOf(offlineMarks);
+        ASSERT_EQ(edges.size(), std::size(atNs));
+        for (std::size_t k = 0; k < edges.size(); ++k) {
+            const FramePosition onset = clock.at(atNs[k]);
+            EXPECT_EQ(edges[k], onset.frame) << "the first frame at or after it";
+            const auto frame = static_cast<std::size_t>(onset.frame) + (onset.leadFrames > 0.0 ? 0 : 1); // a sine begins with 0
+            EXPECT_GT(std::abs(offline[frame]), 1e-9f) << k;
+            if (k == 0) EXPECT_LT(std::abs(offline[frame - 1]), 1e-9f);
+        }
+        for (const int block : {1, 64, 1000, 8192}) {
+            const auto live = playedLive(strikes, block, rate);
+            for (std::size_t n = 0; n < live[0].size(); ++n) {
+                ASSERT_EQ(live[0][n], offline[n]) << block << ", frame " << n;
+                ASSERT_EQ(live[1][n], offlineMarks[n]) << block << ", frame " << n;
+            }
+        }
+    }
+}
+
+TEST(OnsetMarks, WhatIsNotPlayedIsNotMarked) {
+    CollisionEvent tooHigh = hitAt(100'000'000);
+    tooHigh.frequencyHz = 19'000.0; // of 32 kHz
+    const auto live = playedLive({tooHigh, hitAt(200'000'000)}, 64, 32000);
+    EXPECT_EQ(edgesOf(live[1]), (std::vector<std::int64_t>{6400}));
+}
+
+} // namespace
+} // namespace physvib
