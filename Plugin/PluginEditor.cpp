@@ -75,7 +75,7 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     caption(stepsName_, "steps");
     status_.setFont(juce::Font{text::small});
     open_.setButtonText(juce::String::fromUTF8("Open\xe2\x80\xa6"));
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &open_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_, &silence_, &world_, &midiPanel_, &mix_, &status_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &open_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_, &silence_, &direct_, &world_, &midiPanel_, &mix_, &status_})
         addAndMakeVisible(c);
     fillGroups();
     fillChoices();
@@ -122,6 +122,8 @@ void PluginEditor::fillChoices() {
     seed_.setInputRestrictions(10, "0123456789");
     restart_.setClickingTogglesState(true);
     restart_.setTooltip("The scene starts at its seed whenever the transport starts or jumps, and is silent while it stands");
+    direct_.setClickingTogglesState(true);
+    direct_.setTooltip("What notes strike is felt at once: the host is told of the limiter's latency only, and collisions are felt later than what it plays beside them");
     open_.setTooltip("A scene, a layout or a saved session of your own; files can be dropped here as well");
     midi_.setTooltip("What notes and controllers do");
     silence_.setClickingTogglesState(true);
@@ -139,6 +141,7 @@ void PluginEditor::fillChoices() {
     };
     seed_.onReturnKey = [this] { edit([this](PluginState& s) { s.seed = static_cast<std::uint32_t>(std::min<juce::int64>(seed_.getText().getLargeIntValue(), 0xffffffff)); }); };
     restart_.onClick = [this] { edit([this](PluginState& s) { s.transport = restart_.getToggleState() ? TransportMode::restartOnPlay : TransportMode::free; }); };
+    direct_.onClick = [this] { edit([this](PluginState& s) { s.isDirect = direct_.getToggleState(); }); };
     open_.onClick = [this] { askFile(); };
     midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
 }
@@ -199,6 +202,7 @@ void PluginEditor::takeState() {
     steps_.setText(juce::String{state_.stepsPerSecond} + " /s", juce::dontSendNotification);
     seed_.setText(juce::String{static_cast<juce::int64>(state_.seed)}, false);
     restart_.setToggleState(state_.transport == TransportMode::restartOnPlay, juce::dontSendNotification);
+    direct_.setToggleState(state_.isDirect, juce::dontSendNotification);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
     world_.show(state_.layout, {state_.layout.geometry, static_cast<PanningLaw>(value(Parameter::law)), value(Parameter::exponent), state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
@@ -232,7 +236,9 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
     if (rate == 0 || plugin_.takes().playOutFrames() == 0) return "The host has not started the plug-in yet.";
     const auto& r = status.session.render;
     const auto ms = [rate](std::int64_t frames) { return juce::String{1e3 * static_cast<double>(frames) / rate, 1} + " ms"; };
-    juce::String line = "felt " + ms(plugin_.takes().playOutFrames()) + " after the contact (told to the host)";
+    juce::String line = "felt " + ms(plugin_.takes().playOutFrames()) + " after the contact";
+    if (plugin_.takes().isDirect()) line << ", strikes " << ms(plugin_.takes().latencyFrames()) << " after the note (told to the host)";
+    else line << " (told to the host)";
     if (status.burstFrames > 0) line << ", " << ms(status.burstFrames) << " of it as the host asks ahead of time";
     if (status.waitedFrames > 0) line << ": it came during this run, which is not the bounce before that";
     if (meters.connected < enchanters) line << "   |   " << meters.connected << " of " << enchanters << " connected";
@@ -257,7 +263,9 @@ void PluginEditor::resized() {
     if (getWidth() >= leastWidth) plugin_.keepEditorSize(getWidth(), getHeight());
     auto area = getLocalBounds().reduced(margin, 0);
     auto bar = area.removeFromTop(barHeight).reduced(0, 10);
-    status_.setBounds(area.removeFromBottom(statusHeight));
+    auto foot = area.removeFromBottom(statusHeight);
+    direct_.setBounds(foot.removeFromRight(76).reduced(0, 2));
+    status_.setBounds(foot);
     const auto left = [&bar](juce::Component& c, int width, int space = panelGap) { c.setBounds(bar.removeFromLeft(width)), bar.removeFromLeft(space); };
     left(title_, 84);
     left(scene_, 150);

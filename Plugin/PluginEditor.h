@@ -66,7 +66,7 @@ private:
     juce::Label title_, status_, seedName_, stepsName_;
     juce::ComboBox scene_, layout_, steps_;
     juce::TextEditor seed_;
-    juce::TextButton restart_{"Restart on play"}, open_, midi_{"MIDI"}, silence_{"SILENCE"};
+    juce::TextButton restart_{"Restart on play"}, open_, midi_{"MIDI"}, silence_{"SILENCE"}, direct_{"Direct"};
     juce::ButtonParameterAttachment silenceAttachment_;
     WorldView world_;
     MidiPanel midiPanel_;

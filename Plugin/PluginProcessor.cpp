@@ -147,7 +147,7 @@ void PluginProcessor::parameterGestureChanged(int which, bool begins) {
 
 // Tells the host what it may have to know anew.
 void PluginProcessor::publish() {
-    if (const auto frames = static_cast<int>(takes_.playOutFrames()); frames > 0) setLatencySamples(frames);
+    if (const auto frames = static_cast<int>(takes_.latencyFrames()); frames > 0) setLatencySamples(frames);
 }
 
 void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {

@@ -65,7 +65,7 @@ void takeScene(PluginState& state, Scene scene) {
 }
 
 bool isSameTake(const PluginState& a, const PluginState& b) {
-    return a.seed == b.seed && a.stepsPerSecond == b.stepsPerSecond && a.limiterEnabled == b.limiterEnabled && a.transport == b.transport &&
+    return a.seed == b.seed && a.stepsPerSecond == b.stepsPerSecond && a.limiterEnabled == b.limiterEnabled && a.transport == b.transport && a.isDirect == b.isDirect &&
            isSame(a.layout.geometry, b.layout.geometry) && a.equalised == b.equalised && a.notes == b.notes && a.controllers == b.controllers && a.scene == b.scene;
 }
 
@@ -84,6 +84,7 @@ SessionSetup sessionSetupOf(const PluginState& state) {
     setup.limiterEnabled = state.limiterEnabled;
     setup.equalised = state.equalised;
     setup.groups = actionGroups(state);
+    if (state.isDirect) setup.direct = Direct::born;
     setup.log = LogUse::none; // a host plays for months, and has a project of its own
     return setup;
 }

@@ -32,7 +32,7 @@ bool Take::tell(std::span<const Strip> strips) {
 }
 
 void Take::end() noexcept {
-    if (owed_ < 0) owed_ = session.playOutFrames();
+    if (owed_ < 0) owed_ = session.bornLatencyFrames();
 }
 
 void Take::render(int frames, std::int64_t leadFrames, RenderMode mode) noexcept {

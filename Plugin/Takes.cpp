@@ -80,6 +80,7 @@ void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Tak
     take->tell(strips_);
     ticksPerSecond_ = TakePace::ticksPerSecond(order_->setup.stepsPerSecond);
     playOutFrames_ = take->session.playOutFrames();
+    directFrames_ = order_->setup.direct == Direct::born ? take->session.bornLatencyFrames() : 0;
     takes_.push_back(std::move(take));
     Take* const unused = spare_.exchange(takes_.back().get(), std::memory_order_acq_rel);
     if (unused) unused->isEnded = true;

@@ -73,6 +73,10 @@ public:
     /// L of the present setup and host; 0 before prepare. Any thread.
     std::int64_t playOutFrames() const noexcept { return playOutFrames_; }
 
+    /// What the host is told: L, or, where strikes are direct, how long after its frame one is felt. 0 before prepare. Any thread.
+    std::int64_t latencyFrames() const noexcept { return isDirect() ? directFrames_.load() : playOutFrames_.load(); }
+    bool isDirect() const noexcept { return directFrames_ > 0; } ///< as latencyFrames
+
     /// At the beginning of a block, first: lets new settings in. How they follow the transport. R, wait-free.
     TransportMode lookForNew() noexcept;
 
@@ -146,7 +150,7 @@ private:
     std::atomic<Take*> spare_{nullptr};
     std::atomic<std::uint64_t> newest_{0}; // generation of the last settings, once they are in spare_
     std::atomic<bool> hasNext_{false}, stop_{false};
-    std::atomic<std::int64_t> playOutFrames_{0}, leadFrames_{0}, tickedNs_{0};
+    std::atomic<std::int64_t> playOutFrames_{0}, directFrames_{0}, leadFrames_{0}, tickedNs_{0};
     std::atomic<double> leadSeconds_{0.0}; // what the host was seen to ask for at once, also before prepare
     std::atomic<std::uint64_t> lost_{0}, made_{0};
     std::atomic<int> ticksPerSecond_{TakePace::leastTicksPerSecond};

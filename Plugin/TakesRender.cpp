@@ -41,7 +41,7 @@ bool Takes::begin(RenderMode mode) noexcept {
     }
     playing_ = std::exchange(next_, nullptr);
     hasNext_ = false;
-    playing_->session.lengthen(leadFrames_ - playing_->leadFrames()); // what the host asked for meanwhile
+    playing_->session.startLater(leadFrames_ - playing_->leadFrames()); // what the host asked for meanwhile
     playing_->number = ++started_;
     playOutFrames_ = playing_->session.playOutFrames();
     return true;

@@ -120,7 +120,7 @@ ParameterValue readParameter(const Json& value, const JsonField& field) {
 PluginState readStateRoot(const Json& json) {
     const JsonField root{json, {}};
     checkVersion(root, stateVersionField, pluginStateVersion);
-    root.expectObject({stateVersionField, "scene", "seed", "steps_per_second", "layout", "strips", "equalised", "limiter", "transport", "notes", "controllers", "editor_px", "parameters"});
+    root.expectObject({stateVersionField, "scene", "seed", "steps_per_second", "layout", "strips", "equalised", "limiter", "transport", "direct", "notes", "controllers", "editor_px", "parameters"});
     PluginState state;
     state.scene = readPart<Scene>(json, "scene", [](const std::string& text, const char* name) { return readScene(text, name); });
     state.layout = readPart<LayoutDescription>(json, "layout", readLayout);
@@ -132,6 +132,7 @@ PluginState readStateRoot(const Json& json) {
     state.stepsPerSecond = readSteps(root["steps_per_second"]);
     state.limiterEnabled = root["limiter"].truth();
     state.transport = static_cast<TransportMode>(root["transport"].oneOf(transportNames));
+    state.isDirect = root.has("direct") && root["direct"].truth();
     const JsonField notes = root["notes"], controllers = root["controllers"], parameters = root["parameters"];
     for (std::size_t i = 0, n = sizeUpTo(notes, mostNotes); i < n; ++i) state.notes.push_back(readNote(notes.item(i), state.scene));
     for (std::size_t i = 0, n = sizeUpTo(controllers, mostControllers); i < n; ++i) state.controllers.push_back(readController(controllers.item(i)));
@@ -181,6 +182,7 @@ std::string pluginStateJson(const PluginState& state) {
     root["equalised"] = equalisedJson(state.equalised, state.layout.geometry.count);
     root["limiter"] = state.limiterEnabled;
     root["transport"] = std::string(transportNames[static_cast<std::size_t>(state.transport)]);
+    root["direct"] = state.isDirect;
     root["notes"] = OrderedJson::array();
     for (const NoteRule& rule : state.notes) root["notes"].push_back(noteJson(rule, state.scene));
     root["controllers"] = OrderedJson::array();

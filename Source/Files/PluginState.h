@@ -18,7 +18,8 @@ namespace physvib {
 
 /// The version of the format that is written, and the newest that is read. A new field makes a new version.
 /// 2: choices by their words; what version 1 gave every instance as controllers is left out; strips, equalisers, the editor's size.
-constexpr int pluginStateVersion = 2;
+/// 3: direct strikes.
+constexpr int pluginStateVersion = 3;
 
 enum class TransportMode {
     free,         ///< the scene runs whenever the host renders
@@ -65,6 +66,7 @@ struct PluginState {
     EqualisedActuators equalised{}; ///< per enchanter
     bool limiterEnabled = true;
     TransportMode transport = TransportMode::free;
+    bool isDirect = false; ///< strikes by notes are felt the limiter's latency later, not L as collisions are
     std::vector<NoteRule> notes; ///< others: every octave is a material, every note a place from left (C) to right (B)
     std::vector<ControllerRule> controllers;
     int editorWidth = 0, editorHeight = 0; ///< in pixels; 0: as it comes

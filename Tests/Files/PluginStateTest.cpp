@@ -34,6 +34,7 @@ PluginState sampleState(const char* scene = "fruit-basket") {
     s.stepsPerSecond = 500;
     s.limiterEnabled = false;
     s.transport = TransportMode::restartOnPlay;
+    s.isDirect = true;
     s.notes = {strike(60, 1, 0.1, 1.0), strike(127, 0, 0.0, 0.25)};
     NoteRule push, spawn;
     push.note = 1;
@@ -62,6 +63,7 @@ void expectSame(const PluginState& a, const PluginState& b) {
     EXPECT_EQ(a.stepsPerSecond, b.stepsPerSecond);
     EXPECT_EQ(a.limiterEnabled, b.limiterEnabled);
     EXPECT_EQ(a.transport, b.transport);
+    EXPECT_EQ(a.isDirect, b.isDirect);
     EXPECT_EQ(a.notes, b.notes);
     EXPECT_EQ(a.controllers, b.controllers);
     EXPECT_EQ(a.editorWidth, b.editorWidth);
@@ -106,10 +108,21 @@ std::string refusal(std::string text, const std::string& found, const std::strin
     return read.error;
 }
 
+TEST(PluginState, OneThatKnowsNothingOfDirectStrikesHasNone) {
+    std::string older = pluginStateJson(sampleState());
+    const std::string direct = "\"direct\": true,";
+    ASSERT_NE(older.find(direct), std::string::npos);
+    older.replace(older.find(direct), direct.size(), "");
+    older.replace(older.find("state\": 3"), 9, "state\": 2");
+    const auto read = readPluginState(older, "f");
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_FALSE(read.value.isDirect);
+}
+
 TEST(PluginState, WhatIsWrongIsNamed) {
     const std::string text = pluginStateJson(sampleState());
-    EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 2", "\"physvib_plugin_state\": 3"),
-              "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 2, found 3");
+    EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 3", "\"physvib_plugin_state\": 4"),
+              "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 3, found 4");
     EXPECT_EQ(refusal(text, "\"x\": 0.1", "\"x\": 2"), "f: notes[0].x: expected a number from 0 to 1, found 2");
     EXPECT_EQ(refusal(text, "\"note\": 60", "\"note\": 128"), "f: notes[0].note: expected 0 to 127, found 128");
     EXPECT_EQ(refusal(text, "\"do\": \"push\", \"object\": \"" + sampleState().scene.bodies.front().name + "\"", "\"do\": \"push\", \"object\": \"nobody\""),
@@ -150,7 +163,7 @@ TEST(PluginState, TheControllersThatVersionOneGaveEveryInstanceAreLeftOut) {
     std::string text = pluginStateJson(state);
     const auto chosen = readPluginState(text, "f");
     EXPECT_EQ(chosen.value.controllers.size(), 4u) << "since version 2 they are a choice";
-    text.replace(text.find("state\": 2"), 9, "state\": 1");
+    text.replace(text.find("state\": 3"), 9, "state\": 1");
     const auto read = readPluginState(text, "f");
     ASSERT_TRUE(read) << read.error;
     EXPECT_TRUE(read.value.controllers.empty());
