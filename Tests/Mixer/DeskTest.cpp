@@ -169,6 +169,71 @@ TEST(Desk, ADeviceThatVanishesIsToldAndTakenUpAgain) {
     EXPECT_TRUE(desk.trouble().contains("feet")) << "never a silent failure";
 }
 
+TEST(Desk, TheMonitorIsHeardWhereNoEnchanterIsAndGivesWayToOne) {
+    FakeInterface hands;
+    Desk desk{fakeTypes({&hands}), {.name = "Fake:hands", .monitor = {2, 3}, .marker = 1}};
+    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble() << ": an enchanter is there, and is felt";
+    EXPECT_TRUE(desk.listening().contacts.empty());
+    EXPECT_TRUE(desk.listening().marks.empty());
+    EXPECT_EQ(desk.monitor({4, 3}, -20.0), "output 4 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(desk.mark(2), "output 3 is an enchanter's; expected another one for marks");
+    ASSERT_EQ(desk.monitor({4, 5}, -10.0), "");
+    EXPECT_EQ(desk.mark(5), "output 6 is listened to; expected another one for marks");
+    desk.change("Output", [](Mix& mix) { mix.strips[1].output = 6; });
+    EXPECT_EQ(desk.listening().marks, std::vector{1}) << "it was wanted there, and may be now";
+}
+
+TEST(Desk, TheMonitorIsChosenHeardSavedWithTheDeviceAndUndoneForHands) {
+    FakeInterface hands;
+    Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}};
+    ASSERT_EQ(desk.monitor({4, 5}, 0.0), "");
+    ASSERT_EQ(desk.mark(7), "");
+    EXPECT_EQ(desk.device().monitor, (std::vector{4, 5}));
+    EXPECT_EQ(desk.device().marker, 7);
+    float heard = 0.0f, marked = 0.0f;
+    EXPECT_TRUE(runUntil([&] {
+        desk.look();
+        const auto out = hands.play(64);
+        for (const float x : out[4]) heard = std::max(heard, std::abs(x));
+        for (const float x : out[7]) marked = std::max(marked, x);
+        return heard > 0.01f && marked == 1.0f;
+    }));
+    desk.change("Output", [](Mix& mix) { mix.strips[0].output = 5; });
+    EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
+    EXPECT_TRUE(desk.listening().contacts.empty()) << "hands first";
+    EXPECT_EQ(desk.listening().marks, std::vector{7});
+    desk.undoManager().undo();
+    EXPECT_EQ(desk.listening().contacts, (std::vector{4, 5}));
+    ListeningSettings noise;
+    noise.noise = {4, 5};
+    ASSERT_EQ(desk.hear(noise), "");
+    EXPECT_TRUE(desk.listening().contacts.empty()) << "a study's ears are told nothing";
+    EXPECT_EQ(desk.listening().marks, std::vector{7});
+    ASSERT_EQ(desk.hear(std::nullopt), "");
+    EXPECT_EQ(desk.listening().contacts, (std::vector{4, 5}));
+    hands.outputs = 4; // another interface of the same name
+    hands.unplug(true);
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("no such device"); }));
+    hands.isPlugged = true;
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().isEmpty(); })) << desk.trouble();
+    EXPECT_TRUE(desk.listening().contacts.empty());
+    EXPECT_TRUE(desk.look().device.isRunning) << "what cannot be heard does not keep hands from feeling";
+}
+
+TEST(Desk, OnTwoOutputsOneListensInsteadOfFeeling) {
+    FakeInterface speakers;
+    speakers.outputs = 2;
+    Desk desk{fakeTypes({&speakers}), {"Fake:hands", 0, 0}};
+    EXPECT_EQ(desk.monitor({0, 1}, -20.0), "output 1 is an enchanter's; expected another one to listen to");
+    ASSERT_EQ(desk.monitorInstead({0, 1}, -20.0), "");
+    EXPECT_EQ(desk.mix().strips[0].output, -1);
+    EXPECT_EQ(desk.mix().strips[1].output, -1);
+    EXPECT_EQ(desk.listening().contacts, (std::vector{0, 1}));
+    desk.undoManager().undo();
+    EXPECT_EQ(desk.mix().strips[1].output, 1);
+    EXPECT_TRUE(desk.listening().contacts.empty()) << "never where an enchanter is";
+}
+
 TEST(Desk, WhatFindsNoRoomInTheSessionIsToldWhenThereIsRoom) {
     FakeInterface hands;
     Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}}; // which calls for nothing yet

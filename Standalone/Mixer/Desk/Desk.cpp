@@ -31,6 +31,9 @@ SessionSetup setupOf(const Mix& mix, bool hasBoard) {
     setup.channels = Desk::channels;
     setup.panner = mix.panner();
     setup.longestGapSeconds = Desk::gapSeconds;
+    setup.contactSound.emplace();
+    setup.ears = 2;
+    setup.marks = MarkedOnsets::all;
     if (hasBoard) setup.boardSeconds = DeskBoard::leadSeconds;
     return setup;
 }
@@ -105,8 +108,11 @@ void Desk::apply(const Mix& next) {
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
     told_.tell(session_, mix_);
-    if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output)))
+    if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))) {
+        output_.hear(heard_ = ofStudy_.value_or(ListeningSettings{})); // hands first: an enchanter may come where somebody listens
         if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8(error));
+        hearWanted();
+    }
     output_.setLevel(masterGain(mix_));
     sendChangeMessage();
 }
@@ -155,24 +161,80 @@ const SavedSession& Desk::saved() {
 }
 
 std::string Desk::open(const DeviceChoice& device) {
-    AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, masterGain(mix_), mix_.count(), true, listening_};
+    AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, masterGain(mix_), mix_.count(), true, heard_ = ofStudy_.value_or(ListeningSettings{})};
     const auto error = output_.open(settings);
     device_ = device;
+    hearWanted();
     report(outputTrouble_ = deviceTrouble_ = utf8(error));
     signals_.setRate(output_.sampleRateHz());
     return error;
 }
 
-std::string Desk::hear(const ListeningSettings& listening) {
-    auto error = output_.hear(listening);
-    if (error.empty()) listening_ = listening;
+bool Desk::isFree(int output) const { return output >= 0 && output < outputs() && std::ranges::find(mix_.strips, output, &Strip::output) == mix_.strips.end(); }
+
+// What is only heard never keeps a device from being felt: where it cannot be, it is not asked for.
+ListeningSettings Desk::wantedListening() const {
+    ListeningSettings wanted = ofStudy_.value_or(ListeningSettings{});
+    if (!ofStudy_ && std::ranges::all_of(device_.monitor, [this](int output) { return isFree(output); })) wanted.contacts = device_.monitor;
+    wanted.contactDb = device_.monitorDb;
+    const auto has = [&](const std::vector<int>& those) { return std::ranges::find(those, device_.marker) != those.end(); };
+    if (isFree(device_.marker) && !has(wanted.noise) && !has(wanted.contacts)) wanted.marks = {device_.marker};
+    return wanted;
+}
+
+std::string Desk::hearWanted() {
+    const auto wanted = wantedListening();
+    if (wanted == heard_) return {};
+    auto error = output_.hear(wanted);
+    if (error.empty()) heard_ = wanted;
     return error;
+}
+
+std::string Desk::hear(const std::optional<ListeningSettings>& ofStudy) {
+    const auto before = std::exchange(ofStudy_, ofStudy);
+    auto error = hearWanted();
+    if (!error.empty()) ofStudy_ = before;
+    return error;
+}
+
+std::string Desk::listen(const ListeningSettings& wanted, const DeviceChoice& choice) {
+    if (auto error = output_.hear(wanted); !error.empty()) return error;
+    heard_ = wanted;
+    device_ = choice;
+    sendChangeMessage();
+    return {};
+}
+
+std::string Desk::monitor(std::vector<int> outputs, double db) {
+    auto wanted = heard_;
+    auto choice = device_;
+    wanted.contacts = choice.monitor = std::move(outputs);
+    wanted.contactDb = choice.monitorDb = db;
+    return listen(wanted, choice);
+}
+
+std::string Desk::mark(int output) {
+    auto wanted = heard_;
+    auto choice = device_;
+    choice.marker = output;
+    wanted.marks = output < 0 ? std::vector<int>{} : std::vector{output};
+    return listen(wanted, choice);
+}
+
+std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
+    if (!std::ranges::all_of(outputs, [this](int output) { return output >= this->outputs() || isFree(output); }))
+        change("Listen instead of feeling", [&](Mix& mix) {
+            for (Strip& strip : mix.strips)
+                if (std::ranges::find(outputs, strip.output) != outputs.end()) strip.output = -1;
+        });
+    return monitor(std::move(outputs), db);
 }
 
 void Desk::watchOutput() {
     told_.tell(session_, mix_); // what found no room before
     if (const double now = nowMs(); now - maintainedAtMs_ > maintainMs) {
         maintainedAtMs_ = now;
+        hearWanted(); // the device may have gone, or may be back
         deviceTrouble_ = utf8(output_.maintain());
     }
     const auto board = board_ ? board_->trouble() : juce::String{}, both = deviceTrouble_.isEmpty() || board.isEmpty() ? deviceTrouble_ + board : deviceTrouble_ + "; " + board;

@@ -86,9 +86,15 @@ public:
     AudioOutput& output() noexcept { return output_; }
     const AudioOutput& output() const noexcept { return output_; }
     int outputs() const { return output_.deviceOutputs(); } ///< that the device offers
-    /// On outputs that are no strip's, e.g. noise on headphones; empty, or why not, and all is as before.
-    std::string hear(const ListeningSettings& listening);
-    const ListeningSettings& listening() const noexcept { return listening_; }
+    /// Left and right, contacts are heard as they are felt; and the output of marks. Where enchanters are, neither is. Empty, or why not, and all
+    /// is as before.
+    std::string monitor(std::vector<int> outputs, double db);
+    std::string mark(int output);
+    /// The same, and enchanters that have these outputs have none then, which can be undone.
+    std::string monitorInstead(std::vector<int> outputs, double db);
+    /// A study begins: noise on headphones, and no monitor, which would tell the ears what hands are asked. Without a value it ends. As monitor().
+    std::string hear(const std::optional<ListeningSettings>& ofStudy);
+    const ListeningSettings& listening() const noexcept { return heard_; }
     void setSilent(bool silent);
     bool isSilent() const noexcept { return isSilent_; }
     double playOutSeconds() const noexcept;
@@ -127,6 +133,10 @@ private:
     void takeScene(bool keepsMaterials);
     void apply(const Mix& next);
     std::vector<int> outputMap() const;
+    bool isFree(int output) const;
+    ListeningSettings wantedListening() const;
+    std::string hearWanted();
+    std::string listen(const ListeningSettings& wanted, const DeviceChoice& choice);
     void strike(int enchanter, std::vector<CollisionEvent> strikes);
 
     AudioDeviceTypes types_;
@@ -141,7 +151,8 @@ private:
     juce::UndoManager undo_;
     Scene sceneNow_;
     DeviceChoice device_;
-    ListeningSettings listening_;
+    std::optional<ListeningSettings> ofStudy_;
+    ListeningSettings heard_; // what the output has been told
     juce::String trouble_, deviceTrouble_, outputTrouble_; // shown; of the device; with the board's
     double displayWidthMetres_ = 0.0;
     bool isSilent_ = false, isNews_ = false;

@@ -31,6 +31,9 @@ struct DeviceChoice {
     int sampleRateHz = 0; ///< 0: as it stands
     int blockFrames = 0;
     std::string board{};  ///< serial port of a four-channel board beside it, anyBoard; empty: none
+    std::vector<int> monitor{}; ///< its outputs for the left and the right ear, from 0; empty: nobody listens
+    double monitorDb = safeContactDb; ///< as ListeningSettings::contactDb
+    int marker = -1;            ///< its output for marks, from 0; -1: none
 };
 
 /// The first board that answers.

@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
+constexpr std::array<int, 9> monitorLevels{0, -5, -10, -15, -20, -25, -30, -40, -50};
+constexpr int noneId = 1, levelId = 100; // of the lists of outputs and levels: an output's, or a pair's, and a level in dB below it
 constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
 
 } // namespace
@@ -21,6 +23,18 @@ OutputTab::OutputTab(Desk& desk)
     caption(rateName_, "Rate");
     caption(blockName_, "Block");
     caption(boardName_, "Four-channel board");
+    caption(monitorName_, "Monitor: what is felt, on headphones");
+    caption(monitorLevelName_, "Its level");
+    caption(marksName_, "Marks of onsets");
+    monitor_.setTitle("Monitor");
+    monitor_.setTooltip("Two outputs, left and right: each hit is heard where it is felt, also without actuators");
+    monitorLevel_.setTitle("Level of the monitor");
+    monitorLevel_.setTooltip("What a hit at full scale reaches; the master level leaves it alone. Start low");
+    marks_.setTitle("Marks");
+    marks_.setTooltip("A pulse at the sample of each onset, for trigger boxes. No enchanter and no ear belongs there");
+    for (const int db : monitorLevels) monitorLevel_.addItem(number(db, 0) + " dBFS", levelId - db);
+    for (auto* box : {&monitor_, &monitorLevel_}) box->onChange = [this] { chooseMonitor(); };
+    marks_.onChange = [this] { chooseMarks(); };
     board_.setTitle("Board");
     board_.onChange = [this] { connectBoard(); };
     device_.setTitle("Device");
@@ -33,7 +47,7 @@ OutputTab::OutputTab(Desk& desk)
     scan_ = quietButton("Look again", "Look for devices again");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &facts_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &monitorName_, &monitor_, &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_}) addAndMakeVisible(c);
     takeMix();
 }
 
@@ -82,6 +96,55 @@ void OutputTab::connectBoard() {
     useBoard(id == anyBoardId ? std::string{anyBoard} : id >= firstPortId ? ports_[static_cast<std::size_t>(id - firstPortId)] : std::string{});
 }
 
+// Pairs as headphones have them; where enchanters are, it says whose place would be taken.
+void OutputTab::listHeard() {
+    const auto& choice = desk_.device();
+    const auto& mix = desk_.mix();
+    const auto ownersOf = [&](int output) {
+        juce::String owners;
+        for (std::size_t j = 0; j < mix.strips.size(); ++j)
+            if (mix.strips[j].output == output) owners << " " << utf8(mix.layout.enchanters[j].label);
+        return owners;
+    };
+    monitor_.clear(juce::dontSendNotification);
+    marks_.clear(juce::dontSendNotification);
+    monitor_.addItem("nobody listens", noneId);
+    marks_.addItem("none", noneId);
+    for (int k = 0; k < desk_.outputs(); ++k) {
+        if (ownersOf(k).isEmpty()) marks_.addItem("output " + juce::String{k + 1}, noneId + 1 + k);
+        if (k % 2 != 0 || k + 1 >= desk_.outputs()) continue;
+        const auto owners = ownersOf(k) + ownersOf(k + 1);
+        monitor_.addItem("outputs " + juce::String{k + 1} + " and " + juce::String{k + 2} + (owners.isEmpty() ? juce::String{} : ", instead of" + owners), noneId + 1 + k);
+    }
+    monitor_.setSelectedId(choice.monitor.empty() ? noneId : noneId + 1 + choice.monitor[0], juce::dontSendNotification);
+    monitorLevel_.setSelectedId(levelId - juce::roundToInt(choice.monitorDb), juce::dontSendNotification);
+    if (monitorLevel_.getSelectedId() == 0) monitorLevel_.setText(number(choice.monitorDb, 1) + " dBFS", juce::dontSendNotification);
+    marks_.setSelectedId(noneId + 1 + choice.marker, juce::dontSendNotification);
+}
+
+void OutputTab::chooseMonitor() {
+    const int left = monitor_.getSelectedId() - noneId - 1;
+    const double db = monitorLevel_.getSelectedId() > 0 ? levelId - monitorLevel_.getSelectedId() : desk_.device().monitorDb;
+    const auto error = left < 0 ? desk_.monitor({}, db) : desk_.monitorInstead({left, left + 1}, db);
+    if (!error.empty()) desk_.report(utf8(error));
+    listHeard();
+}
+
+void OutputTab::chooseMarks() {
+    if (const auto error = desk_.mark(marks_.getSelectedId() - noneId - 1); !error.empty()) desk_.report(utf8(error));
+    listHeard();
+}
+
+juce::String OutputTab::heardWords() const {
+    const auto& heard = desk_.listening();
+    juce::String words;
+    if (heard.contacts.size() == 2) words << "left on " << heard.contacts[0] + 1 << ", right on " << heard.contacts[1] + 1;
+    else if (!desk_.device().monitor.empty()) words << "not there: an enchanter, or no output";
+    else words << "by nobody";
+    if (!heard.marks.empty()) words << "; onsets marked on " << heard.marks[0] + 1;
+    return words;
+}
+
 void OutputTab::askPort() {
     listPorts(); // shows what is still so
     auto* window = new juce::AlertWindow{"Four-channel board", {}, juce::MessageBoxIconType::NoIcon, this};
@@ -128,7 +191,8 @@ void OutputTab::takeMix() {
     if (chosen == 0) device_.setText(utf8(choice.name), juce::dontSendNotification);
     rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
-    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    listHeard();
+    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &monitorName_, &monitorLevelName_, &marksName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
 void OutputTab::refresh(const DeskMoment& moment) {
@@ -146,6 +210,7 @@ void OutputTab::refresh(const DeskMoment& moment) {
                !moment.device.isRunning ? Shade::limit : isNone ? Shade::now : Shade::text},
               {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" + number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
               {"Felt", number(1e3 * desk_.playOutSeconds(), 1) + " ms after the contact, and the device's own " + number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
+              {"Heard", heardWords(), !desk_.device().monitor.empty() && desk_.listening().contacts.empty() ? Shade::now : Shade::text},
               {"Enchanters", juce::String{connected} + " of " + juce::String{all} + " have an output there", connected < all ? Shade::now : Shade::text},
               {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " + number(100.0 * moment.device.worstLoad, 1) + " % at most"},
               {"Late", juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls", r.late > 0 ? Shade::now : Shade::text},
@@ -174,6 +239,16 @@ void OutputTab::resized() {
     area.removeFromTop(10);
     boardName_.setBounds(area.removeFromTop(18));
     board_.setBounds(area.removeFromTop(rowHeight));
+    area.removeFromTop(10);
+    names = area.removeFromTop(18);
+    row = area.removeFromTop(rowHeight);
+    const int third = (row.getWidth() - 2 * gap) / 4;
+    for (auto [name, box, width] : {std::tuple{&monitorName_, &monitor_, 2 * third}, {&monitorLevelName_, &monitorLevel_, third}, {&marksName_, &marks_, third}}) {
+        name->setBounds(names.removeFromLeft(width));
+        names.removeFromLeft(gap);
+        box->setBounds(row.removeFromLeft(width));
+        row.removeFromLeft(gap);
+    }
     area.removeFromTop(12);
     facts_.setBounds(area);
 }

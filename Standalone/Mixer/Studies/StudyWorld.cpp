@@ -26,6 +26,7 @@ std::string StudyWorld::begin(CallWorld world, bool hasHands, const std::filesys
     if (hasHands) setup_.scene = sceneForHands(std::move(setup_.scene));
     setup_.longestGapSeconds = Desk::gapSeconds;
     setup_.log = LogUse::stream;
+    setup_.marks = MarkedOnsets::all;
     seconds_ = hasHands ? 0.0 : world.seconds;
     feltNs_ = seenNs_ = 0;
     stoppedNs_ = -1;

@@ -39,17 +39,17 @@ bool MixerWindow::load(const juce::File& file, const juce::File& document) {
         play(mixOf(session.value), document);
         return true;
     }
-    if (!desk_) play(Desk::firstMix(), {});
+    if (!desk_) play(firstMix(), {});
     say(utf8(session.error));
     return false;
 }
 
 // What the command line names is not an edit: there is nothing to save yet.
 void MixerWindow::start(const juce::File& file) {
-    if (!file.existsAsFile()) return play(Desk::firstMix(), file);
+    if (!file.existsAsFile()) return play(firstMix(), file);
     if (fileKind(pathOf(file)) == FileKind::session) return void(load(file, file));
-    const auto mix = mixWith(Desk::firstMix(), file);
-    play(mix ? mix.value : Desk::firstMix(), {});
+    const auto mix = mixWith(firstMix(), file);
+    play(mix ? mix.value : firstMix(), {});
     if (!mix) say(utf8(mix.error));
 }
 
@@ -78,7 +78,7 @@ void MixerWindow::askThen(std::function<void()> goOn) {
 void MixerWindow::newDocument() {
     askThen([this] {
         files_.forget();
-        play(Desk::firstMix(), {});
+        play(firstMix(), {});
     });
 }
 

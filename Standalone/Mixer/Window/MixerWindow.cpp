@@ -20,6 +20,9 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     auto& settings = files_.settings();
     device_ = {device.isNotEmpty() ? device.toStdString() : settings.getValue("device", juce::String{noDeviceType} + ":" + noDeviceName).toStdString(),
                settings.getIntValue("rate"), settings.getIntValue("block"), settings.getValue("board").toStdString()};
+    if (const int left = settings.getIntValue("monitor-left"), right = settings.getIntValue("monitor-right"); left > 0 && right > 0) device_.monitor = {left - 1, right - 1};
+    device_.monitorDb = settings.getDoubleValue("monitor-db", safeContactDb);
+    device_.marker = settings.getIntValue("marker") - 1;
     setUsingNativeTitleBar(true);
     start(file);
     setResizable(true, false);
@@ -97,7 +100,26 @@ void MixerWindow::timerCallback() {
     settings.setValue("device", utf8(device_.name));
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
+    for (const std::size_t ear : {0u, 1u}) settings.setValue(ear == 0 ? "monitor-left" : "monitor-right", device_.monitor.size() > ear ? device_.monitor[ear] + 1 : 0);
+    settings.setValue("monitor-db", device_.monitorDb);
+    settings.setValue("marker", device_.marker + 1);
+    offerMonitor();
     if (const auto error = files_.keep(*desk_, isChanged()); !error.empty()) say(utf8(error));
+}
+
+Mix MixerWindow::firstMix() const {
+    Mix mix = Desk::firstMix();
+    for (Strip& strip : mix.strips)
+        if (std::ranges::find(device_.monitor, strip.output) != device_.monitor.end()) strip.output = -1;
+    return mix;
+}
+
+// Once, to whoever may have headphones where others have actuators.
+void MixerWindow::offerMonitor() {
+    auto& settings = files_.settings();
+    if (settings.getBoolValue("monitor-offered") || desk_->outputs() != 2 || !device_.board.empty() || !device_.monitor.empty()) return;
+    settings.setValue("monitor-offered", true);
+    desk_->tell("This device has two outputs. With headphones there, what is felt can be heard: choose Monitor under Output");
 }
 
 // Not while a study covers the desk: its stimuli are felt through it.

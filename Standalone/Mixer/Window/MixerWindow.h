@@ -52,6 +52,8 @@ private:
     void askThen(std::function<void()> goOn);
     void chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving, std::function<void(const juce::File&)> use);
     void offerRecovery();
+    void offerMonitor();
+    Mix firstMix() const; ///< whose enchanters leave the monitor's outputs alone
     void showMenu(juce::Component& from);
     void setGround(Ground ground);
     void setDisplayWidth(double mm);

@@ -60,7 +60,7 @@ std::vector<State> mixerStates() {
         {"marbles", 1440, 900, 4.0, [](Desk& d, MixerView& v) { showScene(d, "marbles"), v.scope().choose("Events"); }},
         {"drawing", 1440, 900, 7.2, [](Desk& d, MixerView& v) { showScene(d, "drawing"), showSurface(d, v, "cloth"); }},
         {"telemetry", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Telemetry"); }},
-        {"output", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }},
+        {"output", 1440, 900, 3.0, [](Desk& d, MixerView& v) { d.monitor({4, 5}, safeContactDb), d.mark(7), v.tabs().choose("Output"); }},
         {"board", 1440, 900, 4.5, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }, "/dev/ttyACM0"},
         {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
         {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},

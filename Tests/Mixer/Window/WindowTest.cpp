@@ -2,6 +2,7 @@
 // A person's way through the mixer in a real window: start, drag a ball, attach a fifth enchanter, mute, record, save,
 // open again; the recorded file has what the actions say.
 #include "../MixerTesting.h"
+#include "Host/FakeAudioDevice.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SceneFile.h"
 #include "Host/Views/DisplayScale.h"
@@ -98,6 +99,25 @@ TEST(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindows
         EXPECT_NEAR(push.x, 256.0, 0.01) << size.x; // pixels are floats
         EXPECT_NEAR(push.y, 192.0, 0.01) << size.x;
     }
+}
+
+TEST(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
+    TestFolder folder;
+    FakeInterface speakers;
+    speakers.outputs = 2;
+    {
+        MixerWindow window{fakeTypes({&speakers}), "Fake:hands", {}, folder("config")};
+        EXPECT_TRUE(window.desk().device().monitor.empty());
+        ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains("headphones"); })) << window.desk().trouble();
+        ASSERT_EQ(window.desk().monitorInstead({0, 1}, -30.0), "");
+        runFor(0.7); // the settings are written twice a second
+    }
+    MixerWindow again{fakeTypes({&speakers}), "", {}, folder("config")};
+    EXPECT_EQ(again.desk().device().monitor, (std::vector{0, 1}));
+    EXPECT_EQ(again.desk().device().monitorDb, -30.0);
+    EXPECT_EQ(again.desk().listening().contacts, (std::vector{0, 1})) << "a new session's enchanters leave them alone";
+    runFor(0.7);
+    EXPECT_FALSE(again.desk().trouble().contains("headphones")) << again.desk().trouble();
 }
 
 TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
