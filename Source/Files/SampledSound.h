@@ -23,4 +23,27 @@ struct SoundShape {
 /// Empty, or why such a sound is not read: asked before memory is taken for it. Any thread.
 std::string soundFault(const SoundShape& shape);
 
+/// The same of a sound that is read block by block, and not kept. Any thread.
+std::string streamFault(const SoundShape& shape);
+
+/// Who takes a sound block by block.
+class SoundTaker {
+public:
+    /// What its header says, once, before all samples: empty, or why it is not wanted.
+    virtual std::string begin(const SoundShape& shape) = 0;
+    /// channels[channel][0..frames), the next ones: empty, or why no more is wanted.
+    virtual std::string take(const float* const* channels, int frames) = 0;
+
+protected:
+    ~SoundTaker() = default;
+};
+
+/// Keeps all of it.
+class SoundKeeper final : public SoundTaker {
+public:
+    std::string begin(const SoundShape& shape) override;
+    std::string take(const float* const* channels, int frames) override;
+    SampledSound sound;
+};
+
 } // namespace physvib

@@ -1,29 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Chunk by chunk; only format and data are looked at, and never more is asked of memory than the file has bytes for.
 #include "Files/WavFile.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Text/NumberText.h"
 #include <algorithm>
 #include <bit>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace physvib {
 
-std::string soundFault(const SoundShape& shape) {
-    using namespace limits;
-    const auto expected = [](const std::string& words, std::int64_t found, const char* unit) { return "expected " + words + ", found " + std::to_string(found) + unit; };
-    if (shape.channels < 1 || shape.channels > maxRecordingChannels) return expected("1 to " + std::to_string(maxRecordingChannels) + " channels", shape.channels, "");
-    if (shape.sampleRateHz < minRecordingRateHz || shape.sampleRateHz > maxRecordingRateHz)
-        return expected("a rate of " + std::to_string(minRecordingRateHz) + " to " + std::to_string(maxRecordingRateHz) + " Hz", shape.sampleRateHz, " Hz");
-    if (shape.frames < 1) return "expected samples, found none";
-    if (shape.frames > maxRecordingSeconds * shape.sampleRateHz) return expected("at most " + std::to_string(maxRecordingSeconds) + " s", shape.frames / shape.sampleRateHz, " s");
-    if (shape.frames > maxRecordingSamples / shape.channels) return expected("at most " + std::to_string(maxRecordingSamples) + " samples in all channels", shape.frames * shape.channels, "");
-    return {};
-}
-
 namespace {
 
+constexpr std::size_t blockFrames = 4096;
 constexpr std::uint64_t unknownLength = 0x7fff0000; // what is written to a pipe cannot say how long it is: programs say this, or more
 
 class WavReader {
@@ -31,11 +20,11 @@ public:
     explicit WavReader(std::FILE& file)
         : file_{file} {}
 
-    Result<SampledSound> read() {
-        if (!readHeader() || !findData()) return Failure{error_};
+    std::string read(SoundTaker& taker) {
+        if (!readHeader() || !findData()) return error_;
         const SoundShape shape{rateHz_, channels_, static_cast<std::int64_t>(dataBytes_ / frameBytes())};
-        if (auto fault = soundFault(shape); !fault.empty()) return Failure{fault};
-        return takeSamples(static_cast<std::size_t>(shape.frames));
+        if (auto fault = taker.begin(shape); !fault.empty()) return fault;
+        return takeSamples(static_cast<std::size_t>(shape.frames), taker);
     }
 
 private:
@@ -99,17 +88,21 @@ private:
                fail("expected " + std::to_string(bytes) + " bytes of samples, as its header says, found " + std::to_string(present) + ": it ends early");
     }
 
-    Result<SampledSound> takeSamples(std::size_t frames) {
-        SampledSound sound{static_cast<int>(rateHz_), {static_cast<std::size_t>(channels_), std::vector<float>(frames)}};
-        std::vector<unsigned char> block(frameBytes() * 4096);
-        for (std::size_t at = 0; at < frames;) {
-            const std::size_t count = std::min<std::size_t>(4096, frames - at);
-            if (!take({block.data(), count * frameBytes()})) return Failure{"cannot be read to its end"};
+    std::string takeSamples(std::size_t frames, SoundTaker& taker) {
+        std::vector<unsigned char> block(frameBytes() * blockFrames);
+        std::vector<std::vector<float>> samples(static_cast<std::size_t>(channels_), std::vector<float>(blockFrames));
+        std::vector<const float*> at;
+        for (const auto& channel : samples) at.push_back(channel.data());
+        for (std::size_t done = 0; done < frames;) {
+            const std::size_t count = std::min<std::size_t>(blockFrames, frames - done);
+            if (!take({block.data(), count * frameBytes()})) return "cannot be read to its end";
             const unsigned char* from = block.data();
-            for (std::size_t i = 0; i < count; ++i, ++at)
-                for (auto& channel : sound.channels) channel[at] = sample(from);
+            for (std::size_t i = 0; i < count; ++i)
+                for (auto& channel : samples) channel[i] = sample(from);
+            if (auto fault = taker.take(at.data(), static_cast<int>(count)); !fault.empty()) return fault;
+            done += count;
         }
-        return sound;
+        return {};
     }
 
     /// The next one, and past it.
@@ -131,6 +124,12 @@ private:
 
 } // namespace
 
-Result<SampledSound> readWav(std::FILE& file) { return WavReader{file}.read(); }
+std::string streamWav(std::FILE& file, SoundTaker& taker) { return WavReader{file}.read(taker); }
+
+Result<SampledSound> readWav(std::FILE& file) {
+    SoundKeeper keeper;
+    if (auto fault = streamWav(file, keeper); !fault.empty()) return Failure{fault};
+    return std::move(keeper.sound);
+}
 
 } // namespace physvib

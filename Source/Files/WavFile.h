@@ -12,4 +12,7 @@ namespace physvib {
 /// less than the header says. A length that was not known when the header was written is what is there. Any thread.
 Result<SampledSound> readWav(std::FILE& file);
 
+/// The same block by block: empty, or what is wrong with it, or what `taker` says. Any thread.
+std::string streamWav(std::FILE& file, SoundTaker& taker);
+
 } // namespace physvib

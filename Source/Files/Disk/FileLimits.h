@@ -28,6 +28,8 @@ constexpr std::size_t maxCellBytes = 200'000;             // the longest cell is
 constexpr std::int64_t maxRecordingSeconds = 600;         // a contact or a stimulus that long is a mistake
 constexpr std::int64_t maxRecordingSamples = 32'000'000;  // of all channels: those seconds of one channel at 48 kHz, 128 MB
 constexpr std::size_t maxRecordingFileBytes = 256'000'000; // as many samples of 64 bits
+constexpr std::int64_t maxMusicSeconds = 86'400;          // read block by block: a day
+constexpr std::size_t maxMusicFileBytes = 64'000'000'000; // a day of two channels of 32 bits at 92 kHz
 constexpr std::size_t maxRecordingSets = 1024;            // different ones of a session; each is resampled
 constexpr int maxRecordingChannels = 64;                  // as many as there are outputs
 constexpr int minRecordingRateHz = 100, maxRecordingRateHz = 768'000; // slow accelerometers; the fastest converters

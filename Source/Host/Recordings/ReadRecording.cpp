@@ -34,7 +34,7 @@ std::string flacFault(std::FILE& file) {
         isLast = (block[0] & 0x80) != 0;
         if (std::fseek(&file, block[1] << 16 | block[2] << 8 | block[3], SEEK_CUR) != 0) break;
     }
-    return soundFault(shape);
+    return streamFault(shape);
 }
 
 /// Empty, or that several streams follow one another: JUCE's reader takes all for as wide as the last.
@@ -57,14 +57,13 @@ std::unique_ptr<juce::AudioFormatReader> openReader(std::unique_ptr<juce::InputS
     return std::unique_ptr<juce::AudioFormatReader>{formats.createReaderFor(std::move(stream))};
 }
 
-Result<SampledSound> decode(std::FILE& file, std::size_t fileBytes, bool isOgg) {
+std::string decode(std::FILE& file, std::size_t fileBytes, bool isOgg, SoundTaker& taker) {
     auto owned = std::make_unique<RecordingStream>(file, static_cast<std::int64_t>(fileBytes));
     RecordingStream& stream = *owned;
     const auto reader = openReader(std::move(owned));
-    if (!reader) return Failure{notASound};
+    if (!reader) return notASound;
     const SoundShape shape{juce::roundToInt(reader->sampleRate), static_cast<std::int64_t>(reader->numChannels), reader->lengthInSamples};
-    if (auto fault = soundFault(shape); !fault.empty()) return Failure{fault};
-    SampledSound sound{static_cast<int>(shape.sampleRateHz), std::vector<std::vector<float>>(reader->numChannels)};
+    if (auto fault = taker.begin(shape); !fault.empty()) return fault;
     juce::AudioBuffer<float> block(static_cast<int>(shape.channels), blockFrames);
     stream.forget();
     for (std::int64_t at = 0; at < shape.frames;) {
@@ -72,23 +71,22 @@ Result<SampledSound> decode(std::FILE& file, std::size_t fileBytes, bool isOgg) 
         const bool isRead = reader->read(&block, 0, count, at, true, true);
         at += count;
         if (!isRead || (stream.isAskedTooMuch() && !(isOgg && shape.frames - at < vorbisReadsAhead)))
-            return Failure{"expected " + std::to_string(shape.frames) + " samples in each channel, as its header says: it ends early"};
-        for (int j = 0; j < block.getNumChannels(); ++j)
-            sound.channels[static_cast<std::size_t>(j)].insert(sound.channels[static_cast<std::size_t>(j)].end(), block.getReadPointer(j), block.getReadPointer(j) + count);
+            return "expected " + std::to_string(shape.frames) + " samples in each channel, as its header says: it ends early";
+        if (auto fault = taker.take(block.getArrayOfReadPointers(), count); !fault.empty()) return fault;
     }
-    return sound;
+    return {};
 }
 
-Result<SampledSound> readSound(std::FILE& file, std::size_t fileBytes) {
+std::string streamSound(std::FILE& file, std::size_t fileBytes, SoundTaker& taker) {
     std::array<char, 4> head{};
     const std::string_view kind{head.data(), std::fread(head.data(), 1, head.size(), &file)};
     std::rewind(&file);
-    if (kind == "RIFF" || kind == "RF64") return readWav(file);
-    if (kind != "fLaC" && kind != "OggS") return Failure{notASound};
+    if (kind == "RIFF" || kind == "RF64") return streamWav(file, taker);
+    if (kind != "fLaC" && kind != "OggS") return notASound;
     const bool isOgg = kind == "OggS";
-    if (auto fault = isOgg ? oggFault(file) : flacFault(file); !fault.empty()) return Failure{fault};
+    if (auto fault = isOgg ? oggFault(file) : flacFault(file); !fault.empty()) return fault;
     std::rewind(&file);
-    return decode(file, fileBytes, isOgg);
+    return decode(file, fileBytes, isOgg, taker);
 }
 
 constexpr int clipRateHz = 48000; // of what is drawn, not sampled
@@ -107,9 +105,16 @@ Result<SampledSound> readRecording(const std::filesystem::path& path) {
     const auto file = openRegular(path, limits::maxRecordingFileBytes);
     if (!file) return Failure{file.error};
     if (const auto format = clipFormatOf(path.string())) return readClipSound(path, *format);
-    auto sound = readSound(*file.value.stream, file.value.bytes);
-    if (!sound) return Failure{path.string() + ": " + sound.error};
-    return sound;
+    SoundKeeper keeper;
+    if (auto fault = streamSound(*file.value.stream, file.value.bytes, keeper); !fault.empty()) return Failure{path.string() + ": " + fault};
+    return std::move(keeper.sound);
+}
+
+std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker) {
+    const auto file = openRegular(path, limits::maxMusicFileBytes);
+    if (!file) return file.error;
+    const auto fault = streamSound(*file.value.stream, file.value.bytes, taker);
+    return fault.empty() ? fault : path.string() + ": " + fault;
 }
 
 } // namespace physvib

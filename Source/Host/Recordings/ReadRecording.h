@@ -12,4 +12,8 @@ namespace physvib {
 /// regular file, within the limits of recordings, and only if it holds what its header says. Any thread but R.
 Result<SampledSound> readRecording(const std::filesystem::path& path);
 
+/// The same of a recording of up to a day, block by block, so that memory does not grow with it: empty, or one line naming the
+/// file: what is wrong with it, or what `taker` says. No clips. Any thread but R.
+std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker);
+
 } // namespace physvib
