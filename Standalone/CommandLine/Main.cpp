@@ -9,6 +9,7 @@
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Measure/MaterialCommand.h"
+#include "CommandLine/Music/BeatsCommand.h"
 #include "CommandLine/Play/PlayCommand.h"
 #include "CommandLine/Process.h"
 #include "CommandLine/Reference/Reference.h"
@@ -53,6 +54,9 @@ int run(int argc, char** argv) {
     ExportOptions exportOptions;
     CLI::App* exported = app.add_subcommand("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others");
     declareExport(*exported, exportOptions);
+    BeatsOptions beatsOptions;
+    CLI::App* beats = app.add_subcommand("beats", "music as strikes on enchanters, or what of it they can render");
+    declareBeats(*beats, beatsOptions);
     PlayOptions playOptions;
     CLI::App* play = app.add_subcommand("play", "play a scene live on an audio device");
     declarePlayOptions(*play, playOptions);
@@ -103,6 +107,7 @@ int run(int argc, char** argv) {
     if (stimulus->parsed()) return runStimulus(*stimulus, stimulusOptions);
     if (study->parsed()) return runStudy(*study, studyOptions);
     if (material->parsed()) return runMaterial(materialOptions);
+    if (beats->parsed()) return runBeats(beatsOptions);
     if (play->parsed()) return runPlay(playOptions);
     if (exported->parsed()) return runExport(*exported, exportOptions);
     if (board->parsed()) return runBoard(boardOptions);

@@ -12,7 +12,7 @@ set(Api_may "Api/C/|Files/|Contacts/|Core/")
 set(Api/Live_may "Api/|Host/|Session/|Files/|Core/|juce_")
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
 set(Standalone/Web_may "PageWorld\\.h|Files/|Physics/|Contacts/|Core/")
-set(Host_may "Host/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
+set(Host_may "Host/|aubio/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
 set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
 # Core also stays free of what a board without an operating system lacks.
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
@@ -28,7 +28,7 @@ foreach(room Core Wire Study Contacts Physics Files Formats Measure Api Api/Live
         foreach(line ${includes})
             if(line MATCHES "include *\"" AND NOT line MATCHES "\"(${${room}_may})")
                 list(APPEND bad "${file}: ${line}")
-            elseif(line MATCHES "<(box2d|juce_|nlohmann|Eigen/|unsupported/|boost/)" AND NOT line MATCHES "<(${${room}_may})")
+            elseif(line MATCHES "<(aubio/|box2d|juce_|nlohmann|Eigen/|unsupported/|boost/)" AND NOT line MATCHES "<(${${room}_may})")
                 list(APPEND bad "${file}: ${line}")
             elseif(room STREQUAL "Core" AND line MATCHES "${Core_never}")
                 list(APPEND bad "${file}: ${line}")

@@ -69,10 +69,17 @@ std::string AudioOutput::listeningFault() const {
     return settings_.device + ": has " + std::to_string(deviceOutputs()) + " outputs; expected one of them to listen to or for marks, found output " + std::to_string(map_.highestHeard() + 1);
 }
 
+std::string AudioOutput::inputFault() const {
+    if (!found_.device || settings_.inputs.empty()) return {};
+    const int inputs = found_.device->getInputChannelNames().size(), wanted = std::ranges::max(settings_.inputs);
+    return wanted < inputs ? "" : settings_.device + ": has " + std::to_string(inputs) + " inputs; expected one of them, found input " + std::to_string(wanted + 1);
+}
+
 std::string AudioOutput::openDevice() {
-    found_ = findAudioDevice(types_, settings_.device);
+    found_ = findAudioDevice(types_, settings_.device, !settings_.inputs.empty());
     if (!found_.device) return settings_.device + ": no such device (see physvib devices); nothing else is played on";
     auto error = listeningFault();
+    if (error.empty()) error = inputFault();
     if (error.empty()) error = startDevice();
     if (error.empty()) settings_.device = found_.fullName(); // this one from now on, also where another driver knows its name
     else stopDevice();
@@ -85,7 +92,9 @@ std::string AudioOutput::startDevice() {
     auto outputs = map_.outputs(offered);
     if (settings_.opensAll) outputs.setRange(0, offered, true);
     if (outputs.isZero()) return settings_.device + ": has none of the outputs that are wanted";
-    const auto error = device.open({}, outputs, settings_.sampleRateHz > 0 ? settings_.sampleRateHz : device.getCurrentSampleRate(),
+    juce::BigInteger inputs;
+    for (const int k : settings_.inputs) inputs.setBit(k);
+    const auto error = device.open(inputs, outputs, settings_.sampleRateHz > 0 ? settings_.sampleRateHz : device.getCurrentSampleRate(),
                                    settings_.blockFrames > 0 ? settings_.blockFrames : device.getDefaultBufferSize());
     if (error.isNotEmpty()) return settings_.device + ": " + error.toStdString();
     largestBlock_ = 0;
@@ -188,8 +197,9 @@ void AudioOutput::prepareBuffers(int block) {
     for (auto& channel : scratch_) scratchAt_.push_back(channel.data());
 }
 
-void AudioOutput::audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outputs, int frames,
+void AudioOutput::audioDeviceIOCallbackWithContext(const float* const* in, int inputs, float* const* out, int outputs, int frames,
                                                    const juce::AudioIODeviceCallbackContext&) {
+    if (inputTap_ != nullptr && inputs > 0 && frames > 0 && running_.load(std::memory_order_relaxed)) inputTap_->take(in, inputs, frames, played_.load()->nextNs(0), rate_);
     renderBlock(out, outputs, frames);
 }
 

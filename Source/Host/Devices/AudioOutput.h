@@ -13,6 +13,7 @@
 #include "Host/Devices/AudioDevices.h"
 #include "Host/Devices/AudioOutputSettings.h"
 #include "Session/FeltOutput.h"
+#include "Host/Devices/InputTap.h"
 #include "Host/Devices/OutputMap.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include "Session/Session.h"
@@ -76,6 +77,9 @@ public:
     /// `tap` takes all that is played until the output is closed; it outlives the output. M, before open().
     void listen(SignalTap* tap) noexcept { tap_ = tap; }
 
+    /// `tap` takes the mean of the wanted inputs until the output is closed; it outlives the output. M, before open().
+    void hearInputs(InputTap* tap) noexcept { inputTap_ = tap; }
+
     /// The device that is wanted, as type:name once it was found; empty: none. M.
     const std::string& device() const noexcept { return settings_.device; }
 
@@ -94,7 +98,7 @@ public:
     int deviceOutputs() const; ///< that it offers; 0: there is none
 
 private:
-    void audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outputs, int frames,
+    void audioDeviceIOCallbackWithContext(const float* const* in, int inputs, float* const* out, int outputs, int frames,
                                           const juce::AudioIODeviceCallbackContext&) override;
     void audioDeviceAboutToStart(juce::AudioIODevice* device) override;
     void audioDeviceStopped() override { running_ = false; }
@@ -103,6 +107,7 @@ private:
     std::string remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening);
     void setHeardLevels();
     std::string listeningFault() const;
+    std::string inputFault() const;
     std::string openDevice();
     std::string startDevice();
     void fadeOut();
@@ -135,6 +140,7 @@ private:
     std::atomic<int> largestBlock_{0}; // that the device has asked for
     std::atomic<PlayedRecorder*> recorder_{nullptr};
     SignalTap* tap_ = nullptr;
+    InputTap* inputTap_ = nullptr;
     LatestValue<Load> load_;
     LatestValue<FeltMoment> felt_;
 

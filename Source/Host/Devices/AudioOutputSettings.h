@@ -41,6 +41,7 @@ struct AudioOutputSettings {
     ListeningSettings listening{};
     std::vector<int> onOff{};    ///< enchanters, from 0, that are motors which are on or off (Core/Actuators/VibrationConverter.h)
     double onOffThreshold = 0.1; ///< from 0 to 1 full scale
+    std::vector<int> inputs{};   ///< of the device, from 0, whose mean InputTap hears; empty: none
 };
 
 /// A moment of the output, for people.

@@ -4,6 +4,7 @@
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Play/InputListener.h"
+#include "CommandLine/Play/LiveBeats.h"
 #include "Session/BoardOutput.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include "Session/SessionJournal.h"
@@ -123,7 +124,9 @@ std::string playLive(LivePlay wanted) {
     Session session{wanted.setup};
     std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
+    const auto inputs = wanted.beats ? std::make_unique<InputTap>() : nullptr; // outlives the output as well
     AudioOutput output{session, systemAudioDeviceTypes, &interrupted};
+    output.hearInputs(inputs.get());
     if (auto error = output.open(wanted.output); !error.empty()) return error;
     if (!wanted.recordPath.empty()) {
         recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
@@ -135,18 +138,23 @@ std::string playLive(LivePlay wanted) {
         journal.emplace(wanted.savePath, session, wanted.setup, provenance);
         if (!journal->error().empty()) return journal->error();
     }
-    std::uint64_t played = 0;
+    std::uint64_t played = 0, beats = 0;
     {
         std::optional<BoardOutput> onBoard;
         if (board) onBoard.emplace(session, output, *board, wanted.setup.panner);
         const auto driver = makeDriver(wanted, session);
+        std::optional<LiveBeats> heard;
+        if (wanted.beats) heard.emplace(session, *inputs, *wanted.beats, wanted.beatSensitivity);
         std::optional<InputListener> listener;
         if (wanted.listens) listener.emplace(session, output);
         Watch watch{session, output, board ? &*board : nullptr, recording ? &*recording : nullptr, journal ? &*journal : nullptr, wanted.seconds};
         juce::MessageManager::getInstance()->runDispatchLoop();
         played = watch.played();
+        beats = heard ? heard->beats() : 0;
     }
     summarise(session, output, played);
+    if (inputs) std::cout << beats << " beats heard\n";
+    if (inputs && inputs->piecesLost() > 0) std::cerr << "physvib: warning: sound was lost on its way to the beats: " << inputs->piecesLost() << " times\n";
     if (recording && !output.isRecording()) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
     output.close();
     const std::string trouble = board ? reportBoard(*board, before) : "";

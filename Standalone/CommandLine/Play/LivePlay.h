@@ -2,7 +2,9 @@
 // A session live on a device until its time is over or the user interrupts, with all that goes along.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
+#include "Host/Music/BeatStrikes.h"
 #include "Session/Session.h"
+#include <optional>
 #include <string>
 
 namespace physvib {
@@ -16,6 +18,8 @@ struct LivePlay {
     std::string recordPath; ///< WAV; empty: none
     std::string savePath;   ///< session as JSON; empty: none
     bool listens = false;   ///< to standard input, line by line (see readInputLine)
+    std::optional<BeatVoices> beats; ///< what is heard at output.inputs is struck so
+    double beatSensitivity = 0.0;
 };
 
 /// Empty, or one line with the reason. M.

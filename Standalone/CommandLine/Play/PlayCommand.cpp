@@ -3,6 +3,7 @@
 #include "CommandLine/Play/PlayCommand.h"
 #include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
 #include "CommandLine/Study/NumberList.h"
 #include "CommandLine/Render/JobSession.h"
@@ -44,6 +45,7 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     setup.marks = o.scene.marks();
     if (o.isDirect) setup.direct = Direct::told;
     setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
+    if (!o.beatInputs.empty()) setup.longestGapSeconds = std::max(setup.longestGapSeconds, LiveBeats::gapSeconds);
     return setup;
 }
 
@@ -67,6 +69,8 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     command.add_option("--block", o.blockFrames, "frames per block; 0: as the device stands")->check(CLI::Range(0, limits::maxBlockFrames));
     command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav")->check(writtenFile);
     command.add_option("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv")->type_name("FILE.json")->check(writtenFile);
+    command.add_option("--beats", o.beatInputs, "inputs of the device, from 1, whose music is felt: its beats are struck (Docs/music.md)")->type_name("1,2");
+    declareBeatOptions(command, o.beats);
     command.add_flag("--hands", o.hasHands, "what the scene's script does of what hands do is left out: lines of --listen do it");
     command.add_flag("--direct", o.isDirect, "messages and controls are felt a block and the limiter after they came, not the play-out delay; collisions as ever");
     command.add_flag("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
@@ -97,6 +101,7 @@ int runPlay(PlayOptions& o) {
     for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
     if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty() && o.scene.marker.empty()))
         return leave(exitUsage, "--noise, --contact-sound, --marker: expected a --device that they leave by");
+    if (o.device.empty() && !o.beatInputs.empty()) return leave(exitUsage, "--beats: expected a --device that hears them");
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
         return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
@@ -113,11 +118,16 @@ int runPlay(PlayOptions& o) {
     if (!parseMap(o.scene.contactSound, settings.listening.contacts))
         return leave(exitUsage, "--contact-sound: expected outputs like 5,6, found \"" + o.scene.contactSound + "\"");
     if (!parseMap(o.scene.marker, settings.listening.marks)) return leave(exitUsage, "--marker: expected outputs like 8, found \"" + o.scene.marker + "\"");
+    if (!parseMap(o.beatInputs, settings.inputs)) return leave(exitUsage, "--beats: expected inputs like 1,2, found \"" + o.beatInputs + "\"");
+    const auto voices = beatVoicesOf(o.beats, job.channels());
+    if (!voices) return leave(exitUsage, voices.error);
     SessionSetup setup = setupOf(o, job);
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
         return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (" + std::to_string(setup.channels) + "), found \"" +
                                     o.ceilings + "\"");
-    const std::string error = playLive({setup, settings, o.board, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens});
+    LivePlay wanted{setup, settings, o.board, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens, {}, o.beats.sensitivity};
+    if (!settings.inputs.empty()) wanted.beats = voices.value;
+    const std::string error = playLive(std::move(wanted));
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib play`: a scene felt live on an audio device, without a window; `physvib devices`: where that can be.
 #pragma once
+#include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "Host/Devices/AudioOutput.h"
 #include <string>
@@ -21,6 +22,8 @@ struct PlayOptions {
     std::string recordPath;         ///< WAV of what was played; empty: not wanted
     std::string savePath;           ///< the session as JSON; empty: not wanted
     bool listens = false, hasHands = false, isDirect = false; ///< to standard input
+    std::string beatInputs;         ///< as map: of the device, whose beats are struck; empty: none
+    BeatOptions beats;
     double levelDb = safeStartDecibels; ///< master level
     std::string ceilings = "0";     ///< dB of full scale: one for all enchanters, or one each
     int blockFrames = 0;            ///< 0: as the device stands

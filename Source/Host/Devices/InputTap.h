@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a device hears, in pieces that know their session time, on its way from the render role to another thread.
+#pragma once
+#include "Core/EventQueue.h"
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace physvib {
+
+/// A few samples of the mean of all inputs.
+struct HeardPiece {
+    std::int64_t sessionNs = 0; ///< of the first
+    int rateHz = 0;
+    int count = 0;
+    std::array<float, 256> samples;
+
+    std::span<const float> sound() const noexcept { return std::span{samples}.first(static_cast<std::size_t>(count)); }
+};
+
+/// One writer, one reader; half a megabyte, 2.7 s at 48 kHz.
+class InputTap {
+public:
+    /// The next samples of each input; the first is session time `sessionNs`. Pieces that find no room are lost: the next one's time tells. R, wait-free.
+    void take(const float* const* in, int inputs, int frames, std::int64_t sessionNs, int rateHz) noexcept PHYSVIB_NONBLOCKING {
+        HeardPiece piece;
+        piece.rateHz = rateHz;
+        for (int done = 0; done < frames; done += piece.count) {
+            piece.sessionNs = sessionNs + std::int64_t{1'000'000'000} * done / rateHz;
+            piece.count = std::min(frames - done, static_cast<int>(piece.samples.size()));
+            for (int i = 0; i < piece.count; ++i) piece.samples[static_cast<std::size_t>(i)] = meanOf(in, inputs, done + i);
+            pieces_.push(piece);
+        }
+    }
+
+    /// False: nothing has come. The reader, wait-free.
+    bool next(HeardPiece& piece) noexcept { return pieces_.pop(piece); }
+
+    std::size_t piecesLost() const noexcept { return pieces_.overflows(); } ///< Any thread.
+
+private:
+    static float meanOf(const float* const* in, int inputs, int at) noexcept {
+        float sum = 0.0f;
+        for (int k = 0; k < inputs; ++k) sum += in[k] != nullptr ? in[k][at] : 0.0f;
+        return sum / static_cast<float>(inputs);
+    }
+
+    EventQueue<HeardPiece, 512> pieces_;
+};
+
+} // namespace physvib

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each hop: a spectrum, its rise since the hop before in each band, and whether that has just been at its highest.
+#include "Host/Music/BeatDetector.h"
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr double longestWindowSeconds = 0.0335; // a power of two of samples, 17 to 33 ms: two periods of a bass drum, short beside a beat
+constexpr unsigned hopsPerWindow = 8;
+constexpr int pickedHopsLater = 2;              // aubio's picker needs the hop after the peak, and smooths over one more
+constexpr double earlyHops = 0.35;              // the flux peaks so much before the onset has reached the middle of the window (measured: Docs/music.md)
+constexpr double leastSecondsBetween = 0.05;    // of one band: twenty strokes a second
+constexpr double usualSeconds = 1.0, strongestSeconds = 5.0, maskedSeconds = 0.1; // after which 37 % is still known
+constexpr double leastRise = 3.0;               // above what is usual
+constexpr double leastFlux = 1e-3;              // a sine of -60 dB or so that begins
+constexpr double leastShareAtOne = 0.0625;      // of the strongest onset; to the power of the sensitivity
+
+unsigned windowOf(int rateHz) noexcept { return std::max(16u, std::bit_floor(static_cast<unsigned>(longestWindowSeconds * rateHz))); }
+
+} // namespace
+
+BeatDetector::BeatDetector(int sampleRateHz, double sensitivity)
+    : rateHz_{sampleRateHz}
+    , hop_{new_fvec(windowOf(sampleRateHz) / hopsPerWindow)}
+    , flux_{new_fvec(1)}
+    , peak_{new_fvec(1)}
+    , spectrum_{new_cvec(windowOf(sampleRateHz))}
+    , vocoder_{new_aubio_pvoc(windowOf(sampleRateHz), hop_->length)} {
+    setSensitivity(sensitivity);
+    for (std::size_t i = 0; i < bands_.size(); ++i) makeBand(i);
+}
+
+void BeatDetector::setSensitivity(double sensitivity) noexcept { leastShare_ = std::pow(leastShareAtOne, std::clamp(sensitivity, 0.0, 1.0)); }
+
+void BeatDetector::makeBand(std::size_t index) {
+    const double hzPerBin = static_cast<double>(rateHz_) / windowOf(rateHz_);
+    const uint_t end = spectrum_->length - 1; // half the rate
+    const auto binOf = [=](double hz) { return std::min(end, static_cast<uint_t>(std::lround(hz / hzPerBin))); };
+    const uint_t first = std::max(1u, binOf(beatBands[index].lowHz)), behind = std::max(first + 1, binOf(beatBands[index].highHz) + 1);
+    if (first >= end) return;
+    Band& band = bands_[index];
+    band.part = {std::min(end, behind) - first, spectrum_->norm + first, spectrum_->phas + first};
+    band.flux.reset(new_aubio_specdesc("specflux", 2 * band.part.length));
+    band.peaks.reset(new_aubio_peakpicker());
+}
+
+void BeatDetector::analyse() noexcept {
+    ++hops_;
+    foundCount_ = 0;
+    aubio_pvoc_do(vocoder_.get(), hop_.get(), spectrum_.get());
+    for (std::size_t i = 0; i < bands_.size(); ++i)
+        if (bands_[i].flux) look(i);
+}
+
+void BeatDetector::measure(Band& band) noexcept {
+    aubio_specdesc_do(band.flux.get(), &band.part, flux_.get());
+    std::rotate(band.latest.begin(), band.latest.begin() + 1, band.latest.end());
+    band.latest.back() = flux_->data[0];
+    aubio_peakpicker_do(band.peaks.get(), flux_.get(), peak_.get());
+}
+
+void BeatDetector::follow(Band& band) noexcept {
+    const double hopSeconds = static_cast<double>(hop_->length) / rateHz_;
+    const auto kept = [=](double seconds) { return std::exp(-hopSeconds / seconds); };
+    band.strongest *= kept(strongestSeconds);
+    band.masked *= kept(maskedSeconds);
+    band.usual += std::max(1.0 - kept(usualSeconds), 1.0 / static_cast<double>(hops_)) * (band.latest.back() - band.usual); // at first the plain mean
+}
+
+bool BeatDetector::isOnset(const Band& band, double height, std::int64_t frame) const noexcept {
+    const bool isSoon = band.hasLast && static_cast<double>(frame - band.lastFrame) < leastSecondsBetween * rateHz_;
+    return frame >= 0 && !isSoon && height >= std::max({leastFlux, leastRise * band.usual, leastShare_ * band.strongest, band.masked});
+}
+
+void BeatDetector::look(std::size_t index) noexcept {
+    Band& band = bands_[index];
+    measure(band);
+    const double picked = peak_->data[0]; // 0, or where between the hops it was, about 1
+    if (picked != 0.0) {
+        const double height = std::ranges::max(band.latest);
+        band.strongest = std::max(band.strongest, height);
+        const double hop = static_cast<double>(hops_ - pickedHopsLater) + picked - 1.0 + earlyHops;
+        const auto frame = static_cast<std::int64_t>(std::llround((hop - 0.5 * hopsPerWindow) * hop_->length));
+        if (isOnset(band, height, frame)) {
+            found_[foundCount_++] = {frame, static_cast<int>(index), height / band.strongest};
+            band.lastFrame = frame;
+            band.hasLast = true;
+            band.masked = height;
+        }
+    }
+    follow(band);
+}
+
+std::int64_t BeatDetector::delayFrames() const noexcept {
+    return static_cast<std::int64_t>(hopsPerWindow / 2 + pickedHopsLater + 1) * hop_->length;
+}
+
+// What aubio's parts remember is a window and the picker's few hops; after so many zeros it is what it was at first.
+void BeatDetector::reset() noexcept {
+    constexpr unsigned rememberedHops = hopsPerWindow + 12;
+    fvec_zeros(hop_.get());
+    for (unsigned i = 0; i < rememberedHops; ++i) {
+        aubio_pvoc_do(vocoder_.get(), hop_.get(), spectrum_.get());
+        for (Band& band : bands_)
+            if (band.flux) measure(band);
+    }
+    for (Band& band : bands_) {
+        band.usual = band.strongest = band.masked = 0.0;
+        band.hasLast = false;
+    }
+    filled_ = 0;
+    hops_ = 0;
+}
+
+} // namespace physvib

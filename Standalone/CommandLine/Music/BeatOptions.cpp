@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Letters and numbers to voices.
+#include "CommandLine/Music/BeatOptions.h"
+#include "CommandLine/Study/NumberList.h"
+#include "Files/Text/NumberText.h"
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+namespace physvib {
+
+void declareBeatOptions(CLI::App& command, BeatOptions& o) {
+    for (std::size_t band = 0; band < beatBands.size(); ++band) {
+        const BeatBand& b = beatBands[band];
+        command.add_option("--" + std::string{b.name}, o.enchanters[band], "enchanters that feel beats of " + numberText(b.lowHz) + " to " + numberText(b.highHz) + " Hz; none: \"\"")
+            ->type_name("AB")->group("Beats");
+    }
+    command.add_option("--sensitivity", o.sensitivity, "to beats: 0 for the strongest alone, to 1 for all that stirs")->check(CLI::Range(0.0, 1.0))->capture_default_str()->group("Beats");
+    command.add_option("--strike-level", o.level, "of the strongest beats, in shares of full scale")->check(CLI::Range(0.0, 1.0))->capture_default_str()->group("Beats");
+    command.add_option("--strike-hz", o.frequencies, "of the strikes: one frequency, or one each for low, mid and high")->type_name("HZ[,HZ,HZ]")->capture_default_str()->group("Beats");
+}
+
+Result<BeatVoices> beatVoicesOf(const BeatOptions& o, int enchanters) {
+    BeatVoices voices;
+    voices.level = o.level;
+    voices.enchanters = usualBeatEnchanters(enchanters);
+    for (std::size_t band = 0; band < beatBands.size(); ++band)
+        if (o.enchanters[band] && !parseEnchanters(*o.enchanters[band], enchanters, voices.enchanters[band]))
+            return Failure{"--" + std::string{beatBands[band].name} + ": expected letters of the " + std::to_string(enchanters) + " enchanters, each once, like A, found " + inQuotes(*o.enchanters[band])};
+    std::vector<double> hz;
+    if (parseNumbers(o.frequencies, hz) && hz.size() == 1) hz.resize(beatBands.size(), hz[0]);
+    const auto isFrequency = [](double f) { return f >= 1.0 && f <= limits::maxFrequencyHz; };
+    if (hz.size() != beatBands.size() || !std::ranges::all_of(hz, isFrequency))
+        return Failure{"--strike-hz: expected one frequency or three, from 1 to 20000, found " + inQuotes(o.frequencies)};
+    std::ranges::copy(hz, voices.frequencyHz.begin());
+    return voices;
+}
+
+} // namespace physvib

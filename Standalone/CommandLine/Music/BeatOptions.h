@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How beats of music are felt, as words of a call: of `beats`, and of `play --beats`.
+#pragma once
+#include "Files/Result.h"
+#include "Host/Music/BeatDetector.h"
+#include "Host/Music/BeatStrikes.h"
+#include <array>
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace physvib {
+
+struct BeatOptions {
+    std::array<std::optional<std::string>, beatBands.size()> enchanters; ///< letters; not given: the usual ones
+    double sensitivity = BeatDetector::usualSensitivity;
+    double level = BeatVoices::usualLevel;
+    std::string frequencies = "205"; ///< Hz: one for all bands, or one each
+};
+
+void declareBeatOptions(CLI::App& command, BeatOptions& options);
+
+/// On so many enchanters; or the usage error in one line.
+Result<BeatVoices> beatVoicesOf(const BeatOptions& options, int enchanters);
+
+} // namespace physvib
