@@ -23,3 +23,53 @@ assert abs(paths[-1]["time_s"] - paths[-2]["time_s"] - 0.5) < 0.3 and paths[-1][
 assert [(s["x_m"], s["y_m"]) for s in pulses] == [(0, 1), (2, 1), (2, 0), (0, 0)], pulses
 print(f"turn-by-turn: {len(paths)} paths, {len(pulses)} pulses")
 PYTHON
+
+# Three seconds: a pulse when 1.8 are left, two at 1.2, a long one at the end.
+printf 'status\nnow\n' | "$examples/presentation-timer.py" 0.05 0.03,0.02 --device JACK:system --save "$folder/timer.json" >"$folder/out" 2>"$folder/refused" || { cat "$folder/out" "$folder/refused"; exit 1; }
+grep -q "4 vibrations to come" "$folder/out"
+grep -q "line 2: expected again, stop or status" "$folder/refused"
+python3 - "$folder/timer.json" <<'PYTHON'
+import json, sys
+strikes = sorted(json.load(open(sys.argv[1]))["strikes"], key=lambda s: s["time_s"])
+first = strikes[0]["time_s"]
+found = [(round(s["time_s"] - first, 1), s["duration_s"]) for s in strikes]
+assert [length for _, length in found] == [0.15, 0.15, 0.15, 1.5], found
+assert all(abs(at - wanted) < 0.35 for (at, _), wanted in zip(found, (0.0, 0.6, 0.9, 1.8))), found  # each is counted from when it was said
+print("presentation-timer: one, two, and a long one")
+PYTHON
+if "$examples/presentation-timer.py" 1 2 2>"$folder/refused"; then exit 1; fi
+grep -q "expected MINUTES LEFT,LEFT" "$folder/refused"
+
+# Four low beats and four high ones between them, half a second apart.
+python3 - "$folder/song.wav" <<'PYTHON'
+import math, random, struct, sys, wave
+rate, noise = 48000, random.Random(1)
+samples = [0.0] * (5 * rate)
+for beat in range(8):
+    first = int((0.5 + 0.5 * beat) * rate)
+    for i in range(rate // 4):
+        t = i / rate
+        samples[first + i] += 0.6 * math.sin(2 * math.pi * 60 * t) * math.exp(-8 * t) if beat % 2 == 0 else 0.3 * noise.uniform(-1, 1) * math.exp(-40 * t)
+with wave.open(sys.argv[1], "wb") as song:
+    song.setparams((1, 2, rate, 0, "NONE", ""))
+    song.writeframes(b"".join(struct.pack("<h", int(32000 * s)) for s in samples))
+PYTHON
+"$examples/music-rings.py" "$folder/song.wav" --device JACK:system --save "$folder/rings.json" >"$folder/out" 2>"$folder/refused" || { cat "$folder/out" "$folder/refused"; exit 1; }
+[ ! -s "$folder/refused" ] || { cat "$folder/refused"; exit 1; }
+python3 - "$folder/rings.json" <<'PYTHON'
+import json, sys
+strikes = json.load(open(sys.argv[1]))["strikes"]
+low = [s for s in strikes if s["decay_per_s"] == 15]
+others = sorted((s for s in strikes if s["decay_per_s"] != 15), key=lambda s: s["time_s"])
+times = sorted({s["time_s"] for s in low})
+corners = {(0, 0), (0, 1), (2, 0), (2, 1)}
+for time in times:
+    assert {(s["x_m"], s["y_m"]) for s in low if s["time_s"] == time} == corners, low
+first = times[0]
+for wanted in (0, 1, 2, 3):
+    assert any(abs(time - first - wanted) < 0.01 for time in times), times
+    assert any(abs(s["time_s"] - first - wanted - 0.5) < 0.01 for s in others), others
+rounds = [(s["x_m"], s["y_m"]) for s in others]
+assert set(rounds[:4]) == corners and rounds[4:8] == rounds[: len(rounds[4:8])], rounds
+print(f"music-rings: {len(times)} beats for all, {len(others)} round the table")
+PYTHON
