@@ -6,26 +6,26 @@
 namespace physvib {
 namespace {
 
-using namespace limits;
-
-std::string expected(const std::string& words, std::int64_t found, const char* unit) { return "expected " + words + ", found " + std::to_string(found) + unit; }
+std::string expectedSound(const std::string& words, std::int64_t found, const char* unit) { return "expected " + words + ", found " + std::to_string(found) + unit; }
 
 std::string faultWithin(const SoundShape& shape, std::int64_t mostSeconds) {
-    if (shape.channels < 1 || shape.channels > maxRecordingChannels) return expected("1 to " + std::to_string(maxRecordingChannels) + " channels", shape.channels, "");
+    using namespace limits;
+    if (shape.channels < 1 || shape.channels > maxRecordingChannels) return expectedSound("1 to " + std::to_string(maxRecordingChannels) + " channels", shape.channels, "");
     if (shape.sampleRateHz < minRecordingRateHz || shape.sampleRateHz > maxRecordingRateHz)
-        return expected("a rate of " + std::to_string(minRecordingRateHz) + " to " + std::to_string(maxRecordingRateHz) + " Hz", shape.sampleRateHz, " Hz");
+        return expectedSound("a rate of " + std::to_string(minRecordingRateHz) + " to " + std::to_string(maxRecordingRateHz) + " Hz", shape.sampleRateHz, " Hz");
     if (shape.frames < 1) return "expected samples, found none";
-    if (shape.frames > mostSeconds * shape.sampleRateHz) return expected("at most " + std::to_string(mostSeconds) + " s", shape.frames / shape.sampleRateHz, " s");
+    if (shape.frames > mostSeconds * shape.sampleRateHz) return expectedSound("at most " + std::to_string(mostSeconds) + " s", shape.frames / shape.sampleRateHz, " s");
     return {};
 }
 
 } // namespace
 
-std::string streamFault(const SoundShape& shape) { return faultWithin(shape, maxMusicSeconds); }
+std::string streamFault(const SoundShape& shape) { return faultWithin(shape, limits::maxMusicSeconds); }
 
 std::string soundFault(const SoundShape& shape) {
+    using namespace limits;
     if (auto fault = faultWithin(shape, maxRecordingSeconds); !fault.empty()) return fault;
-    if (shape.frames > maxRecordingSamples / shape.channels) return expected("at most " + std::to_string(maxRecordingSamples) + " samples in all channels", shape.frames * shape.channels, "");
+    if (shape.frames > maxRecordingSamples / shape.channels) return expectedSound("at most " + std::to_string(maxRecordingSamples) + " samples in all channels", shape.frames * shape.channels, "");
     return {};
 }
 
