@@ -17,6 +17,8 @@ physvib_release_packages="$physvib_build_packages g++ git debhelper dh-python py
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
 # Of the tests on other processors and systems.
 physvib_cross_packages="g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 wine cmake ninja-build ccache dpkg-dev"
+# Of Tests/Osc/run.sh alone.
+physvib_osc_packages="jackd2 liblo-tools puredata-core python3"
 # Of the test of sweeps on a cluster.
 physvib_cluster_packages="slurm-wlm munge"
 

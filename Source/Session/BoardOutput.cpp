@@ -20,7 +20,7 @@ BoardOutput::~BoardOutput() {
 }
 
 void BoardOutput::feed() {
-    if (const FeltMoment felt = device_.felt(); felt.steadyNs != 0) clock_.add(felt);
+    if (const FeltMoment felt = device_.felt(FeltReader::board); felt.steadyNs != 0) clock_.add(felt);
     if (clock_.isReady()) {
         takeControls();
         for (CollisionEvent event; told_.events.pop(event);) {

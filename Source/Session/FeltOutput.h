@@ -8,12 +8,16 @@ namespace physvib {
 /// At `steadyNs` of the steady clock, hands feel what happened at `sessionNs`.
 struct FeltMoment {
     std::int64_t sessionNs = 0, steadyNs = 0;
+    std::int64_t behindNs = 0; ///< by which what is felt lies behind the present: L, and the device's own
 };
+
+/// Who follows it; each reads the newest for itself.
+enum class FeltReader { board, messages };
 
 class FeltOutput {
 public:
-    /// Of the newest block that the session went on with. One reader; {0, 0}: none yet.
-    virtual FeltMoment felt() noexcept = 0;
+    /// Of the newest block that the session went on with; {}: none yet. One thread per reader.
+    virtual FeltMoment felt(FeltReader reader) noexcept = 0;
     /// Master level, as a gain. Any thread, wait-free.
     virtual float level() const noexcept = 0;
     /// Nothing is felt, whatever the level. Any thread, wait-free.

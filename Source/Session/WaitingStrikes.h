@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,7 @@ public:
     /// False, and nothing has changed, if they would be too many.
     bool add(std::span<const CollisionEvent> strikes) {
         if (waiting_.size() + strikes.size() > most) return false;
-        waiting_.insert(waiting_.end(), strikes.begin(), strikes.end());
-        std::ranges::stable_sort(waiting_, {}, &CollisionEvent::timeNs);
+        for (const CollisionEvent& strike : strikes) waiting_.insert(std::ranges::upper_bound(waiting_, strike.timeNs, {}, &CollisionEvent::timeNs), strike);
         return true;
     }
 
@@ -37,7 +37,7 @@ public:
     std::size_t size() const noexcept { return waiting_.size(); }
 
 private:
-    std::vector<CollisionEvent> waiting_; // in time order
+    std::deque<CollisionEvent> waiting_; // in time order; most come at its end, all go at its front
 };
 
 } // namespace physvib

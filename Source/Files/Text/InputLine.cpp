@@ -4,6 +4,8 @@
 #include "Files/ControlJson.h"
 #include "Files/Json/JsonLines.h"
 #include "Files/Json/JsonReader.h"
+#include "Files/Text/NumberText.h"
+#include <algorithm>
 
 namespace physvib {
 
@@ -24,6 +26,7 @@ struct FieldsOf<ActionLine> {
 namespace {
 
 constexpr std::size_t mostNumbers = 1024; // of a list
+constexpr std::string_view silenceName = "silence", truthName = "on";
 
 void addNumbers(const JsonField& list, std::vector<double>& numbers, bool isPair) {
     const std::size_t count = list.arraySize();
@@ -58,7 +61,7 @@ LineInput readLine(const JsonField& json, const std::vector<Material>& materials
         detail::readValue(json, line, {}, materials);
         return std::move(line.action);
     }
-    if (!json["control"].is("silence")) return readControl(json, channels);
+    if (!json["control"].is(silenceName)) return readControl(json, channels);
     json.expectObject({"control", "on"});
     return SilenceControl{json["on"].truth()};
 }
@@ -66,6 +69,8 @@ LineInput readLine(const JsonField& json, const std::vector<Material>& materials
 OrderedJson plainJson(const PlainValue& value) {
     return std::visit([](const auto& plain) { return OrderedJson(plain); }, value);
 }
+
+bool isControl(const std::string& name) { return name == silenceName || std::ranges::find(controlNames, name) != controlNames.end(); }
 
 } // namespace
 
@@ -81,6 +86,22 @@ Result<LineInput> readInputLine(std::string_view line, std::string_view name, co
         return readLine(JsonField(root, {}), materials, channels);
     } catch (const JsonError& error) {
         return Failure{std::string(name) + ": " + error.what()};
+    }
+}
+
+Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials, int channels) {
+    if (!isControl(plain.name) && std::ranges::find(actionNames, plain.name) == actionNames.end()) return Failure{inQuotes(plain.name) + ": expected the name of a message, an input or a control"};
+    Json json{{isControl(plain.name) ? "control" : "input", plain.name}};
+    for (const NamedValue& value : plain.values) {
+        if (json.contains(value.name)) return Failure{plain.name + ": " + printable(value.name) + ": expected once"};
+        const auto* number = std::get_if<double>(&value.value);
+        if (number != nullptr && value.name == truthName) json[value.name] = *number != 0.0;
+        else json[value.name] = std::visit([](const auto& found) { return Json(found); }, value.value);
+    }
+    try {
+        return readLine(JsonField(json, {}), materials, channels);
+    } catch (const JsonError& error) {
+        return Failure{plain.name + ": " + error.what()};
     }
 }
 

@@ -24,4 +24,9 @@ using LineInput = std::variant<Action, RenderControl, SilenceControl, PlainMessa
 /// words, or lists of numbers or of pairs of them. Or, of the first thing that is wrong, one line `name: body: ...`. Any thread.
 Result<LineInput> readInputLine(std::string_view line, std::string_view name, const std::vector<Material>& materials, int channels);
 
+
+/// The same of an input or a control that comes as a name and named values (`gain`, with `channel` and `value`): those without nested
+/// fields; a number other than 0 is true. The line has no `name:`. Any thread.
+Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials, int channels);
+
 } // namespace physvib

@@ -209,7 +209,8 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     const auto start = juce::Time::getHighResolutionTicks();
     isInBlock_.store(true);
     Session& session = *played_.load();
-    const FeltMoment felt{session.nextFeltNs(), std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count() + latencyNs_};
+    FeltMoment felt{session.nextFeltNs(), std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count() + latencyNs_};
+    felt.behindNs = session.nextNs(0) - felt.sessionNs + latencyNs_;
     if (frames > largestBlock_.load(std::memory_order_relaxed)) largestBlock_.store(frames, std::memory_order_relaxed);
     const bool rests = isSilent() || ending_.load(std::memory_order_relaxed);
     for (auto [ramp, gain] : {std::pair{&master_, &level_}, {&noiseRamp_, &noiseGain_}, {&contactRamp_, &contactGain_}}) {
@@ -218,7 +219,8 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     }
     if (rests) areMarksOpen_ = false;
     for (int done = 0; done < frames; done += block_) renderPart(session, out, outputs, done, std::min(block_, frames - done), rests);
-    if (session.nextFeltNs() != felt.sessionNs) felt_.write(felt); // else nobody steps the world: session time stands still
+    if (session.nextFeltNs() != felt.sessionNs) // else nobody steps the world: session time stands still
+        for (auto& newest : felt_) newest.write(felt);
     isInBlock_.store(false);
     measure(start, frames);
 }

@@ -19,6 +19,7 @@
 #include "Session/Session.h"
 #include "Host/Devices/SignalTap.h"
 #include "Study/PinkNoise.h"
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -83,7 +84,10 @@ public:
     /// The device that is wanted, as type:name once it was found; empty: none. M.
     const std::string& device() const noexcept { return settings_.device; }
 
-    FeltMoment felt() noexcept override { return felt_.read(); }
+    FeltMoment felt(FeltReader reader) noexcept override { return felt_[static_cast<std::size_t>(reader)].read(); }
+
+    /// What plays is a session that was lent. Any thread.
+    bool isLent() const noexcept { return played_.load() != &own_; }
 
     /// What has left for the enchanters, behind the master level, the ceilings and the switch; of the session's channels. M.
     const ExposureSums& exposure() noexcept { return exposure_.read(); }
@@ -142,7 +146,7 @@ private:
     SignalTap* tap_ = nullptr;
     InputTap* inputTap_ = nullptr;
     LatestValue<Load> load_;
-    LatestValue<FeltMoment> felt_;
+    std::array<LatestValue<FeltMoment>, 2> felt_; // as FeltReader
 
     // M
     int losses_ = 0, lentRate_ = 0, lentBlock_ = 0; // the latter: as they were when a session was lent

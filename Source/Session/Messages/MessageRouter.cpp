@@ -36,7 +36,7 @@ PlainMessage layoutAnswer(const PhantomPanner& panner) {
 
 } // namespace
 
-Result<PlainMessage> MessageRouter::take(const PlainMessage& message) {
+Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag* tag) {
     const auto description = std::ranges::find(messageTable, message.name, &MessageDescription::name);
     if (description == messageTable.end()) return Failure{inQuotes(message.name) + ": expected one of " + knownNames()};
     const auto kind = static_cast<MessageKind>(description - messageTable.begin());
@@ -45,8 +45,10 @@ Result<PlainMessage> MessageRouter::take(const PlainMessage& message) {
         const PhantomPanner panner = session_.panner();
         const MessageValues values{message, *description, panner};
         if (description->isQuery) return answer(kind);
-        if (kind == MessageKind::stop) stop(values);
-        else strike(strikesOf(kind, values, session_.state().scene->materials), values);
+        const std::int64_t time = timeOf(values, tag);
+        const bool isNow = !values.has("at") && !values.has("in") && (tag == nullptr || tag->isLate);
+        if (kind == MessageKind::stop) stop(time);
+        else strike(strikesOf(kind, values, session_.state().scene->materials), time, isNow);
         return PlainMessage{};
     } catch (const MessageError& error) {
         return Failure{message.name + ": " + error.what()};
@@ -55,9 +57,16 @@ Result<PlainMessage> MessageRouter::take(const PlainMessage& message) {
 
 std::int64_t MessageRouter::nowNs() const { return std::max({std::int64_t{0}, session_.presentNs() - session_.toldAheadNs(), latestNs_}); }
 
-// Session times that are over are refused: what is rendered again would not be what was felt.
-std::int64_t MessageRouter::timeOf(const MessageValues& values) const {
+// Session times that are over are refused: what is rendered again would not be what was felt. Who sends tags cannot know: such
+// a message is late, and done at once.
+std::int64_t MessageRouter::timeOf(const MessageValues& values, MessageTag* tag) const {
     values.expectOneOf({"at", "in"});
+    if (tag != nullptr) {
+        for (const char* own : {"at", "in"})
+            if (values.has(own)) values.fail(own, "expected either this or a time tag");
+        tag->isLate = tag->sessionNs < session_.presentNs();
+        return tag->isLate ? nowNs() : aheadOrFail(values, "time tag", tag->sessionNs);
+    }
     if (values.has("in")) return nowNs() + std::llround(values.number("in") * 1e9);
     if (!values.has("at") || values.isWord("at")) {
         if (values.word("at") != "now") values.fail("at", "expected a session time, or now");
@@ -65,13 +74,16 @@ std::int64_t MessageRouter::timeOf(const MessageValues& values) const {
     }
     const std::int64_t at = std::llround(values.number("at") * 1e9), present = session_.presentNs();
     if (at < present) values.fail("at", "expected a session time that is not over: it is " + fixedNumber(seconds(present), 3) + " s, found " + numberText(seconds(at)) + " s");
-    if (at > present + std::llround(messages::mostAheadSeconds * 1e9)) values.fail("at", "expected at most " + plainNumber(messages::mostAheadSeconds) + " s from now");
+    return aheadOrFail(values, "at", at);
+}
+
+std::int64_t MessageRouter::aheadOrFail(const MessageValues& values, std::string_view name, std::int64_t at) const {
+    if (at > session_.presentNs() + std::llround(messages::mostAheadSeconds * 1e9)) values.fail(name, "expected at most " + plainNumber(messages::mostAheadSeconds) + " s from now");
     return std::max<std::int64_t>(0, at - session_.toldAheadNs());
 }
 
-void MessageRouter::strike(std::vector<CollisionEvent> strikes, const MessageValues& values) {
-    const std::int64_t start = timeOf(values);
-    if (!values.has("at") && !values.has("in")) latestNs_ = start;
+void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t start, bool isNow) {
+    if (isNow) latestNs_ = start;
     const double sceneGain = session_.shaping().gain;
     for (CollisionEvent& strike : strikes) {
         strike.timeNs += start;
@@ -81,8 +93,7 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, const MessageVal
 }
 
 // Of two messages of one moment, the second acts on the first.
-void MessageRouter::stop(const MessageValues& values) {
-    std::int64_t at = timeOf(values);
+void MessageRouter::stop(std::int64_t at) {
     if (at == latestNs_) at = latestNs_ = at + frameNs;
     if (!session_.stopAt(at)) throw MessageError{"too many stops wait"};
 }

@@ -13,19 +13,27 @@ namespace physvib {
 
 class MessageValues;
 
+/// When a message is meant that a door has got with a time of its own.
+struct MessageTag {
+    std::int64_t sessionNs = 0;
+    bool isLate = false; ///< told by the router: that time was over, and it was done at once
+};
+
 /// For any number of doors at once. Any thread but R.
 class MessageRouter {
 public:
     /// `session` outlives it.
     explicit MessageRouter(Session& session) noexcept : session_{session} {}
 
-    /// Does what the message says, all of it or nothing. The answer of a query (without a name: nothing to tell), or one line.
-    Result<PlainMessage> take(const PlainMessage& message);
+    /// Does what the message says, all of it or nothing; at the time of its tag, if it has one, as with `at`. The answer of a query
+    /// (without a name: nothing to tell), or one line.
+    Result<PlainMessage> take(const PlainMessage& message, MessageTag* tag = nullptr);
 
 private:
-    std::int64_t timeOf(const MessageValues& values) const;
-    void strike(std::vector<CollisionEvent> strikes, const MessageValues& values);
-    void stop(const MessageValues& values);
+    std::int64_t timeOf(const MessageValues& values, MessageTag* tag) const;
+    std::int64_t aheadOrFail(const MessageValues& values, std::string_view name, std::int64_t at) const;
+    void strike(std::vector<CollisionEvent> strikes, std::int64_t start, bool isNow);
+    void stop(std::int64_t at);
     PlainMessage answer(MessageKind query) const;
     std::int64_t nowNs() const;
 

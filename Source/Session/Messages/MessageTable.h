@@ -10,7 +10,6 @@ namespace physvib {
 
 enum class MessageKind { strike, pattern, phantom, path, stop, status, layout, latency };
 
-/// Where values have no names (OSC), they come in the order of the table.
 struct MessageArgument {
     enum class Type {
         number,  ///< from `least` to `most`

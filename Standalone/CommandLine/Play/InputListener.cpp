@@ -2,7 +2,6 @@
 // Polls standard input, cuts it into lines, and hands each to the session.
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/ExitCode.h"
-#include "Files/Text/InputLine.h"
 #include <iostream>
 #include <poll.h>
 #include <type_traits>
@@ -16,10 +15,10 @@ constexpr int pollMilliseconds = 50; // only the end of the program waits for it
 
 } // namespace
 
-InputListener::InputListener(Session& session, AudioOutput& output)
+InputListener::InputListener(Session& session, AudioOutput& output, MessageRouter& messages)
     : session_{session}
     , output_{output}
-    , messages_{session}
+    , messages_{messages}
     , thread_{[this] { run(); }} {}
 
 InputListener::~InputListener() {
@@ -50,17 +49,19 @@ std::string InputListener::act(std::string_view line, const std::string& name) {
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) return {};
     const auto read = readInputLine(line, name, session_.state().scene->materials, session_.channels());
     if (!read) return read.error;
-    if (const auto* action = std::get_if<Action>(&read.value)) {
-        const std::string fault = session_.act(*action);
-        return fault.empty() ? fault : name + ": " + fault;
-    }
     if (const auto* message = std::get_if<PlainMessage>(&read.value)) {
         const auto answer = messages_.take(*message);
         if (!answer.value.name.empty()) std::cout << answerLine(answer.value) << std::endl; // who asked waits for it
         return answer ? "" : name + ": " + answer.error;
     }
-    if (const auto* control = std::get_if<RenderControl>(&read.value)) return session_.post(*control) < 0 ? name + ": too many controls at once" : "";
-    output_.setSilent(std::get<SilenceControl>(read.value).isOn);
+    const std::string fault = actOn(read.value, session_, output_);
+    return fault.empty() ? fault : name + ": " + fault;
+}
+
+std::string actOn(const LineInput& input, Session& session, AudioOutput& output) {
+    if (const auto* action = std::get_if<Action>(&input)) return session.act(*action);
+    if (const auto* control = std::get_if<RenderControl>(&input)) return session.post(*control) < 0 ? "too many controls at once" : "";
+    if (const auto* silence = std::get_if<SilenceControl>(&input)) output.setSilent(silence->isOn);
     return {};
 }
 

@@ -5,6 +5,7 @@
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/Play/LiveBeats.h"
+#include "CommandLine/Play/OscReport.h"
 #include "Session/BoardOutput.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include "Session/SessionJournal.h"
@@ -26,8 +27,8 @@ namespace {
 // What the message thread does while the session plays: empties the queues, keeps device and journal, ends the call.
 class Watch final : private juce::Timer {
 public:
-    Watch(Session& session, AudioOutput& output, const BoardLink* board, PlayedRecorder* recorder, SessionJournal* journal, double seconds)
-        : session_{session}, output_{output}, board_{board}, recorder_{recorder}, journal_{journal}, endNs_{std::llround(seconds * 1e9)} {
+    Watch(Session& session, AudioOutput& output, const BoardLink* board, PlayedRecorder* recorder, SessionJournal* journal, OscPort* osc, double seconds)
+        : session_{session}, output_{output}, board_{board}, recorder_{recorder}, journal_{journal}, osc_{osc}, endNs_{std::llround(seconds * 1e9)} {
         startTimer(milliseconds);
     }
     ~Watch() override {
@@ -49,8 +50,10 @@ private:
     }
 
     void drain() {
-        for (PlayedEvent e; session_.played().pop(e); ++played_)
+        for (PlayedEvent e; session_.played().pop(e); ++played_) {
             if (journal_) journal_->take(e);
+            if (osc_) osc_->tell(e, output_.sampleRateHz());
+        }
     }
 
     void everySecond(const SessionStatus& status) {
@@ -58,6 +61,7 @@ private:
         if (board_ && trouble.empty()) trouble = board_->status().trouble;
         if (journal_ && trouble.empty()) trouble = journal_->news();
         report(trouble);
+        if (osc_) oscReport_.tellWrong(osc_->status().counts);
         static const bool isTerminal = isatty(STDERR_FILENO) != 0;
         if (isTerminal) show(status);
     }
@@ -82,7 +86,9 @@ private:
     const BoardLink* board_;
     PlayedRecorder* recorder_;
     SessionJournal* journal_;
+    OscPort* osc_;
     std::int64_t endNs_;
+    OscReport oscReport_;
     std::uint64_t played_ = 0;
     int ticks_ = 0;
     std::string lastTrouble_;
@@ -139,6 +145,7 @@ std::string playLive(LivePlay wanted) {
         if (!journal->error().empty()) return journal->error();
     }
     std::uint64_t played = 0, beats = 0;
+    MessageRouter messages{session};
     {
         std::optional<BoardOutput> onBoard;
         if (board) onBoard.emplace(session, output, *board, wanted.setup.panner);
@@ -146,11 +153,18 @@ std::string playLive(LivePlay wanted) {
         std::optional<LiveBeats> heard;
         if (wanted.beats) heard.emplace(session, *inputs, *wanted.beats, wanted.beatSensitivity);
         std::optional<InputListener> listener;
-        if (wanted.listens) listener.emplace(session, output);
-        Watch watch{session, output, board ? &*board : nullptr, recording ? &*recording : nullptr, journal ? &*journal : nullptr, wanted.seconds};
+        if (wanted.listens) listener.emplace(session, output, messages);
+        std::optional<OscPort> osc;
+        if (wanted.osc.port || !wanted.osc.receiver.empty()) {
+            osc.emplace(wanted.osc, session, messages, output, OscHooks{[&](const LineInput& input) { return actOn(input, session, output); }, {}});
+            if (!osc->error().empty()) return "OSC: " + osc->error();
+            if (osc->port() != 0) tellPort(wanted.osc, osc->status().address);
+        }
+        Watch watch{session, output, board ? &*board : nullptr, recording ? &*recording : nullptr, journal ? &*journal : nullptr, osc ? &*osc : nullptr, wanted.seconds};
         juce::MessageManager::getInstance()->runDispatchLoop();
         played = watch.played();
         beats = heard ? heard->beats() : 0;
+        if (osc) summariseOsc(osc->status());
     }
     summarise(session, output, played);
     if (inputs) std::cout << beats << " beats heard\n";

@@ -3,6 +3,7 @@
 #pragma once
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Music/BeatStrikes.h"
+#include "Host/Osc/OscPort.h"
 #include "Session/Session.h"
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct LivePlay {
     bool listens = false;   ///< to standard input, line by line (see readInputLine)
     std::optional<BeatVoices> beats; ///< what is heard at output.inputs is struck so
     double beatSensitivity = 0.0;
+    OscSettings osc;
 };
 
 /// Empty, or one line with the reason. M.

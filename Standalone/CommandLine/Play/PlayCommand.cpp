@@ -13,6 +13,7 @@
 #include "Session/SerialLine.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <numbers>
 
 namespace physvib {
 
@@ -74,6 +75,10 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     command.add_flag("--hands", o.hasHands, "what the scene's script does of what hands do is left out: lines of --listen do it");
     command.add_flag("--direct", o.isDirect, "messages and controls are felt a block and the limiter after they came, not the play-out delay; collisions as ever");
     command.add_flag("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
+    command.add_option("--osc", o.osc.port, "take messages by OSC (Docs/osc.md) at this port of UDP, or the next free one; 0: any")->type_name("PORT")->check(CLI::Range(0, 65'535));
+    command.add_option("--osc-interface", o.osc.address, "address of this computer at which they are taken; 0.0.0.0: any, for phones")->type_name("ADDRESS")->capture_default_str();
+    command.add_option("--osc-turn", o.oscTurnDegrees, "by how much a phone that tilts the scene is held counter-clockwise of upright")->type_name("DEGREES")->check(CLI::Range(-180.0, 180.0));
+    command.add_option("--osc-to", o.osc.receiver, "send each hit as it is felt, and the status once a second")->type_name("HOST:PORT");
 }
 
 int runPlay(PlayOptions& o) {
@@ -102,6 +107,7 @@ int runPlay(PlayOptions& o) {
     if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty() && o.scene.marker.empty()))
         return leave(exitUsage, "--noise, --contact-sound, --marker: expected a --device that they leave by");
     if (o.device.empty() && !o.beatInputs.empty()) return leave(exitUsage, "--beats: expected a --device that hears them");
+    if (o.device.empty() && (o.osc.port || !o.osc.receiver.empty())) return leave(exitUsage, "--osc, --osc-to: expected a --device, whose clock they follow");
     if (o.device.empty()) return runSceneOnBoard(o.board, job, o.levelDb);
     if (!o.savePath.empty() && std::filesystem::path{o.savePath}.extension() != ".json")
         return leave(exitUsage, "--save: expected a name that ends with .json, found \"" + o.savePath + "\"");
@@ -125,7 +131,9 @@ int runPlay(PlayOptions& o) {
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
         return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (" + std::to_string(setup.channels) + "), found \"" +
                                     o.ceilings + "\"");
-    LivePlay wanted{setup, settings, o.board, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens, {}, o.beats.sensitivity};
+    OscSettings osc = o.osc;
+    osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
+    LivePlay wanted{setup, settings, o.board, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens, {}, o.beats.sensitivity, osc};
     if (!settings.inputs.empty()) wanted.beats = voices.value;
     const std::string error = playLive(std::move(wanted));
     return error.empty() ? exitDone : leave(exitFailed, error);

@@ -4,6 +4,7 @@
 #include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "Host/Devices/AudioOutput.h"
+#include "Host/Osc/OscPort.h"
 #include <string>
 
 namespace physvib {
@@ -24,6 +25,8 @@ struct PlayOptions {
     bool listens = false, hasHands = false, isDirect = false; ///< to standard input
     std::string beatInputs;         ///< as map: of the device, whose beats are struck; empty: none
     BeatOptions beats;
+    OscSettings osc;
+    double oscTurnDegrees = 0.0;    ///< by which a phone is held counter-clockwise of upright
     double levelDb = safeStartDecibels; ///< master level
     std::string ceilings = "0";     ///< dB of full scale: one for all enchanters, or one each
     int blockFrames = 0;            ///< 0: as the device stands

@@ -90,6 +90,7 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
 }
 
 Desk::~Desk() {
+    osc_.reset();
     driver_.reset();
     board_.reset();
     output_.close();

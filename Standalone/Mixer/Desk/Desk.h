@@ -9,6 +9,7 @@
 #include "Mixer/Desk/DeskBoard.h"
 #include "Mixer/Desk/DeskExposure.h"
 #include "Mixer/Desk/DeskMoment.h"
+#include "Mixer/Desk/DeskOsc.h"
 #include "Mixer/Desk/DeskRecording.h"
 #include "Mixer/Desk/DeskSignals.h"
 #include "Mixer/Desk/RecentContacts.h"
@@ -104,6 +105,14 @@ public:
     /// The choice asks for a board, or for none: L is another then, so the session has to begin anew.
     std::function<void(const DeviceChoice&)> onBoardWanted;
 
+    // ---- messages by OSC
+    /// From now on, from there; empty, or why not, and then from nobody.
+    std::string listen(OscUse use);
+    OscUse oscUse() const noexcept { return osc_ ? osc_->use() : OscUse::off; }
+    std::optional<OscStatus> osc() const { return osc_ ? std::optional{osc_->status()} : std::nullopt; }
+    /// An input or a control as it comes from outside: the world's inputs, gains and mutes of strips, silence. Empty, or what is wrong with it.
+    std::string take(const LineInput& input);
+
     // ---- the display
     /// How wide the display is that the world is seen on; 0: as the system says. A drag is measured by it.
     void setDisplayWidth(double metres);
@@ -137,6 +146,8 @@ private:
     ListeningSettings wantedListening() const;
     std::string hearWanted();
     std::string listen(const ListeningSettings& wanted, const DeviceChoice& choice);
+    std::string takeControl(const RenderControl& control);
+    void watchOsc();
     void strike(int enchanter, std::vector<CollisionEvent> strikes);
 
     AudioDeviceTypes types_;
@@ -163,6 +174,8 @@ private:
     RecentContacts recent_;
     DeskMoment now_;
     double maintainedAtMs_ = 0.0;
+    std::uint64_t oscMessages_ = 0; // as of the last look
+    std::unique_ptr<DeskOsc> osc_;  // last: its thread uses the others
 };
 
 /// Names of built-in scenes as people write them: "shake-the-box" as "Shake the box".

@@ -24,6 +24,7 @@ DeskMoment Desk::look() {
     now_.sessionNs = session_.readPoses(now_.poses);
     now_.aheadNs = static_cast<std::int64_t>(1e9 * playOutSeconds());
     watchOutput();
+    watchOsc();
     return now_;
 }
 

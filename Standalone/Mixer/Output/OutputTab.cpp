@@ -12,6 +12,7 @@ constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevels{0, -5, -10, -15, -20, -25, -30, -40, -50};
 constexpr int noneId = 1, levelId = 100; // of the lists of outputs and levels: an output's, or a pair's, and a level in dB below it
+constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer", "from any computer, and phones"}; // as OscUse
 constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
 
 } // namespace
@@ -35,6 +36,11 @@ OutputTab::OutputTab(Desk& desk)
     for (const int db : monitorLevels) monitorLevel_.addItem(number(db, 0) + " dBFS", levelId - db);
     for (auto* box : {&monitor_, &monitorLevel_}) box->onChange = [this] { chooseMonitor(); };
     marks_.onChange = [this] { chooseMarks(); };
+    caption(oscName_, "Messages by OSC");
+    osc_.setTitle("OSC");
+    osc_.setTooltip("Who may strike, tilt and set gains by messages over the network: phones, Pd, Max (Docs/osc.md)");
+    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use) osc_.addItem(oscUses[static_cast<std::size_t>(use)], use + 1);
+    osc_.onChange = [this] { listen(); };
     board_.setTitle("Board");
     board_.onChange = [this] { connectBoard(); };
     device_.setTitle("Device");
@@ -47,7 +53,7 @@ OutputTab::OutputTab(Desk& desk)
     scan_ = quietButton("Look again", "Look for devices again");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &monitorName_, &monitor_, &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &oscName_, &osc_, &monitorName_, &monitor_, &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_}) addAndMakeVisible(c);
     takeMix();
 }
 
@@ -163,6 +169,24 @@ void OutputTab::useBoard(const std::string& port) {
     if (choice.board != desk_.device().board && desk_.onBoardWanted) desk_.onBoardWanted(choice);
 }
 
+void OutputTab::listen() {
+    const auto error = desk_.listen(static_cast<OscUse>(osc_.getSelectedId() - 1));
+    if (!error.empty()) desk_.report("Messages by OSC: " + utf8(error));
+    takeMix();
+}
+
+juce::String OutputTab::oscState(Shade& state) const {
+    const auto osc = desk_.osc();
+    state = osc ? Shade::text : Shade::muted;
+    if (!osc) return "none";
+    const OscCounts& c = osc->counts;
+    const auto count = [](std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; };
+    if (c.wrong() + c.lost + c.late > 0) state = Shade::now;
+    auto words = utf8(osc->address) + ": " + count(c.messages - c.refused) + " good, " + count(c.wrong()) + " bad, " + count(c.late) + " late";
+    if (c.lost > 0) words << ", " << count(c.lost) << " lost";
+    return c.fault.empty() ? words : words + "; " + utf8(c.fault);
+}
+
 juce::String OutputTab::boardState(Shade& state) const {
     using State = BoardLinkStatus::State;
     state = Shade::muted;
@@ -192,7 +216,8 @@ void OutputTab::takeMix() {
     rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
     listHeard();
-    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &monitorName_, &monitorLevelName_, &marksName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    osc_.setSelectedId(static_cast<int>(desk_.oscUse()) + 1, juce::dontSendNotification);
+    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &oscName_, &monitorName_, &monitorLevelName_, &marksName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
 void OutputTab::refresh(const DeskMoment& moment) {
@@ -205,6 +230,8 @@ void OutputTab::refresh(const DeskMoment& moment) {
     const int all = desk_.mix().count();
     Shade boardShade = Shade::muted;
     const auto board = boardState(boardShade);
+    Shade oscShade = Shade::muted;
+    const auto osc = oscState(oscShade);
     const double slipped = 1e-6 * static_cast<double>(desk_.session().slippedNs());
     facts_.set({{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
                !moment.device.isRunning ? Shade::limit : isNone ? Shade::now : Shade::text},
@@ -216,7 +243,8 @@ void OutputTab::refresh(const DeskMoment& moment) {
               {"Late", juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls", r.late > 0 ? Shade::now : Shade::text},
               {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}},
               {"Opened again", juce::String{moment.device.losses} + " times"},
-              {"Board", board, boardShade}});
+              {"Board", board, boardShade},
+              {"Messages", osc, oscShade}});
 }
 
 void OutputTab::resized() {
@@ -237,8 +265,14 @@ void OutputTab::resized() {
     row.removeFromLeft(gap);
     block_.setBounds(row);
     area.removeFromTop(10);
-    boardName_.setBounds(area.removeFromTop(18));
-    board_.setBounds(area.removeFromTop(rowHeight));
+    names = area.removeFromTop(18);
+    row = area.removeFromTop(rowHeight);
+    boardName_.setBounds(names.removeFromLeft(half));
+    names.removeFromLeft(gap);
+    oscName_.setBounds(names);
+    board_.setBounds(row.removeFromLeft(half));
+    row.removeFromLeft(gap);
+    osc_.setBounds(row);
     area.removeFromTop(10);
     names = area.removeFromTop(18);
     row = area.removeFromTop(rowHeight);

@@ -23,14 +23,16 @@ private:
     void askPort();
     void useBoard(const std::string& port);
     void listPorts();
+    void listen();
     juce::String boardState(Shade& shade) const;
+    juce::String oscState(Shade& shade) const;
     void listHeard();
     void chooseMonitor();
     void chooseMarks();
     juce::String heardWords() const;
 
-    juce::ComboBox device_, rate_, block_, board_, monitor_, monitorLevel_, marks_;
-    juce::Label deviceName_, rateName_, blockName_, boardName_, monitorName_, monitorLevelName_, marksName_;
+    juce::ComboBox device_, rate_, block_, board_, osc_, monitor_, monitorLevel_, marks_;
+    juce::Label deviceName_, rateName_, blockName_, boardName_, oscName_, monitorName_, monitorLevelName_, marksName_;
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;

@@ -4,9 +4,18 @@
 #include "Host/Devices/NoDevice.h"
 #include "Host/Views/DisplayScale.h"
 #include "Mixer/Window/Parts.h"
+#include <algorithm>
+#include <array>
 
 namespace physvib {
 namespace {
+
+constexpr std::array<const char*, 3> oscUseNames{"off", "this-computer", "any-computer"}; // as OscUse
+
+OscUse oscUseNamed(const juce::String& name) {
+    const auto found = std::ranges::find(oscUseNames, name);
+    return found == oscUseNames.end() ? OscUse::off : static_cast<OscUse>(found - oscUseNames.begin());
+}
 
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system says
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
@@ -72,6 +81,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
         if (error.isEmpty()) desk_->tell("Recorded " + file.getFullPathName() + ", and its events beside it");
         else say(file.getFileName() + ": " + error);
     };
+    if (const auto error = desk_->listen(oscUseNamed(files_.settings().getValue("osc"))); !error.empty()) desk_->report("Messages by OSC: " + utf8(error));
     desk_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
     view_->setGround(files_.settings().getValue("look") == "light" ? Ground::light : Ground::dark);
     view_->grabKeyboardFocus();
@@ -100,6 +110,7 @@ void MixerWindow::timerCallback() {
     settings.setValue("device", utf8(device_.name));
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
+    settings.setValue("osc", oscUseNames[static_cast<std::size_t>(desk_->oscUse())]);
     for (const std::size_t ear : {0u, 1u}) settings.setValue(ear == 0 ? "monitor-left" : "monitor-right", device_.monitor.size() > ear ? device_.monitor[ear] + 1 : 0);
     settings.setValue("monitor-db", device_.monitorDb);
     settings.setValue("marker", device_.marker + 1);

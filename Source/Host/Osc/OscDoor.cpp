@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which of the kinds an address is; what they mean stands in the rooms where lines are taken.
+#include "Host/Osc/OscDoor.h"
+#include "Files/Text/NumberText.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+bool isMessage(const std::string& name) { return std::ranges::find(messageTable, name, &MessageDescription::name) != messageTable.end(); }
+
+} // namespace
+
+OscDoor::OscDoor(Session& session, MessageRouter& messages, OscHooks hooks, double turnRadians)
+    : session_{session}
+    , messages_{messages}
+    , hooks_{std::move(hooks)}
+    , sensors_{turnRadians} {}
+
+void OscDoor::take(std::span<const char> bytes, const OscClock& clock, std::vector<std::vector<char>>& answers) {
+    ++counts_.packets;
+    const auto read = readOscPacket(bytes);
+    if (!read) {
+        ++counts_.bad;
+        counts_.fault = read.error;
+    }
+    for (const OscMessage& message : read.value) {
+        ++counts_.messages;
+        const std::string fault = act(message, clock, answers);
+        if (fault.empty()) continue;
+        ++counts_.refused;
+        counts_.fault = cleanLine(fault);
+    }
+}
+
+std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers) {
+    if (hooks_.closed)
+        if (auto why = hooks_.closed(); !why.empty()) return why;
+    const bool isOurs = message.address.starts_with(oscPrefix); // no phone is called so: /physvib/gravity is an input
+    if (const auto* format = isOurs ? nullptr : sensorFormat(message.address)) return turn(*format, message);
+    if (!isOurs) return inQuotes(message.address) + ": expected an address that begins with " + std::string(oscPrefix) + ", or one of a sensor program";
+    const auto plain = plainOf(std::string_view{message.address}.substr(oscPrefix.size()), message.values);
+    if (!plain) return plain.error;
+    if (isMessage(plain.value.name)) return route(plain.value, message.tag, clock, answers);
+    const auto input = readPlainInput(plain.value, session_.state().scene->materials, session_.channels());
+    return input ? hooks_.act(input.value) : input.error;
+}
+
+std::string OscDoor::turn(const SensorFormat& format, const OscMessage& message) {
+    const auto gravity = sensors_.take(format, message);
+    return gravity && gravity.value ? hooks_.act(Action{*gravity.value}) : gravity.error;
+}
+
+std::string OscDoor::route(const PlainMessage& plain, OscTag tag, const OscClock& clock, std::vector<std::vector<char>>& answers) {
+    MessageTag at;
+    const bool isTagged = tag != oscNow && clock.isReady(); // before the first block all is now
+    if (isTagged) at.sessionNs = clock.sessionNs(unixNsOf(tag));
+    auto answer = messages_.take(plain, isTagged ? &at : nullptr);
+    if (at.isLate && answer) ++counts_.late;
+    if (answer.value.name.empty()) return answer.error;
+    if (answer.value.name == "status") addCounts(answer.value);
+    answers.push_back(oscPacket(std::string(oscAnswerPrefix) + answer.value.name, answer.value));
+    return {};
+}
+
+void OscDoor::addCounts(PlainMessage& answer) const {
+    for (const auto& [name, count] : {std::pair{"osc_packets", counts_.packets}, {"osc_bad", counts_.bad}, {"osc_lost", counts_.lost}, {"osc_refused", counts_.refused}, {"osc_late", counts_.late}})
+        answer.values.push_back({name, static_cast<double>(count)});
+}
+
+PlainMessage OscDoor::status() {
+    auto answer = messages_.take({"status", {}}).value;
+    addCounts(answer);
+    return answer;
+}
+
+} // namespace physvib

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The door by which packets come in: from addresses and values to messages, inputs and controls, each counted.
+#pragma once
+#include "Files/Text/InputLine.h"
+#include "Host/Osc/OscClock.h"
+#include "Host/Osc/PhoneSensors.h"
+#include "Session/Messages/MessageRouter.h"
+#include "Session/Session.h"
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// Addresses are `/physvib/` and a name of the table of messages, of an input or of a control, and those of sensor programs.
+inline constexpr std::string_view oscPrefix = "/physvib/", oscAnswerPrefix = "/physvib/answer/", oscHitAddress = "/physvib/hit";
+
+/// What the program does itself with what comes in; called on the port's thread.
+struct OscHooks {
+    std::function<std::string(const LineInput&)> act; ///< inputs and controls; empty, or what is wrong
+    std::function<std::string()> closed;              ///< why nothing is taken now; empty: it is; may be left out
+};
+
+struct OscCounts {
+    std::uint64_t packets = 0;
+    std::uint64_t bad = 0;     ///< of these: not OSC, and nothing in it was done
+    std::uint64_t lost = 0;    ///< that the system had no room for, beside these
+    std::uint64_t messages = 0;
+    std::uint64_t refused = 0; ///< of these: and nothing of it was done
+    std::uint64_t late = 0;    ///< of these: done at once, since the time of their tag was over
+    std::string fault;         ///< the last that was wrong; empty: none
+
+    std::uint64_t wrong() const noexcept { return bad + refused; }
+};
+
+/// One thread at a time.
+class OscDoor {
+public:
+    /// Both outlive it. `turnRadians`: see PhoneSensors.
+    OscDoor(Session& session, MessageRouter& messages, OscHooks hooks, double turnRadians = 0.0);
+
+    /// Does what is in a packet; answers of queries, each a packet, go to the end of `answers`.
+    void take(std::span<const char> bytes, const OscClock& clock, std::vector<std::vector<char>>& answers);
+
+    void lose(std::uint64_t packets) noexcept { counts_.lost += packets; }
+    const OscCounts& counts() const noexcept { return counts_; }
+
+    /// The answer of the query `status`, with the counts.
+    PlainMessage status();
+
+private:
+    std::string act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers);
+    std::string turn(const SensorFormat& format, const OscMessage& message);
+    std::string route(const PlainMessage& plain, OscTag tag, const OscClock& clock, std::vector<std::vector<char>>& answers);
+    void addCounts(PlainMessage& answer) const;
+
+    Session& session_;
+    MessageRouter& messages_;
+    OscHooks hooks_;
+    PhoneSensors sensors_;
+    OscCounts counts_;
+};
+
+} // namespace physvib

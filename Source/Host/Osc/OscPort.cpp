@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Waits for packets, follows the device's clock, tells once a second how the session is.
+#include "Host/Osc/OscPort.h"
+#include <chrono>
+#include <poll.h>
+
+namespace physvib {
+namespace {
+
+constexpr int pollMilliseconds = 10;     // the device's blocks are looked at so often
+constexpr int mostAtOnce = 1000;         // packets, before they are
+constexpr std::int64_t clockSlackNs = 100'000; // two clocks are not read at once
+
+std::int64_t steadyNs() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+} // namespace
+
+OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device, OscHooks hooks)
+    : session_{session}
+    , device_{device}
+    , door_{session, messages, std::move(hooks), settings.turnRadians} {
+    const auto use = [this](OscSocket& socket, Result<OscSocket> opened) {
+        if (error_.empty()) error_ = opened.error;
+        socket = std::move(opened.value);
+    };
+    if (settings.port) use(in_, OscSocket::listening(settings.address, *settings.port));
+    if (!settings.receiver.empty()) use(out_, OscSocket::connected(settings.receiver));
+    if (!error_.empty()) return;
+    if (in_.isOpen()) address_ = settings.address + ":" + std::to_string(in_.port());
+    thread_ = std::thread{[this] { run(); }};
+}
+
+OscPort::~OscPort() {
+    stop_ = true;
+    if (thread_.joinable()) thread_.join();
+}
+
+void OscPort::run() {
+    pollfd in{in_.handle(), POLLIN, 0};
+    while (!stop_) {
+        const bool hasCome = poll(&in, in_.isOpen() ? 1 : 0, pollMilliseconds) > 0;
+        follow();
+        if (hasCome) receive();
+        if (out_.isOpen()) tellStatus();
+    }
+}
+
+void OscPort::follow() {
+    if (const std::int64_t ahead = physvib::unixAheadNs(); std::abs(ahead - unixAheadNs_) > clockSlackNs) unixAheadNs_ = ahead;
+    const std::lock_guard lock{mutex_};
+    clock_.follow(device_.felt(FeltReader::messages), unixAheadNs_);
+}
+
+void OscPort::receive() {
+    int taken = 0;
+    for (; taken < mostAtOnce; ++taken) {
+        const auto packet = in_.receive();
+        if (!packet) break;
+        const std::uint64_t wrong = door_.counts().wrong();
+        answers_.clear();
+        door_.take(*packet, clock_, answers_);
+        if (door_.counts().wrong() != wrong) fault_ = in_.sender() + ": " + door_.counts().fault;
+        for (const auto& answer : answers_) in_.answer(answer);
+    }
+    door_.lose(in_.takeLost());
+    const std::lock_guard lock{mutex_};
+    counts_ = door_.counts();
+    counts_.fault = fault_;
+}
+
+void OscPort::count(bool left) noexcept { (left ? sent_ : unsent_).fetch_add(1, std::memory_order_relaxed); }
+
+// Its tag is that session time, on the system's clock.
+void OscPort::tellStatus() {
+    const std::int64_t now = steadyNs();
+    if (now < nextStatusNs_ || !clock_.isReady()) return;
+    nextStatusNs_ = now + statusEveryNs;
+    const std::int64_t present = session_.presentNs();
+    const PlainMessage status = door_.status();
+    count(out_.send(oscBundle(std::string(oscAnswerPrefix) + status.name, status, tagOf(clock_.presentUnixNs(present)))));
+}
+
+void OscPort::tell(const PlayedEvent& played, int sampleRateHz) {
+    if (!out_.isOpen() || sampleRateHz == 0) return;
+    const CollisionEvent& e = played.event;
+    const std::int64_t timeNs = played.isLate ? played.frame * 1'000'000'000 / sampleRateHz : e.timeNs;
+    OscTag tag = oscNow;
+    if (const std::lock_guard lock{mutex_}; clock_.isReady()) tag = tagOf(clock_.feltUnixNs(timeNs));
+    const PlainMessage hit{"hit", {{"session_s", static_cast<double>(timeNs) * 1e-9}, {"frequency_hz", e.frequencyHz}, {"decay_per_s", e.decayPerSecond}, {"amplitude", e.amplitude}, {"x_m", e.x}, {"y_m", e.y}}};
+    count(out_.send(oscBundle(std::string(oscHitAddress), hit, tag)));
+}
+
+OscStatus OscPort::status() const {
+    const std::lock_guard lock{mutex_};
+    return {address_, counts_, sent_, unsent_};
+}
+
+} // namespace physvib

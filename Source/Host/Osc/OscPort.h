@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Open Sound Control in and out of a live session, on a thread of its own.
+#pragma once
+#include "Core/RenderControl.h"
+#include "Host/Osc/OscDoor.h"
+#include "Host/Osc/OscSocket.h"
+#include "Session/FeltOutput.h"
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace physvib {
+
+inline constexpr const char* oscThisComputer = "127.0.0.1";
+inline constexpr const char* oscAnyComputer = "0.0.0.0";
+constexpr int oscUsualPort = 9000; ///< where sensor programs send unless told otherwise
+
+struct OscSettings {
+    std::string address = oscThisComputer; ///< of this computer, that packets are taken at
+    std::optional<int> port;               ///< or the next free one; 0: any; nullopt: nothing is taken
+    std::string receiver;                  ///< HOST:PORT of hits and status; empty: none
+    double turnRadians = 0.0;              ///< by which a phone is held counter-clockwise of upright
+};
+
+struct OscStatus {
+    std::string address;   ///< ADDRESS:PORT; empty: nothing is taken
+    OscCounts counts;
+    std::uint64_t sent = 0, unsent = 0; ///< hits and status
+};
+
+class OscPort {
+public:
+    static constexpr std::int64_t statusEveryNs = 1'000'000'000;
+
+    /// All outlive it. See error(). M.
+    OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device, OscHooks hooks);
+    ~OscPort();
+
+    /// Empty, or why it is not open: one line. Any thread.
+    const std::string& error() const noexcept { return error_; }
+
+    /// The number of the port; 0: nothing is taken. Any thread.
+    int port() const noexcept { return in_.port(); }
+    int bufferBytes() const { return in_.bufferBytes(); }
+
+    /// What was played, to the receiver. M.
+    void tell(const PlayedEvent& played, int sampleRateHz);
+
+    /// Any thread but R.
+    OscStatus status() const;
+
+private:
+    void run();
+    void receive();
+    void follow();
+    void tellStatus();
+    void count(bool left) noexcept;
+
+    Session& session_;
+    FeltOutput& device_;
+    OscDoor door_;
+    OscSocket in_, out_;
+    std::string error_;
+    std::string address_, fault_;
+    std::vector<std::vector<char>> answers_;
+    std::int64_t unixAheadNs_ = 0, nextStatusNs_ = 0;
+    mutable std::mutex mutex_; // guards what follows; the clock is changed by the port's thread alone
+    OscClock clock_;
+    OscCounts counts_;
+    std::atomic<std::uint64_t> sent_{0}, unsent_{0};
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+} // namespace physvib

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A socket of UDP: bound to one address and to a port of its own, or connected to one receiver.
+#pragma once
+#include "Files/Result.h"
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <sys/socket.h>
+
+namespace physvib {
+
+/// One thread per direction.
+class OscSocket {
+public:
+    static constexpr int triedPorts = 100;
+    static constexpr int wantedBufferBytes = 4 << 20; ///< the system gives less if it is told to (net.core.rmem_max)
+
+    OscSocket() = default;
+    OscSocket(OscSocket&& other) noexcept;
+    OscSocket& operator=(OscSocket&& other) noexcept;
+    ~OscSocket();
+
+    /// At that address of this computer and that port, or else the next one that nobody has; 0: any. Never one that others share. Or one line.
+    static Result<OscSocket> listening(const std::string& address, int port);
+
+    /// To `HOST:PORT` or `[ADDRESS]:PORT`. Or one line.
+    static Result<OscSocket> connected(const std::string& receiver);
+
+    bool isOpen() const noexcept { return handle_ >= 0; }
+    int handle() const noexcept { return handle_; }
+    int port() const noexcept { return port_; }
+    int bufferBytes() const; ///< as the system counts them, with its own
+
+    /// What has come, if something has; valid until the next call.
+    std::optional<std::span<const char>> receive();
+    /// From where that was.
+    std::string sender() const;
+    /// Packets that found no room, since the last call.
+    std::uint32_t takeLost() noexcept;
+    /// Back to where that was, or to the receiver that it is connected to; false: it did not leave.
+    bool answer(std::span<const char> bytes) noexcept;
+    bool send(std::span<const char> bytes) noexcept;
+
+private:
+    explicit OscSocket(int handle) noexcept : handle_{handle} {}
+    int handle_ = -1, port_ = 0;
+    std::string bytes_;
+    sockaddr_storage sender_{};
+    socklen_t senderSize_ = 0;
+    std::uint32_t lost_ = 0, toldLost_ = 0;
+};
+
+} // namespace physvib

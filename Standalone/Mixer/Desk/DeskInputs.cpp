@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What comes from outside by messages: it moves what the desk shows.
+#include "Mixer/Desk/Desk.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+double stripDb(float gain) { return gain == 0.0f ? leastStripDb : std::clamp(20.0 * std::log10(std::abs(static_cast<double>(gain))), leastStripDb, mostStripDb); }
+
+} // namespace
+
+std::string Desk::listen(OscUse use) {
+    osc_.reset();
+    oscMessages_ = 0;
+    if (use == OscUse::off) return {};
+    osc_ = std::make_unique<DeskOsc>(use, session_, output_, [this](const LineInput& input) { return take(input); });
+    const std::string error = osc_->error();
+    if (!error.empty()) osc_.reset();
+    return error;
+}
+
+std::string Desk::take(const LineInput& input) {
+    if (const auto* action = std::get_if<Action>(&input)) return act(*action);
+    if (const auto* control = std::get_if<RenderControl>(&input)) return takeControl(*control);
+    if (const auto* silence = std::get_if<SilenceControl>(&input)) setSilent(silence->isOn);
+    return {};
+}
+
+std::string Desk::takeControl(const RenderControl& control) {
+    using Kind = RenderControl::Kind;
+    const auto strip = static_cast<std::size_t>(control.channel);
+    if (control.channel < 0 || control.channel >= mix_.count()) return "expected a channel from 1 to " + std::to_string(mix_.count()) + ", found " + std::to_string(control.channel + 1);
+    if (control.kind != Kind::gain && control.kind != Kind::mute) return "expected gain, mute or silence; the rest is set at the desk";
+    change("Strips by message", [&](Mix& mix) {
+        if (control.kind == Kind::mute) mix.strips[strip].isMuted = control.value != 0.0f;
+        else mix.strips[strip].gainDb = stripDb(control.value), mix.strips[strip].isInverted = control.value < 0.0f;
+    }, true);
+    return {};
+}
+
+// What a message strikes stands in the session that is saved.
+void Desk::watchOsc() {
+    if (!osc_) return;
+    const std::uint64_t messages = osc_->status().counts.messages;
+    if (std::exchange(oscMessages_, messages) != messages) ++edits_;
+}
+
+} // namespace physvib

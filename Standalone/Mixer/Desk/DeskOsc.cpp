@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What comes in on the port's thread, on its way to M.
+#include "Mixer/Desk/DeskOsc.h"
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr std::size_t mostWaiting = 1000; // M hangs
+
+OscSettings settingsOf(OscUse use) {
+    OscSettings settings;
+    settings.address = use == OscUse::anyComputer ? oscAnyComputer : oscThisComputer;
+    settings.port = oscUsualPort;
+    return settings;
+}
+
+} // namespace
+
+DeskOsc::DeskOsc(OscUse use, Session& session, AudioOutput& output, std::function<std::string(const LineInput&)> act)
+    : use_{use}
+    , output_{output}
+    , act_{std::move(act)}
+    , messages_{session}
+    , port_{std::make_unique<OscPort>(settingsOf(use), session, messages_, output,
+                                      OscHooks{[this](const LineInput& input) { return take(input); }, [this] { return std::string{output_.isLent() ? "a study is running" : ""}; }})} {}
+
+DeskOsc::~DeskOsc() {
+    port_.reset(); // from here on nobody asks for an update
+    cancelPendingUpdate();
+}
+
+std::string DeskOsc::take(const LineInput& input) {
+    const std::lock_guard lock{mutex_};
+    if (waiting_.size() == mostWaiting) return "too many inputs at once";
+    waiting_.push_back(input);
+    triggerAsyncUpdate();
+    return {};
+}
+
+void DeskOsc::handleAsyncUpdate() {
+    std::vector<LineInput> inputs;
+    {
+        const std::lock_guard lock{mutex_};
+        inputs.swap(waiting_);
+    }
+    for (const LineInput& input : inputs) {
+        const std::string fault = act_(input);
+        if (fault.empty()) continue;
+        fault_ = fault;
+        ++refused_;
+    }
+}
+
+OscStatus DeskOsc::status() const {
+    OscStatus status = port_->status();
+    status.counts.refused += refused_;
+    if (status.counts.fault.empty()) status.counts.fault = fault_;
+    return status;
+}
+
+} // namespace physvib

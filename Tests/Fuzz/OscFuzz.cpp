@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Fuzz target of OSC packets: read, and let in by the door.
+#include "Files/SceneCatalogue.h"
+#include "Fuzzing.h"
+#include "Host/Osc/OscDoor.h"
+#include <memory>
+
+namespace {
+
+using namespace physvib;
+
+std::unique_ptr<Session> makeSession() {
+    SessionSetup setup;
+    setup.scene = *findBuiltInScene("drop");
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    setup.panner = {layout, PanningLaw::linear, 1.0, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
+    setup.log = LogUse::none;
+    return std::make_unique<Session>(setup);
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const std::unique_ptr<Session> session = makeSession();
+    session->prepare(8000, 256);
+    MessageRouter messages{*session};
+    OscDoor door{*session, messages, {[](const LineInput& input) { return session->act(std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}); }, {}}};
+    OscClock clock;
+    std::vector<std::vector<char>> answers;
+    const std::span<const char> bytes{reinterpret_cast<const char*>(data), size};
+    const auto read = readOscPacket(bytes);
+    door.take(bytes, clock, answers);
+    const OscCounts& counts = door.counts();
+    fuzz::demand(counts.messages == read.value.size() && counts.bad == (read ? 0u : 1u), "counted otherwise than read", counts.fault);
+    fuzz::demand(counts.refused != counts.messages || session->size().strikes == 0, "refused, and half done", counts.fault);
+    fuzz::demand(counts.fault.size() < 600, "too long a message", counts.fault);
+    for (const char c : counts.fault) fuzz::demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", counts.fault);
+    for (const auto& answer : answers) fuzz::demand(static_cast<bool>(readOscPacket(answer)), "an answer that cannot be read");
+    return 0;
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Messages by OSC at the desk: from nobody unless told; they strike, tilt, and move what is shown.
+#include "Host/Osc/OscSocket.h"
+#include "Mixer/Output/OutputTab.h"
+#include "MixerTesting.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+void send(Desk& desk, const std::string& address, std::vector<NamedValue> values) {
+    auto socket = OscSocket::connected(desk.osc()->address);
+    ASSERT_EQ(socket.error, "");
+    EXPECT_TRUE(socket.value.send(oscPacket(address, {"", std::move(values)})));
+}
+
+const Fact& messagesOf(OutputTab& tab, Desk& desk) {
+    tab.refresh(desk.look());
+    const auto& facts = dynamic_cast<FactList&>(*find(tab, "What follows from it")).facts();
+    return *std::ranges::find(facts, juce::String{"Messages"}, &Fact::name);
+}
+
+TEST(DeskOsc, ListensToNobodyUnlessTold) {
+    Desk desk{onlyNoDevice(), noDevice};
+    EXPECT_EQ(desk.oscUse(), OscUse::off);
+    EXPECT_FALSE(desk.osc().has_value());
+    OutputTab tab{desk};
+    EXPECT_EQ(messagesOf(tab, desk).value, "none");
+    EXPECT_EQ(desk.listen(OscUse::thisComputer), "");
+    EXPECT_TRUE(desk.osc()->address.starts_with("127.0.0.1:"));
+    EXPECT_EQ(desk.listen(OscUse::off), "");
+    EXPECT_FALSE(desk.osc().has_value());
+}
+
+TEST(DeskOsc, IsSwitchedInTheOutputTab) {
+    Desk desk{onlyNoDevice(), noDevice};
+    OutputTab tab{desk};
+    auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "OSC"));
+    EXPECT_EQ(box.getText(), "from nobody");
+    box.setSelectedItemIndex(1, juce::sendNotificationSync);
+    EXPECT_EQ(desk.oscUse(), OscUse::thisComputer);
+    send(desk, "/physvib/strike", {{"frequency_hz", 200.0}, {"decay_per_s", 30.0}});
+    send(desk, "/physvib/strike", {{"level", 2.0}});
+    ASSERT_TRUE(runUntil([&] { return desk.osc()->counts.messages == 2; }));
+    const Fact& told = messagesOf(tab, desk);
+    EXPECT_TRUE(told.value.startsWith(utf8(desk.osc()->address) + ": 1 good, 1 bad, 0 late; 127.0.0.1:")) << told.value;
+    EXPECT_EQ(told.shade, Shade::now);
+    box.setSelectedItemIndex(0, juce::sendNotificationSync);
+    EXPECT_EQ(desk.oscUse(), OscUse::off);
+}
+
+TEST(DeskOsc, WhatStrikesIsFeltAndSaved) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_EQ(desk.listen(OscUse::thisComputer), "");
+    desk.look();
+    const auto edits = desk.edits();
+    send(desk, "/physvib/strike", {{"frequency_hz", 123.0}, {"decay_per_s", 30.0}});
+    EXPECT_TRUE(runUntil([&] { return std::ranges::any_of(desk.look().hits, [](const auto& hit) { return hit.frequencyHz == 123.0; }); }));
+    EXPECT_GT(desk.edits(), edits) << "the document has to be saved";
+    ASSERT_EQ(desk.saved().log.strikes.size(), 1U);
+}
+
+TEST(DeskOsc, StripsAndSilenceAreMovedAtTheDesk) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_EQ(desk.listen(OscUse::thisComputer), "");
+    send(desk, "/physvib/gain", {{"channel", 2.0}, {"value", 0.5}});
+    send(desk, "/physvib/mute", {{"channel", 1.0}, {"on", 1.0}});
+    send(desk, "/physvib/silence", {{"on", 1.0}});
+    send(desk, "/phone/gravity", {{"", 0.0}});
+    EXPECT_TRUE(runUntil([&] { return desk.isSilent(); }));
+    EXPECT_NEAR(desk.mix().strips[1].gainDb, -6.02, 0.01);
+    EXPECT_TRUE(desk.mix().strips[0].isMuted);
+    desk.undoManager().undo();
+    EXPECT_EQ(desk.mix().strips[1].gainDb, 0.0);
+    send(desk, "/physvib/delay", {{"channel", 1.0}, {"seconds", 0.01}});
+    send(desk, "/physvib/mute", {{"channel", 9.0}, {"on", 1.0}});
+    EXPECT_TRUE(runUntil([&] { return desk.osc()->counts.refused == 3; }));
+}
+
+TEST(DeskOsc, APhoneTiltsTheWorld) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_EQ(desk.listen(OscUse::thisComputer), "");
+    auto socket = OscSocket::connected(desk.osc()->address);
+    using namespace std::string_literals;
+    const auto upsideDown = "/accelerometer\0\0,fff\0\0\0\0\0\0\0\0\xc1\x1c\xf5\xc3\0\0\0\0"s; // y: -9.81
+    EXPECT_TRUE(socket.value.send({upsideDown.data(), upsideDown.size()}));
+    EXPECT_TRUE(runUntil([&] {
+        const auto& takes = desk.saved().log.takes;
+        return !takes.empty() && std::ranges::any_of(takes.back().inputs, [](const LiveInput& input) {
+            const auto* gravity = std::get_if<GravityAction>(&input.action);
+            return gravity != nullptr && gravity->metresPerSecond2.y > 9.8;
+        });
+    }));
+    EXPECT_EQ(desk.osc()->counts.fault, "");
+}
+
+} // namespace
+} // namespace physvib

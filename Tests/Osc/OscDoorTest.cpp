@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What packets do to a session, without a network.
+#include "Host/Osc/OscDoor.h"
+#include "Session/FakeHost.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using namespace std::string_literals;
+
+SessionSetup quietSetup() {
+    auto setup = shakeTheBoxSetup(0.05);
+    setup.scene.bodies.clear();
+    setup.scene.script.clear();
+    setup.scene.joints.clear();
+    return setup;
+}
+
+struct Open {
+    Session session{quietSetup()};
+    MessageRouter messages{session};
+    std::vector<LineInput> acted;
+    std::string closed;
+    OscDoor door{session, messages, {[this](const LineInput& input) { return acted.push_back(input), std::string{}; }, [this] { return closed; }}};
+    OscClock clock;
+    std::vector<std::vector<char>> answers;
+    Block block;
+
+    Open() { session.prepare(hostRate, 512); }
+    /// Half a second at 48 kHz, told to the clock as if the session had begun at 1 s of the steady clock, which is the system's.
+    void play(int blocks = 47) {
+        for (int k = 0; k < blocks; ++k) {
+            clock.follow({session.presentNs() - 1, 1'000'000'000 + session.presentNs(), 1}, 0);
+            session.advance();
+            session.render(block.at.data(), 512, RenderMode::realtime);
+        }
+    }
+    void take(const std::vector<char>& bytes) { door.take(bytes, clock, answers); }
+    void strike(double level, OscTag tag) { take(oscBundle("/physvib/strike", {"strike", {{"frequency_hz", 200.0}, {"decay_per_s", 20.0}, {"level", level}}}, tag)); }
+    std::vector<CollisionEvent> struck() {
+        SessionLog log;
+        session.advance();
+        session.readLog(log);
+        return log.strikes;
+    }
+};
+
+TEST(OscDoors, ATagIsTheSessionTimeToTheNanosecond) {
+    Open open;
+    open.play();
+    const std::int64_t wanted = open.session.presentNs() + 123'456'789;
+    open.strike(0.5, tagOf(1'000'000'000 + wanted));
+    open.play();
+    const auto struck = open.struck();
+    ASSERT_EQ(struck.size(), 1U);
+    EXPECT_EQ(struck[0].timeNs, wanted);
+    EXPECT_EQ(open.door.counts().late, 0U);
+    EXPECT_EQ(open.door.counts().refused, 0U);
+}
+
+TEST(OscDoors, LateOnesAreCountedAndFeltAtOnce) {
+    Open open;
+    open.play();
+    const std::int64_t now = open.session.presentNs();
+    open.strike(0.5, tagOf(1'000'000'000 + now - 1'000'000));
+    open.strike(0.5, oscNow);
+    const auto struck = open.struck();
+    ASSERT_EQ(struck.size(), 2U);
+    EXPECT_EQ(struck[0].timeNs, now);
+    EXPECT_EQ(struck[1].timeNs, now);
+    EXPECT_EQ(open.door.counts().late, 1U) << "\"immediately\" is never late";
+}
+
+TEST(OscDoors, ATagAndATimeOfItsOwnAreTwo) {
+    Open open;
+    open.play();
+    open.take(oscBundle("/physvib/strike", {"strike", {{"frequency_hz", 200.0}, {"seconds", 0.1}, {"in", 2.0}}}, tagOf(3'000'000'000)));
+    open.strike(0.5, tagOf(1'000'000'000 + std::int64_t{100'000} * 1'000'000'000));
+    EXPECT_EQ(open.door.counts().refused, 2U);
+    EXPECT_EQ(open.door.counts().fault, "strike: time tag: expected at most 86400 s from now");
+    EXPECT_EQ(open.session.size().strikes, 0U);
+    EXPECT_TRUE(open.struck().empty());
+}
+
+// Whatever the table has, the door has.
+TEST(OscDoors, EveryMessageOfTheTableHasAnAddress) {
+    for (const auto& message : messageTable) {
+        Open open;
+        open.take(oscPacket("/physvib/" + std::string(message.name), {}));
+        EXPECT_EQ(open.door.counts().fault.find("expected the name"), std::string::npos) << message.name;
+        EXPECT_EQ(open.answers.size(), message.isQuery ? 1U : 0U) << message.name;
+    }
+}
+
+TEST(OscDoors, QueriesAreAnswered) {
+    Open open;
+    open.play();
+    open.take(oscPacket("/physvib/layout", {}));
+    open.take(oscPacket("/physvib/status", {}));
+    ASSERT_EQ(open.answers.size(), 2U);
+    const auto layout = readOscPacket(open.answers[0]).value.at(0), status = readOscPacket(open.answers[1]).value.at(0);
+    EXPECT_EQ(layout.address, "/physvib/answer/layout");
+    EXPECT_EQ(std::get<std::string>(layout.values.at(1)), "linear");
+    const auto plain = plainOf("status", status.values);
+    EXPECT_EQ(plain.value.values.front().name, "session_s");
+    EXPECT_NEAR(std::get<double>(plain.value.values.front().value), 1e-9 * static_cast<double>(open.session.presentNs()), 1e-6);
+    EXPECT_EQ(plain.value.values.at(5), (NamedValue{"osc_packets", 2.0}));
+    open.take(open.answers[0]); // to itself
+    EXPECT_EQ(open.answers.size(), 2U) << "an answer is never answered";
+}
+
+TEST(OscDoors, InputsAndControlsAreThoseOfLines) {
+    Open open;
+    open.take(oscPacket("/physvib/tilt", {"", {{"angle_rad", 0.5}}}));
+    open.take(oscPacket("/physvib/gravity", {"", {{"gravity_m_per_s2", std::vector{1.0, -9.0}}}}));
+    open.take(oscPacket("/physvib/gain", {"", {{"channel", 2.0}, {"value", 0.5}}}));
+    open.take(oscPacket("/physvib/mute", {"", {{"channel", 1.0}, {"on", 1.0}}}));
+    open.take(oscPacket("/physvib/silence", {"", {{"on", 0.0}}}));
+    open.take(oscPacket("/phone/gravity", {"", {}}));
+    EXPECT_EQ(open.door.counts().fault, "/phone/gravity: expected 3 numbers");
+    ASSERT_EQ(open.acted.size(), 5U);
+    EXPECT_EQ(std::get<Action>(open.acted[0]), Action{TiltAction{0.5}});
+    EXPECT_EQ(std::get<Action>(open.acted[1]), (Action{GravityAction{{1.0, -9.0}}}));
+    EXPECT_EQ(std::get<RenderControl>(open.acted[2]).kind, RenderControl::Kind::gain);
+    EXPECT_EQ(std::get<RenderControl>(open.acted[2]).channel, 1);
+    EXPECT_EQ(std::get<RenderControl>(open.acted[2]).value, 0.5f);
+    EXPECT_EQ(std::get<RenderControl>(open.acted[3]).value, 1.0f);
+    EXPECT_FALSE(std::get<SilenceControl>(open.acted[4]).isOn);
+}
+
+TEST(OscDoors, RefusalsSayWhy) {
+    Open open;
+    const auto refusal = [&open](const std::string& address, std::vector<NamedValue> values) {
+        open.take(oscPacket(address, {"", std::move(values)}));
+        return open.door.counts().fault;
+    };
+    EXPECT_EQ(refusal("/physvib/strike", {{"level", 2.0}, {"frequency_hz", 200.0}, {"seconds", 1.0}}), "strike: level: expected 0 to 1, found 2");
+    EXPECT_EQ(refusal("/physvib/gain", {{"channel", 9.0}, {"value", 1.0}}), "gain: channel: expected a channel from 1 to 4, found 9");
+    EXPECT_EQ(refusal("/physvib/tilt", {{"angle", 1.0}}).substr(0, 5), "tilt:");
+    EXPECT_EQ(refusal("/physvib/jump", {}), "\"jump\": expected the name of a message, an input or a control");
+    EXPECT_EQ(refusal("/jump", {}), "\"/jump\": expected an address that begins with /physvib/, or one of a sensor program");
+    EXPECT_EQ(open.door.counts().refused, 5U);
+    EXPECT_EQ(open.door.counts().bad, 0U);
+    EXPECT_TRUE(open.struck().empty());
+    EXPECT_TRUE(open.acted.empty());
+}
+
+TEST(OscDoors, NothingOfABadPacketIsDone) {
+    Open open;
+    open.play();
+    auto bytes = oscBundle("/physvib/strike", {"strike", {{"frequency_hz", 200.0}, {"seconds", 0.1}}}, oscNow);
+    for (const char c : "\0\0\0\7broken"s) bytes.push_back(c);
+    open.take(bytes);
+    EXPECT_EQ(open.door.counts().bad, 1U);
+    EXPECT_EQ(open.door.counts().messages, 0U);
+    EXPECT_TRUE(open.struck().empty());
+}
+
+TEST(OscDoors, RandomBytesStrikeNothing) {
+    Open open;
+    open.play();
+    Random random{3};
+    constexpr int count = 50'000;
+    std::vector<char> bytes;
+    for (int k = 0; k < count; ++k) {
+        bytes.resize(static_cast<std::size_t>(random.below(100)));
+        for (char& byte : bytes) byte = static_cast<char>(random.below(256));
+        if (k % 2 == 0 && bytes.size() > 8) std::copy_n(k % 4 == 0 ? "#bundle" : "/physvi", 8, bytes.begin());
+        open.take(bytes);
+    }
+    EXPECT_EQ(open.door.counts().packets, static_cast<std::uint64_t>(count));
+    EXPECT_TRUE(open.struck().empty());
+    EXPECT_TRUE(open.acted.empty());
+}
+
+TEST(OscDoors, AClosedDoorSaysWhy) {
+    Open open;
+    open.closed = "a study is running";
+    open.strike(0.5, oscNow);
+    EXPECT_EQ(open.door.counts().fault, "a study is running");
+    EXPECT_TRUE(open.struck().empty());
+}
+
+} // namespace
+} // namespace physvib

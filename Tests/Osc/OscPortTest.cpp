@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ports on the loopback: nobody shares one, and what is sent is counted.
+#include "Host/Osc/OscPort.h"
+#include "Session/FakeHost.h"
+#include <chrono>
+#include <functional>
+#include <gtest/gtest.h>
+#include <memory>
+#include <poll.h>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// A device whose blocks are asked for by the test.
+struct FakeOutput final : FeltOutput {
+    FeltMoment felt(FeltReader) noexcept override { return now; }
+    float level() const noexcept override { return 1.0f; }
+    bool isSilent() const noexcept override { return false; }
+    FeltMoment now{1'000'000'000, 1'000'000'000, 50'000'000};
+};
+
+struct Played {
+    Session session{shakeTheBoxSetup(0.05)};
+    MessageRouter messages{session};
+    FakeOutput output;
+    Played() { session.prepare(hostRate, 512); }
+    std::unique_ptr<OscPort> open(const OscSettings& settings) {
+        return std::make_unique<OscPort>(settings, session, messages, output, OscHooks{[](const LineInput&) { return std::string{}; }, {}});
+    }
+};
+
+OscSettings anyPort() {
+    OscSettings settings;
+    settings.port = 0;
+    return settings;
+}
+
+/// A minute at most; sanitizers are slow.
+bool comes(const std::function<bool()>& isTrue) {
+    for (int k = 0; k < 6000; ++k) {
+        if (isTrue()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    return false;
+}
+
+OscSocket senderTo(const OscPort& port) { return std::move(OscSocket::connected(std::string(oscThisComputer) + ":" + std::to_string(port.port())).value); }
+
+TEST(OscPorts, EightAtOnceHaveAPortEach) {
+    Played played;
+    const auto first = played.open(anyPort());
+    ASSERT_EQ(first->error(), "");
+    OscSettings same;
+    same.port = first->port();
+    std::vector<std::unique_ptr<OscPort>> all;
+    std::vector<int> ports{first->port()};
+    for (int k = 0; k < 7; ++k) {
+        all.push_back(played.open(same));
+        ASSERT_EQ(all.back()->error(), "");
+        EXPECT_GT(all.back()->port(), ports.back()) << "the next that is free";
+        ports.push_back(all.back()->port());
+    }
+    const auto strike = oscPacket("/physvib/latency", {});
+    for (const auto& port : all) {
+        auto sender = senderTo(*port);
+        EXPECT_TRUE(sender.send(strike));
+        EXPECT_TRUE(comes([&] { return port->status().counts.messages == 1; }));
+    }
+    EXPECT_EQ(first->status().counts.packets, 0U);
+}
+
+TEST(OscPorts, WhatCannotBeIsToldInALine) {
+    Played played;
+    OscSettings nowhere = anyPort();
+    nowhere.address = "203.0.113.7"; // nobody's
+    EXPECT_EQ(played.open(nowhere)->error(), "203.0.113.7: Cannot assign requested address");
+    nowhere.address = "here";
+    EXPECT_EQ(played.open(nowhere)->error().substr(0, 7), "\"here\":");
+    OscSettings toNobody;
+    toNobody.receiver = "localhost";
+    EXPECT_EQ(played.open(toNobody)->error(), "expected HOST:PORT, found \"localhost\"");
+}
+
+TEST(OscPorts, WhatIsSentIsCounted) {
+    Played played;
+    const auto port = played.open(anyPort());
+    auto sender = senderTo(*port);
+    const auto good = oscPacket("/physvib/strike", {"", {{"frequency_hz", 200.0}, {"decay_per_s", 20.0}}});
+    const std::vector<char> bad{'n', 'o'};
+    constexpr std::uint64_t each = 100; // the buffer holds more
+    for (std::uint64_t k = 0; k < each; ++k) {
+        EXPECT_TRUE(sender.send(good));
+        EXPECT_TRUE(sender.send(bad));
+    }
+    EXPECT_TRUE(comes([&] { return port->status().counts.packets == 2 * each; }));
+    const OscCounts counts = port->status().counts;
+    EXPECT_EQ(counts.messages, each);
+    EXPECT_EQ(counts.bad, each);
+    EXPECT_EQ(counts.lost, 0U);
+    EXPECT_TRUE(counts.fault.starts_with("127.0.0.1:")) << counts.fault;
+    EXPECT_EQ(played.session.size().strikes, 0U) << "they were for now";
+}
+
+TEST(OscPorts, AnswersGoToWhoAsked) {
+    Played played;
+    const auto port = played.open(anyPort());
+    auto asks = senderTo(*port);
+    ASSERT_TRUE(asks.send(oscPacket("/physvib/latency", {})));
+    pollfd in{asks.handle(), POLLIN, 0};
+    ASSERT_EQ(poll(&in, 1, 60'000), 1);
+    const auto answer = asks.receive();
+    ASSERT_TRUE(answer.has_value());
+    EXPECT_EQ(readOscPacket(*answer).value.at(0).address, "/physvib/answer/latency");
+}
+
+TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {
+    Played played;
+    auto in = std::move(OscSocket::listening(oscThisComputer, 0).value);
+    OscSettings out;
+    out.receiver = std::string(oscThisComputer) + ":" + std::to_string(in.port());
+    const auto port = played.open(out);
+    ASSERT_EQ(port->error(), "");
+    EXPECT_EQ(port->port(), 0) << "nothing is taken";
+    const auto next = [&in] {
+        pollfd wait{in.handle(), POLLIN, 0};
+        EXPECT_EQ(poll(&wait, 1, 60'000), 1);
+        const auto packet = in.receive();
+        return packet ? readOscPacket(*packet).value.at(0) : OscMessage{};
+    };
+    EXPECT_EQ(next().address, "/physvib/answer/status") << "the clock is known";
+    CollisionEvent hit;
+    hit.timeNs = 2'500'000'000;
+    hit.frequencyHz = 250.0;
+    hit.amplitude = 0.5;
+    hit.x = 1.5;
+    port->tell({hit, 0, false}, hostRate);
+    const OscMessage told = next();
+    EXPECT_EQ(told.address, oscHitAddress);
+    EXPECT_LT(std::abs(unixNsOf(told.tag) - unixAheadNs() - 2'500'000'000), 1'000'000) << "session time is the steady clock's there";
+    const auto plain = plainOf("hit", told.values);
+    EXPECT_EQ(plain.value.values.at(0), (NamedValue{"session_s", 2.5}));
+    EXPECT_EQ(plain.value.values.at(1), (NamedValue{"frequency_hz", 250.0}));
+    EXPECT_EQ(plain.value.values.at(4), (NamedValue{"x_m", 1.5}));
+}
+
+} // namespace
+} // namespace physvib
