@@ -18,6 +18,7 @@
 #include "CommandLine/Report/ReportCommand.h"
 #include "CommandLine/Study/StimulusCommand.h"
 #include "CommandLine/Study/StudyCommand.h"
+#include "CommandLine/Sweep/SweepCommand.h"
 #include "Files/SceneCatalogue.h"
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -51,6 +52,9 @@ int run(int argc, char** argv) {
     CLI::App* scenes = app.add_subcommand("scenes", "list the built-in scenes");
     CLI::App* render = app.add_subcommand("render", "render a scene, an event list or a clip to files");
     declareRenderOptions(*render, options);
+    SweepOptions sweepOptions;
+    CLI::App* sweep = app.add_subcommand("sweep", "many renders of a design as a table of numbers, on all processors or a cluster");
+    declareSweep(*sweep, sweepOptions);
     ExportOptions exportOptions;
     CLI::App* exported = app.add_subcommand("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others");
     declareExport(*exported, exportOptions);
@@ -109,6 +113,7 @@ int run(int argc, char** argv) {
     if (material->parsed()) return runMaterial(materialOptions);
     if (beats->parsed()) return runBeats(beatsOptions);
     if (play->parsed()) return runPlay(playOptions);
+    if (sweep->parsed()) return runSweep(sweepOptions);
     if (exported->parsed()) return runExport(*exported, exportOptions);
     if (board->parsed()) return runBoard(boardOptions);
     if (attenuation->parsed()) return runAttenuation(attenuationOptions);

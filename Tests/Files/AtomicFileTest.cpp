@@ -77,6 +77,7 @@ TEST_F(AtomicFileTest, OnePathHasOneWriterHoweverItIsSpelled) {
     AtomicFile first(folder / "out.csv");
     for (const fs::path& path : {folder / "out.csv", folder / "sub" / ".." / "out.csv", folder / "link.csv"})
         EXPECT_EQ(writeFile(path, "second"), path.string() + ": cannot be written: it is being written already, here or by another program");
+    EXPECT_TRUE(AtomicFile(folder / "out.csv").isTaken());
     first.write("first");
     EXPECT_EQ(first.commit(), "");
     EXPECT_EQ(contentOf(folder / "out.csv"), "first");
@@ -151,6 +152,7 @@ TEST_F(AtomicFileTest, ALinkIsFollowed) {
 }
 
 TEST_F(AtomicFileTest, MissingFolderIsNamed) {
+    EXPECT_FALSE(AtomicFile(folder / "none" / "f").isTaken()) << "nobody else's fault";
     const fs::path path = folder / "absent" / "out.csv";
     EXPECT_EQ(writeFile(path, "x"), path.string() + ": cannot be written: the folder " +
                                         (folder / "absent").string() + " does not exist");

@@ -13,6 +13,7 @@ namespace fs = std::filesystem;
 using Lock = SystemFile::Lock;
 
 constexpr const char* suffix = ".physvib.part"; // a name that no other program gives: what is left behind under it is removed
+constexpr const char* beingWritten = "it is being written already, here or by another program";
 constexpr const char* inTheWay = "another program is writing it, or left its temporary file: ";
 
 std::string reasonOf(int code) {
@@ -46,7 +47,7 @@ std::string removeLeftBehind(const fs::path& sibling) {
     SystemFile left = SystemFile::look(sibling);
     if (!left.isOpen()) return left.error() == ENOENT ? std::string() : inTheWay + sibling.string() + ": " + left.reason();
     const Lock lock = left.lock();
-    if (lock == Lock::others) return "it is being written already, here or by another program";
+    if (lock == Lock::others) return beingWritten;
     if (lock == Lock::none) return inTheWay + sibling.string();
     std::error_code code;
     if (left.isAt(sibling)) fs::remove(sibling, code);
@@ -58,7 +59,9 @@ std::string removeLeftBehind(const fs::path& sibling) {
 AtomicFile::AtomicFile(const fs::path& path)
     : named_(path)
     , target_(path) {
-    if (const std::string reason = prepare(); !reason.empty()) fail(reason);
+    const std::string reason = prepare();
+    isTaken_ = reason == beingWritten;
+    if (!reason.empty()) fail(reason);
 }
 
 AtomicFile::~AtomicFile() {
@@ -117,7 +120,7 @@ std::string AtomicFile::make(const fs::path& sibling) {
         }
         if (std::string reason = removeLeftBehind(sibling); !reason.empty()) return reason;
     }
-    return "it is being written already, over and over";
+    return beingWritten;
 }
 
 void AtomicFile::fail(std::string_view reason) {

@@ -23,6 +23,9 @@ public:
     /// Empty, or one line naming the path and why it cannot be written.
     const std::string& error() const noexcept { return error_; }
 
+    /// Whether that is because somebody else is writing it: then its path is worth another try.
+    bool isTaken() const noexcept { return isTaken_; }
+
     /// These bytes at that place of the file. False after an error.
     bool writeAt(std::int64_t position, std::string_view bytes);
 
@@ -47,6 +50,7 @@ private:
     SystemFile file_;
     RemovedOnEnd onEnd_;
     std::string error_;
+    bool isTaken_ = false;
 };
 
 /// Writes all of `bytes` to `path`, or leaves what was there. Gives "", or one line naming path and reason.

@@ -129,6 +129,10 @@ bool JsonField::isArray() const {
     return value_.is_array();
 }
 
+bool JsonField::isObject() const {
+    return value_.is_object();
+}
+
 bool JsonField::isNull() const {
     return value_.is_null();
 }

@@ -47,6 +47,7 @@ public:
     bool isNull() const;
     bool isNumber() const;
     bool isArray() const;
+    bool isObject() const;
     bool is(std::string_view word) const;
 
 private:

@@ -99,8 +99,8 @@ RenderStatus renderEvents(const RenderJob& job, RenderOutputs& outputs) {
     return status;
 }
 
-std::string render(RenderJob& job) {
-    RenderOutputs outputs{job};
+std::string render(RenderJob& job, RenderListener* listener) {
+    RenderOutputs outputs{job, listener};
     if (auto error = outputs.open(); !error.empty()) return error;
     const auto warnings = makeEvents(job);
     if (!warnings) return warnings.error;
@@ -119,13 +119,13 @@ std::string render(RenderJob& job) {
 
 } // namespace
 
-int runRender(const RenderOptions& options) {
+int runRender(const RenderOptions& options, RenderListener* listener) {
     RenderJob job{options, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;
     if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
-    const std::string error = render(job);
+    const std::string error = render(job, listener);
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 

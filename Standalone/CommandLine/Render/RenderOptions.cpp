@@ -143,13 +143,18 @@ std::string checkSceneOptions(RenderOptions& o) {
     return {};
 }
 
-std::string checkRenderOptions(RenderOptions& o) {
+std::string checkRenderInputs(RenderOptions& o) {
     if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
     if (!o.sets.empty() && o.scene.empty()) return "--set: only a scene has variables";
-    if (std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return "render: nothing to write; give --out, --events, --picture, --pattern, --contact-sound or --marker";
     if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";
     if (!o.coupling.empty() && o.playsRecordings()) return "--coupling: expected a --method of modes; a recording has no one frequency";
     return checkSceneOptions(o);
+}
+
+std::string checkRenderOptions(RenderOptions& o) {
+    const std::string fault = checkRenderInputs(o);
+    if (!fault.empty() || !std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return fault;
+    return "render: nothing to write; give --out, --events, --picture, --pattern, --contact-sound or --marker";
 }
 
 } // namespace physvib

@@ -83,7 +83,10 @@ void noteGiven(const CLI::App& command, RenderOptions& options);
 /// What parsing cannot see of the scene options: empty, or the usage error in one line.
 std::string checkSceneOptions(RenderOptions& options);
 
-/// The same of all options of `render`.
+/// The same of all options of `render` that say what is rendered.
+std::string checkRenderInputs(RenderOptions& options);
+
+/// The same, and of those that say where to.
 std::string checkRenderOptions(RenderOptions& options);
 
 } // namespace physvib

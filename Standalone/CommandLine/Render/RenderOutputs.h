@@ -3,6 +3,7 @@
 #pragma once
 #include "CommandLine/Render/OnOffPattern.h"
 #include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Render/RenderListener.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
 #include "Host/Recordings/WavSink.h"
@@ -16,8 +17,9 @@ namespace physvib {
 /// Errors are one line each; after one, nothing is left behind. M only.
 class RenderOutputs {
 public:
-    /// `job` outlives this object; its layout is known, its events need not be.
-    explicit RenderOutputs(const RenderJob& job);
+    /// `job` outlives this object; its layout is known, its events need not be. A listener, if there is one, hears what is taken, and
+    /// tells people as much of it as it wants.
+    explicit RenderOutputs(const RenderJob& job, RenderListener* listener = nullptr);
 
     /// Makes sure that every wanted file can be written.
     std::string open();
@@ -51,6 +53,7 @@ private:
     bool writeWav(const float* const* channels, int frames);
 
     const RenderJob& job_;
+    RenderListener* listener_;
     std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_;
     std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;
     std::vector<std::vector<float>> scaled_; // for the interface's voltage

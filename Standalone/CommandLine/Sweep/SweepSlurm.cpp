@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each job does every so many-th task, so that all take about as long; which are done already, the folder says.
+#include "CommandLine/Sweep/SweepSlurm.h"
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <iostream>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace physvib {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string program() {
+    std::error_code none;
+    const auto path = fs::read_symlink("/proc/self/exe", none);
+    return none ? "physvib" : path.string();
+}
+
+std::string inShellQuotes(const fs::path& path) { return '"' + path.string() + '"'; }
+
+} // namespace
+
+std::uint64_t slurmJobs(std::uint64_t tasks) noexcept {
+    constexpr std::uint64_t tasksPerJob = 100, mostAtOnce = 1000; // starting a job takes as long as some renders; MaxArraySize is 1001 by default
+    return std::clamp<std::uint64_t>((tasks + tasksPerJob - 1) / tasksPerJob, 1, mostAtOnce);
+}
+
+// What a shell, a line "#SBATCH" and Slurm's own names of files leave as it is in quotes.
+bool fitsSlurm(const std::string& path) noexcept { return path.find_first_of("\"\\$`%\n'") == std::string::npos; }
+
+std::string slurmScript(const SlurmSweep& sweep) {
+    const std::string jobs = std::to_string(slurmJobs(sweep.tasks));
+    std::string text = "#!/bin/sh\n# physvib " PHYSVIB_VERSION ": " + std::to_string(sweep.tasks) + " tasks. A job may be given up, repeated or submitted again: what is done is not done twice.\n";
+    text += "#SBATCH --job-name=physvib\n#SBATCH --array=1-" + jobs + "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n";
+    text += "#SBATCH --chdir=" + inShellQuotes(fs::current_path()) + "\n#SBATCH --output=" + inShellQuotes(sweep.folder / "slurm" / "%A_%a.txt") + '\n';
+    for (const std::string& word : sweep.words) text += "#SBATCH " + word + '\n';
+    text += "exec " + inShellQuotes(program()) + " sweep " + inShellQuotes(sweep.design) + " --out " + inShellQuotes(sweep.folder);
+    text += " --jobs \"${SLURM_CPUS_PER_TASK:-1}\" --part \"$SLURM_ARRAY_TASK_ID/" + jobs + '"';
+    return text + (sweep.keepsWavs ? " --wav" : "") + (sweep.keepsEvents ? " --events" : "") + '\n';
+}
+
+std::string submitToSlurm(const fs::path& script) {
+    std::string name = "sbatch", path = script.string();
+    std::array<char*, 3> words{name.data(), path.data(), nullptr};
+    pid_t child = 0;
+    std::cout.flush();
+    if (const int fault = posix_spawnp(&child, "sbatch", nullptr, nullptr, words.data(), environ)) return "sbatch: " + std::generic_category().message(fault) + "; the script is " + path;
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? std::string{} : "sbatch did not take " + path;
+}
+
+} // namespace physvib

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Work shared among processes: Box2D counts in variables of its process, and a task that breaks its process breaks no other.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+/// What became of one piece of work, as its process tells it.
+struct WorkEnd {
+    enum class Kind : std::uint32_t { done, wasDone, isDoneElsewhere, failed };
+    std::uint64_t index = 0;
+    Kind kind = Kind::done;
+    std::array<char, 484> words{}; ///< why it failed, cut where it is long
+
+    static WorkEnd failedAt(std::uint64_t index, std::string_view reason);
+    std::string_view reason() const { return words.data(); }
+};
+
+using Work = std::function<WorkEnd(std::uint64_t index)>;
+
+/// Does `work` of 0 to `count` - 1, each once, in `jobs` processes that end with this one; `hear` is told here. Of work that ended its process,
+/// it is told as failed, and the others go on. M only, with no other thread and no file of ours open for writing.
+void shareWork(int jobs, std::uint64_t count, const Work& work, const std::function<void(const WorkEnd&)>& hear);
+
+} // namespace physvib
