@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the tests of Files share: seeded numbers, mutated texts, a folder of their own, a full disk, a locale with a comma.
+// What the tests of Files share: seeded numbers, mutated texts, a folder of their own, a locale with a comma.
 #pragma once
 #include "Support/Mutations.h"
 #include <bit>
 #include <clocale>
 #include <cmath>
 #include <cstddef>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -14,7 +13,6 @@
 #include <random>
 #include <string>
 #include <string_view>
-#include <sys/resource.h>
 #include <unistd.h>
 
 namespace physvib {
@@ -47,27 +45,6 @@ protected:
     }
 
     std::filesystem::path folder;
-};
-
-/// While it lives, no file may grow beyond `bytes`: a full disk without filling one.
-class FileSizeLimit {
-public:
-    explicit FileSizeLimit(rlim_t bytes)
-        : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit small{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &small);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
-private:
-    rlimit before_{};
-    void (*handler_)(int);
 };
 
 /// While it lives, numbers have a decimal comma: for C++ streams always, for C functions if the machine has

@@ -27,9 +27,11 @@ TEST_F(ReadFileTest, RefusesAFileAboveTheLimit) {
     EXPECT_EQ(read.value, "");
 }
 
+#if !defined(_WIN32)
 TEST_F(ReadFileTest, EndsAtTheLimitOfAnEndlessDevice) {
     EXPECT_FALSE(readFile("/dev/zero", 1'000'000));
 }
+#endif
 
 TEST_F(ReadFileTest, NamesAMissingFile) {
     EXPECT_EQ(readFile(folder / "no.txt", 10).error,
@@ -37,7 +39,8 @@ TEST_F(ReadFileTest, NamesAMissingFile) {
 }
 
 TEST_F(ReadFileTest, NamesAFolder) {
-    EXPECT_EQ(readFile(folder, 10).error, folder.string() + ": cannot be read: Is a directory");
+    const std::string error = readFile(folder, 10).error; // the reason is the system's
+    EXPECT_TRUE(error.starts_with(folder.string() + ": cannot be read: ")) << error;
 }
 
 } // namespace

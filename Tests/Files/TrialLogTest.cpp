@@ -2,6 +2,9 @@
 // Trial files: rows come back as records, cut ends are dropped, other people's files are left alone.
 #include "Files/TrialLog.h"
 #include "FileTesting.h"
+#if !defined(_WIN32)
+#include "FullDisk.h"
+#endif
 #include "Files/ProtocolFile.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/StudyCsv.h"
@@ -199,6 +202,7 @@ TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
     EXPECT_EQ(next.records().size(), 1u);
 }
 
+#if !defined(_WIN32)
 TEST_F(TrialLogFiles, AFullDiskLeavesWholeRows) {
     const Protocol p = findProtocol("magnitudes").value;
     const std::string text = wholeFile(p);
@@ -217,6 +221,7 @@ TEST_F(TrialLogFiles, AFullDiskLeavesWholeRows) {
         EXPECT_EQ(std::filesystem::exists(path), !kept.empty());
     }
 }
+#endif
 
 TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
     const Protocol p = findProtocol("level-quest").value;

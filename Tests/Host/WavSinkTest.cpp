@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Host/Recordings/WavSink.h"
 #include "Files/FileTesting.h"
+#include "Files/FullDisk.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -12,6 +12,7 @@ set(Api_may "Api/C/|Files/|Contacts/|Core/")
 set(Api/Live_may "Api/|Host/|Session/|Files/|Core/|juce_")
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
 set(Standalone/Web_may "PageWorld\\.h|Files/|Physics/|Contacts/|Core/")
+set(Standalone/Render_may "Session/OfflineRender\\.h|Files/|Physics/|Contacts/|Core/")
 set(Host_may "Host/|aubio/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
 set(Host/Osc_may "Host/Osc/|Session/|Files/|Physics/|Core/|lo/")
 set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
@@ -19,7 +20,7 @@ set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Study Contacts Physics Files Formats Measure Api Api/Live Session Host Host/Osc Plugin Standalone/Web)
+foreach(room Core Wire Study Contacts Physics Files Formats Measure Api Api/Live Session Host Host/Osc Plugin Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # a room of its own, under another licence
         list(FILTER files EXCLUDE REGEX "/Api/Live/")

@@ -5,8 +5,8 @@
 #include "Core/OfflineLoop.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
+#include "Files/FloatWav.h"
 #include "Files/LayoutFile.h"
-#include "Files/WavHead.h"
 #include <memory>
 #include <physvib/Version.h>
 #include <vector>
@@ -129,19 +129,13 @@ int physvib_events_save(const char* path, const physvib_event* events, physvib_i
 int physvib_wav_save(const char* path, const float* samples, int channels, physvib_int64 frames, int rateHz) {
     return guarded([&] {
         if (path == nullptr || samples == nullptr) return nothingThere("sound: expected a path and samples, found NULL");
-        if (channels < 1 || channels > limits::maxEnchanters || !isSampleRate(rateHz) || frames < 1 || frames > wavMostBytes / (4 * channels))
+        if (channels < 1 || channels > limits::maxEnchanters || !isSampleRate(rateHz) || frames < 1 || !fitsWav(channels, frames))
             return fail(PHYSVIB_ERROR_ARGUMENT, "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB");
-        AtomicFile file{path};
-        const std::string head = wavHead(channels, rateHz, static_cast<std::uint32_t>(frames * channels * 4));
-        if (!file.writeAt(0, head)) return fail(PHYSVIB_ERROR_FILE, file.error());
-        std::vector<float> block;
-        for (physvib_int64 from = 0; from < frames; from += limits::maxBlockFrames) {
-            const physvib_int64 to = std::min<physvib_int64>(frames, from + limits::maxBlockFrames);
-            block.clear();
-            for (physvib_int64 n = from; n < to; ++n)
-                for (int j = 0; j < channels; ++j) block.push_back(samples[j * frames + n]);
-            if (!file.writeAt(static_cast<std::int64_t>(head.size()) + from * channels * 4, {reinterpret_cast<const char*>(block.data()), block.size() * 4}))
-                return fail(PHYSVIB_ERROR_FILE, file.error());
+        FloatWav file{path, channels, rateHz, frames};
+        std::vector<const float*> block(static_cast<std::size_t>(channels));
+        for (physvib_int64 from = 0; from < frames && file.error().empty(); from += limits::maxBlockFrames) {
+            for (int j = 0; j < channels; ++j) block[static_cast<std::size_t>(j)] = samples + j * frames + from;
+            file.write(block.data(), static_cast<int>(std::min<physvib_int64>(frames - from, limits::maxBlockFrames)));
         }
         return written(file.commit());
     });

@@ -26,7 +26,9 @@ __extension__ typedef long long physvib_int64; /**< of 64 bits */
 typedef long long physvib_int64; /**< of 64 bits */
 #endif
 
-#if defined(__GNUC__)
+#if defined(PHYSVIB_IS_BEING_BUILT) /* on Windows, by us */
+#define PHYSVIB_API __declspec(dllexport)
+#elif defined(__GNUC__)
 #define PHYSVIB_API __attribute__((visibility("default"))) /**< shown by the library */
 #else
 #define PHYSVIB_API

@@ -22,7 +22,7 @@ std::string reasonOf(int code) {
 
 /// Opens and closes; 0 or the error number.
 int tryOpen(const fs::path& path, const char* mode) {
-    std::FILE* const file = std::fopen(path.string().c_str(), mode);
+    std::FILE* const file = openStream(path, mode);
     return file != nullptr && std::fclose(file) == 0 ? 0 : errno;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A whole file as text, or one line that says why it cannot be read.
 #pragma once
+#include "Files/Disk/SystemFile.h"
 #include "Files/Result.h"
 #include <array>
 #include <cerrno>
@@ -24,7 +25,7 @@ inline Failure tooLong(const std::filesystem::path& path, std::size_t maxBytes) 
 
 /// The bytes of the file, at most `maxBytes`. Pipes are read to their end. M only.
 inline Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
-    const OpenFile file{std::fopen(path.string().c_str(), "rb")};
+    const OpenFile file{openStream(path, "rb")};
     if (!file) return unreadable(path, errno);
     std::string text;
     std::error_code unknown; // of what is no file: it grows
@@ -50,7 +51,7 @@ inline Result<RegularFile> openRegular(const std::filesystem::path& path, std::s
     std::error_code code;
     const auto status = std::filesystem::status(path, code); // before it is opened: opening a pipe waits
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return unreadable(path, "expected a regular file, found a folder, a device or a pipe");
-    RegularFile file{OpenFile{std::fopen(path.string().c_str(), "rb")}};
+    RegularFile file{OpenFile{openStream(path, "rb")}};
     if (!file.stream) return unreadable(path, errno);
     file.bytes = std::filesystem::file_size(path, code);
     if (code) return unreadable(path, code.message());

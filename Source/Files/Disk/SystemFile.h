@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// An open file of the system, with its lock: the one place of this room that asks for more than the standard library knows.
+// An open file of the system, with its lock: what the rooms without JUCE ask of the system beside a board's line. One file per system
+// does it, SystemFilePosix.cpp and SystemFileWindows.cpp; nothing else of them knows where it runs.
 #pragma once
-#include <csignal>
+#include <array>
+#include <atomic>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -27,8 +30,8 @@ public:
     SystemFile& operator=(SystemFile&& other) noexcept;
     ~SystemFile();
 
-    bool isOpen() const noexcept { return descriptor_ >= 0; }
-    /// The first error number, 0 if there was none; and in words.
+    bool isOpen() const noexcept { return handle_ != none; }
+    /// The first error number (of errno, everywhere), 0 if there was none; and in words.
     int error() const noexcept { return error_; }
     std::string reason() const;
     /// What follows is tried again: a full disk may have room by now.
@@ -50,15 +53,23 @@ public:
     /// Whether it is the file of that name, itself or through nothing but folders.
     bool isAt(const std::filesystem::path& path) const noexcept;
 
-    /// May be read and written by whom `path` may. Best effort: another owner's permissions cannot always be copied.
+    /// May be read and written by whom `path` may. Best effort: another owner's permissions cannot always be copied, and on
+    /// Windows a new file's are its folder's.
     void takePermissionsOf(const std::filesystem::path& path) const noexcept;
 
 private:
     friend class RemovedOnEnd;
-    SystemFile(const std::filesystem::path& path, int flags) noexcept;
-    bool note(bool isGood) noexcept;
+    using Handle = std::intptr_t; // POSIX: a descriptor
+    static constexpr Handle none = -1;
+    enum class Opening { create, grow, look };
+    static SystemFile opened(const std::filesystem::path& path, Opening opening) noexcept;
+    static bool isAt(Handle handle, const std::filesystem::path& path) noexcept;
+    static void removeNow(const std::filesystem::path& path) noexcept; // calls the system, and nothing else
+    void closeNow() noexcept;
+    void refuse() noexcept; // is none of the files that this class is for
+    bool note(bool isGood) noexcept; // keeps the system's first error
 
-    int descriptor_ = -1;
+    Handle handle_ = none;
     int error_ = 0;
 };
 
@@ -73,11 +84,15 @@ public:
     ~RemovedOnEnd();
 
 private:
+    friend void removeAllOnEnd() noexcept;
+    struct Removal;
+    static void removeAll() noexcept;
+    static std::array<std::atomic<Removal*>, 256> removals; // whoever takes one out of its slot owns it: the handler of a signal frees none
     int slot_ = -1;
 };
 
-/// While it lives, signals that end the program wait: between making a file and being ready to remove it. Any thread but
-/// R; for the thread that made it.
+/// While it lives, what ends the program waits (a signal; on Windows the console's, which comes on a thread of its own):
+/// between making a file and being ready to remove it. Any thread but R; for the thread that made it.
 class HeldSignals {
 public:
     HeldSignals() noexcept;
@@ -86,10 +101,13 @@ public:
     HeldSignals& operator=(const HeldSignals&) = delete;
 
 private:
-    sigset_t before_;
+    unsigned others_ = 0; // those that were held already
 };
 
-/// For the handler of a signal that ends the program: allocates, locks and waits for nothing.
+/// For the handler of a signal that ends the program: allocates, locks and waits for nothing (on Windows it waits for HeldSignals).
 void removeAllOnEnd() noexcept;
+
+/// A file of that name by the C library, as std::fopen; nullptr and errno if it cannot be opened. Any thread but R.
+std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept;
 
 } // namespace physvib

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// A scene or an event list to samples, on any system: nothing here but the library.
+#include "Core/CollisionEvent.h"
+#include "Files/Disk/FileClash.h"
+#include "Files/EventsCsv.h"
+#include "Files/FloatWav.h"
+#include "Files/LayoutFile.h"
+#include "Files/SceneCatalogue.h"
+#include "Files/Text/CleanText.h"
+#include "Physics/Scenes/SceneRun.h"
+#include "Session/OfflineRender.h"
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <optional>
+#include <physvib/Version.h>
+
+using namespace physvib;
+
+namespace {
+
+constexpr int exitFailed = 1, exitUsage = 2; // as of `physvib`
+
+struct Options {
+    std::string input, layout = "phone4", instructions = "best", wavPath, eventsPath;
+    double seconds = 10.0;
+    int sampleRateHz = 48000;
+    SceneRun run;
+
+    bool isList() const { return input.ends_with(".csv"); }
+    std::int64_t frames() const { return std::max<std::int64_t>(1, std::llround(seconds * sampleRateHz)); }
+};
+
+/// One line on stderr, whatever names are in it.
+int leave(int code, std::string_view reason) {
+    std::cerr << "physvib-render: " + cleanLine(reason) + '\n';
+    return code;
+}
+
+/// What is played, and in what field.
+struct Source {
+    std::vector<CollisionEvent> events;
+    std::uint64_t drops = 0; ///< collisions that the world had no room for
+    double widthMetres = 0.0, heightMetres = 0.0; ///< 0: those of the layout
+    Provenance provenance{PHYSVIB_VERSION, {}};
+};
+
+Result<Source> sourceOf(const Options& o) {
+    Source source;
+    if (o.isList()) {
+        auto events = loadEventsCsv(o.input);
+        if (!events) return Failure{events.error};
+        source.events = std::move(events.value);
+        source.provenance.entries.emplace_back("events", std::to_string(source.events.size()));
+        return source;
+    }
+    const auto scene = findScene(o.input);
+    if (!scene) return Failure{scene.error};
+    auto made = runScene(scene.value, o.run, std::llround(o.seconds * 1e9));
+    source.events = std::move(made.events);
+    source.drops = made.drops;
+    source.widthMetres = scene.value.fieldWidthMetres;
+    source.heightMetres = scene.value.fieldHeightMetres;
+    source.provenance.entries = {{"scene", scene.value.name}, {"seed", std::to_string(o.run.seed)}, {"steps_per_second", std::to_string(o.run.stepsPerSecond)}};
+    for (const SceneVariable& variable : scene.value.variables) source.provenance.entries.emplace_back(variable.name, variable.value);
+    return source;
+}
+
+Result<EnchanterLayout> layoutOf(const std::string& name) {
+    EnchanterLayout preset;
+    if (layoutPreset(name, preset)) return preset;
+    auto layout = loadLayout(name);
+    return layout ? Result<EnchanterLayout>{layout.value.geometry} : Failure{layout.error};
+}
+
+RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, const Source& source) {
+    const bool hasField = source.widthMetres > 0.0;
+    RendererSettings settings{.sampleRateHz = o.sampleRateHz,
+                              .panner = {layout, PanningLaw::linear, 1.0, hasField ? source.widthMetres : layout.extentWidthMetres,
+                                         hasField ? source.heightMetres : layout.extentHeightMetres}};
+    const auto set = std::ranges::find(instructionSetNames, o.instructions);
+    settings.instructions = static_cast<InstructionSet>(set - instructionSetNames.begin());
+    return settings;
+}
+
+/// What was lost or altered must not go unseen.
+void warn(std::uint64_t count, const char* what) {
+    if (count > 0) leave(0, "warning: " + std::string{what} + ": " + std::to_string(count));
+}
+
+std::string writeWav(const Options& o, const Source& source, const RendererSettings& settings) {
+    if (!fitsWav(settings.outputs(), o.frames())) return "--seconds: too long; a WAV file holds at most 4 GB of samples";
+    FloatWav wav{o.wavPath, settings.outputs(), o.sampleRateHz, o.frames()};
+    if (!wav.error().empty()) return wav.error();
+    const auto status = renderOffline(source.events, {settings, o.frames()}, [&](const float* const* channels, int frames) { return wav.write(channels, frames); });
+    warn(status.rejected, "events that could not be played");
+    warn(status.stolen, "modes faded out early because too many different ones sounded at once");
+    return wav.commit();
+}
+
+/// Renders and writes: empty, or one line.
+std::string render(const Options& o) {
+    const auto layout = layoutOf(o.layout);
+    if (!layout) return layout.error;
+    const auto source = sourceOf(o);
+    if (!source) return source.error;
+    warn(source.value.drops, "collisions lost because too many began in one physics step");
+    std::string error;
+    if (!o.wavPath.empty()) error = writeWav(o, source.value, settingsOf(o, layout.value, source.value));
+    if (error.empty() && !o.eventsPath.empty()) error = writeFile(o.eventsPath, eventsCsv(source.value.events, source.value.provenance));
+    if (error.empty()) std::cout << source.value.events.size() << " events\n";
+    return error;
+}
+
+void declare(CLI::App& app, Options& o) {
+    app.set_version_flag("--version", "physvib-render " PHYSVIB_VERSION);
+    app.add_option("scene", o.input, "a built-in scene, SCENE.json, or EVENTS.csv")->required();
+    app.add_option("--seconds", o.seconds, "length of the render")->check(CLI::Range(0.001, 86400.0))->capture_default_str();
+    app.add_option("--seed", o.run.seed, "seed of the scene")->capture_default_str();
+    app.add_option("--steps-per-second", o.run.stepsPerSecond, "physics steps per second")
+        ->check(CLI::Range(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond))->capture_default_str();
+    app.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")->capture_default_str();
+    app.add_option("--rate", o.sampleRateHz, "sample rate in Hz")->check(CLI::Range(limits::minSampleRateHz, limits::maxSampleRateHz))->capture_default_str();
+    app.add_option("--instructions", o.instructions, "vector instructions; scalar: the same bytes on every machine")
+        ->check(CLI::IsMember(std::vector<std::string>(instructionSetNames.begin(), instructionSetNames.end())))->capture_default_str();
+    app.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav");
+    app.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");
+}
+
+extern "C" void endNow(int signal) {
+    removeAllOnEnd();
+    std::_Exit(128 + signal);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, endNow);
+    Options o;
+    CLI::App app{"Collisions one can feel: a scene or an event list to a WAV file. The library without windows and devices."};
+    declare(app, o);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& end) {
+        return end.get_exit_code() == 0 ? app.exit(end) : leave(exitUsage, end.what());
+    }
+    const std::vector<std::string> outputs{o.wavPath, o.eventsPath}, inputs{o.input};
+    if (o.wavPath.empty() && o.eventsPath.empty()) return leave(exitUsage, "expected --out or --events");
+    if (const std::string clash = fileClash(outputs, inputs); !clash.empty()) return leave(exitUsage, clash);
+    try {
+        const std::string error = render(o);
+        return error.empty() ? 0 : leave(exitFailed, error);
+    } catch (const std::exception& e) {
+        return leave(exitFailed, e.what());
+    }
+}
