@@ -1,115 +1,15 @@
 # SPDX-License-Identifier: MIT
 # Opens the page in headless Chromium and does what a visitor does. Talks to it by its own pipe, so that nothing else is needed.
 # usage: browser.py FOLDER_OF_THE_PAGE SECONDS SEED BAD_SCENE.json PICTURES_FOLDER SCENE=NATIVE.wav...   < the line a bad scene ends in natively
-import base64, functools, glob, hashlib, http.server, json, os, struct, subprocess, sys, tempfile, threading, time
+import functools, hashlib, http.server, json, os, struct, sys, tempfile, threading, time
+from chromium import Browser
 
 page, seconds, seed, bad_scene, pictures, *natives = sys.argv[1:]
-patience = 120  # s, for anything that must come; machines are slow at times
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):
     def log_message(self, *words):
         pass
-
-
-class Browser:
-    """One tab, over --remote-debugging-pipe: JSON between NUL bytes on descriptors 3 and 4."""
-
-    def __init__(self, folder):
-        to_read, self.to = os.pipe()
-        self.come, from_write = os.pipe()
-        chromium = f"exec chromium --headless=new --no-sandbox --disable-gpu --no-first-run --remote-debugging-pipe --user-data-dir={folder} about:blank"
-        self.process = subprocess.Popen(["sh", "-c", f"{chromium} 3<&{to_read} 4>&{from_write}"], pass_fds=(to_read, from_write),
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-        os.close(to_read)
-        os.close(from_write)
-        self.rest, self.count, self.session, self.complaints = b"", 0, None, []
-        tab = self.call("Target.createTarget", url="about:blank")["targetId"]
-        self.session = self.call("Target.attachToTarget", targetId=tab, flatten=True)["sessionId"]
-        for domain in ("Runtime", "Log", "Page", "Network"):
-            self.call(domain + ".enable")
-
-    def hear(self):
-        while b"\0" not in self.rest:
-            more = os.read(self.come, 1 << 20)
-            if not more:
-                sys.exit("chromium has ended")
-            self.rest += more
-        line, self.rest = self.rest.split(b"\0", 1)
-        return json.loads(line)
-
-    def call(self, method, **params):
-        self.count += 1
-        message = {"id": self.count, "method": method, "params": params}
-        if self.session:
-            message["sessionId"] = self.session
-        os.write(self.to, json.dumps(message).encode() + b"\0")
-        while True:
-            heard = self.hear()
-            self.note(heard)
-            if heard.get("id") == self.count:
-                if "error" in heard:
-                    sys.exit(f"{method}: {heard['error']['message']}")
-                return heard["result"]
-
-    def note(self, heard):
-        method, params = heard.get("method"), heard.get("params", {})
-        if method == "Runtime.exceptionThrown":
-            self.complaints.append(params["exceptionDetails"].get("exception", {}).get("description", "an exception"))
-        elif method == "Runtime.consoleAPICalled" and params["type"] in ("error", "warning"):
-            self.complaints.append(str(params["args"]))
-        elif method == "Log.entryAdded" and params["entry"]["level"] in ("error", "warning"):
-            self.complaints.append(params["entry"]["text"])
-        elif method == "Network.requestWillBeSent" and not params["request"]["url"].startswith((origin, "data:", "blob:", "about:")):
-            self.complaints.append("asked the network for " + params["request"]["url"])
-
-    def value(self, text):
-        answer = self.call("Runtime.evaluate", expression=text, awaitPromise=True, returnByValue=True)
-        if "exceptionDetails" in answer:
-            sys.exit("in the page: " + answer["exceptionDetails"]["exception"].get("description", text))
-        return answer["result"].get("value")
-
-    def wait(self, text, what):
-        end = time.monotonic() + patience
-        while not self.value(text):
-            if time.monotonic() > end:
-                sys.exit(f"FAILED: {what}: not within {patience} s; the page says: {self.value('document.getElementById(`fault`).textContent')}")
-            time.sleep(0.05)
-
-    def mouse(self, kind, x, y):
-        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=0 if kind == "mouseReleased" else 1, clickCount=1)
-
-    def click(self, selector):
-        x, y = self.value(f"(() => {{ const e = document.querySelector('{selector}'); e.scrollIntoView({{block: 'center'}}); const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; }})()")
-        self.mouse("mousePressed", x, y)
-        self.mouse("mouseReleased", x, y)
-
-    def drag(self, start, end, steps=12):
-        self.mouse("mousePressed", *start)
-        for i in range(1, steps + 1):
-            self.mouse("mouseMoved", *(a + (b - a) * i / steps for a, b in zip(start, end)))
-            time.sleep(0.03)
-        self.mouse("mouseReleased", *end)
-
-    def picture(self, name, width, height, scale):
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=width < 600)
-        time.sleep(0.7)
-        shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=width < 600)
-        with open(os.path.join(pictures, name), "wb") as file:
-            file.write(base64.b64decode(shot["data"]))
-
-    def seconds_of_processors(self, threads=""):
-        """Of the browser and all it started, so far: of the threads whose names begin so."""
-        ticks = 0
-        for stat in glob.glob("/proc/[0-9]*/task/*/stat"):
-            try:
-                name, rest = open(stat).read().split(" (", 1)[1].rsplit(") ", 1)
-            except OSError:
-                continue  # it has ended
-            fields = rest.split()
-            if int(fields[3]) == self.process.pid and name.startswith(threads):  # its session
-                ticks += int(fields[11]) + int(fields[12])
-        return ticks / os.sysconf("SC_CLK_TCK")
 
 
 def samples_of(path):
@@ -146,7 +46,7 @@ server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Qui
 threading.Thread(target=server.serve_forever, daemon=True).start()
 origin = f"http://127.0.0.1:{server.server_port}/"
 folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
-browser = Browser(folder.name)
+browser = Browser(folder.name, origin, pictures)
 try:
     browser.call("Emulation.setDeviceMetricsOverride", width=1280, height=800, deviceScaleFactor=1, mobile=False)
     browser.call("Page.navigate", url=f"{origin}index.html?seed={seed}")
