@@ -7,7 +7,7 @@ physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohm
 # Configuring covers the tests as well, so run.sh needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang libclang-rt-14-dev \
-    liblo-tools python3-numpy luajit love mono-mcs doxygen libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
+    liblo-tools python3-numpy luajit love mono-mcs doxygen cmark-gfm libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 # Of Standalone/Web/build-web.sh and Tests/web.sh alone.
 physvib_web_packages="clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
@@ -15,10 +15,14 @@ physvib_web_test_packages="$physvib_web_packages chromium python3"
 # Of Standalone/Packaging/release.sh, and of Tests/Release.
 physvib_release_packages="$physvib_build_packages g++ git debhelper dh-python python3 dpkg-dev"
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
-# Of the tests on other processors and systems.
-physvib_cross_packages="g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 wine cmake ninja-build ccache dpkg-dev"
 # Of Tests/Osc/run.sh alone.
 physvib_osc_packages="jackd2 liblo-tools puredata-core python3"
+# Of Tests/arm64.sh and Tests/windows.sh alone: compilers, what runs their programs, libraries that are headers only.
+physvib_cross_packages="g++-aarch64-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 wine cmake ninja-build ccache dpkg-dev \
+    googletest nlohmann-json3-dev libcli11-dev libeigen3-dev libboost-dev pkg-config python3"
+# Of Docs/Site/build-site.sh alone, and of Tests/site.sh.
+physvib_site_packages="cmark-gfm doxygen python3"
+physvib_site_test_packages="$physvib_site_packages chromium"
 # Of the test of sweeps on a cluster.
 physvib_cluster_packages="slurm-wlm munge"
 
@@ -60,6 +64,25 @@ ensure_packages() {
     fi
     rm -f "$log"
 }
+
+# from_debian FOLDER source|download PACKAGE...: apt checks them against Debian's signatures. The lists, for the processor that
+# PHYSVIB_ARCHITECTURE names or this one, are its own: the machine's stay as they are.
+from_debian() (
+    into=$1
+    shift
+    fetched=$(mktemp -d)
+    trap 'rm -rf "$fetched"' EXIT
+    mkdir -p "$fetched/lists/partial"
+    [ "$1" = source ] && kind=deb-src || kind=deb
+    echo "$kind [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" >"$fetched/sources.list"
+    architecture=${PHYSVIB_ARCHITECTURE:-$(dpkg --print-architecture)}
+    from="-q -q -o Dir::Etc::sourcelist=$fetched/sources.list -o Dir::Etc::sourceparts=/dev/null -o Dir::State::lists=$fetched/lists
+        -o Dir::Cache=$fetched -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= -o APT::Sandbox::User=
+        -o APT::Architecture=$architecture -o APT::Architectures=$architecture"
+    cd "$into"
+    # shellcheck disable=SC2086 # a list of words
+    { apt-get $from update && apt-get $from "$@"; } >"$fetched/log" 2>&1 || { cat "$fetched/log" >&2; exit 1; }
+)
 
 # build PRESET TARGET...: configures and builds quietly; all of the output if something goes wrong.
 build() {

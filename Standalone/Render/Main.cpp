@@ -91,7 +91,6 @@ void warn(std::uint64_t count, const char* what) {
 }
 
 std::string writeWav(const Options& o, const Source& source, const RendererSettings& settings) {
-    if (!fitsWav(settings.outputs(), o.frames())) return "--seconds: too long; a WAV file holds at most 4 GB of samples";
     FloatWav wav{o.wavPath, settings.outputs(), o.sampleRateHz, o.frames()};
     if (!wav.error().empty()) return wav.error();
     const auto status = renderOffline(source.events, {settings, o.frames()}, [&](const float* const* channels, int frames) { return wav.write(channels, frames); });
@@ -104,12 +103,16 @@ std::string writeWav(const Options& o, const Source& source, const RendererSetti
 std::string render(const Options& o) {
     const auto layout = layoutOf(o.layout);
     if (!layout) return layout.error;
+    if (!o.wavPath.empty() && !fitsWav(layout.value.count, o.frames())) return "--seconds: too long; a WAV file holds at most 4 GB of samples";
+    std::optional<AtomicFile> list;
+    if (!o.eventsPath.empty() && !list.emplace(o.eventsPath).error().empty()) return list->error();
     const auto source = sourceOf(o);
     if (!source) return source.error;
     warn(source.value.drops, "collisions lost because too many began in one physics step");
     std::string error;
-    if (!o.wavPath.empty()) error = writeWav(o, source.value, settingsOf(o, layout.value, source.value));
-    if (error.empty() && !o.eventsPath.empty()) error = writeFile(o.eventsPath, eventsCsv(source.value.events, source.value.provenance));
+    if (list) error = list->write(eventsCsv(source.value.events, source.value.provenance));
+    if (error.empty() && !o.wavPath.empty()) error = writeWav(o, source.value, settingsOf(o, layout.value, source.value));
+    if (error.empty() && list) error = list->commit();
     if (error.empty()) std::cout << source.value.events.size() << " events\n";
     return error;
 }

@@ -8,20 +8,12 @@ cd "$(dirname "$0")/../.."
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_web_packages
 
-# Box2D's source package, checked by apt against Debian's signatures. Its lists are kept here: the machine's own stay as they are.
 folder=$PWD/build/web
-box2d=$folder/box2d
+box2d=$folder/box2d-2.4.1
+mkdir -p "$folder"
 if [ ! -d "$box2d" ]; then
     say "taking Box2D's source from Debian"
-    fetched=$(mktemp -d)
-    trap 'rm -rf "$fetched"' EXIT
-    mkdir -p "$folder" "$fetched/lists/partial"
-    echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" >"$fetched/sources.list"
-    from="-q -q -o Dir::Etc::sourcelist=$fetched/sources.list -o Dir::Etc::sourceparts=/dev/null -o Dir::State::lists=$fetched/lists
-        -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= -o APT::Sandbox::User="
-    # shellcheck disable=SC2086 # a list of words
-    (cd "$fetched" && apt-get $from update && apt-get $from source box2d) >"$folder/box2d.log" 2>&1 || { cat "$folder/box2d.log" >&2; exit 1; }
-    mv "$fetched"/box2d-2.4.1 "$box2d"
+    from_debian "$folder" source box2d
 fi
 
 say "building the page (log: build/web/build.log)"

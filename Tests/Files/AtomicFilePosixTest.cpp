@@ -4,6 +4,8 @@
 #include "Files/Disk/ReadFile.h"
 #include "FileTesting.h"
 #include "FullDisk.h"
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -137,6 +139,31 @@ TEST_F(AtomicFilePosixTest, ABufferThatDoesNotFitIsNoticedWhenClosing) {
         error = writeFile(folder / "out.csv", std::string(100, 'x'));
     }
     EXPECT_NE(error, "");
+    EXPECT_EQ(filesInFolder(), 0u);
+}
+
+/// Writes three files, puts one in its place, and is ended by a signal.
+void endWhileWriting(const fs::path& folder) {
+    std::signal(SIGTERM, [](int) {
+        removeAllOnEnd();
+        std::_Exit(3);
+    });
+    AtomicFile first(folder / "a.csv"), second(folder / "b.csv"), third(folder / "done.csv");
+    third.write("new");
+    if (third.commit().empty()) std::raise(SIGTERM);
+}
+
+TEST_F(AtomicFilePosixTest, ASignalThatEndsTheProgramRemovesWhatIsBeingWritten) {
+    put(folder / "done.csv", "old");
+    EXPECT_EXIT(endWhileWriting(folder), testing::ExitedWithCode(3), "");
+    EXPECT_EQ(contentOf(folder / "done.csv"), "new");
+    EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(AtomicFilePosixTest, CommitFailsIfTheTemporaryIsGone) {
+    AtomicFile file(folder / "out.csv");
+    fs::remove(file.temporaryPath());
+    EXPECT_EQ(file.commit(), (folder / "out.csv").string() + ": cannot be written: No such file or directory");
     EXPECT_EQ(filesInFolder(), 0u);
 }
 

@@ -3,8 +3,6 @@
 #include "Files/Disk/AtomicFile.h"
 #include "FileTesting.h"
 #include "Files/Disk/ReadFile.h"
-#include <csignal>
-#include <cstdlib>
 #include <fstream>
 
 namespace physvib {
@@ -91,37 +89,11 @@ TEST_F(AtomicFileTest, WhatAKilledProgramLeftBehindIsRemoved) {
     EXPECT_EQ(filesInFolder(), 1u);
 }
 
-/// Writes three files, puts one in its place, and is ended by a signal.
-void endWhileWriting(const fs::path& folder) {
-    std::signal(SIGTERM, [](int) {
-        removeAllOnEnd();
-        std::_Exit(3);
-    });
-    AtomicFile first(folder / "a.csv"), second(folder / "b.csv"), third(folder / "done.csv");
-    third.write("new");
-    if (third.commit().empty()) std::raise(SIGTERM);
-}
-
-TEST_F(AtomicFileTest, ASignalThatEndsTheProgramRemovesWhatIsBeingWritten) {
-    put(folder / "done.csv", "old");
-    EXPECT_EXIT(endWhileWriting(folder), testing::ExitedWithCode(3), "");
-    EXPECT_EQ(contentOf(folder / "done.csv"), "new");
-    EXPECT_EQ(filesInFolder(), 1u);
-}
-
 TEST_F(AtomicFileTest, MissingFolderIsNamed) {
     EXPECT_FALSE(AtomicFile(folder / "none" / "f").isTaken()) << "nobody else's fault";
     const fs::path path = folder / "absent" / "out.csv";
     EXPECT_EQ(writeFile(path, "x"), path.string() + ": cannot be written: the folder " +
                                         (folder / "absent").string() + " does not exist");
-    EXPECT_EQ(filesInFolder(), 0u);
-}
-
-TEST_F(AtomicFileTest, CommitFailsIfTheTemporaryIsGone) {
-    AtomicFile file(folder / "out.csv");
-    fs::remove(file.temporaryPath());
-    EXPECT_EQ(file.commit(),
-              (folder / "out.csv").string() + ": cannot be written: No such file or directory");
     EXPECT_EQ(filesInFolder(), 0u);
 }
 
