@@ -53,6 +53,15 @@ std::string clipFault(const Clip& clip) {
     return clip.seconds() > 0.0 ? "" : "expected something to feel, found silence";
 }
 
+double peakOf(const ClipChannel& channel) noexcept {
+    double peak = 0.0;
+    for (const ClipTransient& transient : channel.transients) peak = std::max(peak, std::abs(transient.amplitude));
+    for (const ClipBand& band : channel.bands)
+        for (const ClipWave& wave : band.waves)
+            for (const ClipPoint& p : wave.amplitude) peak = std::max(peak, std::abs(p.value));
+    return peak;
+}
+
 void keepOneAtATime(ClipBand& band) {
     std::ranges::stable_sort(band.waves, {}, &ClipWave::startSeconds);
     for (std::size_t i = 0; i + 1 < band.waves.size(); ++i) {

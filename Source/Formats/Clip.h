@@ -108,6 +108,9 @@ struct Clip {
 /// Empty, or why the clip is not taken: beyond limits, or nothing in it. Any thread.
 std::string clipFault(const Clip& clip);
 
+/// The strongest amplitude of any wave or transient. Any thread.
+double peakOf(const ClipChannel& channel) noexcept;
+
 /// Puts the waves in order and ends each where the next begins, as MPEG's decoder plays a band. Any thread.
 void keepOneAtATime(ClipBand& band);
 

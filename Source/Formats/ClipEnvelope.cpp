@@ -65,11 +65,12 @@ std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSec
         EnvelopePoint before = sumAt(bands, moment, true, held);
         EnvelopePoint after = sumAt(bands, moment, false, before.frequencyHz);
         if (before.amplitude == 0.0) before.frequencyHz = after.frequencyHz; // nobody feels a glide within silence
+        const double last = points.empty() ? 0.0 : points.back().seconds;
+        after.seconds = std::max(moment, last); // what follows within the rise of what begins at 0 s
         if (!isJump(before, after)) {
             points.push_back(after);
             continue;
         }
-        const double last = points.empty() ? 0.0 : points.back().seconds;
         before.seconds = std::max(moment - riseSeconds, 0.5 * (last + moment));
         if (after.seconds < riseSeconds && points.empty()) after.seconds = riseSeconds, before.seconds = 0.0; // what begins at 0 s rises from there
         if (before.seconds > last || points.empty()) points.push_back(before);

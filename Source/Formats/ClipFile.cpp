@@ -6,16 +6,14 @@
 #include "Formats/AhapFile.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
+#include "Formats/HmpgFile.h"
 #include "Formats/MetaHapticFile.h"
 #include "Formats/MpegPlaces.h"
-#include <array>
 #include <cmath>
 #include <set>
 
 namespace physvib {
 namespace {
-
-constexpr std::array<std::string_view, 3> endings{".hjif", ".haptic", ".ahap"}; // as ClipFormat
 
 struct Facts {
     std::set<double> frequenciesHz;
@@ -49,11 +47,25 @@ double farthestFromGrid(const Clip& clip) {
     return most;
 }
 
-std::vector<std::string> mpegLosses(const Clip& clip, const Facts& facts) {
+std::string placeLoss(const Clip& clip) {
+    const double metres = farthestFromGrid(clip);
+    return metres > 1e-6 ? "places are moved by up to " + fixedNumber(1e3 * metres, 2) + " mm, onto a grid of at most 127 points" : "";
+}
+
+std::vector<std::string> hjifLosses(const Clip& clip, const Facts& facts) {
     std::vector<std::string> losses;
-    if (const double metres = farthestFromGrid(clip); metres > 1e-6) losses.push_back("places are moved by up to " + fixedNumber(1e3 * metres, 2) + " mm, onto a grid of at most 127 points");
+    if (const std::string loss = placeLoss(clip); !loss.empty()) losses.push_back(loss);
     const auto broken = std::ranges::find_if(facts.frequenciesHz, [](double hz) { return hz != std::floor(hz); });
     if (broken != facts.frequenciesHz.end()) losses.push_back("MPEG's own decoder cuts frequencies to whole Hz, as of " + fixedNumber(*broken, 2) + " Hz; ours does not");
+    return losses;
+}
+
+std::vector<std::string> hmpgLosses(const Clip& clip, const Facts& facts) {
+    std::vector<std::string> losses{"amplitudes have 8 bits: each wave is within " + fixedNumber(hmpgStep(clip), 5) + " of what it was, in shares of full scale"};
+    if (const std::string loss = placeLoss(clip); !loss.empty()) losses.push_back(loss);
+    double farthest = 0.0;
+    for (const double hz : facts.frequenciesHz) farthest = std::max(farthest, std::abs(hz - std::round(hz)));
+    if (farthest > 0.0) losses.push_back("frequencies are whole Hz: they are moved by up to " + fixedNumber(farthest, 2) + " Hz");
     return losses;
 }
 
@@ -70,13 +82,14 @@ std::vector<std::string> monoLosses(const Facts& facts, const FrequencyScale& sc
 
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept {
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-    for (std::size_t i = 0; i < endings.size(); ++i)
-        if (path.size() > endings[i].size() && std::ranges::equal(path.substr(path.size() - endings[i].size()), endings[i], {}, lower)) return static_cast<ClipFormat>(i);
+    for (std::size_t i = 0; i < clipEndings.size(); ++i)
+        if (path.size() > clipEndings[i].size() && std::ranges::equal(path.substr(path.size() - clipEndings[i].size()), clipEndings[i], {}, lower)) return static_cast<ClipFormat>(i);
     return {};
 }
 
 Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat format, const FrequencyScale& scale) {
     switch (format) {
+    case ClipFormat::hmpg: return readHmpg(bytes, name);
     case ClipFormat::haptic: return readMetaHaptic(bytes, name, scale);
     case ClipFormat::ahap: return readAhap(bytes, name, scale);
     default: return readHjif(bytes, name);
@@ -88,8 +101,9 @@ Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, cons
     return bytes ? readClip(bytes.value, path.string(), format, scale) : Result<Clip>{Failure{bytes.error}};
 }
 
-std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {
+Result<std::string> clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {
     switch (format) {
+    case ClipFormat::hmpg: return hmpgBytes(clip);
     case ClipFormat::haptic: return metaHapticText(clip.channels.front(), clip.title, scale);
     case ClipFormat::ahap: return ahapText(clip.channels.front(), clip.title, scale);
     default: return hjifText(clip);
@@ -97,7 +111,9 @@ std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale&
 }
 
 std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {
-    return isMono(format) ? monoLosses(factsOf(clip), scale) : mpegLosses(clip, factsOf(clip));
+    const Facts facts = factsOf(clip);
+    if (format == ClipFormat::hmpg) return hmpgLosses(clip, facts);
+    return format == ClipFormat::hjif ? hjifLosses(clip, facts) : monoLosses(facts, scale);
 }
 
 } // namespace physvib

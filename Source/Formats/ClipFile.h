@@ -4,6 +4,7 @@
 #include "Files/Result.h"
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,13 +13,14 @@
 
 namespace physvib {
 
-enum class ClipFormat { hjif, haptic, ahap };
+enum class ClipFormat { hjif, hmpg, haptic, ahap };
+constexpr std::array<std::string_view, 4> clipEndings{".hjif", ".hmpg", ".haptic", ".ahap"}; ///< as ClipFormat
 
-/// By the file's ending, in any case: .hjif, .haptic, .ahap. Any thread.
+/// By the file's ending, in any case of letters. Any thread.
 std::optional<ClipFormat> clipFormatOf(std::string_view path) noexcept;
 
 /// Whether the format has one channel only. Any thread.
-constexpr bool isMono(ClipFormat format) noexcept { return format != ClipFormat::hjif; }
+constexpr bool isMono(ClipFormat format) noexcept { return format == ClipFormat::haptic || format == ClipFormat::ahap; }
 
 /// The clip of a file's bytes; or one line. `scale` says what phones' frequencies are. Any thread.
 Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat format, const FrequencyScale& scale = {});
@@ -26,8 +28,8 @@ Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat 
 /// The same of a file. M only.
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale = {});
 
-/// The file of `clip`, of its first channel if the format has one only. Any thread.
-std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
+/// The file of `clip`, of its first channel if the format has one only; or one line: what it has no numbers for. Any thread.
+Result<std::string> clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
 
 /// What of `clip` the format cannot carry, a line each, for people. Any thread.
 std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});

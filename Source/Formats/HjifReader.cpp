@@ -5,15 +5,13 @@
 #include "Files/Text/NumberText.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
+#include "Formats/MpegEffects.h"
 #include "Formats/MpegPlaces.h"
 #include <map>
 #include <numbers>
 
 namespace physvib {
 namespace {
-
-constexpr std::array<std::string_view, 4> bandTypes{"VectorialWave", "Transient", "Curve", "WaveletWave"};
-enum BandType : std::size_t { vectorial, transient, curve, wavelet };
 
 class HjifReader {
 public:
@@ -58,20 +56,20 @@ private:
 
     static mpeg::GridPoint point(const JsonField& vector) { return {vector["X"].wholeNumber(), vector["Y"].wholeNumber()}; }
 
-    void readBand(const JsonField& band, const JsonField& perception, ClipChannel& channel) {
-        band.expectObject();
-        const auto type = static_cast<BandType>(band["band_type"].oneOf(bandTypes));
-        if (type == wavelet) band["band_type"].fail("expected waves, transients or curves, found wavelets, which are not read");
-        if (type == curve) isCubic_ = band.has("curve_type") && band["curve_type"].oneOf(curveTypes) == 1;
-        const JsonField effects = band["effects"];
-        ClipBand waves;
+    void readBand(const JsonField& json, const JsonField& perception, ClipChannel& channel) {
+        json.expectObject();
+        mpeg::BandKind kind{static_cast<mpeg::BandType>(json["band_type"].oneOf(mpeg::bandTypes)), false, gain_};
+        if (kind.type == mpeg::BandType::wavelet) json["band_type"].fail(std::string(mpeg::noWavelets));
+        if (kind.type == mpeg::BandType::curve) kind.isCubic = json.has("curve_type") && json["curve_type"].oneOf(curveTypes) == 1;
+        const JsonField effects = json["effects"];
+        ClipBand band;
         for (std::size_t i = 0; i < effects.arraySize(); ++i) {
             const JsonField effect = effects.item(i);
             const double start = effect.has("position") ? seconds(effect["position"]) : 0.0;
-            readEffect(referred(effect, perception), start, type, waves, channel);
+            mpeg::takeEffect(effectOf(referred(effect, perception), kind.type), start, kind, band, channel);
         }
-        keepOneAtATime(waves);
-        if (!waves.waves.empty()) channel.bands.push_back(std::move(waves));
+        keepOneAtATime(band);
+        if (!band.waves.empty()) channel.bands.push_back(std::move(band));
     }
 
     /// The effect itself, or that of the library which it names.
@@ -86,55 +84,24 @@ private:
         return basis;
     }
 
-    void readEffect(const JsonField& effect, double start, BandType type, ClipBand& band, ClipChannel& channel) {
-        ClipWave wave{start, 0.0, ClipWaveform::sine, {}, {}};
-        double end = 0.0;
-        const JsonField frames = effect["keyframes"];
+    mpeg::Effect effectOf(const JsonField& json, mpeg::BandType type) {
+        mpeg::Effect effect;
+        const JsonField frames = json["keyframes"];
         points_ += frames.arraySize();
         if (points_ > limits::maxClipPoints) frames.fail("expected at most " + std::to_string(limits::maxClipPoints) + " keyframes in the file, found more");
         for (std::size_t i = 0; i < frames.arraySize(); ++i) {
             const JsonField frame = frames.item(i);
             frame.expectObject();
-            const double at = frame.has("relative_position") ? seconds(frame["relative_position"]) : 0.0;
-            if (at < end) frame["relative_position"].fail("expected keyframes in time order");
-            end = at;
-            if (frame.has("amplitude_modulation")) wave.amplitude.push_back({at, gain_ * frame["amplitude_modulation"].numberWithin(-1.0, 1.0)});
-            if (frame.has("frequency_modulation")) wave.frequencyHz.push_back({at, frame["frequency_modulation"].numberUpTo(limits::maxClipFrequencyHz)});
-            if (type == transient && frame.has("amplitude_modulation"))
-                channel.transients.push_back({start + at, wave.amplitude.back().value, frame.has("frequency_modulation") ? wave.frequencyHz.back().value : 0.0});
+            mpeg::Keyframe key{frame.has("relative_position") ? seconds(frame["relative_position"]) : 0.0, {}, {}};
+            if (!effect.keyframes.empty() && key.seconds < effect.keyframes.back().seconds) frame["relative_position"].fail(std::string(mpeg::inTimeOrder));
+            if (frame.has("amplitude_modulation")) key.amplitude = frame["amplitude_modulation"].numberWithin(-1.0, 1.0);
+            if (frame.has("frequency_modulation")) key.frequencyHz = frame["frequency_modulation"].numberUpTo(limits::maxClipFrequencyHz);
+            effect.keyframes.push_back(key);
         }
-        if (type == transient) return;
-        if (wave.amplitude.empty()) wave.amplitude.push_back({0.0, gain_});
-        if (wave.amplitude.back().seconds < end) wave.amplitude.push_back({end, wave.amplitude.back().value});
-        if (type == curve) asCurve(wave);
-        else readSignal(effect, wave);
-        if (!wave.frequencyHz.empty()) band.waves.push_back(std::move(wave));
-    }
-
-    static void readSignal(const JsonField& effect, ClipWave& wave) {
-        if (effect.has("phase")) wave.phaseRadians = effect["phase"].numberWithin(0.0, 2.0 * std::numbers::pi);
-        if (effect.has("base_signal")) wave.waveform = static_cast<ClipWaveform>(effect["base_signal"].oneOf(mpeg::waveforms));
-    }
-
-    /// The curve is the signal: a sine that stands still at its top.
-    void asCurve(ClipWave& wave) const {
-        wave.phaseRadians = 0.5 * std::numbers::pi;
-        wave.frequencyHz = {{0.0, 0.0}};
-        if (isCubic_) wave.amplitude = smoothed(wave.amplitude);
-    }
-
-    /// Cubics that are level at every keyframe, as lines.
-    static std::vector<ClipPoint> smoothed(const std::vector<ClipPoint>& keyframes) {
-        constexpr int lines = 8;
-        std::vector<ClipPoint> out;
-        for (std::size_t i = 0; i + 1 < keyframes.size(); ++i)
-            for (int k = 0; k < lines; ++k) {
-                const double s = static_cast<double>(k) / lines;
-                const ClipPoint &from = keyframes[i], &to = keyframes[i + 1];
-                out.push_back({from.seconds + s * (to.seconds - from.seconds), from.value + s * s * (3.0 - 2.0 * s) * (to.value - from.value)});
-            }
-        out.push_back(keyframes.back());
-        return out;
+        if (type != mpeg::BandType::vectorial) return effect;
+        if (json.has("phase")) effect.phaseRadians = json["phase"].numberWithin(0.0, 2.0 * std::numbers::pi);
+        if (json.has("base_signal")) effect.waveform = static_cast<ClipWaveform>(json["base_signal"].oneOf(mpeg::waveforms));
+        return effect;
     }
 
     double seconds(const JsonField& ticks) const { return ticks.numberUpTo(limits::maxClipSeconds * timescale_) / timescale_; }
@@ -144,7 +111,6 @@ private:
     std::map<int, std::size_t> library_; // of this perception: where effects of a number stand
     int timescale_ = 1000;
     double gain_ = 1.0;
-    bool isCubic_ = false;
     std::size_t points_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "Files/Json/JsonLines.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
+#include "Formats/MpegEffects.h"
 #include "Formats/MpegPlaces.h"
 #include <map>
 
@@ -32,17 +33,12 @@ std::string listed(const Items& items, Write write) {
 
 OrderedJson vectorJson(mpeg::GridPoint p, int z) { return {{"X", p.x}, {"Y", p.y}, {"Z", z}}; }
 
-/// Amplitudes and frequencies by their ticks.
 OrderedJson keyframesJson(const ClipWave& wave, double gain) {
-    const std::int64_t start = tickOf(wave.startSeconds);
-    const auto relative = [&](const ClipPoint& p) { return tickOf(wave.startSeconds + p.seconds) - start; };
     OrderedJson frames = OrderedJson::array();
-    auto frequency = wave.frequencyHz.begin();
-    const auto addFrequency = [&](OrderedJson& frame) { frame["frequency_modulation"] = (frequency++)->value; };
-    for (const ClipPoint& p : wave.amplitude) {
-        for (; frequency != wave.frequencyHz.end() && relative(*frequency) < relative(p);) addFrequency(frames.emplace_back(OrderedJson{{"relative_position", relative(*frequency)}}));
-        OrderedJson& frame = frames.emplace_back(OrderedJson{{"relative_position", relative(p)}, {"amplitude_modulation", eightDigits(p.value / gain)}});
-        if (frequency != wave.frequencyHz.end() && relative(*frequency) == relative(p)) addFrequency(frame);
+    for (const mpeg::TickFrame& found : mpeg::tickFrames(wave)) {
+        OrderedJson& frame = frames.emplace_back(OrderedJson{{"relative_position", found.ticks}});
+        if (found.amplitude) frame["amplitude_modulation"] = eightDigits(*found.amplitude / gain);
+        if (found.frequencyHz) frame["frequency_modulation"] = *found.frequencyHz;
     }
     return frames;
 }
@@ -74,14 +70,7 @@ double topOf(const ClipBand& band) {
 }
 
 /// 1, or the strongest amplitude if that is beyond full scale.
-double gainOf(const ClipChannel& channel) {
-    double gain = 1.0;
-    for (const ClipTransient& transient : channel.transients) gain = std::max(gain, std::abs(transient.amplitude));
-    for (const ClipBand& band : channel.bands)
-        for (const ClipWave& wave : band.waves)
-            for (const ClipPoint& p : wave.amplitude) gain = std::max(gain, std::abs(p.value));
-    return gain;
-}
+double gainOf(const ClipChannel& channel) { return std::max(1.0, peakOf(channel)); }
 
 std::string bandsText(const ClipChannel& channel, double gain) {
     std::string bands = listed(channel.bands, [=](const ClipBand& band, std::size_t) { return bandText("VectorialWave", band.waves, topOf(band), gain); });

@@ -53,8 +53,24 @@ TEST_F(ExportCommand, EveryScenePlaysAsItsRenderDoes) {
     }
 }
 
+TEST_F(ExportCommand, AsBitsASceneIsAsFarAwayAsItTells) {
+    const auto told = call("export drop --seconds 2 --error 0.001 --to a.hmpg");
+    EXPECT_EQ(told.exitCode, 0);
+    const std::string words = "amplitudes have 8 bits: each wave is within ";
+    const auto at = told.err.find(words);
+    ASSERT_NE(at, std::string::npos) << told.err;
+    const double step = std::stod(told.err.substr(at + words.size()));
+    runs("render drop --seconds 2 --limiter off --out direct.wav");
+    runs("render a.hmpg --seconds 2 --limiter off --out again.wav");
+    const double found = farthest(wav("direct.wav"), wav("again.wav"));
+    RecordProperty("farthest", std::to_string(found));
+    constexpr double atOnce = 3.0; // materials
+    EXPECT_LE(found, atOnce * step + 1e-3);
+    EXPECT_GE(found, 0.3 * step);
+}
+
 TEST_F(ExportCommand, GivesTheSameBytesTwice) {
-    for (const std::string ending : {"hjif", "haptic", "ahap"}) {
+    for (const std::string ending : {"hjif", "hmpg", "haptic", "ahap"}) {
         runs("export drop --seconds 2 --layout phone1 --to a." + ending);
         runs("export drop --seconds 2 --layout phone1 --to b." + ending);
         EXPECT_FALSE(read("a." + ending).empty());
@@ -62,15 +78,25 @@ TEST_F(ExportCommand, GivesTheSameBytesTwice) {
     }
 }
 
-TEST_F(ExportCommand, KeepsEveryHitOfAnEventListWhereItWasAndWhen) {
+TEST_F(ExportCommand, KeepsEveryHitOfAListAndOfASessionWhereItWasAndWhen) {
     std::ostringstream list;
     list << "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n";
     constexpr int hits = 30;
     for (int k = 0; k < hits; ++k) list << 0.1 + 0.25 * k + 1.3e-6 * k << ",250,60," << (k % 3 ? 0.5 : 0.02) << ',' << 0.004 * k << ',' << 0.002 * (hits - k) << '\n';
     write("hits.csv", list.str());
-    for (const std::string layout : {"phone4", "ring4"}) {
-        runs("render --from-events hits.csv --field 0.12,0.06 --seconds 8 --limiter off --layout " + layout + " --out direct.wav");
-        runs("export hits.csv --field 0.12,0.06 --layout " + layout + " --to a.hjif");
+    std::ostringstream strikes;
+    for (int k = 0; k < hits; ++k)
+        strikes << (k ? "," : "") << R"({"time_s": )" << 0.1 + 0.25 * k + 1.3e-6 * k << R"(, "frequency_hz": 250, "decay_per_s": 60, "amplitude": )" << (k % 3 ? 0.5 : 0.02) << R"(, "x_m": )" << 0.04 * k
+                << R"(, "y_m": )" << 0.02 * (hits - k) << R"(, "duration_s": 0})";
+    write("hits.json", R"({"physvib_session": 5, "seconds": 8, "steps_per_second": 100, "timing": "onset", "location": "contact", "limiter": false, "channels": 4,
+        "panning": {"layout": {"extent_m": [0.12, 0.06], "enchanters": [{"label": "A", "x_m": 0, "y_m": 0.06}, {"label": "B", "x_m": 0.12, "y_m": 0.06}, {"label": "C", "x_m": 0, "y_m": 0}, {"label": "D", "x_m": 0.12, "y_m": 0}]},
+                    "law": "linear", "exponent": 1, "field_m": [1.2, 0.6]},
+        "takes": [{"start_s": 0, "world_end_s": 8, "seed": 1, "scene": {"name": "quiet", "field_m": [1.2, 0.6], "gravity_m_per_s2": [0, 0], "materials": [], "bodies": []}, "inputs": [], "stalls": []}],
+        "strikes": [)" + strikes.str() + "]}");
+    for (const std::string layout : {"phone4", "ring4", "session"}) {
+        const bool isSession = layout == "session";
+        runs(isSession ? "render hits.json --out direct.wav" : "render --from-events hits.csv --field 0.12,0.06 --seconds 8 --limiter off --layout " + layout + " --out direct.wav");
+        runs(isSession ? "export hits.json --to a.hjif" : "export hits.csv --field 0.12,0.06 --layout " + layout + " --to a.hjif");
         runs("render a.hjif --seconds 8 --limiter off --out again.wav");
         const ClipSignals direct = wav("direct.wav"), again = wav("again.wav");
         ASSERT_EQ(direct.size(), again.size());
@@ -156,6 +182,8 @@ TEST_F(ExportCommand, ReadsClipsWhereARecordingIs) {
     runs("export drop --seconds 2 --layout phone1 --to a.haptic");
     runs("stimulus wav a.haptic --at 0.3,0.4 --level-g 0.5 --out s.wav");
     EXPECT_EQ(wav("s.wav").size(), 4u);
+    runs("stimulus clip a.haptic --at 0.3,0.4 --level-g 0.5 --out t.wav");
+    EXPECT_TRUE(read("s.wav") == read("t.wav"));
 }
 
 TEST_F(ExportCommand, FeelsChannelsWithoutPlacesOneOnEachEnchanter) {
@@ -172,7 +200,7 @@ TEST_F(ExportCommand, FeelsChannelsWithoutPlacesOneOnEachEnchanter) {
 
 TEST_F(ExportCommand, RefusesInOneLine) {
     refuses("export", 2, "--to is required");
-    refuses("export drop --to a.wav", 2, "--to: expected a name that ends in .hjif, .haptic or .ahap, found \"a.wav\"");
+    refuses("export drop --to a.wav", 2, "--to: expected a name that ends in .hjif, .hmpg, .haptic or .ahap, found \"a.wav\"");
     refuses("export --to a.hjif", 2, "export: give a scene");
     refuses("export nowhere --to a.hjif", 2, "nowhere");
     refuses("export drop --limiter off --to a.hjif", 2, "--limiter: says how something is played");

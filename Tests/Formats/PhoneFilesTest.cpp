@@ -4,7 +4,10 @@
 #include "Formats/AhapFile.h"
 #include "Formats/ClipEnvelope.h"
 #include "Formats/ClipFile.h"
+#include "Formats/ClipLimits.h"
 #include "Formats/MetaHapticFile.h"
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -122,7 +125,7 @@ TEST(PhoneFiles, FrequenciesComeBackByTheScale) {
     layoutPreset("phone1", one);
     const ClipChannel channel = clipOf({&hit, 1}, 0.004, {one, PanningLaw::linear, 1.0, 1.0, 1.0}).channels[0];
     for (const ClipFormat format : {ClipFormat::haptic, ClipFormat::ahap}) {
-        const auto again = readClip(clipBytes({"", 0, 0, {channel}}, format, wide), "f", format, wide);
+        const auto again = readClip(clipBytes({"", 0, 0, {channel}}, format, wide).value, "f", format, wide);
         ASSERT_EQ(again.error, "");
         for (const EnvelopePoint& p : envelopeOf(again.value.channels[0]))
             if (p.amplitude > 0.01) EXPECT_NEAR(p.frequencyHz, 349.0, 1.0);
@@ -132,7 +135,7 @@ TEST(PhoneFiles, FrequenciesComeBackByTheScale) {
 TEST(PhoneFiles, TransientsComeBack) {
     const ClipChannel channel{"", {}, {}, {}, {{0.25, 0.5, 100.0}, {0.5, 1.0, 300.0}}};
     for (const ClipFormat format : {ClipFormat::haptic, ClipFormat::ahap}) {
-        const auto again = readClip(clipBytes({"", 0, 0, {channel}}, format), "f", format);
+        const auto again = readClip(clipBytes({"", 0, 0, {channel}}, format).value, "f", format);
         ASSERT_EQ(again.error, "");
         ASSERT_EQ(again.value.channels[0].transients.size(), 2u);
         for (std::size_t i = 0; i < 2; ++i) {
@@ -186,10 +189,42 @@ TEST(PhoneFiles, AreBoundedWhereManyEventsShareLongCurves) {
     EXPECT_EQ(readAhap(text + "]}", "f").error, "f: Pattern: expected fewer events at once on such long curves");
 }
 
+TEST(PhoneFiles, KeepTheirOrderWithinTheFirstRise) {
+    const ClipChannel channel{"A", {}, {}, {{{ClipWave{0.0, 0.0, {}, {{0.0, 1.0}, {1e-4, 0.5}, {0.1, 0.0}}, {{0.0, 100.0}, {1e-4, 250.0}, {0.1, 90.0}}}}}}, {}};
+    for (const ClipFormat format : {ClipFormat::haptic, ClipFormat::ahap})
+        EXPECT_EQ(readClip(clipBytes({"", 0, 0, {channel}}, format).value, "f", format).error, "");
+}
+
+TEST(PhoneFiles, RefuseAMillionPoints) {
+    const auto many = [](const std::string& head, const std::string& point, const std::string& tail) {
+        std::string text = head;
+        for (std::size_t i = 0; i <= limits::maxClipPoints; ++i) text.append(i ? "," : "").append(point);
+        return text + tail;
+    };
+    EXPECT_EQ(readMetaHaptic(many(R"({"version": {"major": 1}, "signals": {"continuous": {"envelopes": {"amplitude": [{"time": 0, "amplitude": 0},)", R"({"time":1,"amplitude":1})", "]}}}}"), "f").error,
+              "f: signals.continuous.envelopes: expected at most 500000 points of curves, found more");
+    EXPECT_EQ(readAhap(many(R"({"Pattern": [{"ParameterCurve": {"ParameterID": "HapticIntensityControl", "ParameterCurveControlPoints": [)", R"({"Time":0,"ParameterValue":0})", "]}}]}"), "f").error,
+              "f: Pattern[0].ParameterCurve.ParameterCurveControlPoints: expected at most 500000 control points in the file, found more");
+}
+
+TEST(ClipFile, RefusesAGigabyteUnread) {
+    const std::filesystem::path folder = testing::TempDir();
+    for (std::size_t i = 0; i < clipEndings.size(); ++i) {
+        const std::filesystem::path path = folder / ("gigabyte" + std::string(clipEndings[i]));
+        std::ofstream{path};
+        std::filesystem::resize_file(path, 1'000'000'000); // a hole: no disk is written
+        const auto clip = loadClip(path, static_cast<ClipFormat>(i));
+        std::filesystem::remove(path);
+        EXPECT_FALSE(clip);
+        EXPECT_NE(clip.error.find("expected at most 24000000 bytes"), std::string::npos) << clip.error;
+    }
+}
+
 TEST(ClipFile, IsKnownByItsEnding) {
     EXPECT_EQ(clipFormatOf("a.hjif"), ClipFormat::hjif);
     EXPECT_EQ(clipFormatOf("dir/A.HAPTIC"), ClipFormat::haptic);
     EXPECT_EQ(clipFormatOf("b.ahap"), ClipFormat::ahap);
+    EXPECT_EQ(clipFormatOf("b.Hmpg"), ClipFormat::hmpg);
     EXPECT_FALSE(clipFormatOf("hjif"));
     EXPECT_FALSE(clipFormatOf(".hjif"));
     EXPECT_FALSE(clipFormatOf("a.json"));
@@ -198,6 +233,8 @@ TEST(ClipFile, IsKnownByItsEnding) {
 TEST(ClipFile, TellsWhatIsLost) {
     Clip clip{"", 0.2, 0.1, {ClipChannel{"A", EnchanterPlace{0.0333, 0.05}, {}, {{{ClipWave{0, 0, {}, {{0, 2.0}, {1, 2.0}}, {{0, 80.5}}}}}, {{ClipWave{0, 0, {}, {{0, 1}, {1, 1}}, {{0, 349}}}}}}, {}}}};
     EXPECT_EQ(clipLosses(clip, ClipFormat::hjif), (std::vector<std::string>{"places are moved by up to 0.70 mm, onto a grid of at most 127 points", "MPEG's own decoder cuts frequencies to whole Hz, as of 80.50 Hz; ours does not"}));
+    EXPECT_EQ(clipLosses(clip, ClipFormat::hmpg), (std::vector<std::string>{"amplitudes have 8 bits: each wave is within 0.00784 of what it was, in shares of full scale",
+                                                                        "places are moved by up to 0.70 mm, onto a grid of at most 127 points", "frequencies are whole Hz: they are moved by up to 0.50 Hz"}));
     EXPECT_EQ(clipLosses(clip, ClipFormat::ahap), (std::vector<std::string>{"where a hit was is not carried", "what rings at once is one envelope, at the mean of its frequencies",
                                                                         "1 of 2 frequencies lie outside 65 to 300 Hz and become its ends", "what is above full scale is cut to it: the strongest is 2.00"}));
 }

@@ -76,7 +76,7 @@ std::string knock(const std::string& ending, const fs::path& folder) {
 std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
     const fs::path corpus = source / "Tests/Fuzz/corpus";
     const std::vector<std::string> recordingCalls{"material FILE", "material --texture FILE --speed 0.3", "attenuation FILE FILE", "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav", "render drop --seconds 0.5 --method SV --sound 80=FILE --sound 349=FILE --sound 430=FILE --out o.wav"};
-    const std::vector<std::string> clipCalls{"render FILE --out o.wav --picture p.png", "render FILE --layout ring3 --out o.wav", "export FILE --to o.hjif", "export FILE --to o.haptic", "export FILE --to o.ahap",
+    const std::vector<std::string> clipCalls{"render FILE --out o.wav --picture p.png", "render FILE --layout ring3 --out o.wav", "export FILE --to o.hjif", "export FILE --to o.hmpg", "export FILE --to o.haptic", "export FILE --to o.ahap",
                                              "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav"};
     auto scenes = filesIn(corpus / "scene");
     for (auto& scene : filesIn(source / "Source/Files/Scenes")) scenes.push_back(std::move(scene));
@@ -92,6 +92,7 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
              {"analyse confusion" + table, "analyse resolution" + table, "analyse percent-counts" + table, "analyse choices" + table, "analyse ratings" + table, "analyse levels" + table,
               "analyse anova FILE --measure choice=RM --within condition --export e.csv", "analyse kruskal-wallis FILE --measure x --between condition --export e.csv", "analyse psychometric FILE --level x --measure y --export e.csv"}},
             {"hjif", "hjif", filesIn(corpus / "hjif"), clipCalls},
+            {"hmpg", "hmpg", filesIn(corpus / "hmpg"), clipCalls},
             {"haptic", "haptic", filesIn(corpus / "haptic"), clipCalls},
             {"ahap", "ahap", filesIn(corpus / "ahap"), clipCalls},
             {"texture", "xml", filesIn(corpus / "texture"), {"material --texture FILE --speed 0.1"}},

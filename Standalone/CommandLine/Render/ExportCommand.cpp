@@ -110,10 +110,11 @@ std::string write(const std::vector<Part>& parts, ClipFormat format, const Frequ
     std::list<AtomicFile> files;
     std::string told;
     for (const Part& part : parts) {
-        const std::string bytes = clipBytes(part.clip, format, scaleOf(part.clip, usual));
+        const auto bytes = clipBytes(part.clip, format, scaleOf(part.clip, usual));
+        if (!bytes) return part.path + ": " + bytes.error;
         if (const std::string& error = files.emplace_back(part.path).error(); !error.empty()) return error;
-        if (const std::string& error = files.back().write(bytes); !error.empty()) return error;
-        told += summary(part, bytes.size());
+        if (const std::string& error = files.back().write(bytes.value); !error.empty()) return error;
+        told += summary(part, bytes.value.size());
     }
     for (AtomicFile& file : files)
         if (const std::string& error = file.commit(); !error.empty()) return error;
@@ -153,7 +154,7 @@ std::string takeEvents(RenderJob& job, std::vector<std::string>& warnings) {
 
 void declareExport(CLI::App& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
-    command.add_option("--to", o.to, "the file; its ending says the format: .hjif (MPEG), .haptic (Meta), .ahap (Apple)")->required()->type_name("FILE")->check(writtenFile);
+    command.add_option("--to", o.to, "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)")->required()->type_name("FILE")->check(writtenFile);
     command.add_option("--error", o.error, "how far lines may be from each hit's exponential, of its strength")->check(CLI::Range(leastError, mostError))->capture_default_str();
 }
 
@@ -162,7 +163,7 @@ int runExport(const CLI::App& command, ExportOptions& options) {
     noteGiven(command, o);
     if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);
     const auto format = clipFormatOf(options.to);
-    if (!format) return leave(exitUsage, "--to: expected a name that ends in .hjif, .haptic or .ahap, found " + inQuotes(options.to));
+    if (!format) return leave(exitUsage, "--to: expected a name that ends in .hjif, .hmpg, .haptic or .ahap, found " + inQuotes(options.to));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
     o.equalise = "off"; // of the player's own actuators
     if (const std::string refusal = checkSceneOptions(o); !refusal.empty()) return leave(exitUsage, refusal);

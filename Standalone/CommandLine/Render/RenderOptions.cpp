@@ -60,7 +60,7 @@ bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<d
 }
 
 void declareSceneOptions(CLI::App& command, RenderOptions& o) {
-    command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or (render, export) a saved SESSION.json or a CLIP.hjif, .haptic, .ahap");
+    command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or (render, export) a saved SESSION.json or a CLIP.hjif, .hmpg, .haptic, .ahap");
     command.add_option("--set", o.sets, "a variable of the scene; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
     command.add_option("--seconds", o.seconds, "length of the render")->check(between(0.001, 86400.0, " s"))->capture_default_str();
     command.add_option("--seed", o.seed, "seed of the scene")->check(between(0u, 4294967295u, ""))->capture_default_str();

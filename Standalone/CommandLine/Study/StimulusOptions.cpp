@@ -129,7 +129,7 @@ void declareStimulus(CLI::App& command, StimulusOptions& o) {
     command.require_subcommand(1);
     CLI::App* const pattern = command.add_subcommand("pattern", "a spatiotemporal pattern of pulses");
     CLI::App* const phantom = command.add_subcommand("phantom", "a stationary phantom between the enchanters");
-    CLI::App* const wav = command.add_subcommand("wav", "a recording as a phantom, at its own rate");
+    CLI::App* const wav = command.add_subcommand("wav", "a recording or a haptic file as a phantom, at its own rate")->alias("clip");
     CLI::App* const all = command.add_subcommand("list", "the labels of all patterns, one per line");
     pattern->add_option("pattern", o.pattern, "enchanters in the order of the pulses, and a pulse's ms")->required()->type_name("ABA-250");
     pattern->add_option("--gap", o.gapSeconds, "silence between pulses, s")->check(CLI::Range(0.0, 10.0))->capture_default_str();
