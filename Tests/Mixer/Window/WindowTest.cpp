@@ -106,10 +106,11 @@ TEST(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
     FakeInterface speakers;
     speakers.outputs = 2;
     {
-        MixerWindow window{fakeTypes({&speakers}), "Fake:hands", {}, folder("config")};
+        MixerWindow window{fakeTypes({&speakers}), "Fake:hands", folder("hands.json"), folder("config")};
         EXPECT_TRUE(window.desk().device().monitor.empty());
         ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains("headphones"); })) << window.desk().trouble();
         ASSERT_EQ(window.desk().monitorInstead({0, 1}, -30.0), "");
+        window.save(); // or the next one would ask for it
         runFor(0.7); // the settings are written twice a second
     }
     MixerWindow again{fakeTypes({&speakers}), "", {}, folder("config")};
