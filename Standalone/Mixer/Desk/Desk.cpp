@@ -191,11 +191,16 @@ std::string Desk::hearWanted() {
     return error;
 }
 
-std::string Desk::hear(const std::optional<ListeningSettings>& ofStudy) {
+std::string Desk::hear(const ListeningSettings& ofStudy) {
     const auto before = std::exchange(ofStudy_, ofStudy);
     auto error = hearWanted();
     if (!error.empty()) ofStudy_ = before;
     return error;
+}
+
+void Desk::endStudy() {
+    ofStudy_.reset();
+    hearWanted();
 }
 
 std::string Desk::listen(const ListeningSettings& wanted, const DeviceChoice& choice) {

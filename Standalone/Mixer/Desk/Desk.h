@@ -93,8 +93,9 @@ public:
     std::string mark(int output);
     /// The same, and enchanters that have these outputs have none then, which can be undone.
     std::string monitorInstead(std::vector<int> outputs, double db);
-    /// A study begins: noise on headphones, and no monitor, which would tell the ears what hands are asked. Without a value it ends. As monitor().
-    std::string hear(const std::optional<ListeningSettings>& ofStudy);
+    /// A study begins: noise on headphones, and no monitor, which would tell the ears what hands are asked. As monitor().
+    std::string hear(const ListeningSettings& ofStudy);
+    void endStudy();
     const ListeningSettings& listening() const noexcept { return heard_; }
     void setSilent(bool silent);
     bool isSilent() const noexcept { return isSilent_; }

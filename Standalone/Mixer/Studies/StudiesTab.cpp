@@ -276,7 +276,7 @@ void StudiesTab::end() {
     screen_.reset();
     font_.reset();
     analysis_.reset();
-    desk_.hear(std::nullopt);
+    desk_.endStudy();
     for (auto& child : hidden_)
         if (child) child->setVisible(true);
     hidden_.clear();
