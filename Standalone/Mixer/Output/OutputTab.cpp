@@ -276,8 +276,8 @@ void OutputTab::resized() {
     area.removeFromTop(10);
     names = area.removeFromTop(18);
     row = area.removeFromTop(rowHeight);
-    const int third = (row.getWidth() - 2 * gap) / 4;
-    for (auto [name, box, width] : {std::tuple{&monitorName_, &monitor_, 2 * third}, {&monitorLevelName_, &monitorLevel_, third}, {&marksName_, &marks_, third}}) {
+    const int quarter = (row.getWidth() - 2 * gap) / 4;
+    for (auto [name, box, width] : {std::tuple{&monitorName_, &monitor_, 2 * quarter}, {&monitorLevelName_, &monitorLevel_, quarter}, {&marksName_, &marks_, quarter}}) {
         name->setBounds(names.removeFromLeft(width));
         names.removeFromLeft(gap);
         box->setBounds(row.removeFromLeft(width));
