@@ -100,7 +100,7 @@ Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames,
     std::ranges::transform(made.events, made.events.begin(), session.shaping);
     const auto controls = controlsOf(session.log, true, channels);
     Interleaved signal(static_cast<std::size_t>(delayFrames * channels), 0.0f);
-    renderOffline(made.events, {{rate, channels, session.panner, session.limiterEnabled, session.ceilings, InstructionSet::best, session.equalised}, frames - delayFrames, 333, controls},
+    renderOffline(made.events, {{rate, channels, session.panner, session.limiterEnabled, session.ceilings, 0, InstructionSet::best, session.equalised}, frames - delayFrames, 333, controls},
                   [&](const float* const* block, int n) { append(signal, block, n); return true; });
     return signal;
 }
