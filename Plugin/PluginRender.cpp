@@ -31,8 +31,9 @@ void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juc
 }
 
 void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept {
+    buffer.clear();
     const int frames = buffer.getNumSamples();
-    if (blockFrames_ == 0 || frames == 0) return buffer.clear();
+    if (blockFrames_ == 0 || frames == 0) return;
     const auto mode = isNonRealtime() ? RenderMode::offline : RenderMode::realtime;
     followTransport(frames);
     auto message = midi.begin();
@@ -40,8 +41,6 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
         const int part = std::min(frames - first, blockFrames_); // some hosts exceed what they announced
         if (takes_.begin(mode)) forgetControls();
         sendControls(0);
-        hear(buffer, first, part);
-        buffer.clear(first, part);
         for (; message != midi.end() && (*message).samplePosition < first + part; ++message) receive(*message, std::max(0, (*message).samplePosition - first));
         sendPaced(0, part); // what controllers said faster than it may go
         takes_.render(part, mode);
@@ -71,7 +70,6 @@ void PluginProcessor::followTransport(int frames) noexcept {
 
 // A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
 void PluginProcessor::forgetControls() noexcept {
-    beats_.forget();
     levelPace_ = pannerPace_ = {};
     owesStop_ = false;
     sent_.fill(std::numeric_limits<double>::quiet_NaN());
@@ -169,21 +167,6 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
     event.x = shifted(event.x, value(Parameter::strikeX) * 0.01 + bend_[static_cast<std::size_t>(channel)], midi.fieldWidthMetres());
     event.y = shifted(event.y, value(Parameter::strikeY) * 0.01 + slide_[static_cast<std::size_t>(channel)], midi.fieldHeightMetres());
     session->strike(event, frame);
-}
-
-// The side chain's channels are the buffer's first ones, until what is played is written over them.
-void PluginProcessor::hear(const juce::AudioBuffer<float>& buffer, int first, int frames) noexcept {
-    Session* const session = takes_.session();
-    const double readiness = value(Parameter::beats);
-    if (!session || readiness <= 0.0) return beats_.forget();
-    const auto& settings = takes_.settings();
-    BeatVoices voices;
-    voices.enchanters = usualBeatEnchanters(settings.layout.count);
-    voices.level = gainOfLevel(value(Parameter::strikeLevel));
-    beats_.hear(buffer, first, frames, 0.01 * readiness, [&](const BandOnset& onset, int frame) {
-        strikeBeat(onset, 0, voices, settings.layout, settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres(),
-                   [&](const CollisionEvent& event) { session->strike(event, frame); });
-    });
 }
 
 void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {

@@ -18,7 +18,7 @@ namespace physvib {
 
 /// The version of the format that is written, and the newest that is read. A new field makes a new version.
 /// 2: choices by their words; what version 1 gave every instance as controllers is left out; strips, equalisers, the editor's size.
-/// 3: direct strikes, the parameter `beats`.
+/// 3: direct strikes.
 constexpr int pluginStateVersion = 3;
 
 enum class TransportMode {
