@@ -9,6 +9,7 @@
 #include "Host/Recordings/RecordingStream.h"
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <juce_audio_formats/juce_audio_formats.h>
 #include <string_view>
 
@@ -28,6 +29,7 @@ std::string flacFault(std::FILE& file) {
     const auto at = [&](std::size_t i) { return static_cast<std::int64_t>(head[i]); };
     const SoundShape shape{at(18) << 12 | at(19) << 4 | at(20) >> 4, (at(20) >> 1 & 7) + 1, (at(21) & 15) << 32 | at(22) << 24 | at(23) << 16 | at(24) << 8 | at(25)};
     if (shape.frames == 0) return "expected a FLAC file that says how long it is";
+    if (shape.frames > UINT32_MAX) return "expected at most " + std::to_string(UINT32_MAX) + " samples in each channel, found " + std::to_string(shape.frames);
     bool isLast = (head[4] & 0x80) != 0;
     for (std::array<unsigned char, 4> block{}; !isLast && std::fread(block.data(), 1, block.size(), &file) == block.size();) {
         if ((block[0] & 0x7f) == 0) return "expected one description of the stream";
