@@ -29,9 +29,11 @@ grep -q "JACK:actuator: has 1 outputs" "$folder/said"
 
 # Far above its resonance it is a cable of that many frames, and whatever JACK and the device add.
 kill "$playing"
+wait "$playing" || true # its name is free again only then
+for _ in $(seq 100); do "$physvib" devices | grep -q JACK:actuator || break; sleep 0.1; done
 "$bin/physvib-jack-actuator" 0.1 0.7 0.5 $delay >"$folder/ready2" &
 playing=$!
-for _ in $(seq 100); do grep -qs ready "$folder/ready2" && break; sleep 0.1; done
+for _ in $(seq 100); do grep -qs ready "$folder/ready2" && "$physvib" devices | grep -q JACK:actuator && break; sleep 0.1; done
 "$physvib" calibrate --device JACK:actuator --channel 1 --input 1 --loopback >"$folder/loop"
 cat "$folder/loop"
 awk '{ for (i = 1; i < NF; ++i) if ($(i + 1) == "frames") frames = $i; exit !(frames >= '$delay' && frames < '$delay' + 4096) }' "$folder/loop"
