@@ -15,6 +15,23 @@ constexpr int noneId = 1, levelId = 100; // of the lists of outputs and levels: 
 constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer", "from any computer, and phones"}; // as OscUse
 constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
 
+struct Cell {
+    juce::Label& name;
+    juce::Component& box;
+    int width;
+};
+
+void placeRow(juce::Rectangle<int>& area, std::initializer_list<Cell> cells) {
+    area.removeFromTop(10);
+    auto names = area.removeFromTop(18), row = area.removeFromTop(rowHeight);
+    for (const Cell& cell : cells) {
+        cell.name.setBounds(names.removeFromLeft(cell.width));
+        cell.box.setBounds(row.removeFromLeft(cell.width));
+        names.removeFromLeft(gap);
+        row.removeFromLeft(gap);
+    }
+}
+
 } // namespace
 
 OutputTab::OutputTab(Desk& desk)
@@ -254,35 +271,10 @@ void OutputTab::resized() {
     scan_->setBounds(row.removeFromRight(90));
     row.removeFromRight(gap);
     device_.setBounds(row);
-    area.removeFromTop(10);
-    auto names = area.removeFromTop(18);
-    row = area.removeFromTop(rowHeight);
-    const int half = (row.getWidth() - gap) / 2;
-    rateName_.setBounds(names.removeFromLeft(half));
-    names.removeFromLeft(gap);
-    blockName_.setBounds(names);
-    rate_.setBounds(row.removeFromLeft(half));
-    row.removeFromLeft(gap);
-    block_.setBounds(row);
-    area.removeFromTop(10);
-    names = area.removeFromTop(18);
-    row = area.removeFromTop(rowHeight);
-    boardName_.setBounds(names.removeFromLeft(half));
-    names.removeFromLeft(gap);
-    oscName_.setBounds(names);
-    board_.setBounds(row.removeFromLeft(half));
-    row.removeFromLeft(gap);
-    osc_.setBounds(row);
-    area.removeFromTop(10);
-    names = area.removeFromTop(18);
-    row = area.removeFromTop(rowHeight);
-    const int quarter = (row.getWidth() - 2 * gap) / 4;
-    for (auto [name, box, width] : {std::tuple{&monitorName_, &monitor_, 2 * quarter}, {&monitorLevelName_, &monitorLevel_, quarter}, {&marksName_, &marks_, quarter}}) {
-        name->setBounds(names.removeFromLeft(width));
-        names.removeFromLeft(gap);
-        box->setBounds(row.removeFromLeft(width));
-        row.removeFromLeft(gap);
-    }
+    const int half = (area.getWidth() - gap) / 2, rest = area.getWidth() - gap - half, quarter = (area.getWidth() - 2 * gap) / 4;
+    placeRow(area, {{rateName_, rate_, half}, {blockName_, block_, rest}});
+    placeRow(area, {{boardName_, board_, half}, {oscName_, osc_, rest}});
+    placeRow(area, {{monitorName_, monitor_, 2 * quarter}, {monitorLevelName_, monitorLevel_, quarter}, {marksName_, marks_, quarter}});
     area.removeFromTop(12);
     facts_.setBounds(area);
 }
