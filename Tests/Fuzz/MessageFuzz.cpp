@@ -1,30 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of messages in lines; what is taken is played for a while.
-#include "Files/SceneCatalogue.h"
 #include "Files/Text/InputLine.h"
 #include "Fuzzing.h"
 #include "Session/Messages/MessageRouter.h"
+#include "SessionFuzzing.h"
 #include <array>
-#include <memory>
-
-namespace {
 
 using namespace physvib;
 
-std::unique_ptr<Session> makeSession() {
-    SessionSetup setup;
-    setup.scene = *findBuiltInScene("drop");
-    EnchanterLayout layout;
-    layoutPreset("phone4", layout);
-    setup.panner = {layout, PanningLaw::linear, 1.0, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
-    setup.log = LogUse::none;
-    return std::make_unique<Session>(setup);
-}
-
-} // namespace
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const std::unique_ptr<Session> session = makeSession();
+    static const std::unique_ptr<Session> session = fuzz::makeSession();
     static std::array<std::array<float, 256>, 4> samples;
     const auto read = readInputLine(fuzz::asText(data, size), "f", session->state().scene->materials, 4);
     const auto* message = std::get_if<PlainMessage>(&read.value);

@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of OSC packets: read, and let in by the door.
-#include "Files/SceneCatalogue.h"
 #include "Fuzzing.h"
 #include "Host/Osc/OscDoor.h"
-#include <memory>
-
-namespace {
+#include "SessionFuzzing.h"
 
 using namespace physvib;
 
-std::unique_ptr<Session> makeSession() {
-    SessionSetup setup;
-    setup.scene = *findBuiltInScene("drop");
-    EnchanterLayout layout;
-    layoutPreset("phone4", layout);
-    setup.panner = {layout, PanningLaw::linear, 1.0, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
-    setup.log = LogUse::none;
-    return std::make_unique<Session>(setup);
-}
-
-} // namespace
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const std::unique_ptr<Session> session = makeSession();
+    static const std::unique_ptr<Session> session = fuzz::makeSession();
     session->prepare(8000, 256);
     MessageRouter messages{*session};
     OscDoor door{*session, messages, {[](const LineInput& input) { return session->act(std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}); }, {}}};
