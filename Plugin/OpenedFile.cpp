@@ -36,7 +36,7 @@ PluginState leftBy(const SavedSession& session, PluginState state) {
 }
 
 bool isPlayedOtherwise(const SavedSession& session) {
-    return session.shaping != EventShaping{} || !session.log.recordings.empty() || session.run.timing != ImpactTiming::onset || session.run.location != ImpactLocation::contact;
+    return session.shaping != EventShaping{} || !session.log.recordings.empty() || !session.log.clips.empty() || session.run.timing != ImpactTiming::onset || session.run.location != ImpactLocation::contact;
 }
 
 } // namespace

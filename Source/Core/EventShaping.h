@@ -2,6 +2,7 @@
 // What becomes of a collision before it is rendered: the method, then the frequencies that the actuators can play, then the level.
 #pragma once
 #include "Core/Actuators/PerceivedLevel.h"
+#include "Core/ClipNumber.h"
 #include "Core/FixedLevel.h"
 #include "Core/RenderingMethod.h"
 #include "Core/Actuators/Resonator.h"
@@ -24,7 +25,7 @@ struct FrequencyRemap {
     bool operator==(const FrequencyRemap&) const = default;
 };
 
-/// From the collision to the event that is rendered, listed and told as played. Any thread.
+/// From the collision to the event that is rendered, listed and told as played; a clip stays as it is. Any thread.
 struct EventShaping {
     static constexpr double mostTruncation = 0.99;
     RenderingMethod method;
@@ -33,7 +34,7 @@ struct EventShaping {
     PerceivedLevel perceived{}; ///< at the frequency that is played, of what the gain made
     double truncation = 0.0;    ///< Eq. 5.5: a decay is cut where its envelope falls to this share; 0: it rings out
 
-    CollisionEvent operator()(const CollisionEvent& collision) const noexcept { return levelled(moved(collision)); }
+    CollisionEvent operator()(const CollisionEvent& collision) const noexcept { return isClip(collision.frequencyHz) ? collision : levelled(moved(collision)); }
 
     /// Its two halves.
     CollisionEvent moved(const CollisionEvent& collision) const noexcept {
@@ -61,7 +62,9 @@ private:
 class EventShaper {
 public:
     explicit EventShaper(const EventShaping& shaping) : shaping_{shaping} {}
-    CollisionEvent operator()(const CollisionEvent& collision) noexcept { return shaping_.levelled(level_(shaping_.moved(collision), shaping_.method)); }
+    CollisionEvent operator()(const CollisionEvent& collision) noexcept {
+        return isClip(collision.frequencyHz) ? collision : shaping_.levelled(level_(shaping_.moved(collision), shaping_.method));
+    }
     void forget() noexcept { level_.forget(); }
 
 private:

@@ -88,7 +88,10 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
         settings_.ceilings[static_cast<std::size_t>(control.channel)] = control.value;
         limiter_.setCeiling(control.channel, control.value);
     }
-    if (control.kind == Kind::recordings) player_.setContacts(control.recordings);
+    if (control.kind == Kind::recordings) {
+        player_.setContacts(control.recordings);
+        othersAreModes_ = control.value != 0.0f;
+    }
     const bool isSilence = control.kind == Kind::silence;
     if (isSilence) {
         silentUntilNs_ = std::max(silentUntilNs_, control.untilNs);

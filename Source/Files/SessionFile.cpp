@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reading and writing a session; scenes and inputs by the table in SceneFields.h.
 #include "Files/SessionFile.h"
+#include "Core/ClipNumber.h"
 #include "Files/ControlJson.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Json/JsonFile.h"
@@ -148,6 +149,17 @@ RecordingFile readRecordingFile(const JsonField& json) {
 
 } // namespace
 
+void readClipFile(const JsonField& json, SessionLog& log) {
+    json.expectObject({"frequency_hz", "file", "channel", "hash"});
+    const auto number = static_cast<int>(log.clips.size());
+    if (number == mostClips) json.fail("expected at most " + std::to_string(mostClips) + " channels of clips, found more");
+    if (const double found = json["frequency_hz"].positiveNumber(); found != clipFrequencyHz(number))
+        json["frequency_hz"].fail("expected " + numberText(clipFrequencyHz(number)) + ", for clip " + std::to_string(number + 1) + ", found " + numberText(found));
+    ClipFile clip{{clipFrequencyHz(number), json["file"].text()}, json.has("channel") ? readWhole(json["channel"], 0, limits::maxEnchanters - 1) : 0};
+    clip.file.hash = json["hash"].text();
+    log.clips.push_back(std::move(clip));
+}
+
 void readRecordingsChange(const JsonField& json, SessionLog& log) {
     json.expectObject({"time_s", "files"});
     RecordingsChange change{readNextTime(json, log.recordings.empty() ? 0 : log.recordings.back().timeNs), {}};
@@ -193,7 +205,7 @@ SavedSession readSessionHead(const JsonField& root, std::initializer_list<std::s
 namespace {
 
 SavedSession readSessionRoot(const JsonField& root) {
-    SavedSession session = readSessionHead(root, {"seconds", "takes", "controls", "recordings", "strikes", "desk"});
+    SavedSession session = readSessionHead(root, {"seconds", "takes", "controls", "recordings", "clips", "strikes", "desk"});
     session.lengthNs = readTime(root["seconds"]);
     const JsonField takes = root["takes"];
     if (takes.arraySize() == 0) takes.fail("expected at least 1 take, found none");
@@ -206,6 +218,7 @@ SavedSession readSessionRoot(const JsonField& root) {
         readTimedControl(root["controls"].item(i), session);
     for (std::size_t i = 0, count = root.has("recordings") ? root["recordings"].arraySize() : 0; i < count; ++i)
         readRecordingsChange(root["recordings"].item(i), session.log);
+    for (std::size_t i = 0, count = root.has("clips") ? root["clips"].arraySize() : 0; i < count; ++i) readClipFile(root["clips"].item(i), session.log);
     for (std::size_t i = 0, count = root.has("strikes") ? root["strikes"].arraySize() : 0; i < count; ++i)
         session.log.strikes.push_back(readStrike(root["strikes"].item(i)));
     if (root.has("desk")) {
@@ -280,6 +293,13 @@ std::string besides(const std::filesystem::path& folder, const std::string& path
 
 } // namespace
 
+OrderedJson clipJson(const ClipFile& clip, const std::filesystem::path& folder) {
+    OrderedJson json{{"frequency_hz", clip.file.frequencyHz}, {"file", besides(folder, clip.file.path)}};
+    if (clip.channel > 0) json["channel"] = clip.channel;
+    json["hash"] = clip.file.hash;
+    return json;
+}
+
 OrderedJson recordingsJson(const RecordingsChange& change, const std::filesystem::path& folder) {
     OrderedJson json{{"time_s", seconds(change.timeNs)}, {"files", OrderedJson::array()}};
     for (const RecordingFile& file : change.files) {
@@ -336,6 +356,7 @@ Result<SavedSession> loadSession(const std::filesystem::path& path) {
     for (RecordingsChange& change : session.value.log.recordings)
         for (RecordingFile& file : change.files)
             if (!syntheticSeed(file.path)) file.path = (path.parent_path() / file.path).lexically_normal().string();
+    for (ClipFile& clip : session.value.log.clips) clip.file.path = (path.parent_path() / clip.file.path).lexically_normal().string();
     return session;
 }
 
@@ -348,6 +369,7 @@ std::string sessionJson(const SavedSession& session, const std::filesystem::path
     }
     for (const RenderControl& control : controlsOf(session.log, true, session.channels)) root["controls"].push_back(detail::timedControlJson(control));
     for (const RecordingsChange& change : session.log.recordings) root["recordings"].push_back(detail::recordingsJson(change, folder));
+    for (const ClipFile& clip : session.log.clips) root["clips"].push_back(detail::clipJson(clip, folder));
     for (const CollisionEvent& strike : session.log.strikes) root["strikes"].push_back(detail::strikeJson(strike));
     if (session.mix) root["desk"] = mixJson(*session.mix);
     return jsonLines(root);

@@ -27,12 +27,13 @@ class JournalReader {
 public:
     void read(const JsonField& json) {
         if (lines_++ == 0) return begin(json);
-        json.expectObject({"take", "input", "stall", "control", "recordings", "strike", "world_end_s", "seconds"});
+        json.expectObject({"take", "input", "stall", "control", "recordings", "clip", "strike", "world_end_s", "seconds"});
         if (json.has("take")) addTake(json["take"]);
         if (json.has("input")) addInput(json["input"]);
         if (json.has("stall")) addStall(json["stall"]);
         if (json.has("control")) detail::readTimedControl(json["control"], session_);
         if (json.has("recordings")) detail::readRecordingsChange(json["recordings"], session_.log);
+        if (json.has("clip")) detail::readClipFile(json["clip"], session_.log);
         if (json.has("strike")) session_.log.strikes.push_back(detail::readStrike(json["strike"]));
         if (json.has("world_end_s")) take(json).worldEndNs = detail::readTime(json["world_end_s"]);
         if (json.has("seconds")) session_.lengthNs = detail::readTime(json["seconds"]);
@@ -118,7 +119,7 @@ JournalLines::JournalLines(const SavedSession& session, std::filesystem::path fo
 
 std::string JournalLines::take(SessionLog& log, std::int64_t sessionNs) {
     if (!full_.empty()) {
-        log = {std::vector<SceneTake>(1), {}, {}, {}, {}};
+        log = {std::vector<SceneTake>(1), {}, {}, {}, {}, {}};
         return {};
     }
     std::string text = linesOf(log, sessionNs);
@@ -152,10 +153,12 @@ std::string JournalLines::linesOf(SessionLog& log, std::int64_t sessionNs) {
     if (log.takes.size() > 1) log.takes.erase(log.takes.begin(), log.takes.end() - 1);
     for (const RenderControl& control : controlsOf(log, true, channels_)) text += lineOf("control", detail::timedControlJson(control));
     for (const RecordingsChange& change : log.recordings) text += lineOf("recordings", detail::recordingsJson(change, folder_));
+    for (const ClipFile& clip : log.clips) text += lineOf("clip", detail::clipJson(clip, folder_));
     for (const CollisionEvent& strike : log.strikes) text += lineOf("strike", detail::strikeJson(strike));
     log.panners.clear();
     log.channels.clear();
     log.recordings.clear();
+    log.clips.clear();
     log.strikes.clear();
     OrderedJson told{{"seconds", detail::seconds(sessionNs)}};
     if (!log.takes.empty()) told["world_end_s"] = detail::seconds(log.takes.back().worldEndNs);

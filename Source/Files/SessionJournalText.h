@@ -2,7 +2,7 @@
 // A session while it is played: lines that are only ever added, so that saving costs what is new.
 //
 // The first line is the head of a session file; each of the others adds one thing: a take, an input, a stall (which takes
-// the place of the one before if it begins where that began), a control, recordings, a strike; or it says up to which
+// the place of the one before if it begins where that began), a control, recordings, a clip, a strike; or it says up to which
 // time all of them have been told. What follows the last such line counts for nothing: it was cut off.
 #pragma once
 #include "Files/SessionFile.h"

@@ -18,6 +18,7 @@ WorldStall readStall(const JsonField& json, const SceneTake& take); ///< not bef
 void readTimedControl(const JsonField& json, SavedSession& session);
 void readRecordingsChange(const JsonField& json, SessionLog& log);
 CollisionEvent readStrike(const JsonField& json);
+void readClipFile(const JsonField& json, SessionLog& log);
 
 // Writing.
 double seconds(std::int64_t ns);
@@ -28,5 +29,6 @@ OrderedJson stallJson(const WorldStall& stall);
 OrderedJson timedControlJson(const RenderControl& control);
 OrderedJson recordingsJson(const RecordingsChange& change, const std::filesystem::path& folder);
 OrderedJson strikeJson(const CollisionEvent& strike);
+OrderedJson clipJson(const ClipFile& clip, const std::filesystem::path& folder);
 
 } // namespace physvib::detail

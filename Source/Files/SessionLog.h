@@ -31,12 +31,20 @@ struct RecordingsChange {
     bool operator==(const RecordingsChange&) const = default;
 };
 
+/// One channel of a clip, which strikes of its file's frequency play.
+struct ClipFile {
+    RecordingFile file; ///< always with its hash
+    int channel = 0;
+    bool operator==(const ClipFile&) const = default;
+};
+
 struct SessionLog {
     std::vector<SceneTake> takes; ///< one after the other; the last goes on
     std::vector<PannerChange> panners;   ///< in time order
     std::vector<ChannelChange> channels; ///< in time order
     std::vector<RecordingsChange> recordings; ///< in time order; without one there are none
     std::vector<CollisionEvent> strikes; ///< apart from the world, in the order in which they were asked for
+    std::vector<ClipFile> clips{};       ///< each once, before its first strike; named clipFrequencyHz(0), (1)...
 
     std::int64_t lastControlNs() const noexcept {
         return std::max(panners.empty() ? 0 : panners.back().timeNs, channels.empty() ? 0 : channels.back().timeNs);

@@ -25,7 +25,7 @@ constexpr bool isMono(ClipFormat format) noexcept { return format == ClipFormat:
 /// The clip of a file's bytes; or one line. `scale` says what phones' frequencies are. Any thread.
 Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat format, const FrequencyScale& scale = {});
 
-/// The same of a file. M only.
+/// The same of a file. Any thread but R.
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale = {});
 
 /// The file of `clip`, of its first channel if the format has one only; or one line: what it has no numbers for. Any thread.

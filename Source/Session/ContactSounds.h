@@ -21,7 +21,7 @@ struct ContactRecording {
 std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordings);
 
 /// Recordings at one rate, and the list of them that a renderer takes; both live as long as this object, which stays where
-/// it is. M only.
+/// it is. Any thread but R.
 class ContactSounds {
 public:
     ContactSounds() = default;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stepping, handing over, and rendering L behind.
 #include "Session/Session.h"
+#include "Core/ClipNumber.h"
 #include <algorithm>
 #include <array>
 
@@ -16,7 +17,7 @@ struct Session::LiveSource {
             if (!session.queue_.pop(event)) return false;
             session.leastMarginFrames_ = std::min(session.leastMarginFrames_, clock.at(event.timeNs).frame - nextFrame);
         }
-        if (session.heard_) session.heard_->tell(event);
+        if (session.heard_ && !isClip(event.frequencyHz)) session.heard_->tell(event);
         return true;
     }
     bool pop(RenderControl& control) noexcept { return session.popControl(control); }
@@ -31,7 +32,7 @@ struct Session::OfflineSource {
     void struck(const CollisionEvent& event, std::int64_t frame) noexcept { session.mark(event, frame); }
     bool pop(CollisionEvent& event) {
         if (!take(event)) return false;
-        if (session.heard_) session.heard_->tell(event);
+        if (session.heard_ && !isClip(event.frequencyHz)) session.heard_->tell(event);
         return true;
     }
     bool take(CollisionEvent& event) {
@@ -70,7 +71,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
                         .modes = setup_.modes,
                         .equalised = setup_.equalised});
     setLaw(lawAt(sampleRateHz, maxBlockFrames), setup_.direct != Direct::no, setup_.direct == Direct::born);
-    renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings));
+    renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings), setup_.recordings.empty());
     if (heard_) heard_->prepare(sampleRateHz);
     if (marks_) marks_->prepare(sampleRateHz, -renderer_->latencyFrames());
     setFrames(firstFrame()); // the renderer begins with the first block where something may be felt in it
@@ -92,6 +93,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
     stops_.clear();
     nextStopNs_ = never;
     if (!setup_.recordings.empty() && setup_.log != LogUse::none) controlLog_.recordings.push_back({0, filesOf(setup_.recordings)});
+    if (setup_.log != LogUse::none) controlLog_.clips = clips_;
     slippedNs_ = 0;
     leastMarginFrames_ = noMargin;
     offline_ = false;
@@ -115,7 +117,7 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     renderer_->moveTo(sampleRateHz, rendered);
     if (heard_) heard_->moveTo(sampleRateHz, rendered);
     if (marks_) marks_->prepare(sampleRateHz, rendered - renderer_->latencyFrames());
-    renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings)); // recordings that sound stop
+    renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings), setup_.recordings.empty()); // recordings that sound stop
     setFrames(frames);
 }
 
@@ -168,7 +170,7 @@ void Session::takeUp() {
 // Queues what has been made; true if nothing is left. The world mutex is held.
 bool Session::handOver() {
     for (; handed_ < made_.size() && queue_.push(made_[handed_]); ++handed_)
-        if (told_) told_->events.push(made_[handed_]); // a full queue counts what nobody takes
+        if (told_ && !isClip(made_[handed_].frequencyHz)) told_->events.push(made_[handed_]); // a full queue counts what nobody takes
     if (handed_ < made_.size()) return false;
     made_.clear();
     handed_ = 0;

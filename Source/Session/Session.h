@@ -85,6 +85,11 @@ public:
     /// and logged as a control; the time it was given, -1 if the queue is full. M.
     std::int64_t useRecordings(std::vector<ContactRecording> recordings);
 
+    /// Keeps one channel of a clip, whose file tells its path and hash (its own frequency says nothing): strikes of the frequency
+    /// that is given back play it beside whatever sounds, which goes on undisturbed; 0: there is no room, of numbers or samples. A clip
+    /// that is kept already is the same one. Logged. Any thread but R.
+    double keepClip(const ContactRecording& clip, int channel);
+
     /// Strikes apart from the world (a test pulse, a material to be heard): each is felt L after session time plus its
     /// own time, and logged. False, and nothing is played, if one cannot be (see isPlayable). Any thread but R.
     bool play(std::span<const CollisionEvent> strikes);
@@ -167,12 +172,15 @@ private:
     int catchUp(const StepWatch& goesOn = {});
     void moveWorld(std::int64_t untilNs);
     bool handOver();
+    std::optional<double> keptClip(const RecordingFile& file, int channel) const;
+    bool hasRoomFor(const ClipSound& clip) const;
     void renderBehind(float* const* out, std::int64_t done, int frames, RenderMode mode) noexcept;
     void renderOwnWorld(float* const* out, int frames, std::int64_t endNs);
 
     SessionSetup setup_;
     std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
     RecordingSets recordings_; // under the input mutex
+    std::vector<ClipFile> clips_; // as they are in recordings_; likewise
     const std::unique_ptr<HeardContacts> heard_;
     const std::unique_ptr<OnsetMarks> marks_;
     EventQueue<CollisionEvent, 4096> queue_; // from whoever holds the world, who keeps what finds no room

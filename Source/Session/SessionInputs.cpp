@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What comes from outside while a session plays: inputs, controls, other scenes, and the log of it all.
 #include "Session/Session.h"
+#include "Core/ClipNumber.h"
+#include "Files/Disk/FileLimits.h"
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -56,10 +58,44 @@ std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
     control.timeNs = now;
     control.kind = RenderControl::Kind::recordings;
     control.recordings = recordings_.at(law().sampleRateHz, recordings);
+    control.value = recordings.empty() ? 1.0f : 0.0f;
     if (!controls_.push(control)) return -1;
     if (setup_.log != LogUse::none) controlLog_.recordings.push_back({now, filesOf(recordings)});
     setup_.recordings = std::move(recordings);
     return now;
+}
+
+// The input mutex is held.
+std::optional<double> Session::keptClip(const RecordingFile& file, int channel) const {
+    const auto same = [&](const ClipFile& kept) { return kept.file.path == file.path && kept.file.hash == file.hash && kept.channel == channel; };
+    const auto known = std::ranges::find_if(clips_, same);
+    return known == clips_.end() ? std::nullopt : std::optional{known->file.frequencyHz};
+}
+
+// The input mutex is held.
+bool Session::hasRoomFor(const ClipSound& clip) const {
+    const auto rates = recordings_.rates();
+    double samples = clip.samplesAt(rates);
+    for (const ClipSound& kept : recordings_.clips()) samples += kept.samplesAt(rates);
+    return samples > 0.0 && samples <= limits::maxRecordingSamples && clips_.size() < mostClips;
+}
+
+// Brought to a rate without the mutex: that takes long.
+double Session::keepClip(const ContactRecording& clip, int channel) {
+    ClipSound sound{clip};
+    for (std::vector<int> rates;; std::ranges::for_each(rates, [&](int rate) { sound.at(rate); })) {
+        const std::lock_guard lock{inputMutex_};
+        if (const auto known = keptClip(clip.file, channel)) return *known;
+        if (!hasRoomFor(sound)) return 0.0;
+        rates = recordings_.rates();
+        if (!std::ranges::all_of(rates, [&](int rate) { return sound.isAt(rate); })) continue;
+        ClipFile file{clip.file, channel};
+        file.file.frequencyHz = clipFrequencyHz(static_cast<int>(clips_.size()));
+        recordings_.add(std::move(sound));
+        clips_.push_back(file);
+        if (setup_.log != LogUse::none) controlLog_.clips.push_back(file);
+        return file.file.frequencyHz;
+    }
 }
 
 bool Session::play(std::span<const CollisionEvent> strikes) {
@@ -173,6 +209,7 @@ std::int64_t Session::readLog(SessionLog& log) {
     move(controlLog_.panners, log.panners);
     move(controlLog_.channels, log.channels);
     move(controlLog_.recordings, log.recordings);
+    move(controlLog_.clips, log.clips);
     move(controlLog_.strikes, log.strikes);
     move(begun_, log.strikes);
     world_.moveLog(log.takes);

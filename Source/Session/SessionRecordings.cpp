@@ -6,18 +6,20 @@
 namespace physvib {
 
 SessionRecordings::SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz)
-    : setOfChange_{loaded.setOfChange} {
-    for (const RecordingsChange& change : log.recordings) times_.push_back(change.timeNs);
-    for (const auto& set : loaded.sets) sounds_.emplace_back(set, sampleRateHz);
+    : sampleRateHz_{sampleRateHz} {
+    for (const ContactRecording& clip : loaded.clips) sets_.add(ClipSound{clip});
+    for (std::size_t i = 0; i < log.recordings.size() && i < loaded.setOfChange.size(); ++i) {
+        const auto& set = loaded.sets[loaded.setOfChange[i]];
+        RenderControl& control = changes_.emplace_back();
+        control.timeNs = log.recordings[i].timeNs;
+        control.kind = RenderControl::Kind::recordings;
+        control.value = set.empty() ? 1.0f : 0.0f;
+        control.recordings = sets_.at(sampleRateHz, set);
+    }
 }
 
 std::vector<RenderControl> SessionRecordings::with(std::vector<RenderControl> controls) const {
-    for (std::size_t i = 0; i < setOfChange_.size(); ++i) {
-        RenderControl& control = controls.emplace_back();
-        control.timeNs = times_[i];
-        control.kind = RenderControl::Kind::recordings;
-        control.recordings = sounds_[setOfChange_[i]].contacts();
-    }
+    controls.insert(controls.end(), changes_.begin(), changes_.end());
     std::ranges::stable_sort(controls, {}, &RenderControl::timeNs);
     return controls;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The recordings of a saved session, on their way to a renderer.
+// The recordings and clips of a saved session, on their way to a renderer.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Files/SessionLog.h"
-#include "Session/ContactSounds.h"
+#include "Session/RecordingSets.h"
 #include <vector>
 
 namespace physvib {
@@ -12,6 +12,7 @@ namespace physvib {
 struct LoadedRecordings {
     std::vector<std::vector<ContactRecording>> sets; ///< each once
     std::vector<std::size_t> setOfChange;            ///< per change in SessionLog::recordings
+    std::vector<ContactRecording> clips{};           ///< as SessionLog::clips
 };
 
 /// They at one rate, and the controls that exchange them; lives as long as whoever renders. M only.
@@ -22,10 +23,13 @@ public:
     /// `controls`, in time order, and these; both stay in order.
     std::vector<RenderControl> with(std::vector<RenderControl> controls) const;
 
+    /// The clips beside these recordings: what is played from the start. Events without one play their mode if `recordings` are none.
+    std::span<const RecordedContact> beside(const std::vector<ContactRecording>& recordings) { return sets_.at(sampleRateHz_, recordings); }
+
 private:
-    std::vector<std::int64_t> times_;
-    std::vector<std::size_t> setOfChange_;
-    std::vector<ContactSounds> sounds_;
+    int sampleRateHz_;
+    RecordingSets sets_;
+    std::vector<RenderControl> changes_;
 };
 
 } // namespace physvib

@@ -15,7 +15,7 @@ SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const
 }
 
 bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, const SessionExtent& extent, const BlockConsumer& consume) {
-    const SessionRecordings recordings{session.log, loaded, extent.sampleRateHz};
+    SessionRecordings recordings{session.log, loaded, extent.sampleRateHz};
     const std::int64_t endNs = std::llround(extent.seconds * 1e9);
     bool goesOn = extent.progress(0.0);
     if (!goesOn) return false;
@@ -33,7 +33,7 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
                                     .limiterEnabled = session.limiterEnabled,
                                     .ceilings = session.ceilings,
                                     .equalised = session.equalised};
-    renderOffline(events, {renderer, frames, 1024, controls},
+    renderOffline(events, {renderer, frames, 1024, controls, recordings.beside({}), true},
                   [&](const float* const* block, int n) {
                       done += n;
                       return goesOn = consume(block, n) && extent.progress(0.5 + 0.5 * static_cast<double>(done) / static_cast<double>(frames));

@@ -29,3 +29,22 @@ close_server() {
 
 # rows EVENTS.csv: without the comment, which names the file's origin.
 rows() { grep -v '^#' "$1"; }
+
+# raw FILE.wav: its samples, interleaved; the data chunk is what follows the word "data" and its length.
+raw() { tail -c +"$(($(grep -abo data "$1" | head -n 1 | cut -d: -f1) + 9))" "$1"; }
+
+# First byte that is not zero, as a frame of four floats; the renders start with the same sound.
+first() { echo $(($(cmp "$1" /dev/zero | sed 's/.*: [a-z]* \([0-9]*\),.*/\1/' ) / 16)); }
+
+# own_is_render FRAMES: own.wav, what a program recorded of itself, is render.wav to the bit, some frames later, over more than so many.
+own_is_render() {
+    raw "$folder/render.wav" >"$folder/render.raw"
+    raw "$folder/own.wav" >"$folder/own.raw"
+    offset=$(($(first "$folder/own.raw") - $(first "$folder/render.raw")))
+    frames=$(($(stat -c %s "$folder/own.raw") / 16 - offset))
+    longest=$(($(stat -c %s "$folder/render.raw") / 16))
+    [ "$frames" -gt "$longest" ] && frames=$longest
+    [ "$frames" -gt "$1" ] || { echo "only $frames frames recorded"; exit 1; }
+    tail -c +$((offset * 16 + 1)) "$folder/own.raw" | cmp -n $((frames * 16)) - "$folder/render.raw"
+    echo "own recording: $frames frames bit-equal to the render, $offset frames later"
+}

@@ -30,19 +30,6 @@ head -n "$common" "$folder/played" >"$folder/a"
 head -n "$common" "$folder/rendered" | cmp - "$folder/a"
 echo "events: $((common - 1)) played as rendered again"
 
-# Both as raw interleaved samples: the data chunk is what follows the word "data" and its length.
-raw() { tail -c +"$(($(grep -abo data "$1" | head -n 1 | cut -d: -f1) + 9))" "$1"; }
-raw "$folder/render.wav" >"$folder/render.raw"
-raw "$folder/own.wav" >"$folder/own.raw"
-
-# First byte that is not zero, as a frame of four floats; the renders start with the same sound.
-first() { echo $(($(cmp "$1" /dev/zero | sed 's/.*: [a-z]* \([0-9]*\),.*/\1/' ) / 16)); }
-offset=$(($(first "$folder/own.raw") - $(first "$folder/render.raw")))
-frames=$(($(stat -c %s "$folder/own.raw") / 16 - offset))
-longest=$(($(stat -c %s "$folder/render.raw") / 16))
-[ "$frames" -gt "$longest" ] && frames=$longest
-[ "$frames" -gt $((48000 * (seconds - 1))) ] || { echo "only $frames frames recorded"; exit 1; }
-tail -c +$((offset * 16 + 1)) "$folder/own.raw" | cmp -n $((frames * 16)) - "$folder/render.raw"
-echo "own recording: $frames frames bit-equal to the render, $offset frames later"
+own_is_render $((48000 * (seconds - 1)))
 "$bin/physvib-compare-recording" "$folder/live.raw" "$folder/render.raw" 4 "$block" "$(sed -n 's/xruns //p' "$folder/ready")"
 grep -q " 0 late, 0 dropped, 0 refused" "$folder/report"

@@ -23,12 +23,15 @@ struct Open {
     MessageRouter messages{session};
     std::vector<LineInput> acted;
     std::string closed;
-    OscDoor door{session, messages, {[this](const LineInput& input) { return acted.push_back(input), std::string{}; }, [this] { return closed; }}};
+    OscDoor door;
     OscClock clock;
     std::vector<std::vector<char>> answers;
     Block block;
 
-    Open() { session.prepare(hostRate, 512); }
+    explicit Open(const ClipSource& clips = {})
+        : door{session, messages, {[this](const LineInput& input) { return acted.push_back(input), std::string{}; }, [this] { return closed; }, clips}} {
+        session.prepare(hostRate, 512);
+    }
     /// Half a second at 48 kHz, told to the clock as if the session had begun at 1 s of the steady clock, which is the system's.
     void play(int blocks = 47) {
         for (int k = 0; k < blocks; ++k) {
@@ -145,6 +148,21 @@ TEST(OscDoors, RefusalsSayWhy) {
     EXPECT_EQ(open.door.counts().bad, 0U);
     EXPECT_TRUE(open.struck().empty());
     EXPECT_TRUE(open.acted.empty());
+}
+
+TEST(OscDoors, ClipsAreReadWhereTheDoorHasAFolder) {
+    Open closed;
+    closed.take(oscPacket("/physvib/clip", {"", {{"file", "knock.wav"s}, {"place", "A"s}}}));
+    EXPECT_EQ(closed.door.counts().fault, "clip: file: expected no clips here: no folder was given to read them from");
+    EXPECT_TRUE(closed.struck().empty());
+    Open open{[](const std::string& name) {
+        LoadedClip clip;
+        clip.channels.push_back({0.0, hostRate, std::vector<float>(4800, 0.1f), {.path = name, .hash = "0123456789abcdef"}});
+        return Result<LoadedClip>{clip};
+    }};
+    open.take(oscPacket("/physvib/clip", {"", {{"file", "knock.wav"s}, {"place", "A"s}}}));
+    EXPECT_EQ(open.door.counts().fault, "");
+    ASSERT_EQ(open.struck().size(), 1U);
 }
 
 TEST(OscDoors, NothingOfABadPacketIsDone) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A million guarded blocks of a live session while another thread edits it ten thousand times.
+#include "Core/ClipNumber.h"
 #include "Session/Session.h"
 #include "Files/SceneCatalogue.h"
 #include "Realtime/RealtimeGuard.h"
@@ -38,7 +39,18 @@ CollisionEvent randomPath(test::Random& random, std::int64_t fromNs) {
     return path;
 }
 
-// Layouts, gains, mutes and stops; now and then an input, a strike that moves, another scene, or the same one from its start.
+// One of many, at a rate of its own: it is kept, then struck.
+bool strikeClip(Session& session, test::Random& random) {
+    const int which = random.below(mostClips);
+    CollisionEvent strike;
+    strike.frequencyHz = session.keepClip({0.0, 8000 + 1000 * which, std::vector<float>(2000, 0.1f), {.path = std::to_string(which), .hash = "0123456789abcdef"}}, 0);
+    strike.amplitude = 1.0;
+    strike.durationNs = 100'000'000;
+    strike.timeNs = session.presentNs();
+    return strike.frequencyHz > 0.0 && session.schedule({&strike, 1});
+}
+
+// Layouts, gains, mutes and stops; now and then an input, a strike that moves, a clip, another scene, or the same one from its start.
 bool edit(Session& session, test::Random& random) {
     const int kind = random.below(200);
     if (kind < 4) return session.act(TiltAction{random.uniform(-3, 3)}).empty();
@@ -48,6 +60,7 @@ bool edit(Session& session, test::Random& random) {
         const char* const scenes[] = {"shake-the-box", "fruit-basket", "drop"};
         session.setState({std::make_shared<const Scene>(*findBuiltInScene(scenes[random.below(3)])), 1});
     }
+    if (kind == 16) return strikeClip(session, random);
     return kind < 6 || session.post(randomEdit(random)) >= 0;
 }
 

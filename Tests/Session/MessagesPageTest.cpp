@@ -47,6 +47,12 @@ TEST(MessagesPage, HasTheTable) {
     EXPECT_NE(text.find(rowsOf(messages::when)), std::string::npos) << "expected in Docs/messages.md:\n\n" << rowsOf(messages::when);
 }
 
+Result<LoadedClip> anyClip(const std::string& name) {
+    LoadedClip clip;
+    clip.channels.push_back({0.0, 48000, std::vector<float>(4800, 0.1f), {.path = name, .hash = "0123456789abcdef"}});
+    return clip;
+}
+
 TEST(MessagesPage, ItsLinesAreTaken) {
     const auto quiet = loadScene(PHYSVIB_SOURCE_DIR "/Standalone/Examples/quiet.json");
     ASSERT_EQ(quiet.error, "");
@@ -61,7 +67,7 @@ TEST(MessagesPage, ItsLinesAreTaken) {
         const std::string line = text.substr(at, text.find('\n', at) - at);
         const auto read = readInputLine(line, "line", {}, 4);
         ASSERT_EQ(read.error, "") << line;
-        EXPECT_EQ(router.take(std::get<PlainMessage>(read.value)).error, "") << line;
+        EXPECT_EQ(router.take(std::get<PlainMessage>(read.value), nullptr, anyClip).error, "") << line;
     }
     EXPECT_GE(lines, 8);
 }

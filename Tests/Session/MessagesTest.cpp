@@ -7,9 +7,13 @@
 #include "Session/Messages/MessageRouter.h"
 #include "Session/Messages/MessageStrikes.h"
 #include "Session/SessionRender.h"
+#include <atomic>
+#include <chrono>
 #include <functional>
+#include <future>
 #include <gtest/gtest.h>
 #include <map>
+#include <thread>
 
 namespace physvib {
 namespace {
@@ -113,7 +117,7 @@ TEST(Messages, StrokesHaveTactileBrushsTiming) {
 
 TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
     const std::map<std::string, std::string> refusals{
-        {R"({"message": "knock"})", "\"knock\": expected one of strike, pattern, phantom, path, stop, status, layout, latency"},
+        {R"({"message": "knock"})", "\"knock\": expected one of strike, pattern, phantom, path, clip, stop, status, layout, latency"},
         {R"({"message": "strike", "material": "cheese"})", "strike: material: expected a material of the scene that vibrates, found \"cheese\""},
         {R"({"message": "strike"})", "strike: material: expected a material, or frequency_hz"},
         {R"({"message": "strike", "frequency_hz": 100})", "strike: seconds: expected a length, or a decay: it would not end"},
@@ -136,6 +140,26 @@ TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
     for (const auto& [line, refusal] : refusals) EXPECT_EQ(refusalOf(line), refusal) << line;
 }
 
+/// "NAME.channels": so many channels of a tone that no other name has.
+Result<LoadedClip> clipOf(const std::string& name) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos) return Failure{name + ": cannot be read"};
+    LoadedClip clip;
+    for (int j = 0; j < std::stoi(name.substr(dot + 1)); ++j) {
+        ContactRecording& channel = clip.channels.emplace_back();
+        channel.sampleRateHz = 24'000;
+        for (int n = 0; n < 9'600; ++n) channel.samples.push_back(0.3f * std::sin(0.001f * static_cast<float>(n * (20 + j + name[0] % 16))));
+        channel.file = {.path = name, .hash = "0123456789abcdef"};
+    }
+    return clip;
+}
+
+LoadedRecordings loadedAgain(const SessionLog& log) {
+    LoadedRecordings loaded;
+    for (const ClipFile& clip : log.clips) loaded.clips.push_back(clipOf(clip.file.path).value.channels.at(static_cast<std::size_t>(clip.channel)));
+    return loaded;
+}
+
 struct Played {
     Interleaved signal;
     SessionLog log;
@@ -153,7 +177,7 @@ Played play(Session& session, std::multimap<double, std::string> lines, double s
     const auto frames = static_cast<std::int64_t>(seconds * hostRate);
     for (std::int64_t done = 0; done < frames;) {
         for (; !lines.empty() && static_cast<double>(done) / hostRate >= lines.begin()->first; lines.erase(lines.begin()))
-            EXPECT_EQ(router.take(messageOf(lines.begin()->second)).error, "") << lines.begin()->second;
+            EXPECT_EQ(router.take(messageOf(lines.begin()->second), nullptr, clipOf).error, "") << lines.begin()->second;
         session.advance();
         const int size = static_cast<int>(std::min<std::int64_t>(frames - done, 1 + random.below(512)));
         session.render(block.at.data(), size, mode);
@@ -172,7 +196,7 @@ SavedSession saved(const SessionSetup& setup, const SessionLog& log, double seco
 
 Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames, double seconds) {
     Interleaved signal(static_cast<std::size_t>(delayFrames * hostChannels), 0.0f);
-    renderSession(session, {}, {hostRate, seconds - static_cast<double>(delayFrames) / hostRate, [](double) { return true; }}, [&](const float* const* block, int n) {
+    renderSession(session, loadedAgain(session.log), {hostRate, seconds - static_cast<double>(delayFrames) / hostRate, [](double) { return true; }}, [&](const float* const* block, int n) {
         append(signal, block, n);
         return true;
     });
@@ -187,8 +211,12 @@ const std::multimap<double, std::string> everything{
     {0.3, R"({"message": "stop", "at": 1.55})"},
     {0.4, R"({"message": "phantom", "place": "C", "seconds": 3, "in": 1.4})"},
     {0.5, R"({"message": "path", "places": "DA", "seconds": 2, "at": 2, "level": 0.3})"},
+    {0.6, R"({"message": "clip", "file": "a.1", "place": "B"})"},
+    {0.7, R"({"message": "clip", "file": "b.4", "level": 0.5, "in": 0.2})"},
+    {2.05, R"({"message": "clip", "file": "a.1", "law": "energy"})"},
     {2.1, R"({"message": "stop"})"},
     {2.1, R"({"message": "strike", "frequency_hz": 99, "decay_per_s": 20})"},
+    {2.3, R"({"message": "clip", "file": "c.1", "place": [1, 1]})"},
 };
 
 TEST(Messages, WhatWasFeltIsRenderedAgainToTheBit) {
@@ -205,6 +233,140 @@ TEST(Messages, WhatWasFeltIsRenderedAgainToTheBit) {
     ASSERT_EQ(again.size(), felt.signal.size());
     const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
     EXPECT_TRUE(differs.first == again.end()) << "at frame " << (differs.first - again.begin()) / hostChannels;
+}
+
+TEST(Messages, AClipIsFeltBesideWhatSounds) {
+    Session without{quietSetup()}, with{quietSetup()}, alone{quietSetup()};
+    const std::string first = R"({"message": "clip", "file": "a.1", "place": "A"})", second = R"({"message": "clip", "file": "b.1", "place": "D", "level": 0.5})";
+    const auto one = play(without, {{0.1, first}}, 1.0), other = play(alone, {{0.2, second}}, 1.0), both = play(with, {{0.1, first}, {0.2, second}}, 1.0);
+    ASSERT_EQ(both.signal.size(), one.signal.size());
+    double most = 0.0, loudest = 0.0;
+    for (std::size_t i = 0; i < both.signal.size(); ++i) {
+        most = std::max(most, std::abs(static_cast<double>(both.signal[i]) - one.signal[i] - other.signal[i]));
+        loudest = std::max(loudest, std::abs(static_cast<double>(one.signal[i])));
+    }
+    EXPECT_LE(most, 1e-6) << "the first fades, or the second is not there";
+    EXPECT_NEAR(loudest, 0.3, 0.01);
+    EXPECT_EQ(both.log.clips.size(), 2u);
+}
+
+TEST(Messages, AClipIsNoCollision) { // of a scene with a gain, a method and a level
+    auto setup = quietSetup();
+    setup.shaping.gain = 0.25;
+    setup.shaping.remap.band = {100.0, 200.0};
+    setup.shaping.method.fixedAmplitude = 0.9;
+    Session session{setup};
+    const auto felt = play(session, {{0.1, R"({"message": "clip", "file": "a.1", "place": "A"})"}}, 0.8);
+    double loudest = 0.0;
+    for (const float x : felt.signal) loudest = std::max(loudest, std::abs(static_cast<double>(x)));
+    EXPECT_NEAR(loudest, 0.3, 0.01);
+    ASSERT_EQ(felt.log.strikes.size(), 1u);
+    EXPECT_EQ(felt.log.strikes[0].amplitude, 1.0);
+}
+
+TEST(Messages, ClipsAreBounded) {
+    Session session{quietSetup()};
+    session.prepare(hostRate, 512);
+    MessageRouter router{session};
+    const auto clip = [&](const std::string& name, const ClipSource& source) { return router.take(messageOf(R"({"message": "clip", "place": "A", "file": ")" + name + "\"}"), nullptr, source).error; };
+    EXPECT_EQ(clip("a.1", {}), "clip: file: expected no clips here: no folder was given to read them from");
+    EXPECT_EQ(clip("a", clipOf), "clip: file: a: cannot be read");
+    EXPECT_EQ(router.take(messageOf(R"({"message": "clip"})"), nullptr, clipOf).error, "clip: file: expected a file's name");
+    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "a.3"})"), nullptr, clipOf).error, "clip: file: expected one channel, places, or as many channels as enchanters, 4, found 3");
+    for (int i = 0; i < 8; ++i) EXPECT_EQ(clip(std::to_string(i) + ".4", clipOf), "");
+    EXPECT_EQ(clip("3.4", clipOf), "") << "it is kept already";
+    EXPECT_EQ(clip("x.1", clipOf), "clip: file: expected no more than 32 channels of clips in a session, and 32000000 samples");
+    SessionLog log;
+    session.readLog(log);
+    EXPECT_EQ(log.clips.size(), 32u);
+}
+
+/// Whether another thread may ask, again and again, while this is done.
+bool othersAskDuring(const std::function<void()>& work, const std::function<void()>& ask) {
+    std::atomic<bool> isDone{false};
+    std::atomic<int> asked{0};
+    std::thread other{[&] {
+        for (; !isDone; ++asked) ask();
+    }};
+    while (asked == 0) std::this_thread::yield();
+    const int before = asked;
+    work();
+    const int during = asked - before;
+    isDone = true;
+    other.join();
+    return during > 100;
+}
+
+TEST(Messages, NobodyWaitsForAClipThatIsReadAndBroughtToTheSessionsRate) {
+    Session session{quietSetup()};
+    session.prepare(hostRate, 512);
+    MessageRouter router{session};
+    ContactRecording minute{0.0, 44'100, std::vector<float>(300'000, 0.1f), {.path = "minute", .hash = "0123456789abcdef"}};
+    EXPECT_TRUE(othersAskDuring([&] { EXPECT_GT(session.keepClip(minute, 0), 0.0); }, [&] { session.presentNs(); }));
+    std::future<std::string> other;
+    const ClipSource slow = [&](const std::string&) {
+        other = std::async(std::launch::async, [&] { return router.take(messageOf(R"({"message": "phantom", "in": 2})")).error; });
+        EXPECT_EQ(other.wait_for(std::chrono::seconds{60}), std::future_status::ready) << "another message waits for the file";
+        return Result<LoadedClip>{Failure{"read"}};
+    };
+    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "x"})"), nullptr, slow).error, "clip: file: read");
+    EXPECT_EQ(other.get(), "");
+}
+
+TEST(Messages, ATimeThatIsOverIsRefusedBeforeAFileIsRead) {
+    Session session{quietSetup()};
+    play(session, {}, 0.5);
+    MessageRouter router{session};
+    int reads = 0;
+    const ClipSource counting = [&](const std::string& name) { return ++reads, clipOf(name); };
+    EXPECT_NE(router.take(messageOf(R"({"message": "clip", "file": "a.1", "at": 0.1})"), nullptr, counting).error.find("clip: at: "), std::string::npos);
+    EXPECT_EQ(reads, 0);
+}
+
+TEST(Messages, ClipsComeWhileBlocksAreRendered) {
+    Session session{quietSetup()};
+    session.prepare(hostRate, 512);
+    MessageRouter router{session};
+    std::atomic<bool> isDone{false};
+    std::thread door{[&] {
+        for (int i = 0; i < 32; ++i) EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": ")" + std::to_string(i) + R"(.1"})"), nullptr, clipOf).error, "");
+        isDone = true;
+    }};
+    Block block;
+    std::size_t played = 0;
+    for (int after = 0; after < 200; after += isDone) {
+        session.advance();
+        session.render(block.at.data(), 512, RenderMode::realtime);
+        played += drain(session).size();
+    }
+    door.join();
+    EXPECT_EQ(played, 32u);
+}
+
+TEST(Messages, ASavedClipIsReadAsStrictlyAsTheRest) {
+    const auto setup = quietSetup();
+    Session session{setup};
+    const auto felt = play(session, {{0.1, R"({"message": "clip", "file": "b.4"})"}}, 0.5);
+    const std::string text = sessionJson(saved(setup, felt.log, 0.5));
+    const auto read = readSession(text, "s.json");
+    ASSERT_EQ(read.error, "");
+    EXPECT_EQ(read.value.log.clips, felt.log.clips);
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string other = text;
+        const auto at = other.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return readSession(at == std::string::npos ? other : other.replace(at, from.size(), to), "s.json").error;
+    };
+    EXPECT_EQ(changed(R"("channel": 2)", R"("channel": 64)"), "s.json: clips[2].channel: expected 0 to 63, found 64");
+    EXPECT_EQ(changed(R"("frequency_hz": 0.0009765625, "file")", R"("frequency_hz": 1, "file")"), "s.json: clips[0].frequency_hz: expected 0.0009765625, for clip 1, found 1");
+    EXPECT_EQ(changed(R"("clips": [)", R"("clips": [1, )").substr(0, 18), "s.json: clips[0]: ");
+    for (const char* older : {"4", "5"}) {
+        Session without{setup};
+        std::string old = sessionJson(saved(setup, play(without, {{0.1, R"({"message": "phantom"})"}}, 0.5).log, 0.5));
+        const std::string version = "\"physvib_session\": ";
+        old.replace(old.find(version + std::to_string(sessionFormatVersion)), version.size() + 1, version + older);
+        EXPECT_EQ(readSession(old, "s.json").error, "") << older;
+    }
 }
 
 TEST(Messages, AHostThatDoesNotPlayInRealTimeGetsTheSame) {

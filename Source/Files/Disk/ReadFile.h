@@ -23,7 +23,7 @@ inline Failure unreadable(const std::filesystem::path& path, const std::string& 
 inline Failure unreadable(const std::filesystem::path& path, int code) { return unreadable(path, std::generic_category().message(code)); }
 inline Failure tooLong(const std::filesystem::path& path, std::size_t maxBytes) { return {path.string() + ": expected at most " + std::to_string(maxBytes) + " bytes, found more"}; }
 
-/// The bytes of the file, at most `maxBytes`. Pipes are read to their end. M only.
+/// The bytes of the file, at most `maxBytes`. Pipes are read to their end. Any thread but R.
 inline Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
     const OpenFile file{openStream(path, "rb")};
     if (!file) return unreadable(path, errno);

@@ -55,7 +55,7 @@ std::string OscDoor::route(const PlainMessage& plain, OscTag tag, const OscClock
     MessageTag at;
     const bool isTagged = tag != oscNow && clock.isReady(); // before the first block all is now
     if (isTagged) at.sessionNs = clock.sessionNs(unixNsOf(tag));
-    auto answer = messages_.take(plain, isTagged ? &at : nullptr);
+    auto answer = messages_.take(plain, isTagged ? &at : nullptr, hooks_.clips);
     if (at.isLate && answer) ++counts_.late;
     if (answer.value.name.empty()) return answer.error;
     if (answer.value.name == "status") addCounts(answer.value);

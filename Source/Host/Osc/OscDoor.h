@@ -19,6 +19,7 @@ inline constexpr std::string_view oscPrefix = "/physvib/", oscAnswerPrefix = "/p
 struct OscHooks {
     std::function<std::string(const LineInput&)> act; ///< inputs and controls; empty, or what is wrong
     std::function<std::string()> closed;              ///< why nothing is taken now; empty: it is; may be left out
+    ClipSource clips{};                               ///< left out: none are taken
 };
 
 struct OscCounts {

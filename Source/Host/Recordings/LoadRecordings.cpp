@@ -2,6 +2,7 @@
 // Each file once, within the limits.
 #include "Host/Recordings/LoadRecordings.h"
 #include "Files/Disk/FileLimits.h"
+#include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/LoadContact.h"
 #include <algorithm>
 
@@ -50,6 +51,13 @@ Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
         files.push_back(&change.files);
         all.sets.push_back(std::move(set.value));
     }
+    for (const ClipFile& file : log.clips) {
+        auto clip = loadKeptClip(file);
+        if (!clip) return Failure{clip.error};
+        samples += clip.value.samples.size();
+        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples)) return Failure{"recordings and clips: expected at most " + std::to_string(limits::maxRecordingSamples) + " samples"};
+        all.clips.push_back(std::move(clip.value));
+    }
     return all;
 }
 
@@ -57,6 +65,7 @@ std::vector<std::string> recordingPaths(const SessionLog& log) {
     std::vector<std::string> paths;
     for (const RecordingsChange& change : log.recordings)
         for (const RecordingFile& file : change.files) paths.push_back(file.path);
+    for (const ClipFile& clip : log.clips) paths.push_back(clip.file.path);
     return paths;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The recordings of a saved session, loaded again.
+// The recordings and clips of a saved session, loaded again.
 #pragma once
 #include "Files/Result.h"
 #include "Session/SessionRecordings.h"

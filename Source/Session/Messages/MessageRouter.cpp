@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Names, times and answers.
 #include "Session/Messages/MessageRouter.h"
+#include "Core/ClipNumber.h"
+#include "Files/Disk/FileLimits.h"
 #include "Files/Text/NumberText.h"
 #include "Session/Messages/MessageStrikes.h"
 #include "Session/Messages/MessageValues.h"
@@ -36,23 +38,32 @@ PlainMessage layoutAnswer(const PhantomPanner& panner) {
 
 } // namespace
 
-Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag* tag) {
+Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag* tag, const ClipSource& clips) {
     const auto description = std::ranges::find(messageTable, message.name, &MessageDescription::name);
     if (description == messageTable.end()) return Failure{inQuotes(message.name) + ": expected one of " + knownNames()};
     const auto kind = static_cast<MessageKind>(description - messageTable.begin());
-    const std::lock_guard lock{mutex_};
     try {
         const PhantomPanner panner = session_.panner();
         const MessageValues values{message, *description, panner};
         if (description->isQuery) return answer(kind);
+        expectTime(values, tag);
+        auto strikes = kind == MessageKind::clip ? clip(values, clips, panner) : strikesOf(kind, values, session_.state().scene->materials);
+        const std::lock_guard lock{mutex_};
         const std::int64_t time = timeOf(values, tag);
         const bool isNow = !values.has("at") && !values.has("in") && (tag == nullptr || tag->isLate);
         if (kind == MessageKind::stop) stop(time);
-        else strike(strikesOf(kind, values, session_.state().scene->materials), time, isNow);
+        else strike(std::move(strikes), time, isNow);
         return PlainMessage{};
     } catch (const MessageError& error) {
         return Failure{message.name + ": " + error.what()};
     }
+}
+
+// Before a file is read for it. What is left of the time is looked at again when it has been.
+void MessageRouter::expectTime(const MessageValues& values, const MessageTag* tag) {
+    const std::lock_guard lock{mutex_};
+    MessageTag tried = tag == nullptr ? MessageTag{} : *tag;
+    timeOf(values, tag == nullptr ? nullptr : &tried);
 }
 
 std::int64_t MessageRouter::nowNs() const { return std::max({std::int64_t{0}, session_.presentNs() - session_.toldAheadNs(), latestNs_}); }
@@ -87,9 +98,23 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
     const double sceneGain = session_.shaping().gain;
     for (CollisionEvent& strike : strikes) {
         strike.timeNs += start;
-        if (sceneGain > 0.0) strike.amplitude /= sceneGain; // a level is of full scale, in every scene
+        if (sceneGain > 0.0 && !isClip(strike.frequencyHz)) strike.amplitude /= sceneGain; // a level is of full scale, in every scene
     }
     if (!session_.schedule(strikes)) throw MessageError{"too many strikes wait: at most " + std::to_string(WaitingStrikes::most)};
+}
+
+// Kept before it is struck: a strike finds its samples. Reading and keeping takes long; no other door waits for it.
+std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner) {
+    if (!clips) values.fail("file", "expected no clips here: no folder was given to read them from");
+    if (values.word("file").empty()) values.fail("file", "expected a file's name");
+    const auto loaded = clips(values.word("file"));
+    if (!loaded) values.fail("file", loaded.error);
+    auto strikes = clipStrikes(values, loaded.value, panner); // refused before anything is kept
+    for (std::size_t j = 0; j < strikes.size(); ++j) {
+        strikes[j].frequencyHz = session_.keepClip(loaded.value.channels[j], static_cast<int>(j));
+        if (strikes[j].frequencyHz == 0.0) values.fail("file", "expected no more than " + std::to_string(mostClips) + " channels of clips in a session, and " + std::to_string(limits::maxRecordingSamples) + " samples");
+    }
+    return strikes;
 }
 
 // Of two messages of one moment, the second acts on the first.

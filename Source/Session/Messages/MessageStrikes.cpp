@@ -141,7 +141,33 @@ std::vector<CollisionEvent> pathOf(const MessageValues& values) {
     return strokes == 0 ? movingTone(values, route) : strokesAlong(values, route, strokes);
 }
 
+EnchanterPlace placeOfChannel(std::size_t j, const MessageValues& values, const LoadedClip& clip, const PhantomPanner& panner) {
+    if (values.has("place")) return values.place();
+    const auto onField = [&](double x, double y) { return EnchanterPlace{x * panner.fieldWidthMetres(), y * panner.fieldHeightMetres()}; };
+    if (!clip.shares.empty()) return onField(clip.shares[j].xMetres, clip.shares[j].yMetres);
+    const EnchanterLayout& layout = panner.layout();
+    if (clip.channels.size() == 1) return values.place();
+    if (static_cast<int>(clip.channels.size()) != layout.count)
+        values.fail("file", "expected one channel, places, or as many channels as enchanters, " + std::to_string(layout.count) + ", found " + std::to_string(clip.channels.size()));
+    return onField(layout.places[j].xMetres / layout.extentWidthMetres, layout.places[j].yMetres / layout.extentHeightMetres);
+}
+
 } // namespace
+
+std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const LoadedClip& clip, const PhantomPanner& panner) {
+    std::vector<CollisionEvent> strikes;
+    for (std::size_t j = 0; j < clip.channels.size(); ++j) {
+        const EnchanterPlace at = placeOfChannel(j, values, clip, panner);
+        const ContactRecording& channel = clip.channels[j];
+        CollisionEvent& strike = strikes.emplace_back();
+        strike.amplitude = values.number("level");
+        strike.x = at.xMetres;
+        strike.y = at.yMetres;
+        strike.durationNs = nanoseconds(static_cast<double>(channel.samples.size()) / channel.sampleRateHz) + 1; // its last sample, too
+        strike.course.spread = values.spread();
+    }
+    return strikes;
+}
 
 std::vector<CollisionEvent> strikesOf(MessageKind kind, const MessageValues& values, const std::vector<Material>& materials) {
     switch (kind) {

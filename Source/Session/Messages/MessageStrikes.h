@@ -3,6 +3,7 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Physics/Scenes/Scene.h"
+#include "Session/Messages/ClipSource.h"
 #include "Session/Messages/MessageValues.h"
 #include <vector>
 
@@ -20,5 +21,9 @@ constexpr double strokeSeconds(int strokes, double seconds) noexcept { return (s
 /// The strikes of a message, in time order, from time 0 on; none of a stop or a query. `materials` are the scene's. Throws
 /// MessageError. Any thread but R.
 std::vector<CollisionEvent> strikesOf(MessageKind kind, const MessageValues& values, const std::vector<Material>& materials);
+
+/// Of a `clip`: each channel from time 0 on, where it belongs, without the frequency under which the session keeps it. `panner` says
+/// where the enchanters are. Throws MessageError. Any thread but R.
+std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const LoadedClip& clip, const PhantomPanner& panner);
 
 } // namespace physvib

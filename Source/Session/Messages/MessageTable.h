@@ -8,7 +8,7 @@
 
 namespace physvib {
 
-enum class MessageKind { strike, pattern, phantom, path, stop, status, layout, latency };
+enum class MessageKind { strike, pattern, phantom, path, clip, stop, status, layout, latency };
 
 struct MessageArgument {
     enum class Type {
@@ -74,14 +74,21 @@ inline constexpr std::array path{
     MessageArgument{"law", Type::word, 0.0, 0.0, "equal", "as of a strike; `equal` is felt equally strong all the way"},
     frequency, level};
 
+inline constexpr std::array clip{
+    MessageArgument{"file", Type::word, 0.0, 0.0, "", "WAV, FLAC, Ogg Vorbis, `.hjif`, `.hmpg`, `.haptic` or `.ahap`, in the folder that the door reads from"},
+    MessageArgument{"place", Type::place, 0.0, 0.0, "", "where; left out: its own places, or one channel per enchanter, or the middle of the field"},
+    MessageArgument{"level", Type::number, 0.0, 1.0, "1", "of what is in the file, at gain 1"},
+    law};
+
 } // namespace messages
 
 /// As MessageKind.
-inline constexpr std::array<MessageDescription, 8> messageTable{{
+inline constexpr std::array<MessageDescription, 9> messageTable{{
     {"strike", "a vibration that decays, or is cut", messages::strike},
     {"pattern", "pulses, each on one enchanter alone", messages::pattern},
     {"phantom", "a vibration that stays at a place", messages::phantom},
     {"path", "a vibration that moves", messages::path},
+    {"clip", "a recording or a haptic file", messages::clip},
     {"stop", "what sounds fades out within 10 ms; what was asked for before and has not begun is forgotten", {}},
     {"status", "answers session time, strikes that wait, bodies, collisions lost, and time given up in stalls", {}, true},
     {"layout", "answers the law, the field, and the enchanters' places in metres of the field", {}, true},

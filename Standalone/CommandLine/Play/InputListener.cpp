@@ -15,10 +15,11 @@ constexpr int pollMilliseconds = 50; // only the end of the program waits for it
 
 } // namespace
 
-InputListener::InputListener(Session& session, AudioOutput& output, MessageRouter& messages)
+InputListener::InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips)
     : session_{session}
     , output_{output}
     , messages_{messages}
+    , clips_{std::move(clips)}
     , thread_{[this] { run(); }} {}
 
 InputListener::~InputListener() {
@@ -50,7 +51,7 @@ std::string InputListener::act(std::string_view line, const std::string& name) {
     const auto read = readInputLine(line, name, session_.state().scene->materials, session_.channels());
     if (!read) return read.error;
     if (const auto* message = std::get_if<PlainMessage>(&read.value)) {
-        const auto answer = messages_.take(*message);
+        const auto answer = messages_.take(*message, nullptr, clips_);
         if (!answer.value.name.empty()) std::cout << answerLine(answer.value) << std::endl; // who asked waits for it
         return answer ? "" : name + ": " + answer.error;
     }

@@ -16,7 +16,7 @@ namespace physvib {
 class InputListener {
 public:
     /// All outlive the listener. M.
-    InputListener(Session& session, AudioOutput& output, MessageRouter& messages);
+    InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips);
     ~InputListener();
 
 private:
@@ -27,6 +27,7 @@ private:
     Session& session_;
     AudioOutput& output_;
     MessageRouter& messages_;
+    const ClipSource clips_;
     std::uint64_t lines_ = 0;
     std::atomic<bool> stop_{false};
     std::thread thread_;

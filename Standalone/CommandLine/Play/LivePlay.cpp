@@ -7,6 +7,7 @@
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/OscReport.h"
 #include "Session/BoardOutput.h"
+#include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include "Session/SessionJournal.h"
 #include "Host/Devices/SimulationDriver.h"
@@ -153,10 +154,11 @@ std::string playLive(LivePlay wanted) {
         std::optional<LiveBeats> heard;
         if (wanted.beats) heard.emplace(session, *inputs, *wanted.beats, wanted.beatSensitivity);
         std::optional<InputListener> listener;
-        if (wanted.listens) listener.emplace(session, output, messages);
+        const ClipFolder clips{wanted.clips};
+        if (wanted.listens) listener.emplace(session, output, messages, clips);
         std::optional<OscPort> osc;
         if (wanted.osc.port || !wanted.osc.receiver.empty()) {
-            osc.emplace(wanted.osc, session, messages, output, OscHooks{[&](const LineInput& input) { return actOn(input, session, output); }, {}});
+            osc.emplace(wanted.osc, session, messages, output, OscHooks{[&](const LineInput& input) { return actOn(input, session, output); }, {}, clips});
             if (!osc->error().empty()) return "OSC: " + osc->error();
             if (osc->port() != 0) tellPort(wanted.osc, osc->status().address);
         }

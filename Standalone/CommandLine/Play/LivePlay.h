@@ -22,6 +22,7 @@ struct LivePlay {
     std::optional<BeatVoices> beats; ///< what is heard at output.inputs is struck so
     double beatSensitivity = 0.0;
     OscSettings osc;
+    std::string clips = "."; ///< folder from which messages may have clips read
 };
 
 /// Empty, or one line with the reason. M.

@@ -75,6 +75,7 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
     command.add_flag("--hands", o.hasHands, "what the scene's script does of what hands do is left out: lines of --listen do it");
     command.add_flag("--direct", o.isDirect, "messages and controls are felt a block and the limiter after they came, not the play-out delay; collisions as ever");
     command.add_flag("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
+    command.add_option("--clips", o.clips, "folder from which messages of --listen and --osc may have clips read")->type_name("FOLDER")->check(CLI::ExistingDirectory)->capture_default_str();
     command.add_option("--osc", o.osc.port, "take messages by OSC (Docs/osc.md) at this port of UDP, or the next free one; 0: any")->type_name("PORT")->check(CLI::Range(0, 65'535));
     command.add_option("--osc-interface", o.osc.address, "address of this computer at which they are taken; 0.0.0.0: any, for phones")->type_name("ADDRESS")->capture_default_str();
     command.add_option("--osc-turn", o.oscTurnDegrees, "by how much a phone that tilts the scene is held counter-clockwise of upright")->type_name("DEGREES")->check(CLI::Range(-180.0, 180.0));
@@ -133,7 +134,7 @@ int runPlay(PlayOptions& o) {
                                     o.ceilings + "\"");
     OscSettings osc = o.osc;
     osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
-    LivePlay wanted{setup, settings, o.board, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens, {}, o.beats.sensitivity, osc};
+    LivePlay wanted{setup, settings, o.board, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens, {}, o.beats.sensitivity, osc, o.clips};
     if (!settings.inputs.empty()) wanted.beats = voices.value;
     const std::string error = playLive(std::move(wanted));
     return error.empty() ? exitDone : leave(exitFailed, error);

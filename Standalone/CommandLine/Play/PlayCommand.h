@@ -23,6 +23,7 @@ struct PlayOptions {
     std::string recordPath;         ///< WAV of what was played; empty: not wanted
     std::string savePath;           ///< the session as JSON; empty: not wanted
     bool listens = false, hasHands = false, isDirect = false; ///< to standard input
+    std::string clips = ".";        ///< folder of its messages' clips, and of OSC's
     std::string beatInputs;         ///< as map: of the device, whose beats are struck; empty: none
     BeatOptions beats;
     OscSettings osc;

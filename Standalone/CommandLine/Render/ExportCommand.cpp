@@ -143,6 +143,7 @@ std::string refusalOf(const RenderOptions& o) {
 /// Of scene, session or list: what lies within --seconds, if that is given.
 std::string takeEvents(RenderJob& job, std::vector<std::string>& warnings) {
     if (!job.sessionRecordings.sets.empty()) return job.options.scene + ": the session plays recordings, which are no waves to be exported; expected --method AV-FV-DRV, for modes";
+    if (job.session && !job.session->log.clips.empty()) return job.options.scene + ": the session plays clips, which are exported by themselves";
     auto made = makeEvents(job);
     if (!made) return made.error;
     warnings = std::move(made.value);

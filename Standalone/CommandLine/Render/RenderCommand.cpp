@@ -48,7 +48,7 @@ void warn(const RenderStatus& status, const RenderJob& job) {
 
 InstructionSet instructionsOf(const RenderOptions& o) { return o.instructions == "scalar" ? InstructionSet::scalar : InstructionSet::best; }
 
-OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls, const ContactSounds& sounds) {
+OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls, std::span<const RecordedContact> contacts) {
     const RenderOptions& o = job.options;
     const RendererSettings renderer{.sampleRateHz = o.sampleRateHz,
                                     .channels = job.channels(),
@@ -58,14 +58,16 @@ OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl
                                     .instructions = instructionsOf(o),
                                     .equalised = job.equalised(),
                                     .drives = job.coupling.drives.view()};
-    return {renderer, job.frames(), o.blockFrames, controls, sounds.contacts()};
+    return {renderer, job.frames(), o.blockFrames, controls, contacts};
 }
 
 /// The same events once more, in one channel; controls of the enchanters say nothing here, but that all shall stop.
 void renderContactSound(const RenderJob& job, std::vector<RenderControl> controls, RenderOutputs& outputs) {
     const ContactSounds sounds{job.recordings, job.options.sampleRateHz};
     std::erase_if(controls, [](const RenderControl& control) { return control.kind != RenderControl::Kind::stopAll; });
-    renderOffline(job.made.events, {HeardContacts::settingsAt(job.options.sampleRateHz), job.frames(), job.options.blockFrames, controls, sounds.contacts(), true},
+    auto hits = job.made.events;
+    std::erase_if(hits, [](const CollisionEvent& event) { return isClip(event.frequencyHz); });
+    renderOffline(hits, {HeardContacts::settingsAt(job.options.sampleRateHz), job.frames(), job.options.blockFrames, controls, sounds.contacts(), true},
                   [&](const float* const* channels, int frames) { return outputs.takeContactSound(channels[0], frames); });
 }
 
@@ -91,10 +93,12 @@ RenderStatus renderMarked(const RenderJob& job, OfflineSettings settings, Render
 }
 
 RenderStatus renderEvents(const RenderJob& job, RenderOutputs& outputs) {
-    const ContactSounds sounds{job.feltRecordings(), job.options.sampleRateHz};
-    const SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings, job.options.sampleRateHz};
+    const auto felt = job.feltRecordings();
+    SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings, job.options.sampleRateHz};
     const auto controls = again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{});
-    const RenderStatus status = renderMarked(job, settingsOf(job, controls, sounds), outputs);
+    OfflineSettings settings = settingsOf(job, controls, again.beside(felt));
+    settings.othersAreModes = felt.empty();
+    const RenderStatus status = renderMarked(job, settings, outputs);
     if (!job.options.contactSound.empty()) renderContactSound(job, controls, outputs);
     return status;
 }

@@ -8,6 +8,7 @@
 #include "CommandLine/Render/RenderOptions.h"
 #include "Host/Recordings/LoadContact.h"
 #include "Host/Recordings/LoadRecordings.h"
+#include "Core/ClipNumber.h"
 #include "Files/Disk/Embedded.h"
 #include "Files/LayoutFile.h"
 #include "Files/Text/NumberText.h"
@@ -136,7 +137,7 @@ inline std::string takeRecordings(RenderJob& job, const std::vector<CollisionEve
         job.recordings.push_back(std::move(contact.value));
     }
     for (const CollisionEvent& e : events)
-        if (job.options.playsRecordings() && std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) == job.recordings.end())
+        if (job.options.playsRecordings() && !isClip(e.frequencyHz) && std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) == job.recordings.end())
             return source + ": expected a --sound for " + numberText(e.frequencyHz) + " Hz, found none";
     return {};
 }
@@ -149,10 +150,12 @@ inline int takeSession(RenderJob& job) {
     if (!session) return leave(exitFailed, session.error);
     job.session = std::move(session.value);
     job.scene = job.session->log.takes.front().whole();
-    if (!job.keepsRecordings() || job.session->log.recordings.empty()) return exitDone;
-    if (job.options.remap == "on") return leave(exitUsage, std::string{recordingsHaveNoFrequency});
-    if (job.perceived().isWeighted) return leave(exitUsage, std::string{recordingsHaveNoWeight});
-    auto recordings = loadRecordings(job.session->log);
+    SessionLog& log = job.session->log;
+    if (!job.keepsRecordings()) log.recordings.clear();
+    if (log.recordings.empty() && log.clips.empty()) return exitDone;
+    if (!log.recordings.empty() && job.options.remap == "on") return leave(exitUsage, std::string{recordingsHaveNoFrequency});
+    if (!log.recordings.empty() && job.perceived().isWeighted) return leave(exitUsage, std::string{recordingsHaveNoWeight});
+    auto recordings = loadRecordings(log);
     if (!recordings) return leave(exitFailed, job.options.scene + ": " + recordings.error);
     job.sessionRecordings = std::move(recordings.value);
     return exitDone;

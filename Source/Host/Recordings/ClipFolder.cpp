@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A name is looked up, read, and known by its hash.
+#include "Host/Recordings/ClipFolder.h"
+#include "Files/Disk/ContentHash.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Disk/ReadFile.h"
+#include "Files/Text/NumberText.h"
+#include "Formats/ClipFile.h"
+#include "Formats/ClipSound.h"
+#include "Host/Recordings/ReadRecording.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+/// Of a haptic file whose channels all have one.
+std::vector<EnchanterPlace> sharesOf(const std::filesystem::path& path) {
+    std::vector<EnchanterPlace> shares;
+    const auto format = clipFormatOf(path.string());
+    const auto clip = format ? loadClip(path, *format) : Result<Clip>{Clip{}};
+    for (const ClipChannel& channel : clip.value.channels)
+        if (channel.place && clip.value.extentWidthMetres > 0.0 && clip.value.extentHeightMetres > 0.0)
+            shares.push_back({channel.place->xMetres / clip.value.extentWidthMetres, channel.place->yMetres / clip.value.extentHeightMetres});
+    return shares.size() == clip.value.channels.size() ? shares : std::vector<EnchanterPlace>{};
+}
+
+Result<std::string> hashOf(const std::filesystem::path& path) {
+    const auto bytes = readFile(path, limits::maxRecordingFileBytes);
+    return bytes ? Result<std::string>{contentHash(bytes.value)} : Result<std::string>{Failure{bytes.error}};
+}
+
+} // namespace
+
+Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
+    auto sound = readRecording(path);
+    if (!sound) return Failure{sound.error};
+    const auto hash = hashOf(path);
+    if (!hash) return Failure{hash.error};
+    LoadedClip clip;
+    for (std::vector<float>& samples : sound.value.channels) {
+        ContactRecording& channel = clip.channels.emplace_back();
+        channel.sampleRateHz = sound.value.sampleRateHz;
+        channel.samples = std::move(samples);
+        channel.file.path = path.string();
+        channel.file.hash = hash.value;
+    }
+    if (clip.channels.empty() || clip.channels.front().samples.empty()) return Failure{path.string() + ": expected something to feel, found no samples"};
+    clip.shares = sharesOf(path);
+    return clip;
+}
+
+Result<LoadedClip> ClipFolder::operator()(const std::string& name) const {
+    std::error_code failed;
+    const std::filesystem::path asked{name}, folder = std::filesystem::canonical(folder_, failed);
+    if (failed) return Failure{folder_.string() + ": expected a folder of clips"};
+    const std::filesystem::path found = std::filesystem::weakly_canonical(folder / asked, failed);
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), found.begin(), found.end());
+    if (failed || name.empty() || asked.is_absolute() || end != folder.end()) return Failure{inQuotes(name) + ": expected a file in " + folder_.string() + " or below"};
+    return loadWholeClip((folder_ / asked).lexically_normal());
+}
+
+Result<ContactRecording> loadKeptClip(const ClipFile& clip) {
+    const std::string& path = clip.file.path;
+    auto loaded = loadWholeClip(path);
+    if (!loaded) return Failure{loaded.error};
+    const std::string& hash = loaded.value.channels.front().file.hash;
+    if (hash != clip.file.hash) return Failure{path + ": expected the clip with the hash " + clip.file.hash + ", found " + hash + ": it has changed since"};
+    const auto channel = static_cast<std::size_t>(clip.channel);
+    if (channel >= loaded.value.channels.size()) return Failure{path + ": expected at least " + std::to_string(clip.channel + 1) + " channels, found " + std::to_string(loaded.value.channels.size())};
+    return std::move(loaded.value.channels[channel]);
+}
+
+} // namespace physvib

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Clips by their names below one folder: what a message may have read.
+#pragma once
+#include "Files/SessionLog.h"
+#include "Session/Messages/ClipSource.h"
+#include <filesystem>
+#include <string>
+
+namespace physvib {
+
+/// A ClipSource. Any thread but R.
+class ClipFolder {
+public:
+    explicit ClipFolder(std::filesystem::path folder)
+        : folder_{std::move(folder)} {}
+
+    /// A recording or a haptic file (see readRecording) in the folder or below, wherever links lead; or one line.
+    Result<LoadedClip> operator()(const std::string& name) const;
+
+private:
+    std::filesystem::path folder_;
+};
+
+/// All channels of that file. Any thread but R.
+Result<LoadedClip> loadWholeClip(const std::filesystem::path& path);
+
+/// The channel that a session has kept; or one line: it is missing or has changed. M only.
+Result<ContactRecording> loadKeptClip(const ClipFile& clip);
+
+} // namespace physvib
