@@ -8,15 +8,14 @@ Low beats are felt by all four at once; all others go round the table, from ring
 does: it is started so that what it plays and what is felt begin together.
 """
 import csv
-import json
 import os
 import subprocess
 import sys
 import tempfile
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-PROGRAM = os.environ.get("PHYSVIB", "physvib")
+from player import PROGRAM, Player
+
 RINGS = "ABCD"
 LOW_DECAY = 15  # per second: by it a strike says that it is of the low band
 AHEAD_SECONDS = 2.0
@@ -48,25 +47,17 @@ def main():
         sys.exit("music-rings: expected SONG.wav and options of physvib play")
     rows = beats(sys.argv[1])
     seconds = AHEAD_SECONDS + float(rows[-1]["time_s"]) + 2.0
-    call = [PROGRAM, "play", os.path.join(HERE, "quiet.json"), "--layout", "ring4", "--seconds", f"{seconds:.1f}", "--listen", *sys.argv[2:]]
-    player = subprocess.Popen(call, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-
-    def ask(query):
-        player.stdin.write(json.dumps({"message": query}) + "\n")
-        player.stdin.flush()
-        return json.loads(next((line for line in player.stdout if line.startswith('{ "answer"')), None) or sys.exit("music-rings: physvib has ended"))
-
-    start = ask("status")["session_s"] + AHEAD_SECONDS
-    begins = time.monotonic() + AHEAD_SECONDS + ask("latency")["play_out_s"]
+    player = Player("--layout", "ring4", "--seconds", f"{seconds:.1f}", *sys.argv[2:])
+    start = player.ask("status")["session_s"] + AHEAD_SECONDS
+    begins = time.monotonic() + AHEAD_SECONDS + player.ask("latency")["play_out_s"]
     for second, rings, values in strikes(rows):
         for ring in rings:
-            player.stdin.write(json.dumps({"message": "strike", "place": ring, "law": "alone", "at": start + second, **values}) + "\n")
-    player.stdin.flush()
+            player.say("strike", place=ring, law="alone", at=start + second, **values)
     if "PLAYER" in os.environ:
         time.sleep(max(0.0, begins - time.monotonic()))
         subprocess.Popen([*os.environ["PLAYER"].split(), sys.argv[1]])
-    player.stdin.close()
-    sys.exit(player.wait())
+    player.process.stdin.close()
+    sys.exit(player.process.wait())
 
 
 if __name__ == "__main__":

@@ -8,36 +8,14 @@ Of twenty minutes, one pulse is felt when ten are left, two at five, three at on
 over at once, so that nothing here has to be in time. `again` on standard input starts it anew, `stop` gives it up, `status` says
 how many vibrations are still to come; where the input ends, all of them are felt.
 """
-import json
-import os
 import signal
-import subprocess
 import sys
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
+from player import Player
+
 PULSE_SECONDS, GAP_SECONDS, LAST_SECONDS = 0.15, 0.15, 1.5
 DAY = "86400"
-
-
-class Player:
-    """physvib play on one enchanter, which takes messages and answers queries."""
-
-    def __init__(self, options):
-        program = os.environ.get("PHYSVIB", "physvib")
-        call = [program, "play", os.path.join(HERE, "quiet.json"), "--layout", "phone1", "--seconds", DAY, "--listen", *options]
-        self.process = subprocess.Popen(call, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-
-    def say(self, message, **values):
-        self.process.stdin.write(json.dumps({"message": message, **values}) + "\n")
-        self.process.stdin.flush()
-
-    def ask(self, query):
-        self.say(query)
-        for line in self.process.stdout:
-            if line.startswith('{ "answer"'):
-                return json.loads(line)
-        sys.exit("presentation-timer: physvib has ended")
 
 
 def plan(player, seconds, left):
@@ -55,7 +33,7 @@ def main():
             raise ValueError
     except (IndexError, ValueError):
         sys.exit("presentation-timer: expected MINUTES LEFT,LEFT,... and options of physvib play, like 20 10,5,1 --device JACK:system")
-    player = Player(sys.argv[3:])
+    player = Player("--layout", "phone1", "--seconds", DAY, *sys.argv[3:])
     plan(player, seconds, left)
     for number, line in enumerate(sys.stdin, 1):
         word = line.strip()

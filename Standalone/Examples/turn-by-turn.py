@@ -7,33 +7,11 @@
 A line says where and how far: `left 200`, `right 15`, `arrived`. A turn ahead is one slow path across the palm to its side; within
 30 m it is two quick ones, and what the turn ahead still had to say is not said any more. Arriving is felt on all four in turn.
 """
-import json
-import os
-import subprocess
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
+from player import Player
+
 NEAR_METRES = 30
-
-
-class Player:
-    """physvib play, which takes messages and answers queries."""
-
-    def __init__(self, options):
-        program = os.environ.get("PHYSVIB", "physvib")
-        scene = os.path.join(HERE, "quiet.json")
-        self.process = subprocess.Popen([program, "play", scene, "--listen", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-
-    def say(self, message, **values):
-        self.process.stdin.write(json.dumps({"message": message, **values}) + "\n")
-        self.process.stdin.flush()
-
-    def ask(self, query):
-        self.say(query)
-        for line in self.process.stdout:
-            if line.startswith('{ "answer"'):
-                return json.loads(line)
-        sys.exit("turn-by-turn: physvib has ended")
 
 
 def cue(player, field, side, metres):
@@ -49,7 +27,7 @@ def cue(player, field, side, metres):
 
 
 def main():
-    player = Player(sys.argv[1:])
+    player = Player(*sys.argv[1:])
     field = player.ask("layout")["field_m"]
     for number, line in enumerate(sys.stdin, 1):
         words = line.split()
