@@ -25,6 +25,8 @@ bool isAcceptedAsOne(Processor::WrapperType format, const Set& set) {
 
 juce::String labelOf(int enchanter) { return juce::String{describeLayout({}, {1.0, 1.0, enchanter + 1, {}}).enchanters.back().label}; }
 
+bool isSideChain(const juce::Array<Set>& inputs) { return inputs.isEmpty() || (inputs.size() == 1 && (inputs[0].isDisabled() || inputs[0] == Set::mono() || inputs[0] == Set::stereo())); }
+
 bool isAcceptedAsOneOfMany(const Set& set) { return set.isDisabled() || set == Set::mono() || set == Set::stereo(); }
 
 } // namespace
@@ -47,8 +49,10 @@ std::vector<OutputBus> busesOf(const BusPlan& plan, Processor::WrapperType forma
     return buses;
 }
 
+bool hasSideChain(Processor::WrapperType format) noexcept { return format != Processor::wrapperType_LV2; }
+
 bool isAccepted(const BusPlan& plan, Processor::WrapperType format, const Processor::BusesLayout& layout) {
-    if (!layout.inputBuses.isEmpty()) return false;
+    if (!isSideChain(layout.inputBuses)) return false;
     const auto& sets = layout.outputBuses;
     if (plan.kind == BusPlan::Kind::oneBus) return sets.size() == 1 && isAcceptedAsOne(format, sets[0]);
     return std::all_of(sets.begin(), sets.end(), isAcceptedAsOneOfMany) && !sets[0].isDisabled();

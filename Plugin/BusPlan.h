@@ -32,6 +32,9 @@ struct OutputBus {
 /// The buses of a new instance. Any thread.
 std::vector<OutputBus> busesOf(const BusPlan& plan, juce::AudioProcessor::WrapperType format);
 
+/// Whether music can come in by a side chain, which is off until a host turns it on. LV2 has no ports that are off. Any thread.
+bool hasSideChain(juce::AudioProcessor::WrapperType format) noexcept;
+
 /// Whether every channel of `layout` would arrive where it should. Any thread.
 bool isAccepted(const BusPlan& plan, juce::AudioProcessor::WrapperType format, const juce::AudioProcessor::BusesLayout& layout);
 

@@ -3,6 +3,7 @@ get_target_property(juce_modules juce::juce_core INTERFACE_JUCE_MODULE_PATH)
 set_source_files_properties(${juce_modules}/juce_audio_plugin_client/juce_audio_plugin_client_LV2.cpp PROPERTIES COMPILE_DEFINITIONS lv2_descriptor=juceLv2Descriptor)
 set_source_files_properties(Lv2Entry.cpp PROPERTIES COMPILE_DEFINITIONS PHYSVIB_LV2_ENTRY)
 set(physvib_entry_points ${CMAKE_CURRENT_LIST_DIR}/entry-points.map)
+include(${CMAKE_CURRENT_LIST_DIR}/vst3-header.cmake)
 
 # physvib_plugin(TARGET NAME CODE LV2URI BUSES CHANNELS FORMATS...): NAME.vst3, NAME.lv2, NAME.component in plugins/
 # (spaces of the name become hyphens).
@@ -38,6 +39,7 @@ function(physvib_plugin target name code lv2uri buses channels)
         endif()
     endforeach()
     if(TARGET ${target}_VST3)
+        target_include_directories(${target}_VST3 SYSTEM BEFORE PRIVATE ${physvib_vst3_headers})
         set_target_properties(${target}_VST3 PROPERTIES LIBRARY_OUTPUT_DIRECTORY
             $<IF:$<PLATFORM_ID:Linux>,${plugins}/${file}.vst3/Contents/${CMAKE_SYSTEM_PROCESSOR}-linux,${plugins}>)
     endif()

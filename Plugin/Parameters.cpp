@@ -26,12 +26,14 @@ constexpr std::array<ParameterRow, parameterCount> table{{
     {"strike_x", "Strike shift x", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes to the right, in parts of the field's width"},
     {"strike_y", "Strike shift y", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes upwards, in parts of the field's height"},
     {"bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1, "Silence; the world goes on"},
+    {"beats", "Beats", "%", 0.0, 100.0, 0.0, linear, {}, 2, "How readily beats of the side chain strike; the least is never"},
 }};
 
 constexpr std::array panningGroup{Parameter::law, Parameter::exponent};
 constexpr std::array worldGroup{Parameter::gravity, Parameter::tilt, Parameter::material};
 constexpr std::array strikeGroup{Parameter::strikeLevel, Parameter::strikeX, Parameter::strikeY};
-constexpr std::array<ParameterGroup, 3> groups{{{"panning", "Panning", panningGroup}, {"world", "World", worldGroup}, {"strikes", "Strikes by notes", strikeGroup}}};
+constexpr std::array beatGroup{Parameter::beats};
+constexpr std::array<ParameterGroup, 4> groups{{{"panning", "Panning", panningGroup}, {"world", "World", worldGroup}, {"strikes", "Strikes by notes", strikeGroup}, {"side_chain", "Side chain", beatGroup}}};
 
 std::string_view wordOf(const ParameterRow& row, double value) {
     const auto index = static_cast<std::size_t>(std::lround(std::clamp(value, row.least, row.most) - row.least));

@@ -11,8 +11,8 @@
 namespace physvib {
 
 /// In the order in which hosts list them. New ones go to the end: hosts may number them.
-enum class Parameter { level, law, exponent, gravity, tilt, material, strikeLevel, strikeX, strikeY, bypass };
-constexpr std::size_t parameterCount = 10;
+enum class Parameter { level, law, exponent, gravity, tilt, material, strikeLevel, strikeX, strikeY, bypass, beats };
+constexpr std::size_t parameterCount = 11;
 
 /// How a host's 0 to 1 runs over the range.
 enum class ParameterScale {
@@ -39,7 +39,8 @@ struct ParameterRow {
 const ParameterRow& rowOf(Parameter parameter) noexcept;
 const std::array<ParameterRow, parameterCount>& allParameters() noexcept;
 
-/// Parameters that belong together, each in one group, in the order of the table; `level` and `bypass` stand by themselves.
+/// Parameters that belong together, each in one group, in the order of the table; `level` and `bypass` stand by themselves, the latter
+/// before the groups that came after it.
 struct ParameterGroup {
     std::string_view id; ///< never changes
     std::string_view name;

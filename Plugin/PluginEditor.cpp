@@ -94,9 +94,11 @@ PluginEditor::~PluginEditor() {
     setLookAndFeel(nullptr);
 }
 
-// Level is the mix's, and SILENCE stands by itself.
+// Level is the mix's, and SILENCE stands by itself; beats need a side chain.
 void PluginEditor::fillGroups() {
+    const bool hasMusic = plugin_.getBusCount(true) > 0;
     for (const auto& group : parameterGroups()) {
+        if (group.parameters.front() == Parameter::beats && !hasMusic) continue;
         groups_.push_back({group.name, {}});
         for (const auto which : group.parameters) {
             auto& controls = groups_.back().controls;
@@ -242,6 +244,7 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
     if (status.burstFrames > 0) line << ", " << ms(status.burstFrames) << " of it as the host asks ahead of time";
     if (status.waitedFrames > 0) line << ": it came during this run, which is not the bounce before that";
     if (meters.connected < enchanters) line << "   |   " << meters.connected << " of " << enchanters << " connected";
+    if (const auto* music = plugin_.getBus(true, 0); music && !music->isEnabled() && plugin_.parameter(Parameter::beats).value() > 0.0) line << "   |   no beats: the side chain is off";
     line << "   |   take " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)} << " played, "
          << juce::String{static_cast<juce::int64>(status.late)} << " late, " << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";
     if (status.slippedNs > 0) line << ", " << juce::String{static_cast<double>(status.slippedNs) * 1e-6, 1} << " ms of stalls";

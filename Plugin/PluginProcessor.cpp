@@ -28,7 +28,7 @@ int programOf(const Scene& scene) {
 } // namespace
 
 PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
-    : AudioProcessor{outputsOf(plan)}
+    : AudioProcessor{propertiesOf(plan)}
     , name_{std::move(name)}
     , plan_{plan} {
     addParameters();
@@ -36,9 +36,11 @@ PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     startTimerHz(20);
 }
 
-juce::AudioProcessor::BusesProperties PluginProcessor::outputsOf(const BusPlan& plan) {
+juce::AudioProcessor::BusesProperties PluginProcessor::propertiesOf(const BusPlan& plan) {
+    const auto format = juce::PluginHostType::getPluginLoadedAs();
     BusesProperties properties;
-    for (const auto& bus : busesOf(plan, juce::PluginHostType::getPluginLoadedAs())) properties.addBus(false, bus.name, bus.channels, bus.isOn);
+    for (const auto& bus : busesOf(plan, format)) properties.addBus(false, bus.name, bus.channels, bus.isOn);
+    if (hasSideChain(format)) properties.addBus(true, "Music", juce::AudioChannelSet::stereo(), false);
     return properties;
 }
 
@@ -48,13 +50,19 @@ void PluginProcessor::addParameters() {
         parameters_[i] = new HostParameter{allParameters()[i]};
         parameters_[i]->addListener(this);
     }
+    const auto isAfterBypass = [](const ParameterGroup& group) { return group.parameters.front() > Parameter::bypass; };
     addParameter(&parameter(Parameter::level));
-    for (const auto& group : parameterGroups()) {
-        auto shown = std::make_unique<juce::AudioProcessorParameterGroup>(juce::String{group.id.data()}, juce::String{group.name.data()}, "/");
-        for (const auto which : group.parameters) shown->addChild(std::unique_ptr<HostParameter>{&parameter(which)});
-        addParameterGroup(std::move(shown));
-    }
+    for (const auto& group : parameterGroups())
+        if (!isAfterBypass(group)) addGroup(group);
     addParameter(&parameter(Parameter::bypass));
+    for (const auto& group : parameterGroups())
+        if (isAfterBypass(group)) addGroup(group);
+}
+
+void PluginProcessor::addGroup(const ParameterGroup& group) {
+    auto shown = std::make_unique<juce::AudioProcessorParameterGroup>(juce::String{group.id.data()}, juce::String{group.name.data()}, "/");
+    for (const auto which : group.parameters) shown->addChild(std::unique_ptr<HostParameter>{&parameter(which)});
+    addParameterGroup(std::move(shown));
 }
 
 PluginProcessor::~PluginProcessor() {
@@ -162,7 +170,9 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     measured_ = {};
     bend_.fill(0.0f);
     slide_.fill(0.0f);
-    takes_.prepare(rate, blockFrames_);
+    const auto* sideChain = getBus(true, 0);
+    beats_.prepare(rate, blockFrames_, sideChain != nullptr && sideChain->isEnabled() ? sideChain->getNumberOfChannels() : 0);
+    takes_.prepare(rate, blockFrames_, beats_.delaySeconds());
     publish();
 }
 

@@ -4,6 +4,7 @@
 // The threading model is that of Docs/threads.md: processBlock is R, everything else is M or any thread but R. What the
 // host calls non-realtime is rendered with RenderMode::offline, so that a bounce is the live take at any speed.
 #pragma once
+#include "BeatInput.h"
 #include "BusPlan.h"
 #include "ControlPace.h"
 #include "Host/Devices/ChannelMeters.h"
@@ -15,7 +16,7 @@
 
 namespace physvib {
 
-class PluginProcessor final : public juce::AudioProcessor, private juce::Timer, private juce::AudioProcessorParameter::Listener {
+class PluginProcessor final : public juce::AudioProcessor, public juce::VST3ClientExtensions, private juce::Timer, private juce::AudioProcessorParameter::Listener {
 public:
     PluginProcessor(juce::String name, const BusPlan& plan);
     ~PluginProcessor() override;
@@ -57,6 +58,7 @@ public:
     bool acceptsMidi() const override { return true; }
     bool producesMidi() const override { return false; }
     bool supportsMPE() const override { return true; }
+    bool getPluginHasMainInput() const override { return false; } ///< but a side chain
 
     int getNumPrograms() override;
     int getCurrentProgram() override { return program_; }
@@ -70,7 +72,8 @@ public:
     juce::AudioProcessorEditor* createEditor() override;
 
 private:
-    static BusesProperties outputsOf(const BusPlan& plan);
+    static BusesProperties propertiesOf(const BusPlan& plan);
+    void addGroup(const ParameterGroup& group);
     void addParameters();
     void timerCallback() override;
     void parameterValueChanged(int, float) override {}
@@ -99,6 +102,8 @@ private:
     void silence(int frame) noexcept;
     void receive(const juce::MidiMessageMetadata& message, int frame) noexcept;
     void strike(int channel, int note, int velocity, int frame) noexcept;
+    void hear(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept;
+    void strikeBeat(Session& session, const BandOnset& onset, int frame) noexcept;
     void control(int channel, int controller, int value, int frame) noexcept;
     void mix(juce::AudioBuffer<float>& buffer, int first, int frames) noexcept;
     void measure(const juce::AudioBuffer<float>& buffer) noexcept;
@@ -122,6 +127,7 @@ private:
     int usualBlockFrames_ = 0;
 
     // R
+    BeatInput beats_;
     Transport transport_;
     int blockFrames_ = 0;
     GainRamp open_; // shut by bypass

@@ -31,9 +31,8 @@ void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juc
 }
 
 void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept {
-    buffer.clear();
     const int frames = buffer.getNumSamples();
-    if (blockFrames_ == 0 || frames == 0) return;
+    if (blockFrames_ == 0 || frames == 0) return buffer.clear();
     const auto mode = isNonRealtime() ? RenderMode::offline : RenderMode::realtime;
     followTransport(frames);
     auto message = midi.begin();
@@ -41,7 +40,15 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
         const int part = std::min(frames - first, blockFrames_); // some hosts exceed what they announced
         if (takes_.begin(mode)) forgetControls();
         sendControls(0);
-        for (; message != midi.end() && (*message).samplePosition < first + part; ++message) receive(*message, std::max(0, (*message).samplePosition - first));
+        int heard = 0; // what comes in goes by its frame
+        for (; message != midi.end() && (*message).samplePosition < first + part; ++message) {
+            const int frame = std::max(0, (*message).samplePosition - first);
+            hear(buffer, first, heard, frame);
+            heard = frame;
+            receive(*message, frame);
+        }
+        hear(buffer, first, heard, part);
+        buffer.clear(first, part);
         sendPaced(0, part); // what controllers said faster than it may go
         takes_.render(part, mode);
         mix(buffer, first, part);
@@ -70,6 +77,7 @@ void PluginProcessor::followTransport(int frames) noexcept {
 
 // A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
 void PluginProcessor::forgetControls() noexcept {
+    beats_.forget();
     levelPace_ = pannerPace_ = {};
     owesStop_ = false;
     sent_.fill(std::numeric_limits<double>::quiet_NaN());
@@ -167,6 +175,28 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
     event.x = shifted(event.x, value(Parameter::strikeX) * 0.01 + bend_[static_cast<std::size_t>(channel)], midi.fieldWidthMetres());
     event.y = shifted(event.y, value(Parameter::strikeY) * 0.01 + slide_[static_cast<std::size_t>(channel)], midi.fieldHeightMetres());
     session->strike(event, frame);
+}
+
+// Frames `from` to `to` of the part of the block that begins at `first`. The side chain's channels are the buffer's first ones, until what is
+// played is written over them.
+void PluginProcessor::hear(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept {
+    const double readiness = value(Parameter::beats);
+    Session* const session = takes_.session();
+    if (!session) return; // a take begins by forgetting
+    beats_.hear(buffer, first + from, to - from, 0.01 * readiness, [&](const BandOnset& onset, int frame) {
+        if (readiness > 0.0) strikeBeat(*session, onset, frame - first);
+    });
+}
+
+// At the onset's own time, which is past: L is longer than the beat took to be known. Where strikes are direct, as soon as it is sure to be known.
+void PluginProcessor::strikeBeat(Session& session, const BandOnset& onset, int frame) noexcept {
+    const auto& settings = takes_.settings();
+    const int felt = session.isBornDirect() ? frame + beats_.delayFrames() : frame;
+    BeatVoices voices;
+    voices.enchanters = usualBeatEnchanters(settings.layout.count);
+    voices.level = gainOfLevel(value(Parameter::strikeLevel));
+    physvib::strikeBeat(onset, 0, voices, settings.layout, settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres(),
+                        [&](const CollisionEvent& event) { session.strike(event, felt); });
 }
 
 void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {

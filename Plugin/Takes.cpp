@@ -35,20 +35,21 @@ bool startsQuickly(const TakeOrder& order) noexcept { return order.settings.tran
 } // namespace
 
 void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<Strip> strips) {
-    setup.longestGapSeconds = TakePace::longestGapSeconds(setup.stepsPerSecond);
     checkGroups(setup);
     const std::lock_guard one{setMutex_};
     const auto before = order();
-    const auto wanted = std::make_shared<const TakeOrder>(TakeOrder{std::move(setup), settings, before ? before->generation + 1 : 1});
     for (;;) { // a take is built without the mutex, so that the worlds that play are stepped meanwhile
         std::unique_lock lock{mutex_};
         const int rate = sampleRateHz_, block = blockFrames_;
+        const double known = knownAfterSeconds_;
+        setup.longestGapSeconds = gapSeconds(setup);
         lock.unlock();
+        const auto wanted = std::make_shared<const TakeOrder>(TakeOrder{setup, settings, before ? before->generation + 1 : 1});
         std::unique_ptr<Take> take;
         if (block > 0) take = std::make_unique<Take>(wanted, rate, block, leadFrames_);
         else Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond}; // throws if it cannot be simulated
         lock.lock();
-        if (rate != sampleRateHz_ || block != blockFrames_) continue; // the host has prepared us meanwhile
+        if (rate != sampleRateHz_ || block != blockFrames_ || known != knownAfterSeconds_) continue; // the host has prepared us meanwhile
         strips_ = std::move(strips);
         return exchange(wanted, std::move(take));
     }
@@ -87,10 +88,22 @@ void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Tak
     newest_.store(order_->generation, std::memory_order_release);
 }
 
-void Takes::prepare(int sampleRateHz, int blockFrames) {
+// What is known late has, beside the gap, the two steps that L has room for. The mutex is held.
+double Takes::gapSeconds(const SessionSetup& setup) const noexcept {
+    const double known = setup.direct == Direct::no ? knownAfterSeconds_ - 2.0 / setup.stepsPerSecond : 0.0;
+    return std::max(TakePace::longestGapSeconds(setup.stepsPerSecond), known);
+}
+
+void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds) {
     release();
     std::unique_lock lock{mutex_};
+    knownAfterSeconds_ = knownAfterSeconds;
     if (!order_) return;
+    if (const double gap = gapSeconds(order_->setup); gap != order_->setup.longestGapSeconds) {
+        auto order = *order_;
+        order.setup.longestGapSeconds = gap;
+        order_ = std::make_shared<const TakeOrder>(std::move(order));
+    }
     sampleRateHz_ = sampleRateHz;
     blockFrames_ = blockFrames;
     leadFrames_ = std::max<std::int64_t>(blockFrames, std::llround(leadSeconds_ * sampleRateHz));

@@ -67,7 +67,8 @@ public:
     void mix(std::vector<Strip> strips);
 
     /// A fresh take stands ready; nothing plays yet. Any thread but R, while nobody renders.
-    void prepare(int sampleRateHz, int blockFrames);
+    /// `knownAfterSeconds`: where strikes are not direct, L has room for one that is known so long after its time, in a block of any size.
+    void prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds = 0.0);
     void release();
 
     /// L of the present setup and host; 0 before prepare. Any thread.
@@ -113,6 +114,7 @@ private:
     static constexpr std::size_t kept = 3;        // one plays, one is next, one is ending or spare
     static constexpr std::size_t mostEnding = 8;  // loops as short as an eighth of L
     std::shared_ptr<const TakeOrder> order() const;
+    double gapSeconds(const SessionSetup& setup) const noexcept;
     void exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take);
     void tellAll();
     void step();
@@ -145,6 +147,7 @@ private:
     std::string fault_;
     bool canMake_ = true; // until it fails, then from the next settings on
     int sampleRateHz_ = 0, blockFrames_ = 0; // 0: not prepared; they change while nobody renders
+    double knownAfterSeconds_ = 0.0;         // as they do
     std::condition_variable workToDo_;
 
     std::atomic<Take*> spare_{nullptr};

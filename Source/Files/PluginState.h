@@ -18,8 +18,8 @@ namespace physvib {
 
 /// The version of the format that is written, and the newest that is read. A new field makes a new version.
 /// 2: choices by their words; what version 1 gave every instance as controllers is left out; strips, equalisers, the editor's size.
-/// 3: direct strikes.
-constexpr int pluginStateVersion = 3;
+/// 3: direct strikes. 4: the parameter `beats`.
+constexpr int pluginStateVersion = 4;
 
 enum class TransportMode {
     free,         ///< the scene runs whenever the host renders

@@ -108,21 +108,25 @@ std::string refusal(std::string text, const std::string& found, const std::strin
     return read.error;
 }
 
+std::string asVersion(int version, std::string text) {
+    const std::string field = "\"physvib_plugin_state\": ";
+    return text.replace(text.find(field), field.size() + 1, field + std::to_string(version));
+}
+
 TEST(PluginState, OneThatKnowsNothingOfDirectStrikesHasNone) {
     std::string older = pluginStateJson(sampleState());
     const std::string direct = "\"direct\": true,";
     ASSERT_NE(older.find(direct), std::string::npos);
     older.replace(older.find(direct), direct.size(), "");
-    older.replace(older.find("state\": 3"), 9, "state\": 2");
-    const auto read = readPluginState(older, "f");
+    const auto read = readPluginState(asVersion(2, older), "f");
     ASSERT_TRUE(read) << read.error;
     EXPECT_FALSE(read.value.isDirect);
 }
 
 TEST(PluginState, WhatIsWrongIsNamed) {
     const std::string text = pluginStateJson(sampleState());
-    EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 3", "\"physvib_plugin_state\": 4"),
-              "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 3, found 4");
+    EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 4", "\"physvib_plugin_state\": 5"),
+              "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 4, found 5");
     EXPECT_EQ(refusal(text, "\"x\": 0.1", "\"x\": 2"), "f: notes[0].x: expected a number from 0 to 1, found 2");
     EXPECT_EQ(refusal(text, "\"note\": 60", "\"note\": 128"), "f: notes[0].note: expected 0 to 127, found 128");
     EXPECT_EQ(refusal(text, "\"do\": \"push\", \"object\": \"" + sampleState().scene.bodies.front().name + "\"", "\"do\": \"push\", \"object\": \"nobody\""),
@@ -160,11 +164,10 @@ TEST(PluginState, AStateOfVersionOneStaysReadable) { // the file is never writte
 TEST(PluginState, TheControllersThatVersionOneGaveEveryInstanceAreLeftOut) {
     auto state = sampleState();
     state.controllers = {{1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}};
-    std::string text = pluginStateJson(state);
+    const std::string text = pluginStateJson(state);
     const auto chosen = readPluginState(text, "f");
     EXPECT_EQ(chosen.value.controllers.size(), 4u) << "since version 2 they are a choice";
-    text.replace(text.find("state\": 3"), 9, "state\": 1");
-    const auto read = readPluginState(text, "f");
+    const auto read = readPluginState(asVersion(1, text), "f");
     ASSERT_TRUE(read) << read.error;
     EXPECT_TRUE(read.value.controllers.empty());
 }

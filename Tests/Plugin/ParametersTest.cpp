@@ -13,8 +13,8 @@ namespace {
 TEST(Parameters, IdsArePromises) { // a change here breaks every saved session of every host
     std::vector<std::string_view> ids;
     for (const auto& row : allParameters()) ids.push_back(row.id);
-    const std::vector<std::string_view> promised{"level",    "law",          "exponent", "gravity",  "tilt",
-                                                 "material", "strike_level", "strike_x", "strike_y", "bypass"};
+    const std::vector<std::string_view> promised{"level",        "law",      "exponent", "gravity", "tilt", "material",
+                                                 "strike_level", "strike_x", "strike_y", "bypass",  "beats"};
     EXPECT_EQ(ids, promised);
 }
 

@@ -114,6 +114,33 @@ TEST(PluginEditor, ComesBackInTheSizeItWasLeftInAlsoFromAChunk) {
     EXPECT_EQ(openEditor(*other.plugin)->getHeight(), 600);
 }
 
+bool hasControl(const juce::Component& in, const juce::String& title) {
+    return in.getTitle() == title || std::ranges::any_of(in.getChildren(), [&](const auto* child) { return hasControl(*child, title); });
+}
+
+TEST(PluginEditor, HasBeatsWhereThereIsASideChainAndSaysWhereThatIsOff) {
+    TestHost host;
+    host.prepare(48000, 512);
+    auto editor = openEditor(*host.plugin);
+    EXPECT_TRUE(hasControl(*editor, "Beats"));
+    editor->refresh();
+    EXPECT_FALSE(editor->statusText().contains("side chain")) << "nobody wants any";
+    host.plugin->parameter(Parameter::beats).setValue(0.5f);
+    editor->refresh();
+    EXPECT_TRUE(editor->statusText().contains("no beats: the side chain is off"));
+    auto layout = host.plugin->getBusesLayout();
+    layout.inputBuses.getReference(0) = juce::AudioChannelSet::stereo();
+    ASSERT_TRUE(host.plugin->setBusesLayout(layout));
+    editor->refresh();
+    EXPECT_FALSE(editor->statusText().contains("side chain"));
+    auto& format = juce::PluginHostType::jucePlugInClientCurrentWrapperType;
+    const auto before = std::exchange(format, juce::AudioProcessor::wrapperType_LV2);
+    TestHost lv2;
+    format = before;
+    EXPECT_FALSE(hasControl(*openEditor(*lv2.plugin), "Beats"));
+    EXPECT_TRUE(hasControl(*openEditor(*lv2.plugin), "Tilt"));
+}
+
 TEST(PluginEditor, OpensFilesAndSaysWhatIsWrong) {
     TestHost host;
     auto editor = openEditor(*host.plugin);

@@ -64,7 +64,7 @@ TEST(PluginProcessor, HostsSeeTheParametersInTheOrderOfTheTableAndInGroups) {
     for (int i = 0; i < parameters.size(); ++i) EXPECT_EQ(parameters[i], &host.plugin->parameter(static_cast<Parameter>(i)));
     juce::StringArray groups;
     for (const auto* group : host.plugin->getParameterTree().getSubgroups(false)) groups.add(group->getName());
-    EXPECT_EQ(groups.joinIntoString(", "), "Panning, World, Strikes by notes");
+    EXPECT_EQ(groups.joinIntoString(", "), "Panning, World, Strikes by notes, Side chain");
 }
 
 TEST(PluginProcessor, AnyRateAndAnyBlockIsFiniteAndWithinFullScale) {

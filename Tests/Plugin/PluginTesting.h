@@ -38,7 +38,7 @@ public:
         plugin->setNonRealtime(offline);
         plugin->setRateAndBufferSizeDetails(rate, block);
         plugin->prepareToPlay(rate, block);
-        buffer.setSize(std::max(1, plugin->getTotalNumOutputChannels()), block);
+        buffer.setSize(std::max({1, plugin->getTotalNumInputChannels(), plugin->getTotalNumOutputChannels()}), block);
     }
 
     /// One block of any size; what it played.

@@ -25,6 +25,9 @@ void expectNothingForbidden(BusPlan plan) {
     TestHost host{plan};
     Random random{7};
     auto& plugin = *host.plugin;
+    auto layout = plugin.getBusesLayout();
+    layout.inputBuses.getReference(0) = juce::AudioChannelSet::stereo();
+    ASSERT_TRUE(plugin.setBusesLayout(layout));
     for (const auto mode : {TransportMode::free, TransportMode::restartOnPlay}) {
         auto settings = plugin.state();
         settings.transport = mode;
@@ -49,6 +52,7 @@ void expectNothingForbidden(BusPlan plan) {
             if (random.below(50) == 0) host.playHead.isPlaying = !host.playHead.isPlaying;
             if (random.below(90) == 0) host.playHead.frame = random.below(100'000);
             host.buffer.setSize(host.buffer.getNumChannels(), frames, false, false, true);
+            for (int i = 0; i < frames && b % 100 < 3; ++i) host.buffer.setSample(0, i, static_cast<float>(random.uniform(-1, 1))); // a stroke at the side chain
             auto* parameter = plugin.getParameters()[random.below(static_cast<int>(parameterCount))];
             const bool bypassed = random.below(100) == 0;
             {

@@ -36,6 +36,7 @@ void expectTheProcessorsSamples(const Format& format, const juce::String& identi
     const auto plugin = format.load(identifier);
     ASSERT_NE(plugin, nullptr) << identifier;
     EXPECT_EQ(plugin->getTotalNumOutputChannels(), width);
+    EXPECT_EQ(plugin->getTotalNumInputChannels(), 0) << "the side chain is off, or not there";
     const auto signal = blocksOf(*plugin, 96'256, true);
     EXPECT_GT(peakOf(signal), 0.01f);
     EXPECT_TRUE(signal == expected(width)) << identifier;

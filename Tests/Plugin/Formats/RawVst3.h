@@ -110,8 +110,13 @@ public:
         component->getState(&stream);
         return stream.bytes;
     }
-    bool arrange(std::vector<vst::SpeakerArrangement> outputs) {
-        return processor->setBusArrangements(nullptr, 0, outputs.data(), static_cast<Steinberg::int32>(outputs.size())) == Steinberg::kResultTrue;
+    bool arrange(std::vector<vst::SpeakerArrangement> outputs, std::vector<vst::SpeakerArrangement> inputs = {}) {
+        return processor->setBusArrangements(inputs.data(), static_cast<Steinberg::int32>(inputs.size()), outputs.data(), static_cast<Steinberg::int32>(outputs.size())) == Steinberg::kResultTrue;
+    }
+    /// A side chain of one channel or two, before start; what comes in by it is `music`.
+    bool hear(std::size_t channels, int block) {
+        music.assign(channels, std::vector<float>(static_cast<std::size_t>(block)));
+        return arrange({}, {channels == 1 ? vst::SpeakerArr::kMono : vst::SpeakerArr::kStereo});
     }
     int channelsOf(int bus) {
         vst::SpeakerArrangement arrangement = 0;
@@ -126,6 +131,7 @@ public:
         rate_ = rate;
         if (activateBuses)
             for (int b = 0; b < buses(); ++b) component->activateBus(vst::kAudio, vst::kOutput, b, true);
+        if (!music.empty()) component->activateBus(vst::kAudio, vst::kInput, 0, true);
         component->activateBus(vst::kEvent, vst::kInput, 0, true);
         vst::ProcessSetup setup{mode, vst::kSample32, block, rate};
         processor->setupProcessing(setup);
@@ -158,12 +164,19 @@ public:
             outputs[b].numChannels = static_cast<Steinberg::int32>(channels[b].size());
             outputs[b].channelBuffers32 = pointers[b].data();
         }
+        std::vector<float*> heard;
+        for (auto& channel : music) heard.push_back(channel.data());
+        vst::AudioBusBuffers input;
+        input.numChannels = static_cast<Steinberg::int32>(heard.size());
+        input.channelBuffers32 = heard.data();
         vst::ProcessContext context{};
         context.sampleRate = rate_;
         context.state = vst::ProcessContext::kPlaying;
         vst::ProcessData data;
         data.processMode = mode;
         data.numSamples = block_;
+        data.numInputs = heard.empty() ? 0 : 1;
+        data.inputs = &input;
         data.numOutputs = static_cast<Steinberg::int32>(outputs.size());
         data.outputs = outputs.data();
         data.inputEvents = &notes_;
@@ -177,6 +190,7 @@ public:
     vst::IAudioProcessor* processor = nullptr;
     Steinberg::int32 mode = vst::kOffline;
     Steinberg::tresult (*call)(vst::IAudioProcessor&, vst::ProcessData&) = [](vst::IAudioProcessor& to, vst::ProcessData& data) { return to.process(data); };
+    std::vector<std::vector<float>> music; ///< [channel][frame] of the next block; none: the side chain is off
     std::vector<std::vector<std::vector<float>>> channels; ///< [bus][channel][frame] of the last block
 
 private:

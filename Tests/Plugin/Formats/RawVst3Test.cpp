@@ -2,6 +2,7 @@
 // VST3 in a host that does only what the standard makes it do: every arrangement, none at all, states, suspensions.
 #include "Plugin/PluginTesting.h"
 #include "RawVst3.h"
+#include "Support/BeatSong.h"
 
 namespace physvib {
 namespace {
@@ -104,6 +105,54 @@ TEST(RawVst3, StateComesBackAndSuspensionRepeatsTheTake) {
     EXPECT_EQ(host.state(), chunk);
     EXPECT_EQ(host.processor->getLatencySamples(), 256u + 480 + 960 + 47);
     EXPECT_EQ(host.processor->getTailSamples(), vst::kInfiniteTail);
+}
+
+TEST(RawVst3, TheSideChainIsAnAuxiliaryBusThatIsOff) {
+    for (const auto& [bundle, name] : {std::pair{oneBus, "PhysVib"}, {pairs, "PhysVib-Pairs"}}) {
+        RawVst3 host{bundle, name};
+        ASSERT_EQ(host.component->getBusCount(vst::kAudio, vst::kInput), 1);
+        vst::BusInfo info;
+        ASSERT_EQ(host.component->getBusInfo(vst::kAudio, vst::kInput, 0, info), kResultOk);
+        EXPECT_EQ(info.busType, vst::kAux);
+        EXPECT_EQ(info.flags & vst::BusInfo::kDefaultActive, 0u);
+        EXPECT_EQ(info.channelCount, 2);
+        EXPECT_FALSE(host.arrange({}, {arr::k40Music}));
+    }
+}
+
+TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAsInTheProcessor) {
+    const BeatSong song{2.0, 48000, 7};
+    auto state = strikeAt(0, 4);
+    state.parameters = {{"level", 0.0}, {"beats", 50.0}};
+    for (const std::size_t channels : {1u, 2u}) {
+        RawVst3 host{oneBus, "PhysVib"};
+        ASSERT_TRUE(host.setState(pluginStateJson(state)));
+        ASSERT_TRUE(host.hear(channels, 512));
+        TestHost processor;
+        auto layout = processor.plugin->getBusesLayout();
+        layout.inputBuses.getReference(0) = channels == 1 ? juce::AudioChannelSet::mono() : juce::AudioChannelSet::stereo();
+        ASSERT_TRUE(processor.plugin->setBusesLayout(layout));
+        ASSERT_TRUE(processor.plugin->apply(state));
+        processor.plugin->parameter(Parameter::beats).setValue(0.5f);
+        processor.prepare(48000, 512);
+        host.start(512);
+        float peak = 0.0f;
+        for (std::size_t at = 0; at + 512 <= song.samples.size(); at += 512) {
+            for (std::size_t c = 0; c < channels; ++c) { // their mean is heard
+                const float share = channels == 1 ? 1.0f : c == 0 ? 1.5f : 0.5f;
+                std::transform(song.samples.begin() + static_cast<std::ptrdiff_t>(at), song.samples.begin() + static_cast<std::ptrdiff_t>(at) + 512, host.music[c].begin(), [share](float x) { return share * x; });
+                processor.buffer.copyFrom(static_cast<int>(c), 0, host.music[c].data(), 512);
+            }
+            ASSERT_TRUE(host.process());
+            const auto& expected = processor.block(512);
+            for (int c = 0; c < 4; ++c) {
+                ASSERT_TRUE(std::equal(host.channels[0][static_cast<std::size_t>(c)].begin(), host.channels[0][static_cast<std::size_t>(c)].end(), expected.getReadPointer(c))) << at;
+                peak = std::max(peak, expected.getMagnitude(c, 0, 512));
+            }
+        }
+        EXPECT_GT(peak, 0.05f);
+        host.stop();
+    }
 }
 
 TEST(RawVst3, TwentyInstances) {
