@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The same where there are links, pipes, permissions and limits as POSIX has them.
 #include "Files/Disk/AtomicFile.h"
-#include "Files/Disk/ReadFile.h"
 #include "FileTesting.h"
 #include "FullDisk.h"
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,13 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using AtomicFilePosixTest = FolderTest;
-
-void put(const fs::path& path, std::string_view bytes) {
-    std::ofstream(path, std::ios::binary) << bytes;
-}
-std::string contentOf(const fs::path& path) {
-    return readFile(path, 1'000'000).value;
-}
 
 /// While it lives, the test is nobody if it was root (who may write everything), and `folder` is its own.
 class WithoutRoot {

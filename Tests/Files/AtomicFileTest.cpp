@@ -2,21 +2,12 @@
 // A file appears whole or not at all, and nothing is left behind.
 #include "Files/Disk/AtomicFile.h"
 #include "FileTesting.h"
-#include "Files/Disk/ReadFile.h"
-#include <fstream>
 
 namespace physvib {
 namespace {
 
 namespace fs = std::filesystem;
 using AtomicFileTest = FolderTest;
-
-void put(const fs::path& path, std::string_view bytes) {
-    std::ofstream(path, std::ios::binary) << bytes;
-}
-std::string contentOf(const fs::path& path) {
-    return readFile(path, 1'000'000).value;
-}
 
 TEST_F(AtomicFileTest, WritesEveryByte) {
     const std::string bytes("a\r\n\0\xff z", 7);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the tests of Files share: seeded numbers, mutated texts, a folder of their own, a locale with a comma.
+// What the tests of Files share: seeded numbers, mutated texts, files and a folder of their own, a locale with a comma.
 #pragma once
+#include "Files/Disk/ReadFile.h"
 #include "Support/Mutations.h"
 #include <bit>
 #include <clocale>
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <locale>
 #include <random>
@@ -25,6 +27,9 @@ inline double anyDouble(std::mt19937& random) {
         if (std::isfinite(number)) return number;
     }
 }
+
+inline void put(const std::filesystem::path& path, std::string_view bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+inline std::string contentOf(const std::filesystem::path& path) { return readFile(path, 1'000'000).value; }
 
 /// A fresh empty folder for one test, gone afterwards.
 class FolderTest : public testing::Test {
