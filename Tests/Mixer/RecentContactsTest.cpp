@@ -38,5 +38,27 @@ TEST(RecentContacts, AnotherPairAnotherKindAndAPauseAreAnother) {
     EXPECT_EQ(recent.newestFirst().size(), RecentContacts::most);
 }
 
+TEST(RecentContacts, EachContactHasItsOwnEventsAsFarAsTheyAreKept) {
+    RecentContacts recent;
+    recent.add(at(0, ContactKind::roll, 0.3));
+    recent.add(at(1, ContactKind::slide));
+    recent.add(at(2, ContactKind::roll, 0.2));
+    recent.add(at(3, ContactKind::hit, 0.7));
+    const auto eventsOf = [&](std::size_t row) {
+        std::vector<CollisionEvent> events;
+        recent.appendEvents(recent.newestFirst()[row], events);
+        return events;
+    };
+    ASSERT_EQ(eventsOf(2).size(), 2U);
+    EXPECT_EQ(eventsOf(2)[0].amplitude, 0.3);
+    EXPECT_EQ(eventsOf(2)[1].amplitude, 0.2) << "each as it was";
+    EXPECT_EQ(eventsOf(1).size(), 1U);
+    EXPECT_EQ(eventsOf(0)[0].amplitude, 0.7);
+    for (std::size_t i = 0; i < RecentContacts::mostGrains; ++i) recent.add(at(static_cast<std::int64_t>(i) / 100, ContactKind::roll, 0.1, 9));
+    EXPECT_EQ(eventsOf(0).size(), RecentContacts::mostGrains);
+    EXPECT_TRUE(eventsOf(3).empty()) << "grains are the oldest to go";
+    EXPECT_EQ(eventsOf(1).size(), 1U) << "a hit never";
+}
+
 } // namespace
 } // namespace physvib

@@ -67,12 +67,12 @@ TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
 TEST_F(Scope, PlayedEventsAreListedTheNewestFirst) {
     view.scope().choose("Events");
     auto& list = dynamic_cast<juce::ListBox&>(*find(view, "List of played events"));
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.recent().size() >= 5; }));
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.recent().newestFirst().size() >= 5; }));
     ASSERT_TRUE(runUntil([&] { return view.refresh(), list.getModel()->getNumRows() >= 5; }));
-    EXPECT_TRUE(std::ranges::is_sorted(desk.recent(), std::greater{}, [](const RecentContact& c) { return c.event.timeNs; }));
+    EXPECT_TRUE(std::ranges::is_sorted(desk.recent().newestFirst(), std::greater{}, [](const RecentContact& c) { return c.event.timeNs; }));
     EXPECT_TRUE(list.getModel()->getNameForRow(0).contains("wall at ")) << list.getModel()->getNameForRow(0);
     ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.look().session.render.played > RecentContacts::most + 20; }, 60.0));
-    EXPECT_EQ(desk.recent().size(), RecentContacts::most);
+    EXPECT_EQ(desk.recent().newestFirst().size(), RecentContacts::most);
 }
 
 juce::String valueOf(const std::vector<Fact>& facts, const juce::String& name) {

@@ -124,8 +124,7 @@ public:
     DeskMoment look();
     const ScopeTrace& scope() const noexcept { return signals_.scope(); }
     const SpectrumTrace& spectrum() const noexcept { return signals_.spectrum(); }
-    /// The last that were played, the newest first.
-    const std::deque<RecentContact>& recent() const noexcept { return recent_.newestFirst(); }
+    const RecentContacts& recent() const noexcept { return recent_; } ///< the last that were played
     std::uint64_t scopeFramesLost() const noexcept { return signals_.framesLost(); }
     const juce::String& trouble() const noexcept { return trouble_; } ///< one line; empty while all is well
     void report(const juce::String& trouble);

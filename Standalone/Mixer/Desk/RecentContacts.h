@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <vector>
 
 namespace physvib {
 
@@ -13,29 +14,49 @@ struct RecentContact {
     CollisionEvent event; ///< the first; as strong as the strongest, and where the last was
     int grains = 1;
     std::int64_t lastNs = 0;
+    std::uint64_t number = 0; ///< no other contact has it
 };
 
 /// M.
 class RecentContacts {
 public:
     static constexpr std::size_t most = 100;
+    static constexpr std::size_t mostGrains = 20'000; ///< that are kept one by one: 3 MB, some minutes of a rough surface
     static constexpr std::int64_t pauseNs = 250'000'000; ///< what pauses for longer has begun anew
 
     void add(const CollisionEvent& event) {
-        if (RecentContact* const known = find(event)) {
-            ++known->grains;
-            known->lastNs = event.timeNs;
-            known->event.x = event.x;
-            known->event.y = event.y;
-            if (std::abs(event.amplitude) > std::abs(known->event.amplitude)) known->event.amplitude = event.amplitude;
-            return;
-        }
-        contacts_.push_front({event, 1, event.timeNs});
-        if (contacts_.size() > most) contacts_.pop_back();
+        RecentContact* const known = find(event);
+        if (known == nullptr) begin(event);
+        else goOn(*known, event);
+        if (event.source.kind == ContactKind::hit) return;
+        grains_.push_back({known == nullptr ? contacts_.front().number : known->number, event});
+        if (grains_.size() > mostGrains) grains_.pop_front();
     }
     const std::deque<RecentContact>& newestFirst() const noexcept { return contacts_; }
 
+    /// Appends what the contact was, one by one: a hit, or as many of its last grains as are kept.
+    void appendEvents(const RecentContact& contact, std::vector<CollisionEvent>& events) const {
+        if (contact.event.source.kind == ContactKind::hit) return events.push_back(contact.event);
+        for (const Grain& grain : grains_)
+            if (grain.contact == contact.number) events.push_back(grain.event);
+    }
+
 private:
+    struct Grain {
+        std::uint64_t contact;
+        CollisionEvent event;
+    };
+    void begin(const CollisionEvent& event) {
+        contacts_.push_front({event, 1, event.timeNs, ++begun_});
+        if (contacts_.size() > most) contacts_.pop_back();
+    }
+    static void goOn(RecentContact& known, const CollisionEvent& event) {
+        ++known.grains;
+        known.lastNs = event.timeNs;
+        known.event.x = event.x;
+        known.event.y = event.y;
+        if (std::abs(event.amplitude) > std::abs(known.event.amplitude)) known.event.amplitude = event.amplitude;
+    }
     RecentContact* find(const CollisionEvent& event) {
         if (event.source.kind == ContactKind::hit) return nullptr;
         const auto goesOn = [&](const RecentContact& c) {
@@ -46,6 +67,8 @@ private:
         return found == contacts_.end() ? nullptr : &*found;
     }
     std::deque<RecentContact> contacts_;
+    std::deque<Grain> grains_;
+    std::uint64_t begun_ = 0;
 };
 
 } // namespace physvib

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A list that is brought up to date a few times a second.
+// A list that is brought up to date a few times a second, and under it what can be done with what is chosen.
 #include "Mixer/Output/EventsTab.h"
 #include "Mixer/Materials/HitWords.h"
+#include <algorithm>
+#include <iterator>
+#include <limits>
 
 namespace physvib {
 
 namespace {
 
-constexpr int rowPixels = 22, headPixels = 18;
+constexpr int rowPixels = 22, headPixels = 18, formatPixels = 26, footPixels = formatPixels + 6;
 constexpr double showMs = 250.0;
+constexpr std::size_t mostListed = 1000; // a minute of many hits
 
 struct Columns {
     juce::Rectangle<int> time, dot, name, frequency, decay, level, enchanter, place;
@@ -18,8 +22,8 @@ struct Columns {
         time = row.removeFromLeft(each);
         dot = row.removeFromLeft(20);
         place = row.removeFromRight(each + 24);
-        enchanter = row.removeFromRight(each - 24);
-        level = row.removeFromRight(each - 10);
+        enchanter = row.removeFromRight(each - 12);
+        level = row.removeFromRight(each - 22);
         decay = row.removeFromRight(each - 6);
         frequency = row.removeFromRight(each - 6);
         name = row;
@@ -44,17 +48,132 @@ EventsTab::EventsTab(Desk& desk)
     setTitle("Events");
     list_.setTitle("List of played events");
     list_.setRowHeight(rowPixels);
-    addAndMakeVisible(list_);
+    list_.setMultipleSelectionEnabled(true);
+    caption(choice_, {});
+    for (int k = 0; k < hitEndings().size(); ++k) format_.addItem("as " + hitEndings()[k], k + 1);
+    format_.setTitle("Dragged as");
+    format_.setTooltip(".wav: a channel for each enchanter. .hjif, .hmpg: channels and places. .haptic, .ahap: a file for each enchanter");
+    format_.setSelectedItemIndex(files_->ending(), juce::dontSendNotification);
+    format_.onChange = [this] { files_->setEnding(format_.getSelectedItemIndex()); };
+    save_ = quietButton("Save as clip" + dots(), "Save the chosen contacts as a clip (Return)");
+    save_->onClick = [this] { saveAs(); };
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&list_, &choice_, &format_, save_.get()}) addAndMakeVisible(c);
+    tellChoice();
 }
 
+void EventsTab::takeMix() { choice_.setColour(juce::Label::textColourId, shade(*this, Shade::muted)); }
+
+// What is under a pressed mouse stays there.
 void EventsTab::refresh(const DeskMoment& moment) {
-    const double now = juce::Time::getMillisecondCounterHiRes();
-    if (moment.session.render.played == seen_ || now - shownAtMs_ < showMs) return;
+    const double now = nowMs();
+    if (moment.session.render.played == seen_ || now - shownAtMs_ < showMs || list_.isMouseButtonDown(true)) return;
     shownAtMs_ = now;
     seen_ = moment.session.render.played;
-    shown_.assign(desk_.recent().begin(), desk_.recent().end());
-    list_.updateContent();
+    listRecent();
+}
+
+// While something is chosen nothing leaves the list, but what comes to be far below; what is chosen never does.
+void EventsTab::listRecent() {
+    const auto& recent = desk_.recent().newestFirst();
+    std::vector<RecentContact> shown(recent.begin(), recent.end());
+    const std::uint64_t oldest = recent.empty() ? 0 : recent.back().number;
+    std::ranges::copy_if(shown_, std::back_inserter(shown), [&](const RecentContact& c) { return c.number < oldest && (isChosen(c) || (!chosen_.empty() && shown.size() < mostListed)); });
+    const int before = rowOf(last_);
+    shown_ = std::move(shown);
+    {
+        const juce::ScopedValueSetter<bool> listing{isListing_, true};
+        list_.updateContent();
+        listChosen();
+    }
+    if (const int now = rowOf(last_); before >= 0 && now >= 0) // and where it is seen
+        list_.getViewport()->setViewPosition(0, list_.getViewport()->getViewPositionY() + (now - before) * rowPixels);
+    tellChoice();
     list_.repaint();
+}
+
+void EventsTab::listChosen() {
+    juce::SparseSet<int> rows;
+    for (int row = 0; row < rows_.getNumRows(); ++row)
+        if (const auto& contact = shown_[static_cast<std::size_t>(row)]; isChosen(contact) && contact.number != last_) rows.addRange({row, row + 1});
+    list_.setSelectedRows(rows, juce::dontSendNotification);
+    if (const int last = rowOf(last_); last >= 0) list_.selectRow(last, true, false); // from it Shift goes on
+}
+
+int EventsTab::rowOf(std::uint64_t number) const {
+    const auto found = std::ranges::find(shown_, number, &RecentContact::number);
+    return found == shown_.end() ? -1 : static_cast<int>(found - shown_.begin());
+}
+
+void EventsTab::takeChoice(int row) {
+    if (isListing_) return;
+    chosen_.clear();
+    const auto rows = list_.getSelectedRows();
+    for (int k = 0; k < rows.size(); ++k) chosen_.insert(shown_[static_cast<std::size_t>(rows[k])].number);
+    last_ = row >= 0 ? shown_[static_cast<std::size_t>(row)].number : 0;
+    tellChoice();
+}
+
+void EventsTab::tellChoice() {
+    save_->setEnabled(!chosen_.empty());
+    if (chosen_.empty()) return choice_.setText("Choose contacts, then drag them into another program", juce::dontSendNotification);
+    std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
+    for (const RecentContact& contact : shown_)
+        if (isChosen(contact)) first = std::min(first, contact.event.timeNs), last = std::max(last, contact.lastNs);
+    const auto count = juce::String{static_cast<int>(chosen_.size())} + (chosen_.size() == 1 ? " contact" : " contacts");
+    choice_.setText(count + (last > first ? " within " + timeText(last - first) : juce::String{}) + ", to be dragged out", juce::dontSendNotification);
+}
+
+void EventsTab::showMenu() {
+    juce::PopupMenu menu;
+    menu.addItem("Save as clip" + dots(), [safe = juce::Component::SafePointer<EventsTab>{this}] {
+        if (safe != nullptr) safe->saveAs();
+    });
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withMousePosition());
+}
+
+/// The scene's, and when the first was.
+juce::String EventsTab::fileName() const {
+    std::int64_t first = std::numeric_limits<std::int64_t>::max();
+    for (const RecentContact& contact : shown_)
+        if (isChosen(contact)) first = std::min(first, contact.event.timeNs);
+    return juce::File::createLegalFileName(utf8(desk_.mix().scene->name) + "-" + juce::String{1e-9 * static_cast<double>(first), 3} + "s") + hitEndings()[files_->ending()];
+}
+
+void EventsTab::saveAs() {
+    if (chosen_.empty()) return;
+    using B = juce::FileBrowserComponent;
+    chooser_ = std::make_unique<juce::FileChooser>("Save the chosen contacts as a clip", juce::File::getCurrentWorkingDirectory().getChildFile(fileName()), "*" + hitEndings().joinIntoString(";*"), false);
+    chooser_->launchAsync(B::saveMode | B::warnAboutOverwriting | B::canSelectFiles, [this](const juce::FileChooser& chooser) {
+        if (chooser.getResult() != juce::File{}) saveTo(chooser.getResult());
+    });
+}
+
+std::vector<juce::File> EventsTab::write(const juce::File& file, bool tellsHow) {
+    std::vector<CollisionEvent> hits;
+    for (const RecentContact& contact : shown_)
+        if (isChosen(contact)) desk_.recent().appendEvents(contact, hits);
+    const auto written = writeHits(std::move(hits), desk_.mix(), std::max(8000, desk_.output().sampleRateHz()), file);
+    if (!written) return desk_.report(utf8(written.error)), std::vector<juce::File>{};
+    std::vector<juce::File> files;
+    for (const auto& path : written.value.paths) files.emplace_back(utf8(path));
+    juce::StringArray words{"Saved " + files.front().getFullPathName() + (files.size() > 1 ? " and " + juce::String{static_cast<int>(files.size()) - 1} + " more" : juce::String{})};
+    for (const auto& loss : written.value.losses) words.add(utf8(loss));
+    if (tellsHow) desk_.tell(words.joinIntoString("; "));
+    return files;
+}
+
+void EventsTab::saveTo(const juce::File& file) {
+    write(file.getFileExtension().isEmpty() ? file.withFileExtension(hitEndings()[files_->ending()]) : file, true);
+}
+
+// Escaped, since they stand as addresses in what the other program is told.
+juce::StringArray EventsTab::filesToDrag() {
+    juce::StringArray addresses;
+    if (chosen_.empty()) return addresses;
+    const auto folder = files_->makeFolder();
+    if (!folder) return desk_.report(utf8(folder.error)), addresses;
+    for (const auto& file : write(folder.value.getChildFile(fileName()), false)) addresses.add(juce::URL{file}.toString(false));
+    return addresses;
 }
 
 juce::String EventsTab::Rows::getNameForRow(int row) {
@@ -109,6 +228,16 @@ void EventsTab::paint(juce::Graphics& g) {
     head("x, y", at.place, juce::Justification::centredRight);
 }
 
-void EventsTab::resized() { list_.setBounds(getLocalBounds().withTrimmedTop(headPixels)); }
+void EventsTab::resized() {
+    auto area = getLocalBounds().withTrimmedTop(headPixels);
+    auto foot = area.removeFromBottom(footPixels);
+    list_.setBounds(area);
+    foot.removeFromTop(footPixels - formatPixels);
+    save_->setBounds(foot.removeFromRight(110));
+    foot.removeFromRight(gap);
+    format_.setBounds(foot.removeFromRight(110));
+    foot.removeFromRight(gap);
+    choice_.setBounds(foot.withTrimmedLeft(5));
+}
 
 } // namespace physvib

@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What was played, hit by hit, the newest first.
+// What was played, hit by hit, the newest first; what is chosen can be dragged into another program, or saved.
 #pragma once
+#include "Mixer/Output/HitFiles.h"
 #include "Mixer/Window/TabPanel.h"
+#include <set>
 
 namespace physvib {
 
 class EventsTab final : public Tab {
 public:
+    static constexpr const char* dragged = "chosen contacts"; ///< of a drag
+
     explicit EventsTab(Desk& desk);
+    void takeMix() override;
     void refresh(const DeskMoment& moment) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
+
+    /// The chosen contacts as new files, as addresses; if there are none, the desk tells why.
+    juce::StringArray filesToDrag();
+    /// The same in a file of that name, whose ending says how; none: as they would be dragged. The desk tells how it went.
+    void saveTo(const juce::File& file);
 
 private:
     class Rows final : public juce::ListBoxModel {
@@ -20,15 +30,38 @@ private:
         int getNumRows() override { return static_cast<int>(tab_.shown_.size()); }
         void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
         juce::String getNameForRow(int row) override;
+        void selectedRowsChanged(int row) override { tab_.takeChoice(row); }
+        void listBoxItemClicked(int, const juce::MouseEvent& e) override { if (e.mods.isPopupMenu()) tab_.showMenu(); }
+        void backgroundClicked(const juce::MouseEvent&) override { tab_.list_.deselectAllRows(); }
+        void returnKeyPressed(int) override { tab_.saveAs(); }
+        juce::var getDragSourceDescription(const juce::SparseSet<int>&) override { return dragged; }
 
     private:
         EventsTab& tab_;
     };
+    void takeChoice(int row);
+    void listRecent();
+    void listChosen();
+    int rowOf(std::uint64_t number) const;
+    bool isChosen(const RecentContact& contact) const { return chosen_.contains(contact.number); }
+    void tellChoice();
+    void showMenu();
+    void saveAs();
+    juce::String fileName() const;
+    std::vector<juce::File> write(const juce::File& file, bool tellsHow);
 
     Desk& desk_;
     std::vector<RecentContact> shown_;
+    std::set<std::uint64_t> chosen_; // contacts, wherever their rows are
+    std::uint64_t last_ = 0;         // of them, the last that was clicked
+    bool isListing_ = false;
     Rows rows_{*this};
     juce::ListBox list_{"Events", &rows_};
+    juce::Label choice_;
+    juce::ComboBox format_;
+    std::unique_ptr<juce::TextButton> save_;
+    std::unique_ptr<juce::FileChooser> chooser_;
+    juce::SharedResourcePointer<DraggedFiles> files_;
     std::uint64_t seen_ = 0;
     double shownAtMs_ = 0.0;
 };

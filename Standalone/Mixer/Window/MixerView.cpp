@@ -109,6 +109,14 @@ void MixerView::setDropShown(bool isShown) {
     repaint();
 }
 
+bool MixerView::shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details, juce::StringArray& files, bool& canMoveFiles) {
+    auto* events = dynamic_cast<EventsTab*>(scope_.find("Events"));
+    if (events == nullptr || details.description != EventsTab::dragged) return false;
+    canMoveFiles = false;
+    files = events->filesToDrag();
+    return !files.isEmpty();
+}
+
 // A screen lies over everything: keys that come while nothing has the focus are its own before they are the world's below.
 bool MixerView::covered(const juce::KeyPress& key) {
     const auto screen = std::ranges::find_if(getChildren(), [](const auto* child) { return child->isVisible() && child->getWantsKeyboardFocus(); });

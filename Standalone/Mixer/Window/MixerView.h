@@ -29,6 +29,8 @@ public:
     void setHint(bool isShown);
     /// A file that is dragged over the window may be dropped here.
     void setDropShown(bool isShown);
+    /// What leaves the window by a drag: files, if it is what was played.
+    bool shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details, juce::StringArray& files, bool& canMoveFiles) override;
 
     void mouseDown(const juce::MouseEvent&) override { setHint(false); }
     bool keyPressed(const juce::KeyPress& key) override;

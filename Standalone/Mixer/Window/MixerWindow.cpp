@@ -32,6 +32,7 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     if (const int left = settings.getIntValue("monitor-left"), right = settings.getIntValue("monitor-right"); left > 0 && right > 0) device_.monitor = {left - 1, right - 1};
     device_.monitorDb = settings.getDoubleValue("monitor-db", safeContactDb);
     device_.marker = settings.getIntValue("marker") - 1;
+    dragged_->setEnding(std::max(0, hitEndings().indexOf(settings.getValue("clip-ending"))));
     setUsingNativeTitleBar(true);
     start(file);
     setResizable(true, false);
@@ -114,6 +115,7 @@ void MixerWindow::timerCallback() {
     for (const std::size_t ear : {0u, 1u}) settings.setValue(ear == 0 ? "monitor-left" : "monitor-right", device_.monitor.size() > ear ? device_.monitor[ear] + 1 : 0);
     settings.setValue("monitor-db", device_.monitorDb);
     settings.setValue("marker", device_.marker + 1);
+    settings.setValue("clip-ending", hitEndings()[dragged_->ending()]);
     offerMonitor();
     if (const auto error = files_.keep(*desk_, isChanged()); !error.empty()) say(utf8(error));
 }

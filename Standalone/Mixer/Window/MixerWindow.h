@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window on the screen with its document: open, save, record, render, and what is asked before anything is lost.
 #pragma once
+#include "Mixer/Output/HitFiles.h"
 #include "Mixer/Window/MixerFiles.h"
 #include "Mixer/Window/MixerView.h"
 
@@ -64,6 +65,7 @@ private:
 
     AudioDeviceTypes types_;
     MixerFiles files_;
+    juce::SharedResourcePointer<DraggedFiles> dragged_;
     DeviceChoice device_;
     std::unique_ptr<Desk> desk_;
     std::unique_ptr<MixerView> view_;

@@ -50,13 +50,33 @@ void showSurface(Desk& desk, MixerView& view, const std::string& material) {
         tab->choose(static_cast<int>(std::ranges::find(materials, material, &Material::name) - materials.begin()));
 }
 
+// For so long, and then until something has been struck: a picture without a hit says little.
+void runFor(double seconds, MixerView& view) {
+    const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds;
+    bool isStruck = false;
+    while (juce::Time::getMillisecondCounterHiRes() < end || (!isStruck && juce::Time::getMillisecondCounterHiRes() < end + 10e3)) {
+        juce::Thread::sleep(33);
+        view.refresh();
+        isStruck = std::ranges::any_of(view.latest().hits, [](const CollisionEvent& e) { return std::abs(e.amplitude) > 0.15; });
+    }
+    for (int k = 0; k < 2; ++k) juce::Thread::sleep(33), view.refresh();
+}
+
+// Three of the last, while more come.
+void chooseContacts(MixerView& view) {
+    view.scope().choose("Events");
+    runFor(2.0, view);
+    if (auto* list = dynamic_cast<juce::ListBox*>(find(view, "List of played events")))
+        for (const int row : {1, 2, 4}) list->selectRow(row, true, false);
+}
+
 std::vector<State> mixerStates() {
     return {
         {"first-start", 1440, 900, 2.0, [](Desk&, MixerView& v) { v.setHint(true); }},
         {"four-enchanters", 1440, 900, 4.0, [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
         {"materials", 1440, 900, 0.2, showMaterials},
         {"materials-small", MixerView::leastWidth, MixerView::leastHeight, 0.2, [](Desk& d, MixerView& v) { v.setGround(Ground::light), showMaterials(d, v); }},
-        {"events", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Events"); }},
+        {"events", 1440, 900, 0.5, [](Desk&, MixerView& v) { chooseContacts(v); }},
         {"marbles", 1440, 900, 4.0, [](Desk& d, MixerView& v) { showScene(d, "marbles"), v.scope().choose("Events"); }},
         {"drawing", 1440, 900, 7.2, [](Desk& d, MixerView& v) { showScene(d, "drawing"), showSurface(d, v, "cloth"); }},
         {"telemetry", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Telemetry"); }},
@@ -83,18 +103,6 @@ const std::vector<State>& states() {
         return states;
     }();
     return all;
-}
-
-// For so long, and then until something has been struck: a picture without a hit says little.
-void runFor(double seconds, MixerView& view) {
-    const auto end = juce::Time::getMillisecondCounterHiRes() + 1e3 * seconds;
-    bool isStruck = false;
-    while (juce::Time::getMillisecondCounterHiRes() < end || (!isStruck && juce::Time::getMillisecondCounterHiRes() < end + 10e3)) {
-        juce::Thread::sleep(33);
-        view.refresh();
-        isStruck = std::ranges::any_of(view.latest().hits, [](const CollisionEvent& e) { return std::abs(e.amplitude) > 0.15; });
-    }
-    for (int k = 0; k < 2; ++k) juce::Thread::sleep(33), view.refresh();
 }
 
 } // namespace
