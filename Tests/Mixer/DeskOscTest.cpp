@@ -23,13 +23,13 @@ const Fact& messagesOf(OutputTab& tab, Desk& desk) {
 
 TEST(DeskOsc, ListensToNobodyUnlessTold) {
     Desk desk{onlyNoDevice(), noDevice};
-    EXPECT_EQ(desk.oscUse(), OscUse::off);
+    EXPECT_EQ(desk.oscChoice().use, OscUse::off);
     EXPECT_FALSE(desk.osc().has_value());
     OutputTab tab{desk};
     EXPECT_EQ(messagesOf(tab, desk).value, "none");
-    EXPECT_EQ(desk.listen(OscUse::thisComputer), "");
+    EXPECT_EQ(desk.useOsc({OscUse::thisComputer}), "");
     EXPECT_TRUE(desk.osc()->address.starts_with("127.0.0.1:"));
-    EXPECT_EQ(desk.listen(OscUse::off), "");
+    EXPECT_EQ(desk.useOsc({OscUse::off}), "");
     EXPECT_FALSE(desk.osc().has_value());
 }
 
@@ -39,7 +39,7 @@ TEST(DeskOsc, IsSwitchedInTheOutputTab) {
     auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "OSC"));
     EXPECT_EQ(box.getText(), "from nobody");
     box.setSelectedItemIndex(1, juce::sendNotificationSync);
-    EXPECT_EQ(desk.oscUse(), OscUse::thisComputer);
+    EXPECT_EQ(desk.oscChoice().use, OscUse::thisComputer);
     send(desk, "/physvib/strike", {{"frequency_hz", 200.0}, {"decay_per_s", 30.0}});
     send(desk, "/physvib/strike", {{"level", 2.0}});
     ASSERT_TRUE(runUntil([&] { return desk.osc()->counts.messages == 2; }));
@@ -47,12 +47,12 @@ TEST(DeskOsc, IsSwitchedInTheOutputTab) {
     EXPECT_TRUE(told.value.startsWith(utf8(desk.osc()->address) + ": 1 good, 1 bad, 0 late; 127.0.0.1:")) << told.value;
     EXPECT_EQ(told.shade, Shade::now);
     box.setSelectedItemIndex(0, juce::sendNotificationSync);
-    EXPECT_EQ(desk.oscUse(), OscUse::off);
+    EXPECT_EQ(desk.oscChoice().use, OscUse::off);
 }
 
 TEST(DeskOsc, WhatStrikesIsFeltAndSaved) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.listen(OscUse::thisComputer), "");
+    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
     desk.look();
     const auto edits = desk.edits();
     send(desk, "/physvib/strike", {{"frequency_hz", 123.0}, {"decay_per_s", 30.0}});
@@ -63,7 +63,7 @@ TEST(DeskOsc, WhatStrikesIsFeltAndSaved) {
 
 TEST(DeskOsc, StripsAndSilenceAreMovedAtTheDesk) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.listen(OscUse::thisComputer), "");
+    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
     send(desk, "/physvib/gain", {{"channel", 2.0}, {"value", 0.5}});
     send(desk, "/physvib/mute", {{"channel", 1.0}, {"on", 1.0}});
     send(desk, "/physvib/silence", {{"on", 1.0}});
@@ -80,7 +80,7 @@ TEST(DeskOsc, StripsAndSilenceAreMovedAtTheDesk) {
 
 TEST(DeskOsc, APhoneTiltsTheWorld) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.listen(OscUse::thisComputer), "");
+    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
     auto socket = OscSocket::connected(desk.osc()->address);
     using namespace std::string_literals;
     const auto upsideDown = "/accelerometer\0\0,fff\0\0\0\0\0\0\0\0\xc1\x1c\xf5\xc3\0\0\0\0"s; // y: -9.81
@@ -93,6 +93,69 @@ TEST(DeskOsc, APhoneTiltsTheWorld) {
         });
     }));
     EXPECT_EQ(desk.osc()->counts.fault, "");
+}
+
+TEST(DeskOsc, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
+    Desk desk{onlyNoDevice(), noDevice};
+    auto receiver = OscSocket::listening("127.0.0.1", 0);
+    ASSERT_EQ(receiver.error, "");
+    OutputTab tab{desk};
+    auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "Hits by OSC"));
+    EXPECT_EQ(box.getText(), "nobody");
+    tab.tellHits("127.0.0.1:" + juce::String{receiver.value.port()});
+    EXPECT_EQ(desk.trouble(), "");
+    EXPECT_EQ(desk.oscChoice().use, OscUse::off) << "to tell is not to listen";
+    std::vector<OscMessage> told;
+    const auto hasTold = [&](const std::string& address) {
+        while (const auto packet = receiver.value.receive())
+            for (const OscMessage& message : readOscPacket(*packet).value) told.push_back(message);
+        return std::ranges::find(told, address, &OscMessage::address) != told.end();
+    };
+    ASSERT_TRUE(runUntil([&] { return hasTold("/physvib/answer/status"); })) << "which says when a session time is";
+    told.clear();
+    ASSERT_TRUE(runUntil([&] { return hasTold("/physvib/hit"); })) << "without a window that looks";
+    const auto hit = std::ranges::find(told, "/physvib/hit", &OscMessage::address);
+    EXPECT_NE(hit->tag, oscNow) << "when hands feel it";
+    EXPECT_EQ(std::get<std::string>(hit->values[2]), "frequency_hz");
+    const auto hz = static_cast<float>(std::get<double>(hit->values[3]));
+    EXPECT_TRUE(std::ranges::any_of(desk.look().hits, [hz](const CollisionEvent& e) { return static_cast<float>(e.frequencyHz) == hz; })) << "what was told is still shown";
+    EXPECT_TRUE(messagesOf(tab, desk).value.startsWith("to 127.0.0.1:")) << messagesOf(tab, desk).value;
+    box.setSelectedItemIndex(0, juce::sendNotificationSync);
+    EXPECT_FALSE(desk.osc().has_value());
+    box.setSelectedItemIndex(1, juce::sendNotificationSync);
+    EXPECT_EQ(desk.oscChoice().receiver, "127.0.0.1:" + std::to_string(receiver.value.port())) << "it stays in the list";
+}
+
+TEST(DeskOsc, AWrongReceiverIsRefusedAndAllIsAsBefore) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    OutputTab tab{desk};
+    auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "Hits by OSC"));
+    tab.tellHits("my laptop");
+    EXPECT_EQ(desk.trouble(), "Hits by OSC: expected HOST:PORT, found \"my laptop\"");
+    EXPECT_EQ(box.getText(), "nobody");
+    EXPECT_EQ(desk.oscChoice(), OscChoice{OscUse::thisComputer});
+    send(desk, "/physvib/silence", {{"on", 1.0}});
+    EXPECT_TRUE(runUntil([&] { return desk.isSilent(); }));
+}
+
+TEST(DeskOsc, APhoneMayBeHeldOnItsSide) {
+    Desk desk{onlyNoDevice(), noDevice};
+    OutputTab tab{desk};
+    dynamic_cast<juce::ComboBox&>(*find(tab, "OSC")).setSelectedItemIndex(1, juce::sendNotificationSync);
+    dynamic_cast<juce::ComboBox&>(*find(tab, "Phone")).setSelectedItemIndex(1, juce::sendNotificationSync);
+    EXPECT_EQ(desk.oscChoice(), (OscChoice{OscUse::thisComputer, {}, 90.0}));
+    auto socket = OscSocket::connected(desk.osc()->address);
+    using namespace std::string_literals;
+    const auto topToTheLeft = "/accelerometer\0\0,fff\0\0\0\0\x41\x1c\xf5\xc3\0\0\0\0\0\0\0\0"s; // x: 9.81
+    EXPECT_TRUE(socket.value.send({topToTheLeft.data(), topToTheLeft.size()}));
+    EXPECT_TRUE(runUntil([&] {
+        const auto& takes = desk.saved().log.takes;
+        return !takes.empty() && std::ranges::any_of(takes.back().inputs, [](const LiveInput& input) {
+            const auto* gravity = std::get_if<GravityAction>(&input.action);
+            return gravity != nullptr && gravity->metresPerSecond2.y < -9.8;
+        });
+    })) << "down is down";
 }
 
 } // namespace

@@ -107,9 +107,9 @@ public:
     std::function<void(const DeviceChoice&)> onBoardWanted;
 
     // ---- messages by OSC
-    /// From now on, from there; empty, or why not, and then from nobody.
-    std::string listen(OscUse use);
-    OscUse oscUse() const noexcept { return osc_ ? osc_->use() : OscUse::off; }
+    /// From now on; empty, or why not, and then as before.
+    std::string useOsc(const OscChoice& choice);
+    const OscChoice& oscChoice() const noexcept { return oscChoice_; }
     std::optional<OscStatus> osc() const { return osc_ ? std::optional{osc_->status()} : std::nullopt; }
     /// An input or a control as it comes from outside: the world's inputs, gains and mutes of strips, silence. Empty, or what is wrong with it.
     std::string take(const LineInput& input);
@@ -147,7 +147,9 @@ private:
     std::string hearWanted();
     std::string listen(const ListeningSettings& wanted, const DeviceChoice& choice);
     std::string takeControl(const RenderControl& control);
+    std::string openOsc();
     void watchOsc();
+    void takePlayed();
     void strike(int enchanter, std::vector<CollisionEvent> strikes);
 
     AudioDeviceTypes types_;
@@ -174,6 +176,8 @@ private:
     RecentContacts recent_;
     DeskMoment now_;
     double maintainedAtMs_ = 0.0;
+    std::vector<CollisionEvent> hits_; // played since the last look
+    OscChoice oscChoice_;
     std::uint64_t oscMessages_ = 0; // as of the last look
     std::unique_ptr<DeskOsc> osc_;  // last: its thread uses the others
 };

@@ -12,12 +12,22 @@ double stripDb(float gain) { return gain == 0.0f ? leastStripDb : std::clamp(20.
 
 } // namespace
 
-std::string Desk::listen(OscUse use) {
+std::string Desk::useOsc(const OscChoice& choice) {
+    const OscChoice before = std::exchange(oscChoice_, choice);
+    std::string error = openOsc();
+    if (error.empty()) return error;
+    oscChoice_ = before;
+    if (!openOsc().empty()) oscChoice_ = {};
+    return error;
+}
+
+// What is open is closed first: its port may be the one that is wanted.
+std::string Desk::openOsc() {
     osc_.reset();
     oscMessages_ = 0;
-    if (use == OscUse::off) return {};
-    osc_ = std::make_unique<DeskOsc>(use, session_, output_, [this](const LineInput& input) { return take(input); });
-    const std::string error = osc_->error();
+    if (oscChoice_.use == OscUse::off && oscChoice_.receiver.empty()) return {};
+    osc_ = std::make_unique<DeskOsc>(oscChoice_, session_, output_, [this](const LineInput& input) { return take(input); }, [this] { takePlayed(); });
+    std::string error = osc_->error();
     if (!error.empty()) osc_.reset();
     return error;
 }

@@ -10,12 +10,9 @@ DeskMoment Desk::look() {
     now_.device = output_.status();
     exposure_.update();
     now_.dailyExposure = exposure_.daily();
+    takePlayed();
     now_.hits.clear();
-    for (PlayedEvent played; session_.played().pop(played);) {
-        now_.hits.push_back(played.event);
-        recent_.add(played.event);
-        recording_.take(played);
-    }
+    now_.hits.swap(hits_);
     recording_.look(now_.device);
     now_.meters.limiterGain = now_.session.render.limiterGain;
     now_.meters.enchanters = mix_.count();
@@ -26,6 +23,15 @@ DeskMoment Desk::look() {
     watchOutput();
     watchOsc();
     return now_;
+}
+
+void Desk::takePlayed() {
+    for (PlayedEvent played; session_.played().pop(played);) {
+        if (osc_) osc_->tell(played);
+        hits_.push_back(played.event);
+        recent_.add(played.event);
+        recording_.take(played);
+    }
 }
 
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What comes in on the port's thread, on its way to M.
 #include "Mixer/Desk/DeskOsc.h"
+#include <numbers>
 #include <utility>
 
 namespace physvib {
@@ -8,24 +9,29 @@ namespace {
 
 constexpr std::size_t mostWaiting = 1000; // M hangs
 
-OscSettings settingsOf(OscUse use) {
+OscSettings settingsOf(const OscChoice& choice) {
     OscSettings settings;
-    settings.address = use == OscUse::anyComputer ? oscAnyComputer : oscThisComputer;
-    settings.port = oscUsualPort;
+    settings.address = choice.use == OscUse::anyComputer ? oscAnyComputer : oscThisComputer;
+    if (choice.use != OscUse::off) settings.port = oscUsualPort;
+    settings.receiver = choice.receiver;
+    settings.turnRadians = choice.turnDegrees * std::numbers::pi / 180.0;
     return settings;
 }
 
 } // namespace
 
-DeskOsc::DeskOsc(OscUse use, Session& session, AudioOutput& output, std::function<std::string(const LineInput&)> act)
-    : use_{use}
-    , output_{output}
+DeskOsc::DeskOsc(const OscChoice& choice, Session& session, AudioOutput& output, std::function<std::string(const LineInput&)> act, std::function<void()> takePlayed)
+    : output_{output}
     , act_{std::move(act)}
+    , takePlayed_{std::move(takePlayed)}
     , messages_{session}
-    , port_{std::make_unique<OscPort>(settingsOf(use), session, messages_, output,
-                                      OscHooks{[this](const LineInput& input) { return take(input); }, [this] { return std::string{output_.isLent() ? "a study is running" : ""}; }})} {}
+    , port_{std::make_unique<OscPort>(settingsOf(choice), session, messages_, output,
+                                      OscHooks{[this](const LineInput& input) { return take(input); }, [this] { return std::string{output_.isLent() ? "a study is running" : ""}; }})} {
+    if (!choice.receiver.empty() && port_->error().empty()) startTimer(tellMilliseconds);
+}
 
 DeskOsc::~DeskOsc() {
+    stopTimer();
     port_.reset(); // from here on nobody asks for an update
     cancelPendingUpdate();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Messages by OSC at the desk: from nobody, from this computer, or from any that reaches it.
+// Messages by OSC at the desk: from nobody, from this computer, or from any that reaches it; and what is felt, to whom it is wanted.
 #pragma once
 #include "Files/Text/InputLine.h"
 #include "Host/Devices/AudioOutput.h"
@@ -15,25 +15,35 @@ namespace physvib {
 
 enum class OscUse { off, thisComputer, anyComputer };
 
-/// Listens while it lives. What strikes goes to the session at once; what the desk shows, its strips and its world, is set by the desk
+struct OscChoice {
+    OscUse use = OscUse::off;   ///< who is listened to
+    std::string receiver{};     ///< HOST:PORT that hears of hits and status; empty: nobody
+    double turnDegrees = 0.0;   ///< by which a phone is held counter-clockwise of upright
+    bool operator==(const OscChoice&) const = default;
+};
+
+/// Listens and tells while it lives. What strikes goes to the session at once; what the desk shows, its strips and its world, is set by the desk
 /// itself. M only.
-class DeskOsc final : private juce::AsyncUpdater {
+class DeskOsc final : private juce::AsyncUpdater, private juce::Timer {
 public:
-    /// All outlive it; `act` is called on M, and says what is wrong.
-    DeskOsc(OscUse use, Session& session, AudioOutput& output, std::function<std::string(const LineInput&)> act);
+    static constexpr int tellMilliseconds = 10;
+
+    /// All outlive it; `act` is called on M, and says what is wrong; `takePlayed` often, if there is a receiver: it tells what has been played.
+    DeskOsc(const OscChoice& choice, Session& session, AudioOutput& output, std::function<std::string(const LineInput&)> act, std::function<void()> takePlayed);
     ~DeskOsc() override;
 
-    OscUse use() const noexcept { return use_; }
     const std::string& error() const noexcept { return port_->error(); }
+    void tell(const PlayedEvent& played) { port_->tell(played, output_.sampleRateHz()); }
     OscStatus status() const;
 
 private:
     std::string take(const LineInput& input);
     void handleAsyncUpdate() override;
+    void timerCallback() override { takePlayed_(); }
 
-    OscUse use_;
     AudioOutput& output_;
     std::function<std::string(const LineInput&)> act_;
+    std::function<void()> takePlayed_;
     std::mutex mutex_; // guards what follows
     std::vector<LineInput> waiting_;
     // M

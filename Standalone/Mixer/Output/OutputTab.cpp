@@ -13,6 +13,12 @@ constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevels{0, -5, -10, -15, -20, -25, -30, -40, -50};
 constexpr int noneId = 1, levelId = 100; // of the lists of outputs and levels: an output's, or a pair's, and a level in dB below it
 constexpr std::array<const char*, 3> oscUses{"from nobody", "from this computer", "from any computer, and phones"}; // as OscUse
+struct PhoneHold {
+    const char* words;
+    double turnDegrees;
+};
+constexpr std::array<PhoneHold, 4> phoneHolds{{{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}}; // where its top points
+constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // of the list of who hears of hits
 constexpr int noBoardId = 1, anyBoardId = 2, otherPortId = 3, firstPortId = 4; // of the list of boards
 
 struct Cell {
@@ -57,7 +63,15 @@ OutputTab::OutputTab(Desk& desk)
     osc_.setTitle("OSC");
     osc_.setTooltip("Who may strike, tilt and set gains by messages over the network: phones, Pd, Max (Docs/osc.md)");
     for (int use = 0; use < static_cast<int>(oscUses.size()); ++use) osc_.addItem(oscUses[static_cast<std::size_t>(use)], use + 1);
-    osc_.onChange = [this] { listen(); };
+    caption(hitsName_, "Hits by OSC to");
+    hits_.setTitle("Hits by OSC");
+    hits_.setTooltip("HOST:PORT of a program that hears of each hit as it is felt, and of the status once a second");
+    caption(phoneName_, "A phone's top is");
+    phone_.setTitle("Phone");
+    phone_.setTooltip("How a phone is held that tilts the world by OSC: where its top points");
+    for (int k = 0; k < static_cast<int>(phoneHolds.size()); ++k) phone_.addItem(phoneHolds[static_cast<std::size_t>(k)].words, k + 1);
+    for (auto* box : {&osc_, &phone_}) box->onChange = [this] { listen(); };
+    hits_.onChange = [this] { chooseReceiver(); };
     board_.setTitle("Board");
     board_.onChange = [this] { connectBoard(); };
     device_.setTitle("Device");
@@ -70,7 +84,7 @@ OutputTab::OutputTab(Desk& desk)
     scan_ = quietButton("Look again", "Look for devices again");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &oscName_, &osc_, &monitorName_, &monitor_, &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &oscName_, &osc_, &hitsName_, &hits_, &phoneName_, &phone_, &monitorName_, &monitor_, &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_}) addAndMakeVisible(c);
     takeMix();
 }
 
@@ -170,13 +184,17 @@ juce::String OutputTab::heardWords() const {
 
 void OutputTab::askPort() {
     listPorts(); // shows what is still so
-    auto* window = new juce::AlertWindow{"Four-channel board", {}, juce::MessageBoxIconType::NoIcon, this};
-    window->addTextEditor("port", utf8(desk_.device().board), "Serial port");
+    ask("Four-channel board", "Serial port", utf8(desk_.device().board), [this](const juce::String& port) { useBoard(port.toStdString()); });
+}
+
+void OutputTab::ask(const juce::String& title, const juce::String& what, const juce::String& now, std::function<void(const juce::String&)> use) {
+    auto* window = new juce::AlertWindow{title, {}, juce::MessageBoxIconType::NoIcon, this};
+    window->addTextEditor("answer", now, what);
     window->addButton("Connect", 1, juce::KeyPress{juce::KeyPress::returnKey});
     window->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
-    window->enterModalState(true, juce::ModalCallbackFunction::create([safe = juce::Component::SafePointer<OutputTab>{this}, window](int answer) {
-        const auto port = window->getTextEditorContents("port").trim().toStdString();
-        if (answer == 1 && safe != nullptr && !port.empty()) safe->useBoard(port);
+    window->enterModalState(true, juce::ModalCallbackFunction::create([safe = juce::Component::SafePointer<OutputTab>{this}, window, use = std::move(use)](int answer) {
+        const auto words = window->getTextEditorContents("answer").trim();
+        if (answer == 1 && safe != nullptr && words.isNotEmpty()) use(words);
     }), true);
 }
 
@@ -187,9 +205,42 @@ void OutputTab::useBoard(const std::string& port) {
 }
 
 void OutputTab::listen() {
-    const auto error = desk_.listen(static_cast<OscUse>(osc_.getSelectedId() - 1));
-    if (!error.empty()) desk_.report("Messages by OSC: " + utf8(error));
-    takeMix();
+    OscChoice choice = desk_.oscChoice();
+    choice.use = static_cast<OscUse>(osc_.getSelectedItemIndex());
+    if (const int hold = phone_.getSelectedItemIndex(); hold >= 0) choice.turnDegrees = phoneHolds[static_cast<std::size_t>(hold)].turnDegrees;
+    useOsc(choice, "Messages by OSC: ");
+}
+
+void OutputTab::tellHits(const juce::String& receiver) {
+    OscChoice choice = desk_.oscChoice();
+    choice.receiver = receiver.trim().toStdString();
+    useOsc(choice, "Hits by OSC: ");
+}
+
+void OutputTab::useOsc(const OscChoice& choice, const juce::String& what) {
+    if (const auto error = desk_.useOsc(choice); !error.empty()) desk_.report(what + utf8(error));
+    showOsc();
+}
+
+void OutputTab::chooseReceiver() {
+    const int id = hits_.getSelectedId();
+    if (id != otherReceiverId) return tellHits(id == knownReceiverId ? hits_.getText() : juce::String{});
+    showOsc();
+    ask("Hits by OSC", "HOST:PORT of the program", hits_.getItemText(hits_.indexOfItemId(knownReceiverId)), [this](const juce::String& receiver) { tellHits(receiver); });
+}
+
+// A receiver stays in the list, to be switched off and on.
+void OutputTab::showOsc() {
+    const OscChoice& choice = desk_.oscChoice();
+    const auto known = choice.receiver.empty() ? hits_.getItemText(hits_.indexOfItemId(knownReceiverId)) : utf8(choice.receiver);
+    osc_.setSelectedItemIndex(static_cast<int>(choice.use), juce::dontSendNotification);
+    hits_.clear(juce::dontSendNotification);
+    hits_.addItem("nobody", nobodyId);
+    if (known.isNotEmpty()) hits_.addItem(known, knownReceiverId);
+    hits_.addItem("another program" + dots(), otherReceiverId);
+    hits_.setSelectedId(choice.receiver.empty() ? nobodyId : knownReceiverId, juce::dontSendNotification);
+    const auto hold = std::ranges::find(phoneHolds, choice.turnDegrees, &PhoneHold::turnDegrees);
+    phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), juce::dontSendNotification);
 }
 
 juce::String OutputTab::oscState(Shade& state) const {
@@ -198,9 +249,11 @@ juce::String OutputTab::oscState(Shade& state) const {
     if (!osc) return "none";
     const OscCounts& c = osc->counts;
     const auto count = [](std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; };
-    if (c.wrong() + c.lost + c.late > 0) state = Shade::now;
-    auto words = utf8(osc->address) + ": " + count(c.messages - c.refused) + " good, " + count(c.wrong()) + " bad, " + count(c.late) + " late";
-    if (c.lost > 0) words << ", " << count(c.lost) << " lost";
+    if (c.wrong() + c.lost + c.late + osc->unsent > 0) state = Shade::now;
+    juce::StringArray parts;
+    if (!osc->address.empty()) parts.add(utf8(osc->address) + ": " + count(c.messages - c.refused) + " good, " + count(c.wrong()) + " bad, " + count(c.late) + " late" + (c.lost > 0 ? ", " + count(c.lost) + " lost" : juce::String{}));
+    if (!desk_.oscChoice().receiver.empty()) parts.add("to " + utf8(desk_.oscChoice().receiver) + ": " + count(osc->sent) + " sent" + (osc->unsent > 0 ? ", " + count(osc->unsent) + " not taken" : juce::String{}));
+    const auto words = parts.joinIntoString("; ");
     return c.fault.empty() ? words : words + "; " + utf8(c.fault);
 }
 
@@ -233,8 +286,8 @@ void OutputTab::takeMix() {
     rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
     listHeard();
-    osc_.setSelectedId(static_cast<int>(desk_.oscUse()) + 1, juce::dontSendNotification);
-    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &oscName_, &monitorName_, &monitorLevelName_, &marksName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    showOsc();
+    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &oscName_, &hitsName_, &phoneName_, &monitorName_, &monitorLevelName_, &marksName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
 void OutputTab::refresh(const DeskMoment& moment) {
@@ -271,9 +324,9 @@ void OutputTab::resized() {
     scan_->setBounds(row.removeFromRight(90));
     row.removeFromRight(gap);
     device_.setBounds(row);
-    const int half = (area.getWidth() - gap) / 2, rest = area.getWidth() - gap - half, quarter = (area.getWidth() - 2 * gap) / 4;
-    placeRow(area, {{rateName_, rate_, half}, {blockName_, block_, rest}});
-    placeRow(area, {{boardName_, board_, half}, {oscName_, osc_, rest}});
+    const int quarter = (area.getWidth() - 2 * gap) / 4, fifth = (area.getWidth() - 2 * gap) / 5;
+    placeRow(area, {{rateName_, rate_, quarter}, {blockName_, block_, quarter}, {boardName_, board_, 2 * quarter}});
+    placeRow(area, {{oscName_, osc_, 2 * fifth}, {hitsName_, hits_, 2 * fifth - gap}, {phoneName_, phone_, fifth + gap}});
     placeRow(area, {{monitorName_, monitor_, 2 * quarter}, {monitorLevelName_, monitorLevel_, quarter}, {marksName_, marks_, quarter}});
     area.removeFromTop(12);
     facts_.setBounds(area);

@@ -13,6 +13,8 @@ public:
     void refresh(const DeskMoment& moment) override;
     void resized() override;
     void visibilityChanged() override;
+    /// HOST:PORT, as if it had been typed; empty: to nobody.
+    void tellHits(const juce::String& receiver);
 
 private:
     void scan();
@@ -24,6 +26,10 @@ private:
     void useBoard(const std::string& port);
     void listPorts();
     void listen();
+    void chooseReceiver();
+    void useOsc(const OscChoice& choice, const juce::String& what);
+    void showOsc();
+    void ask(const juce::String& title, const juce::String& what, const juce::String& now, std::function<void(const juce::String&)> use);
     juce::String boardState(Shade& shade) const;
     juce::String oscState(Shade& shade) const;
     void listHeard();
@@ -31,8 +37,8 @@ private:
     void chooseMarks();
     juce::String heardWords() const;
 
-    juce::ComboBox device_, rate_, block_, board_, osc_, monitor_, monitorLevel_, marks_;
-    juce::Label deviceName_, rateName_, blockName_, boardName_, oscName_, monitorName_, monitorLevelName_, marksName_;
+    juce::ComboBox device_, rate_, block_, board_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
+    juce::Label deviceName_, rateName_, blockName_, boardName_, oscName_, hitsName_, phoneName_, monitorName_, monitorLevelName_, marksName_;
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;

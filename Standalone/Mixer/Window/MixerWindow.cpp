@@ -82,7 +82,12 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
         if (error.isEmpty()) desk_->tell("Recorded " + file.getFullPathName() + ", and its events beside it");
         else say(file.getFileName() + ": " + error);
     };
-    if (const auto error = desk_->listen(oscUseNamed(files_.settings().getValue("osc"))); !error.empty()) desk_->report("Messages by OSC: " + utf8(error));
+    OscChoice osc{oscUseNamed(files_.settings().getValue("osc")), files_.settings().getValue("osc-to").toStdString(), files_.settings().getDoubleValue("osc-turn")};
+    if (const auto error = desk_->useOsc(osc); !error.empty()) {
+        osc.receiver.clear(); // a name that is not known today
+        desk_->useOsc(osc);
+        desk_->report("OSC: " + utf8(error));
+    }
     desk_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
     view_->setGround(files_.settings().getValue("look") == "light" ? Ground::light : Ground::dark);
     view_->grabKeyboardFocus();
@@ -111,7 +116,9 @@ void MixerWindow::timerCallback() {
     settings.setValue("device", utf8(device_.name));
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
-    settings.setValue("osc", oscUseNames[static_cast<std::size_t>(desk_->oscUse())]);
+    settings.setValue("osc", oscUseNames[static_cast<std::size_t>(desk_->oscChoice().use)]);
+    settings.setValue("osc-to", utf8(desk_->oscChoice().receiver));
+    settings.setValue("osc-turn", desk_->oscChoice().turnDegrees);
     for (const std::size_t ear : {0u, 1u}) settings.setValue(ear == 0 ? "monitor-left" : "monitor-right", device_.monitor.size() > ear ? device_.monitor[ear] + 1 : 0);
     settings.setValue("monitor-db", device_.monitorDb);
     settings.setValue("marker", device_.marker + 1);
