@@ -38,20 +38,26 @@ public:
     }
     void listen(float readiness = 0.5f) { plugin->parameter(Parameter::beats).setValue(readiness); }
 
-    /// What is played of it, from its first frame on.
+    /// One block of it, from frame `at` on; what is played is appended to `signal`.
+    void feed(const BeatSong& song, int at, int frames, Samples& signal) {
+        signal.resize(4);
+        buffer.setSize(4, frames, false, false, true);
+        for (int c = 0; c < 4; ++c) buffer.copyFrom(c, 0, song.samples.data() + at, frames); // whatever stands in a host's buffer
+        auto midi = notes(at, frames);
+        plugin->processBlock(buffer, midi);
+        for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)), buffer.getReadPointer(static_cast<int>(c)) + frames);
+    }
+
+    /// What is played of all of it.
     Samples play(const BeatSong& song, SongBlocks blocks) {
         if (blocks.isLive) plugin->takes().driveByHand(nowNs_);
         prepare(songRateHz, blocks.frames, !blocks.isLive);
-        Samples signal(4);
+        Samples signal;
         Random random{3};
         const int length = static_cast<int>(song.samples.size());
         for (int at = 0; at < length;) {
             const int frames = std::min(blocks.vary ? 1 + random.below(2 * blocks.frames) : blocks.frames, length - at);
-            buffer.setSize(4, frames, false, false, true);
-            for (int c = 0; c < 4; ++c) buffer.copyFrom(c, 0, song.samples.data() + at, frames); // whatever stands in a host's buffer
-            auto midi = notes(at, frames);
-            plugin->processBlock(buffer, midi);
-            for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)), buffer.getReadPointer(static_cast<int>(c)) + frames);
+            feed(song, at, frames, signal);
             at += frames;
             if (!blocks.isLive) continue;
             nowNs_ += std::int64_t{1'000'000'000} * frames / songRateHz;
@@ -158,17 +164,9 @@ TEST(SideChain, AutomationOfBeatsMovesNoHop) {
         host.listen(0.0f);
         host.prepare(songRateHz, 1000);
         Samples signal;
-        const auto feed = [&](int from, int frames) {
-            host.buffer.setSize(4, frames, false, false, true);
-            for (int c = 0; c < 4; ++c) host.buffer.copyFrom(c, 0, song().samples.data() + from, frames);
-            juce::MidiBuffer none;
-            host.plugin->processBlock(host.buffer, none);
-            signal.resize(4);
-            for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), host.buffer.getReadPointer(static_cast<int>(c)), host.buffer.getReadPointer(static_cast<int>(c)) + frames);
-        };
-        feed(0, quietFrames);
+        host.feed(song(), 0, quietFrames, signal);
         host.listen();
-        for (int at = quietFrames; at + 1000 <= 60'000; at += 1000) feed(at, 1000);
+        for (int at = quietFrames; at + 1000 <= 60'000; at += 1000) host.feed(song(), at, 1000, signal);
         for (auto& channel : signal) channel.resize(55'000);
         return later(signal, 10'000);
     };
