@@ -25,6 +25,7 @@ private:
     void askPort();
     void useBoard(const std::string& port);
     void listPorts();
+    void prepareOsc();
     void listen();
     void chooseReceiver();
     void useOsc(const OscChoice& choice, const juce::String& what);
