@@ -41,6 +41,7 @@ bool ModeBank<P>::takeMemory(InstructionSet set, int gates) noexcept {
 template <class P>
 void ModeBank<P>::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept {
     enterTile(fromFrame);
+    finishStrikes();
     const double ratio = sampleRateHz / rate_;
     const auto moved = [=](std::int64_t frame) { // a frame before or after `fromFrame`, as far away in time
         return frame == Strike::never ? frame : toFrame + static_cast<std::int64_t>(static_cast<double>(frame - fromFrame) * ratio);
@@ -86,8 +87,8 @@ bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
     if constexpr (P::hasTiles) tiles_.settle();
     const int slot = slotFor(strike);
     Mode& struck = mode(slot);
-    rebase(slot);
-    add(slot, strike, onsetPhasor(struck, strike.onset, strike.phase), gains);
+    if (struck.referenceFrame != tileStart_) rebase(slot);
+    add(slot, strike, gains);
     struck.endFrame = std::max(struck.endFrame, struck.lifeFrames == Strike::never ? Strike::never : strike.onset.frame + struck.lifeFrames);
     nextEnd_ = std::min(nextEnd_, struck.endFrame);
     return !isGated || openGate(slot, strike, gains);
@@ -103,21 +104,33 @@ int ModeBank<P>::slotFor(const Strike& strike) noexcept {
     int slot = find(wanted);
     if (slot < 0) {
         if (activeCount_ - fadingCount_ == modes_) {
+            finishStrikes();
             fade(quietest(false), strike.onset.frame);
             ++stolen_;
         }
-        if (freeCount_ == 0) release(quietest(true));
+        if (freeCount_ == 0) {
+            finishStrikes();
+            release(quietest(true));
+        }
         slot = create(wanted);
     }
     return recent = slot;
 }
 
 template <class P>
-void ModeBank<P>::add(int slot, const Strike& strike, const Complex<Real>& phasor, const double* gains) noexcept {
+void ModeBank<P>::add(int slot, const Strike& strike, const double* gains) noexcept {
+    const OnsetTurn onset = onsetTurn(mode(slot), strike.onset, strike.phase);
     if constexpr (P::hasTiles)
-        if (tiles_.isOn()) return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_), phasor, strike.amplitude, gains, &amplitudes_[row(slot)]);
+        if (tiles_.isOn()) return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_), onset, strike.amplitude, gains, &amplitudes_[row(slot)]);
+    const auto phasor = phasorOf(onset);
     for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) amplitudes_[row(slot) + j] += phasor * static_cast<Real>(strike.amplitude * gains[j]);
     refreshTile(slot);
+}
+
+// Strikes may wait for others of their tile; a mode that waits has been rebased, and nobody else looks at its amplitudes.
+template <class P>
+void ModeBank<P>::finishStrikes() noexcept {
+    if constexpr (P::hasTiles) tiles_.finishStrikes();
 }
 
 template <class P>
@@ -205,6 +218,7 @@ void ModeBank<P>::fade(int slot, std::int64_t frame, double perSecond) noexcept 
 template <class P>
 void ModeBank<P>::fadeAll(std::int64_t frame, double perSecond) noexcept {
     enterTile(frame);
+    finishStrikes();
     for (int i = 0; i < activeCount_; ++i)
         if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading) fade(slot, frame, perSecond);
 }
@@ -306,6 +320,7 @@ template <class P>
 void ModeBank<P>::enterTile(std::int64_t frame) noexcept {
     const std::int64_t start = frame - frame % tile;
     if (start == tileStart_) return;
+    finishStrikes();
     const bool isNext = start == tileStart_ + tile;
     tileStart_ = start;
     if (start >= nextEnd_) retireModes();
@@ -357,12 +372,13 @@ void ModeBank<P>::closeNextGate() noexcept {
     const Gate gate = gates_.next();
     const std::int64_t closeFrame = gates_.nextTime();
     enterTile(closeFrame);
+    finishStrikes();
     gates_.pop();
     freeGates_[static_cast<std::size_t>(freeGateCount_++)] = gate.entry;
     Mode& m = mode(gate.slot);
     if (m.life != gate.life) return;
     rebase(gate.slot);
-    const auto phasor = onsetPhasor(m, gate.onset, gate.phase);
+    const auto phasor = phasorOf(onsetTurn(m, gate.onset, gate.phase));
     --m.openGates;
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(gate.slot) + static_cast<std::size_t>(j)];
@@ -375,21 +391,20 @@ void ModeBank<P>::closeNextGate() noexcept {
 }
 
 template <class P>
-Complex<typename ModeBank<P>::Real> ModeBank<P>::onsetPhasor(const Mode& m, FramePosition onset, std::uint64_t phase) const noexcept {
+OnsetTurn ModeBank<P>::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {
     const auto leadPhase = static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
     const auto leadDecay = static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
     // A gate may close long after its own strike has died away inside a mode that others keep alive.
     constexpr std::int64_t inaudible = 120 * static_cast<std::int64_t>(octaveUnit);
     const std::int64_t age = m.referenceFrame - onset.frame;
     const bool hasDied = age > 0 && m.decayIncrement > 0 && age > inaudible / m.decayIncrement;
-    const std::int64_t decay = hasDied ? inaudible : m.decayIncrement * age + leadDecay;
-    return unitPhasor<Real>(phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame)) *
-           decayFactor<Real>(decay);
+    return {phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame), hasDied ? inaudible : m.decayIncrement * age + leadDecay};
 }
 
 template <class P>
 bool ModeBank<P>::render(float* const* out, std::int64_t first, int frames) noexcept {
     enterTile(first);
+    finishStrikes();
     const int from = static_cast<int>(first - tileStart_);
     if constexpr (P::hasTiles)
         if (tiles_.isOn()) return tiles_.render(out, from, frames);

@@ -115,7 +115,8 @@ private:
     int slotFor(const Strike& strike) noexcept;
     int find(const Mode& wanted) const noexcept;
     int create(const Mode& mode) noexcept;
-    void add(int slot, const Strike& strike, const Complex<Real>& phasor, const double* gains) noexcept;
+    void add(int slot, const Strike& strike, const double* gains) noexcept;
+    void finishStrikes() noexcept;
     void release(int slot) noexcept;
     void recycle(int slot) noexcept;
     void fade(int slot, std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
@@ -131,7 +132,8 @@ private:
     void enterTile(std::int64_t frame) noexcept;
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<Real> carrier(const Mode& mode) const noexcept;
-    Complex<Real> onsetPhasor(const Mode& mode, FramePosition onset, std::uint64_t phase) const noexcept;
+    static OnsetTurn onsetTurn(const Mode& mode, FramePosition onset, std::uint64_t phase) noexcept;
+    static Complex<Real> phasorOf(const OnsetTurn& turn) noexcept { return unitPhasor<Real>(turn.phase) * decayFactor<Real>(turn.octaves); }
     Mode& mode(int slot) noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     const Mode& mode(int slot) const noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     std::size_t row(int slot) const noexcept { return static_cast<std::size_t>(slot * channels_); }

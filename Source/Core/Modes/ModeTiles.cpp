@@ -20,6 +20,7 @@ bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcep
     slots_ = isOn() ? slotsMost : 0;
     floatsPerSlot_ = (channels + tiles::channelsPerLine - 1) / tiles::channelsPerLine * 4 * tiles::channelsPerLine;
     highest_ = 0;
+    strikes_.count = 0;
     if (!takeMemory()) return false;
     for (std::size_t s = 0; s < index(slots_); ++s) places_[s].isUsed = false;
     std::fill_n(amplitudes_.data(), slots_ * floatsPerSlot_, 0.0f);
@@ -35,7 +36,7 @@ bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcep
 
 bool ModeTiles::takeMemory() noexcept {
     const auto count = index(slots_), wide = (count + 7) / 8 * 8, tile = isOn() ? index(channels_) * frames : 0;
-    bool has = places_.resize(count) && amplitudes_.resize(count * index(floatsPerSlot_)) && rows_.resize(count * rowFloats);
+    bool has = scaled_.resize(isOn() ? 2 * index(channels_) * TileStrikes::most : 0) && places_.resize(count) && amplitudes_.resize(count * index(floatsPerSlot_)) && rows_.resize(count * rowFloats);
     for (auto* values : {&re_, &im_, &stepRe_, &stepIm_}) has = has && values->resize(wide);
     for (auto* values : {&roundedRe_, &roundedIm_}) has = has && values->resize(wide);
     for (auto& row : rowSlots_) has = has && row.resize(count);
@@ -110,6 +111,8 @@ void ModeTiles::begin() noexcept {
 void ModeTiles::redoFrom(bool isGated, int frame) noexcept { layers_[isGated].redo = std::min(layers_[isGated].redo, frame); }
 
 void ModeTiles::settle() noexcept {
+    if (std::min(layers_[0].redo, layers_[1].redo) == tiles::frames) return;
+    finishStrikes(); // of which what is redone follows
     if (layers_[0].redo < tiles::frames) make(layers_[0], false);
     if (layers_[1].redo < tiles::frames) make(layers_[1], true);
 }
@@ -149,11 +152,29 @@ TileLayer ModeTiles::view(const Layer& layer, bool isGated) noexcept {
     return view;
 }
 
-void ModeTiles::strike(int slot, int from, const Complex<double>& phasor, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept {
-    const TileMode& mode = places_[index(slot)].mode;
-    Layer& layer = layers_[mode.isGated];
-    kernel_->strike({mode.cosPowers, mode.sinPowers, gains, amplitude, phasor.re, phasor.im, re_[index(slot)], im_[index(slot)], from, channels_},
-                    {&amplitudes->re, amplitudes_.data() + index(slot) * index(floatsPerSlot_), layer.tails.data()});
+void ModeTiles::strike(int slot, int from, const OnsetTurn& onset, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept {
+    const auto s = index(slot);
+    const TileMode& mode = places_[s].mode;
+    const int count = strikes_.count;
+    if (count == TileStrikes::most || (count > 0 && (mode.isGated != areGated_ || from < strikes_.each[index(count - 1)].from))) strikeAll();
+    areGated_ = mode.isGated;
+    double* const scaled = scaled_.data() + index(strikes_.count * channels_) * 2;
+    for (std::size_t j = 0; j < index(channels_); ++j) scaled[2 * j] = scaled[2 * j + 1] = amplitude * gains[j];
+    const auto last = index(strikes_.count++);
+    strikes_.phases[last] = onset.phase;
+    strikes_.octaves[last] = onset.octaves;
+    strikes_.carrierRe[last] = re_[s];
+    strikes_.carrierIm[last] = im_[s];
+    strikes_.each[last] = {mode.cosPowers, mode.sinPowers, &amplitudes->re, amplitudes_.data() + s * index(floatsPerSlot_), from};
+}
+
+void ModeTiles::strikeAll() noexcept {
+    Layer& layer = layers_[areGated_];
+    strikes_.channels = channels_;
+    strikes_.scaled = scaled_.data();
+    strikes_.tails = layer.tails.data();
+    kernel_->strike(strikes_);
+    strikes_.count = 0;
     layer.hasTails = true;
 }
 

@@ -41,7 +41,6 @@ public:
     /// The mode's phase and decay at the tile's first frame; its amplitudes, one per channel (readable in whole lines of
     /// tiles::channelsPerLine).
     void setCarrier(int slot, Complex<double> carrier) noexcept;
-    Complex<double> carrier(int slot) const noexcept { return {re_[index(slot)], im_[index(slot)]}; }
     void setAmplitudes(int slot, const Complex<double>* amplitudes) noexcept;
 
     /// The next tile: all carriers move on by one tile. Their errors grow by 1e-11 each time, so renew them in between.
@@ -57,8 +56,13 @@ public:
 
     /// To be called before amplitudes change by a strike at `from`: what is to be redone is redone without it.
     void settle() noexcept;
-    /// Adds a strike of amplitude * gains[j] * phasor from frame `from` of the tile on, there and to the mode's amplitudes.
-    void strike(int slot, int from, const Complex<double>& phasor, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept;
+    /// Adds a strike from frame `from` of the tile on, there and to the mode's amplitudes, where it may wait for others until
+    /// finishStrikes.
+    void strike(int slot, int from, const OnsetTurn& onset, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept;
+    /// To be called before amplitudes are read, or anything but strikes changes them.
+    void finishStrikes() noexcept {
+        if (strikes_.count > 0) strikeAll();
+    }
 
     /// out[j][0..frames) = frames [first, first + frames) of the tile. False if all of them are zero.
     bool render(float* const* out, int first, int frames) noexcept;
@@ -95,6 +99,7 @@ private:
     TileLayer view(const Layer& layer, bool isGated) noexcept;
     bool takeMemory() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
+    void strikeAll() noexcept;
 
     static constexpr std::array<std::size_t, rankCount> floatsBefore = [] { // of rows of lower rank, per slot
         std::array<std::size_t, rankCount> offsets{};
@@ -108,6 +113,9 @@ private:
     int slots_ = 0, channels_ = 0, floatsPerSlot_ = 0, highest_ = 0;
     Room<Place, slots> places_;
     std::array<Layer, 2> layers_; // free, gated
+    TileStrikes strikes_;         // that wait, all of one layer
+    bool areGated_ = false;
+    Room<double, 2 * width * TileStrikes::most> scaled_;
     PerSlot re_, im_, stepRe_, stepIm_;
     RoundedPerSlot roundedRe_, roundedIm_;
     Room<float, slots * width * 4> amplitudes_;

@@ -51,23 +51,33 @@ struct TileCarriers {
     float *roundedRe = nullptr, *roundedIm = nullptr;
 };
 
-/// One strike inside a tile: its amplitude in channel j is amplitude * gains[j] * phasor, and frame k >= from gains
-/// amplitude * gains[j] * im(phasor * carrier * p^k).
+/// Phase and decay of a strike at its mode's reference: its phasor is unitPhasor(phase) * decayFactor(octaves).
+struct OnsetTurn {
+    std::uint64_t phase = 0;
+    std::int64_t octaves = 0;
+};
+
+/// One strike inside a tile, of one mode: the mode's amplitude in channel j gains scaled[j] * phasor, and frame k >= from
+/// scaled[j] * im(phasor * carrier * p^k).
 struct TileStrike {
     const double* cosPowers = nullptr; ///< p^k, 64 of each
     const double* sinPowers = nullptr;
-    const double* gains = nullptr;
-    double amplitude = 0.0;
-    double phasorRe = 0.0, phasorIm = 0.0, carrierRe = 0.0, carrierIm = 0.0;
+    double* amplitudes = nullptr;      ///< re, im of each channel; readable in whole lines
+    float* lines = nullptr;            ///< the same as TileLayer has them
     int from = 0;
-    int channels = 0;
 };
 
-/// What it is added to, of one mode.
-struct TileStruck {
-    double* amplitudes = nullptr; ///< re, im of each channel; readable in whole lines
-    float* lines = nullptr;       ///< the same as TileLayer has them
-    double* tails = nullptr;      ///< [channel * 64 + frame], of all modes; on a cache line
+/// Strikes of one layer, none earlier than the one before it. Together they cost less: what they wait for is waited for once,
+/// and the tails stay in registers.
+struct TileStrikes {
+    static constexpr int most = 8;
+    int count = 0, channels = 0;
+    std::array<TileStrike, most> each;
+    std::array<std::uint64_t, most> phases{}; // OnsetTurn of each
+    std::array<std::int64_t, most> octaves{};
+    std::array<double, most> carrierRe{}, carrierIm{};
+    const double* scaled = nullptr; ///< [strike * channels + channel]: amplitude times gain, twice
+    double* tails = nullptr;        ///< [channel * 64 + frame], of all modes; on a cache line
 };
 
 /// One instruction set's functions. R, wait-free.
@@ -75,7 +85,7 @@ struct TileKernel {
     InstructionSet set = InstructionSet::scalar;
     void (*advance)(const TileCarriers& carriers) = nullptr;
     void (*render)(const TileLayer& layer, float* out) = nullptr;         ///< out[channel * 64 + frame]
-    void (*strike)(const TileStrike& strike, const TileStruck& struck) = nullptr;
+    void (*strike)(const TileStrikes& strikes) = nullptr;
     void (*sum)(const float* base, const double* tails, int count, float* out) = nullptr; ///< out = base + tails
     void (*clear)(float* const* out, int channels, int frames) = nullptr; ///< out[channel][frame] = 0
     LimiterKernel limiter;

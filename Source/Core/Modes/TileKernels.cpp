@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "Core/Actuators/LimiterKernels.inc"
+#include <numbers>
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128 // for those there is renderScalar
 HWY_BEFORE_NAMESPACE();
@@ -184,59 +185,126 @@ void advance(const TileCarriers& carriers) {
     }
 }
 
-// The mode's amplitudes move by a strike, and are rounded for the tiles that follow. scaled: each channel's amplitude, twice.
-HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, const TileStruck& struck) {
+// Phasors of strikes: at their mode's reference, and turned by its carrier.
+struct Onsets {
+    HWY_ALIGN double re[TileStrikes::most];
+    HWY_ALIGN double im[TileStrikes::most];
+    HWY_ALIGN double turnedRe[TileStrikes::most];
+    HWY_ALIGN double turnedIm[TileStrikes::most];
+};
+
+// The mode's amplitudes move by a strike, and are rounded for the tiles that follow, in whole lines: what stands behind the last
+// channel is never summed.
+HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, std::size_t channels, double phasorRe, double phasorIm) {
     const Doubles d;
     const hn::Rebind<float, Doubles> narrow;
     constexpr std::size_t lanes = hn::MaxLanes(Doubles());
-    const auto phasor = hn::OddEven(hn::Set(d, s.phasorIm), hn::Set(d, s.phasorRe));
-    const auto values = 2 * static_cast<std::size_t>(s.channels);
-    std::size_t k = 0;
-    for (; k + lanes <= values; k += lanes) hn::StoreU(hn::Add(hn::LoadU(d, struck.amplitudes + k), hn::Mul(phasor, hn::Load(d, scaled + k))), d, struck.amplitudes + k);
-    for (; k < values; k += 2) {
-        struck.amplitudes[k] += s.phasorRe * scaled[k];
-        struck.amplitudes[k + 1] += s.phasorIm * scaled[k];
+    const auto phasor = hn::OddEven(hn::Set(d, phasorIm), hn::Set(d, phasorRe));
+    const std::size_t values = 2 * channels, whole = values / lanes * lanes;
+    for (std::size_t k = whole; k < values; k += 2) {
+        s.amplitudes[k] += phasorRe * scaled[k];
+        s.amplitudes[k + 1] += phasorIm * scaled[k];
     }
-    for (k = 0; k < values; k += 8) // whole lines: what stands behind the last channel is never summed
-        for (std::size_t v = 0; v < 8; v += lanes) {
-            float* const line = struck.lines + 2 * k + v;
-            const auto z = hn::DemoteTo(narrow, hn::LoadU(d, struck.amplitudes + k + v)), turned = hn::Shuffle2301(z);
-            hn::StoreU(z, narrow, line);
+    for (std::size_t k = 0; k < values; k += 8)
+        for (std::size_t v = k; v < k + 8; v += lanes) {
+            auto z = hn::LoadU(d, s.amplitudes + v);
+            if (v < whole) {
+                z = hn::Add(z, hn::Mul(phasor, hn::LoadU(d, scaled + v)));
+                hn::StoreU(z, d, s.amplitudes + v);
+            }
+            float* const line = s.lines + k + v;
+            const auto rounded = hn::DemoteTo(narrow, z), turned = hn::Shuffle2301(rounded);
+            hn::StoreU(rounded, narrow, line);
             hn::StoreU(hn::OddEven(turned, hn::Neg(turned)), narrow, line + 8);
         }
 }
 
-// Eight frames stay in registers while the channels pass by.
-HWY_INLINE void addToTails(const TileStrike& s, const double* scaled, double* tails) {
+// What the strikes add to a channel of gain 1. Frames of a panel before a strike's first are 0.
+HWY_INLINE void fillWaves(const TileStrikes& s, const Onsets& onsets, double* waves) {
     const Doubles d;
-    constexpr std::size_t lanes = hn::MaxLanes(Doubles()), vectors = 8 / lanes;
-    const auto channels = static_cast<std::size_t>(s.channels);
-    const auto z = Complex<double>{s.phasorRe, s.phasorIm} * Complex<double>{s.carrierRe, s.carrierIm};
-    const auto re = hn::Set(d, z.re), im = hn::Set(d, z.im), from = hn::Set(d, static_cast<double>(s.from));
-    for (auto k = static_cast<std::size_t>(s.from) / 8 * 8; k < frames; k += 8) {
-        hn::Vec<Doubles> y[vectors];
-        for (std::size_t v = 0; v < vectors; ++v) {
-            const std::size_t at = k + v * lanes;
-            const auto sounds = hn::Ge(hn::Iota(d, static_cast<double>(at)), from);
-            y[v] = hn::IfThenElseZero(sounds, hn::MulAdd(re, hn::LoadU(d, s.sinPowers + at), hn::Mul(im, hn::LoadU(d, s.cosPowers + at))));
-        }
-        double* at = tails + k;
-        const double* gain = scaled;
-#if defined(__GNUC__)
-#pragma GCC unroll 4
-#endif
-        for (const double* end = gain + 2 * channels; gain != end; gain += 2, at += frames) {
-            const auto g = hn::Set(d, *gain);
-            for (std::size_t v = 0; v < vectors; ++v) hn::Store(hn::MulAdd(g, y[v], hn::Load(d, at + v * lanes)), d, at + v * lanes);
+    constexpr std::size_t lanes = hn::MaxLanes(Doubles());
+    for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); ++i, waves += frames) {
+        const TileStrike& e = s.each[i];
+        const auto re = hn::Set(d, onsets.turnedRe[i]), im = hn::Set(d, onsets.turnedIm[i]), from = hn::Set(d, static_cast<double>(e.from));
+        for (std::size_t k = static_cast<std::size_t>(e.from) / panelFloats * panelFloats; k < frames; k += lanes) {
+            const auto sounds = hn::Ge(hn::Iota(d, static_cast<double>(k)), from);
+            hn::Store(hn::IfThenElseZero(sounds, hn::MulAdd(re, hn::LoadU(d, e.sinPowers + k), hn::Mul(im, hn::LoadU(d, e.cosPowers + k)))), d, waves + k);
         }
     }
 }
 
-void strike(const TileStrike& s, const TileStruck& struck) {
-    HWY_ALIGN double scaled[2 * limits::maxEnchanters];
-    for (std::size_t j = 0; j < static_cast<std::size_t>(s.channels); ++j) scaled[2 * j] = scaled[2 * j + 1] = s.amplitude * s.gains[j];
-    addToAmplitudes(s, scaled, struck);
-    addToTails(s, scaled, struck.tails);
+// Some frames of some channels stay in registers while the strikes pass by that have begun by the end of them.
+template <std::size_t channels>
+HWY_INLINE void addToTails(const TileStrikes& s, const double* waves, const double* scaled, double* tails) {
+    const Doubles d;
+    constexpr std::size_t lanes = hn::MaxLanes(Doubles()), vectors = HWY_MIN(2, panelFloats / lanes), step = vectors * lanes;
+    const auto all = static_cast<std::size_t>(s.count), stride = 2 * static_cast<std::size_t>(s.channels);
+    std::size_t begun = 0;
+    for (std::size_t k = static_cast<std::size_t>(s.each[0].from) / step * step; k < frames; k += step) {
+        while (begun < all && static_cast<std::size_t>(s.each[begun].from) < k + step) ++begun;
+        hn::Vec<Doubles> sum[channels][vectors];
+        for (std::size_t j = 0; j < channels; ++j)
+            for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = hn::Load(d, tails + j * frames + k + v * lanes);
+        const double *gains = scaled, *wave = waves + k;
+        for (std::size_t i = 0; i < begun; ++i, gains += stride, wave += frames)
+            for (std::size_t j = 0; j < channels; ++j) {
+                const auto g = hn::Set(d, gains[2 * j]);
+                for (std::size_t v = 0; v < vectors; ++v) sum[j][v] = hn::MulAdd(g, hn::Load(d, wave + v * lanes), sum[j][v]);
+            }
+        for (std::size_t j = 0; j < channels; ++j)
+            for (std::size_t v = 0; v < vectors; ++v) hn::Store(sum[j][v], d, tails + j * frames + k + v * lanes);
+    }
+}
+
+// unitPhasor and decayFactor of Core/Trigonometry.h, step by step the same, for all strikes at once: one alone is a long row of
+// steps that wait for each other. The product with the carrier is spelt out as well: GCC 12 fuses that of scalars, whatever it is told.
+HWY_INLINE void turnOnsets(const TileStrikes& s, Onsets& onsets) {
+    const Doubles d;
+    const hn::RebindToUnsigned<Doubles> turns;
+    const hn::RebindToSigned<Doubles> octaves;
+    const auto one = hn::Set(d, 1.0);
+    const auto over = [&](int n) HWY_ATTR { return hn::Set(d, 1.0 / n); };
+    for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); i += hn::MaxLanes(Doubles())) {
+        const auto phase = hn::LoadU(turns, s.phases.data() + i), quadrant = hn::ShiftRight<62>(hn::Add(phase, hn::Set(turns, std::uint64_t{1} << 61)));
+        const auto x = hn::Mul(hn::Set(d, 2.0 * std::numbers::pi / 18446744073709551616.0), hn::ConvertTo(d, hn::BitCast(octaves, hn::Sub(phase, hn::ShiftLeft<62>(quadrant)))));
+        const auto q = hn::Mul(x, x);
+        auto sine = hn::Sub(one, hn::Mul(q, over(110)));
+        for (const int n : {72, 42, 20, 6}) sine = hn::Sub(one, hn::Mul(hn::Mul(q, over(n)), sine));
+        sine = hn::Mul(x, sine);
+        auto cosine = hn::Sub(one, hn::Mul(q, over(132)));
+        for (const int n : {90, 56, 30, 12, 2}) cosine = hn::Sub(one, hn::Mul(hn::Mul(q, over(n)), cosine));
+        const auto decay = hn::LoadU(octaves, s.octaves.data() + i);
+        const auto whole = hn::ShiftRight<octaveFractionBits>(hn::Add(decay, hn::Set(octaves, std::int64_t{1} << (octaveFractionBits - 1))));
+        const auto y = hn::Mul(hn::Set(d, -std::numbers::ln2 / octaveUnit), hn::ConvertTo(d, hn::Sub(decay, hn::ShiftLeft<octaveFractionBits>(whole))));
+        auto power = hn::Add(one, hn::Mul(y, over(9)));
+        for (const int n : {8, 7, 6, 5, 4, 3, 2}) power = hn::Add(one, hn::Mul(hn::Mul(y, over(n)), power));
+        power = hn::Add(one, hn::Mul(y, power));
+        power = hn::Mul(power, hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(octaves, 1023), whole))));
+        const auto first = hn::Set(turns, 1);
+        const auto isOdd = hn::MaskFromVec(hn::BitCast(d, hn::Sub(hn::Zero(turns), hn::And(quadrant, first))));
+        const auto reSign = hn::BitCast(d, hn::ShiftLeft<63>(hn::ShiftRight<1>(hn::Add(quadrant, first)))), imSign = hn::BitCast(d, hn::ShiftLeft<63>(hn::ShiftRight<1>(quadrant)));
+        const auto re = hn::Mul(hn::Xor(hn::IfThenElse(isOdd, sine, cosine), reSign), power), im = hn::Mul(hn::Xor(hn::IfThenElse(isOdd, cosine, sine), imSign), power);
+        const auto carrierRe = hn::LoadU(d, s.carrierRe.data() + i), carrierIm = hn::LoadU(d, s.carrierIm.data() + i);
+        hn::Store(re, d, onsets.re + i);
+        hn::Store(im, d, onsets.im + i);
+        hn::Store(hn::Sub(hn::Mul(re, carrierRe), hn::Mul(im, carrierIm)), d, onsets.turnedRe + i);
+        hn::Store(hn::Add(hn::Mul(re, carrierIm), hn::Mul(im, carrierRe)), d, onsets.turnedIm + i);
+    }
+}
+
+void strike(const TileStrikes& s) {
+    HWY_ALIGN double waves[TileStrikes::most * frames];
+    Onsets onsets;
+    const auto count = static_cast<std::size_t>(s.count), channels = static_cast<std::size_t>(s.channels);
+    turnOnsets(s, onsets);
+    for (std::size_t i = 0; i < count; ++i) addToAmplitudes(s.each[i], s.scaled + i * 2 * channels, channels, onsets.re[i], onsets.im[i]);
+    fillWaves(s, onsets, waves);
+    constexpr std::size_t most = HWY_TARGET == HWY_AVX3 ? 8 : 4; // as many sums as registers hold
+    std::size_t j = 0;
+    if constexpr (most == 8)
+        for (; j + 8 <= channels; j += 8) addToTails<8>(s, waves, s.scaled + 2 * j, s.tails + j * frames);
+    for (; j + 4 <= channels; j += 4) addToTails<4>(s, waves, s.scaled + 2 * j, s.tails + j * frames);
+    for (; j < channels; ++j) addToTails<1>(s, waves, s.scaled + 2 * j, s.tails + j * frames);
 }
 
 void sum(const float* base, const double* tails, int count, float* out) {
