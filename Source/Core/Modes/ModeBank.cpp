@@ -87,7 +87,6 @@ bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
     if constexpr (P::hasTiles) tiles_.settle();
     const int slot = slotFor(strike);
     Mode& struck = mode(slot);
-    if (struck.referenceFrame != tileStart_) rebase(slot);
     add(slot, strike, gains);
     struck.endFrame = std::max(struck.endFrame, struck.lifeFrames == Strike::never ? Strike::never : strike.onset.frame + struck.lifeFrames);
     nextEnd_ = std::min(nextEnd_, struck.endFrame);
@@ -119,15 +118,21 @@ int ModeBank<P>::slotFor(const Strike& strike) noexcept {
 
 template <class P>
 void ModeBank<P>::add(int slot, const Strike& strike, const double* gains) noexcept {
-    const OnsetTurn onset = onsetTurn(mode(slot), strike.onset, strike.phase);
+    Mode& m = mode(slot);
     if constexpr (P::hasTiles)
-        if (tiles_.isOn()) return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_), onset, strike.amplitude, gains, &amplitudes_[row(slot)]);
-    const auto phasor = phasorOf(onset);
+        if (tiles_.isOn()) { // rebased together with the strike
+            const std::int64_t octaves = m.decayIncrement * (tileStart_ - m.referenceFrame);
+            m.referenceFrame = tileStart_;
+            return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_),
+                                 {onsetTurn(m, strike.onset, strike.phase), m.phaseIncrement * static_cast<std::uint64_t>(tileStart_), octaves}, strike.amplitude, gains, &amplitudes_[row(slot)]);
+        }
+    rebase(slot);
+    const auto phasor = phasorOf(onsetTurn(m, strike.onset, strike.phase));
     for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) amplitudes_[row(slot) + j] += phasor * static_cast<Real>(strike.amplitude * gains[j]);
     refreshTile(slot);
 }
 
-// Strikes may wait for others of their tile; a mode that waits has been rebased, and nobody else looks at its amplitudes.
+// Strikes may wait for others of their tile, until somebody looks at amplitudes.
 template <class P>
 void ModeBank<P>::finishStrikes() noexcept {
     if constexpr (P::hasTiles) tiles_.finishStrikes();
@@ -391,7 +396,7 @@ void ModeBank<P>::closeNextGate() noexcept {
 }
 
 template <class P>
-OnsetTurn ModeBank<P>::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {
+Turn ModeBank<P>::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {
     const auto leadPhase = static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
     const auto leadDecay = static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
     // A gate may close long after its own strike has died away inside a mode that others keep alive.

@@ -132,8 +132,8 @@ private:
     void enterTile(std::int64_t frame) noexcept;
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<Real> carrier(const Mode& mode) const noexcept;
-    static OnsetTurn onsetTurn(const Mode& mode, FramePosition onset, std::uint64_t phase) noexcept;
-    static Complex<Real> phasorOf(const OnsetTurn& turn) noexcept { return unitPhasor<Real>(turn.phase) * decayFactor<Real>(turn.octaves); }
+    static Turn onsetTurn(const Mode& mode, FramePosition onset, std::uint64_t phase) noexcept;
+    static Complex<Real> phasorOf(const Turn& turn) noexcept { return unitPhasor<Real>(turn.phase) * decayFactor<Real>(turn.octaves); }
     Mode& mode(int slot) noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     const Mode& mode(int slot) const noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     std::size_t row(int slot) const noexcept { return static_cast<std::size_t>(slot * channels_); }

@@ -28,7 +28,8 @@ bool ModeTiles::prepare(int channels, InstructionSet set, int slotsMost) noexcep
     for (auto& layer : layers_) {
         std::fill_n(layer.tails.data(), isOn() ? channels_ * tiles::frames : 0, 0.0);
         layer.counts.fill(0);
-        layer.hasBase = layer.hasTails = false;
+        layer.hasBase = false;
+        layer.tailsFrom = tiles::frames;
     }
     begin();
     return true;
@@ -100,7 +101,7 @@ void ModeTiles::setAmplitudes(int slot, const Complex<double>* amplitudes) noexc
 }
 
 void ModeTiles::advance() noexcept {
-    kernel_->advance({highest_, re_.data(), im_.data(), stepRe_.data(), stepIm_.data(), roundedRe_.data(), roundedIm_.data()});
+    kernel_->advance(carriers());
 }
 
 void ModeTiles::begin() noexcept {
@@ -121,14 +122,14 @@ void ModeTiles::settle() noexcept {
 void ModeTiles::make(Layer& layer, bool isGated) noexcept {
     const auto from = index(layer.redo);
     layer.redo = tiles::frames;
-    const auto clear = [&](auto& values) {
-        for (std::size_t j = 0; j < index(channels_); ++j) std::fill_n(values.data() + j * frames + from, frames - from, 0);
+    const auto clear = [&](auto& values, std::size_t first) {
+        for (std::size_t j = 0; j < index(channels_); ++j) std::fill_n(values.data() + j * frames + first, frames - first, 0);
     };
-    if (layer.hasTails) clear(layer.tails);
-    layer.hasTails = layer.hasTails && from > 0;
+    if (layer.hasTails()) clear(layer.tails, std::max(from, index(layer.tailsFrom)));
+    if (from <= index(layer.tailsFrom)) layer.tailsFrom = tiles::frames;
     const bool hasModes = std::any_of(layer.counts.begin(), layer.counts.end(), [](int n) { return n > 0; });
     if (!hasModes) {
-        if (layer.hasBase) clear(layer.base);
+        if (layer.hasBase) clear(layer.base, from);
         layer.hasBase = layer.hasBase && from > 0;
     } else if (from == 0) {
         kernel_->render(view(layer, isGated), layer.base.data());
@@ -152,7 +153,7 @@ TileLayer ModeTiles::view(const Layer& layer, bool isGated) noexcept {
     return view;
 }
 
-void ModeTiles::strike(int slot, int from, const OnsetTurn& onset, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept {
+void ModeTiles::strike(int slot, int from, const StrikeTurns& turns, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept {
     const auto s = index(slot);
     const TileMode& mode = places_[s].mode;
     const int count = strikes_.count;
@@ -161,11 +162,11 @@ void ModeTiles::strike(int slot, int from, const OnsetTurn& onset, double amplit
     double* const scaled = scaled_.data() + index(strikes_.count * channels_) * 2;
     for (std::size_t j = 0; j < index(channels_); ++j) scaled[2 * j] = scaled[2 * j + 1] = amplitude * gains[j];
     const auto last = index(strikes_.count++);
-    strikes_.phases[last] = onset.phase;
-    strikes_.octaves[last] = onset.octaves;
-    strikes_.carrierRe[last] = re_[s];
-    strikes_.carrierIm[last] = im_[s];
-    strikes_.each[last] = {mode.cosPowers, mode.sinPowers, &amplitudes->re, amplitudes_.data() + s * index(floatsPerSlot_), from};
+    strikes_.onsetPhases[last] = turns.onset.phase;
+    strikes_.onsetOctaves[last] = turns.onset.octaves;
+    strikes_.carrierPhases[last] = turns.carrierPhase;
+    strikes_.decayOctaves[last] = turns.decayOctaves;
+    strikes_.each[last] = {mode.cosPowers, mode.sinPowers, &amplitudes->re, amplitudes_.data() + s * index(floatsPerSlot_), slot, from};
 }
 
 void ModeTiles::strikeAll() noexcept {
@@ -173,23 +174,33 @@ void ModeTiles::strikeAll() noexcept {
     strikes_.channels = channels_;
     strikes_.scaled = scaled_.data();
     strikes_.tails = layer.tails.data();
+    strikes_.carriers = carriers();
     kernel_->strike(strikes_);
     strikes_.count = 0;
-    layer.hasTails = true;
+    layer.tailsFrom = std::min(layer.tailsFrom, strikes_.each[0].from);
 }
 
 bool ModeTiles::render(float* const* out, int first, int count) noexcept {
     settle();
-    const bool isPlain = !layers_[0].hasTails && !layers_[1].hasTails && !layers_[1].hasBase;
-    const bool isStruckOnly = layers_[0].hasBase && layers_[0].hasTails && !layers_[1].hasBase && !layers_[1].hasTails;
-    if (isStruckOnly)
-        for (std::size_t j = 0; j < index(channels_); ++j)
-            kernel_->sum(layers_[0].base.data() + j * frames + index(first), layers_[0].tails.data() + j * frames + index(first), count, out[j]);
+    const bool isPlain = !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase;
+    const bool isStruckOnly = layers_[0].hasBase && layers_[0].hasTails() && !layers_[1].hasBase && !layers_[1].hasTails();
+    if (isStruckOnly) addTails(layers_[0], out, first, count);
     else if (!isPlain) sum(out, first, count);
     else if (layers_[0].hasBase)
         for (std::size_t j = 0; j < index(channels_); ++j) std::copy_n(layers_[0].base.data() + j * frames + index(first), count, out[j]);
     else kernel_->clear(out, channels_, count);
     return !isPlain || layers_[0].hasBase;
+}
+
+// Base and tails; before the first strike there is the base alone.
+void ModeTiles::addTails(const Layer& layer, float* const* out, int first, int count) const noexcept {
+    constexpr int panel = 16; // whole vectors
+    const int before = std::clamp((layer.tailsFrom - first) / panel * panel, 0, count);
+    for (std::size_t j = 0; j < index(channels_); ++j) {
+        const std::size_t at = j * frames + index(first);
+        std::copy_n(layer.base.data() + at, before, out[j]);
+        kernel_->sum(layer.base.data() + at + index(before), layer.tails.data() + at + index(before), count - before, out[j] + before);
+    }
 }
 
 void ModeTiles::sum(float* const* out, int first, int count) const noexcept {
@@ -198,7 +209,7 @@ void ModeTiles::sum(float* const* out, int first, int count) const noexcept {
         for (const auto& layer : layers_) {
             const std::size_t at = j * frames + index(first);
             for (std::size_t k = 0; layer.hasBase && k < index(count); ++k) all[k] += static_cast<double>(layer.base[at + k]);
-            for (std::size_t k = 0; layer.hasTails && k < index(count); ++k) all[k] += layer.tails[at + k];
+            for (std::size_t k = 0; layer.hasTails() && k < index(count); ++k) all[k] += layer.tails[at + k];
         }
         std::transform(all.begin(), all.begin() + count, out[j], [](double y) { return static_cast<float>(y); });
     }

@@ -56,9 +56,15 @@ public:
 
     /// To be called before amplitudes change by a strike at `from`: what is to be redone is redone without it.
     void settle() noexcept;
-    /// Adds a strike from frame `from` of the tile on, there and to the mode's amplitudes, where it may wait for others until
+    /// What a strike is turned by, and what its mode's carrier and amplitudes are brought to the tile's first frame by.
+    struct StrikeTurns {
+        Turn onset;
+        std::uint64_t carrierPhase = 0;
+        std::int64_t decayOctaves = 0;
+    };
+    /// Adds a strike from frame `from` of the tile on, there and to the mode's amplitudes. It may wait for others until
     /// finishStrikes.
-    void strike(int slot, int from, const OnsetTurn& onset, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept;
+    void strike(int slot, int from, const StrikeTurns& turns, double amplitude, const double* gains, Complex<double>* amplitudes) noexcept;
     /// To be called before amplitudes are read, or anything but strikes changes them.
     void finishStrikes() noexcept {
         if (strikes_.count > 0) strikeAll();
@@ -91,12 +97,16 @@ private:
         Room<double, width * frames> tails; // strikes since then
         std::array<int, rankCount> counts{};
         int redo = tiles::frames; // frames from here on are not made yet
-        bool hasBase = false, hasTails = false;
+        int tailsFrom = tiles::frames; // all of them are 0 before it
+        bool hasBase = false;
+        bool hasTails() const noexcept { return tailsFrom < tiles::frames; }
     };
     float* rowAt(std::size_t rank, int row) noexcept;
     int rowFor(bool isGated, int place) const noexcept { return isGated ? slots_ - 1 - place : place; }
     void make(Layer& layer, bool isGated) noexcept;
     TileLayer view(const Layer& layer, bool isGated) noexcept;
+    TileCarriers carriers() noexcept { return {highest_, re_.data(), im_.data(), stepRe_.data(), stepIm_.data(), roundedRe_.data(), roundedIm_.data()}; }
+    void addTails(const Layer& layer, float* const* out, int first, int count) const noexcept;
     bool takeMemory() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
     void strikeAll() noexcept;

@@ -51,19 +51,20 @@ struct TileCarriers {
     float *roundedRe = nullptr, *roundedIm = nullptr;
 };
 
-/// Phase and decay of a strike at its mode's reference: its phasor is unitPhasor(phase) * decayFactor(octaves).
-struct OnsetTurn {
+/// What a complex number is multiplied by: unitPhasor(phase) * decayFactor(octaves).
+struct Turn {
     std::uint64_t phase = 0;
     std::int64_t octaves = 0;
 };
 
-/// One strike inside a tile, of one mode: the mode's amplitude in channel j gains scaled[j] * phasor, and frame k >= from
-/// scaled[j] * im(phasor * carrier * p^k).
+/// One strike inside a tile, of one mode: its amplitudes decay to the tile's first frame and gain scaled[j] * onset in channel j,
+/// its carrier is set, and frame k >= from gains scaled[j] * im(onset * carrier * p^k).
 struct TileStrike {
     const double* cosPowers = nullptr; ///< p^k, 64 of each
     const double* sinPowers = nullptr;
     double* amplitudes = nullptr;      ///< re, im of each channel; readable in whole lines
     float* lines = nullptr;            ///< the same as TileLayer has them
+    int slot = 0;
     int from = 0;
 };
 
@@ -73,11 +74,11 @@ struct TileStrikes {
     static constexpr int most = 8;
     int count = 0, channels = 0;
     std::array<TileStrike, most> each;
-    std::array<std::uint64_t, most> phases{}; // OnsetTurn of each
-    std::array<std::int64_t, most> octaves{};
-    std::array<double, most> carrierRe{}, carrierIm{};
+    std::array<std::uint64_t, most> onsetPhases{}, carrierPhases{};
+    std::array<std::int64_t, most> onsetOctaves{}, decayOctaves{};
     const double* scaled = nullptr; ///< [strike * channels + channel]: amplitude times gain, twice
     double* tails = nullptr;        ///< [channel * 64 + frame], of all modes; on a cache line
+    TileCarriers carriers;
 };
 
 /// One instruction set's functions. R, wait-free.

@@ -185,31 +185,34 @@ void advance(const TileCarriers& carriers) {
     }
 }
 
-// Phasors of strikes: at their mode's reference, and turned by its carrier.
+// Of each strike.
 struct Onsets {
-    HWY_ALIGN double re[TileStrikes::most];
+    HWY_ALIGN double re[TileStrikes::most]; // phasors at their mode's reference
     HWY_ALIGN double im[TileStrikes::most];
-    HWY_ALIGN double turnedRe[TileStrikes::most];
+    HWY_ALIGN double turnedRe[TileStrikes::most]; // these by their carrier
     HWY_ALIGN double turnedIm[TileStrikes::most];
+    HWY_ALIGN double carrierRe[TileStrikes::most];
+    HWY_ALIGN double carrierIm[TileStrikes::most];
+    HWY_ALIGN double decay[TileStrikes::most];
 };
 
-// The mode's amplitudes move by a strike, and are rounded for the tiles that follow, in whole lines: what stands behind the last
+// The mode's amplitudes decay, move by a strike and are rounded for the tiles that follow, in whole lines: what stands behind the last
 // channel is never summed.
-HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, std::size_t channels, double phasorRe, double phasorIm) {
+HWY_INLINE void addToAmplitudes(const TileStrike& s, const double* scaled, std::size_t channels, Complex<double> onset, double decay) {
     const Doubles d;
     const hn::Rebind<float, Doubles> narrow;
     constexpr std::size_t lanes = hn::MaxLanes(Doubles());
-    const auto phasor = hn::OddEven(hn::Set(d, phasorIm), hn::Set(d, phasorRe));
+    const auto phasor = hn::OddEven(hn::Set(d, onset.im), hn::Set(d, onset.re)), fallen = hn::Set(d, decay);
     const std::size_t values = 2 * channels, whole = values / lanes * lanes;
     for (std::size_t k = whole; k < values; k += 2) {
-        s.amplitudes[k] += phasorRe * scaled[k];
-        s.amplitudes[k + 1] += phasorIm * scaled[k];
+        s.amplitudes[k] = s.amplitudes[k] * decay + onset.re * scaled[k];
+        s.amplitudes[k + 1] = s.amplitudes[k + 1] * decay + onset.im * scaled[k];
     }
     for (std::size_t k = 0; k < values; k += 8)
         for (std::size_t v = k; v < k + 8; v += lanes) {
             auto z = hn::LoadU(d, s.amplitudes + v);
             if (v < whole) {
-                z = hn::Add(z, hn::Mul(phasor, hn::LoadU(d, scaled + v)));
+                z = hn::Add(hn::Mul(z, fallen), hn::Mul(phasor, hn::LoadU(d, scaled + v)));
                 hn::StoreU(z, d, s.amplitudes + v);
             }
             float* const line = s.lines + k + v;
@@ -256,39 +259,61 @@ HWY_INLINE void addToTails(const TileStrikes& s, const double* waves, const doub
     }
 }
 
-// unitPhasor and decayFactor of Core/Trigonometry.h, step by step the same, for all strikes at once: one alone is a long row of
-// steps that wait for each other. The product with the carrier is spelt out as well: GCC 12 fuses that of scalars, whatever it is told.
-HWY_INLINE void turnOnsets(const TileStrikes& s, Onsets& onsets) {
+// unitPhasor and decayFactor of Core/Trigonometry.h, step by step the same, of some at once: one alone is a long row of steps that
+// wait for each other.
+struct Phasors {
+    hn::Vec<Doubles> re, im;
+};
+HWY_INLINE Phasors unitPhasors(const std::uint64_t* phases) {
     const Doubles d;
     const hn::RebindToUnsigned<Doubles> turns;
-    const hn::RebindToSigned<Doubles> octaves;
     const auto one = hn::Set(d, 1.0);
-    const auto over = [&](int n) HWY_ATTR { return hn::Set(d, 1.0 / n); };
+    const auto first = hn::Set(turns, 1), phase = hn::LoadU(turns, phases);
+    const auto quadrant = hn::ShiftRight<62>(hn::Add(phase, hn::Set(turns, std::uint64_t{1} << 61))), rest = hn::Sub(phase, hn::ShiftLeft<62>(quadrant));
+    const auto x = hn::Mul(hn::Set(d, 2.0 * std::numbers::pi / 18446744073709551616.0), hn::ConvertTo(d, hn::BitCast(hn::RebindToSigned<Doubles>(), rest)));
+    const auto q = hn::Mul(x, x);
+    auto sine = hn::Sub(one, hn::Mul(q, hn::Set(d, 1.0 / 110))), cosine = hn::Sub(one, hn::Mul(q, hn::Set(d, 1.0 / 132)));
+    for (const int n : {72, 42, 20, 6}) sine = hn::Sub(one, hn::Mul(hn::Mul(q, hn::Set(d, 1.0 / n)), sine));
+    for (const int n : {90, 56, 30, 12, 2}) cosine = hn::Sub(one, hn::Mul(hn::Mul(q, hn::Set(d, 1.0 / n)), cosine));
+    sine = hn::Mul(x, sine);
+    const auto isOdd = hn::MaskFromVec(hn::BitCast(d, hn::Sub(hn::Zero(turns), hn::And(quadrant, first))));
+    const auto reSign = hn::ShiftLeft<63>(hn::ShiftRight<1>(hn::Add(quadrant, first))), imSign = hn::ShiftLeft<63>(hn::ShiftRight<1>(quadrant));
+    return {hn::Xor(hn::IfThenElse(isOdd, sine, cosine), hn::BitCast(d, reSign)), hn::Xor(hn::IfThenElse(isOdd, cosine, sine), hn::BitCast(d, imSign))};
+}
+
+HWY_INLINE hn::Vec<Doubles> decayFactors(const std::int64_t* octaves) {
+    const Doubles d;
+    const hn::RebindToSigned<Doubles> fixed;
+    const auto one = hn::Set(d, 1.0);
+    const auto all = hn::LoadU(fixed, octaves);
+    const auto whole = hn::ShiftRight<octaveFractionBits>(hn::Add(all, hn::Set(fixed, std::int64_t{1} << (octaveFractionBits - 1))));
+    const auto x = hn::Mul(hn::Set(d, -std::numbers::ln2 / octaveUnit), hn::ConvertTo(d, hn::Sub(all, hn::ShiftLeft<octaveFractionBits>(whole))));
+    auto power = hn::Add(one, hn::Mul(x, hn::Set(d, 1.0 / 9)));
+    for (const int n : {8, 7, 6, 5, 4, 3, 2}) power = hn::Add(one, hn::Mul(hn::Mul(x, hn::Set(d, 1.0 / n)), power));
+    power = hn::Add(one, hn::Mul(x, power));
+    return hn::Mul(power, hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(fixed, 1023), whole))));
+}
+
+// The products are spelt out: GCC 12 fuses those of scalars to one rounding, whatever it is told.
+HWY_INLINE void turnOnsets(const TileStrikes& s, Onsets& onsets) {
+    const Doubles d;
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); i += hn::MaxLanes(Doubles())) {
-        const auto phase = hn::LoadU(turns, s.phases.data() + i), quadrant = hn::ShiftRight<62>(hn::Add(phase, hn::Set(turns, std::uint64_t{1} << 61)));
-        const auto x = hn::Mul(hn::Set(d, 2.0 * std::numbers::pi / 18446744073709551616.0), hn::ConvertTo(d, hn::BitCast(octaves, hn::Sub(phase, hn::ShiftLeft<62>(quadrant)))));
-        const auto q = hn::Mul(x, x);
-        auto sine = hn::Sub(one, hn::Mul(q, over(110)));
-        for (const int n : {72, 42, 20, 6}) sine = hn::Sub(one, hn::Mul(hn::Mul(q, over(n)), sine));
-        sine = hn::Mul(x, sine);
-        auto cosine = hn::Sub(one, hn::Mul(q, over(132)));
-        for (const int n : {90, 56, 30, 12, 2}) cosine = hn::Sub(one, hn::Mul(hn::Mul(q, over(n)), cosine));
-        const auto decay = hn::LoadU(octaves, s.octaves.data() + i);
-        const auto whole = hn::ShiftRight<octaveFractionBits>(hn::Add(decay, hn::Set(octaves, std::int64_t{1} << (octaveFractionBits - 1))));
-        const auto y = hn::Mul(hn::Set(d, -std::numbers::ln2 / octaveUnit), hn::ConvertTo(d, hn::Sub(decay, hn::ShiftLeft<octaveFractionBits>(whole))));
-        auto power = hn::Add(one, hn::Mul(y, over(9)));
-        for (const int n : {8, 7, 6, 5, 4, 3, 2}) power = hn::Add(one, hn::Mul(hn::Mul(y, over(n)), power));
-        power = hn::Add(one, hn::Mul(y, power));
-        power = hn::Mul(power, hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(octaves, 1023), whole))));
-        const auto first = hn::Set(turns, 1);
-        const auto isOdd = hn::MaskFromVec(hn::BitCast(d, hn::Sub(hn::Zero(turns), hn::And(quadrant, first))));
-        const auto reSign = hn::BitCast(d, hn::ShiftLeft<63>(hn::ShiftRight<1>(hn::Add(quadrant, first)))), imSign = hn::BitCast(d, hn::ShiftLeft<63>(hn::ShiftRight<1>(quadrant)));
-        const auto re = hn::Mul(hn::Xor(hn::IfThenElse(isOdd, sine, cosine), reSign), power), im = hn::Mul(hn::Xor(hn::IfThenElse(isOdd, cosine, sine), imSign), power);
-        const auto carrierRe = hn::LoadU(d, s.carrierRe.data() + i), carrierIm = hn::LoadU(d, s.carrierIm.data() + i);
+        const auto unit = unitPhasors(s.onsetPhases.data() + i), carrier = unitPhasors(s.carrierPhases.data() + i);
+        const auto power = decayFactors(s.onsetOctaves.data() + i), re = hn::Mul(unit.re, power), im = hn::Mul(unit.im, power);
         hn::Store(re, d, onsets.re + i);
         hn::Store(im, d, onsets.im + i);
-        hn::Store(hn::Sub(hn::Mul(re, carrierRe), hn::Mul(im, carrierIm)), d, onsets.turnedRe + i);
-        hn::Store(hn::Add(hn::Mul(re, carrierIm), hn::Mul(im, carrierRe)), d, onsets.turnedIm + i);
+        hn::Store(hn::Sub(hn::Mul(re, carrier.re), hn::Mul(im, carrier.im)), d, onsets.turnedRe + i);
+        hn::Store(hn::Add(hn::Mul(re, carrier.im), hn::Mul(im, carrier.re)), d, onsets.turnedIm + i);
+        hn::Store(carrier.re, d, onsets.carrierRe + i);
+        hn::Store(carrier.im, d, onsets.carrierIm + i);
+        hn::Store(decayFactors(s.decayOctaves.data() + i), d, onsets.decay + i);
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); ++i) {
+        const auto slot = static_cast<std::size_t>(s.each[i].slot);
+        s.carriers.re[slot] = onsets.carrierRe[i];
+        s.carriers.im[slot] = onsets.carrierIm[i];
+        s.carriers.roundedRe[slot] = static_cast<float>(onsets.carrierRe[i]);
+        s.carriers.roundedIm[slot] = static_cast<float>(onsets.carrierIm[i]);
     }
 }
 
@@ -297,7 +322,7 @@ void strike(const TileStrikes& s) {
     Onsets onsets;
     const auto count = static_cast<std::size_t>(s.count), channels = static_cast<std::size_t>(s.channels);
     turnOnsets(s, onsets);
-    for (std::size_t i = 0; i < count; ++i) addToAmplitudes(s.each[i], s.scaled + i * 2 * channels, channels, onsets.re[i], onsets.im[i]);
+    for (std::size_t i = 0; i < count; ++i) addToAmplitudes(s.each[i], s.scaled + i * 2 * channels, channels, {onsets.re[i], onsets.im[i]}, onsets.decay[i]);
     fillWaves(s, onsets, waves);
     constexpr std::size_t most = HWY_TARGET == HWY_AVX3 ? 8 : 4; // as many sums as registers hold
     std::size_t j = 0;
