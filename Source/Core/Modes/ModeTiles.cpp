@@ -105,6 +105,7 @@ void ModeTiles::advance() noexcept {
 }
 
 void ModeTiles::begin() noexcept {
+    if (isEmpty()) return;
     redoFrom(false, 0);
     redoFrom(true, 0);
 }

@@ -110,6 +110,9 @@ private:
     bool takeMemory() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
     void strikeAll() noexcept;
+    bool isEmpty() const noexcept {
+        return highest_ == 0 && !layers_[0].hasBase && !layers_[1].hasBase && !layers_[0].hasTails() && !layers_[1].hasTails();
+    }
 
     static constexpr std::array<std::size_t, rankCount> floatsBefore = [] { // of rows of lower rank, per slot
         std::array<std::size_t, rankCount> offsets{};

@@ -351,9 +351,15 @@ HWY_INLINE void clearChannel(float* out, std::size_t count) {
         for (std::size_t k = 0; k < count; ++k) out[k] = 0.0f;
         return;
     }
-    float* const last = out + count - lanes;
+    float *const last = out + count - lanes, *at = out + (bytes - reinterpret_cast<std::uintptr_t>(out) % bytes) / sizeof(float);
     hn::StoreU(hn::Zero(d), d, out);
-    for (float* at = out + (bytes - reinterpret_cast<std::uintptr_t>(out) % bytes) / sizeof(float); at < last; at += lanes) hn::StoreU(hn::Zero(d), d, at);
+    for (; at + 2 * lanes < last; at += 3 * lanes) { // a loop of one store would become a call
+        hn::StoreU(hn::Zero(d), d, at);
+        hn::StoreU(hn::Zero(d), d, at + lanes);
+        hn::StoreU(hn::Zero(d), d, at + 2 * lanes);
+    }
+    if (at < last) hn::StoreU(hn::Zero(d), d, at);
+    if (at + lanes < last) hn::StoreU(hn::Zero(d), d, at + lanes);
     hn::StoreU(hn::Zero(d), d, last);
 }
 
