@@ -46,6 +46,16 @@ public:
     /// Nothing in it, and nothing changes.
     bool isResting() const noexcept { return silentFrames_ >= most_ && faded_ == fadeFrames_; }
 
+    /// Instead of process, when it isOut and what passes is not silent: where that is to be kept by whoever reads it anyway. Null: not in
+    /// one piece, and nothing has happened.
+    float* keepElsewhere(int frames) noexcept {
+        const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1, count = static_cast<std::size_t>(frames);
+        if (next + count > size_) return nullptr;
+        write_ = next + count - 1;
+        silentFrames_ = 0;
+        return ring_.data() + next;
+    }
+
     /// In place. `isSilent`: all of the input is 0. True if all of the output is.
     bool process(float* io, int frames, bool isSilent) noexcept {
         if (isSilent && silentFrames_ >= most_) {
@@ -112,7 +122,9 @@ class ChannelDelay<0> {
 public:
     bool prepare(int, int, int) noexcept { return true; }
     void moveTo(int) noexcept {}
+    bool isOut() const noexcept { return true; }
     bool isResting() const noexcept { return true; }
+    float* keepElsewhere(int) noexcept { return nullptr; }
     bool process(float*, int, bool isSilent) noexcept { return isSilent; }
 };
 

@@ -28,6 +28,7 @@ public:
     /// At once: for what nobody hears yet.
     void jumpTo(float gain) noexcept { now_ = target_ = gain; }
     bool isResting() const noexcept { return now_ == target_; }
+    bool isOne() const noexcept { return now_ == 1.0f && target_ == 1.0f; } ///< What it is applied to stays as it is.
 
     /// As apply, on silence.
     void pass(int frames) noexcept {

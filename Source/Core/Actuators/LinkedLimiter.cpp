@@ -51,17 +51,17 @@ int LinkedLimiter<P>::windowAt(int sampleRateHz) noexcept {
 }
 
 template <class P>
-void LinkedLimiter<P>::process(float* const* io, int frames, bool isSilent) noexcept {
+void LinkedLimiter<P>::process(float* const* io, int frames, bool isSilent, float* const* kept) noexcept {
     if (isSilent && silentFrames_ >= window_ && isResting()) return rest(static_cast<std::size_t>(frames));
     silentFrames_ = isSilent ? silentFrames_ + frames : 0;
     const auto all = static_cast<std::size_t>(frames);
-    for (std::size_t first = 0; first < all; first += partMost) processPart(io, first, std::min(partMost, all - first));
+    for (std::size_t first = 0; first < all; first += partMost) processPart(io, first, std::min(partMost, all - first), kept);
 }
 
 // Channel by channel, so that the loops over frames are vectors.
 template <class P>
-void LinkedLimiter<P>::processPart(float* const* io, std::size_t first, std::size_t frames) noexcept {
-    const LimiterLines lines{io, first, frames, static_cast<std::size_t>(channels_), lines_.data(), floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())};
+void LinkedLimiter<P>::processPart(float* const* io, std::size_t first, std::size_t frames, float* const* kept) noexcept {
+    const LimiterLines lines{io, first, frames, static_cast<std::size_t>(channels_), lines_.data(), kept, floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())};
     if (!takeIn(lines) && isResting()) {
         rest(frames);
         return giveOut(lines, nullptr);

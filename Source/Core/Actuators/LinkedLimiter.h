@@ -32,7 +32,9 @@ public:
     /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
     /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite). `isSilent`: all of it is +0, so
     /// that once the delayed frames are as well there is nothing to do.
-    void process(float* const* io, int frames, bool isSilent = false) noexcept;
+    /// `kept`, only where it canKeep: where each channel's input is written as well, if not null.
+    void process(float* const* io, int frames, bool isSilent = false, float* const* kept = nullptr) noexcept;
+    bool canKeep() const noexcept { return kernel_ != nullptr; }
 
     int latencyFrames() const noexcept { return window_ - 1; }
     static int latencyFramesAt(int sampleRateHz) noexcept { return windowAt(sampleRateHz) - 1; }
@@ -50,7 +52,7 @@ private:
     using Gains = std::array<float, partMost>;
 
     static int windowAt(int sampleRateHz) noexcept;
-    void processPart(float* const* io, std::size_t first, std::size_t frames) noexcept;
+    void processPart(float* const* io, std::size_t first, std::size_t frames, float* const* kept) noexcept;
     bool takeIn(const LimiterLines& lines) noexcept;
     void giveOut(const LimiterLines& lines, const float* gains) noexcept;
     bool cleanAndCompare(const float* samples, std::size_t frames, float ceiling, float* line) noexcept;
