@@ -15,6 +15,8 @@ physvib_web_test_packages="$physvib_web_packages chromium python3"
 # Of Standalone/Packaging/release.sh, and of Tests/Release.
 physvib_release_packages="$physvib_build_packages g++ git debhelper dh-python python3 dpkg-dev"
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
+# Of the library alone (preset "library"), for Tests/Benchmarks.
+physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libboost-dev libhwy-dev"
 # Of Tests/Osc/run.sh alone.
 physvib_osc_packages="jackd2 liblo-tools puredata-core python3"
 # Of Tests/arm64.sh and Tests/windows.sh alone: compilers, what runs their programs, libraries that are headers only.

@@ -5,10 +5,11 @@
 set -eu
 cd "$(dirname "$0")/../.."
 . .ci/packages.sh
-ensure_packages g++ cmake ninja-build libhwy-dev valgrind
-build release physvib-core
+# shellcheck disable=SC2086 # a list of words
+ensure_packages $physvib_library_packages valgrind
+build library physvib-core
 program=build/instruction-run
-g++ -std=c++20 -O2 -ffp-contract=off -ISource -ITests/Benchmarks Tests/Benchmarks/InstructionRun.cpp build/release/lib/libphysvib-core.a -lhwy -o $program
+g++ -std=c++20 -O2 -ffp-contract=off -ISource -ITests/Benchmarks Tests/Benchmarks/InstructionRun.cpp build/library/lib/libphysvib-core.a -lhwy -o $program
 
 count() { # CHANNELS STRIKES MODES SECONDS: instructions
     valgrind --tool=callgrind --callgrind-out-file=/dev/null $program "$@" 2>&1 | awk '/Collected/ { print $4 }'

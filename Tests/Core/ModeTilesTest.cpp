@@ -93,6 +93,51 @@ TEST(ModeTiles, AStrikeInTheTileOfAClosingGateKeepsItsBits) {
     EXPECT_TRUE(std::equal(a.begin(), a.begin() + 34, b.begin()));
 }
 
+TEST(ModeTiles, AStrikeOnAFrameBeginsAtExactlyZero) {
+    for (const auto set : test::runnableSets()) {
+        if (set == InstructionSet::scalar) continue; // rounds its amplitudes first
+        const auto bank = std::make_unique<ModeBank<DesktopProfile>>();
+        bank->prepare(48000, 1, set);
+        std::array<float, 64> tile{};
+        float* at = tile.data();
+        const double gain = 0.7;
+        for (int k = 0; k < 1000; ++k) {
+            const std::int64_t first = 6400 * k;
+            const auto from = static_cast<std::size_t>(7 * k % 64);
+            bank->strike({40.0 + 0.7 * k, 200, 1, {first + 7 * k % 64, 0}, Strike::never}, &gain);
+            bank->render(&at, first, 64);
+            ASSERT_EQ(tile[from], 0.0f) << nameOf(set) << ' ' << k;
+            ASSERT_TRUE(from == 63 || tile[from + 1] > 0.0f);
+        }
+    }
+}
+
+/// A tile of a bank that is struck so often; `apart`: none waits for another.
+Channels struck(InstructionSet set, int channels, bool apart) {
+    const auto bank = std::make_unique<ModeBank<DesktopProfile>>();
+    bank->prepare(48000, channels, set);
+    Channels out(static_cast<std::size_t>(channels), std::vector<float>(128));
+    std::vector<float*> at;
+    for (auto& channel : out) at.push_back(channel.data());
+    test::Random random{5};
+    std::vector<double> gains(static_cast<std::size_t>(channels));
+    for (int i = 0; i < 39; ++i) {
+        for (auto& g : gains) g = random.uniform(-1, 1);
+        const bool isGated = i % 7 == 6;
+        bank->strike({60.0 + 10 * random.below(9), 30, 0.1, {64 + i * 3 / 2, random.uniform(0, 1)}, isGated ? 1000 : Strike::never}, gains.data());
+        if (apart) bank->render(at.data(), 64, 0);
+    }
+    bank->render(at.data(), 64, 64);
+    for (auto& channel : at) channel += 64;
+    bank->render(at.data(), 128, 64);
+    return out;
+}
+
+TEST(ModeTiles, StrikesThatWaitForOthersAreStrikesOneByOneToTheBit) {
+    for (const auto set : test::runnableSets())
+        for (const int channels : {1, 2, 3, 4, 5, 8, 11, 16}) EXPECT_TRUE(struck(set, channels, false) == struck(set, channels, true)) << nameOf(set) << ' ' << channels;
+}
+
 TEST(LowRankBasis, RowsOfTheChosenRankGiveTheModeBack) {
     const LowRankBasis basis;
     for (double radians = 1e-4; radians < 3.1; radians *= 1.07)

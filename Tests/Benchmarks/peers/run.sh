@@ -5,12 +5,13 @@
 set -eu
 cd "$(dirname "$0")/../../.."
 . .ci/packages.sh
-ensure_packages g++ cmake ninja-build libhwy-dev python3 faust libstk-dev csound supercollider-server puredata-core
+# shellcheck disable=SC2086 # a list of words
+ensure_packages $physvib_library_packages python3 faust libstk-dev csound supercollider-server puredata-core
 voices=${1:-64}
 here=Tests/Benchmarks/peers
 out=$PWD/build/peers
 mkdir -p "$out"
-build release physvib-core
+build library physvib-core
 PYTHONPATH=$here python3 - "$voices" >"$out/voices.dsp" <<'END'
 import sys
 import compare, formats
@@ -22,7 +23,7 @@ compile() { # NAME SOURCE FLAGS...: everybody else gets the flags that suit it b
     shift 2
     g++ -std=c++20 -I$here "$@" -o "$out/$name" $here/"$source" $libraries
 }
-libraries="build/release/lib/libphysvib-core.a -lhwy"
+libraries="build/library/lib/libphysvib-core.a -lhwy"
 compile ours ours.cpp -O3 -ISource
 compile chain ours.cpp -O3 -ISource -DCHAIN
 libraries=
