@@ -164,6 +164,29 @@ bool HapticRenderer<P>::strikeCoupled(Strike strike) noexcept {
     return bank_.strike(strike, ahead.data());
 }
 
+// Modes alone, that leave as they are but for the limiter: it reads them where they were summed. False: something else is to be done.
+template <class P>
+bool HapticRenderer<P>::passModes([[maybe_unused]] const Channels& out, [[maybe_unused]] int frames) noexcept {
+    if constexpr (P::hasTiles) {
+        Channels kept;
+        std::array<const float*, static_cast<std::size_t>(P::maxChannels)> sums;
+        const bool isAlone = bank_.liveModes() > 0 && limiter_.canPass() && player_.voices() == 0 && moving_.count() == 0;
+        if (!isAlone || !actuators_.passes(kept.data(), frames) || !bank_.sumsAt(sums.data(), position_, frames)) return false;
+        actuators_.pass(frames);
+        limiter_.pass(sums.data(), out.data(), frames, kept.data());
+        return true;
+    }
+    return false;
+}
+
+template <class P>
+void HapticRenderer<P>::playAll(const Channels& out, int frames) noexcept {
+    const bool modesSound = bank_.render(out.data(), position_, frames), recordingsSound = player_.render(out.data(), position_, frames);
+    const bool movingSounds = moving_.count() > 0 && moving_.render(out.data(), position_, frames, [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
+    const bool isSilent = actuators_.process(out.data(), frames, !modesSound && !recordingsSound && !movingSounds);
+    limiter_.process(out.data(), frames, isSilent);
+}
+
 // The end of the tile, the next gate or the next control; `most` frames away at the latest.
 template <class P>
 std::int64_t HapticRenderer<P>::nextChange(int most) const noexcept {

@@ -70,6 +70,8 @@ private:
     bool canPlay(const CollisionEvent& event) const noexcept { return isPlayable(event) && event.frequencyHz < 0.5 * clock_.sampleRateHz(); }
     template <class Source>
     int strikeAndReach(Source& source, int most) noexcept;
+    bool passModes(const Channels& out, int frames) noexcept;
+    void playAll(const Channels& out, int frames) noexcept;
     void actOnDue() noexcept;
     void apply(const RenderControl& control) noexcept;
     bool prepareLimiter() noexcept;

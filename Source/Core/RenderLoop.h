@@ -50,14 +50,11 @@ void HapticRenderer<Profile>::render(Source& source, float* const* out, int fram
         return;
     }
     const DenormalGuard guard;
-    Channels at, kept; // the first channels_ of them
+    Channels at; // the first channels_ of them
     std::copy_n(out, channels_, at.begin());
     for (int done = 0; done < frames;) {
         const int part = strikeAndReach(source, frames - done);
-        const bool modesSound = bank_.render(at.data(), position_, part), recordingsSound = player_.render(at.data(), position_, part);
-        const bool movingSounds = moving_.count() > 0 && moving_.render(at.data(), position_, part, [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
-        const bool isSilent = actuators_.process(at.data(), part, !modesSound && !recordingsSound && !movingSounds, limiter_.canKeep() ? kept.data() : nullptr);
-        limiter_.process(at.data(), part, isSilent, limiter_.canKeep() && !isSilent ? kept.data() : nullptr);
+        if (!passModes(at, part)) playAll(at, part);
         position_ += part;
         done += part;
         for (int j = 0; j < channels_; ++j) at[static_cast<std::size_t>(j)] += part;

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs every benchmark (a minute or two) and writes table and plot of Docs/speed.md. On a quiet machine, if there is one.
+# Runs every benchmark (some four minutes) and writes table and plot of Docs/speed.md. On a quiet machine, if there is one.
 set -eu
 cd "$(dirname "$0")/../.."
 cmake --preset release >/dev/null

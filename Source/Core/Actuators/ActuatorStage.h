@@ -63,9 +63,23 @@ public:
         isAsleep_ = false;
     }
 
-    /// In place. `isSilent`: all of it is 0. True if all of it is 0 afterwards: an equaliser rings out. `kept`, if given: for
-    /// each channel that is only to be kept for a delay set later, where; else null.
-    bool process(float* const* io, int frames, bool isSilent, float** kept = nullptr) noexcept {
+    /// True if every channel leaves as it comes, but that it is to be kept for a delay that may be set later: at kept[j].
+    bool passes(float** kept, int frames) noexcept {
+        for (int j = 0; j < channels_; ++j) {
+            const auto c = index(j);
+            if (equalisers_[c].isOn() || !delays_[c].isOut() || !ramps_[c].isOne() || (kept[j] = delays_[c].placeFor(frames)) == nullptr) return false;
+        }
+        return true;
+    }
+    /// Instead of process, where it passes: what is kept has been written, and is not silent.
+    void pass(int frames) noexcept {
+        hasBegun_ = true;
+        isAsleep_ = false;
+        for (int j = 0; j < channels_; ++j) delays_[index(j)].pass(frames);
+    }
+
+    /// In place. `isSilent`: all of it is 0. True if all of it is 0 afterwards: an equaliser rings out.
+    bool process(float* const* io, int frames, bool isSilent) noexcept {
         hasBegun_ = true;
         if (isSilent && isAsleep_) return true;
         bool allSilent = true;
@@ -73,7 +87,7 @@ public:
         for (int j = 0; j < channels_; ++j) {
             const auto c = index(j);
             const bool isQuiet = equalisers_[c].isOn() ? equalisers_[c].process(io[j], frames, isSilent) : isSilent;
-            const bool isKept = kept != nullptr && (kept[j] = placeOf(j, frames, isQuiet)) != nullptr, none = !isKept && delays_[c].process(io[j], frames, isQuiet);
+            const bool none = delays_[c].process(io[j], frames, isQuiet);
             if (none) ramps_[c].pass(frames);
             else ramps_[c].apply(io + j, 1, frames);
             allSilent = allSilent && none;
@@ -83,10 +97,6 @@ public:
     }
 
 private:
-    float* placeOf(int channel, int frames, bool isQuiet) noexcept {
-        const auto c = index(channel);
-        return !isQuiet && delays_[c].isOut() && ramps_[c].isOne() ? delays_[c].keepElsewhere(frames) : nullptr;
-    }
     void prepareEqualisers(int sampleRateHz) noexcept {
         for (int j = 0; j < channels_; ++j) equalisers_[index(j)] = {actuators_[index(j)], sampleRateHz};
     }

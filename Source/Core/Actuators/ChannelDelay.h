@@ -46,14 +46,16 @@ public:
     /// Nothing in it, and nothing changes.
     bool isResting() const noexcept { return silentFrames_ >= most_ && faded_ == fadeFrames_; }
 
-    /// Instead of process, when it isOut and what passes is not silent: where that is to be kept by whoever reads it anyway. Null: not in
-    /// one piece, and nothing has happened.
-    float* keepElsewhere(int frames) noexcept {
-        const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1, count = static_cast<std::size_t>(frames);
-        if (next + count > size_) return nullptr;
-        write_ = next + count - 1;
+    /// When it isOut: where what passes next would be kept. Null: not in one piece.
+    float* placeFor(int frames) noexcept {
+        const std::size_t next = write_ + 1 == size_ ? 0 : write_ + 1;
+        return next + static_cast<std::size_t>(frames) <= size_ ? ring_.data() + next : nullptr;
+    }
+    /// Instead of process: what passed is there, and is not silent.
+    void pass(int frames) noexcept {
+        write_ += static_cast<std::size_t>(frames);
+        if (write_ >= size_) write_ -= size_;
         silentFrames_ = 0;
-        return ring_.data() + next;
     }
 
     /// In place. `isSilent`: all of the input is 0. True if all of the output is.
@@ -124,7 +126,8 @@ public:
     void moveTo(int) noexcept {}
     bool isOut() const noexcept { return true; }
     bool isResting() const noexcept { return true; }
-    float* keepElsewhere(int) noexcept { return nullptr; }
+    float* placeFor(int) noexcept { return nullptr; }
+    void pass(int) noexcept {}
     bool process(float*, int, bool isSilent) noexcept { return isSilent; }
 };
 

@@ -51,19 +51,30 @@ int LinkedLimiter<P>::windowAt(int sampleRateHz) noexcept {
 }
 
 template <class P>
-void LinkedLimiter<P>::process(float* const* io, int frames, bool isSilent, float* const* kept) noexcept {
+void LinkedLimiter<P>::process(float* const* io, int frames, bool isSilent) noexcept {
     if (isSilent && silentFrames_ >= window_ && isResting()) return rest(static_cast<std::size_t>(frames));
     silentFrames_ = isSilent ? silentFrames_ + frames : 0;
+    processAll(io, io, frames, nullptr);
+}
+
+template <class P>
+void LinkedLimiter<P>::pass(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {
+    silentFrames_ = 0;
+    processAll(in, out, frames, kept);
+}
+
+template <class P>
+void LinkedLimiter<P>::processAll(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {
     const auto all = static_cast<std::size_t>(frames);
-    for (std::size_t first = 0; first < all; first += partMost) processPart(io, first, std::min(partMost, all - first), kept);
+    for (std::size_t first = 0; first < all; first += partMost)
+        processPart({in, out, first, std::min(partMost, all - first), static_cast<std::size_t>(channels_), lines_.data(), kept, floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())});
 }
 
 // Channel by channel, so that the loops over frames are vectors.
 template <class P>
-void LinkedLimiter<P>::processPart(float* const* io, std::size_t first, std::size_t frames, float* const* kept) noexcept {
-    const LimiterLines lines{io, first, frames, static_cast<std::size_t>(channels_), lines_.data(), kept, floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())};
+void LinkedLimiter<P>::processPart(const LimiterLines& lines) noexcept {
     if (!takeIn(lines) && isResting()) {
-        rest(frames);
+        rest(lines.frames);
         return giveOut(lines, nullptr);
     }
     Gains gains;
@@ -77,14 +88,14 @@ bool LinkedLimiter<P>::takeIn(const LimiterLines& lines) noexcept {
     if (kernel_ != nullptr && !kernel_->take(lines, mostBits_.data())) return false;
     bool isOver = false;
     for (std::size_t j = 0; j < lines.channels; ++j)
-        if (cleanAndCompare(lines.io[j] + lines.first, lines.frames, ceilings_[j], lines.line(j) + lines.front)) isOver = true;
+        if (cleanAndCompare(lines.in[j] + lines.first, lines.frames, ceilings_[j], lines.line(j) + lines.front)) isOver = true;
     return isOver;
 }
 
 template <class P>
 void LinkedLimiter<P>::giveOut(const LimiterLines& lines, const float* gains) noexcept {
     if (kernel_ != nullptr) return kernel_->give(lines, gains, bounds_.data());
-    for (std::size_t j = 0; j < lines.channels; ++j) delayAndLimit(lines.line(j), lines.io[j] + lines.first, lines.frames, gains, bounds_[j]);
+    for (std::size_t j = 0; j < lines.channels; ++j) delayAndLimit(lines.line(j), lines.out[j] + lines.first, lines.frames, gains, bounds_[j]);
 }
 
 // Sizes are compared as integers, which order as the floats do (IEEE 754).

@@ -32,9 +32,11 @@ public:
     /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
     /// Not a number, infinite or denormal: becomes 0 (and is counted, if not finite). `isSilent`: all of it is +0, so
     /// that once the delayed frames are as well there is nothing to do.
-    /// `kept`, only where it canKeep: where each channel's input is written as well, if not null.
-    void process(float* const* io, int frames, bool isSilent = false, float* const* kept = nullptr) noexcept;
-    bool canKeep() const noexcept { return kernel_ != nullptr; }
+    void process(float* const* io, int frames, bool isSilent = false) noexcept;
+
+    /// The same from `in` to `out`, and `in` is written to `kept` as well. Only where it canPass.
+    void pass(const float* const* in, float* const* out, int frames, float* const* kept) noexcept;
+    bool canPass() const noexcept { return kernel_ != nullptr; }
 
     int latencyFrames() const noexcept { return window_ - 1; }
     static int latencyFramesAt(int sampleRateHz) noexcept { return windowAt(sampleRateHz) - 1; }
@@ -52,7 +54,8 @@ private:
     using Gains = std::array<float, partMost>;
 
     static int windowAt(int sampleRateHz) noexcept;
-    void processPart(float* const* io, std::size_t first, std::size_t frames, float* const* kept) noexcept;
+    void processAll(const float* const* in, float* const* out, int frames, float* const* kept) noexcept;
+    void processPart(const LimiterLines& lines) noexcept;
     bool takeIn(const LimiterLines& lines) noexcept;
     void giveOut(const LimiterLines& lines, const float* gains) noexcept;
     bool cleanAndCompare(const float* samples, std::size_t frames, float ceiling, float* line) noexcept;

@@ -418,6 +418,16 @@ bool ModeBank<P>::render(float* const* out, std::int64_t first, int frames) noex
     return activeCount_ > 0;
 }
 
+template <class P>
+bool ModeBank<P>::sumsAt([[maybe_unused]] const float** at, [[maybe_unused]] std::int64_t first, [[maybe_unused]] int frames) noexcept {
+    if constexpr (P::hasTiles) {
+        if (!tiles_.isOn()) return false;
+        enterTile(first);
+        return tiles_.sumsAt(at, static_cast<int>(first - tileStart_));
+    }
+    return false;
+}
+
 template class ModeBank<DesktopProfile>;
 template class ModeBank<BoardProfile>;
 

@@ -181,16 +181,22 @@ void ModeTiles::strikeAll() noexcept {
     layer.tailsFrom = std::min(layer.tailsFrom, strikes_.each[0].from);
 }
 
+bool ModeTiles::sumsAt(const float** at, int first) noexcept {
+    finishStrikes();
+    settle();
+    for (std::size_t j = 0; j < index(channels_); ++j) at[j] = layers_[0].base.data() + j * frames + index(first);
+    return isPlain() && layers_[0].hasBase;
+}
+
 bool ModeTiles::render(float* const* out, int first, int count) noexcept {
     settle();
-    const bool isPlain = !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase;
     const bool isStruckOnly = layers_[0].hasBase && layers_[0].hasTails() && !layers_[1].hasBase && !layers_[1].hasTails();
     if (isStruckOnly) addTails(layers_[0], out, first, count);
-    else if (!isPlain) sum(out, first, count);
+    else if (!isPlain()) sum(out, first, count);
     else if (layers_[0].hasBase)
         for (std::size_t j = 0; j < index(channels_); ++j) std::copy_n(layers_[0].base.data() + j * frames + index(first), count, out[j]);
     else kernel_->clear(out, channels_, count);
-    return !isPlain || layers_[0].hasBase;
+    return !isPlain() || layers_[0].hasBase;
 }
 
 // Base and tails; before the first strike there is the base alone.

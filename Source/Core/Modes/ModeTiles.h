@@ -70,6 +70,8 @@ public:
         if (strikes_.count > 0) strikeAll();
     }
 
+    /// Where frames from `first` on of the tile stand, if each channel is one sum; else false, and render makes it.
+    bool sumsAt(const float** at, int first) noexcept;
     /// out[j][0..frames) = frames [first, first + frames) of the tile. False if all of them are zero.
     bool render(float* const* out, int first, int frames) noexcept;
 
@@ -110,6 +112,7 @@ private:
     bool takeMemory() noexcept;
     void sum(float* const* out, int first, int count) const noexcept;
     void strikeAll() noexcept;
+    bool isPlain() const noexcept { return !layers_[0].hasTails() && !layers_[1].hasTails() && !layers_[1].hasBase; } // the sum of free modes, or nothing
     bool isEmpty() const noexcept {
         return highest_ == 0 && !layers_[0].hasBase && !layers_[1].hasBase && !layers_[0].hasTails() && !layers_[1].hasTails();
     }
