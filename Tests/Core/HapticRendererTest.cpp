@@ -242,12 +242,11 @@ TEST(HapticRenderer, ADelaySetLaterBeginsWithWhatHasPassed) {
     Session session{randomEvents(500, 0.9, 8), {}}, plain = session;
     session.controls = {controlAt(500'000'000, RenderControl::Kind::delay, 1, 0.02f)};
     for (const auto set : test::runnableSets()) {
-        auto settings = settingsFor(layoutOf(2), PanningLaw::linear, 48000, true);
+        auto settings = settingsFor(layoutOf(2), PanningLaw::linear, 48000, false);
         settings.instructions = set;
         for (const int block : {1, 64, 441}) {
             RenderStatus status;
             const auto out = renderSession(session, settings, 48000, block, status), undelayed = renderSession(plain, settings, 48000, block, status);
-            ASSERT_EQ(status.limiterGain, 1.0f);
             EXPECT_EQ(out[0], undelayed[0]);
             const std::size_t delay = 960, faded = 24000 + 480 + 48; // the ramp, and the limiter's look-ahead
             EXPECT_NE(undelayed[1][faded - delay], 0.0f);
