@@ -164,14 +164,19 @@ bool HapticRenderer<P>::strikeCoupled(Strike strike) noexcept {
     return bank_.strike(strike, ahead.data());
 }
 
-// Modes alone, that leave as they are but for the limiter: it reads them where they were summed. False: something else is to be done.
+// Modes alone, that leave as they are but for the limiter: it reads them where they were summed, and keeps what a delay set later
+// begins with. False: something else is to be done.
 template <class P>
 bool HapticRenderer<P>::passModes([[maybe_unused]] const Channels& out, [[maybe_unused]] int frames) noexcept {
     if constexpr (P::hasTiles) {
         Channels kept;
         std::array<const float*, static_cast<std::size_t>(P::maxChannels)> sums;
         const bool isAlone = bank_.liveModes() > 0 && limiter_.canPass() && player_.voices() == 0 && moving_.count() == 0;
-        if (!isAlone || !actuators_.passes(kept.data(), frames) || !bank_.sumsAt(sums.data(), position_, frames)) return false;
+        if (!isAlone || !actuators_.passes(kept.data(), frames)) return false;
+        if (!bank_.sumsAt(sums.data(), position_, frames)) {
+            if (!bank_.render(out.data(), position_, frames)) return false;
+            std::copy_n(out.begin(), channels_, sums.begin());
+        }
         actuators_.pass(frames);
         limiter_.pass(sums.data(), out.data(), frames, kept.data());
         return true;
