@@ -77,6 +77,10 @@ def other_rows(runs):
         who = {"0": "no camera", "4": "four cameras"}.get(cameras, "all are cameras")
         yield (f"| physics step, {bodies} bodies, {who}, {'release' if release == '1' else 'onset'} | Box2D {run['box2d_us']:.0f} us, "
                f"with the catcher {run['overhead_%']:+.1f} % |")
+    for run in starting("stepOfRollingBalls"):
+        balls, grain = re.findall(r":(\d+)", run["name"])[:2]
+        yield (f"| {balls} balls roll on grains of {grain} mm: {run['strikes_per_s']:,.0f} strikes/s | step {run['step_us']:.0f} us, "
+               f"with the grains {run['overhead_%']:+.0f} %; samples {run['samples_%_of_core']:.2f} % of a core |")
     for run in starting("sceneToWav"):
         yield f"| {run['name'].split('/')[1]}, 4 channels, from the scene to a WAV file | {run['times_real_time']:,.0f} times real time |"
     for name in ("physicsOnly", "samplesOnly"):

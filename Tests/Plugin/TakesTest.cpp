@@ -6,11 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <future>
-#include <iostream>
 #include <new>
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 
 namespace {
 
@@ -135,36 +131,6 @@ TEST(Takes, ALoopUsesThoseThatHaveEnded) {
     EXPECT_EQ(host.plugin->takes().status().slippedNs, 0);
     EXPECT_EQ(host.plugin->takes().made(), 2u) << "one to be next, one to be spare";
 }
-
-#if defined(__GLIBC__)
-std::size_t bytesTaken() {
-    const auto now = mallinfo2();
-    return now.uordblks + now.hblkhd;
-}
-
-TEST(Takes, APlugInWithThreeOfThemHasLessThan10MB) {
-    juce::MessageManager::getInstance(); // what all instances share
-    { const TestHost first; }
-    const std::size_t before = bytesTaken();
-    std::atomic<std::int64_t> nowNs{0};
-    TestHost host;
-    ASSERT_TRUE(host.plugin->apply(onPlay()));
-    host.plugin->takes().driveByHand(nowNs);
-    host.prepare(48000, 64, false);
-    host.playHead.isThere = host.playHead.isPlaying = true;
-    for (int b = 0; b < 400 && host.plugin->takes().made() < 3; ++b) {
-        if (b % 5 == 0) host.playHead.frame = 1'000'000 * b; // sooner than the one before has ended
-        host.block(64);
-        nowNs += 5'000'000;
-        host.plugin->takes().tick();
-    }
-    ASSERT_EQ(host.plugin->takes().made(), 3u);
-    const double megabytes = 1e-6 * static_cast<double>(bytesTaken() - before);
-    RecordProperty("megabytes", std::to_string(megabytes));
-    std::cout << "[ measured ] a plug-in with three takes: " << megabytes << " MB\n";
-    EXPECT_LT(megabytes, 10.0);
-}
-#endif
 
 // The next one is made as long as this lasts: until the test lets it, or two seconds have passed.
 std::promise<void>* letMake = nullptr;
