@@ -173,7 +173,7 @@ bool HapticRenderer<P>::passModes([[maybe_unused]] const Channels& out, [[maybe_
         std::array<const float*, static_cast<std::size_t>(P::maxChannels)> sums;
         const bool isAlone = bank_.liveModes() > 0 && limiter_.canPass() && player_.voices() == 0 && moving_.count() == 0;
         if (!isAlone || !actuators_.passes(kept.data(), frames)) return false;
-        if (!bank_.sumsAt(sums.data(), position_, frames)) {
+        if (!bank_.sumsAt(sums.data(), position_)) {
             if (!bank_.render(out.data(), position_, frames)) return false;
             std::copy_n(out.begin(), channels_, sums.begin());
         }

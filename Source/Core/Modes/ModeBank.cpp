@@ -419,7 +419,7 @@ bool ModeBank<P>::render(float* const* out, std::int64_t first, int frames) noex
 }
 
 template <class P>
-bool ModeBank<P>::sumsAt([[maybe_unused]] const float** at, [[maybe_unused]] std::int64_t first, [[maybe_unused]] int frames) noexcept {
+bool ModeBank<P>::sumsAt([[maybe_unused]] const float** at, [[maybe_unused]] std::int64_t first) noexcept {
     if constexpr (P::hasTiles) {
         if (!tiles_.isOn()) return false;
         enterTile(first);

@@ -74,8 +74,8 @@ public:
     /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. False if all are 0.
     bool render(float* const* out, std::int64_t first, int frames) noexcept;
 
-    /// Instead of render, for profiles with tiles: where each channel's frames stand already. False: nowhere, and render is to be called.
-    bool sumsAt(const float** at, std::int64_t first, int frames) noexcept;
+    /// Instead of render, for profiles with tiles: where each channel's frames from `first` on stand already. False: nowhere, and render is to be called.
+    bool sumsAt(const float** at, std::int64_t first) noexcept;
 
     int liveModes() const noexcept { return activeCount_; }
     std::uint64_t stolenModes() const noexcept { return stolen_; }
