@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 # What arm64.sh and windows.sh share: libraries for the other system, the house built on them, tests counted. Sourced.
-# They say first: system (whose toolchain is Tests/Cross/$system.cmake), folder (build/$system), run (the words before a program),
 # They say first: system (whose toolchain is Tests/Cross/$system.cmake), folder (build/$system), run (the words before a program), suffix
 # of programs, and roots (where else there are libraries).
 
