@@ -13,20 +13,27 @@ namespace {
 std::size_t bytesTaken = 0; // on cache lines, as a renderer's memory is
 bool hasMemory = true;
 
+#if defined(_WIN32) // whose aligned memory has functions of its own
+void* takeAligned(std::size_t grain, std::size_t size) { return _aligned_malloc(size, grain); }
+void giveAligned(void* memory) { _aligned_free(memory); }
+#else
+void* takeAligned(std::size_t grain, std::size_t size) { return std::aligned_alloc(grain, (size + grain - 1) / grain * grain); }
+void giveAligned(void* memory) { std::free(memory); }
+#endif
+
 } // namespace
 
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
     if (!hasMemory) return nullptr;
     bytesTaken += size;
-    const auto grain = static_cast<std::size_t>(alignment);
-    return std::aligned_alloc(grain, (size + grain - 1) / grain * grain);
+    return takeAligned(static_cast<std::size_t>(alignment), size);
 }
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
     void* const memory = operator new(size, alignment, std::nothrow);
     return memory != nullptr ? memory : throw std::bad_alloc{};
 }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { giveAligned(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { giveAligned(memory); }
 
 namespace physvib {
 namespace {

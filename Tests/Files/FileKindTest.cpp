@@ -6,22 +6,21 @@
 #include "Files/SceneCatalogue.h"
 #include "Files/SceneFile.h"
 #include "Files/SessionFile.h"
-#include <cstdlib>
+#include "FileTesting.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
 namespace {
 
-FileKind kindOf(const std::string& text) {
-    char name[] = "/tmp/physvib-kind-XXXXXX";
-    const std::filesystem::path folder = mkdtemp(name);
-    EXPECT_EQ(writeFile(folder / "file.json", text), "");
-    const FileKind kind = fileKind(folder / "file.json");
-    std::filesystem::remove_all(folder);
-    return kind;
-}
+class FileKindTest : public FolderTest {
+protected:
+    FileKind kindOf(const std::string& text) const {
+        EXPECT_EQ(writeFile(folder / "file.json", text), "");
+        return fileKind(folder / "file.json");
+    }
+};
 
-TEST(FileKind, IsToldByWhatWeWrite) {
+TEST_F(FileKindTest, IsToldByWhatWeWrite) {
     SavedSession session;
     session.channels = 1;
     session.log.takes.push_back({0, 0, 1, std::make_shared<const Scene>(*findBuiltInScene("drop")), {}, {}});
@@ -33,11 +32,11 @@ TEST(FileKind, IsToldByWhatWeWrite) {
     EXPECT_EQ(kindOf(layoutJson(describeLayout("ring", ring))), FileKind::layout);
 }
 
-TEST(FileKind, OfAnythingElseIsUnknown) {
+TEST_F(FileKindTest, OfAnythingElseIsUnknown) {
     EXPECT_EQ(kindOf(""), FileKind::unknown);
     EXPECT_EQ(kindOf("RIFF physvib_session"), FileKind::unknown);
-    EXPECT_EQ(fileKind("/nowhere.json"), FileKind::unknown);
-    EXPECT_EQ(fileKind("/tmp"), FileKind::unknown);
+    EXPECT_EQ(fileKind(folder / "nowhere.json"), FileKind::unknown);
+    EXPECT_EQ(fileKind(folder), FileKind::unknown);
 }
 
 } // namespace
