@@ -12,14 +12,14 @@ quietly() {
     return 1
 }
 
-# library FOLDER OPTION...: a library's own CMake, into the prefix.
+# library FOLDER OPTION...: a library's own CMake, into the prefix, with the options of physvib-same-bits.
 library() {
     from=$1
     shift
     name=$(basename "$from")
     say "building $name"
     quietly "$folder/$name.log" cmake -S "$from" -B "$folder/$name" -G Ninja --toolchain "$PWD/Tests/Cross/$system.cmake" -DCMAKE_BUILD_TYPE=Release \
-        -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_CXX_FLAGS=-ffp-contract=off -DBUILD_SHARED_LIBS=OFF "$@"
+        -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_CXX_FLAGS="-ffp-contract=off -fno-ipa-ra" -DBUILD_SHARED_LIBS=OFF "$@"
     quietly "$folder/$name.log" cmake --build "$folder/$name" -j2 --target install
 }
 
