@@ -29,4 +29,4 @@ export PKG_CONFIG_LIBDIR="$libs/pkgconfig" PKG_CONFIG_SYSROOT_DIR="$debs"
 run="qemu-aarch64 -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH=$libs"
 house -DPHYSVIB_SESSION=ON -DCMAKE_BUILD_RPATH="$libs"
 tests core wire study contacts physics files formats measure api session
-compare "$native"
+compare "$native" marbles fruit-basket

@@ -339,10 +339,10 @@ Result<SavedSession> readSession(std::string_view text, std::string_view name) {
 
 namespace {
 
-/// Whether a path does not leave the folder it begins in.
+/// Whether a path does not leave the folder it begins in. On Windows "/x" and "C:x" are relative, to a drive.
 bool staysBelow(const std::filesystem::path& path) {
     const auto normal = path.lexically_normal();
-    return normal.is_relative() && (normal.empty() || *normal.begin() != "..");
+    return normal.root_path().empty() && (normal.empty() || *normal.begin() != "..");
 }
 
 } // namespace

@@ -84,18 +84,20 @@ tests() {
     [ "$failed" -eq 0 ]
 }
 
-# compare PATH/physvib-render: scenes rendered here and there. Says which event lists and which samples are the same bytes, and
-# by how much the others differ; round worlds must be the same (Docs/platforms.md says why the others need not be).
+# compare PATH/physvib-render SCENE...: scenes rendered here and there. Says which event lists and which samples are the same bytes, and
+# by how much the others differ; these scenes, round worlds, must be the same (Docs/platforms.md says why the others need not be).
 compare() {
+    here=$1
+    shift
     renders=$folder/renders
     mkdir -p "$renders"
     other=$folder/house/bin/physvib-render$suffix
     for scene in marbles fruit-basket shake-the-box driving drawing; do
         for set in scalar best; do
-            "$1" $scene --seconds 10 --seed 3 --instructions $set --out "$renders/$scene-$set-here.wav" --events "$renders/$scene-$set-here.csv" >/dev/null
+            "$here" $scene --seconds 10 --seed 3 --instructions $set --out "$renders/$scene-$set-here.wav" --events "$renders/$scene-$set-here.csv" >/dev/null
             # shellcheck disable=SC2086 # a list of words
             timeout 300 $run "$other" $scene --seconds 10 --seed 3 --instructions $set --out "$renders/$scene-$set-there.wav" --events "$renders/$scene-$set-there.csv" </dev/null >/dev/null
         done
     done
-    python3 Tests/Cross/compare.py "$renders" marbles fruit-basket
+    python3 Tests/Cross/compare.py "$renders" "$@"
 }
