@@ -252,8 +252,8 @@ void OutputTab::resized() {
     scan_->setBounds(row.removeFromRight(90));
     row.removeFromRight(gap);
     device_.setBounds(row);
-    const int quarter = (area.getWidth() - 2 * gap) / 4, fifth = (area.getWidth() - 2 * gap) / 5;
-    placeRow(area, {{rateName_, rate_, quarter}, {blockName_, block_, quarter}, {boardName_, board_, 2 * quarter}});
+    const int all = area.getWidth() - 2 * gap, third = all / 3, quarter = all / 4, fifth = all / 5;
+    placeRow(area, {{rateName_, rate_, third}, {blockName_, block_, third}, {boardName_, board_, third}});
     placeRow(area, {{oscName_, osc_, 2 * fifth}, {hitsName_, hits_, 2 * fifth - gap}, {phoneName_, phone_, fifth + gap}});
     placeRow(area, {{monitorName_, monitor_, 2 * quarter}, {monitorLevelName_, monitorLevel_, quarter}, {marksName_, marks_, quarter}});
     area.removeFromTop(12);
