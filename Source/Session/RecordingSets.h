@@ -14,7 +14,7 @@ namespace physvib {
 /// A clip, at each rate that was asked for.
 class ClipSound {
 public:
-    explicit ClipSound(ContactRecording clip) : clip_{std::move(clip)} {}
+    ClipSound(ContactRecording clip) : clip_{std::move(clip)} {}
 
     bool isAt(int sampleRateHz) const { return std::ranges::find(sounds_, sampleRateHz, &AtRate::sampleRateHz) != sounds_.end(); }
 

@@ -85,10 +85,10 @@ public:
     /// and logged as a control; the time it was given, -1 if the queue is full. M.
     std::int64_t useRecordings(std::vector<ContactRecording> recordings);
 
-    /// Keeps one channel of a clip, whose file tells its path and hash (its own frequency says nothing): strikes of the frequency
-    /// that is given back play it beside whatever sounds, which goes on undisturbed; 0: there is no room, of numbers or samples. A clip
-    /// that is kept already is the same one. Logged. Any thread but R.
-    double keepClip(const ContactRecording& clip, int channel);
+    /// Keeps the channels of a clip, whose files tell its path and hash (their own frequencies say nothing), and says by which number:
+    /// strikes of clipFrequencyHz() of it, and of those that follow, play them beside whatever sounds, which goes on undisturbed. Nothing
+    /// if there is no room for all, of numbers or samples. A clip that is kept already is the same one. Logged. Any thread but R.
+    std::optional<int> keepClip(std::span<const ContactRecording> channels);
 
     /// Strikes apart from the world (a test pulse, a material to be heard): each is felt L after session time plus its
     /// own time, and logged. False, and nothing is played, if one cannot be (see isPlayable). Any thread but R.
@@ -172,8 +172,8 @@ private:
     int catchUp(const StepWatch& goesOn = {});
     void moveWorld(std::int64_t untilNs);
     bool handOver();
-    std::optional<double> keptClip(const RecordingFile& file, int channel) const;
-    bool hasRoomFor(const ClipSound& clip) const;
+    bool hasRoomFor(std::span<const ClipSound> channels) const;
+    int logClip(std::span<const ContactRecording> channels);
     void renderBehind(float* const* out, std::int64_t done, int frames, RenderMode mode) noexcept;
     void renderOwnWorld(float* const* out, int frames, std::int64_t endNs);
 

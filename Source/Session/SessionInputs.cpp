@@ -66,36 +66,41 @@ std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
 }
 
 // The input mutex is held.
-std::optional<double> Session::keptClip(const RecordingFile& file, int channel) const {
-    const auto same = [&](const ClipFile& kept) { return kept.file.path == file.path && kept.file.hash == file.hash && kept.channel == channel; };
-    const auto known = std::ranges::find_if(clips_, same);
-    return known == clips_.end() ? std::nullopt : std::optional{known->file.frequencyHz};
-}
-
-// The input mutex is held.
-bool Session::hasRoomFor(const ClipSound& clip) const {
+bool Session::hasRoomFor(std::span<const ClipSound> channels) const {
     const auto rates = recordings_.rates();
-    double samples = clip.samplesAt(rates);
-    for (const ClipSound& kept : recordings_.clips()) samples += kept.samplesAt(rates);
-    return samples > 0.0 && samples <= limits::maxRecordingSamples && clips_.size() < mostClips;
+    double samples = 0.0;
+    const auto add = [&](const ClipSound& sound) { samples += sound.samplesAt(rates); };
+    std::ranges::for_each(channels, add);
+    std::ranges::for_each(recordings_.clips(), add);
+    return samples <= limits::maxRecordingSamples && clips_.size() + channels.size() <= mostClips;
 }
 
 // Brought to a rate without the mutex: that takes long.
-double Session::keepClip(const ContactRecording& clip, int channel) {
-    ClipSound sound{clip};
-    for (std::vector<int> rates;; std::ranges::for_each(rates, [&](int rate) { sound.at(rate); })) {
+std::optional<int> Session::keepClip(std::span<const ContactRecording> channels) {
+    std::vector<ClipSound> sounds(channels.begin(), channels.end());
+    for (std::vector<int> rates;;) {
+        for (ClipSound& sound : sounds) std::ranges::for_each(rates, [&](int rate) { sound.at(rate); });
         const std::lock_guard lock{inputMutex_};
-        if (const auto known = keptClip(clip.file, channel)) return *known;
-        if (!hasRoomFor(sound)) return 0.0;
+        const auto isFirst = [&](const ClipFile& kept) { return kept.channel == 0 && kept.file.path == channels[0].file.path && kept.file.hash == channels[0].file.hash; };
+        const auto known = std::ranges::find_if(clips_, isFirst);
+        if (known != clips_.end()) return static_cast<int>(known - clips_.begin());
+        if (!hasRoomFor(sounds)) return std::nullopt;
         rates = recordings_.rates();
-        if (!std::ranges::all_of(rates, [&](int rate) { return sound.isAt(rate); })) continue;
-        ClipFile file{clip.file, channel};
-        file.file.frequencyHz = clipFrequencyHz(static_cast<int>(clips_.size()));
-        recordings_.add(std::move(sound));
-        clips_.push_back(file);
-        if (setup_.log != LogUse::none) controlLog_.clips.push_back(file);
-        return file.file.frequencyHz;
+        if (!std::ranges::all_of(rates, [&](int rate) { return sounds.back().isAt(rate); })) continue;
+        for (ClipSound& sound : sounds) recordings_.add(std::move(sound));
+        return logClip(channels);
     }
+}
+
+// The number of the first. The input mutex is held.
+int Session::logClip(std::span<const ContactRecording> channels) {
+    const int first = static_cast<int>(clips_.size());
+    for (int j = 0; j < std::ssize(channels); ++j) {
+        ClipFile& file = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
+        file.file.frequencyHz = clipFrequencyHz(first + j);
+        if (setup_.log != LogUse::none) controlLog_.clips.push_back(file);
+    }
+    return first;
 }
 
 bool Session::play(std::span<const CollisionEvent> strikes) {

@@ -7,7 +7,7 @@ namespace physvib {
 
 SessionRecordings::SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz)
     : sampleRateHz_{sampleRateHz} {
-    for (const ContactRecording& clip : loaded.clips) sets_.add(ClipSound{clip});
+    for (const ContactRecording& clip : loaded.clips) sets_.add(clip);
     for (std::size_t i = 0; i < log.recordings.size() && i < loaded.setOfChange.size(); ++i) {
         const auto& set = loaded.sets[loaded.setOfChange[i]];
         RenderControl& control = changes_.emplace_back();

@@ -49,15 +49,16 @@ TEST_F(ClipFolderTest, ReadsNothingElse) {
 
 TEST_F(ClipFolderTest, AClipThatHasChangedIsNotTheOneThatWasFelt) {
     const auto clip = ClipFolder{folder}("a.hjif");
-    ClipFile kept{clip.value.channels.at(0).file, 0};
-    EXPECT_EQ(loadKeptClip(kept).error, "");
-    kept.channel = 1;
-    EXPECT_NE(loadKeptClip(kept).error.find("expected at least 2 channels, found 1"), std::string::npos);
-    kept.channel = 0;
+    std::vector<ClipFile> kept{{clip.value.channels.at(0).file, 0}};
+    EXPECT_EQ(loadKeptClips(kept).error, "");
+    EXPECT_EQ(loadKeptClips(kept).value, clip.value.channels);
+    kept.push_back({kept[0].file, 1});
+    EXPECT_NE(loadKeptClips(kept).error.find("expected at least 2 channels, found 1"), std::string::npos);
+    kept.pop_back();
     std::ofstream{folder / "a.hjif", std::ios::app} << ' ';
-    EXPECT_NE(loadKeptClip(kept).error.find("it has changed since"), std::string::npos);
+    EXPECT_NE(loadKeptClips(kept).error.find("it has changed since"), std::string::npos);
     fs::remove(folder / "a.hjif");
-    EXPECT_NE(loadKeptClip(kept).error.find("a.hjif"), std::string::npos);
+    EXPECT_NE(loadKeptClips(kept).error.find("a.hjif"), std::string::npos);
 }
 
 } // namespace

@@ -43,11 +43,12 @@ CollisionEvent randomPath(test::Random& random, std::int64_t fromNs) {
 bool strikeClip(Session& session, test::Random& random) {
     const int which = random.below(mostClips);
     CollisionEvent strike;
-    strike.frequencyHz = session.keepClip({0.0, 8000 + 1000 * which, std::vector<float>(2000, 0.1f), {.path = std::to_string(which), .hash = "0123456789abcdef"}}, 0);
+    const ContactRecording clip{0.0, 8000 + 1000 * which, std::vector<float>(2000, 0.1f), {.path = std::to_string(which), .hash = "0123456789abcdef"}};
+    strike.frequencyHz = clipFrequencyHz(session.keepClip({&clip, 1}).value());
     strike.amplitude = 1.0;
     strike.durationNs = 100'000'000;
     strike.timeNs = session.presentNs();
-    return strike.frequencyHz > 0.0 && session.schedule({&strike, 1});
+    return session.schedule({&strike, 1});
 }
 
 // Layouts, gains, mutes and stops; now and then an input, a strike that moves, a clip, another scene, or the same one from its start.

@@ -273,9 +273,10 @@ TEST(Messages, ClipsAreBounded) {
     EXPECT_EQ(clip("a", clipOf), "clip: file: a: cannot be read");
     EXPECT_EQ(router.take(messageOf(R"({"message": "clip"})"), nullptr, clipOf).error, "clip: file: expected a file's name");
     EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "a.3"})"), nullptr, clipOf).error, "clip: file: expected one channel, places, or as many channels as enchanters, 4, found 3");
-    for (int i = 0; i < 8; ++i) EXPECT_EQ(clip(std::to_string(i) + ".4", clipOf), "");
+    for (int i = 0; i < 7; ++i) EXPECT_EQ(clip(std::to_string(i) + ".4", clipOf), "");
     EXPECT_EQ(clip("3.4", clipOf), "") << "it is kept already";
-    EXPECT_EQ(clip("x.1", clipOf), "clip: file: expected no more than 32 channels of clips in a session, and 32000000 samples");
+    EXPECT_EQ(clip("x.5", clipOf), "clip: file: expected no more than 32 channels of clips in a session, and 32000000 samples");
+    EXPECT_EQ(clip("y.4", clipOf), "") << "nothing of what found no room was kept";
     SessionLog log;
     session.readLog(log);
     EXPECT_EQ(log.clips.size(), 32u);
@@ -302,7 +303,7 @@ TEST(Messages, NobodyWaitsForAClipThatIsReadAndBroughtToTheSessionsRate) {
     session.prepare(hostRate, 512);
     MessageRouter router{session};
     ContactRecording minute{0.0, 44'100, std::vector<float>(300'000, 0.1f), {.path = "minute", .hash = "0123456789abcdef"}};
-    EXPECT_TRUE(othersAskDuring([&] { EXPECT_GT(session.keepClip(minute, 0), 0.0); }, [&] { session.presentNs(); }));
+    EXPECT_TRUE(othersAskDuring([&] { EXPECT_EQ(session.keepClip({&minute, 1}), 0); }, [&] { session.presentNs(); }));
     std::future<std::string> other;
     const ClipSource slow = [&](const std::string&) {
         other = std::async(std::launch::async, [&] { return router.take(messageOf(R"({"message": "phantom", "in": 2})")).error; });

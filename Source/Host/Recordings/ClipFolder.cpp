@@ -56,18 +56,28 @@ Result<LoadedClip> ClipFolder::operator()(const std::string& name) const {
     const std::filesystem::path found = std::filesystem::weakly_canonical(folder / asked, failed);
     const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), found.begin(), found.end());
     if (failed || name.empty() || asked.is_absolute() || end != folder.end()) return Failure{inQuotes(name) + ": expected a file in " + folder_.string() + " or below"};
-    return loadWholeClip((folder_ / asked).lexically_normal());
+    return loadWholeClip(found);
 }
 
-Result<ContactRecording> loadKeptClip(const ClipFile& clip) {
-    const std::string& path = clip.file.path;
-    auto loaded = loadWholeClip(path);
-    if (!loaded) return Failure{loaded.error};
-    const std::string& hash = loaded.value.channels.front().file.hash;
-    if (hash != clip.file.hash) return Failure{path + ": expected the clip with the hash " + clip.file.hash + ", found " + hash + ": it has changed since"};
-    const auto channel = static_cast<std::size_t>(clip.channel);
-    if (channel >= loaded.value.channels.size()) return Failure{path + ": expected at least " + std::to_string(clip.channel + 1) + " channels, found " + std::to_string(loaded.value.channels.size())};
-    return std::move(loaded.value.channels[channel]);
+Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>& clips) {
+    std::vector<ContactRecording> kept;
+    LoadedClip last; // channels of one file follow one another
+    std::size_t samples = 0;
+    for (const ClipFile& clip : clips) {
+        const std::string& path = clip.file.path;
+        if (last.channels.empty() || last.channels.front().file.path != path) {
+            auto loaded = loadWholeClip(path);
+            if (!loaded) return Failure{loaded.error};
+            last = std::move(loaded.value);
+        }
+        const std::string& hash = last.channels.front().file.hash;
+        if (hash != clip.file.hash) return Failure{path + ": expected the clip with the hash " + clip.file.hash + ", found " + hash + ": it has changed since"};
+        if (clip.channel >= std::ssize(last.channels)) return Failure{path + ": expected at least " + std::to_string(clip.channel + 1) + " channels, found " + std::to_string(last.channels.size())};
+        kept.push_back(last.channels[static_cast<std::size_t>(clip.channel)]);
+        samples += kept.back().samples.size();
+        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples)) return Failure{path + ": expected at most " + std::to_string(limits::maxRecordingSamples) + " samples in all clips"};
+    }
+    return kept;
 }
 
 } // namespace physvib

@@ -5,6 +5,7 @@
 #include "Session/Messages/ClipSource.h"
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace physvib {
 
@@ -24,7 +25,7 @@ private:
 /// All channels of that file. Any thread but R.
 Result<LoadedClip> loadWholeClip(const std::filesystem::path& path);
 
-/// The channel that a session has kept; or one line: it is missing or has changed. M only.
-Result<ContactRecording> loadKeptClip(const ClipFile& clip);
+/// The channels that a session has kept; or one line: a file is missing or has changed. Any thread but R.
+Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>& clips);
 
 } // namespace physvib

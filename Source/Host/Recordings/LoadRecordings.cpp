@@ -51,13 +51,9 @@ Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
         files.push_back(&change.files);
         all.sets.push_back(std::move(set.value));
     }
-    for (const ClipFile& file : log.clips) {
-        auto clip = loadKeptClip(file);
-        if (!clip) return Failure{clip.error};
-        samples += clip.value.samples.size();
-        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples)) return Failure{"recordings and clips: expected at most " + std::to_string(limits::maxRecordingSamples) + " samples"};
-        all.clips.push_back(std::move(clip.value));
-    }
+    auto clips = loadKeptClips(log.clips);
+    if (!clips) return Failure{clips.error};
+    all.clips = std::move(clips.value);
     return all;
 }
 

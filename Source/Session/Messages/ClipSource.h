@@ -11,7 +11,7 @@
 namespace physvib {
 
 struct LoadedClip {
-    std::vector<ContactRecording> channels; ///< of one file, at one rate, as long as one another; their file tells path and hash
+    std::vector<ContactRecording> channels; ///< one or more, of one file, at one rate, as long as one another; their file tells path and hash
     std::vector<EnchanterPlace> shares;     ///< of the field, 0 to 1, one per channel; none: the file has no places
 };
 

@@ -110,10 +110,9 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
     const auto loaded = clips(values.word("file"));
     if (!loaded) values.fail("file", loaded.error);
     auto strikes = clipStrikes(values, loaded.value, panner); // refused before anything is kept
-    for (std::size_t j = 0; j < strikes.size(); ++j) {
-        strikes[j].frequencyHz = session_.keepClip(loaded.value.channels[j], static_cast<int>(j));
-        if (strikes[j].frequencyHz == 0.0) values.fail("file", "expected no more than " + std::to_string(mostClips) + " channels of clips in a session, and " + std::to_string(limits::maxRecordingSamples) + " samples");
-    }
+    const auto number = session_.keepClip(loaded.value.channels);
+    if (!number) values.fail("file", "expected no more than " + std::to_string(mostClips) + " channels of clips in a session, and " + std::to_string(limits::maxRecordingSamples) + " samples");
+    for (std::size_t j = 0; j < strikes.size(); ++j) strikes[j].frequencyHz = clipFrequencyHz(*number + static_cast<int>(j));
     return strikes;
 }
 
