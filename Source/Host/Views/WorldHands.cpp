@@ -109,4 +109,20 @@ void WorldView::itemDropped(const SourceDetails& details) {
     onAttach(map().shareAt(details.localPosition.toFloat()));
 }
 
+void WorldView::fileDragMove(const juce::StringArray&, int x, int y) {
+    filesAt_ = juce::Point<int>{x, y}.toFloat();
+    repaint();
+}
+
+void WorldView::fileDragExit(const juce::StringArray&) {
+    filesAt_.reset();
+    repaint();
+}
+
+void WorldView::filesDropped(const juce::StringArray& files, int x, int y) {
+    fileDragExit(files);
+    const auto at = juce::Point<int>{x, y}.toFloat();
+    onFiles(files, enchanterAt(at), map().shareAt(at));
+}
+
 } // namespace physvib

@@ -175,6 +175,7 @@ void WorldView::paint(juce::Graphics& g) {
     drawSpot(g);
     drawEnchanters(g, at);
     drawGrip(g);
+    drawFiles(g);
 }
 
 void WorldView::drawGround(juce::Graphics& g, const Map& at) {
@@ -302,6 +303,22 @@ void WorldView::drawSpot(juce::Graphics& g) const {
     g.setColour(shade(*this, Shade::text));
     g.drawEllipse(juce::Rectangle<float>{16.0f, 16.0f}.withCentre(centre), 1.5f);
     for (const auto& way : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}}) g.drawLine({centre + way * 5.0f, centre + way * 13.0f}, 1.5f);
+}
+
+// The badge, or the place, where it would be felt.
+void WorldView::drawFiles(juce::Graphics& g) const {
+    if (!filesAt_) return;
+    const auto at = map();
+    const int enchanter = enchanterAt(*filesAt_);
+    const auto target = enchanter >= 0 ? badgeOf(enchanter, at).expanded(5.0f) : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(placeOfShare(at.shareAt(*filesAt_)));
+    g.setColour(shade(*this, Shade::accent).withAlpha(0.25f));
+    g.fillRoundedRectangle(target, 0.5f * target.getWidth());
+    g.setColour(shade(*this, Shade::accent));
+    g.drawRoundedRectangle(target, 0.5f * target.getWidth(), 2.5f);
+    const auto name = enchanter >= 0 ? "felt on " + juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()) + " alone" : juce::String{"felt here"};
+    g.setFont(juce::Font{text::small});
+    g.drawText(name, juce::Rectangle<float>{120.0f, 18.0f}.withCentre(target.getCentre().translated(0.0f, -0.5f * target.getHeight() - 12.0f)).constrainedWithin(getLocalBounds().reduced(4).toFloat()),
+               juce::Justification::centred, false);
 }
 
 // A string from the body to the hand.

@@ -30,7 +30,7 @@ struct FieldShare {
     bool operator==(const FieldShare&) const = default;
 };
 
-class WorldView final : public juce::Component, public juce::DragAndDropTarget {
+class WorldView final : public juce::Component, public juce::DragAndDropTarget, public juce::FileDragAndDropTarget {
 public:
     /// What modules say of themselves while they are dragged here.
     static constexpr const char* newEnchanter = "physvib-new-enchanter";
@@ -64,6 +64,8 @@ public:
     std::function<void(int enchanter)> onSelect;
     std::function<void(const std::string& body, FieldShare at)> onMenu; ///< right click; body may be empty
     std::function<void(FieldShare at)> onSpot;                          ///< a click that drags nothing
+    std::function<bool(const juce::StringArray& files)> takesFiles;     ///< whether those that are dragged here may be dropped
+    std::function<void(const juce::StringArray& files, int enchanter, FieldShare at)> onFiles; ///< dropped on that enchanter; -1: in the field
 
     void paint(juce::Graphics& g) override;
     void resized() override { gains_ = {}; }
@@ -75,6 +77,10 @@ public:
     void itemDragMove(const SourceDetails& details) override;
     void itemDragExit(const SourceDetails&) override;
     void itemDropped(const SourceDetails& details) override;
+    bool isInterestedInFileDrag(const juce::StringArray& files) override { return takesFiles && takesFiles(files); }
+    void fileDragMove(const juce::StringArray& files, int x, int y) override;
+    void fileDragExit(const juce::StringArray& files) override;
+    void filesDropped(const juce::StringArray& files, int x, int y) override;
 
     /// Where things are, in pixels of this component. M.
     juce::Point<float> placeOfShare(FieldShare at) const;
@@ -137,6 +143,7 @@ private:
     void drawEnchanters(juce::Graphics& g, const Map& at) const;
     void drawSpot(juce::Graphics& g) const;
     void drawGrip(juce::Graphics& g) const;
+    void drawFiles(juce::Graphics& g) const;
 
     Scene scene_;
     std::vector<BodyDescription> cast_;
@@ -150,7 +157,7 @@ private:
     int shownGains_ = -1, selected_ = -1, footRoom_ = 0;
     juce::Image gains_;
     Grip grip_;
-    std::optional<juce::Point<float>> dropAt_;
+    std::optional<juce::Point<float>> dropAt_, filesAt_;
     std::optional<FieldShare> spot_;
 };
 

@@ -75,7 +75,8 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     , recording_{session_, output_, mix_, [this] { sendChangeMessage(); }}
     , undo_{1000, 30}
     , sceneNow_{*mix_.scene}
-    , told_{mix_.panner()} {
+    , told_{mix_.panner()}
+    , clips_{session_, output_, [this](const std::string& fault) { takeFelt(fault); }} {
     saved_.run = setupOf(mix_, false).run();
     saved_.panner = mix_.panner();
     mostEnchanters_ = mix_.count();

@@ -7,6 +7,7 @@
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Mixer/Desk/DeskBoard.h"
+#include "Mixer/Desk/DeskClips.h"
 #include "Mixer/Desk/DeskExposure.h"
 #include "Mixer/Desk/DeskMoment.h"
 #include "Mixer/Desk/DeskOsc.h"
@@ -65,6 +66,9 @@ public:
     std::string editWorld(const juce::String& name, const Action& action, bool goesOn = false);
     /// A hit of that material of sceneNow() at a place of the field, as strong as a test pulse. Empty, or why not.
     std::string audition(int material, double shareX, double shareY);
+    /// A clip that is dropped, at a place of the field or on one enchanter alone: felt when it has been read, or reported why not.
+    void feelAt(const juce::StringArray& files, double shareX, double shareY);
+    void feelOn(const juce::StringArray& files, int enchanter);
     void restart(std::uint32_t seed);
     void setSlowness(int slowness);
     int slowness() const noexcept { return session_.slowness(); }
@@ -151,6 +155,9 @@ private:
     void watchOsc();
     void takePlayed();
     void strike(int enchanter, std::vector<CollisionEvent> strikes);
+    EnchanterPlace placeOf(int enchanter) const;
+    void feel(const juce::StringArray& files, const EnchanterPlace& at, bool isAlone);
+    void takeFelt(const std::string& fault);
 
     AudioDeviceTypes types_;
     Mix mix_;
@@ -179,7 +186,8 @@ private:
     std::vector<CollisionEvent> hits_; // played since the last look
     OscChoice oscChoice_;
     std::uint64_t oscMessages_ = 0; // as of the last look
-    std::unique_ptr<DeskOsc> osc_;  // last: its thread uses the others
+    DeskClips clips_;               // these last: their threads use the others
+    std::unique_ptr<DeskOsc> osc_;
 };
 
 /// Names of built-in scenes as people write them: "shake-the-box" as "Shake the box".

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What comes from outside by messages: it moves what the desk shows.
 #include "Mixer/Desk/Desk.h"
+#include "Mixer/Window/Parts.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -56,6 +57,22 @@ void Desk::watchOsc() {
     if (!osc_) return;
     const std::uint64_t messages = osc_->status().counts.messages;
     if (std::exchange(oscMessages_, messages) != messages) ++edits_;
+}
+
+void Desk::feelAt(const juce::StringArray& files, double shareX, double shareY) { feel(files, {shareX * sceneNow_.fieldWidthMetres, shareY * sceneNow_.fieldHeightMetres}, false); }
+
+void Desk::feelOn(const juce::StringArray& files, int enchanter) { feel(files, placeOf(enchanter), true); }
+
+void Desk::feel(const juce::StringArray& files, const EnchanterPlace& at, bool isAlone) {
+    if (files.size() != 1) return report("Expected one clip, found " + juce::String{files.size()} + " files");
+    clips_.feel(juce::File{files[0]}, at, isAlone);
+}
+
+void Desk::takeFelt(const std::string& fault) {
+    if (!fault.empty()) return report(utf8(fault));
+    ++edits_;
+    if (board_) tell("The board plays no clips: it is felt on the device alone");
+    sendChangeMessage(); // who rests looks again
 }
 
 } // namespace physvib

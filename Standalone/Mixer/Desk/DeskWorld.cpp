@@ -148,12 +148,18 @@ void Desk::setSlowness(int slowness) {
     sendChangeMessage();
 }
 
-void Desk::strike(int enchanter, std::vector<CollisionEvent> strikes) {
+// In the field, where it is alone.
+EnchanterPlace Desk::placeOf(int enchanter) const {
     const auto& layout = mix_.layout.geometry;
-    const auto& place = layout.places[static_cast<std::size_t>(enchanter)]; // there it is alone
+    const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
+    return {place.xMetres / layout.extentWidthMetres * mix_.scene->fieldWidthMetres, place.yMetres / layout.extentHeightMetres * mix_.scene->fieldHeightMetres};
+}
+
+void Desk::strike(int enchanter, std::vector<CollisionEvent> strikes) {
+    const auto place = placeOf(enchanter);
     for (auto& s : strikes) {
-        s.x = place.xMetres / layout.extentWidthMetres * mix_.scene->fieldWidthMetres;
-        s.y = place.yMetres / layout.extentHeightMetres * mix_.scene->fieldHeightMetres;
+        s.x = place.xMetres;
+        s.y = place.yMetres;
     }
     ++edits_;
     session_.play(strikes);

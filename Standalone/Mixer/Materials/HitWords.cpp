@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Materials are known by their two numbers: that is all an event carries.
 #include "Mixer/Materials/HitWords.h"
+#include "Core/ClipNumber.h"
 #include <cmath>
 
 namespace physvib {
@@ -13,7 +14,7 @@ int materialOf(const Scene& scene, const CollisionEvent& hit) {
 
 juce::String materialName(const Scene& scene, const CollisionEvent& hit) {
     const int index = materialOf(scene, hit);
-    return index < 0 ? juce::String{"hit"} : utf8(scene.materials[static_cast<std::size_t>(index)].name);
+    return isClip(hit.frequencyHz) ? juce::String{"clip"} : index < 0 ? juce::String{"hit"} : utf8(scene.materials[static_cast<std::size_t>(index)].name);
 }
 
 FeltMost feltMost(const Mix& mix, const CollisionEvent& hit) {

@@ -133,6 +133,25 @@ void StripView::paint(juce::Graphics& g) {
     }
 }
 
+void StripView::setDropping(bool isDropping) {
+    isDropping_ = isDropping;
+    repaint();
+}
+
+void StripView::filesDropped(const juce::StringArray& files, int, int) {
+    setDropping(false);
+    desk_.feelOn(files, static_cast<int>(index_));
+}
+
+void StripView::paintOverChildren(juce::Graphics& g) {
+    if (!isDropping_) return;
+    const auto area = getLocalBounds().toFloat().reduced(1.0f);
+    g.setColour(shade(*this, Shade::accent).withAlpha(0.14f));
+    g.fillRoundedRectangle(area, 6.0f);
+    g.setColour(shade(*this, Shade::accent));
+    g.drawRoundedRectangle(area, 6.0f, 2.0f);
+}
+
 void StripView::resized() {
     auto area = getLocalBounds().withTrimmedTop(metersTop);
     auto row = area.removeFromBottom(22).reduced(2, 0);

@@ -7,7 +7,7 @@
 
 namespace physvib {
 
-class StripView final : public juce::Component {
+class StripView final : public juce::Component, public juce::FileDragAndDropTarget {
 public:
     static constexpr int width = 78;
 
@@ -16,9 +16,15 @@ public:
     void refresh(const DeskMoment& moment);
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
+    void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
+    bool isInterestedInFileDrag(const juce::StringArray& files) override { return isClipDrag(files); }
+    void fileDragEnter(const juce::StringArray&, int, int) override { setDropping(true); }
+    void fileDragExit(const juce::StringArray&) override { setDropping(false); }
+    void filesDropped(const juce::StringArray& files, int, int) override;
 
 private:
+    void setDropping(bool isDropping);
     const Strip& strip() const { return desk_.mix().strips[index_]; }
     template <class Change>
     void change(const juce::String& name, Change change, bool goesOn = false);
@@ -35,6 +41,7 @@ private:
     juce::ComboBox output_;
     std::unique_ptr<juce::TextButton> test_;
     SignButton sweep_;
+    bool isDropping_ = false; // a clip is dragged over it
 };
 
 /// All enchanters together: level, limiter, ceiling.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/World/WorldPanel.h"
+#include "Core/ClipNumber.h"
 #include "Mixer/Materials/HitWords.h"
 #include "Physics/Scenes/SceneEdits.h"
 #include <utility>
@@ -28,6 +29,11 @@ WorldPanel::WorldPanel(Desk& desk)
     view_.pullText = [this](double screenMetres) { return "drag " + number(1e-3 * desk_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " + kiloNewtonSeconds; };
     view_.onAttach = [this](FieldShare at) { desk_.attach(at.x, at.y); };
     view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
+    view_.takesFiles = isClipDrag;
+    view_.onFiles = [this](const juce::StringArray& files, int enchanter, FieldShare at) {
+        if (enchanter >= 0) desk_.feelOn(files, enchanter);
+        else desk_.feelAt(files, at.x, at.y);
+    };
     view_.onMove = [this](int enchanter, FieldShare to) {
         desk_.change("Move " + utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label), [&](Mix& mix) {
             auto& layout = mix.layout.geometry;
@@ -166,6 +172,7 @@ void WorldPanel::moveHand() {
 
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = desk_.sceneNow();
+    if (isClip(hit.frequencyHz)) return materialName(scene, hit) + dot + placeText(scene, hit);
     return materialName(scene, hit) + dot + number(hit.frequencyHz, 0) + " Hz" + dot + juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
            number(feltMost(desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
 }

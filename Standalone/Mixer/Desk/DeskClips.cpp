@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A drop becomes a message; what comes of it is told on M.
+#include "Mixer/Desk/DeskClips.h"
+#include "Host/Recordings/ClipFolder.h"
+#include <utility>
+
+namespace physvib {
+
+bool isClipDrag(const juce::StringArray& files) { return !files.isEmpty() && !files[0].endsWithIgnoreCase(".json"); }
+
+DeskClips::DeskClips(Session& session, const AudioOutput& output, std::function<void(const std::string&)> told)
+    : output_{output}
+    , told_{std::move(told)}
+    , messages_{session} {}
+
+DeskClips::~DeskClips() {
+    constexpr int untilItHasBeenRead = -1;
+    reader_.removeAllJobs(false, untilItHasBeenRead); // from here on nobody asks for an update
+    cancelPendingUpdate();
+}
+
+void DeskClips::feel(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
+    reader_.addJob([=, this] {
+        auto result = strike(file, atMetres, isAlone);
+        const std::lock_guard lock{mutex_};
+        results_.push_back(std::move(result));
+        triggerAsyncUpdate();
+    });
+}
+
+// On the reader's thread.
+std::string DeskClips::strike(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
+    PlainMessage clip{"clip", {{"file", file.getFullPathName().toStdString()}, {"place", std::vector{atMetres.xMetres, atMetres.yMetres}}}};
+    if (isAlone) clip.values.push_back({"law", std::string{spreadNames[static_cast<std::size_t>(Spread::alone)]}});
+    const auto unlessLent = [this](const std::string& path) { // it may have been lent while others were read
+        return output_.isLent() ? Result<LoadedClip>{Failure{"a study is running"}} : loadWholeClip(path);
+    };
+    return messages_.take(clip, nullptr, unlessLent).error;
+}
+
+void DeskClips::handleAsyncUpdate() {
+    std::vector<std::string> results;
+    {
+        const std::lock_guard lock{mutex_};
+        results.swap(results_);
+    }
+    for (const std::string& result : results) told_(result);
+}
+
+} // namespace physvib
