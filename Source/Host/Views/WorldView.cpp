@@ -305,20 +305,27 @@ void WorldView::drawSpot(juce::Graphics& g) const {
     for (const auto& way : {juce::Point<float>{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}}) g.drawLine({centre + way * 5.0f, centre + way * 13.0f}, 1.5f);
 }
 
-// The badge, or the place, where it would be felt.
+// The badge, or the place, where it would be felt; in words on the side where the field is.
 void WorldView::drawFiles(juce::Graphics& g) const {
     if (!filesAt_) return;
     const auto at = map();
     const int enchanter = enchanterAt(*filesAt_);
     const auto target = enchanter >= 0 ? badgeOf(enchanter, at).expanded(5.0f) : juce::Rectangle<float>{26.0f, 26.0f}.withCentre(placeOfShare(at.shareAt(*filesAt_)));
+    const float corner = enchanter >= 0 ? 10.0f : 13.0f;
+    const auto words = enchanter >= 0 ? "felt on " + juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()) + " alone" : juce::String{"felt here"};
+    const juce::Font font{text::small};
+    const float below = 0.5f * target.getHeight() + 15.0f;
+    const auto plate = juce::Rectangle<float>{font.getStringWidthFloat(words) + 14.0f, 20.0f}
+                           .withCentre(target.getCentre().translated(0.0f, target.getCentreY() < at.field.getCentreY() ? below : -below))
+                           .constrainedWithin(getLocalBounds().reduced(4).toFloat());
+    g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
+    g.fillRoundedRectangle(plate, 5.0f);
     g.setColour(shade(*this, Shade::accent).withAlpha(0.25f));
-    g.fillRoundedRectangle(target, 0.5f * target.getWidth());
+    g.fillRoundedRectangle(target, corner);
     g.setColour(shade(*this, Shade::accent));
-    g.drawRoundedRectangle(target, 0.5f * target.getWidth(), 2.5f);
-    const auto name = enchanter >= 0 ? "felt on " + juce::String::fromUTF8(layout_.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()) + " alone" : juce::String{"felt here"};
-    g.setFont(juce::Font{text::small});
-    g.drawText(name, juce::Rectangle<float>{120.0f, 18.0f}.withCentre(target.getCentre().translated(0.0f, -0.5f * target.getHeight() - 12.0f)).constrainedWithin(getLocalBounds().reduced(4).toFloat()),
-               juce::Justification::centred, false);
+    g.drawRoundedRectangle(target, corner, 2.5f);
+    g.setFont(font);
+    g.drawText(words, plate, juce::Justification::centred, false);
 }
 
 // A string from the body to the hand.
