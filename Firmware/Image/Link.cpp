@@ -42,10 +42,13 @@ void Link::handle(std::span<const std::uint8_t> payload, Moment ended) noexcept 
         if (wire::Hello m; wire::decode(payload, m)) greet(m);
         break;
     case wire::Type::strike:
-        if (wire::Strike m; wire::decode(payload, m)) strike(m);
+        if (wire::Strike m; wire::decode(payload, m)) play(m.sequence, m.event);
         break;
     case wire::Type::compactStrike:
-        if (wire::CompactStrike m; wire::decode(payload, m)) strike(wire::expand(m, renderer_->frame()));
+        if (wire::CompactStrike m; wire::decode(payload, m)) play(m.sequence, wire::expand(m, renderer_->frame()).event);
+        break;
+    case wire::Type::leg:
+        if (wire::Leg m; wire::decode(payload, m)) play(m.sequence, m.leg);
         break;
     case wire::Type::gains:
         if (wire::Gains m; wire::decode(payload, m)) {
@@ -73,6 +76,7 @@ void Link::greet(const wire::Hello& hello) noexcept {
     order_ = {};
     watchdogFrames_ = watchdogFrames(hello.watchdogMs);
     wire::HelloReply reply;
+    reply.version = std::min(hello.version, wire::protocolVersion); // an older computer takes it for one of its own
     reply.channels = BoardRenderer::channels;
     reply.sampleRateHz = limits::board::sampleRateHz;
     reply.maxModes = limits::board::maxModes;
@@ -84,9 +88,10 @@ void Link::greet(const wire::Hello& hello) noexcept {
     send(reply);
 }
 
-void Link::strike(const wire::Strike& strike) noexcept {
+template <class Event>
+void Link::play(std::uint8_t sequence, const Event& event) noexcept {
     if (!greeted_ || selfTest_.isRunning()) return;
-    if (order_.isNew(strike.sequence, strike.event.frame, renderer_->frame())) renderer_->schedule(strike.event);
+    if (order_.isNew(sequence, event.frame, renderer_->frame())) renderer_->schedule(event);
 }
 
 void Link::sendTelemetry() noexcept {

@@ -36,7 +36,8 @@ public:
 private:
     void handle(std::span<const std::uint8_t> payload, Moment ended) noexcept;
     void greet(const wire::Hello& hello) noexcept;
-    void strike(const wire::Strike& strike) noexcept;
+    template <class Event>
+    void play(std::uint8_t sequence, const Event& event) noexcept;
     void sendTelemetry() noexcept;
     void stopAll() noexcept;
     void watch() noexcept;

@@ -20,6 +20,7 @@ std::uint32_t magnitude(float sample) noexcept { return std::bit_cast<std::uint3
 
 void BoardRenderer::prepare() noexcept {
     bank_.clear();
+    legs_.clear();
     pending_.clear();
     for (auto& gain : gains_) gain.prepare(limits::board::sampleRateHz, limits::channelRampSeconds, 1.0f);
     linkedGain_ = 1.0f;
@@ -34,12 +35,21 @@ bool BoardRenderer::schedule(const BoardEvent& event) noexcept {
     return isTaken;
 }
 
+bool BoardRenderer::schedule(const BoardLeg& leg) noexcept {
+    const bool isTaken = isPlayable(leg) && legs_.add(leg, frame());
+    dropped_ += isTaken ? 0 : 1;
+    played_ += isTaken ? 1 : 0;
+    late_ += isTaken && static_cast<std::int32_t>(leg.frame - frame()) < 0 ? 1 : 0;
+    return isTaken;
+}
+
 void BoardRenderer::setGains(const Gains& gains) noexcept {
     for (int j = 0; j < channels; ++j) gains_[at(j)].moveTo(gains[at(j)]);
 }
 
 void BoardRenderer::stopAll() noexcept {
     bank_.clear();
+    legs_.clear();
     pending_.clear();
     linkedGain_ = 1.0f;
 }
@@ -48,6 +58,7 @@ void BoardRenderer::render(Codes& out) noexcept {
     PhasorBank::Block block;
     bank_.render(frame(), block);
     strikeDue(block);
+    if (legs_.count() > 0) legs_.render(frame(), block);
     for (int j = 0; j < channels; ++j) {
         float* const channel = block[at(j)].data();
         gains_[at(j)].apply(&channel, 1, blockFrames);

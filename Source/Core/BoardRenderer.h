@@ -2,12 +2,13 @@
 // All that the four-channel board computes: events in, codes of its converters out. The board runs these very files;
 // on a computer they are what the board is held against.
 //
-// Order of one block: the modes are summed; events that are due are struck into it; each channel goes through its
-// gain; one gain for all channels takes at once what exceeds full scale and comes back within
+// Order of one block: the modes are summed; events that are due are struck into it; legs of what moves are added; each
+// channel goes through its gain; one gain for all channels takes at once what exceeds full scale and comes back within
 // limits::limiterReleaseSeconds, so that a phantom stays where it is; the codes saturate.
 #pragma once
 #include "Core/BoardEvent.h"
 #include "Core/Actuators/GainRamp.h"
+#include "Core/Modes/MovingLegs.h"
 #include "Core/Modes/PhasorBank.h"
 #include "Core/TimeOrdered.h"
 #include <array>
@@ -17,8 +18,8 @@ namespace physvib {
 
 /// Counts since prepare, and the state after the last block.
 struct BoardStatus {
-    std::uint32_t played = 0;  ///< events struck
-    std::uint32_t late = 0;    ///< of these: after their time, at once
+    std::uint32_t played = 0;  ///< events struck, legs taken
+    std::uint32_t late = 0;    ///< of these: after their time; a strike at once, a leg from where it is by then
     std::uint32_t dropped = 0; ///< not playable, or too many waiting
     std::uint32_t stolen = 0;  ///< modes that made room
     int modes = 0;
@@ -39,6 +40,7 @@ public:
 
     /// False, and counted, if the event is not playable or too many wait. Events of one frame keep their order.
     bool schedule(const BoardEvent& event) noexcept;
+    bool schedule(const BoardLeg& leg) noexcept;
 
     /// Within limits::channelRampSeconds. Negative gains turn the polarity, 0 mutes.
     void setGains(const Gains& gains) noexcept;
@@ -60,6 +62,7 @@ private:
     void encodeWithGain(const PhasorBank::Block& block, Codes& out) noexcept;
 
     PhasorBank bank_;
+    MovingLegs legs_;
     TimeOrdered<BoardEvent, limits::board::maxPending> pending_;
     std::array<GainRamp, static_cast<std::size_t>(channels)> gains_{};
     float linkedGain_ = 1.0f;

@@ -23,7 +23,7 @@ constexpr int crowded = 4;                              // from here on strikes 
 /// Why nothing is sent to this board; empty: it is what this program plays on.
 std::string refusal(const wire::HelloReply& board) {
     if (board.version < 1 || board.version > wire::protocolVersion)
-        return "expected a board of protocol " + std::to_string(wire::protocolVersion) + ", found " + std::to_string(board.version);
+        return "expected a board of protocol 1 to " + std::to_string(wire::protocolVersion) + ", found " + std::to_string(board.version);
     if (board.channels != limits::board::channels || board.sampleRateHz != limits::board::sampleRateHz)
         return "expected a board of " + std::to_string(limits::board::channels) + " channels at " + std::to_string(limits::board::sampleRateHz) + " Hz, found " +
                std::to_string(board.channels) + " at " + std::to_string(board.sampleRateHz) + " Hz";
@@ -33,7 +33,12 @@ std::string refusal(const wire::HelloReply& board) {
 }
 
 constexpr std::size_t compactBytes = 16;                // of a strike in the compact form on the line
+constexpr std::int64_t earlyLeg = 40 * ms;               // ahead: it can be sent later as well
+constexpr std::size_t legBytes = 36;                    // of a leg
 constexpr double besidesMs = 3.0;                       // of the line: pings, gains, the last strikes in the long form
+
+// The board's counter at a frame, or between two.
+std::uint32_t wrapped(double frame) { return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(frame))); }
 
 constexpr std::int64_t lineNs(std::size_t bytes) { return static_cast<std::int64_t>(bytes) * 10 * second / wire::lineBitsPerSecond; }
 
@@ -157,6 +162,7 @@ void BoardLink::meet(const wire::HelloReply& board) {
     nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain; // it may have been without power, and plays at its own again
     now_.state = State::synchronising;
     sequence_ = 0xFF;
+    legEnds_.clear();
     pingSentNs_.fill(0);
     ++now_.connections;
 }
@@ -205,6 +211,7 @@ void BoardLink::obey() {
     if (orders.stopAll) {
         backlog_.clear();
         for (BoardStrike waiting; strikes_.pop(waiting);) {}
+        legEnds_.clear();
         if (line_) send(wire::StopAll{});
     }
     if (orders.gains) gains_ = orders.gains, nextGainsNs_ = 0, gainsPauseNs_ = firstGainsAgain;
@@ -215,6 +222,30 @@ void BoardLink::obey() {
 }
 
 bool BoardLink::isLineFree(std::int64_t now) const { return lineFreeNs_ - now < lineAhead; }
+
+bool BoardLink::takesLeg(std::int64_t dueNs) {
+    const std::int64_t now = nowNs();
+    if (!line_ || now_.state != State::ready || !playsLegs() || !isLineFree(now)) return false;
+    const std::uint32_t played = wrapped(clock_.frameAt(now));
+    std::erase_if(legEnds_, [=](std::uint32_t end) { return static_cast<std::int32_t>(end - played) <= 0; });
+    const std::size_t kept = dueNs - now > earlyLeg ? 2 : 0; // for a tone that begins meanwhile
+    if (legEnds_.size() + kept >= limits::board::maxLegs) return false;
+    const std::scoped_lock lock{mutex_};
+    return !orders_.stopAll; // it would be forgotten as soon as it is there
+}
+
+std::int64_t BoardLink::legReadyNs() const {
+    return std::max(nowNs(), lineFreeNs_) + lineNs(legBytes) + static_cast<std::int64_t>(1e6 * transitMs());
+}
+
+void BoardLink::sendLeg(const BoardLeg& leg, bool isCoarse) {
+    const std::uint32_t end = leg.frame + leg.frames, ready = wrapped(clock_.frameAt(legReadyNs()));
+    if (!isPlayable(leg) || static_cast<std::int32_t>(end - ready) <= 0) return refuseLeg();
+    legEnds_.push_back(end);
+    send(wire::Leg{++sequence_, leg});
+    ++now_.legs;
+    now_.coarseLegs += isCoarse ? 1 : 0;
+}
 
 void BoardLink::sendStrikes() {
     for (BoardStrike strike; strikes_.pop(strike);) {
@@ -230,7 +261,7 @@ void BoardLink::sendStrikes() {
     if (isReady) backlog_.keepTo({std::max(now, lineFreeNs_), lineNs(compactBytes), static_cast<std::int64_t>(1e6 * (transitMs() + besidesMs))});
     while (line_ && isReady && !backlog_.empty() && isLineFree(now) && backlog_.first().onsetNs < now + sendAheadMs * ms) {
         wire::Strike strike{++sequence_, backlog_.first().event};
-        strike.event.frame = static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(clock_.frameAt(backlog_.first().onsetNs))));
+        strike.event.frame = wrapped(clock_.frameAt(backlog_.first().onsetNs));
         if (backlog_.size() > crowded && wire::fitsCompact(strike.event)) send(wire::compact(strike));
         else send(strike);
         backlog_.pop();

@@ -17,6 +17,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace physvib {
 
@@ -30,7 +31,8 @@ struct BoardLinkStatus {
     std::optional<wire::SelfTestReply> selfTest; ///< after requestSelfTest
     double playOutMs = 0.0;          ///< an onset has to be known so long before it is felt; 0: not yet known
     double driftPpm = 0.0;           ///< the board's clock against this computer's
-    std::uint64_t sent = 0, thinned = 0, refused = 0; ///< strikes: sent; lost for want of line; not playable or too old
+    std::uint64_t sent = 0, thinned = 0, refused = 0; ///< strikes: sent; lost for want of line; not playable or too old, as legs may be
+    std::uint64_t legs = 0, coarseLegs = 0; ///< of what moves: sent; of these longer than their law asks for, for want of line
     std::uint64_t connections = 0, badFrames = 0;
 };
 
@@ -38,7 +40,7 @@ struct BoardLinkStatus {
 class BoardSource {
 public:
     virtual ~BoardSource() = default;
-    /// L; may push and order. Quick.
+    /// L; may push, order, and send legs. Quick.
     virtual void feed() = 0;
 };
 
@@ -61,6 +63,18 @@ public:
 
     /// False if the queue is full; the queue counts it. One producer, wait-free.
     bool push(const BoardStrike& strike) noexcept { return strikes_.push(strike); }
+
+    /// Whether the board that answered last plays legs: else what moves has to be strikes. L, as what follows.
+    bool playsLegs() const noexcept { return now_.board.version >= wire::legsSince; }
+    /// Whether it could be sent one now that is due then: there is a clock, and room on the line and on the board.
+    bool takesLeg(std::int64_t dueNs);
+    /// The board's frame then, between two as a rule; while there is a clock.
+    double frameAt(std::int64_t steadyNs) const noexcept { return clock_.frameAt(steadyNs); }
+    /// When a leg that is sent now can be played.
+    std::int64_t legReadyNs() const;
+    /// Sends it; one that is over by then is counted as refused. While it takes one.
+    void sendLeg(const BoardLeg& leg, bool isCoarse);
+    void refuseLeg() noexcept { ++now_.refused; }
 
     /// From now on L asks this one, or nobody (null), and nobody else pushes. When it returns, L is not in the one before. M.
     void follow(BoardSource* source);
@@ -120,6 +134,7 @@ private:
     std::optional<wire::Gains> gains_;
     std::array<std::int64_t, 256> pingSentNs_{}; // 0: not on its way
     std::int64_t heardNs_ = 0, nextHelloNs_ = 0, nextPingNs_ = 0, nextTelemetryNs_ = 0, nextGainsNs_ = 0, gainsPauseNs_ = 0, nextSearchNs_ = 0, lineFreeNs_ = 0;
+    std::vector<std::uint32_t> legEnds_; // of legs on their way or on the board: the frames from which on they are over
     std::size_t searched_ = 0; // ports tried so far
     std::uint8_t pingId_ = 0, sequence_ = 0xFF;
     std::thread thread_;

@@ -4,9 +4,17 @@
 #include <algorithm>
 
 namespace physvib {
+namespace {
+
+constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t mostLateNs = 40'000'000; // a whole leg: nothing of it can be felt
+constexpr std::int64_t spareNs = 2'000'000;     // with less to spare a leg is long, so that the next is not late
+
+} // namespace
 
 BoardOutput::BoardOutput(Session& session, FeltOutput& device, BoardLink& link, const PhantomPanner& panner)
-    : told_{*session.told()}
+    : session_{session}
+    , told_{*session.told()}
     , device_{device}
     , link_{link}
     , panner_{panner} {
@@ -24,10 +32,11 @@ void BoardOutput::feed() {
     if (clock_.isReady()) {
         takeControls();
         for (CollisionEvent event; told_.events.pop(event);) {
-            if (event.course.travelNs > 0 && isPlayable(event)) moving_.emplace_back(event);
+            if (event.course.travelNs > 0 && isPlayable(event)) move(event);
             else strike(event);
         }
         takeSteps();
+        takeLegs();
     }
     setGains();
 }
@@ -45,7 +54,8 @@ void BoardOutput::takeControls() {
 void BoardOutput::apply(const RenderControl& control) {
     const auto channel = static_cast<std::size_t>(control.channel);
     if (control.kind == RenderControl::Kind::stopAll) {
-        moving_.clear();
+        steps_.clear();
+        paths_.clear();
         return link_.stopAll();
     }
     if (channel >= gains_.size()) return;
@@ -56,9 +66,43 @@ void BoardOutput::apply(const RenderControl& control) {
 // Not before the link would send them: a path of a minute must not fill its queue.
 void BoardOutput::takeSteps() {
     const std::int64_t until = BoardLink::nowNs() + BoardLink::sendAheadMs * 1'000'000;
-    for (BoardSteps& steps : moving_)
+    for (BoardSteps& steps : steps_)
         while (!steps.isOver() && clock_.steadyAt(steps.nextNs()) < until) strike(steps.take());
-    std::erase_if(moving_, [](const BoardSteps& steps) { return steps.isOver(); });
+    std::erase_if(steps_, [](const BoardSteps& steps) { return steps.isOver(); });
+}
+
+void BoardOutput::move(const CollisionEvent& event) {
+    const auto atOnce = std::count_if(paths_.begin(), paths_.end(), [&](const BoardPath& path) { return path.endNs() > event.timeNs; });
+    const bool hasLegs = link_.playsLegs() && atOnce < mostPaths && 2 * event.frequencyHz < limits::board::sampleRateHz;
+    if (hasLegs) paths_.emplace_back(event, session_.sampleRateHz());
+    else steps_.emplace_back(event);
+}
+
+// Of all, the leg that is due first; as many as there is room for, and not before the link would send strikes of that time.
+void BoardOutput::takeLegs() {
+    const std::int64_t now = BoardLink::nowNs();
+    std::erase_if(paths_, [&](const BoardPath& path) { return path.isOver() && clock_.steadyAt(path.endNs()) < now; });
+    const auto dueNs = [](const BoardPath& path) { return path.isOver() ? INT64_MAX : path.nextNs(); };
+    for (;;) {
+        const auto first = std::min_element(paths_.begin(), paths_.end(), [&](const auto& a, const auto& b) { return dueNs(a) < dueNs(b); });
+        if (first == paths_.end() || first->isOver()) return;
+        const std::int64_t due = clock_.steadyAt(first->nextNs());
+        if (due < now + BoardLink::sendAheadMs * 1'000'000 && link_.takesLeg(due)) sendLeg(*first);
+        else if (due < now - mostLateNs) first->skip(), link_.refuseLeg(); // the line is gone, or others take it
+        else return;
+    }
+}
+
+void BoardOutput::sendLeg(BoardPath& path) {
+    takeLayouts(path.nextNs());
+    for (const BoardPath& before : paths_) path.joinTo(before);
+    const auto frameAt = [&](std::int64_t sinceNs) { return link_.frameAt(clock_.steadyAt(path.onsetNs() + sinceNs)); };
+    const BoardTime time{frameAt(0), frameAt(second) - frameAt(0)};
+    const bool isHurried = clock_.steadyAt(path.nextNs()) < link_.legReadyNs() + spareNs;
+    const auto leg = path.next(time, [this](const auto&... at) { return gainsAt(at...); }, isHurried);
+    if (!leg) return;
+    link_.sendLeg(*leg, path.isCoarse());
+    path.take();
 }
 
 void BoardOutput::setGains() {
@@ -72,10 +116,18 @@ void BoardOutput::setGains() {
 
 void BoardOutput::strike(const CollisionEvent& event) {
     if (!isPlayable(event)) return; // as the renderer, which counts it
-    for (; !layouts_.empty() && layouts_.front().timeNs <= event.timeNs; layouts_.erase(layouts_.begin())) panner_ = layouts_.front().panner;
+    takeLayouts(event.timeNs);
+    link_.push({clock_.steadyAt(event.timeNs), boardEventOf(event, gainsAt(event, event.x, event.y))});
+}
+
+void BoardOutput::takeLayouts(std::int64_t timeNs) {
+    for (; !layouts_.empty() && layouts_.front().timeNs <= timeNs; layouts_.erase(layouts_.begin())) panner_ = layouts_.front().panner;
+}
+
+PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event, double x, double y) const noexcept {
     PhantomPanner::Gains gains{};
-    panner_.gainsAt(event.x, event.y, event.course.spread, gains);
-    link_.push({clock_.steadyAt(event.timeNs), boardEventOf(event, {gains[0], gains[1], gains[2], gains[3]})});
+    panner_.gainsAt(x, y, event.course.spread, gains);
+    return {gains[0], gains[1], gains[2], gains[3]};
 }
 
 } // namespace physvib

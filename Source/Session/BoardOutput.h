@@ -9,6 +9,7 @@
 #include "Session/FeltClock.h"
 #include "Session/FeltOutput.h"
 #include "Session/Session.h"
+#include "Wire/BoardPath.h"
 #include "Wire/BoardSteps.h"
 #include <array>
 #include <optional>
@@ -34,8 +35,16 @@ private:
     void apply(const RenderControl& control);
     void setGains();
     void strike(const CollisionEvent& event);
+    void move(const CollisionEvent& event);
+    void takeLayouts(std::int64_t timeNs);
+    PathGains::Gains gainsAt(const CollisionEvent& event, double x, double y) const noexcept;
     void takeSteps();
+    void takeLegs();
+    void sendLeg(BoardPath& path);
 
+    static constexpr std::ptrdiff_t mostPaths = limits::board::maxLegs / 2; // of each, the leg that sounds and the next
+
+    Session& session_;
     ToldEvents& told_;
     FeltOutput& device_;
     BoardLink& link_;
@@ -44,7 +53,8 @@ private:
     FeltClock clock_;
     PhantomPanner panner_;
     std::vector<RenderControl> layouts_, others_; // that wait for their time
-    std::vector<BoardSteps> moving_;
+    std::vector<BoardPath> paths_;    // what moves, until its end is felt: another may go on where it is over
+    std::vector<BoardSteps> steps_;   // what moves, beyond those, or on a board that has no legs
     std::array<double, limits::board::channels> gains_{1.0, 1.0, 1.0, 1.0};
     std::optional<std::array<double, limits::board::channels>> sent_; // to the link
     std::array<bool, limits::board::channels> muted_{};

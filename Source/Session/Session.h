@@ -112,6 +112,8 @@ public:
 
     /// L. Any thread but R.
     double playOutSeconds() const;
+    /// Of what is rendered. Any thread but R.
+    int sampleRateHz() const;
 
     /// How long after its time what is told is felt where a session is direct, and by how much of session time such a one lets it stand ahead:
     /// L is their sum, the latter 0 if it is not direct. Any thread but R.

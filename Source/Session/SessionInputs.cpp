@@ -186,6 +186,11 @@ double Session::playOutSeconds() const {
     return static_cast<double>(playOutFrames()) / law().sampleRateHz;
 }
 
+int Session::sampleRateHz() const {
+    const std::lock_guard lock{inputMutex_};
+    return law().sampleRateHz;
+}
+
 // Both mutexes are held.
 bool Session::addStrikes(std::span<const CollisionEvent> strikes, std::int64_t startNs) {
     const auto isTimely = [](const CollisionEvent& e) { return isPlayable(e) && e.timeNs < limits::maxTimeNs / 2; };

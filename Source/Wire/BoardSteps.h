@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What moves, as the board can play it: a row of short still strikes, since a strike of the link has one amplitude per channel.
+// What moves, as a board of protocol 1 can play it: a row of short still strikes, since a strike of the link has one amplitude
+// per channel. Newer ones play legs (BoardPath).
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Core/Modes/ModeIncrements.h"
+#include "Wire/BoardStrike.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,7 +19,7 @@ public:
     explicit BoardSteps(const CollisionEvent& moving) noexcept
         : moving_{moving}
         , stepNs_{lengthMs(moving.frequencyHz) * 1'000'000LL}
-        , endNs_{moving.durationNs > 0 ? moving.durationNs : lifeNs(moving.decayPerSecond)} {}
+        , endNs_{boardLifeNs(moving)} {}
 
     bool isOver() const noexcept { return doneNs_ >= endNs_; }
     std::int64_t nextNs() const noexcept { return moving_.timeNs + doneNs_; }
@@ -47,8 +48,6 @@ public:
     }
 
 private:
-    static std::int64_t lifeNs(double decayPerSecond) noexcept { return static_cast<std::int64_t>(limits::retireDecibels / (20.0 * std::numbers::log10e) / decayPerSecond * 1e9); }
-
     CollisionEvent moving_;
     std::int64_t stepNs_, endNs_, doneNs_ = 0;
 };

@@ -23,6 +23,22 @@ struct BoardStrike {
     }
 };
 
+/// On the link's grid. A decay stays one. Any thread, as all of these.
+inline std::uint16_t boardDecay16(double decayPerSecond) noexcept {
+    return static_cast<std::uint16_t>(std::clamp(std::nearbyint(decayPerSecond * limits::board::gridPerHz), decayPerSecond > 0.0 ? 1.0 : 0.0, 65535.0));
+}
+inline std::int16_t boardAmplitude(double amplitude) noexcept {
+    return static_cast<std::int16_t>(std::clamp(std::nearbyint(amplitude * limits::board::amplitudeUnit), -32768.0, 32767.0));
+}
+
+/// How loud the rest of a longer tone begins.
+inline double amplitudeAfter(const CollisionEvent& e, double seconds) noexcept { return seconds > 0.0 ? e.amplitude * shareLeft(e.decayPerSecond, seconds) : e.amplitude; }
+
+/// How long it lasts: to its end, or until it has decayed.
+inline std::int64_t boardLifeNs(const CollisionEvent& e) noexcept {
+    return e.durationNs > 0 ? e.durationNs : static_cast<std::int64_t>(limits::retireDecibels / (20.0 * std::numbers::log10e) / e.decayPerSecond * 1e9);
+}
+
 /// Rounded to the numbers of the link; amplitudes beyond 8 times full scale stay there. `gains`: one per board channel,
 /// of the panner. A frequency that the board cannot play gives an event that isPlayable refuses. The rest of a longer tone is as
 /// strong as that, from phase 0. Any thread.
@@ -30,11 +46,10 @@ inline BoardEvent boardEventOf(const CollisionEvent& e, const std::array<double,
     const auto rounded = [](double value, double low, double high) { return std::clamp(std::nearbyint(value), low, high); };
     BoardEvent b;
     b.frequency16 = static_cast<std::uint16_t>(rounded(e.frequencyHz * limits::board::gridPerHz, 0.0, 65535.0));
-    b.decay16 = static_cast<std::uint16_t>(rounded(e.decayPerSecond * limits::board::gridPerHz, e.decayPerSecond > 0.0 ? 1.0 : 0.0, 65535.0));
+    b.decay16 = boardDecay16(e.decayPerSecond);
     if (e.durationNs > 0) b.durationMs = static_cast<std::uint16_t>(rounded(static_cast<double>(e.durationNs) * 1e-6, 1.0, 65535.0));
-    const double amplitude = e.course.sinceNs > 0 ? e.amplitude * shareLeft(e.decayPerSecond, static_cast<double>(e.course.sinceNs) * 1e-9) : e.amplitude;
-    for (std::size_t j = 0; j < gains.size(); ++j)
-        b.amplitudes[j] = static_cast<std::int16_t>(rounded(amplitude * gains[j] * limits::board::amplitudeUnit, -32768.0, 32767.0));
+    const double amplitude = amplitudeAfter(e, static_cast<double>(e.course.sinceNs) * 1e-9);
+    for (std::size_t j = 0; j < gains.size(); ++j) b.amplitudes[j] = boardAmplitude(amplitude * gains[j]);
     return b;
 }
 

@@ -15,7 +15,8 @@
 
 namespace physvib::wire {
 
-constexpr std::uint8_t protocolVersion = 1;
+constexpr std::uint8_t protocolVersion = 2;    // 2: legs
+constexpr std::uint8_t legsSince = 2;
 constexpr int lineBitsPerSecond = 115200;      // 8N1: 11,520 bytes a second, what the thesis' Bluetooth module does
 constexpr std::size_t maxPayload = 64;         // type, fields, CRC: room for telemetry to grow
 constexpr std::size_t maxFrame = cobsMaxEncoded(maxPayload) + 1;
@@ -24,7 +25,7 @@ constexpr int pingsPerSecond = 10;             // also what keeps the board from
 constexpr int firstPingsPerSecond = 50;        // until the clock is known
 
 enum class Type : std::uint8_t {
-    hello = 0x01, strike, compactStrike, gains, ping, telemetryRequest, stopAll, selfTest,
+    hello = 0x01, strike, compactStrike, gains, ping, telemetryRequest, stopAll, selfTest, leg,
     helloReply = 0x81, pong = 0x85, telemetry = 0x86, selfTestReply = 0x88
 };
 
@@ -39,7 +40,7 @@ struct Hello {
 /// What the board is.
 struct HelloReply {
     static constexpr Type type = Type::helloReply;
-    std::uint8_t version = protocolVersion;
+    std::uint8_t version = protocolVersion; ///< the board's, but no later than the computer's
     std::uint8_t channels = 0;
     std::uint16_t sampleRateHz = 0, maxModes = 0, maxPending = 0;
     std::uint16_t aheadFrames = 0; ///< an event has to arrive so many frames before its onset
@@ -52,7 +53,7 @@ struct HelloReply {
     }
 };
 
-/// A collision. `sequence` counts strikes of either form; one that comes again (see StrikeOrder), or before a hello, is not played.
+/// A collision. `sequence` counts strikes of either form, and legs; one that comes again (see StrikeOrder), or before a hello, is not played.
 struct Strike {
     static constexpr Type type = Type::strike;
     std::uint8_t sequence = 0;
@@ -73,6 +74,18 @@ struct CompactStrike {
     void visit(auto&& field) {
         field(sequence), field(frameLow), field(frequency16), field(decay16);
         for (auto& a : amplitudes) field(a);
+    }
+};
+
+/// A part of what moves. Numbered with the strikes.
+struct Leg {
+    static constexpr Type type = Type::leg;
+    std::uint8_t sequence = 0;
+    BoardLeg leg;
+    void visit(auto&& field) {
+        field(sequence), field(leg.frame), field(leg.turn), field(leg.frames), field(leg.phase16), field(leg.decay16);
+        for (auto& a : leg.start) field(a);
+        for (auto& a : leg.end) field(a);
     }
 };
 
@@ -109,7 +122,7 @@ struct Telemetry {
     static constexpr Type type = Type::telemetry;
     std::uint32_t frame = 0;
     std::uint32_t good = 0, bad = 0;   ///< frames of the link
-    std::uint32_t lost = 0;            ///< gaps in the sequence of strikes
+    std::uint32_t lost = 0;            ///< gaps in the sequence of strikes and legs
     std::uint32_t overruns = 0;        ///< bytes that came faster than they were taken
     std::uint32_t played = 0, late = 0, dropped = 0, stolen = 0;
     std::uint32_t missedFrames = 0;    ///< the converters had to repeat a frame

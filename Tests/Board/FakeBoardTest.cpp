@@ -45,6 +45,10 @@ public:
         const std::scoped_lock lock{mutex_};
         return strikes_;
     }
+    std::vector<BoardLeg> legs() const {
+        const std::scoped_lock lock{mutex_};
+        return legs_;
+    }
 
 private:
     void run() {
@@ -65,6 +69,7 @@ private:
         }
         const std::scoped_lock lock{mutex_};
         if (wire::Strike strike; wire::decode(payload, strike)) strikes_.push_back(strike);
+        if (wire::Leg leg; wire::decode(payload, leg)) legs_.push_back(leg.leg);
         if (wire::TelemetryRequest request; wire::decode(payload, request)) ++seconds_;
         if (wire::Gains gains; wire::decode(payload, gains)) hear(gains);
     }
@@ -86,6 +91,7 @@ private:
     const std::int64_t startNs_ = BoardLink::nowNs();
     mutable std::mutex mutex_;
     std::vector<wire::Strike> strikes_;
+    std::vector<BoardLeg> legs_;
     wire::Gains gains_, sent_; // heard; as they came last, perhaps lost
     int losses_ = 0, unheard_ = 0, seconds_ = 0, changedIn_ = 0, secondsLate_ = 0;
     std::atomic<bool> stop_{false};
@@ -106,7 +112,7 @@ TEST(BoardLinkWithAFakeBoard, OneThatIsNotOursIsRefusedAndTold) {
         void (*change)(wire::HelloReply&);
         const char* told;
     } const cases[]{
-        {[](wire::HelloReply& r) { r.version = 255; }, ": expected a board of protocol 1, found 255"},
+        {[](wire::HelloReply& r) { r.version = 255; }, ": expected a board of protocol 1 to 2, found 255"},
         {[](wire::HelloReply& r) { r.channels = 0; }, ": expected a board of 4 channels at 8000 Hz, found 0 at 8000 Hz"},
         {[](wire::HelloReply& r) { r.sampleRateHz = 0; }, ": expected a board of 4 channels at 8000 Hz, found 4 at 0 Hz"},
         {[](wire::HelloReply& r) { r.watchdogMs = 65535; }, ": expected a board that is silent 500 ms after its computer, and plays within a second"},
@@ -155,6 +161,72 @@ TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
     EXPECT_TRUE(test::comesTrue([&] { return board.gain() == half; }));
     interrupt = true; // Ctrl-C
     EXPECT_TRUE(test::comesTrue([&] { return board.gain() == 0; }));
+}
+
+/// From A to B to D in a second, on a session beside a fake device, until the board has been told to its end.
+void playPath(FakeBoard& board, BoardLink& link) {
+    ASSERT_TRUE(test::comesTrue([&] { return link.status().state == BoardLinkStatus::State::ready; }));
+    SessionSetup setup = test::setupOfWalls();
+    setup.channels = 4;
+    setup.boardSeconds = 0.3; // other programs may hold this one up
+    Session session{setup};
+    test::FakeInterface hands;
+    hands.block = 480;
+    AudioOutput output{session, test::fakeTypes({&hands})};
+    ASSERT_EQ(output.open({"hands", {}, 0, 0, 0.5f}), "");
+    BoardOutput onBoard{session, output, link, setup.panner};
+    auto due = std::chrono::steady_clock::now(); // a device that keeps time, whatever else runs here
+    const auto goOn = [&] {
+        hands.play(hands.block);
+        session.advance();
+        std::this_thread::sleep_until(due += std::chrono::milliseconds(10));
+    };
+    for (int i = 0; i < 10; ++i) goOn();
+    CollisionEvent first;
+    first.frequencyHz = 205.0;
+    first.amplitude = 0.5;
+    first.y = 4.0;
+    CollisionEvent second = first;
+    first.durationNs = second.timeNs = 400 * ms;
+    first.course = {4.0, 4.0, first.durationNs, 0, Spread::equal};
+    second.x = 4.0;
+    second.durationNs = 600 * ms;
+    second.course = {4.0, 0.0, second.durationNs, first.durationNs, Spread::equal};
+    ASSERT_TRUE(session.play(std::array{first, second}));
+    EXPECT_TRUE(test::comesTrue([&] {
+        goOn();
+        return session.presentNs() > 2'000 * ms;
+    }));
+    const auto now = link.status();
+    EXPECT_EQ(board.legs().size(), now.legs);
+    EXPECT_EQ(board.strikes().size(), now.sent);
+}
+
+TEST(BoardLinkWithAFakeBoard, WhatMovesIsOneRowOfLegs) {
+    FakeBoard board{ours(), 0};
+    BoardLink link{board.port()};
+    playPath(board, link);
+    const auto legs = board.legs();
+    EXPECT_TRUE(board.strikes().empty());
+    ASSERT_GE(legs.size() + link.status().refused, 24u);
+    for (std::size_t i = 1; i < legs.size(); ++i) {
+        const BoardLeg &before = legs[i - 1], &leg = legs[i];
+        if (link.status().refused > 0) break; // other programs held this one up
+        EXPECT_EQ(leg.frame, before.frame + before.frames) << i;
+        const auto phase = static_cast<std::uint16_t>(before.phase16 + (static_cast<std::uint64_t>(before.turn) * before.frames >> 16));
+        EXPECT_LE(std::abs(static_cast<std::int16_t>(leg.phase16 - phase)), 2) << i << " goes on in the phase of the one before";
+    }
+}
+
+TEST(BoardLinkWithAFakeBoard, OnAnOlderBoardWhatMovesIsStillBursts) {
+    auto reply = ours();
+    reply.version = 1;
+    FakeBoard board{reply, 0};
+    BoardLink link{board.port()};
+    playPath(board, link);
+    EXPECT_TRUE(board.legs().empty());
+    ASSERT_GE(board.strikes().size() + link.status().refused + link.status().thinned, 17u);
+    for (const auto& strike : board.strikes()) EXPECT_LE(strike.event.durationMs, 60);
 }
 
 TEST(BoardLinkWithAFakeBoard, GainsThatTheLineLosesComeAgainSoon) {

@@ -3,7 +3,9 @@
 #include "Core/BoardRenderer.h"
 #include "Support/BoardReference.h"
 #include <gtest/gtest.h>
+#include <cmath>
 #include <memory>
+#include <numbers>
 
 namespace physvib {
 namespace {
@@ -127,6 +129,61 @@ TEST(BoardRenderer, GainsTurnPolarityAndStopAllIsSilence) {
     }
     renderer->stopAll();
     for (const auto& frame : test::renderBoardEvents(*renderer, {}, 400)) ASSERT_EQ(frame, silence);
+}
+
+BoardLeg legOf(std::uint32_t frame, std::uint16_t frames, double hz, std::array<std::int16_t, 4> start, std::array<std::int16_t, 4> end) {
+    return {frame, static_cast<std::uint32_t>(hz / limits::board::sampleRateHz * 4294967296.0), frames, 0, 0, start, end};
+}
+
+/// Of legs alone, that are within full scale.
+std::vector<BoardFrame> legsInDouble(const std::vector<BoardLeg>& legs, std::size_t frames) {
+    std::vector<std::array<double, 4>> sums(frames);
+    for (const BoardLeg& leg : legs)
+        for (std::size_t k = 0; k < leg.frames && leg.frame + k < frames; ++k) {
+            const auto n = static_cast<double>(k);
+            const double tone = std::sin(2.0 * std::numbers::pi * (leg.phase16 / 65536.0 + std::fmod(leg.turn / 4294967296.0 * n, 1.0))) * std::exp(-leg.decay16 / 16.0 * n / 8000.0);
+            for (std::size_t j = 0; j < 4; ++j) sums[leg.frame + k][j] += tone * std::lerp(leg.start[j], leg.end[j], leg.frames > 1 ? n / (leg.frames - 1) : 0.0) / limits::board::amplitudeUnit;
+        }
+    std::vector<BoardFrame> codes(frames);
+    for (std::size_t n = 0; n < frames; ++n)
+        for (std::size_t j = 0; j < 4; ++j) codes[n][j] = static_cast<std::uint8_t>(std::floor(sums[n][j] * 127.0 + 128.5));
+    return codes;
+}
+
+TEST(BoardRenderer, LegsAreWithinOneStepOfTheClosedForm) {
+    for (const int most : {4, 40, 320, 4000}) {
+        const auto renderer = prepared();
+        const auto legs = test::randomBoardLegs(4, 100, 16'000, most, 5);
+        EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, {}, 20'000, 4, legs), legsInDouble(legs, 20'000)), 1) << most;
+        EXPECT_EQ(renderer->status().played, legs.size());
+        EXPECT_EQ(renderer->status().late + renderer->status().dropped, 0u);
+    }
+}
+
+TEST(BoardRenderer, OfALateLegTheRestIsPlayedAndOneThatIsOverIsNot) {
+    const BoardLeg leg = legOf(2, 300, 205.0, {4000, 0, -2000, 1000}, {0, 4000, 2000, 1000});
+    const auto whole = test::renderBoardEvents(*prepared(), {}, 400, 64, {leg});
+    const auto renderer = prepared();
+    auto late = test::renderBoardEvents(*renderer, {}, 40);
+    EXPECT_TRUE(renderer->schedule(leg));
+    const auto rest = test::renderBoardEvents(*renderer, {}, 360);
+    EXPECT_LE(test::worstDifference(rest, {whole.begin() + 40, whole.end()}), 1);
+    EXPECT_EQ(renderer->status().late, 1u);
+    EXPECT_FALSE(renderer->schedule(leg)) << "over";
+    EXPECT_EQ(renderer->status().dropped, 1u);
+}
+
+TEST(BoardRenderer, MoreLegsThanItHoldsAreDroppedAndStopAllForgetsThem) {
+    const auto renderer = prepared();
+    for (int i = 0; i < limits::board::maxLegs; ++i) EXPECT_TRUE(renderer->schedule(legOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
+    EXPECT_FALSE(renderer->schedule(legOf(100, 2000, 200.0, {500, 0, 0, 0}, {500, 0, 0, 0})));
+    EXPECT_FALSE(renderer->schedule(BoardLeg{})) << "of no length";
+    EXPECT_FALSE(renderer->schedule(legOf(100, 10, 4000.0, {}, {}))) << "half the sample rate";
+    EXPECT_EQ(renderer->status().dropped, 3u);
+    EXPECT_NE(test::renderBoardEvents(*renderer, {}, 110).back(), silence);
+    renderer->stopAll();
+    for (const auto& frame : test::renderBoardEvents(*renderer, {}, 400)) ASSERT_EQ(frame, silence);
+    EXPECT_TRUE(renderer->schedule(legOf(renderer->frame(), 1, 200.0, {}, {})));
 }
 
 TEST(BoardRenderer, RefusesWhatItCannotPlay) {

@@ -14,8 +14,8 @@ struct Load {
     wire::Telemetry telemetry;
 };
 
-// Strikes of `modes` notes in turn, compact, until all sound; then for two seconds as many as told.
-Load measure(int modes, double perSecond, CostModel model) {
+// Strikes of `modes` notes in turn, compact, until all sound; then for two seconds as many as told, beside so many tones that move.
+Load measure(int modes, double perSecond, CostModel model, int tones = 0) {
     test::Rig rig(PHYSVIB_BOARD_IMAGE, model);
     rig.connect();
     const auto strikes = [modes](std::uint32_t first, double rate, double seconds) {
@@ -34,19 +34,20 @@ Load measure(int modes, double perSecond, CostModel model) {
     const auto events = strikes(4000, perSecond, 2.0);
     rig.play({events.begin(), events.begin() + 10}, events[10].frame - 480, true);
     const auto began = rig.board.cycle(), idle = rig.board.idleCycles();
-    rig.play({events.begin() + 10, events.end()}, events.back().frame + 100, true);
+    const auto legs = test::randomBoardLegs(tones, events[10].frame, events.back().frame, 320, 3);
+    rig.play({events.begin() + 10, events.end()}, legs, events.back().frame + 100, true);
     Load load;
     load.share = 1.0 - static_cast<double>(rig.board.idleCycles() - idle) / static_cast<double>(rig.board.cycle() - began);
     load.telemetry = rig.telemetry();
     return load;
 }
 
-constexpr double fullLine = 11520.0 / 16.0 * 0.99, someStrikes = 100;
+constexpr double fullLine = 11520.0 / 16.0 * 0.99, someStrikes = 100, besideLegs = 400;
 
-void expectLoad(int modes, double perSecond, CostModel model, double most) {
-    const auto load = measure(modes, perSecond, model);
+void expectLoad(int modes, double perSecond, CostModel model, double most, int tones = 0) {
+    const auto load = measure(modes, perSecond, model, tones);
     const auto& t = load.telemetry;
-    std::cout << modes << " modes, " << perSecond << " strikes/s, " << (model == CostModel::optimistic ? "optimistic" : "pessimistic") << ": load " << 100 * load.share << " %, worst block "
+    std::cout << modes << " modes, " << perSecond << " strikes/s, " << tones << " tones that move, " << (model == CostModel::optimistic ? "optimistic" : "pessimistic") << ": load " << 100 * load.share << " %, worst block "
               << t.worstBlockCycles << " of 36000 cycles, stack free " << t.stackFree << '\n';
     EXPECT_LT(load.share, most);
     EXPECT_EQ(t.modes, modes);
@@ -58,6 +59,8 @@ TEST(BoardLoad, AllModesOnAFullLineOptimistic) { expectLoad(128, fullLine, CostM
 TEST(BoardLoad, AllModesOnAFullLinePessimistic) { expectLoad(128, fullLine, CostModel::pessimistic, 0.50); }
 TEST(BoardLoad, HalfTheModesOptimistic) { expectLoad(64, someStrikes, CostModel::optimistic, 0.25); }
 TEST(BoardLoad, HalfTheModesPessimistic) { expectLoad(64, someStrikes, CostModel::pessimistic, 0.25); }
+TEST(BoardLoad, AllModesAndFourTonesThatMoveOptimistic) { expectLoad(128, besideLegs, CostModel::optimistic, 0.60, 4); }
+TEST(BoardLoad, AllModesAndFourTonesThatMovePessimistic) { expectLoad(128, besideLegs, CostModel::pessimistic, 0.60, 4); }
 TEST(BoardLoad, HalfTheModesOnAFullLine) { expectLoad(64, fullLine, CostModel::pessimistic, 0.34); }
 
 } // namespace

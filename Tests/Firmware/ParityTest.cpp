@@ -3,6 +3,7 @@
 #include "Rig.h"
 #include <gtest/gtest.h>
 #include <iostream>
+#include <memory>
 
 namespace physvib {
 namespace {
@@ -33,6 +34,28 @@ TEST(BoardParity, ManyMaterialsAndTheLinkedGain) { expectParity(listOf(4000, 150
 TEST(BoardParity, Durations) { expectParity(listOf(4000, 240'000, 60, 0.2, 0.5), 3, 250'000); }
 TEST(BoardParity, TheCompactForm) { expectParity(listOf(8000, 140'000, 40, 0.1), 4, 150'000, true); }
 TEST(BoardParity, Sparse) { expectParity(listOf(300, 140'000, 300, 0.9), 5, 150'000); }
+
+// Three tones that move, of long and of short legs, between strikes.
+TEST(BoardParity, Legs) {
+    test::Rig rig;
+    rig.connect();
+    const auto events = test::randomBoardEvents(listOf(700, 60'000, 20, 0.1, 0.2), 8);
+    auto legs = test::randomBoardLegs(2, 2000, 60'000, 320, 9);
+    for (const BoardLeg& leg : test::randomBoardLegs(1, 2000, 60'000, 150, 10)) legs.push_back(leg);
+    std::stable_sort(legs.begin(), legs.end(), [](const BoardLeg& a, const BoardLeg& b) { return a.frame < b.frame; });
+    rig.play(events, legs, 63'000);
+    const auto t = rig.telemetry();
+    const auto here = std::make_unique<BoardRenderer>();
+    here->prepare();
+    const auto codes = test::renderBoardEvents(*here, events, 63'000, 160, legs);
+    std::size_t differing = 0;
+    for (std::size_t n = 0; n < codes.size(); ++n) differing += codes[n] != rig.codes()[n] ? 1 : 0;
+    std::cout << legs.size() << " legs, " << events.size() << " strikes, differing " << differing << '\n';
+    EXPECT_EQ(differing, 0u);
+    EXPECT_EQ(t.played, events.size() + legs.size());
+    EXPECT_EQ(here->status().played, events.size() + legs.size());
+    EXPECT_EQ(t.late + t.dropped + t.stolen + t.lost + t.missedFrames + t.overruns + t.bad, 0u);
+}
 
 TEST(BoardParity, WithTheInternalOscillator) {
     test::Rig rig(PHYSVIB_BOARD_IMAGE, virtualboard::CostModel::optimistic, false);

@@ -48,7 +48,7 @@ stop() {
 
 start
 "$physvib" board "$port" info >"$folder/info.txt" 2>&1 || fail "info"
-grep -q "4 channels at 8000 Hz, 128 modes, protocol 1, clock 72 MHz" "$folder/info.txt" || fail "info says something else"
+grep -q "4 channels at 8000 Hz, 128 modes, protocol 2, clock 72 MHz" "$folder/info.txt" || fail "info says something else"
 "$physvib" board "$port" test >"$folder/test.txt" 2>&1 || fail "test"
 grep -q "the bits are those of this computer" "$folder/test.txt" || fail "the self-test differs"
 "$physvib" board "$port" play "$folder/hits.csv" >"$folder/play.txt" 2>&1 || fail "play"

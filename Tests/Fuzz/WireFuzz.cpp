@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t i = 0; i < size; ++i) {
         const auto payload = decoder.feed(data[i]);
         demandRoundTrip<Hello>(payload), demandRoundTrip<HelloReply>(payload), demandRoundTrip<Strike>(payload);
-        demandRoundTrip<CompactStrike>(payload), demandRoundTrip<Gains>(payload), demandRoundTrip<Ping>(payload);
+        demandRoundTrip<CompactStrike>(payload), demandRoundTrip<Leg>(payload), demandRoundTrip<Gains>(payload), demandRoundTrip<Ping>(payload);
         demandRoundTrip<Pong>(payload), demandRoundTrip<TelemetryRequest>(payload), demandRoundTrip<Telemetry>(payload);
         demandRoundTrip<StopAll>(payload), demandRoundTrip<SelfTest>(payload), demandRoundTrip<SelfTestReply>(payload);
     }

@@ -21,12 +21,11 @@ constexpr std::int32_t between(std::uint32_t from, std::uint32_t to) noexcept { 
 // Where channel `c` stands in the order "loudest, ratio 0, ratio 1, ratio 2".
 constexpr int place(int c, int loudest) noexcept { return c == loudest ? 0 : (c == 0 ? loudest : c); }
 
-// p: f and tau on the link's grid as turns / 2^64 and octaves / 2^56 per frame.
+// p: f on the link's grid as turns / 2^64 per frame, and tau.
 Complex<float> turnOf(const BoardEvent& event) noexcept {
     constexpr double perStep = 1.0 / (limits::board::gridPerHz * limits::board::sampleRateHz);
     constexpr auto phase = static_cast<std::uint64_t>(18446744073709551616.0 * perStep);
-    constexpr auto decay = static_cast<std::int64_t>(octaveUnit * std::numbers::log2e * perStep);
-    return unitPhasor<float>(phase * event.frequency16) * decayFactor<float>(decay * event.decay16);
+    return unitPhasor<float>(phase * event.frequency16) * decayFactor<float>(boardOctaves(event.decay16));
 }
 
 float level(Complex<float> z) noexcept { return std::abs(z.re) + std::abs(z.im); }

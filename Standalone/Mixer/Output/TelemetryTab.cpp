@@ -41,6 +41,7 @@ void addBoard(std::vector<Fact>& facts, const std::optional<BoardLinkStatus>& bo
     if (board->state != State::ready) return facts.push_back({"Board", board->trouble.empty() ? juce::String{"looking for it"} : utf8(board->trouble), Shade::now});
     facts.push_back({"Board", "ready, its clock " + number(board->driftPpm, 0) + " ppm off"});
     facts.push_back({"Link", count(board->sent) + " sent, " + count(board->thinned) + " thinned, " + count(board->refused) + " refused", noneIsGood(board->thinned + board->refused)});
+    if (board->legs > 0) facts.push_back({"What moves", count(board->legs) + " legs sent, " + count(board->coarseLegs) + " of them coarse", noneIsGood(board->coarseLegs)});
     facts.push_back({"On board", count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost", noneIsGood(t.late + t.dropped + t.lost)});
 }
 
