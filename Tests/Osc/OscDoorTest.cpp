@@ -10,8 +10,9 @@ namespace {
 using namespace test;
 using namespace std::string_literals;
 
-SessionSetup quietSetup() {
+SessionSetup quietSetup(Direct direct) {
     auto setup = shakeTheBoxSetup(0.05);
+    setup.direct = direct;
     setup.scene.bodies.clear();
     setup.scene.script.clear();
     setup.scene.joints.clear();
@@ -19,7 +20,7 @@ SessionSetup quietSetup() {
 }
 
 struct Open {
-    Session session{quietSetup()};
+    Session session;
     MessageRouter messages{session};
     std::vector<LineInput> acted;
     std::string closed;
@@ -27,9 +28,11 @@ struct Open {
     OscClock clock;
     std::vector<std::vector<char>> answers;
     Block block;
+    Interleaved signal;
 
-    explicit Open(const ClipSource& clips = {})
-        : door{session, messages, {[this](const LineInput& input) { return acted.push_back(input), std::string{}; }, [this] { return closed; }, clips}} {
+    explicit Open(Direct direct = Direct::no, const ClipSource& clips = {})
+        : session{quietSetup(direct)}
+        , door{session, messages, {[this](const LineInput& input) { return acted.push_back(input), std::string{}; }, [this] { return closed; }, clips}} {
         session.prepare(hostRate, 512);
     }
     /// Half a second at 48 kHz, told to the clock as if the session had begun at 1 s of the steady clock, which is the system's.
@@ -38,6 +41,7 @@ struct Open {
             clock.follow({session.presentNs() - 1, 1'000'000'000 + session.presentNs(), 1}, 0);
             session.advance();
             session.render(block.at.data(), 512, RenderMode::realtime);
+            append(signal, block.at.data(), 512);
         }
     }
     void take(const std::vector<char>& bytes) { door.take(bytes, clock, answers); }
@@ -61,6 +65,21 @@ TEST(OscDoors, ATagIsTheSessionTimeToTheNanosecond) {
     EXPECT_EQ(struck[0].timeNs, wanted);
     EXPECT_EQ(open.door.counts().late, 0U);
     EXPECT_EQ(open.door.counts().refused, 0U);
+}
+
+// As the page says: the play-out delay after its tag, or a block and the limiter where the session is direct.
+TEST(OscDoors, ATagIsFeltToTheFrameInADirectSessionAsWell) {
+    for (const Direct direct : {Direct::no, Direct::told}) {
+        Open open{direct};
+        open.play();
+        const std::int64_t now = open.session.framesRendered();
+        open.strike(0.5, tagOf(1'000'000'000 + (now * 2 + 10'001) * 500'000'000 / hostRate)); // 5,000 frames and a half from now
+        open.play();
+        const auto delay = direct == Direct::no ? open.session.playOutFrames() : 512 + HapticRenderer<DesktopProfile>::latencyFramesAt(hostRate);
+        const auto first = std::find_if(open.signal.begin(), open.signal.end(), [](float sample) { return std::abs(sample) > 1e-5f; });
+        EXPECT_EQ((first - open.signal.begin()) / hostChannels, now + 5001 + delay);
+        EXPECT_EQ(open.door.counts().late + open.door.counts().refused, 0U);
+    }
 }
 
 TEST(OscDoors, LateOnesAreCountedAndFeltAtOnce) {
@@ -155,7 +174,7 @@ TEST(OscDoors, ClipsAreReadWhereTheDoorHasAFolder) {
     closed.take(oscPacket("/physvib/clip", {"", {{"file", "knock.wav"s}, {"place", "A"s}}}));
     EXPECT_EQ(closed.door.counts().fault, "clip: file: expected no clips here: no folder was given to read them from");
     EXPECT_TRUE(closed.struck().empty());
-    Open open{[](const std::string& name) {
+    Open open{Direct::no, [](const std::string& name) {
         LoadedClip clip;
         clip.channels.push_back({0.0, hostRate, std::vector<float>(4800, 0.1f), {.path = name, .hash = "0123456789abcdef"}});
         return Result<LoadedClip>{clip};
