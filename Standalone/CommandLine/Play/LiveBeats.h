@@ -16,8 +16,9 @@ namespace physvib {
 /// is late every time. On a thread of its own.
 class LiveBeats {
 public:
-    /// ClockLaw's longest gap has to be this, or more: the detector's delay, and what the thread may be late by.
-    static constexpr double gapSeconds = BeatDetector::mostDelaySeconds + 0.010;
+    /// What L has to cover beside a block and the limiter, so ClockLaw's longest gap and its two steps together: the detector's delay, and
+    /// what the thread may be late by.
+    static constexpr double knownAfterSeconds = BeatDetector::mostDelaySeconds + 0.010;
 
     /// Both outlive this object. M.
     LiveBeats(Session& session, InputTap& inputs, const BeatVoices& voices, double sensitivity);

@@ -46,7 +46,7 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     setup.marks = o.scene.marks();
     if (o.isDirect) setup.direct = Direct::told;
     setup.longestGapSeconds = o.driver == "thread" ? driverThreadGapSeconds : messageTimerGapSeconds;
-    if (!o.beatInputs.empty()) setup.longestGapSeconds = std::max(setup.longestGapSeconds, LiveBeats::gapSeconds);
+    if (!o.beatInputs.empty()) setup.longestGapSeconds = std::max(setup.longestGapSeconds, LiveBeats::knownAfterSeconds - 2.0 / setup.stepsPerSecond);
     return setup;
 }
 
