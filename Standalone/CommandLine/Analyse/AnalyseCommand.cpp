@@ -6,6 +6,7 @@
 #include "CommandLine/Analyse/AnalyseLabels.h"
 #include "CommandLine/Analyse/AnalyseTests.h"
 #include "CommandLine/Analyse/AnalyseVotes.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/TrialColumns.h"
@@ -47,14 +48,14 @@ void declareOwn(CLI::App& command, std::string_view name, AnalyseOptions& o) {
     const bool isGrid = name == "resolution" || name == "percent-counts";
     if (name == "confusion" || name == "icons")
         command.add_option("--tolerance", o.tolerance, "grid steps (rows + columns) that still count as correct")
-            ->check(CLI::Range(0, 1000))->capture_default_str();
+            ->check(inRange(0, 1000))->capture_default_str();
     if (isGrid)
         command.add_option("--threshold", o.thresholdPercent, "percent count that a cell must reach, inclusive")
-            ->check(CLI::Range(0.0, 100.0))->capture_default_str();
+            ->check(inRange(0.0, 100.0))->capture_default_str();
     if (name == "resolution") command.add_option("--counts", o.countsPath, "the percent counts")->type_name("FILE.csv")->check(writtenFile);
     if (name == "icons")
         command.add_option("--meanings", o.meanings, "how many meanings the icons shall have")
-            ->check(CLI::Range(std::size_t{2}, std::size_t{1000}))->capture_default_str();
+            ->check(inRange(std::size_t{2}, std::size_t{1000}))->capture_default_str();
     if (name == "confusion")
         command.add_option("--participants", o.participantsPath, "percent correct and IT of each participant and condition")->type_name("FILE.csv")->check(writtenFile);
 }

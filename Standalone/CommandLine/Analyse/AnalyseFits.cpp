@@ -3,6 +3,7 @@
 #include "CommandLine/Analyse/AnalyseFits.h"
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Analyse/FitCharts.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Study/Statistics/Bootstrap.h"
@@ -116,7 +117,7 @@ void declareFit(CLI::App& command, AnalyseOptions& o) {
     std::map<std::string, PsychometricShape> shapes;
     for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i) shapes[std::string(psychometricShapeNames[i])] = static_cast<PsychometricShape>(i);
     command.add_option("--shape", o.shape, "of the function (logistic)")->transform(CLI::CheckedTransformer(shapes))->type_name("logistic|normal|weibull");
-    command.add_option("--guess", o.guess, "share of right answers without a percept: 1 / alternatives")->check(CLI::Range(0.0, 0.9))->capture_default_str();
+    command.add_option("--guess", o.guess, "share of right answers without a percept: 1 / alternatives")->check(inRange(0.0, 0.9))->capture_default_str();
 }
 
 } // namespace physvib

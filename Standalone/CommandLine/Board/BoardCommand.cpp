@@ -3,6 +3,7 @@
 #include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Render/RenderJob.h"
 #include "Files/EventsCsv.h"
 #include "Physics/Simulation.h"
@@ -111,7 +112,7 @@ void declareBoardOptions(CLI::App& command, BoardOptions& o) {
     command.add_option("action", o.action, "info, play or test")->required()->check(CLI::IsMember({"info", "play", "test"}));
     command.add_option("events", o.eventsPath, "event list to play")->type_name("EVENTS.csv");
     command.add_option("--layout", o.layout, "layout of at most four enchanters: preset or file")->capture_default_str();
-    command.add_option("--level", o.levelDb, "master level of play in dB")->check(CLI::Range(-90.0, 0.0))->capture_default_str();
+    command.add_option("--level", o.levelDb, "master level of play in dB")->check(inRange(-90.0, 0.0))->capture_default_str();
 }
 
 int runBoard(const BoardOptions& o) {

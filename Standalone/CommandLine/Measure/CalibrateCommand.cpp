@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a device or two files to a profile in its place.
 #include "CommandLine/Measure/CalibrateCommand.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/ExitCode.h"
@@ -104,9 +105,9 @@ std::string fault(const CalibrateOptions& o) {
 
 void declareCalibrate(CLI::App& command, CalibrateOptions& o) {
     command.add_option("--device", o.device, "device that plays and records (see physvib devices)");
-    command.add_option("--channel", o.channel, "output of the enchanter, from 1")->check(CLI::Range(1, 256))->capture_default_str();
-    command.add_option("--input", o.input, "input of the accelerometer or microphone, from 1")->check(CLI::Range(1, 256))->capture_default_str();
-    command.add_option("--rate", o.sampleRateHz, "sample rate; left out: as the device stands, 48000 for a file")->check(CLI::Range(limits::minSampleRateHz, limits::maxSampleRateHz));
+    command.add_option("--channel", o.channel, "output of the enchanter, from 1")->check(inRange(1, 256))->capture_default_str();
+    command.add_option("--input", o.input, "input of the accelerometer or microphone, from 1")->check(inRange(1, 256))->capture_default_str();
+    command.add_option("--rate", o.sampleRateHz, "sample rate; left out: as the device stands, 48000 for a file")->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz));
     command.add_option("--played", o.playedPath, "what was played elsewhere")->type_name("FILE.wav");
     command.add_option("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment")->type_name("FILE.wav");
     command.add_option("--sweep", o.sweepPath, "only write the sweep")->type_name("FILE.wav")->check(writtenFile);
@@ -114,10 +115,10 @@ void declareCalibrate(CLI::App& command, CalibrateOptions& o) {
     command.add_flag("--loopback", o.isLoopback, "a cable from the output to the input: tell the latency of the loop");
     command.add_option("--name", o.name, "of the profile")->capture_default_str();
     command.add_option("--band", o.band, "to declare; left out: where it is within 10 dB of its peak")->type_name("LO-HI");
-    command.add_option("--level", o.levelDb, "peak of the sweep in dB of full scale")->check(CLI::Range(-60.0, 0.0))->capture_default_str();
-    command.add_option("--seconds", o.seconds, "length of the sweep")->check(CLI::Range(1.0, 60.0))->capture_default_str();
-    command.add_option("--g-per-unit", o.gPerUnit, "acceleration in g that a recorded sample of 1 stands for")->check(CLI::PositiveNumber);
-    command.add_option("--drive-volts", o.driveVolts, "voltage that a played sample of 1 becomes")->check(CLI::PositiveNumber);
+    command.add_option("--level", o.levelDb, "peak of the sweep in dB of full scale")->check(inRange(-60.0, 0.0))->capture_default_str();
+    command.add_option("--seconds", o.seconds, "length of the sweep")->check(inRange(1.0, 60.0))->capture_default_str();
+    command.add_option("--g-per-unit", o.gPerUnit, "acceleration in g that a recorded sample of 1 stands for")->check(positive());
+    command.add_option("--drive-volts", o.driveVolts, "voltage that a played sample of 1 becomes")->check(positive());
 }
 
 int runCalibrate(const CalibrateOptions& o) {

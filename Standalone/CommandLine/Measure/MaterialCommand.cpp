@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a file to two numbers, and how far they can be trusted.
 #include "CommandLine/Measure/MaterialCommand.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Measure/TextureText.h"
 #include "CommandLine/ExitCode.h"
@@ -43,9 +44,9 @@ void declareMaterial(CLI::App& command, MaterialOptions& o) {
     command.add_option("--band", o.band, "Hz within which the frequency is looked for")->type_name("LO-HI")->capture_default_str();
     command.add_option("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks")->check(CLI::IsMember({"fit", "two-peaks"}))->capture_default_str();
     command.add_option("--texture", o.texturePath, "a scrape at a steady speed, or an autoregressive texture: grains instead of one contact")->type_name("FILE.wav|FILE.xml");
-    command.add_option("--speed", o.speedMetresPerSecond, "m/s at which it was scraped")->type_name("V")->check(CLI::Range(0.001, 100.0));
-    command.add_option("--load", o.loadNewtons, "N that pressed")->type_name("N")->check(CLI::Range(0.001, 1000.0))->capture_default_str();
-    command.add_option("--mass", o.massKg, "kg of what vibrated")->type_name("KG")->check(CLI::Range(0.0001, 10000.0))->capture_default_str();
+    command.add_option("--speed", o.speedMetresPerSecond, "m/s at which it was scraped")->type_name("V")->check(inRange(0.001, 100.0));
+    command.add_option("--load", o.loadNewtons, "N that pressed")->type_name("N")->check(inRange(0.001, 1000.0))->capture_default_str();
+    command.add_option("--mass", o.massKg, "kg of what vibrated")->type_name("KG")->check(inRange(0.0001, 10000.0))->capture_default_str();
     command.add_flag("--list", o.lists, "the built-in materials that sound, and where their numbers are from");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Letters and numbers to voices.
 #include "CommandLine/Music/BeatOptions.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Study/NumberList.h"
 #include "Files/Text/NumberText.h"
 #include <CLI/CLI.hpp>
@@ -14,8 +15,8 @@ void declareBeatOptions(CLI::App& command, BeatOptions& o) {
         command.add_option("--" + std::string{b.name}, o.enchanters[band], "enchanters that feel beats of " + numberText(b.lowHz) + " to " + numberText(b.highHz) + " Hz; none: \"\"")
             ->type_name("AB")->group("Beats");
     }
-    command.add_option("--sensitivity", o.sensitivity, "to beats: 0 for the strongest alone, to 1 for all that stirs")->check(CLI::Range(0.0, 1.0))->capture_default_str()->group("Beats");
-    command.add_option("--strike-level", o.level, "of the strongest beats, in shares of full scale")->check(CLI::Range(0.0, 1.0))->capture_default_str()->group("Beats");
+    command.add_option("--sensitivity", o.sensitivity, "to beats: 0 for the strongest alone, to 1 for all that stirs")->check(inRange(0.0, 1.0))->capture_default_str()->group("Beats");
+    command.add_option("--strike-level", o.level, "of the strongest beats, in shares of full scale")->check(inRange(0.0, 1.0))->capture_default_str()->group("Beats");
     command.add_option("--strike-hz", o.frequencies, "of the strikes: one frequency, or one each for low, mid and high")->type_name("HZ[,HZ,HZ]")->capture_default_str()->group("Beats");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Events by the door of `render`, panned and drawn as curves, then as bytes.
 #include "CommandLine/Render/ExportCommand.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Study/CallFiles.h"
@@ -66,7 +67,7 @@ std::string takeEvents(RenderJob& job, std::vector<std::string>& warnings) {
 void declareExport(CLI::App& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
     command.add_option("--to", o.to, "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)")->required()->type_name("FILE")->check(writtenFile);
-    command.add_option("--error", o.error, "how far lines may be from each hit's exponential, of its strength")->check(CLI::Range(leastError, mostError))->capture_default_str();
+    command.add_option("--error", o.error, "how far lines may be from each hit's exponential, of its strength")->check(inRange(leastError, mostError))->capture_default_str();
 }
 
 int runExport(const CLI::App& command, ExportOptions& options) {

@@ -2,6 +2,7 @@
 // Names, ranges and help texts of the options of `physvib render`.
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Render/RenderOptions.h"
+#include "CommandLine/InRange.h"
 #include "Core/EventShaping.h"
 #include "Files/Text/NumberText.h"
 #include "Physics/Simulation.h"
@@ -13,18 +14,6 @@
 namespace physvib {
 
 namespace {
-
-// A range check whose message names the value and the range.
-template <class T>
-CLI::Validator between(T low, T high, const std::string& unit) {
-    const std::string range = CLI::detail::to_string(low) + " to " + CLI::detail::to_string(high) + unit;
-    return {[=](std::string& text) {
-                T value{};
-                const bool isNumber = CLI::detail::lexical_cast(text, value);
-                return isNumber && value >= low && value <= high ? std::string{} : "expected " + range + ", found \"" + text + "\"";
-            },
-            range};
-}
 
 bool parseMetres(std::string_view text, double& metres) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
@@ -62,15 +51,15 @@ bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<d
 void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or (render, export) a saved SESSION.json or a CLIP.hjif, .hmpg, .haptic, .ahap");
     command.add_option("--set", o.sets, "a variable of the scene; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
-    command.add_option("--seconds", o.seconds, "length of the render")->check(between(0.001, 86400.0, " s"))->capture_default_str();
-    command.add_option("--seed", o.seed, "seed of the scene")->check(between(0u, 4294967295u, ""))->capture_default_str();
+    command.add_option("--seconds", o.seconds, "length of the render")->check(inRange(0.001, 86400.0, " s"))->capture_default_str();
+    command.add_option("--seed", o.seed, "seed of the scene")->check(inRange(0u, 4294967295u))->capture_default_str();
     command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file")->capture_default_str();
     command.add_option("--field", o.field, "metres that x and y span (scene: its field; events: the layout's extent)")->type_name("W,H");
     command.add_option("--law", o.law, "panning law: linear, log, log-outer, energy")->capture_default_str();
-    command.add_option("--exponent", o.exponent, "exponent of the law")->check(between(0.01, 100.0, ""))->capture_default_str();
+    command.add_option("--exponent", o.exponent, "exponent of the law")->check(inRange(0.01, 100.0))->capture_default_str();
     command.add_option("--limiter", o.limiter, "on or off")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--steps-per-second", o.stepsPerSecond, "physics steps per second")
-        ->check(between(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s"))->capture_default_str();
+        ->check(inRange(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s"))->capture_default_str();
     command.add_option("--location", o.location, "place of a hit: contact, or centre of the fixture")
         ->check(CLI::IsMember({"contact", "fixture"}))->capture_default_str();
     command.add_option("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)")
@@ -79,13 +68,13 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--sound", o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency, or synthetic-SEED; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
     command.add_option("--sound-match", o.soundMatch, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)")
         ->check(CLI::IsMember({"peak", "rms"}))->capture_default_str();
-    command.add_option("--level-db", o.levelDb, "all hits so much stronger or weaker")->check(between(-limits::maxLevelDb, limits::maxLevelDb, " dB"))->capture_default_str();
+    command.add_option("--level-db", o.levelDb, "all hits so much stronger or weaker")->check(inRange(-limits::maxLevelDb, limits::maxLevelDb, " dB"))->capture_default_str();
     command.add_option("--gamma", o.gamma, "cut each decay where its envelope falls to this share, as Eq. 5.5 does with 0.1 (0: it rings out, without a click)")
-        ->check(between(0.0, EventShaping::mostTruncation, ""))->capture_default_str();
+        ->check(inRange(0.0, EventShaping::mostTruncation))->capture_default_str();
     command.add_option("--perceived-level", o.perceivedLevel, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)")
         ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
-        ->check(between(leastContactDb, mostContactDb, " dB"))->capture_default_str();
+        ->check(inRange(leastContactDb, mostContactDb, " dB"))->capture_default_str();
     command.add_option("--marker-of", o.markerOf, "what --marker marks: all onsets, hits (no grains, no messages), or messages")
         ->check(CLI::IsMember({"all", "hits", "messages"}))->capture_default_str();
     command.add_option("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file")->capture_default_str();
@@ -102,19 +91,19 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv")->check(writtenFile);
     command.add_option("--picture", o.picturePath, "world, waveforms and event marks")->type_name("FILE.png")->check(writtenFile);
     command.add_option("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel")->type_name("FILE.csv")->check(writtenFile);
-    command.add_option("--threshold", o.threshold, "of the pattern, in full scale")->check(between(0.0, 1.0, ""))->capture_default_str();
+    command.add_option("--threshold", o.threshold, "of the pattern, in full scale")->check(inRange(0.0, 1.0))->capture_default_str();
     command.add_option("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
-        ->check(between(0.001, 1000.0, " V"));
+        ->check(inRange(0.001, 1000.0, " V"));
     command.add_option("--contact-sound", o.contactSound, "what is heard of each hit, for headphones: one channel, in sync with --out")->type_name("FILE.wav")->check(writtenFile);
     command.add_option("--marker", o.marker, "a pulse at the sample of each onset: one channel, in sync with --out")->type_name("FILE.wav")->check(writtenFile);
     command.add_option("--rate", o.sampleRateHz, "sample rate")
-        ->check(between(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
+        ->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
     command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
-        ->check(between(1, limits::maxBlockFrames, " frames"))->capture_default_str();
+        ->check(inRange(1, limits::maxBlockFrames, " frames"))->capture_default_str();
     command.add_option("--instructions", o.instructions, "best: the fastest here; scalar: the same bytes of the same hits on every machine")
         ->check(CLI::IsMember({"best", "scalar"}))->capture_default_str();
     command.add_option("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds more")
-        ->check(between(0.0, 1e7, " s"))->capture_default_str();
+        ->check(inRange(0.0, 1e7, " s"))->capture_default_str();
 }
 
 std::optional<MarkedOnsets> RenderOptions::marks() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib stimulus`, from words to a stimulus.
 #include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Study/StimulusOptions.h"
 #include "Core/Limits.h"
 #include "Files/ActuatorFile.h"
@@ -115,12 +116,12 @@ void declarePlace(CLI::App& command, StimulusOptions& o) {
     command.add_option("--points", o.points, "the grid's points: its outer ones on the corners, or the middles of cells")
         ->check(CLI::IsMember({"corners", "middles"}))->capture_default_str();
     command.add_option("--law", o.law, "panning law: linear, log, log-outer, energy")->capture_default_str();
-    command.add_option("--exponent", o.exponent, "exponent of the law")->check(CLI::Range(0.01, 100.0))->capture_default_str();
+    command.add_option("--exponent", o.exponent, "exponent of the law")->check(inRange(0.01, 100.0))->capture_default_str();
 }
 
 void declareCarrier(CLI::App& command, StimulusOptions& o) {
     command.add_option("--frequency", o.frequency, "Hz, or resonance: that of the layout's actuators")->capture_default_str();
-    command.add_option("--rate", o.sampleRateHz, "sample rate")->check(CLI::Range(limits::minSampleRateHz, limits::maxSampleRateHz))->capture_default_str();
+    command.add_option("--rate", o.sampleRateHz, "sample rate")->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz))->capture_default_str();
 }
 
 } // namespace
@@ -132,15 +133,15 @@ void declareStimulus(CLI::App& command, StimulusOptions& o) {
     CLI::App* const wav = command.add_subcommand("wav", "a recording or a haptic file as a phantom, at its own rate")->alias("clip");
     CLI::App* const all = command.add_subcommand("list", "the labels of all patterns, one per line");
     pattern->add_option("pattern", o.pattern, "enchanters in the order of the pulses, and a pulse's ms")->required()->type_name("ABA-250");
-    pattern->add_option("--gap", o.gapSeconds, "silence between pulses, s")->check(CLI::Range(0.0, 10.0))->capture_default_str();
+    pattern->add_option("--gap", o.gapSeconds, "silence between pulses, s")->check(inRange(0.0, 10.0))->capture_default_str();
     wav->add_option("recording", o.recording, "one channel")->required()->type_name("FILE.wav");
-    phantom->add_option("--seconds", o.seconds, "length")->check(CLI::Range(0.001, 600.0))->capture_default_str();
-    all->add_option("--enchanters", o.enchanters, "how many")->check(CLI::Range(1, 26))->capture_default_str();
+    phantom->add_option("--seconds", o.seconds, "length")->check(inRange(0.001, 600.0))->capture_default_str();
+    all->add_option("--enchanters", o.enchanters, "how many")->check(inRange(1, 26))->capture_default_str();
     for (CLI::App* one : {pattern, phantom}) declareCarrier(*one, o);
     for (CLI::App* one : {phantom, wav}) declarePlace(*one, o);
     for (CLI::App* one : {pattern, phantom, wav}) {
         one->add_option("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file")->capture_default_str();
-        one->add_option("--level-g", o.levelG, "peak acceleration at gain 1, in g")->check(CLI::Range(1e-6, 1000.0))->capture_default_str();
+        one->add_option("--level-g", o.levelG, "peak acceleration at gain 1, in g")->check(inRange(1e-6, 1000.0))->capture_default_str();
         one->add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter, 1 = its full scale")->type_name("FILE.wav")->check(writtenFile);
         one->add_option("--picture", o.picturePath, "what each enchanter plays")->type_name("FILE.png")->check(writtenFile);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every participant, one after the other, answered by the observer.
 #include "CommandLine/Study/StudyCommand.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
@@ -114,11 +115,11 @@ void declareStudy(CLI::App& command, StudyOptions& o) {
     levels->add_option("trials", o.trials, "trial files of that protocol")->type_name("TRIALS.csv")->required();
     run->add_option("--observer", o.observer, "who answers: " + std::string(observerNames));
     run->add_option("--participant", o.participant, "code of the participant; no other personal data is kept")->type_name("CODE");
-    run->add_option("--number", o.number, "number of the (first) participant: decides orders")->check(CLI::Range(1, 100000))->capture_default_str();
-    run->add_option("--participants", o.participants, "how many, one after the other")->check(CLI::Range(1, 1000))->capture_default_str();
+    run->add_option("--number", o.number, "number of the (first) participant: decides orders")->check(inRange(1, 100000))->capture_default_str();
+    run->add_option("--participants", o.participants, "how many, one after the other")->check(inRange(1, 1000))->capture_default_str();
     run->add_option("--sound", o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
     run->add_option("--out", o.folder, "folder of the trial files, NAME-CODE.csv")->type_name("FOLDER")->capture_default_str();
-    run->add_option("--pace", o.paceSeconds, "seconds per trial of a simulated observer")->check(CLI::Range(0.0, 60.0))->capture_default_str();
+    run->add_option("--pace", o.paceSeconds, "seconds per trial of a simulated observer")->check(inRange(0.0, 60.0))->capture_default_str();
 }
 
 int runStudy(const CLI::App& command, const StudyOptions& o) {

@@ -2,6 +2,7 @@
 // Design, plan, tasks, index.
 #include "CommandLine/Sweep/SweepCommand.h"
 #include "CommandLine/ExitCode.h"
+#include "CommandLine/InRange.h"
 #include "CommandLine/Sweep/SweepIndex.h"
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/Sweep/SweepSlurm.h"
@@ -83,7 +84,7 @@ int render(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& pa
 void declareSweep(CLI::App& command, SweepOptions& o) {
     command.add_option("design", o.design, "which renders: scenes, variables, seeds, layouts, laws, methods, options")->required()->type_name("DESIGN.json");
     command.add_option("--out", o.folder, "the folder: index.csv, a row per task; tasks, a file for each that is done. The same call goes on where it was cut off")->type_name("FOLDER");
-    command.add_option("--jobs", o.jobs, "renders at once; all processors unless told")->check(CLI::Range(1, mostJobs));
+    command.add_option("--jobs", o.jobs, "renders at once; all processors unless told")->check(inRange(1, mostJobs));
     command.add_flag("--wav", o.keepsWavs, "keep each task's samples as well");
     command.add_flag("--events", o.keepsEvents, "keep each task's event list as well");
     command.add_flag("--plan,--dry-run", o.plans, "only say how many tasks there are and how many are done, and the first of them");
