@@ -7,6 +7,7 @@
 #include "Files/LayoutFile.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/Text/CleanText.h"
+#include "InRange.h"
 #include "Physics/Scenes/SceneRun.h"
 #include "Session/OfflineRender.h"
 #include <CLI/CLI.hpp>
@@ -120,12 +121,12 @@ std::string render(const Options& o) {
 void declare(CLI::App& app, Options& o) {
     app.set_version_flag("--version", "physvib-render " PHYSVIB_VERSION);
     app.add_option("scene", o.input, "a built-in scene, SCENE.json, or EVENTS.csv")->required();
-    app.add_option("--seconds", o.seconds, "length of the render")->check(CLI::Range(0.001, 86400.0))->capture_default_str();
+    app.add_option("--seconds", o.seconds, "length of the render")->check(inRange(0.001, 86400.0, " s"))->capture_default_str();
     app.add_option("--seed", o.run.seed, "seed of the scene")->capture_default_str();
     app.add_option("--steps-per-second", o.run.stepsPerSecond, "physics steps per second")
-        ->check(CLI::Range(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond))->capture_default_str();
+        ->check(inRange(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond))->capture_default_str();
     app.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")->capture_default_str();
-    app.add_option("--rate", o.sampleRateHz, "sample rate in Hz")->check(CLI::Range(limits::minSampleRateHz, limits::maxSampleRateHz))->capture_default_str();
+    app.add_option("--rate", o.sampleRateHz, "sample rate in Hz")->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz))->capture_default_str();
     app.add_option("--instructions", o.instructions, "vector instructions; scalar: the same bytes on every machine")
         ->check(CLI::IsMember(std::vector<std::string>(instructionSetNames.begin(), instructionSetNames.end())))->capture_default_str();
     app.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav");

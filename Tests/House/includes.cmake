@@ -12,7 +12,7 @@ set(Api_may "Api/C/|Files/|Contacts/|Core/")
 set(Api/Live_may "Api/|Host/|Session/|Files/|Core/|juce_")
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
 set(Standalone/Web_may "PageWorld\\.h|Files/|Physics/|Contacts/|Core/")
-set(Standalone/Render_may "Session/OfflineRender\\.h|Files/|Physics/|Contacts/|Core/")
+set(Standalone/Render_may "InRange\\.h|Session/OfflineRender\\.h|Files/|Physics/|Contacts/|Core/")
 set(Host_may "Host/|aubio/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
 set(Host/Osc_may "Host/Osc/|Session/|Files/|Physics/|Core/|lo/")
 set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder

@@ -6,10 +6,10 @@
 #include "CommandLine/Analyse/AnalyseLabels.h"
 #include "CommandLine/Analyse/AnalyseTests.h"
 #include "CommandLine/Analyse/AnalyseVotes.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/TrialColumns.h"
+#include "Render/InRange.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <set>

@@ -3,9 +3,9 @@
 #include "CommandLine/Analyse/AnalyseFits.h"
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Analyse/FitCharts.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
+#include "Render/InRange.h"
 #include "Study/Statistics/Bootstrap.h"
 #include "Study/Statistics/LevelFits.h"
 #include <CLI/CLI.hpp>

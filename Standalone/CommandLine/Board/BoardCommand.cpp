@@ -3,10 +3,10 @@
 #include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Render/RenderJob.h"
 #include "Files/EventsCsv.h"
 #include "Physics/Simulation.h"
+#include "Render/InRange.h"
 #include "Wire/SelfTest.h"
 #include <CLI/CLI.hpp>
 #include <iomanip>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a device or two files to a profile in its place.
 #include "CommandLine/Measure/CalibrateCommand.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/ExitCode.h"
@@ -13,6 +12,7 @@
 #include "Host/Recordings/ReadRecording.h"
 #include "Host/Devices/SweepRecorder.h"
 #include "Host/Recordings/WavSink.h"
+#include "Render/InRange.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 

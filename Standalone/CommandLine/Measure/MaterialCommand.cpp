@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a file to two numbers, and how far they can be trusted.
 #include "CommandLine/Measure/MaterialCommand.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Measure/TextureText.h"
 #include "CommandLine/ExitCode.h"
@@ -10,6 +9,7 @@
 #include "Measure/LoudestChannel.h"
 #include "Measure/MaterialExtractor.h"
 #include "Host/Recordings/ReadRecording.h"
+#include "Render/InRange.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 

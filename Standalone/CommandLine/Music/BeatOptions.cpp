@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Letters and numbers to voices.
 #include "CommandLine/Music/BeatOptions.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Study/NumberList.h"
 #include "Files/Text/NumberText.h"
+#include "Render/InRange.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 

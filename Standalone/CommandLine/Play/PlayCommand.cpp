@@ -2,7 +2,6 @@
 // The options of `physvib play`, from words to a session's setup.
 #include "CommandLine/Play/PlayCommand.h"
 #include "CommandLine/Board/BoardCommand.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
@@ -11,6 +10,7 @@
 #include "Files/Disk/FileClash.h"
 #include "Physics/Scenes/SceneEdits.h"
 #include "Host/Devices/AudioOutput.h"
+#include "Render/InRange.h"
 #include "Session/SerialLine.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Events by the door of `render`, panned and drawn as curves, then as bytes.
 #include "CommandLine/Render/ExportCommand.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "Files/Disk/FileClash.h"
 #include "Host/Recordings/HitExport.h"
+#include "Render/InRange.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>

@@ -2,10 +2,10 @@
 // Names, ranges and help texts of the options of `physvib render`.
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Render/RenderOptions.h"
-#include "CommandLine/InRange.h"
 #include "Core/EventShaping.h"
 #include "Files/Text/NumberText.h"
 #include "Physics/Simulation.h"
+#include "Render/InRange.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib stimulus`, from words to a stimulus.
 #include "CommandLine/Study/CallFiles.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Study/StimulusOptions.h"
 #include "Core/Limits.h"
 #include "Files/ActuatorFile.h"
 #include "Files/Text/NumberText.h"
 #include "Host/Recordings/ReadRecording.h"
+#include "Render/InRange.h"
 #include "Study/PercentCounts.h"
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every participant, one after the other, answered by the observer.
 #include "CommandLine/Study/StudyCommand.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
@@ -10,6 +9,7 @@
 #include "Files/ProtocolFile.h"
 #include "Files/StudyCsv.h"
 #include "Host/Recordings/LoadContact.h"
+#include "Render/InRange.h"
 #include "Study/SimulatedObserver.h"
 #include <CLI/CLI.hpp>
 #include <chrono>

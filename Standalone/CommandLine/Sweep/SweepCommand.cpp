@@ -2,7 +2,6 @@
 // Design, plan, tasks, index.
 #include "CommandLine/Sweep/SweepCommand.h"
 #include "CommandLine/ExitCode.h"
-#include "CommandLine/InRange.h"
 #include "CommandLine/Sweep/SweepIndex.h"
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/Sweep/SweepSlurm.h"
@@ -10,6 +9,7 @@
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/Text/NumberText.h"
+#include "Render/InRange.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A list that is brought up to date a few times a second, and under it what can be done with what is chosen.
 #include "Mixer/Output/EventsTab.h"
+#include "Core/ClipNumber.h"
 #include "Mixer/Materials/HitWords.h"
 #include <algorithm>
 #include <iterator>
@@ -152,8 +153,8 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     g.setFont(juce::Font{text::small});
     cell(timeText(hit.timeNs), at.time, Shade::muted, false);
     cell(nameOf(desk.sceneNow(), contact), at.name, Shade::text, false);
-    cell(number(hit.frequencyHz, 1), at.frequency, Shade::text, true);
-    cell(number(hit.decayPerSecond, 1), at.decay, Shade::text, true);
+    cell(isClip(hit.frequencyHz) ? "clip" : number(hit.frequencyHz, 1), at.frequency, Shade::text, true);
+    cell(isClip(hit.frequencyHz) ? "" : number(hit.decayPerSecond, 1), at.decay, Shade::text, true);
     cell(number(most.levelG, 3), at.level, Shade::text, true);
     cell(placeNumbers(hit), at.place, Shade::muted, true);
     g.setFont(juce::Font{text::small, juce::Font::bold});

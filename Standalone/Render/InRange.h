@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // Numbers that an option takes. CLI11's own checks let "nan" pass, which is not less than the least; these say what they expect.
 #pragma once
 #include <CLI/CLI.hpp>
