@@ -29,7 +29,7 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     ports->setSelectedItemIndex(ports->getNumItems() - 1); // another port
     juce::AlertWindow* asked = nullptr;
     ASSERT_TRUE(runUntil([&] { return (asked = dynamic_cast<juce::AlertWindow*>(juce::Component::getCurrentlyModalComponent())) != nullptr; }));
-    asked->getTextEditor("port")->setText(board.port());
+    asked->getTextEditor("answer")->setText(board.port());
     ASSERT_NE(buttonOf(*asked, "Connect"), nullptr);
     buttonOf(*asked, "Connect")->triggerClick();
 
