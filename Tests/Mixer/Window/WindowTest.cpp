@@ -18,15 +18,18 @@ namespace {
 
 using namespace test;
 
+/// The display's own mouse lies beside every window before there is one: what it tells when a window comes, changes its size or
+/// goes, whenever that arrives, would release the hand's button.
+struct OwnMouse : testing::Environment {
+    void SetUp() override { juce::Desktop::setMousePosition({0, 0}); }
+};
+[[maybe_unused]] const auto* const ownMouse = testing::AddGlobalTestEnvironment(new OwnMouse);
+
 /// A hand with a mouse and a keyboard, on the window's peer.
 class Hand {
 public:
-    /// The display's own mouse lies beside the window: what it tells when a window comes or changes its size would release the button.
     explicit Hand(MixerWindow& window)
-        : window_{window} {
-        juce::Desktop::setMousePosition({0, 0});
-        runFor(0.1);
-    }
+        : window_{window} {}
     void press(juce::Point<float> at) { send(at, juce::ModifierKeys::leftButtonModifier); }
     void move(juce::Point<float> at, int buttons) { send(at, buttons); }
     void release(juce::Point<float> at) { send(at, 0); }
