@@ -28,8 +28,11 @@ struct OwnMouse : testing::Environment {
 /// A hand with a mouse and a keyboard, on the window's peer.
 class Hand {
 public:
+    /// Waits for what the display tells of a new window: a click before that is lost now and then.
     explicit Hand(MixerWindow& window)
-        : window_{window} {}
+        : window_{window} {
+        runFor(0.3);
+    }
     void press(juce::Point<float> at) { send(at, juce::ModifierKeys::leftButtonModifier); }
     void move(juce::Point<float> at, int buttons) { send(at, buttons); }
     void release(juce::Point<float> at) { send(at, 0); }
@@ -261,7 +264,7 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     Hand hand{window};
     hand.click(*find(window.view().tabs(), "Materials"));
     auto& tab = dynamic_cast<MaterialsTab&>(*window.view().tabs().find("Materials"));
-    ASSERT_TRUE(tab.isShowing());
+    ASSERT_TRUE(runUntil([&] { return tab.isShowing(); }));
     auto& plot = *find(tab, "Spectrum of the material");
     const juce::ComponentPeer::DragInfo drop{{folder("knock.wav").getFullPathName()}, {}, hand.middleOf(plot).toInt()};
     EXPECT_TRUE(window.getPeer()->handleDragMove(drop));
