@@ -48,9 +48,9 @@ bool HapticRenderer<P>::prepareLimiter() noexcept {
 }
 
 template <class P>
-void HapticRenderer<P>::setContacts(std::span<const RecordedContact> contacts, bool othersAreModes) noexcept {
-    player_.setContacts(contacts); // as a control can
-    othersAreModes_ = othersAreModes;
+void HapticRenderer<P>::setContacts(const RecordedContacts& contacts) noexcept {
+    player_.setContacts(contacts.list);
+    othersAreModes_ = contacts.othersAreModes;
 }
 
 template <class P>
@@ -88,10 +88,7 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
         settings_.ceilings[static_cast<std::size_t>(control.channel)] = control.value;
         limiter_.setCeiling(control.channel, control.value);
     }
-    if (control.kind == Kind::recordings) {
-        player_.setContacts(control.recordings);
-        othersAreModes_ = control.value != 0.0f;
-    }
+    if (control.kind == Kind::recordings) setContacts(control.recordings);
     const bool isSilence = control.kind == Kind::silence;
     if (isSilence) {
         silentUntilNs_ = std::max(silentUntilNs_, control.untilNs);

@@ -35,10 +35,9 @@ public:
     /// if there is no memory: then render writes zeros, takes no events and moves nowhere, as before the first call. M, not while rendering.
     bool prepare(const RendererSettings& settings) noexcept;
 
-    /// From now on events play these recordings instead of modes; none: modes. Events without one are rejected, or, with
-    /// `othersAreModes`, play their mode. Both the list and its samples, at this rate, outlive the renderer. prepare and moveTo
-    /// forget them. M, not while rendering.
-    void setContacts(std::span<const RecordedContact> contacts, bool othersAreModes = false) noexcept;
+    /// From now on events play these recordings. Both the list and its samples, at this rate, outlive the renderer. prepare and
+    /// moveTo forget them. M, not while rendering.
+    void setContacts(const RecordedContacts& contacts) noexcept;
 
     /// Goes on at another rate and frame, e.g. on another device: modes ring on, pending events and gains stay; what moves
     /// stops, the limiter starts afresh. False, and nothing has changed, at a rate outside the limits, or if it is not prepared; without

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The recording of one material's contact, as a renderer plays it.
+// The recordings of materials' contacts, as a renderer plays them.
 #pragma once
 #include <span>
 
@@ -10,6 +10,12 @@ namespace physvib {
 struct RecordedContact {
     double frequencyHz = 0.0;
     std::span<const float> samples; ///< of an event of amplitude 1
+};
+
+/// What events play instead of modes; none: modes.
+struct RecordedContacts {
+    std::span<const RecordedContact> list{}; ///< at the renderer's rate
+    bool othersAreModes = false;             ///< events that have none of them play their mode; else they are rejected
 };
 
 } // namespace physvib

@@ -17,7 +17,7 @@ struct RenderControl {
         stopAll, ///< whatever rings fades out; later events are played
         delay,   ///< of `channel`: `value` seconds, 0 to limits::maxChannelDelaySeconds
         ceiling,  ///< of `channel`: largest sample while the limiter is on, `value` > 0
-        recordings, ///< from now on `recordings` are played instead of modes (`value` not 0: events without one play their mode); recordings that sound fade out
+        recordings, ///< from now on `recordings` are played instead of modes; recordings that sound fade out
         level,      ///< of all channels, on top of their gains: `value`, 0 or more
         silence     ///< as stopAll, and events before `untilNs` are not played; if `value` is not 0, of those apart from a world only what is before `timeNs`. These two are born in the render call: no file names them
     };
@@ -27,7 +27,7 @@ struct RenderControl {
     float value = 0.0f; ///< gain; of mute, not 0: silent; of silence, see there
     PhantomPanner panner; ///< of panner
     std::int64_t untilNs = 0; ///< of silence
-    std::span<const RecordedContact> recordings{}; ///< at the renderer's rate; empty: modes
+    RecordedContacts recordings{}; ///< of recordings
 };
 
 /// What was really played, and when: the way back from the renderer to log, view and board.

@@ -48,7 +48,7 @@ void HeardContacts::moveTo(int sampleRateHz, std::int64_t frame) {
 
 void HeardContacts::setContacts(int sampleRateHz) {
     contacts_ = {recordings_, sampleRateHz};
-    renderer_->setContacts(contacts_.contacts(), true);
+    renderer_->setContacts({contacts_.contacts(), true});
 }
 
 void HeardContacts::render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {

@@ -35,7 +35,7 @@ RenderStatus renderOffline(std::span<const CollisionEvent> events, const Offline
                            const BlockConsumer& consume) {
     const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
     if (!renderer->prepare(settings.renderer)) return {};
-    renderer->setContacts(settings.contacts, settings.othersAreModes);
+    renderer->setContacts(settings.contacts);
     const auto channels = static_cast<std::size_t>(settings.renderer.outputs());
     const auto block = static_cast<std::size_t>(settings.blockFrames);
     std::vector<float> samples(channels * block);

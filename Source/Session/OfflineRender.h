@@ -17,8 +17,7 @@ struct OfflineSettings {
     std::int64_t frames = 0;
     int blockFrames = 256; ///< 1 to limits::maxBlockFrames
     std::span<const RenderControl> controls{}; ///< in time order
-    std::span<const RecordedContact> contacts{}; ///< played instead of modes, at the renderer's rate; none: modes
-    bool othersAreModes = false; ///< events without a recording
+    RecordedContacts contacts{}; ///< from the start
     OnsetMarks* marks = nullptr; ///< write one channel more
 };
 

@@ -44,16 +44,16 @@ private:
 class RecordingSets {
 public:
     /// What a renderer takes of them at that rate, and of the clips, also of those that are added later; it lives as long as
-    /// this object.
-    std::span<const RecordedContact> at(int sampleRateHz, const std::vector<ContactRecording>& recordings) {
+    /// this object. Where there are no recordings, events that are no clips play their mode.
+    RecordedContacts at(int sampleRateHz, const std::vector<ContactRecording>& recordings) {
         const auto known = std::ranges::find_if(sets_, [&](const Set& set) { return set.sampleRateHz == sampleRateHz && set.recordings == recordings; });
-        if (known != sets_.end()) return known->contacts;
+        if (known != sets_.end()) return known->played();
         Set& set = sets_.emplace_back(Set{recordings, sampleRateHz, {recordings, sampleRateHz}, {}});
         const auto sounds = set.sounds.contacts();
         set.contacts.assign(sounds.begin(), sounds.end());
         for (int k = 0; k < mostClips; ++k) set.contacts.push_back({clipFrequencyHz(k), {}});
         for (std::size_t k = 0; k < clips_.size(); ++k) fill(set, k);
-        return set.contacts;
+        return set.played();
     }
 
     /// Of the lists that there are.
@@ -78,6 +78,7 @@ private:
         int sampleRateHz;
         ContactSounds sounds; // at that rate
         std::vector<RecordedContact> contacts;
+        RecordedContacts played() const noexcept { return {contacts, recordings.empty()}; }
     };
 
     void fill(Set& set, std::size_t number) { set.contacts[set.recordings.size() + number].samples = clips_[number].at(set.sampleRateHz); }

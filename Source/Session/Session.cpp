@@ -71,7 +71,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
                         .modes = setup_.modes,
                         .equalised = setup_.equalised});
     setLaw(lawAt(sampleRateHz, maxBlockFrames), setup_.direct != Direct::no, setup_.direct == Direct::born);
-    renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings), setup_.recordings.empty());
+    renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings));
     if (heard_) heard_->prepare(sampleRateHz);
     if (marks_) marks_->prepare(sampleRateHz, -renderer_->latencyFrames());
     setFrames(firstFrame()); // the renderer begins with the first block where something may be felt in it
@@ -117,7 +117,7 @@ void Session::resume(int sampleRateHz, int maxBlockFrames) {
     renderer_->moveTo(sampleRateHz, rendered);
     if (heard_) heard_->moveTo(sampleRateHz, rendered);
     if (marks_) marks_->prepare(sampleRateHz, rendered - renderer_->latencyFrames());
-    renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings), setup_.recordings.empty()); // recordings that sound stop
+    renderer_->setContacts(recordings_.at(sampleRateHz, setup_.recordings)); // recordings that sound stop
     setFrames(frames);
 }
 

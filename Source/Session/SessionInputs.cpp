@@ -58,7 +58,6 @@ std::int64_t Session::useRecordings(std::vector<ContactRecording> recordings) {
     control.timeNs = now;
     control.kind = RenderControl::Kind::recordings;
     control.recordings = recordings_.at(law().sampleRateHz, recordings);
-    control.value = recordings.empty() ? 1.0f : 0.0f;
     if (!controls_.push(control)) return -1;
     if (setup_.log != LogUse::none) controlLog_.recordings.push_back({now, filesOf(recordings)});
     setup_.recordings = std::move(recordings);

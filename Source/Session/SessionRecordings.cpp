@@ -9,12 +9,10 @@ SessionRecordings::SessionRecordings(const SessionLog& log, const LoadedRecordin
     : sampleRateHz_{sampleRateHz} {
     for (const ContactRecording& clip : loaded.clips) sets_.add(clip);
     for (std::size_t i = 0; i < log.recordings.size() && i < loaded.setOfChange.size(); ++i) {
-        const auto& set = loaded.sets[loaded.setOfChange[i]];
         RenderControl& control = changes_.emplace_back();
         control.timeNs = log.recordings[i].timeNs;
         control.kind = RenderControl::Kind::recordings;
-        control.value = set.empty() ? 1.0f : 0.0f;
-        control.recordings = sets_.at(sampleRateHz, set);
+        control.recordings = sets_.at(sampleRateHz, loaded.sets[loaded.setOfChange[i]]);
     }
 }
 

@@ -23,8 +23,8 @@ public:
     /// `controls`, in time order, and these; both stay in order.
     std::vector<RenderControl> with(std::vector<RenderControl> controls) const;
 
-    /// The clips beside these recordings: what is played from the start. Events without one play their mode if `recordings` are none.
-    std::span<const RecordedContact> beside(const std::vector<ContactRecording>& recordings) { return sets_.at(sampleRateHz_, recordings); }
+    /// The clips beside these recordings: what is played from the start.
+    RecordedContacts beside(const std::vector<ContactRecording>& recordings) { return sets_.at(sampleRateHz_, recordings); }
 
 private:
     int sampleRateHz_;

@@ -33,7 +33,7 @@ bool renderSession(const SavedSession& session, const LoadedRecordings& loaded, 
                                     .limiterEnabled = session.limiterEnabled,
                                     .ceilings = session.ceilings,
                                     .equalised = session.equalised};
-    renderOffline(events, {renderer, frames, 1024, controls, recordings.beside({}), true},
+    renderOffline(events, {renderer, frames, 1024, controls, recordings.beside({})},
                   [&](const float* const* block, int n) {
                       done += n;
                       return goesOn = consume(block, n) && extent.progress(0.5 + 0.5 * static_cast<double>(done) / static_cast<double>(frames));

@@ -37,7 +37,7 @@ struct Played {
 Played play(const std::vector<CollisionEvent>& events, int frames, int block) {
     auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
     renderer->prepare(square());
-    renderer->setContacts(contacts);
+    renderer->setContacts({contacts});
     const int latency = renderer->latencyFrames();
     test::Channels all(4, std::vector<float>(static_cast<std::size_t>(frames + latency)));
     test::ListSource source{events};
@@ -116,11 +116,11 @@ TEST(SamplePlayer, RecordingsThatAreExchangedFadeWithoutAStep) {
     const RecordedContact constant[] = {{349.0, ones}};
     auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
     renderer->prepare(square());
-    renderer->setContacts(constant);
+    renderer->setContacts({constant});
     RenderControl exchange;
     exchange.timeNs = 10'000'000;
     exchange.kind = RenderControl::Kind::recordings;
-    exchange.recordings = contacts;
+    exchange.recordings = {contacts};
     struct Source : test::ListSource {
         std::vector<RenderControl> controls;
         using ListSource::pop;

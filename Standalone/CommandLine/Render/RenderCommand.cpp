@@ -48,7 +48,7 @@ void warn(const RenderStatus& status, const RenderJob& job) {
 
 InstructionSet instructionsOf(const RenderOptions& o) { return o.instructions == "scalar" ? InstructionSet::scalar : InstructionSet::best; }
 
-OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls, std::span<const RecordedContact> contacts) {
+OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls, const RecordedContacts& contacts) {
     const RenderOptions& o = job.options;
     const RendererSettings renderer{.sampleRateHz = o.sampleRateHz,
                                     .channels = job.channels(),
@@ -67,16 +67,14 @@ void renderContactSound(const RenderJob& job, std::vector<RenderControl> control
     std::erase_if(controls, [](const RenderControl& control) { return control.kind != RenderControl::Kind::stopAll; });
     auto hits = job.made.events;
     std::erase_if(hits, [](const CollisionEvent& event) { return isClip(event.frequencyHz); });
-    renderOffline(hits, {HeardContacts::settingsAt(job.options.sampleRateHz), job.frames(), job.options.blockFrames, controls, sounds.contacts(), true},
+    renderOffline(hits, {HeardContacts::settingsAt(job.options.sampleRateHz), job.frames(), job.options.blockFrames, controls, {sounds.contacts(), true}},
                   [&](const float* const* channels, int frames) { return outputs.takeContactSound(channels[0], frames); });
 }
 
 /// The clip's own samples; no collisions, no controls.
 RenderStatus renderClip(const RenderJob& job, RenderOutputs& outputs) {
     const ClipVoices voices{job};
-    OfflineSettings settings = settingsOf(job, {}, {});
-    settings.contacts = voices.contacts();
-    return renderOffline(voices.events(), settings, [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
+    return renderOffline(voices.events(), settingsOf(job, {}, {voices.contacts()}), [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
 }
 
 /// Samples, and marks if they are wanted, beside each other.
@@ -93,12 +91,9 @@ RenderStatus renderMarked(const RenderJob& job, OfflineSettings settings, Render
 }
 
 RenderStatus renderEvents(const RenderJob& job, RenderOutputs& outputs) {
-    const auto felt = job.feltRecordings();
     SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings, job.options.sampleRateHz};
     const auto controls = again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{});
-    OfflineSettings settings = settingsOf(job, controls, again.beside(felt));
-    settings.othersAreModes = felt.empty();
-    const RenderStatus status = renderMarked(job, settings, outputs);
+    const RenderStatus status = renderMarked(job, settingsOf(job, controls, again.beside(job.feltRecordings())), outputs);
     if (!job.options.contactSound.empty()) renderContactSound(job, controls, outputs);
     return status;
 }
