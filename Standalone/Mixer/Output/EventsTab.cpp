@@ -153,8 +153,9 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     g.setFont(juce::Font{text::small});
     cell(timeText(hit.timeNs), at.time, Shade::muted, false);
     cell(nameOf(desk.sceneNow(), contact), at.name, Shade::text, false);
-    cell(isClip(hit.frequencyHz) ? "clip" : number(hit.frequencyHz, 1), at.frequency, Shade::text, true);
-    cell(isClip(hit.frequencyHz) ? "" : number(hit.decayPerSecond, 1), at.decay, Shade::text, true);
+    const bool isMode = !isClip(hit.frequencyHz);
+    cell(isMode ? number(hit.frequencyHz, 1) : "clip", at.frequency, Shade::text, true);
+    cell(isMode ? number(hit.decayPerSecond, 1) : "", at.decay, Shade::text, true);
     cell(number(most.levelG, 3), at.level, Shade::text, true);
     cell(placeNumbers(hit), at.place, Shade::muted, true);
     g.setFont(juce::Font{text::small, juce::Font::bold});
