@@ -34,15 +34,15 @@ struct EventShaping {
     PerceivedLevel perceived{}; ///< at the frequency that is played, of what the gain made
     double truncation = 0.0;    ///< Eq. 5.5: a decay is cut where its envelope falls to this share; 0: it rings out
 
-    CollisionEvent operator()(const CollisionEvent& collision) const noexcept { return isClip(collision.frequencyHz) ? collision : levelled(moved(collision)); }
+    CollisionEvent operator()(const CollisionEvent& collision) const noexcept { return shaped(collision, [](CollisionEvent&) {}); }
 
-    /// Its two halves.
-    CollisionEvent moved(const CollisionEvent& collision) const noexcept {
+    /// The same; what has the frequency that is played may be changed by `hold`, before the gain.
+    template <class Hold>
+    CollisionEvent shaped(const CollisionEvent& collision, Hold hold) const noexcept {
+        if (isClip(collision.frequencyHz)) return collision;
         CollisionEvent event = method(collision);
         event.frequencyHz = remap(event.frequencyHz);
-        return event;
-    }
-    CollisionEvent levelled(CollisionEvent event) const noexcept {
+        hold(event);
         event.amplitude = perceived(event.amplitude * gain, event.frequencyHz);
         if (truncation > 0.0 && event.decayPerSecond > 0.0) cut(event);
         return event;
@@ -63,7 +63,7 @@ class EventShaper {
 public:
     explicit EventShaper(const EventShaping& shaping) : shaping_{shaping} {}
     CollisionEvent operator()(const CollisionEvent& collision) noexcept {
-        return isClip(collision.frequencyHz) ? collision : shaping_.levelled(level_(shaping_.moved(collision), shaping_.method));
+        return shaping_.shaped(collision, [this](CollisionEvent& event) { event = level_(event, shaping_.method); });
     }
     void forget() noexcept { level_.forget(); }
 

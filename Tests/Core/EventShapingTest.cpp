@@ -56,5 +56,19 @@ TEST(EventShaping, CutsADecayWhereItsEnvelopeFallsToGamma) {
     EXPECT_EQ(shaping(e), e) << "what does not decay stays";
 }
 
+TEST(EventShaping, AClipStaysAsItIsAloneAndAmongTheHitsOfAWorld) {
+    EventShaping shaping{.method = {}, .remap = {{180, 230}}, .gain = 0.5, .perceived = {true}, .truncation = 0.1};
+    ASSERT_TRUE(renderingMethodNamed("AF-FV-DRV", shaping.method));
+    shaping.method.holdsLevel = true;
+    const CollisionEvent hit{.timeNs = 7, .frequencyHz = 349, .decayPerSecond = 107, .amplitude = 0.3, .durationNs = 9, .source = {1, 2, 3, 4}};
+    CollisionEvent clip = hit;
+    clip.frequencyHz = clipFrequencyHz(mostClips - 1);
+    EventShaper shaper{shaping};
+    EXPECT_EQ(shaping(clip), clip);
+    EXPECT_EQ(shaper(clip), clip);
+    EXPECT_NE(shaping(hit), hit);
+    EXPECT_NE(shaper(hit), shaping(hit)) << "whose level is held";
+}
+
 } // namespace
 } // namespace physvib
