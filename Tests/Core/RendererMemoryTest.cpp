@@ -1,42 +1,19 @@
 // SPDX-License-Identifier: MIT
 // What a renderer takes from the heap, and when: in prepare, by channels and modes; and what happens beyond them.
 #include "Support/ClosedForm.h"
+#include "Support/RendererMemory.h"
 #include "Support/Rendering.h"
-#include <cstdlib>
 #include <gtest/gtest.h>
-#include <new>
-
-#if !defined(PHYSVIB_THREAD_SANITIZER) // it has functions of its own, which cannot be replaced
-
-namespace {
-
-std::size_t bytesTaken = 0; // on cache lines, as a renderer's memory is
-bool hasMemory = true;
-
-#if defined(_WIN32) // whose aligned memory has functions of its own
-void* takeAligned(std::size_t grain, std::size_t size) { return _aligned_malloc(size, grain); }
-void giveAligned(void* memory) { _aligned_free(memory); }
-#else
-void* takeAligned(std::size_t grain, std::size_t size) { return std::aligned_alloc(grain, (size + grain - 1) / grain * grain); }
-void giveAligned(void* memory) { std::free(memory); }
-#endif
-
-} // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-    if (!hasMemory) return nullptr;
-    bytesTaken += size;
-    return takeAligned(static_cast<std::size_t>(alignment), size);
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
-    void* const memory = operator new(size, alignment, std::nothrow);
-    return memory != nullptr ? memory : throw std::bad_alloc{};
-}
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { giveAligned(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { giveAligned(memory); }
 
 namespace physvib {
 namespace {
+
+std::size_t bytesTaken = 0;
+
+bool count(std::size_t bytes) {
+    bytesTaken += bytes;
+    return true;
+}
 
 RendererSettings settingsFor(int channels, int modes) {
     const auto layout = test::gridLayout(channels / 2, 2);
@@ -59,6 +36,8 @@ std::vector<CollisionEvent> tones(int count) {
 }
 
 TEST(RendererMemory, FollowsChannelsAndModes) {
+    if (!test::ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
+    test::beforeMemory = count;
     const auto bytesFor = [](int channels, int modes) {
         const std::size_t before = bytesTaken;
         const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
@@ -72,6 +51,7 @@ TEST(RendererMemory, FollowsChannelsAndModes) {
     EXPECT_LT(bytesFor(4, 0), 14'000'000U);
     EXPECT_LT(bytesFor(4, 512), bytesFor(8, 512));
     EXPECT_LT(bytesFor(8, 512), bytesFor(8, 513));
+    test::beforeMemory = nullptr;
 }
 
 TEST(RendererMemory, ABudgetThatSufficesChangesNoBit) {
@@ -97,10 +77,11 @@ TEST(RendererMemory, MoreModesThanTheProfileHasAreRefused) {
 }
 
 TEST(RendererMemory, WithoutItAllIsSilentUntilThereIsSome) {
+    if (!test::ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
     const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
-    hasMemory = false;
+    test::beforeMemory = [](std::size_t) { return false; };
     EXPECT_FALSE(renderer->prepare(settingsFor(2, 0)));
-    hasMemory = true;
+    test::beforeMemory = nullptr;
     const auto events = tones(1);
     test::ListSource source{events};
     std::vector<float> left(64, 1.0f), right(64, 1.0f);
@@ -115,5 +96,3 @@ TEST(RendererMemory, WithoutItAllIsSilentUntilThereIsSome) {
 
 } // namespace
 } // namespace physvib
-
-#endif

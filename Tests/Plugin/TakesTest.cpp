@@ -2,34 +2,10 @@
 // What takes owe each other: nothing is cut, settings travel inside, ended ones are used again, none is made in the way of others.
 #include "PluginTesting.h"
 #include "Support/Growth.h"
+#include "Support/RendererMemory.h"
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <future>
-#include <new>
-
-namespace {
-
-std::atomic<bool (*)()> beforeLarge{nullptr}; // is called before memory for a renderer is taken; false: there is none
-
-} // namespace
-
-#if !defined(PHYSVIB_THREAD_SANITIZER) // it has functions of its own, which cannot be replaced
-constexpr bool ownsMemory = true;
-void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-    if (auto* const call = beforeLarge.load(); call && size > 500'000 && !call()) return nullptr;
-    const auto grain = static_cast<std::size_t>(alignment);
-    return std::aligned_alloc(grain, (size + grain - 1) / grain * grain);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    void* const memory = ::operator new(size, alignment, std::nothrow);
-    return memory ? memory : throw std::bad_alloc{};
-}
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-#else
-constexpr bool ownsMemory = false;
-#endif
 
 namespace physvib {
 namespace {
@@ -135,6 +111,7 @@ TEST(Takes, ALoopUsesThoseThatHaveEnded) {
 // The next one is made as long as this lasts: until the test lets it, or two seconds have passed.
 std::promise<void>* letMake = nullptr;
 std::atomic<bool> isMaking{false}, hasWaitedInVain{false};
+constexpr std::size_t largeBytes = 500'000; // of what a renderer takes at once
 
 TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
     if (!ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
@@ -145,8 +122,9 @@ TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
     std::promise<void> let;
     letMake = &let;
     isMaking = hasWaitedInVain = false;
-    beforeLarge = [] {
-        beforeLarge = nullptr;
+    beforeMemory = [](std::size_t bytes) {
+        if (bytes <= largeBytes) return true;
+        beforeMemory = nullptr;
         auto may = letMake->get_future();
         isMaking = true;
         hasWaitedInVain = may.wait_for(std::chrono::seconds{2}) != std::future_status::ready;
@@ -234,15 +212,15 @@ TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {
     if (!ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
     TestHost host;
     ASSERT_TRUE(host.plugin->apply(onPlay()));
-    beforeLarge = nullptr;
+    beforeMemory = nullptr;
     host.prepare(48000, 480, false);
-    beforeLarge = [] { return false; };
+    beforeMemory = [](std::size_t bytes) { return bytes <= largeBytes; };
     host.playHead.isThere = host.playHead.isPlaying = true;
     for (int b = 0; b < 1000 && host.plugin->trouble().isEmpty(); ++b) {
         host.block(480);
         std::this_thread::sleep_for(std::chrono::milliseconds{5});
     }
-    beforeLarge = nullptr;
+    beforeMemory = nullptr;
     EXPECT_TRUE(host.plugin->trouble().startsWith("no take could be made: ")) << host.plugin->trouble();
     EXPECT_TRUE(host.plugin->apply(onPlay()));
     EXPECT_EQ(host.plugin->trouble(), "");
