@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a message may have read, and what a saved session says of a clip that has changed.
 #include "Host/Recordings/ClipFolder.h"
+#include "Files/Disk/ContentHash.h"
+#include "Files/Disk/ReadFile.h"
+#include "Formats/ClipFile.h"
+#include "Host/Recordings/ReadRecording.h"
+#include "Support/WavBytes.h"
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -32,6 +37,47 @@ TEST_F(ClipFolderTest, ReadsWhatLiesBelowIt) {
         ASSERT_EQ(clip.value.channels.size(), 1u);
         EXPECT_EQ(clip.value.channels[0].samples.size(), 4800u);
         EXPECT_EQ(clip.value.channels[0].file.hash.size(), 16u);
+    }
+}
+
+/// What each part of a clip is where it is read by itself.
+void expectTheSameInParts(const fs::path& path, const std::vector<EnchanterPlace>& shares) {
+    const auto clip = loadWholeClip(path);
+    ASSERT_EQ(clip.error, "") << path;
+    const auto sound = readRecording(path);
+    const std::string hash = contentHash(readFile(path, 1'000'000).value);
+    std::vector<ContactRecording> channels;
+    for (const auto& samples : sound.value.channels) channels.push_back({0.0, sound.value.sampleRateHz, samples, {.path = path.string(), .hash = hash}});
+    EXPECT_EQ(clip.value.channels, channels) << path;
+    ASSERT_EQ(clip.value.shares.size(), shares.size()) << path;
+    for (std::size_t j = 0; j < shares.size(); ++j) {
+        EXPECT_NEAR(clip.value.shares[j].xMetres, shares[j].xMetres, 1e-12) << path;
+        EXPECT_NEAR(clip.value.shares[j].yMetres, shares[j].yMetres, 1e-12) << path;
+    }
+}
+
+TEST_F(ClipFolderTest, SamplesHashAndPlacesAreThoseOfTheFile) {
+    const auto channelAt = [](std::optional<EnchanterPlace> place, double hz) { return ClipChannel{.label = "A", .place = place, .bands = {{{{.amplitude = {{0.0, 0.5}, {0.1, 0.0}}, .frequencyHz = {{0.0, hz}}}}}}}; };
+    const Clip placed{"", 0.2, 0.1, {channelAt(EnchanterPlace{0.05, 0.1}, 100.0), channelAt(EnchanterPlace{0.2, 0.0}, 150.0)}};
+    Clip half = placed;
+    half.channels[1].place.reset();
+    for (const auto& [name, clip] : {std::pair{"placed.hjif", placed}, {"half.hjif", half}}) std::ofstream{folder / name} << clipBytes(clip, ClipFormat::hjif).value;
+    std::ofstream{folder / "sampled.wav", std::ios::binary} << test::wavBytes({.channels = 2}, "abcdefgh");
+    expectTheSameInParts(folder / "placed.hjif", {{0.25, 1.0}, {1.0, 0.0}});
+    expectTheSameInParts(folder / "half.hjif", {});
+    expectTheSameInParts(folder / "a.hjif", {});
+    expectTheSameInParts(folder / "sampled.wav", {});
+}
+
+TEST_F(ClipFolderTest, WhatCannotBeReadIsToldAsByReadRecording) {
+    std::ofstream{folder / "broken.hjif"} << "{";
+    std::ofstream{folder / "large.hjif"};
+    fs::resize_file(folder / "large.hjif", 24'000'001);
+    std::ofstream{folder / "broken.wav"} << "RIFF";
+    fs::create_directory(folder / "folder.hjif");
+    for (const char* name : {"broken.hjif", "large.hjif", "broken.wav", "folder.hjif", "no.hjif", "no.wav"}) {
+        EXPECT_NE(loadWholeClip(folder / name).error, "") << name;
+        EXPECT_EQ(loadWholeClip(folder / name).error, readRecording(folder / name).error);
     }
 }
 

@@ -6,46 +6,65 @@
 #include "Files/Disk/ReadFile.h"
 #include "Files/Text/NumberText.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipSound.h"
+#include "Formats/ClipLimits.h"
 #include "Host/Recordings/ReadRecording.h"
 #include <algorithm>
 
 namespace physvib {
 namespace {
 
-/// Of a haptic file whose channels all have one.
-std::vector<EnchanterPlace> sharesOf(const std::filesystem::path& path) {
+struct Content {
+    SampledSound sound;
+    std::string hash;
+    std::vector<EnchanterPlace> shares{};
+};
+
+/// Where all channels have a place.
+std::vector<EnchanterPlace> sharesOf(const Clip& clip) {
     std::vector<EnchanterPlace> shares;
-    const auto format = clipFormatOf(path.string());
-    const auto clip = format ? loadClip(path, *format) : Result<Clip>{Clip{}};
-    for (const ClipChannel& channel : clip.value.channels)
-        if (channel.place && clip.value.extentWidthMetres > 0.0 && clip.value.extentHeightMetres > 0.0)
-            shares.push_back({channel.place->xMetres / clip.value.extentWidthMetres, channel.place->yMetres / clip.value.extentHeightMetres});
-    return shares.size() == clip.value.channels.size() ? shares : std::vector<EnchanterPlace>{};
+    for (const ClipChannel& channel : clip.channels)
+        if (channel.place && clip.extentWidthMetres > 0.0 && clip.extentHeightMetres > 0.0)
+            shares.push_back({channel.place->xMetres / clip.extentWidthMetres, channel.place->yMetres / clip.extentHeightMetres});
+    return shares.size() == clip.channels.size() ? shares : std::vector<EnchanterPlace>{};
 }
 
-Result<std::string> hashOf(const std::filesystem::path& path) {
+/// All of the same bytes.
+Result<Content> readDrawn(const std::filesystem::path& path, ClipFormat format) {
+    if (const auto regular = openRegular(path, limits::maxRecordingFileBytes); !regular) return Failure{regular.error};
+    const auto bytes = readFile(path, limits::maxClipFileBytes);
+    if (!bytes) return Failure{bytes.error};
+    const auto clip = readClip(bytes.value, path.string(), format);
+    if (!clip) return Failure{clip.error};
+    auto sound = soundOf(clip.value, path);
+    if (!sound) return Failure{sound.error};
+    return Content{std::move(sound.value), contentHash(bytes.value), sharesOf(clip.value)};
+}
+
+/// Its decoders read from the disk, so the hash reads it again.
+Result<Content> readSampled(const std::filesystem::path& path) {
+    auto sound = readRecording(path);
+    if (!sound) return Failure{sound.error};
     const auto bytes = readFile(path, limits::maxRecordingFileBytes);
-    return bytes ? Result<std::string>{contentHash(bytes.value)} : Result<std::string>{Failure{bytes.error}};
+    if (!bytes) return Failure{bytes.error};
+    return Content{std::move(sound.value), contentHash(bytes.value)};
 }
 
 } // namespace
 
 Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
-    auto sound = readRecording(path);
-    if (!sound) return Failure{sound.error};
-    const auto hash = hashOf(path);
-    if (!hash) return Failure{hash.error};
+    const auto format = clipFormatOf(path.string());
+    auto content = format ? readDrawn(path, *format) : readSampled(path);
+    if (!content) return Failure{content.error};
     LoadedClip clip;
-    for (std::vector<float>& samples : sound.value.channels) {
+    for (std::vector<float>& samples : content.value.sound.channels) {
         ContactRecording& channel = clip.channels.emplace_back();
-        channel.sampleRateHz = sound.value.sampleRateHz;
+        channel.sampleRateHz = content.value.sound.sampleRateHz;
         channel.samples = std::move(samples);
         channel.file.path = path.string();
-        channel.file.hash = hash.value;
+        channel.file.hash = content.value.hash;
     }
     if (clip.channels.empty() || clip.channels.front().samples.empty()) return Failure{path.string() + ": expected something to feel, found no samples"};
-    clip.shares = sharesOf(path);
+    clip.shares = std::move(content.value.shares);
     return clip;
 }
 

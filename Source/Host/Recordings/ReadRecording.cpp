@@ -93,20 +93,21 @@ std::string streamSound(std::FILE& file, std::size_t fileBytes, SoundTaker& take
 
 constexpr int clipRateHz = 48000; // of what is drawn, not sampled
 
-Result<SampledSound> readClipSound(const std::filesystem::path& path, ClipFormat format) {
-    const auto clip = loadClip(path, format);
-    if (!clip) return Failure{clip.error};
-    const SoundShape shape{clipRateHz, static_cast<std::int64_t>(clip.value.channels.size()), static_cast<std::int64_t>(clip.value.seconds() * clipRateHz)};
-    if (auto fault = soundFault(shape); !fault.empty()) return Failure{path.string() + ": " + fault};
-    return clipSound(clip.value, clipRateHz);
-}
-
 } // namespace
+
+Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path) {
+    const SoundShape shape{clipRateHz, static_cast<std::int64_t>(clip.channels.size()), static_cast<std::int64_t>(clip.seconds() * clipRateHz)};
+    if (auto fault = soundFault(shape); !fault.empty()) return Failure{path.string() + ": " + fault};
+    return clipSound(clip, clipRateHz);
+}
 
 Result<SampledSound> readRecording(const std::filesystem::path& path) {
     const auto file = openRegular(path, limits::maxRecordingFileBytes);
     if (!file) return Failure{file.error};
-    if (const auto format = clipFormatOf(path.string())) return readClipSound(path, *format);
+    if (const auto format = clipFormatOf(path.string())) {
+        const auto clip = loadClip(path, *format);
+        return clip ? soundOf(clip.value, path) : Failure{clip.error};
+    }
     SoundKeeper keeper;
     if (auto fault = streamSound(*file.value.stream, file.value.bytes, keeper); !fault.empty()) return Failure{path.string() + ": " + fault};
     return std::move(keeper.sound);

@@ -3,6 +3,7 @@
 #pragma once
 #include "Files/Result.h"
 #include "Files/SampledSound.h"
+#include "Formats/Clip.h"
 #include <filesystem>
 
 namespace physvib {
@@ -11,6 +12,9 @@ namespace physvib {
 /// Formats/ClipFile.h) at 48 kHz; or one line naming the file. Only a
 /// regular file, within the limits of recordings, and only if it holds what its header says. Any thread but R.
 Result<SampledSound> readRecording(const std::filesystem::path& path);
+
+/// The same of a clip that has been read from that file. Any thread.
+Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path);
 
 /// The same of a recording of up to a day, block by block, so that memory does not grow with it: empty, or one line naming the
 /// file: what is wrong with it, or what `taker` says. No clips. Any thread but R.
