@@ -2,7 +2,7 @@
 // The mix, the session that plays it, and the output.
 #include "Mixer/Desk/Desk.h"
 #include "Files/SceneCatalogue.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Desk/DeskWords.h"
 #include <algorithm>
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // A board that is late, gone or silent, in words.
 #include "Mixer/Desk/DeskBoard.h"
 #include "Mixer/Desk/DeskMoment.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Desk/DeskWords.h"
 
 namespace physvib {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What comes from outside by messages: it moves what the desk shows.
 #include "Mixer/Desk/Desk.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Desk/DeskWords.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Peaks that fall, and their highest ones that stay for a moment.
 #include "Mixer/Desk/DeskSignals.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Desk/DeskWords.h"
 #include <algorithm>
 #include <cmath>
 

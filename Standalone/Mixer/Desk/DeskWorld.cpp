@@ -2,7 +2,7 @@
 // What the desk does to the world: inputs, edits with their opposites, strikes of single enchanters.
 #include "Mixer/Desk/Desk.h"
 #include "Files/ActuatorFile.h"
-#include "Mixer/Window/Parts.h"
+#include "Mixer/Desk/DeskWords.h"
 #include "Physics/InputCheck.h"
 #include "Physics/Scenes/SceneCast.h"
 #include "Physics/Scenes/SceneEdits.h"

@@ -121,6 +121,5 @@ void caption(juce::Label& label, const juce::String& words) {
 }
 
 juce::String number(double value, int decimals) { return picture::number(value, decimals); }
-juce::String utf8(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
 
 } // namespace physvib

@@ -2,6 +2,7 @@
 // Small parts of the mixer's window: buttons with drawn signs, two lines of text, panels.
 #pragma once
 #include "Host/Views/Look.h"
+#include "Mixer/Desk/DeskWords.h"
 #include <functional>
 
 namespace physvib {
@@ -50,12 +51,8 @@ void prepareControls(juce::Component& root);
 /// A small word beside a control.
 void caption(juce::Label& label, const juce::String& words);
 
-/// Of the clock that what is seen moves by; nothing that is rendered depends on it.
-inline double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
-
 /// Fixed notation, with a true minus sign.
 juce::String number(double value, int decimals);
-juce::String utf8(const std::string& words);
 inline juce::String dots() { return juce::String::charToString(0x2026); } ///< of what asks for more
 
 } // namespace physvib

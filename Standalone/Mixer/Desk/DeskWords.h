@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the desk and all that stands around it have in common: words as JUCE takes them, and a clock.
+#pragma once
+#include <juce_core/juce_core.h>
+#include <string>
+
+namespace physvib {
+
+/// Any thread.
+inline juce::String utf8(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
+
+/// Of the clock that what is seen moves by; nothing that is rendered depends on it.
+inline double nowMs() { return juce::Time::getMillisecondCounterHiRes(); }
+
+} // namespace physvib
