@@ -69,6 +69,33 @@ TEST_F(Recordings, WhatIsSyntheticIsTheSameForTheSameSeedOnly) {
     EXPECT_NE(loadContact({80.0, "synthetic-x", 34.0}).error, "") << "a file's name";
 }
 
+TEST_F(Recordings, WhatHasNoneIsRejectedAndWhereThereAreNoneItPlaysItsMode) {
+    auto setup = shakeTheBoxSetup(0.02);
+    setup.scene.bodies.clear(); // what is struck alone
+    setup.scene.joints.clear();
+    setup.scene.script.clear();
+    const std::vector<ContactRecording> none, other{{300.0, hostRate, std::vector<float>(480, 0.1f)}};
+    const CollisionEvent strike{.frequencyHz = 200.0, .decayPerSecond = 50.0, .amplitude = 0.1};
+    for (const bool hasOther : {false, true}) {
+        setup.recordings = hasOther ? other : none;
+        Session session{setup};
+        const auto isRejected = [&] {
+            const auto before = session.status().render.rejected;
+            EXPECT_TRUE(session.play({&strike, 1}));
+            Block block;
+            for (int i = 0; i < 40; ++i) session.advance(), session.render(block.at.data(), 256, RenderMode::realtime);
+            EXPECT_EQ(drain(session).size(), session.status().render.rejected == before ? 1u : 0u);
+            return session.status().render.rejected > before;
+        };
+        session.prepare(hostRate, 256);
+        EXPECT_EQ(isRejected(), hasOther);
+        session.resume(hostRate, 256);
+        EXPECT_EQ(isRejected(), hasOther);
+        EXPECT_GE(session.useRecordings(hasOther ? none : other), 0);
+        EXPECT_EQ(isRejected(), !hasOther);
+    }
+}
+
 /// Two seconds of it, with other recordings in the middle and modes at the end.
 Interleaved playExchanging(Session& session, const std::vector<ContactRecording>& others, std::int64_t frames) {
     Block block;
