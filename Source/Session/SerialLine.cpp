@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Ports by libserialport, pseudo-terminals by the system's own calls.
+// Ports by libserialport.
 #include "Session/SerialLine.h"
+#include "Session/PseudoTerminal.h"
 #include "Wire/Messages.h"
-#include <cerrno>
-#include <cstring>
-#include <fcntl.h>
-#include <filesystem>
 #include <libserialport.h>
-#include <poll.h>
-#include <termios.h>
-#include <unistd.h>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -36,42 +31,6 @@ private:
     Port port_;
 };
 
-class TerminalLine final : public SerialLine {
-public:
-    explicit TerminalLine(int file) : file_{file} {}
-    ~TerminalLine() override { close(file_); }
-    int read(std::span<std::uint8_t> bytes, int milliseconds) override {
-        pollfd wait{file_, POLLIN, 0};
-        if (poll(&wait, 1, milliseconds) <= 0) return 0;
-        const auto n = ::read(file_, bytes.data(), bytes.size());
-        if (n < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
-        return n > 0 ? static_cast<int>(n) : -1;
-    }
-    bool write(std::span<const std::uint8_t> bytes) override { return ::write(file_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()); }
-
-private:
-    int file_;
-};
-
-std::unique_ptr<SerialLine> openTerminal(const std::string& path, std::string& error) {
-    const int file = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
-    termios raw{};
-    if (file < 0 || tcgetattr(file, &raw) != 0) {
-        error = path + ": " + std::strerror(errno);
-        if (file >= 0) close(file);
-        return nullptr;
-    }
-    cfmakeraw(&raw);
-    tcsetattr(file, TCSANOW, &raw);
-    return std::make_unique<TerminalLine>(file);
-}
-
-// Also by another name, as links give one that stays.
-bool isTerminal(const std::string& path) {
-    std::error_code none;
-    return std::filesystem::weakly_canonical(path, none).string().starts_with("/dev/pts/");
-}
-
 std::string textOr(const char* text, const char* otherwise) { return text != nullptr ? text : otherwise; }
 
 } // namespace
@@ -90,7 +49,7 @@ std::vector<SerialPortName> listSerialPorts() {
 }
 
 std::unique_ptr<SerialLine> openSerialLine(const std::string& path, std::string& error) {
-    if (isTerminal(path)) return openTerminal(path, error);
+    if (isPseudoTerminal(path)) return openPseudoTerminal(path, error);
     sp_port* found = nullptr;
     if (sp_get_port_by_name(path.c_str(), &found) != SP_OK) {
         error = path + ": no such serial port";
