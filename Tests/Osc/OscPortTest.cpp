@@ -6,7 +6,6 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <memory>
-#include <poll.h>
 
 namespace physvib {
 namespace {
@@ -108,8 +107,7 @@ TEST(OscPorts, AnswersGoToWhoAsked) {
     const auto port = played.open(anyPort());
     auto asks = senderTo(*port);
     ASSERT_TRUE(asks.send(oscPacket("/physvib/latency", {})));
-    pollfd in{asks.handle(), POLLIN, 0};
-    ASSERT_EQ(poll(&in, 1, 60'000), 1);
+    ASSERT_TRUE(asks.wait(60'000));
     const auto answer = asks.receive();
     ASSERT_TRUE(answer.has_value());
     EXPECT_EQ(readOscPacket(*answer).value.at(0).address, "/physvib/answer/latency");
@@ -124,8 +122,7 @@ TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {
     ASSERT_EQ(port->error(), "");
     EXPECT_EQ(port->port(), 0) << "nothing is taken";
     const auto next = [&in] {
-        pollfd wait{in.handle(), POLLIN, 0};
-        EXPECT_EQ(poll(&wait, 1, 60'000), 1);
+        EXPECT_TRUE(in.wait(60'000));
         const auto packet = in.receive();
         return packet ? readOscPacket(*packet).value.at(0) : OscMessage{};
     };

@@ -14,7 +14,6 @@
 #include <cstdlib>
 #include <lo/lo.h>
 #include <numbers>
-#include <poll.h>
 #include <random>
 #include <string>
 #include <thread>
@@ -88,8 +87,7 @@ int ask(OscSocket& to, const std::string& name) {
     const auto query = oscPacket("/physvib/" + name, {});
     for (int tries = 0; tries < 20; ++tries) {
         to.send(query);
-        pollfd in{to.handle(), POLLIN, 0};
-        if (poll(&in, 1, 1000) <= 0) continue;
+        if (!to.wait(1000)) continue;
         const auto packet = to.receive();
         if (!packet) continue;
         const auto answer = readOscPacket(*packet).value.at(0);

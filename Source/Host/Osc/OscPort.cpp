@@ -2,7 +2,6 @@
 // Waits for packets, follows the device's clock, tells once a second how the session is.
 #include "Host/Osc/OscPort.h"
 #include <chrono>
-#include <poll.h>
 
 namespace physvib {
 namespace {
@@ -36,9 +35,8 @@ OscPort::~OscPort() {
 }
 
 void OscPort::run() {
-    pollfd in{in_.handle(), POLLIN, 0};
     while (!stop_) {
-        const bool hasCome = poll(&in, in_.isOpen() ? 1 : 0, pollMilliseconds) > 0;
+        const bool hasCome = in_.wait(pollMilliseconds);
         follow();
         if (hasCome) receive();
         if (out_.isOpen()) tellStatus();

@@ -2,13 +2,16 @@
 // Names, ports and datagrams.
 #include "Host/Osc/OscSocket.h"
 #include "Files/Text/NumberText.h"
-#include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <memory>
-#include <netdb.h>
-#include <netinet/in.h>
-#include <unistd.h>
+#include <thread>
 #include <utility>
+#if defined(_WIN32)
+#include "Host/Osc/SocketsWindows.h"
+#else
+#include "Host/Osc/SocketsPosix.h"
+#endif
 
 namespace physvib {
 namespace {
@@ -21,6 +24,7 @@ struct FreeAddresses {
 using Addresses = std::unique_ptr<addrinfo, FreeAddresses>;
 
 Result<std::shared_ptr<addrinfo>> lookUp(const std::string& host, int port, int flags) {
+    sockets::begin();
     addrinfo wanted{};
     wanted.ai_socktype = SOCK_DGRAM;
     wanted.ai_flags = flags | AI_NUMERICSERV;
@@ -34,7 +38,13 @@ int portOf(const sockaddr_storage& address) {
     return ntohs(port);
 }
 
-int openedFor(const addrinfo& address) { return socket(address.ai_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
+sockets::Handle systems(std::intptr_t handle) noexcept { return static_cast<sockets::Handle>(handle); }
+
+std::intptr_t openedFor(const addrinfo& address) noexcept { return static_cast<std::intptr_t>(sockets::open(address.ai_family)); }
+
+// Sizes and options are of other types on each system.
+sockets::Size sizeOf(std::span<const char> bytes) noexcept { return static_cast<sockets::Size>(bytes.size()); }
+socklen_t lengthOf(const addrinfo& address) noexcept { return static_cast<socklen_t>(address.ai_addrlen); }
 
 } // namespace
 
@@ -48,27 +58,25 @@ OscSocket& OscSocket::operator=(OscSocket&& other) noexcept {
 }
 
 OscSocket::~OscSocket() {
-    if (isOpen()) close(handle_);
+    if (isOpen()) sockets::close(systems(handle_));
 }
 
-// Without SO_REUSEADDR: of two programs that have it, one would get nothing, and nobody would be told.
 Result<OscSocket> OscSocket::listening(const std::string& address, int port) {
     for (int tried = port; tried < port + triedPorts && tried <= 65'535; ++tried) {
         const auto found = lookUp(address, tried, AI_PASSIVE | AI_NUMERICHOST);
         if (!found) return Failure{found.error};
         OscSocket own{openedFor(*found.value)};
-        if (own.isOpen() && bind(own.handle_, found.value->ai_addr, found.value->ai_addrlen) == 0) {
-            setsockopt(own.handle_, SOL_SOCKET, SO_RCVBUF, &wantedBufferBytes, sizeof wantedBufferBytes);
-            const int on = 1;
-            setsockopt(own.handle_, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+        if (own.isOpen()) sockets::wantOwnPort(systems(own.handle_));
+        if (own.isOpen() && bind(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value)) == 0) {
+            setsockopt(systems(own.handle_), SOL_SOCKET, SO_RCVBUF, reinterpret_cast<const char*>(&wantedBufferBytes), sizeof wantedBufferBytes);
             sockaddr_storage bound{};
             socklen_t size = sizeof bound;
-            getsockname(own.handle_, reinterpret_cast<sockaddr*>(&bound), &size);
+            getsockname(systems(own.handle_), reinterpret_cast<sockaddr*>(&bound), &size);
             own.port_ = portOf(bound);
             own.bytes_.resize(longestPacket);
             return own;
         }
-        if (errno != EADDRINUSE && errno != EACCES) return Failure{address + ": " + std::strerror(errno)};
+        if (!sockets::isTaken()) return Failure{address + ": " + sockets::fault()};
     }
     return Failure{address + ": expected a free port from " + std::to_string(port) + " on, found none"};
 }
@@ -83,47 +91,49 @@ Result<OscSocket> OscSocket::connected(const std::string& receiver) {
     if (!found) return Failure{found.error};
     OscSocket own{openedFor(*found.value)};
     own.bytes_.resize(longestPacket);
-    if (!own.isOpen() || connect(own.handle_, found.value->ai_addr, found.value->ai_addrlen) != 0) return Failure{receiver + ": " + std::strerror(errno)};
+    if (!own.isOpen() || connect(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value)) != 0) return Failure{receiver + ": " + sockets::fault()};
     return own;
 }
 
 int OscSocket::bufferBytes() const {
     int bytes = 0;
     socklen_t size = sizeof bytes;
-    getsockopt(handle_, SOL_SOCKET, SO_RCVBUF, &bytes, &size);
+    getsockopt(systems(handle_), SOL_SOCKET, SO_RCVBUF, reinterpret_cast<char*>(&bytes), &size);
     return bytes;
 }
 
+bool OscSocket::wait(int milliseconds) const noexcept {
+    if (isOpen()) return sockets::wait(systems(handle_), milliseconds);
+    std::this_thread::sleep_for(std::chrono::milliseconds{milliseconds});
+    return false;
+}
+
 std::optional<std::span<const char>> OscSocket::receive() {
-    alignas(cmsghdr) char told[64];
-    iovec part{bytes_.data(), bytes_.size()};
-    msghdr packet{};
-    packet.msg_name = &sender_;
-    packet.msg_namelen = sizeof sender_;
-    packet.msg_iov = &part;
-    packet.msg_iovlen = 1;
-    packet.msg_control = told;
-    packet.msg_controllen = sizeof told;
-    const ssize_t size = recvmsg(handle_, &packet, 0);
+    sockaddr_storage sender{};
+    socklen_t senderSize = 0;
+    const auto size = sockets::receive(systems(handle_), bytes_, sender, senderSize, lost_);
     if (size < 0) return std::nullopt;
-    senderSize_ = packet.msg_namelen;
-    for (cmsghdr* one = CMSG_FIRSTHDR(&packet); one != nullptr; one = CMSG_NXTHDR(&packet, one))
-        if (one->cmsg_level == SOL_SOCKET && one->cmsg_type == SO_RXQ_OVFL) std::memcpy(&lost_, CMSG_DATA(one), sizeof lost_);
+    static_assert(sizeof sender <= sizeof sender_);
+    std::memcpy(sender_.data(), &sender, sizeof sender);
+    senderSize_ = static_cast<std::size_t>(senderSize);
     return std::span<const char>{bytes_.data(), static_cast<std::size_t>(size)};
 }
 
 std::string OscSocket::sender() const {
     char host[NI_MAXHOST], port[NI_MAXSERV];
-    if (getnameinfo(reinterpret_cast<const sockaddr*>(&sender_), senderSize_, host, sizeof host, port, sizeof port, NI_NUMERICHOST | NI_NUMERICSERV) != 0) return "unknown";
+    if (getnameinfo(reinterpret_cast<const sockaddr*>(sender_.data()), static_cast<socklen_t>(senderSize_), host, sizeof host, port, sizeof port, NI_NUMERICHOST | NI_NUMERICSERV) != 0) return "unknown";
     return std::string(host) + ":" + port;
 }
 
 std::uint32_t OscSocket::takeLost() noexcept { return lost_ - std::exchange(toldLost_, lost_); }
 
 bool OscSocket::answer(std::span<const char> bytes) noexcept {
-    return sendto(handle_, bytes.data(), bytes.size(), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&sender_), senderSize_) == static_cast<ssize_t>(bytes.size());
+    const auto* to = reinterpret_cast<const sockaddr*>(sender_.data());
+    return std::cmp_equal(sendto(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags, to, static_cast<socklen_t>(senderSize_)), bytes.size());
 }
 
-bool OscSocket::send(std::span<const char> bytes) noexcept { return ::send(handle_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size()); }
+bool OscSocket::send(std::span<const char> bytes) noexcept {
+    return std::cmp_equal(::send(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags), bytes.size());
+}
 
 } // namespace physvib

@@ -2,11 +2,12 @@
 // A socket of UDP: bound to one address and to a port of its own, or connected to one receiver.
 #pragma once
 #include "Files/Result.h"
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
-#include <sys/socket.h>
 
 namespace physvib {
 
@@ -27,11 +28,12 @@ public:
     /// To `HOST:PORT` or `[ADDRESS]:PORT`. Or one line.
     static Result<OscSocket> connected(const std::string& receiver);
 
-    bool isOpen() const noexcept { return handle_ >= 0; }
-    int handle() const noexcept { return handle_; }
+    bool isOpen() const noexcept { return handle_ != none; }
     int port() const noexcept { return port_; }
     int bufferBytes() const; ///< as the system counts them, with its own
 
+    /// Whether something comes in that time; nothing does where it is not open.
+    bool wait(int milliseconds) const noexcept;
     /// What has come, if something has; valid until the next call.
     std::optional<std::span<const char>> receive();
     /// From where that was.
@@ -43,11 +45,14 @@ public:
     bool send(std::span<const char> bytes) noexcept;
 
 private:
-    explicit OscSocket(int handle) noexcept : handle_{handle} {}
-    int handle_ = -1, port_ = 0;
+    using Handle = std::intptr_t; // the system's
+    static constexpr Handle none = -1;
+    explicit OscSocket(Handle handle) noexcept : handle_{handle} {}
+    Handle handle_ = none;
+    int port_ = 0;
     std::string bytes_;
-    sockaddr_storage sender_{};
-    socklen_t senderSize_ = 0;
+    alignas(8) std::array<std::byte, 128> sender_{}; // a sockaddr_storage
+    std::size_t senderSize_ = 0;
     std::uint32_t lost_ = 0, toldLost_ = 0;
 };
 

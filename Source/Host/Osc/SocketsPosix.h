@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// POSIX: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsWindows.h is the other one.
+#pragma once
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <span>
+#include <string>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace physvib::sockets {
+
+using Handle = int;
+using Size = std::size_t;
+constexpr int sendFlags = MSG_NOSIGNAL;
+
+inline void begin() noexcept {}
+inline Handle open(int family) noexcept { return socket(family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
+inline void close(Handle socket) noexcept { ::close(socket); }
+
+/// Before it has its port. Without SO_REUSEADDR: of two programs that have it, one would get nothing, and nobody would be told.
+inline void wantOwnPort(Handle socket) noexcept {
+    const int on = 1;
+    setsockopt(socket, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+}
+
+/// Of the last call: in words, and whether another program has that port.
+inline std::string fault() { return std::strerror(errno); }
+inline bool isTaken() noexcept { return errno == EADDRINUSE || errno == EACCES; }
+
+inline bool wait(Handle socket, int milliseconds) noexcept {
+    pollfd in{socket, POLLIN, 0};
+    return poll(&in, 1, milliseconds) > 0;
+}
+
+/// A packet's size, or less than 0; who sent it; and how many have found no room so far, if that is told.
+inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_storage& sender, socklen_t& senderSize, std::uint32_t& lost) noexcept {
+    alignas(cmsghdr) char told[64];
+    iovec part{bytes.data(), bytes.size()};
+    msghdr packet{};
+    packet.msg_name = &sender;
+    packet.msg_namelen = sizeof sender;
+    packet.msg_iov = &part;
+    packet.msg_iovlen = 1;
+    packet.msg_control = told;
+    packet.msg_controllen = sizeof told;
+    const ssize_t size = recvmsg(socket, &packet, 0);
+    if (size < 0) return size;
+    senderSize = packet.msg_namelen;
+    for (cmsghdr* one = CMSG_FIRSTHDR(&packet); one != nullptr; one = CMSG_NXTHDR(&packet, one))
+        if (one->cmsg_level == SOL_SOCKET && one->cmsg_type == SO_RXQ_OVFL) std::memcpy(&lost, CMSG_DATA(one), sizeof lost);
+    return size;
+}
+
+} // namespace physvib::sockets

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Windows: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsPosix.h is the other one.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <system_error>
+#define WIN32_LEAN_AND_MEAN
+#if !defined(NOMINMAX)
+#define NOMINMAX
+#endif
+#include <winsock2.h>
+#include <ws2tcpip.h>
+
+namespace physvib::sockets {
+
+using Handle = SOCKET;
+using Size = int;
+constexpr int sendFlags = 0;
+
+inline void begin() noexcept {
+    static const int begun = [] {
+        WSADATA told;
+        return WSAStartup(MAKEWORD(2, 2), &told);
+    }();
+    static_cast<void>(begun);
+}
+
+inline void close(Handle socket) noexcept { closesocket(socket); }
+
+inline Handle open(int family) noexcept {
+    const Handle opened = socket(family, SOCK_DGRAM, 0);
+    u_long on = 1;
+    if (opened == INVALID_SOCKET || ioctlsocket(opened, FIONBIO, &on) == 0) return opened;
+    close(opened);
+    return INVALID_SOCKET;
+}
+
+/// Before it has its port: any other program could take it too, unless told.
+inline void wantOwnPort(Handle socket) noexcept {
+    const int on = 1;
+    setsockopt(socket, SOL_SOCKET, SO_EXCLUSIVEADDRUSE, reinterpret_cast<const char*>(&on), sizeof on);
+}
+
+/// Of the last call: in words, and whether another program has that port.
+inline std::string fault() { return std::system_category().message(WSAGetLastError()); }
+inline bool isTaken() noexcept { return WSAGetLastError() == WSAEADDRINUSE || WSAGetLastError() == WSAEACCES; }
+
+inline bool wait(Handle socket, int milliseconds) noexcept {
+    WSAPOLLFD in{socket, POLLRDNORM, 0};
+    return WSAPoll(&in, 1, milliseconds) > 0;
+}
+
+/// A packet's size, or less than 0; and who sent it. How many found no room, this system does not tell.
+inline std::ptrdiff_t receive(Handle socket, std::span<char> bytes, sockaddr_storage& sender, socklen_t& senderSize, std::uint32_t&) noexcept {
+    senderSize = sizeof sender;
+    return recvfrom(socket, bytes.data(), static_cast<int>(bytes.size()), 0, reinterpret_cast<sockaddr*>(&sender), &senderSize);
+}
+
+} // namespace physvib::sockets
