@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the programs need of the system before their first word and after their last.
+// What the programs need of the system: before their first word, after their last, and in between. One file per system does it,
+// ProcessPosix.cpp and ProcessWindows.cpp.
 #pragma once
+#include "Files/Result.h"
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 
 namespace physvib {
@@ -11,5 +17,31 @@ void beginProcess();
 
 /// Last of all: empty if all that was written to standard output arrived, or one line with the reason. M.
 std::string outputFault();
+
+/// Ends the program as that signal does, half-written files first. For the handlers of signals.
+void endBySignal(int signal);
+
+enum class KeepIgnored { all, hangUp }; ///< what was ignored before and stays so: every such signal, or the one that `nohup` means
+/// From now on what asks this program to end (Ctrl-C, `kill`, a terminal that is closed) calls `handler` with the signal. M.
+void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept;
+
+/// A reader of standard output that goes away ends nothing. M.
+void ignoreLostReader() noexcept;
+
+/// Whether somebody watches standard error, for words that are rewritten in place. Any thread but R.
+bool isErrorTerminal() noexcept;
+
+/// What has come on standard input, waiting up to `milliseconds` for it: how many bytes, 0 at the end, nothing if none came. One thread, not R.
+std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept;
+
+/// By which other processes know this one, and whether there is one of that number. Any thread but R.
+int processNumber() noexcept;
+bool isProcessRunning(int number) noexcept;
+
+/// Where this program lies; its plain name where the system does not tell. Any thread but R.
+std::filesystem::path programPath();
+
+/// Runs a program of that name, with what we have for standard streams, to its end: whether it said that all is well, or why it did not begin. M.
+Result<bool> runProgram(std::string name, std::string argument);
 
 } // namespace physvib

@@ -2,10 +2,9 @@
 // Polls standard input, cuts it into lines, and hands each to the session.
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/ExitCode.h"
+#include "CommandLine/Process.h"
 #include <iostream>
-#include <poll.h>
 #include <type_traits>
-#include <unistd.h>
 
 namespace physvib {
 
@@ -32,11 +31,10 @@ void InputListener::run() {
     const auto takeLine = [this](std::string_view line, bool isWhole) { take(line, isWhole); };
     char bytes[4096];
     while (!stop_) {
-        pollfd input{STDIN_FILENO, POLLIN, 0};
-        if (poll(&input, 1, pollMilliseconds) <= 0) continue;
-        const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
-        if (count <= 0) return lines.end(takeLine);
-        lines.add({bytes, static_cast<std::size_t>(count)}, takeLine);
+        const auto count = readInput(bytes, pollMilliseconds);
+        if (!count) continue;
+        if (*count == 0) return lines.end(takeLine);
+        lines.add({bytes, *count}, takeLine);
     }
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The user's wish to stop, from Ctrl-C, `kill` or a terminal that is closed: what plays ends in order.
 #pragma once
-#include "Files/Disk/SystemFile.h"
+#include "CommandLine/Process.h"
 #include <atomic>
-#include <csignal>
-#include <initializer_list>
 
 namespace physvib {
 
@@ -15,16 +13,10 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal may set it");
 /// standard output that goes away ends nothing either: what was recorded is still to be put in its place.
 inline void heedInterrupts() {
     const auto interrupt = [](int signal) {
-        if (!interrupted.exchange(true)) return;
-        removeAllOnEnd();
-        std::signal(signal, SIG_DFL);
-        std::raise(signal);
+        if (interrupted.exchange(true)) endBySignal(signal);
     };
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        const bool isIgnored = std::signal(signal, interrupt) == SIG_IGN;
-        if (isIgnored && signal == SIGHUP) std::signal(signal, SIG_IGN); // nohup; a script's background ignores SIGINT, and yet means it
-    }
-    std::signal(SIGPIPE, SIG_IGN);
+    catchEnding(interrupt, KeepIgnored::hangUp); // a script's background ignores SIGINT, and yet means it
+    ignoreLostReader();
 }
 
 } // namespace physvib

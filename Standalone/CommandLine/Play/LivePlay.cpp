@@ -6,6 +6,7 @@
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/OscReport.h"
+#include "CommandLine/Process.h"
 #include "Session/BoardOutput.h"
 #include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/PlayedRecorder.h"
@@ -19,7 +20,6 @@
 #include <memory>
 #include <optional>
 #include <sstream>
-#include <unistd.h>
 
 namespace physvib {
 
@@ -63,7 +63,7 @@ private:
         if (journal_ && trouble.empty()) trouble = journal_->news();
         report(trouble);
         if (osc_) oscReport_.tellWrong(osc_->status().counts);
-        static const bool isTerminal = isatty(STDERR_FILENO) != 0;
+        static const bool isTerminal = isErrorTerminal();
         if (isTerminal) show(status);
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writing beside, then renaming; progress on a terminal only.
 #include "CommandLine/Render/RenderOutputs.h"
+#include "CommandLine/Process.h"
 #include "CommandLine/Render/LevelReport.h"
 #include "CommandLine/Render/MarkWords.h"
 #include "Host/Pictures/RenderPicture.h"
@@ -8,7 +9,6 @@
 #include <cstdio>
 #include <iomanip>
 #include <ostream>
-#include <unistd.h>
 
 namespace physvib {
 
@@ -159,7 +159,7 @@ std::string RenderOutputs::writePictureFile() {
 }
 
 void RenderOutputs::showProgress() {
-    static const bool isTerminal = isatty(STDERR_FILENO) != 0;
+    static const bool isTerminal = isErrorTerminal();
     const int percent = static_cast<int>(100 * framesTaken_ / job_.frames());
     if (!isTerminal || percent == percentShown_) return;
     percentShown_ = percent;

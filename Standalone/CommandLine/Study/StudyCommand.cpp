@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every participant, one after the other, answered by the observer.
 #include "CommandLine/Study/StudyCommand.h"
+#include "CommandLine/Process.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
@@ -14,7 +15,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <thread>
-#include <unistd.h>
 
 namespace physvib {
 namespace {
@@ -31,7 +31,7 @@ std::string codeOf(const StudyOptions& o, int number) {
 }
 
 void showProgress(const Participant& participant, int trials) {
-    static const bool isTerminal = isatty(STDERR_FILENO) != 0;
+    static const bool isTerminal = isErrorTerminal();
     if (isTerminal && trials % 50 == 0) std::cerr << '\r' << participant.code << " trial " << trials << "   \r";
 }
 

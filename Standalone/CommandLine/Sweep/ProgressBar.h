@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far long work is, on a terminal; nothing anywhere else.
 #pragma once
+#include "CommandLine/Process.h"
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <string>
-#include <unistd.h>
 
 namespace physvib {
 
@@ -45,7 +45,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     std::uint64_t whole_, done_ = 0, worked_ = 0;
-    bool isTerminal_ = isatty(STDERR_FILENO) != 0, isShown_ = false;
+    bool isTerminal_ = isErrorTerminal(), isShown_ = false;
     Clock::time_point begin_ = Clock::now(), shown_{};
 };
 

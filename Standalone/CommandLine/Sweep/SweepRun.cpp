@@ -2,6 +2,7 @@
 // The temporary file of a result is the claim to its task: who has it renders, who is killed loses it.
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/ExitCode.h"
+#include "CommandLine/Process.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Sweep/HeardWords.h"
 #include "CommandLine/Sweep/ProgressBar.h"
@@ -9,8 +10,8 @@
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Text/NumberText.h"
 #include "Session/GrowingFile.h"
-#include <array>
 #include <chrono>
+#include <juce_core/juce_core.h>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -24,9 +25,7 @@ using Kind = WorkEnd::Kind;
 class WorkerLog {
 public:
     explicit WorkerLog(const SweepFolder& folder) {
-        std::array<char, 256> host{};
-        gethostname(host.data(), host.size() - 1);
-        const auto path = folder.log(std::string{host.data()} + '-' + std::to_string(getpid()));
+        const auto path = folder.log(juce::SystemStats::getComputerName().toStdString() + '-' + std::to_string(processNumber()));
         std::error_code isThere;
         std::filesystem::create_directories(path.parent_path(), isThere);
         file_.open(path);

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each job does every so many-th task, so that all take about as long; which are done already, the folder says.
 #include "CommandLine/Sweep/SweepSlurm.h"
+#include "CommandLine/Process.h"
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <iostream>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <system_error>
-#include <unistd.h>
-
-extern char** environ;
 
 namespace physvib {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string program() {
-    std::error_code none;
-    const auto path = fs::read_symlink("/proc/self/exe", none);
-    return none ? "physvib" : path.string();
-}
 
 std::string inShellQuotes(const fs::path& path) { return '"' + path.string() + '"'; }
 
@@ -41,20 +27,15 @@ std::string slurmScript(const SlurmSweep& sweep) {
     text += "#SBATCH --job-name=physvib\n#SBATCH --array=1-" + jobs + "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n";
     text += "#SBATCH --chdir=" + inShellQuotes(fs::current_path()) + "\n#SBATCH --output=" + inShellQuotes(sweep.folder / "slurm" / "%A_%a.txt") + '\n';
     for (const std::string& word : sweep.words) text += "#SBATCH " + word + '\n';
-    text += "exec " + inShellQuotes(program()) + " sweep " + inShellQuotes(sweep.design) + " --out " + inShellQuotes(sweep.folder);
+    text += "exec " + inShellQuotes(programPath()) + " sweep " + inShellQuotes(sweep.design) + " --out " + inShellQuotes(sweep.folder);
     text += " --jobs \"${SLURM_CPUS_PER_TASK:-1}\" --part \"$SLURM_ARRAY_TASK_ID/" + jobs + '"';
     return text + (sweep.keepsWavs ? " --wav" : "") + (sweep.keepsEvents ? " --events" : "") + '\n';
 }
 
 std::string submitToSlurm(const fs::path& script) {
-    std::string name = "sbatch", path = script.string();
-    std::array<char*, 3> words{name.data(), path.data(), nullptr};
-    pid_t child = 0;
-    std::cout.flush();
-    if (const int fault = posix_spawnp(&child, "sbatch", nullptr, nullptr, words.data(), environ)) return "sbatch: " + std::generic_category().message(fault) + "; the script is " + path;
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? std::string{} : "sbatch did not take " + path;
+    const auto ran = runProgram("sbatch", script.string());
+    if (!ran) return ran.error + "; the script is " + script.string();
+    return ran.value ? std::string{} : "sbatch did not take " + script.string();
 }
 
 } // namespace physvib

@@ -4,7 +4,7 @@
 #include "Core/ClipNumber.h"
 #include "Host/Recordings/HitExport.h"
 #include <algorithm>
-#include <stdlib.h>
+#include <filesystem>
 
 namespace physvib {
 namespace {
@@ -14,6 +14,14 @@ void startAtFirst(std::vector<CollisionEvent>& hits) {
     std::ranges::stable_sort(hits, {}, &CollisionEvent::timeNs);
     const std::int64_t first = hits.front().timeNs;
     for (CollisionEvent& hit : hits) hit.timeNs -= first;
+}
+
+/// A new one: of another's of that name, nobody knows what it is.
+bool isMadeForUsAlone(const std::filesystem::path& folder) {
+    std::error_code fault;
+    if (!std::filesystem::create_directory(folder, fault)) return false;
+    std::filesystem::permissions(folder, std::filesystem::perms::owner_all, fault);
+    return !fault;
 }
 
 Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner, const std::string& path, ClipFormat format) {
@@ -54,9 +62,9 @@ Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, 
 Result<juce::File> DraggedFiles::makeFolder() {
     const auto everyones = juce::File::getSpecialLocation(juce::File::tempDirectory);
     if (!folder_.isDirectory()) {
-        auto name = everyones.getChildFile("physvib-mixer-XXXXXX").getFullPathName().toStdString();
-        if (mkdtemp(name.data()) == nullptr) return Failure{everyones.getFullPathName().toStdString() + ": expected a folder to write what is dragged into"};
-        folder_ = juce::File{name};
+        const auto own = everyones.getChildFile("physvib-mixer-" + juce::Uuid{}.toString());
+        if (!isMadeForUsAlone(own.getFullPathName().toStdString())) return Failure{everyones.getFullPathName().toStdString() + ": expected a folder to write what is dragged into"};
+        folder_ = own;
     }
     const auto folder = folder_.getChildFile(juce::String{++drags_});
     if (const auto made = folder.createDirectory(); made.failed()) return Failure{folder.getFullPathName().toStdString() + ": " + made.getErrorMessage().toStdString()};

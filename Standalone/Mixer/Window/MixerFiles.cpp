@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files in one folder; a copy bears the number of its process.
 #include "Mixer/Window/MixerFiles.h"
+#include "CommandLine/Process.h"
 #include "Files/Disk/AtomicFile.h"
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <unistd.h>
 
 namespace physvib {
 
@@ -23,19 +21,17 @@ juce::PropertiesFile::Options options() {
     return o;
 }
 
-bool isRunning(int process) { return process > 0 && (kill(process, 0) == 0 || errno == EPERM); }
-
 } // namespace
 
 juce::File mixerFolder() {
     const char* configured = std::getenv("XDG_CONFIG_HOME");
-    const juce::File base = configured != nullptr && *configured == '/' ? juce::File{configured} : juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile(".config");
+    const juce::File base = configured != nullptr && *configured == '/' ? juce::File{configured} : juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory);
     return base.getChildFile("physvib");
 }
 
 MixerFiles::MixerFiles(const juce::File& folder)
     : folder_{folder}
-    , copy_{folder.getChildFile(copyPrefix + juce::String{static_cast<int>(getpid())} + ".json")}
+    , copy_{folder.getChildFile(copyPrefix + juce::String{processNumber()} + ".json")}
     , settings_{folder.getChildFile("mixer.settings"), options()} {
     folder_.createDirectory();
     recent_.setMaxNumberOfItems(8);
@@ -54,7 +50,7 @@ void MixerFiles::addRecent(const juce::File& file) {
 std::vector<juce::File> MixerFiles::leftBehind() const {
     std::vector<juce::File> found;
     for (const auto& file : folder_.findChildFiles(juce::File::findFiles, false, juce::String{copyPrefix} + "*.json"))
-        if (!isRunning(file.getFileNameWithoutExtension().fromFirstOccurrenceOf(copyPrefix, false, false).getIntValue())) found.push_back(file);
+        if (!isProcessRunning(file.getFileNameWithoutExtension().fromFirstOccurrenceOf(copyPrefix, false, false).getIntValue())) found.push_back(file);
     std::ranges::sort(found, std::greater{}, [](const juce::File& f) { return f.getLastModificationTime().toMilliseconds(); });
     return found;
 }

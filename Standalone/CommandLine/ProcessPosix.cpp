@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// POSIX: descriptors 0 to 2, signals, other processes.
+#if !defined(_WIN32)
+#include "CommandLine/Process.h"
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <initializer_list>
+#include <iostream>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace physvib {
+namespace {
+
+// A file that is opened while one of them is closed gets its number, and is taken for it. Opened the wrong way round, reading
+// standard input and writing the others stay the errors that they are.
+void openStandardDescriptors() {
+    for (int standard = STDIN_FILENO; standard <= STDERR_FILENO; ++standard)
+        if (fcntl(standard, F_GETFD) < 0 && open("/dev/null", standard == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) std::_Exit(1);
+}
+
+} // namespace
+
+void beginProcess() {
+    openStandardDescriptors();
+    std::signal(SIGXFSZ, SIG_IGN);
+    catchEnding(endBySignal, KeepIgnored::all);
+}
+
+void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const bool wasIgnored = std::signal(signal, handler) == SIG_IGN;
+        if (wasIgnored && (kept == KeepIgnored::all || signal == SIGHUP)) std::signal(signal, SIG_IGN);
+    }
+}
+
+void ignoreLostReader() noexcept { std::signal(SIGPIPE, SIG_IGN); }
+
+bool isErrorTerminal() noexcept { return isatty(STDERR_FILENO) != 0; }
+
+std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept {
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (poll(&input, 1, milliseconds) <= 0) return std::nullopt;
+    const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+    return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+int processNumber() noexcept { return getpid(); }
+
+bool isProcessRunning(int number) noexcept { return number > 0 && (kill(number, 0) == 0 || errno == EPERM); }
+
+std::filesystem::path programPath() {
+    std::error_code none;
+    const auto path = std::filesystem::read_symlink("/proc/self/exe", none);
+    return none ? "physvib" : path;
+}
+
+Result<bool> runProgram(std::string name, std::string argument) {
+    std::array<char*, 3> words{name.data(), argument.data(), nullptr};
+    pid_t child = 0;
+    std::cout.flush();
+    if (const int fault = posix_spawnp(&child, name.c_str(), nullptr, nullptr, words.data(), environ)) return Failure{name + ": " + std::generic_category().message(fault)};
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+} // namespace physvib
+#endif
