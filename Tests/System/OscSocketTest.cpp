@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Datagrams within this computer, on every system.
+#include "Host/Osc/OscSocket.h"
+#include <gtest/gtest.h>
+#include <string>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+constexpr int soon = 10'000, atOnce = 20;
+const std::string here = "127.0.0.1";
+
+std::string textOf(const std::optional<std::span<const char>>& packet) { return packet ? std::string{packet->begin(), packet->end()} : std::string{"nothing"}; }
+
+TEST(OscSockets, APacketArrivesWholeAndItsAnswerComesBack) {
+    auto in = OscSocket::listening(here, 0);
+    ASSERT_TRUE(in) << in.error;
+    EXPECT_GT(in.value.port(), 0);
+    EXPECT_GT(in.value.bufferBytes(), 0);
+    auto out = OscSocket::connected(here + ":" + std::to_string(in.value.port()));
+    ASSERT_TRUE(out) << out.error;
+    EXPECT_FALSE(in.value.wait(atOnce));
+    EXPECT_EQ(textOf(in.value.receive()), "nothing") << "and nobody waits for it";
+    const std::string longest(8'000, 'x');
+    ASSERT_TRUE(out.value.send(longest));
+    ASSERT_TRUE(in.value.wait(soon));
+    EXPECT_EQ(textOf(in.value.receive()), longest);
+    EXPECT_TRUE(in.value.sender().starts_with(here + ":")) << in.value.sender();
+    EXPECT_EQ(in.value.takeLost(), 0U);
+    ASSERT_TRUE(in.value.answer(std::string{"yes"}));
+    ASSERT_TRUE(out.value.wait(soon));
+    EXPECT_EQ(textOf(out.value.receive()), "yes");
+}
+
+TEST(OscSockets, APortHasOneOwner) {
+    auto first = OscSocket::listening(here, 0);
+    ASSERT_TRUE(first) << first.error;
+    auto second = OscSocket::listening(here, first.value.port());
+    ASSERT_TRUE(second) << second.error;
+    EXPECT_NE(second.value.port(), first.value.port());
+    auto moved = std::move(first.value);
+    EXPECT_FALSE(first.value.isOpen());
+    EXPECT_TRUE(moved.isOpen());
+}
+
+TEST(OscSockets, WhatCannotBeIsToldInALine) {
+    EXPECT_FALSE(OscSocket::listening("not an address", 9000));
+    EXPECT_EQ(OscSocket::connected("nowhere").error, "expected HOST:PORT, found \"nowhere\"");
+    EXPECT_FALSE(OscSocket::connected(here + ":70000"));
+    EXPECT_FALSE(OscSocket{}.wait(1)) << "where none is open, nothing comes";
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the programs need of the system, by this program run again.
+#include "CommandLine/Process.h"
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+namespace {
+
+constexpr const char* spokenTo = "--hears-hello-and-the-end";
+constexpr const char* threeWords = "with three words";
+
+/// Whether standard input says hello, and then ends.
+bool hearsHello() {
+    std::string heard;
+    for (int looks = 0; looks < 1'000; ++looks) {
+        char bytes[4];
+        const auto count = readInput(bytes, 20);
+        if (count && *count == 0) return heard.starts_with("hello");
+        if (count) heard.append(bytes, *count);
+    }
+    return false;
+}
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+TEST(Processes, StandardInputIsReadAsItComesAndEnds) {
+    const std::string self = programPath().string();
+    EXPECT_EQ(std::system(("echo hello| " + quoted(self) + ' ' + spokenTo).c_str()), 0);
+    EXPECT_NE(std::system(("echo goodbye| " + quoted(self) + ' ' + spokenTo).c_str()), 0) << "it is this test that hears";
+}
+
+TEST(Processes, AProgramSaysWhetherAllIsWell) {
+    const std::string self = programPath().string();
+    EXPECT_NE(self.find("physvib-system-tests"), std::string::npos);
+    const auto well = runProgram(self, threeWords), ill = runProgram(self, "--no-such-option"), none = runProgram("physvib-no-such-program", "");
+    EXPECT_TRUE(well && well.value) << well.error << ": its argument came as one";
+    EXPECT_TRUE(ill && !ill.value) << ill.error;
+    EXPECT_TRUE(none.error.starts_with("physvib-no-such-program: ")) << none.error;
+}
+
+TEST(Processes, ANumberIsThereWhileItsProcessIs) {
+    EXPECT_TRUE(isProcessRunning(processNumber()));
+    EXPECT_FALSE(isProcessRunning(0));
+    EXPECT_FALSE(isProcessRunning(-1));
+    EXPECT_FALSE(isProcessRunning(2'147'483'646)) << "more than any system has";
+}
+
+TEST(Processes, WhatWasWrittenArrives) {
+    std::printf("words\n");
+    EXPECT_EQ(outputFault(), "");
+}
+
+} // namespace
+} // namespace physvib
+
+int main(int count, char** words) {
+    const std::string_view first = count > 1 ? words[1] : "";
+    if (first == physvib::spokenTo) return physvib::hearsHello() ? 0 : 1;
+    if (first == physvib::threeWords) return 0;
+    if (first == "--no-such-option") return 3;
+    testing::InitGoogleTest(&count, words);
+    return RUN_ALL_TESTS();
+}
