@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Each room includes only what Docs/architecture.md allows it; header-only rooms would slip past the linker.
+# Each room includes only what the rule in CMakeLists.txt allows it; header-only rooms would slip past the linker.
 set(Core_may "Core/")
 set(Wire_may "Wire/|Core/")
 set(Study_may "Study/|Core/|Eigen/|boost/")
