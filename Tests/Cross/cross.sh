@@ -65,7 +65,7 @@ tests() {
     for room in "$@"; do
         program=$folder/house/bin/physvib-$room-tests$suffix
         # shellcheck disable=SC2086 # a list of words
-        timeout 1800 $run "$program" --gtest_brief=1 --gtest_output=json:"$folder/$room.json" ${PHYSVIB_CROSS_FILTER:+--gtest_filter=$PHYSVIB_CROSS_FILTER} >"$folder/$room.txt" 2>"$folder/$room.err" </dev/null || true
+        timeout 5400 $run "$program" --gtest_brief=1 --gtest_output=json:"$folder/$room.json" ${PHYSVIB_CROSS_FILTER:+--gtest_filter=$PHYSVIB_CROSS_FILTER} >"$folder/$room.txt" 2>"$folder/$room.err" </dev/null || true
         tr -d '\r' <"$folder/$room.txt" >"$folder/$room.log"
         passed=$(sed -n 's/^\[  PASSED  \] \([0-9]*\) test.*/\1/p' "$folder/$room.log")
         wrong=$(grep -c '^\[  FAILED  \].*(' "$folder/$room.log" || true)
