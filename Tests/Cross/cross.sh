@@ -69,13 +69,13 @@ tests() {
         tr -d '\r' <"$folder/$room.txt" >"$folder/$room.log"
         passed=$(sed -n 's/^\[  PASSED  \] \([0-9]*\) test.*/\1/p' "$folder/$room.log")
         wrong=$(grep -c '^\[  FAILED  \].*(' "$folder/$room.log" || true)
-        skipped=$(grep -c '^\[  SKIPPED \]' "$folder/$room.log" || true)
+        skipped=$(sed -n 's/^\[  SKIPPED \] \([0-9]*\) test.*/\1/p' "$folder/$room.log")
         [ "$room" != core ] || errors "$folder/$room.json"
         if [ -z "$passed" ]; then # it did not come to its end
             tail -n 5 "$folder/$room.log" "$folder/$room.err" >&2
             wrong=$((wrong + 1))
         fi
-        say "$room: ${passed:-0} passed, $wrong failed, $skipped skipped"
+        say "$room: ${passed:-0} passed, $wrong failed, ${skipped:-0} skipped"
         grep -B 8 '^\[  FAILED  \].*(' "$folder/$room.log" >&2 || true
         ran=$((ran + ${passed:-0} + wrong))
         failed=$((failed + wrong))
