@@ -2,6 +2,7 @@
 // Windows: handles, the console's signals, other processes.
 #if defined(_WIN32)
 #include "CommandLine/Process.h"
+#include "Files/Disk/SystemWindows.h"
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -11,11 +12,6 @@
 #include <iostream>
 #include <process.h>
 #include <system_error>
-#define WIN32_LEAN_AND_MEAN
-#if !defined(NOMINMAX)
-#define NOMINMAX
-#endif
-#include <windows.h>
 
 namespace physvib {
 namespace {

@@ -2,15 +2,11 @@
 // Windows: CreateFile, WriteFile, LockFileEx. What is open may be renamed and removed by anybody, as on POSIX.
 #if defined(_WIN32)
 #include "Files/Disk/SystemFile.h"
+#include "Files/Disk/SystemWindows.h"
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cwchar>
-#define WIN32_LEAN_AND_MEAN
-#if !defined(NOMINMAX)
-#define NOMINMAX
-#endif
-#include <windows.h>
 
 namespace physvib {
 namespace {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Windows: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsPosix.h is the other one.
 #pragma once
+#include "Files/Disk/SystemWindows.h"
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <system_error>
-#define WIN32_LEAN_AND_MEAN
-#if !defined(NOMINMAX)
-#define NOMINMAX
-#endif
 #include <winsock2.h>
 #include <ws2tcpip.h>
 
