@@ -66,8 +66,7 @@ Result<OscSocket> OscSocket::listening(const std::string& address, int port) {
         const auto found = lookUp(address, tried, AI_PASSIVE | AI_NUMERICHOST);
         if (!found) return Failure{found.error};
         OscSocket own{openedFor(*found.value)};
-        if (own.isOpen()) sockets::wantOwnPort(systems(own.handle_));
-        if (own.isOpen() && bind(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value)) == 0) {
+        if (own.isOpen() && sockets::takePort(systems(own.handle_), found.value->ai_addr, lengthOf(*found.value))) {
             setsockopt(systems(own.handle_), SOL_SOCKET, SO_RCVBUF, reinterpret_cast<const char*>(&wantedBufferBytes), sizeof wantedBufferBytes);
             sockaddr_storage bound{};
             socklen_t size = sizeof bound;

@@ -23,10 +23,11 @@ inline void begin() noexcept {}
 inline Handle open(int family) noexcept { return socket(family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
 inline void close(Handle socket) noexcept { ::close(socket); }
 
-/// Before it has its port. Without SO_REUSEADDR: of two programs that have it, one would get nothing, and nobody would be told.
-inline void wantOwnPort(Handle socket) noexcept {
+/// That port for this socket alone, or false. Without SO_REUSEADDR: of two programs that have it, one would get nothing, and nobody would be told.
+inline bool takePort(Handle socket, const sockaddr* address, socklen_t size) noexcept {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+    return bind(socket, address, size) == 0;
 }
 
 /// Of the last call: in words, and whether another program has that port.

@@ -34,10 +34,11 @@ inline Handle open(int family) noexcept {
     return INVALID_SOCKET;
 }
 
-/// Before it has its port: any other program could take it too, unless told.
-inline void wantOwnPort(Handle socket) noexcept {
+/// That port for this socket alone, or false: any other program could take it too, unless told.
+inline bool takePort(Handle socket, const sockaddr* address, socklen_t size) noexcept {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_EXCLUSIVEADDRUSE, reinterpret_cast<const char*>(&on), sizeof on);
+    return bind(socket, address, size) == 0;
 }
 
 /// Of the last call: in words, and whether another program has that port.
