@@ -4,7 +4,6 @@
 #pragma once
 #include "Files/Result.h"
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,9 +36,6 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
 /// By which other processes know this one, and whether there is one of that number. Any thread but R.
 int processNumber() noexcept;
 bool isProcessRunning(int number) noexcept;
-
-/// Where this program lies; its plain name where the system does not tell. Any thread but R.
-std::filesystem::path programPath();
 
 /// Runs a program of that name, with what we have for standard streams, to its end: whether it said that all is well, or why it did not begin. M.
 Result<bool> runProgram(std::string name, std::string argument);

@@ -57,12 +57,6 @@ int processNumber() noexcept { return getpid(); }
 
 bool isProcessRunning(int number) noexcept { return number > 0 && (kill(number, 0) == 0 || errno == EPERM); }
 
-std::filesystem::path programPath() {
-    std::error_code none;
-    const auto path = std::filesystem::read_symlink("/proc/self/exe", none);
-    return none ? "physvib" : path;
-}
-
 Result<bool> runProgram(std::string name, std::string argument) {
     std::array<char*, 3> words{name.data(), argument.data(), nullptr};
     pid_t child = 0;

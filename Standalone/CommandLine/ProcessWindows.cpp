@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <initializer_list>
 #include <io.h>
 #include <iostream>
@@ -61,12 +62,6 @@ bool isProcessRunning(int number) noexcept {
     const bool isRunning = WaitForSingleObject(process, 0) == WAIT_TIMEOUT; // until nobody holds it, a process that ended has its number
     CloseHandle(process);
     return isRunning;
-}
-
-std::filesystem::path programPath() {
-    wchar_t path[MAX_PATH];
-    const DWORD length = GetModuleFileNameW(nullptr, path, MAX_PATH);
-    return length == 0 || length == MAX_PATH ? std::filesystem::path{"physvib"} : std::filesystem::path{path};
 }
 
 Result<bool> runProgram(std::string name, std::string argument) {

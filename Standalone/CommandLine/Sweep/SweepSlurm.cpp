@@ -3,6 +3,7 @@
 #include "CommandLine/Sweep/SweepSlurm.h"
 #include "CommandLine/Process.h"
 #include <algorithm>
+#include <juce_core/juce_core.h>
 
 namespace physvib {
 namespace {
@@ -27,7 +28,7 @@ std::string slurmScript(const SlurmSweep& sweep) {
     text += "#SBATCH --job-name=physvib\n#SBATCH --array=1-" + jobs + "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n";
     text += "#SBATCH --chdir=" + inShellQuotes(fs::current_path()) + "\n#SBATCH --output=" + inShellQuotes(sweep.folder / "slurm" / "%A_%a.txt") + '\n';
     for (const std::string& word : sweep.words) text += "#SBATCH " + word + '\n';
-    text += "exec " + inShellQuotes(programPath()) + " sweep " + inShellQuotes(sweep.design) + " --out " + inShellQuotes(sweep.folder);
+    text += "exec " + inShellQuotes(juce::File::getSpecialLocation(juce::File::hostApplicationPath).getFullPathName().toStdString()) + " sweep " + inShellQuotes(sweep.design) + " --out " + inShellQuotes(sweep.folder);
     text += " --jobs \"${SLURM_CPUS_PER_TASK:-1}\" --part \"$SLURM_ARRAY_TASK_ID/" + jobs + '"';
     return text + (sweep.keepsWavs ? " --wav" : "") + (sweep.keepsEvents ? " --events" : "") + '\n';
 }
