@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Calls of the `physvib` program inside a folder of the test's own, and what they left.
 #pragma once
+#include "TestPlaces.h"
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib render --coupling`: hits on a 7 x 5 grid, felt through simulated enchanters that move each other.
 #include "Calls.h"
+#include "TestPlaces.h"
 #include <cmath>
 #include <complex>
 #include <cstring>

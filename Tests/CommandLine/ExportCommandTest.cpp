@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib export`, and its files through `physvib render`: how near they are to what was exported.
 #include "Calls.h"
+#include "TestPlaces.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>

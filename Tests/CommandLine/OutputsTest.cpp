@@ -2,6 +2,7 @@
 // What every command that writes keeps to: inputs stay, one file is written once, words arrive or their loss is told, and an end by
 // a signal leaves nothing half done.
 #include "Calls.h"
+#include "TestPlaces.h"
 #include <algorithm>
 #include <chrono>
 #include <csignal>

@@ -2,6 +2,7 @@
 // `physvib study`: each of the thesis' studies run whole by the observer, cut off in the middle, and analysed.
 #include "Calls.h"
 #include "Files/Text/CsvTable.h"
+#include "TestPlaces.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>

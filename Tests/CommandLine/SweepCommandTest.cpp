@@ -4,6 +4,7 @@
 #include "Files/EventsCsv.h"
 #include "Files/Text/CsvTable.h"
 #include "Files/Text/NumberText.h"
+#include "TestPlaces.h"
 #include <algorithm>
 #include <cmath>
 

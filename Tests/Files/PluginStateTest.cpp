@@ -4,6 +4,7 @@
 #include "Files/Disk/ReadFile.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/SceneFile.h"
+#include "TestPlaces.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

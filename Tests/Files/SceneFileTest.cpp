@@ -6,6 +6,7 @@
 #include "Files/Disk/FileLimits.h"
 #include "Files/SceneCatalogue.h"
 #include "Physics/Simulation.h"
+#include "TestPlaces.h"
 #include <algorithm>
 
 namespace physvib {

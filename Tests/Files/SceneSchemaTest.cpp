@@ -2,6 +2,7 @@
 // The published schema says what the reader does: the same fields, ranges and words.
 #include "Files/Disk/ReadFile.h"
 #include "Physics/Scenes/SceneFields.h"
+#include "TestPlaces.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>

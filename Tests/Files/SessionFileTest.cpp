@@ -4,6 +4,7 @@
 #include "FileTesting.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Disk/ReadFile.h"
+#include "TestPlaces.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

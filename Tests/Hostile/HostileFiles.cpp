@@ -4,6 +4,7 @@
 #include "Files/Text/CleanText.h"
 #include "Support/Mutations.h"
 #include "Support/WavBytes.h"
+#include "TestPlaces.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "Files/Disk/ReadFile.h"
 #include "Files/Text/NumberText.h"
 #include "Host/Osc/OscPort.h"
+#include "TestPlaces.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -5,6 +5,7 @@
 #include "Files/Disk/ReadFile.h"
 #include "Session/OfflineRender.h"
 #include "Physics/Scenes/SceneRun.h"
+#include "TestPlaces.h"
 
 namespace physvib {
 namespace {

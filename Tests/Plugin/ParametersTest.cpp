@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of parameters: ids are promises, values survive both mappings, words are read back.
 #include "Parameters.h"
+#include "TestPlaces.h"
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>

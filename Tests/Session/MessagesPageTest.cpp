@@ -6,6 +6,7 @@
 #include "Files/SceneFile.h"
 #include "Files/Text/NumberText.h"
 #include "Session/Messages/MessageRouter.h"
+#include "TestPlaces.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -4,6 +4,7 @@
 #include "Participant.h"
 #include "Files/Text/CsvTable.h"
 #include "Files/ProtocolFile.h"
+#include "TestPlaces.h"
 #include <cstdlib>
 
 namespace physvib {

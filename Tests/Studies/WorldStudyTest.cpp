@@ -8,6 +8,7 @@
 #include "Files/Text/CsvTable.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Host/FakeAudioDevice.h"
+#include "TestPlaces.h"
 #include <cmath>
 #include <cstdlib>
 #include <span>

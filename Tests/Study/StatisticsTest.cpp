@@ -6,6 +6,7 @@
 #include "Study/Statistics/RankTests.h"
 #include "Study/Statistics/RepeatedMeasures.h"
 #include "Study/Statistics/ShapiroWilk.h"
+#include "TestPlaces.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
