@@ -13,11 +13,16 @@ stop() {
 trap stop EXIT
 trap "exit 1" HUP INT TERM
 
-# serve RATE BLOCK_FRAMES PORTS [-s]: synchronous unless told.
+# serve RATE BLOCK_FRAMES PORTS [-s]: synchronous unless told. A server that ends, or does not answer in 20 s, is told with its last line.
 serve() {
     jackd -n "$JACK_DEFAULT_SERVER" -r "${4:--S}" -d dummy -r "$1" -p "$2" -C 0 -P "$3" >>"$folder/jackd.log" 2>&1 &
     server=$!
-    jack_wait -w -t 20 >/dev/null 2>&1
+    for _ in $(seq 20); do
+        jack_wait -w -t 1 >/dev/null 2>&1 && return
+        kill -0 "$server" 2>/dev/null || break
+    done
+    echo "the JACK server $JACK_DEFAULT_SERVER did not start; its last line: $(grep . "$folder/jackd.log" | tail -n 1)" >&2
+    return 1
 }
 
 # close_server: another may be started then.
