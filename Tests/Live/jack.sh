@@ -21,7 +21,7 @@ serve() {
         jack_wait -w -t 1 >/dev/null 2>&1 && return
         kill -0 "$server" 2>/dev/null || break
     done
-    echo "the JACK server $JACK_DEFAULT_SERVER did not start; its last line: $(grep . "$folder/jackd.log" | tail -n 1)" >&2
+    echo "the JACK server $JACK_DEFAULT_SERVER did not start; its last line: $(grep -a . "$folder/jackd.log" | tail -n 1)" >&2
     return 1
 }
 
