@@ -1,0 +1,57 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Everything that is too long for test.sh: the other modules under the sanitizers, a million fuzzed inputs, soaks, other processors and
+# systems, programs of others that judge ours. It needs root, a network, and about nine hours on two cores.
+# Prints a line per step as it ends, and a table. Logs: build/nightly/STEP.log. Exit code 1 if a step failed.
+# Usage: nightly.sh [STEP...]; nightly.sh --list
+set -u
+cd "$(dirname "$0")/.."
+. .ci/packages.sh
+bin=build/release/bin
+
+under() { build "$1" all && ctest --preset "$1" -j2 -LE 'live|display|checked' && ctest --preset "$1" -L display --repeat until-pass:2; }
+step() {
+    case $1 in
+        asan) under asan ;;
+        tsan) under tsan ;;
+        fuzz) build asan physvib-fuzzers && Tests/Fuzz/run.sh 1000000 ;;
+        hostile) Tests/Hostile/run.sh 10000 ;;
+        kills) Tests/CommandLine/kills.sh $bin 200 render study sweep play ;;
+        full-disk) Tests/CommandLine/full-disk.sh $bin ;;
+        quick) Tests/quick.py build/release ;;
+        osc) Tests/Osc/run.sh $bin ;;
+        live) Tests/Live/soak.sh ;;
+        mixer) Tests/Mixer/soak.sh ;;
+        hours) Tests/ten-hours.sh ;;
+        realtime) Tests/Realtime/rtsan.sh ;;
+        projucer) Tests/House/projucer.sh ;;
+        sweep) Tests/Sweep/speed.sh $bin && Tests/Sweep/cluster.sh $bin ;;
+        web) Tests/web.sh $bin/physvib ;;
+        site) Tests/site.sh ;;
+        report) Tests/figures/report.sh $bin/physvib build/nightly/report ;;
+        arm64) Tests/arm64.sh $bin/physvib-render ;;
+        windows) Tests/windows.sh $bin/physvib-render ;;
+        fresh) Tests/fresh-machine.sh ;;
+        pages) Tests/fresh-machine.sh --pages ;;
+        packages) Tests/Release/bare-debian.sh ;;
+        reproducible) Tests/Release/reproducible.sh ;;
+        *) echo "no step of this name" && return 2 ;;
+    esac
+}
+steps=$(sed -n 's/^        \([a-z0-9-]*\)) .*;;$/\1/p' "$0")
+[ "${1:-}" != --list ] || { echo "$steps" && exit; }
+[ $# -eq 0 ] || steps="$*"
+
+# shellcheck disable=SC2086 # a list of words
+ensure_packages $physvib_test_packages && build release all || exit 1
+mkdir -p build/nightly
+table=$(mktemp)
+trap 'rm -f "$table"' EXIT
+for name in $steps; do
+    began=$(date +%s)
+    if (step "$name") >"build/nightly/$name.log" 2>&1; then ended=passed; else ended=FAILED; fi
+    printf '%-14s %-7s %6d s  %s\n' "$name" "$ended" $(($(date +%s) - began)) "$(grep -a . "build/nightly/$name.log" | tail -n 1 | cut -c1-90)" | tee -a "$table"
+done
+echo
+cat "$table"
+! grep -q FAILED "$table"
