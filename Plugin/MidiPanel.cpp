@@ -2,13 +2,13 @@
 // Rows of words, and a form for each kind of rule. What a form asks for is checked by the reader of states.
 #include "MidiPanel.h"
 #include "EditorParts.h"
-#include "Host/Pictures/PictureCanvas.h"
+#include "Host/Views/Palette.h"
 
 namespace physvib {
 
 namespace {
 
-using picture::number;
+const auto number = readable::words;
 constexpr int rowPixels = 30;
 
 juce::String percent(double share) { return number(100.0 * share, 0) + " %"; }

@@ -3,7 +3,7 @@
 #include "PluginEditor.h"
 #include "EditorParts.h"
 #include "Files/SceneCatalogue.h"
-#include "Host/Pictures/Palette.h"
+#include "Host/Views/Palette.h"
 #include "OpenedFile.h"
 
 namespace physvib {

@@ -11,12 +11,17 @@
 #include "Physics/Scenes/SceneRun.h"
 #include "Session/OfflineRender.h"
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <physvib/Version.h>
+
+#if PHYSVIB_PICTURES
+#include "RenderedPicture.h"
+#endif
 
 using namespace physvib;
 
@@ -25,7 +30,7 @@ namespace {
 constexpr int exitFailed = 1, exitUsage = 2; // as of `physvib`
 
 struct Options {
-    std::string input, layout = "phone4", instructions = "best", wavPath, eventsPath;
+    std::string input, layout = "phone4", instructions = "best", wavPath, eventsPath, picturePath;
     double seconds = 10.0;
     int sampleRateHz = 48000;
     SceneRun run;
@@ -42,8 +47,9 @@ int leave(int code, std::string_view reason) {
 
 /// What is played, and in what field.
 struct Source {
+    std::optional<Scene> scene; ///< none: a list
     std::vector<CollisionEvent> events;
-    std::uint64_t drops = 0; ///< collisions that the world had no room for
+    std::uint64_t drops = 0;                      ///< collisions that the world had no room for
     double widthMetres = 0.0, heightMetres = 0.0; ///< 0: those of the layout
     Provenance provenance{PHYSVIB_VERSION, {}};
 };
@@ -64,22 +70,25 @@ Result<Source> sourceOf(const Options& o) {
     source.drops = made.drops;
     source.widthMetres = scene.value.fieldWidthMetres;
     source.heightMetres = scene.value.fieldHeightMetres;
-    source.provenance.entries = {{"scene", scene.value.name}, {"seed", std::to_string(o.run.seed)}, {"steps_per_second", std::to_string(o.run.stepsPerSecond)}};
-    for (const SceneVariable& variable : scene.value.variables) source.provenance.entries.emplace_back(variable.name, variable.value);
+    source.provenance.entries = {{"scene", scene.value.name},
+                                 {"seed", std::to_string(o.run.seed)},
+                                 {"steps_per_second", std::to_string(o.run.stepsPerSecond)}};
+    for (const SceneVariable& variable : scene.value.variables)
+        source.provenance.entries.emplace_back(variable.name, variable.value);
+    source.scene = scene.value;
     return source;
 }
 
-Result<EnchanterLayout> layoutOf(const std::string& name) {
+Result<LayoutDescription> layoutOf(const std::string& name) {
     EnchanterLayout preset;
-    if (layoutPreset(name, preset)) return preset;
-    auto layout = loadLayout(name);
-    return layout ? Result<EnchanterLayout>{layout.value.geometry} : Failure{layout.error};
+    return layoutPreset(name, preset) ? describeLayout(name, preset) : loadLayout(name);
 }
 
 RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, const Source& source) {
     const bool hasField = source.widthMetres > 0.0;
     RendererSettings settings{.sampleRateHz = o.sampleRateHz,
-                              .panner = {layout, PanningLaw::linear, 1.0, hasField ? source.widthMetres : layout.extentWidthMetres,
+                              .panner = {layout, PanningLaw::linear, 1.0,
+                                         hasField ? source.widthMetres : layout.extentWidthMetres,
                                          hasField ? source.heightMetres : layout.extentHeightMetres}};
     const auto set = std::ranges::find(instructionSetNames, o.instructions);
     settings.instructions = static_cast<InstructionSet>(set - instructionSetNames.begin());
@@ -91,20 +100,64 @@ void warn(std::uint64_t count, const char* what) {
     if (count > 0) leave(0, "warning: " + std::string{what} + ": " + std::to_string(count));
 }
 
-std::string writeWav(const Options& o, const Source& source, const RendererSettings& settings) {
-    FloatWav wav{o.wavPath, settings.outputs(), o.sampleRateHz, o.frames()};
-    if (!wav.error().empty()) return wav.error();
-    const auto status = renderOffline(source.events, {settings, o.frames()}, [&](const float* const* channels, int frames) { return wav.write(channels, frames); });
+#if PHYSVIB_PICTURES
+/// What the picture says and shows beside events and sound.
+PictureInput pictureWords(const Options& o, const Source& source, const LayoutDescription& layout,
+                          const RendererSettings& settings) {
+    PictureInput picture;
+    picture.title = source.scene ? source.scene->name : std::filesystem::path{o.input}.filename().string();
+    picture.subtitle = source.scene ? source.scene->description : "an event list";
+    picture.fieldWidthMetres = settings.panner.fieldWidthMetres();
+    picture.fieldHeightMetres = settings.panner.fieldHeightMetres();
+    if (source.scene) {
+        picture.scene = &*source.scene;
+        picture.bodies = bodiesAtStrongest(*source.scene, o.run, source.events);
+    }
+    picture.layout = layout.geometry;
+    for (const auto& enchanter : layout.enchanters) picture.labels.push_back(enchanter.label);
+    picture.law = "linear law";
+    picture.provenance = provenanceLine(source.provenance);
+    return picture;
+}
+#endif
+
+/// Writes the WAV file and the picture, those that are wanted.
+std::string writeSound(const Options& o, const Source& source, const LayoutDescription& layout) {
+    const RendererSettings settings = settingsOf(o, layout.geometry, source);
+    std::optional<FloatWav> wav;
+    if (!o.wavPath.empty() &&
+        !wav.emplace(o.wavPath, settings.outputs(), o.sampleRateHz, o.frames()).error().empty())
+        return wav->error();
+#if PHYSVIB_PICTURES
+    std::optional<RenderedPicture> picture;
+    if (!o.picturePath.empty() &&
+        !picture.emplace(o.picturePath, source.events, settings.outputs(), o.sampleRateHz, o.frames())
+             .error()
+             .empty())
+        return picture->error();
+#endif
+    const auto status =
+        renderOffline(source.events, {settings, o.frames()}, [&](const float* const* channels, int frames) {
+#if PHYSVIB_PICTURES
+            if (picture) picture->take(channels, frames);
+#endif
+            return !wav || wav->write(channels, frames);
+        });
     warn(status.rejected, "events that could not be played");
     warn(status.stolen, "modes faded out early because too many different ones sounded at once");
-    return wav.commit();
+    std::string error = wav ? wav->commit() : "";
+#if PHYSVIB_PICTURES
+    if (error.empty() && picture) error = picture->commit(pictureWords(o, source, layout, settings));
+#endif
+    return error;
 }
 
 /// Renders and writes: empty, or one line.
 std::string render(const Options& o) {
     const auto layout = layoutOf(o.layout);
     if (!layout) return layout.error;
-    if (!o.wavPath.empty() && !fitsWav(layout.value.count, o.frames())) return "--seconds: too long; a WAV file holds at most 4 GB of samples";
+    if (!o.wavPath.empty() && !fitsWav(layout.value.geometry.count, o.frames()))
+        return "--seconds: too long; a WAV file holds at most 4 GB of samples";
     std::optional<AtomicFile> list;
     if (!o.eventsPath.empty() && !list.emplace(o.eventsPath).error().empty()) return list->error();
     const auto source = sourceOf(o);
@@ -112,7 +165,8 @@ std::string render(const Options& o) {
     warn(source.value.drops, "collisions lost because too many began in one physics step");
     std::string error;
     if (list) error = list->write(eventsCsv(source.value.events, source.value.provenance));
-    if (error.empty() && !o.wavPath.empty()) error = writeWav(o, source.value, settingsOf(o, layout.value, source.value));
+    if (error.empty() && !(o.wavPath.empty() && o.picturePath.empty()))
+        error = writeSound(o, source.value, layout.value);
     if (error.empty() && list) error = list->commit();
     if (error.empty()) std::cout << source.value.events.size() << " events\n";
     return error;
@@ -121,16 +175,29 @@ std::string render(const Options& o) {
 void declare(CLI::App& app, Options& o) {
     app.set_version_flag("--version", "physvib-render " PHYSVIB_VERSION);
     app.add_option("scene", o.input, "a built-in scene, SCENE.json, or EVENTS.csv")->required();
-    app.add_option("--seconds", o.seconds, "length of the render")->check(inRange(0.001, 86400.0, " s"))->capture_default_str();
+    app.add_option("--seconds", o.seconds, "length of the render")
+        ->check(inRange(0.001, 86400.0, " s"))
+        ->capture_default_str();
     app.add_option("--seed", o.run.seed, "seed of the scene")->capture_default_str();
     app.add_option("--steps-per-second", o.run.stepsPerSecond, "physics steps per second")
-        ->check(inRange(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond))->capture_default_str();
-    app.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")->capture_default_str();
-    app.add_option("--rate", o.sampleRateHz, "sample rate in Hz")->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz))->capture_default_str();
-    app.add_option("--instructions", o.instructions, "vector instructions; scalar: the same bytes on every machine")
-        ->check(CLI::IsMember(std::vector<std::string>(instructionSetNames.begin(), instructionSetNames.end())))->capture_default_str();
+        ->check(inRange(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond))
+        ->capture_default_str();
+    app.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")
+        ->capture_default_str();
+    app.add_option("--rate", o.sampleRateHz, "sample rate in Hz")
+        ->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz))
+        ->capture_default_str();
+    app.add_option("--instructions", o.instructions,
+                   "vector instructions; scalar: the same bytes on every machine")
+        ->check(
+            CLI::IsMember(std::vector<std::string>(instructionSetNames.begin(), instructionSetNames.end())))
+        ->capture_default_str();
     app.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav");
     app.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");
+#if PHYSVIB_PICTURES
+    app.add_option("--picture", o.picturePath, "the world, every channel and every hit")
+        ->type_name("FILE.png");
+#endif
 }
 
 extern "C" void endNow(int signal) {
@@ -143,15 +210,18 @@ extern "C" void endNow(int signal) {
 int main(int argc, char** argv) {
     for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, endNow);
     Options o;
-    CLI::App app{"Collisions one can feel: a scene or an event list to a WAV file. The library without windows and devices."};
+    CLI::App app{"Collisions one can feel: a scene or an event list to a WAV file. The library without "
+                 "windows and devices."};
     declare(app, o);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
         return end.get_exit_code() == 0 ? app.exit(end) : leave(exitUsage, end.what());
     }
-    const std::vector<std::string> outputs{o.wavPath, o.eventsPath}, inputs{o.input};
-    if (o.wavPath.empty() && o.eventsPath.empty()) return leave(exitUsage, "expected --out or --events");
+    const std::vector<std::string> outputs{o.wavPath, o.eventsPath, o.picturePath}, inputs{o.input};
+    if (std::ranges::all_of(outputs, &std::string::empty))
+        return leave(exitUsage, PHYSVIB_PICTURES ? "expected --out, --events or --picture"
+                                                 : "expected --out or --events");
     if (const std::string clash = fileClash(outputs, inputs); !clash.empty()) return leave(exitUsage, clash);
     try {
         const std::string error = render(o);

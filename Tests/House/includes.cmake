@@ -12,15 +12,16 @@ set(Api_may "Api/C/|Files/|Contacts/|Core/")
 set(Api/Live_may "Api/|Host/|Session/|Files/|Core/|juce_")
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
 set(Standalone/Web_may "PageWorld\\.h|Files/|Physics/|Contacts/|Core/")
-set(Standalone/Render_may "InRange\\.h|Session/OfflineRender\\.h|Files/|Physics/|Contacts/|Core/")
-set(Host_may "Host/|aubio/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
+set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Session/OfflineRender\\.h|Files/|Physics/|Contacts/|Core/")
+set(Pictures_may "Pictures/|Study/|Files/|Physics/|Core/|ft2build|png\\.h")
+set(Host_may "Host/|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
 set(Host/Osc_may "Host/Osc/|Session/|Files/|Physics/|Core/|lo/")
 set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
 # Core also stays free of what a board without an operating system lacks.
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Study Contacts Physics Files Formats Measure Api Api/Live Session Host Host/Osc Plugin Standalone/Render Standalone/Web)
+foreach(room Core Wire Study Contacts Physics Files Formats Measure Pictures Api Api/Live Session Host Host/Osc Plugin Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # a room of its own, under another licence
         list(FILTER files EXCLUDE REGEX "/Api/Live/")
@@ -32,7 +33,7 @@ foreach(room Core Wire Study Contacts Physics Files Formats Measure Api Api/Live
         foreach(line ${includes})
             if(line MATCHES "include *\"" AND NOT line MATCHES "\"(${${room}_may})")
                 list(APPEND bad "${file}: ${line}")
-            elseif(line MATCHES "<(aubio/|lo/|box2d|juce_|nlohmann|Eigen/|unsupported/|boost/)" AND NOT line MATCHES "<(${${room}_may})")
+            elseif(line MATCHES "<(aubio/|lo/|box2d|juce_|nlohmann|Eigen/|unsupported/|boost/|ft2build|png\\.h)" AND NOT line MATCHES "<(${${room}_may})")
                 list(APPEND bad "${file}: ${line}")
             elseif(room STREQUAL "Core" AND line MATCHES "${Core_never}")
                 list(APPEND bad "${file}: ${line}")

@@ -59,7 +59,7 @@ set(bad "")
 
 # A Projucer project builds one thing, here the plug-in of one bus.
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/Source/*.cpp ${ROOT}/Plugin/*.cpp)
-list(FILTER sources EXCLUDE REGEX "^Source/(Api|Host/Osc)/") # libraries of their own
+list(FILTER sources EXCLUDE REGEX "^Source/(Api|Pictures|Host/Osc)/") # libraries of their own
 collect(listed_sources "<FILE [^>]*compile=\"1\"[^>]*file=\"([^\"]+\\.cpp)\"" "${jucer}")
 compare(sources listed_sources)
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The look of windows: shades of a dark and a light ground, three sizes of text, and how controls are drawn.
 #pragma once
-#include "Host/Pictures/Palette.h"
+#include "Host/Views/Palette.h"
 #include <juce_gui_basics/juce_gui_basics.h>
 
 namespace physvib {

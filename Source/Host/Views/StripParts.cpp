@@ -2,7 +2,7 @@
 // The meter's scale is the ceiling's way.
 #include "Host/Views/StripParts.h"
 #include "Files/Mix.h"
-#include "Host/Pictures/PictureCanvas.h"
+#include "Host/Views/Palette.h"
 #include <cmath>
 
 namespace physvib {
@@ -15,7 +15,7 @@ void setUpFader(juce::Slider& fader, double least, double most, const juce::Stri
     fader.setSkewFactorFromMidPoint(-15.0);
     fader.setTitle(title);
     fader.setDoubleClickReturnValue(true, 0.0);
-    fader.textFromValueFunction = [](double db) { return db <= leastStripDb ? juce::String{"silent"} : picture::number(db, 1) + " dB"; };
+    fader.textFromValueFunction = [](double db) { return db <= leastStripDb ? juce::String{"silent"} : readable::words(db, 1) + " dB"; };
     fader.setPopupDisplayEnabled(true, true, nullptr);
     fader.setWantsKeyboardFocus(true);
 }
@@ -27,7 +27,7 @@ void PeakMeter::set(float peak, float hold) {
     if (std::abs(height - peak_) < 0.004f && std::abs(held - hold_) < 0.004f) return;
     peak_ = height;
     hold_ = held;
-    setDescription(peak > 0.001f ? picture::number(juce::Decibels::gainToDecibels(peak), 0) + " dB" : juce::String{"silent"});
+    setDescription(peak > 0.001f ? readable::words(juce::Decibels::gainToDecibels(peak), 0) + " dB" : juce::String{"silent"});
     repaint();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a hand does in the world: pulls bodies, moves, attaches and detaches enchanters.
-#include "Host/Pictures/ShapeOutline.h"
+#include "Pictures/ShapeOutline.h"
 #include "Host/Views/DisplayScale.h"
 #include "Host/Views/WorldView.h"
 #include <algorithm>
@@ -21,7 +21,7 @@ int WorldView::bodyAt(juce::Point<float> p) const {
         const auto pose = poseOf(static_cast<std::size_t>(i));
         if (body.type != BodyType::dynamicBody || !pose.isPresent) continue;
         for (const auto& fixture : body.fixtures) {
-            auto path = shapeOutline(fixture.shape, at.pixelsPerMetre);
+            auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
             path.applyTransform(juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
                                     .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre, static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
                                     .followedBy(placeOf(pose, at)));

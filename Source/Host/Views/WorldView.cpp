@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing the world within a frame of a software renderer: plain paths and gradients, nothing blurred.
 #include "Host/Views/WorldView.h"
-#include "Host/Pictures/ShapeOutline.h"
+#include "Pictures/ShapeOutline.h"
 #include "Host/Views/DisplayScale.h"
 #include "Physics/Scenes/SceneCast.h"
 #include <juce_audio_basics/juce_audio_basics.h>
@@ -198,7 +198,7 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
             const auto place = juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
                                    .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre, static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
                                    .followedBy(move);
-            const auto path = shapeOutline(fixture.shape, at.pixelsPerMetre);
+            const auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
             const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
             g.setColour(palette::material(fixture.material).withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f));
             if (isLine) g.strokePath(path, juce::PathStrokeType{3.0f}, place);

@@ -3,7 +3,7 @@
 #include "CommandLine/Analyse/AnalyseLabels.h"
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "Host/Pictures/StudyPictures.h"
+#include "Pictures/StudyPictures.h"
 #include "Study/InformationTransfer.h"
 #include "Study/Proportion.h"
 #include "Study/PulsePattern.h"

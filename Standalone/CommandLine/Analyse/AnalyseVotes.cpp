@@ -3,7 +3,7 @@
 #include "CommandLine/Analyse/AnalyseVotes.h"
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "Host/Pictures/StudyPictures.h"
+#include "Pictures/StudyPictures.h"
 #include <sstream>
 
 namespace physvib {

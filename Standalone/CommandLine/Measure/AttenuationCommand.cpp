@@ -7,7 +7,7 @@
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/Text/NumberText.h"
-#include "Host/Pictures/StudyPictures.h"
+#include "Pictures/StudyPictures.h"
 #include "Study/Coupling.h"
 #include <CLI/CLI.hpp>
 #include <filesystem>

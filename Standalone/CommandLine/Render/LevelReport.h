@@ -4,7 +4,7 @@
 #include "CommandLine/Render/RenderJob.h"
 #include "Core/Limits.h"
 #include "Files/Text/NumberText.h"
-#include "Host/Pictures/WaveformEnvelope.h"
+#include "Pictures/WaveformEnvelope.h"
 #include <algorithm>
 #include <cmath>
 #include <string>

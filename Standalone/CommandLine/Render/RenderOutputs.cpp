@@ -4,7 +4,7 @@
 #include "CommandLine/Process.h"
 #include "CommandLine/Render/LevelReport.h"
 #include "CommandLine/Render/MarkWords.h"
-#include "Host/Pictures/RenderPicture.h"
+#include "Pictures/RenderPicture.h"
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -141,9 +141,7 @@ std::string RenderOutputs::writePictureFile() {
     picture.fieldWidthMetres = job_.fieldWidthMetres();
     picture.fieldHeightMetres = job_.fieldHeightMetres();
     picture.scene = job_.scene ? &*job_.scene : nullptr;
-    if (const auto strongest = strongestEvent(events); job_.scene && strongest >= 0)
-        for (const BodyPose& pose : posesAt(*job_.scene, job_.run(), events[static_cast<std::size_t>(strongest)].timeNs))
-            picture.bodies.push_back({pose.xMetres, pose.yMetres, pose.angleRadians, pose.isPresent});
+    if (job_.scene) picture.bodies = bodiesAtStrongest(*job_.scene, job_.run(), events);
     picture.events = events;
     picture.layout = job_.layout.geometry;
     for (const auto& enchanter : job_.layout.enchanters) picture.labels.push_back(enchanter.label);
@@ -153,9 +151,7 @@ std::string RenderOutputs::writePictureFile() {
     picture.durationSeconds = job_.seconds();
     picture.law = job_.options.law + " law";
     picture.provenance = provenanceText();
-    const juce::ScopedJuceInitialiser_GUI juce; // fonts
-    const juce::MemoryBlock png = picturePng(picture);
-    return pictureFile_->write({static_cast<const char*>(png.getData()), png.getSize()});
+    return pictureFile_->write(picturePng(picture));
 }
 
 void RenderOutputs::showProgress() {

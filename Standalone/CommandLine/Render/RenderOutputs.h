@@ -7,7 +7,7 @@
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
 #include "Host/Recordings/WavSink.h"
-#include "Host/Pictures/WaveformEnvelope.h"
+#include "Pictures/WaveformEnvelope.h"
 #include <iosfwd>
 #include <memory>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "CommandLine/Render/LayoutNamed.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"
-#include "Host/Pictures/RenderPicture.h"
+#include "Pictures/RenderPicture.h"
 #include "Session/StimulusRender.h"
 #include "Host/Recordings/WavSink.h"
 #include <CLI/CLI.hpp>
@@ -46,8 +46,7 @@ std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const 
     picture.durationSeconds = static_cast<double>(frames) / made.sound.sampleRateHz;
     picture.law = o.law + " law";
     picture.provenance = provenance;
-    const juce::MemoryBlock png = picturePng(picture);
-    return {static_cast<const char*>(png.getData()), png.getSize()};
+    return picturePng(picture);
 }
 
 int write(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescription& layout) {

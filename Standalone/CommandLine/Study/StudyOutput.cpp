@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tables and pictures appear together, or not at all.
 #include "CommandLine/Study/StudyOutput.h"
-#include <juce_events/juce_events.h>
 #include <memory>
 
 namespace physvib {
 
 int writeStudyFiles(const std::vector<StudyFile>& files) {
-    const juce::ScopedJuceInitialiser_GUI juce; // fonts
     std::vector<std::unique_ptr<AtomicFile>> open;
     for (const StudyFile& file : files) {
         if (file.path.empty()) continue;

@@ -9,7 +9,7 @@
 #include "Files/Provenance.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/StudyCsv.h"
-#include "Host/Pictures/StudyPictures.h"
+#include "Pictures/StudyPictures.h"
 #include <functional>
 #include <iostream>
 #include <map>

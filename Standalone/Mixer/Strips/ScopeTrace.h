@@ -2,7 +2,7 @@
 // The last moments of every channel, as the lowest and highest sample of each column of a scope.
 #pragma once
 #include "Core/Limits.h"
-#include "Host/Pictures/WaveformEnvelope.h"
+#include "Pictures/WaveformEnvelope.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>

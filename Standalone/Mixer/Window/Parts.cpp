@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Signs as paths, text on grounds.
 #include "Mixer/Window/Parts.h"
-#include "Host/Pictures/PictureCanvas.h"
+#include "Host/Views/Palette.h"
 
 namespace physvib {
 namespace {
@@ -120,6 +120,6 @@ void caption(juce::Label& label, const juce::String& words) {
     label.setBorderSize({0, 0, 0, 0});
 }
 
-juce::String number(double value, int decimals) { return picture::number(value, decimals); }
+juce::String number(double value, int decimals) { return readable::words(value, decimals); }
 
 } // namespace physvib

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Words as outlines, from the fonts of this machine.
+#pragma once
+#include "Pictures/Path.h"
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace physvib::picture {
+
+/// Where fonts are looked for on this system.
+std::vector<std::filesystem::path> fontFolders();
+
+/// A plain and a bold face. Without any font of those we know there are no words: they have no width. One
+/// thread at a time.
+class Letters {
+public:
+    explicit Letters(const std::vector<std::filesystem::path>& folders = fontFolders());
+    ~Letters();
+    Letters(const Letters&) = delete;
+    Letters& operator=(const Letters&) = delete;
+
+    /// `height` is that of a line, from the highest to the lowest letter. In pixels.
+    float width(std::string_view words, float height, bool bold) const;
+    /// The line begins at (0, 0), its baseline.
+    Path outline(std::string_view words, float height, bool bold) const;
+    /// From the top of a line to its baseline, in pixels.
+    float ascent(float height, bool bold) const;
+    bool empty() const noexcept; ///< no font was found
+
+private:
+    struct Fonts;
+    std::unique_ptr<Fonts> fonts_;
+};
+
+} // namespace physvib::picture

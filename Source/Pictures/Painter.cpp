@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Outlines as FreeType takes them, and the spans of pixels that it returns.
+#include "Pictures/Painter.h"
+#include "Pictures/FreeType.h"
+#include <algorithm>
+#include FT_OUTLINE_H
+#include FT_STROKER_H
+
+namespace physvib::picture {
+namespace {
+
+constexpr float furthest = 100000.0f;       // pixels; FreeType refuses outlines that reach further
+constexpr std::size_t longestStroke = 1000; // steps at once: an outline has at most 32767 points
+
+FT_Vector fixed(Spot p) {
+    const auto part = [](float value) {
+        return static_cast<FT_Pos>(std::lround(64.0f * (value > furthest    ? furthest
+                                                        : value > -furthest ? value
+                                                                            : -furthest)));
+    };
+    return {part(p.x), part(p.y)};
+}
+
+/// FreeType's outline, and what it holds.
+struct Outline {
+    std::vector<FT_Vector> points;
+    std::vector<char> tags;
+    std::vector<short> ends;
+
+    void add(const Path& path, const Transform& move) {
+        for (const Path::Part& part : path.parts()) {
+            std::size_t at = 0;
+            for (const Path::Kind kind : part.steps) {
+                const auto count = std::max<std::size_t>(static_cast<std::size_t>(kind), 1);
+                for (std::size_t i = 0; i < count; ++i) {
+                    points.push_back(fixed(move.at(part.points[at++])));
+                    tags.push_back(i + 1 == count              ? FT_CURVE_TAG_ON
+                                   : kind == Path::Kind::cubic ? FT_CURVE_TAG_CUBIC
+                                                               : FT_CURVE_TAG_CONIC);
+                }
+            }
+            ends.push_back(static_cast<short>(points.size() - 1));
+        }
+    }
+    bool fits() const { return points.size() < 32768; }
+    FT_Outline view() {
+        return {static_cast<short>(ends.size()),
+                static_cast<short>(points.size()),
+                points.data(),
+                tags.data(),
+                ends.data(),
+                FT_OUTLINE_NONE};
+    }
+};
+
+} // namespace
+
+struct Painter::Raster {
+    FreeType library;
+    FT_Stroker stroker = nullptr;
+
+    Raster() {
+        if (FT_Stroker_New(library, &stroker) != 0) throw std::runtime_error{"FreeType has no stroker"};
+    }
+    ~Raster() { FT_Stroker_Done(stroker); }
+
+    struct Span {
+        int y;
+        FT_Span of;
+    };
+    std::vector<Span> spans; // of one outline, until it is known that there are no more
+
+    static void take(int y, int count, const FT_Span* found, void* user) {
+        for (int i = 0; i < count; ++i) static_cast<Raster*>(user)->spans.push_back({y, found[i]});
+    }
+
+    void paint(Painter& painter) const {
+        const RadialGradient& g = painter.gradient_;
+        const bool isPlain = g.inner == g.outer;
+        for (const auto& [y, span] : spans)
+            for (int x = span.x; x < span.x + span.len; ++x) {
+                const Spot pixel{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+                const Colour colour =
+                    isPlain
+                        ? g.inner
+                        : g.inner.mixedWith(g.outer, std::min(g.centre.distanceTo(pixel) / g.radius, 1.0f));
+                painter.image_.blend(x, y, colour, span.coverage);
+            }
+    }
+
+    // Its memory is small: of an outline with many corners FreeType fills a part at a time.
+    void fill(Painter& painter, FT_Outline& outline, Area part) {
+        if (outline.n_points == 0 || part.empty()) return;
+        FT_Raster_Params params{};
+        params.flags = FT_RASTER_FLAG_AA | FT_RASTER_FLAG_DIRECT | FT_RASTER_FLAG_CLIP;
+        params.gray_spans = take;
+        params.user = this;
+        params.clip_box = {part.x, part.y, part.right(), part.bottom()};
+        spans.clear();
+        if (FT_Outline_Render(library, &outline, &params) == 0) return paint(painter);
+        if (part.width == 1) return;
+        const Area left = part.removeFromLeft(part.width / 2);
+        fill(painter, outline, left);
+        fill(painter, outline, part);
+    }
+
+    /// What has gone into the stroker, filled.
+    void fillStroke(Painter& painter) {
+        FT_UInt points = 0, ends = 0;
+        FT_Stroker_GetCounts(stroker, &points, &ends);
+        Outline made;
+        made.points.resize(points), made.tags.resize(points), made.ends.resize(ends);
+        FT_Outline outline{0, 0, made.points.data(), made.tags.data(), made.ends.data(), FT_OUTLINE_NONE};
+        FT_Stroker_Export(stroker, &outline);
+        FT_Stroker_Rewind(stroker);
+        fill(painter, outline, painter.clip_);
+    }
+
+    // A long part is stroked in pieces.
+    void stroke(Painter& painter, const Path::Part& part, const Transform& move) {
+        const bool isLong = part.steps.size() > longestStroke, closes = part.isClosed && !isLong;
+        FT_Vector p[3]{fixed(move.at(part.points[0]))}; // the last is where the line is
+        const FT_Vector start = p[0];
+        FT_Stroker_BeginSubPath(stroker, &p[0], !closes);
+        for (std::size_t step = 1, at = 1; step < part.steps.size(); ++step) {
+            const auto count = static_cast<std::size_t>(part.steps[step]); // of points: see Kind
+            for (std::size_t i = 0; i < count; ++i) p[i] = fixed(move.at(part.points[at++]));
+            if (count == 1)
+                FT_Stroker_LineTo(stroker, &p[0]);
+            else if (count == 2)
+                FT_Stroker_ConicTo(stroker, &p[0], &p[1]);
+            else
+                FT_Stroker_CubicTo(stroker, &p[0], &p[1], &p[2]);
+            if (step % longestStroke != 0) continue;
+            FT_Stroker_EndSubPath(stroker);
+            fillStroke(painter);
+            FT_Stroker_BeginSubPath(stroker, &p[count - 1], true);
+        }
+        if (part.isClosed && isLong) {
+            p[0] = start;
+            FT_Stroker_LineTo(stroker, &p[0]);
+        }
+        FT_Stroker_EndSubPath(stroker);
+        fillStroke(painter);
+    }
+};
+
+Painter::Painter(Image& image)
+    : image_{image}
+    , clip_{image.bounds()}
+    , raster_{std::make_unique<Raster>()} {}
+
+Painter::~Painter() = default;
+
+void Painter::fillAll(Colour colour) {
+    for (int y = 0; y < image_.height(); ++y)
+        for (int x = 0; x < image_.width(); ++x) image_.blend(x, y, colour);
+}
+
+void Painter::fillPath(const Path& path, const Transform& move) {
+    Outline outline;
+    outline.add(path, move.followedBy(transform_));
+    if (!outline.fits()) return; // no shape of ours has so many corners
+    auto view = outline.view();
+    raster_->fill(*this, view, clip_);
+}
+
+void Painter::strokePath(const Path& path, float width, const Transform& move) {
+    FT_Stroker_Set(raster_->stroker, std::lround(32.0f * width), FT_STROKER_LINECAP_BUTT,
+                   FT_STROKER_LINEJOIN_MITER_FIXED, 4 << 16);
+    const Transform whole = move.followedBy(transform_);
+    for (const Path::Part& part : path.parts()) raster_->stroke(*this, part, whole);
+}
+
+void Painter::fillRect(Box box) {
+    Path path;
+    path.addRectangle(box.x, box.y, box.width, box.height);
+    fillPath(path);
+}
+
+void Painter::fillEllipse(Box box) {
+    Path path;
+    path.addEllipse(box.x, box.y, box.width, box.height);
+    fillPath(path);
+}
+
+void Painter::fillRounded(Box box, float radius) {
+    Path path;
+    path.addRounded(box, radius);
+    fillPath(path);
+}
+
+void Painter::drawEllipse(Box box, float width) {
+    Path path;
+    path.addEllipse(box.x, box.y, box.width, box.height);
+    strokePath(path, width);
+}
+
+void Painter::drawRounded(Box box, float radius, float width) {
+    Path path;
+    path.addRounded(box, radius);
+    strokePath(path, width);
+}
+
+void Painter::drawLine(Spot from, Spot to, float width) {
+    Path path;
+    path.startNewSubPath(from);
+    path.lineTo(to);
+    strokePath(path, width);
+}
+
+void Painter::blend(int x, int y, Colour colour) {
+    if (clip_.contains({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}))
+        image_.blend(x, y, colour);
+}
+
+} // namespace physvib::picture

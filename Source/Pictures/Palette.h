@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The colours of PhysVib: grounds, enchanters, materials. One colour per enchanter wherever it is shown.
+#pragma once
+#include "Pictures/Colour.h"
+#include <array>
+#include <cstddef>
+
+namespace physvib::picture::palette {
+
+inline constexpr Colour ground = Colour::of(0xff121317);
+inline constexpr Colour panel = Colour::of(0xff1a1c23);
+inline constexpr Colour well = Colour::of(0xff0e0f12);
+inline constexpr Colour line = Colour::of(0xff2b2e38);
+inline constexpr Colour text = Colour::of(0xffe6e8ee);
+inline constexpr Colour muted = Colour::of(0xff959bab);
+inline constexpr Colour white = Colour::of(0xffffffff);
+inline constexpr Colour now = Colour::of(0xfff6c667);    ///< amber: what happens at this moment
+inline constexpr Colour limit = Colour::of(0xfff56565);  ///< red: stop and limit, nothing else
+inline constexpr Colour camera = Colour::of(0xffd8c69a); ///< outline of what is felt
+inline constexpr Colour other = Colour::of(0xff6b7180);  ///< what has no material
+
+/// Colour of an enchanter: eight chosen by eye, then hues a golden angle apart so that neighbours differ. Any
+/// thread.
+inline Colour enchanter(int index) {
+    constexpr std::array<std::uint32_t, 8> chosen{0xff4fd1c5, 0xfff6ad55, 0xffb794f4, 0xff68d391,
+                                                  0xff63b3ed, 0xfff687b3, 0xffd6d765, 0xffa3b1c6};
+    if (index < static_cast<int>(chosen.size())) return Colour::of(chosen[static_cast<std::size_t>(index)]);
+    const float turns = 0.38196601f * static_cast<float>(index);
+    return Colour::ofHue(turns - std::floor(turns), 0.55f, index % 2 == 0 ? 0.70f : 0.60f);
+}
+
+constexpr int materialCount = 8;
+
+/// Colour of a material by its index in the scene; calm, so that amber and the enchanters stand out. Any
+/// thread.
+inline Colour material(int index) {
+    constexpr std::array<std::uint32_t, materialCount> chosen{0xffd14b5a, 0xffc98d3c, 0xff9fb3cb, 0xffa79fb5,
+                                                              0xffb7906b, 0xff5a93c9, 0xffa9744f, 0xff9aa04a};
+    return Colour::of(chosen[static_cast<std::size_t>(index) % chosen.size()]);
+}
+
+constexpr int rampCount = 6;
+
+/// Colour of a frequency class, low (cool) to high (warm). Any thread.
+inline Colour ramp(int index) {
+    constexpr std::array<std::uint32_t, rampCount> chosen{0xff7b74d4, 0xff4f93d8, 0xff3fb5a6,
+                                                          0xff86c96a, 0xffd9bf55, 0xffe0844f};
+    return Colour::of(chosen[static_cast<std::size_t>(index) % chosen.size()]);
+}
+
+} // namespace physvib::picture::palette

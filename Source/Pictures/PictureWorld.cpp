@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// The panel that shows the world: field, bodies, hits as light, enchanters.
+#include "Physics/Scenes/SceneCast.h"
+#include "Pictures/PictureLight.h"
+#include "Pictures/PictureParts.h"
+#include "Pictures/ShapeOutline.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib::picture {
+namespace {
+
+/// Metres of the field, origin lower left, to pixels.
+struct FieldMap {
+    Box field;
+    double pixelsPerMetre;
+    Spot at(double xMetres, double yMetres) const {
+        return {field.x + length(xMetres), field.bottom() - length(yMetres)};
+    }
+    float length(double metres) const { return static_cast<float>(metres * pixelsPerMetre); }
+};
+
+FieldMap fitField(const PictureInput& input, Area room) {
+    const double width = std::max(input.fieldWidthMetres, 1e-9),
+                 height = std::max(input.fieldHeightMetres, 1e-9);
+    const double scale = std::min(room.width / width, room.height / height);
+    const auto w = static_cast<float>(width * scale), h = static_cast<float>(height * scale);
+    return {room.toFloat().withSizeKeepingCentre(std::max(w, 1.0f), std::max(h, 1.0f)), scale};
+}
+
+Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
+    const auto& place = input.layout.places[static_cast<std::size_t>(channel)];
+    const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.5; };
+    return map.at(share(place.xMetres, input.layout.extentWidthMetres) * input.fieldWidthMetres,
+                  share(place.yMetres, input.layout.extentHeightMetres) * input.fieldHeightMetres);
+}
+
+// ---- bodies
+
+// What stands outside the field (walls, as a rule) shows as a frame of at most this width.
+constexpr float wallPixels = 12.0f;
+
+// A chain is a line: it is stroked, the others are filled.
+void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, bool isDynamic,
+                 const Transform& body, const FieldMap& map) {
+    const auto move = Transform::rotation(static_cast<float>(-fixture.angleRadians))
+                          .translated(map.length(fixture.offsetMetres.x), -map.length(fixture.offsetMetres.y))
+                          .followedBy(body);
+    const auto outline = shapeOutline<Path>(fixture.shape, map.pixelsPerMetre);
+    const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
+    canvas.graphics.setColour(
+        palette::material(fixture.material).withMultipliedBrightness(isDynamic ? 0.9f : 0.6f));
+    isLine ? canvas.graphics.strokePath(outline, 3.0f, move) : canvas.graphics.fillPath(outline, move);
+    if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) {
+        Path spoke; // shows the rotation
+        spoke.startNewSubPath(0.0f, 0.0f);
+        spoke.lineTo(map.length(circle->radiusMetres), 0.0f);
+        canvas.graphics.setColour(palette::well.withAlpha(0.5f));
+        canvas.graphics.strokePath(spoke, 1.5f, move);
+    }
+    if (!fixture.isCamera) return;
+    canvas.graphics.setColour(palette::camera);
+    canvas.graphics.strokePath(outline, isLine ? 1.0f : 2.0f, move);
+}
+
+void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyMark& mark, const FieldMap& map) {
+    const auto move = Transform::rotation(static_cast<float>(-mark.angleRadians))
+                          .translated(map.at(mark.xMetres, mark.yMetres));
+    for (const auto& fixture : body.fixtures)
+        drawFixture(canvas, fixture, body.type == BodyType::dynamicBody, move, map);
+}
+
+void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
+    if (input.scene == nullptr) return;
+    const Painter::Saved whole(canvas.graphics);
+    canvas.graphics.reduceClip(map.field.expanded(wallPixels).rounded());
+    const auto cast = sceneCast(*input.scene);
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        const auto& at = cast[i].positionMetres;
+        const BodyMark start{at.x, at.y, cast[i].angleRadians, i < input.scene->bodies.size()};
+        const BodyMark& mark = i < input.bodies.size() ? input.bodies[i] : start;
+        if (mark.isPresent) drawBody(canvas, cast[i], mark, map);
+    }
+}
+
+// ---- hits
+
+void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours& colours,
+               const FieldMap& map, Area spill) {
+    const auto strongest = strongestEvent(input.events);
+    if (strongest < 0) return;
+    const double loudest = decibels(input.events[static_cast<std::size_t>(strongest)].amplitude);
+    Light hits(spill), traces(spill); // each exposed for itself: thousands of grains would outshine any hit
+    for (const auto& event : input.events) {
+        const auto level = static_cast<float>(1.0 + (decibels(event.amplitude) - loudest) / 40.0);
+        if (level <= 0.0f) continue;
+        const auto at = map.at(event.x, event.y);
+        if (isHit(event))
+            hits.add(at, 5.0f + 33.0f * level * level, 0.05f + 0.9f * level * level, colours.of(event));
+        else
+            traces.add(at, 4.0f + 4.0f * level, 0.2f + 0.75f * level,
+                       colours.of(event)); // they join to a line
+    }
+    traces.draw(canvas.graphics);
+    hits.draw(canvas.graphics);
+}
+
+/// What a channel plays of the strongest hit, 1 for the loudest; 0 if the picture has no sound of it.
+float shareOf(const PictureInput& input, int channel) {
+    const bool known = input.zoom != nullptr && channel < input.zoom->channels() && input.zoom->peak() > 0.0f;
+    return known ? input.zoom->peak(channel) / input.zoom->peak() : 0.0f;
+}
+
+void drawHalos(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
+    for (int c = 0; c < input.layout.count; ++c) {
+        const auto centre = placeOf(input, map, c);
+        const float share = shareOf(input, c) * shareOf(input, c), radius = 20.0f + 60.0f * share;
+        const auto colour = palette::enchanter(c);
+        canvas.graphics.setGradient(
+            {centre, radius, colour.withAlpha(0.45f * share), colour.withAlpha(0.0f)});
+        canvas.graphics.fillEllipse(boxAround(centre, 2.0f * radius, 2.0f * radius));
+    }
+}
+
+// Rings where it struck, and a line to each enchanter as wide and bright as what it plays of it.
+void drawStrongest(const Canvas& canvas, const PictureInput& input, const FieldMap& map,
+                   const CollisionEvent& hit) {
+    const auto centre = map.at(hit.x, hit.y);
+    for (int c = 0; c < input.layout.count; ++c) {
+        const float share = shareOf(input, c);
+        if (share <= 0.0f) continue;
+        canvas.graphics.setColour(palette::enchanter(c).withAlpha(0.65f * share));
+        canvas.graphics.drawLine(centre, placeOf(input, map, c), 0.8f + 2.2f * share);
+    }
+    for (int ring = 1; ring <= 3; ++ring) {
+        const auto r = 9.0f * static_cast<float>(ring);
+        canvas.graphics.setColour(palette::now.withAlpha(1.0f - 0.27f * static_cast<float>(ring)));
+        canvas.graphics.drawEllipse(boxAround(centre, 2.0f * r, 2.0f * r), 1.6f);
+    }
+    canvas.graphics.setColour(palette::white);
+    canvas.graphics.fillEllipse(boxAround(centre, 8.0f, 8.0f));
+}
+
+std::string sentenceOn(const CollisionEvent& hit) {
+    return (isHit(hit) ? "Strongest hit at " : "Strongest grain at ") +
+           number(static_cast<double>(hit.timeNs) * 1e-9, 3) + " s: " + shortNumber(hit.frequencyHz) +
+           " Hz, " + "\xcf\x84" + " " + shortNumber(hit.decayPerSecond) + " /s, " +
+           decibelText(hit.amplitude) + ", at (" + number(hit.x, 2) + ", " + number(hit.y, 2) + ") m";
+}
+
+// "wall right, struck by ball 3", as far as the event and the scene know.
+std::string whoHitWhom(const PictureInput& input, const CollisionEvent& hit) {
+    const auto cast = input.scene != nullptr ? sceneCast(*input.scene) : std::vector<BodyDescription>{};
+    const auto name = [&](std::int32_t fixture) {
+        const auto body = bodyOfFixture(cast, fixture);
+        return body < cast.size() ? cleanLine(cast[body].name) : std::string();
+    };
+    const auto felt = name(hit.source.fixture), by = name(hit.source.other);
+    const auto how = isHit(hit)                             ? ", struck by "
+                     : hit.source.kind == ContactKind::roll ? ", rolled over by "
+                                                            : ", slid over by ";
+    return felt.empty() || by.empty() ? felt : felt + how + by;
+}
+
+// ---- enchanters
+
+float closestPair(const PictureInput& input, const FieldMap& map) {
+    float closest = 400.0f; // alone
+    for (int a = 0; a < input.layout.count; ++a)
+        for (int b = a + 1; b < input.layout.count; ++b)
+            closest = std::min(closest, placeOf(input, map, a).distanceTo(placeOf(input, map, b)));
+    return closest;
+}
+
+void drawDot(const Canvas& canvas, Spot centre, float size, Colour colour) {
+    canvas.graphics.setColour(colour);
+    canvas.graphics.fillEllipse(boxAround(centre, size, size));
+}
+
+void drawBadge(const Canvas& canvas, std::string_view label, Box badge, Colour colour) {
+    canvas.graphics.setColour(palette::well);
+    canvas.graphics.fillRounded(badge, 6.0f);
+    canvas.graphics.setColour(colour);
+    canvas.graphics.drawRounded(badge, 6.0f, 2.0f);
+    canvas.text(label, badge.rounded(), Align::centre, colour, smallText, true);
+}
+
+// As large as the closest pair allows; too close for a label, it is a dot.
+void drawEnchanters(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel) {
+    const float closest = closestPair(input, map), size = std::clamp(0.8f * closest, 7.0f, 32.0f);
+    for (int c = 0; c < input.layout.count; ++c) {
+        const auto centre = placeOf(input, map, c);
+        const auto label = labelOf(input, c);
+        const float width =
+            std::max(size, static_cast<float>(canvas.textWidth(label, smallText, true)) + 14.0f);
+        const bool room = size >= 21.0f && width <= std::max(size, 0.8f * closest);
+        const auto badge = boxAround(centre, width, size);
+        room ? drawBadge(canvas, label, badge.constrainedWithin(panel.reduced(6).toFloat()),
+                         palette::enchanter(c))
+             : drawDot(canvas, centre, 0.7f * size, palette::enchanter(c));
+    }
+}
+
+std::string remarkOn(const PictureInput& input) {
+    const std::string times = "\xc3\x97";
+    const auto size =
+        shortNumber(input.fieldWidthMetres) + " " + times + " " + shortNumber(input.fieldHeightMetres) + " m";
+    return input.scene != nullptr && strongestEvent(input.events) >= 0
+               ? size + ", bodies as at the strongest hit"
+               : size;
+}
+
+} // namespace
+
+void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours& colours, Area panel) {
+    canvas.panel(panel);
+    const Area spill = panel;
+    panel = panel.reduced(20, 12);
+    const auto heading = panel.removeFromTop(24), second = panel.removeFromBottom(20),
+               first = panel.removeFromBottom(26);
+    const auto map = fitField(input, panel.reduced(22, 22));
+    const auto strongest = strongestEvent(input.events);
+    {
+        const Painter::Saved whole(canvas.graphics);
+        canvas.graphics.reduceClip(spill);
+        canvas.well(map.field.rounded());
+        canvas.graphics.setColour(palette::line);
+        canvas.graphics.drawRounded(map.field, 3.0f, 1.0f);
+        drawHalos(canvas, input, map);
+        drawBodies(canvas, input, map);
+        drawGlows(canvas, input, colours, map, spill);
+        if (strongest >= 0)
+            drawStrongest(canvas, input, map, input.events[static_cast<std::size_t>(strongest)]);
+        drawEnchanters(canvas, input, map, spill);
+    }
+    canvas.heading("WORLD", remarkOn(input), heading);
+    if (strongest < 0)
+        return canvas.text("Nothing was struck.", first, Align::left, palette::muted, mediumText);
+    const auto& hit = input.events[static_cast<std::size_t>(strongest)];
+    canvas.text(sentenceOn(hit), first, Align::left, palette::now, mediumText);
+    canvas.text(whoHitWhom(input, hit), second, Align::left, palette::muted);
+}
+
+} // namespace physvib::picture

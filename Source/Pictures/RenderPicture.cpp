@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Lays the panels out on the page, and draws it.
+#include "Pictures/RenderPicture.h"
+#include "Pictures/PictureParts.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+using namespace picture;
+
+constexpr int width = 1600;
+constexpr int height = 1000;
+constexpr int margin = 24;
+constexpr int gap = 14;
+constexpr int headerHeight = 60;
+constexpr int footerHeight = 34;
+constexpr int besideLanes = 200; // headings, the lane of hits, the axis
+
+void drawHeader(const Canvas& canvas, const PictureInput& input, Area row) {
+    canvas.text(cleanLine(input.title), row.removeFromTop(36), Align::left, palette::text, largeText, true);
+    canvas.text(cleanLine(input.subtitle), row, Align::left, palette::muted);
+}
+
+std::string dot() {
+    return "  \xc2\xb7  ";
+}
+
+std::string eventNumbers(const PictureInput& input) {
+    const auto count = static_cast<double>(input.events.size());
+    const auto hits = std::ranges::count_if(input.events, isHit),
+               grains = std::ranges::ssize(input.events) - hits;
+    auto words = number(static_cast<double>(hits), 0) + (hits == 1 ? " hit" : " hits");
+    if (grains > 0)
+        words += ", " + number(static_cast<double>(grains), 0) + (grains == 1 ? " grain" : " grains");
+    return input.durationSeconds > 0.0
+               ? words + ", " + shortNumber(count / input.durationSeconds) + " per second"
+               : words;
+}
+
+std::string soundNumbers(const PictureInput& input) {
+    if (input.waveform == nullptr) return "no sound";
+    const int channels = input.waveform->channels();
+    return "peak " + decibelText(input.waveform->peak()) + dot() + std::to_string(channels) +
+           (channels == 1 ? " channel" : " channels") + dot() + number(input.sampleRateHz, 0) + " Hz";
+}
+
+void drawFooter(const Canvas& canvas, const PictureInput& input, Area row) {
+    auto words =
+        eventNumbers(input) + dot() + soundNumbers(input) + dot() + shortNumber(input.durationSeconds) + " s";
+    if (!input.law.empty()) words += dot() + cleanLine(input.law);
+    canvas.text(words, row.removeFromLeft(canvas.textWidth(words, smallText) + 40), Align::left,
+                palette::text);
+    canvas.text(cleanLine(input.provenance), row, Align::right, palette::muted);
+}
+
+} // namespace
+
+std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept {
+    const auto found =
+        std::ranges::max_element(events, {}, [](const auto& e) { return std::abs(e.amplitude); });
+    return found == events.end() ? -1 : found - events.begin();
+}
+
+std::vector<BodyMark> bodiesAtStrongest(const Scene& scene, const SceneRun& run,
+                                        std::span<const CollisionEvent> events) {
+    std::vector<BodyMark> bodies;
+    const auto strongest = strongestEvent(events);
+    if (strongest < 0) return bodies;
+    for (const BodyPose& pose : posesAt(scene, run, events[static_cast<std::size_t>(strongest)].timeNs))
+        bodies.push_back({pose.xMetres, pose.yMetres, pose.angleRadians, pose.isPresent});
+    return bodies;
+}
+
+FrameWindow zoomWindow(std::span<const CollisionEvent> events, int sampleRateHz) noexcept {
+    const auto index = strongestEvent(events);
+    if (index < 0) return {};
+    const double onset = static_cast<double>(events[static_cast<std::size_t>(index)].timeNs) * 1e-9;
+    return {std::llround((onset - 0.010) * sampleRateHz), std::llround(0.100 * sampleRateHz)};
+}
+
+Image drawPicture(const PictureInput& input, const Letters& letters) {
+    Image image(width, height);
+    Painter graphics(image);
+    graphics.fillAll(palette::ground);
+    const Canvas canvas{graphics, letters};
+    const HitColours colours(input);
+    Area page = image.bounds().reduced(margin, 0);
+    page.removeFromTop(16);
+    drawHeader(canvas, input, page.removeFromTop(headerHeight));
+    page.removeFromTop(8);
+    drawFooter(canvas, input, page.removeFromBottom(footerHeight + 6).withTrimmedBottom(6));
+    const int channels = input.waveform != nullptr ? input.waveform->channels() : 0;
+    drawSignals(canvas, input, colours, page.removeFromBottom(lanesHeight(channels) + besideLanes));
+    page.removeFromBottom(gap);
+    drawWorld(canvas, input, colours, page.removeFromLeft((page.width - gap) / 2));
+    page.removeFromLeft(gap);
+    drawZoom(canvas, input, page);
+    return image;
+}
+
+std::string picturePng(const PictureInput& input) {
+    return drawPicture(input).png();
+}
+
+} // namespace physvib

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// One picture of one render: the world and its hits, what each enchanter plays, and the strongest hit up
+// close.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Core/EnchanterLayout.h"
+#include "Physics/Scenes/Scene.h"
+#include "Physics/Scenes/SceneRun.h"
+#include "Pictures/Image.h"
+#include "Pictures/Letters.h"
+#include "Pictures/WaveformEnvelope.h"
+#include <span>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// Where a body stood when the picture was taken; origin at the field's lower left, angle counter-clockwise.
+struct BodyMark {
+    double xMetres = 0.0;
+    double yMetres = 0.0;
+    double angleRadians = 0.0;
+    bool isPresent = true; ///< false: not drawn
+};
+
+/// What the picture shows. Every part may be empty: no scene, no bodies, no events, no sound.
+struct PictureInput {
+    std::string title;
+    std::string subtitle;
+    double fieldWidthMetres = 0.0; ///< mapped on the layout's extent
+    double fieldHeightMetres = 0.0;
+    const Scene* scene = nullptr; ///< null: events without a world
+    std::vector<BodyMark> bodies; ///< at the strongest event, per body of sceneCast(); missing: as it began
+    std::span<const CollisionEvent> events;     ///< in any order
+    EnchanterLayout layout;                     ///< channel j of the waveforms is place j
+    std::vector<std::string> labels;            ///< of the enchanters; missing ones are A, B, ... or numbers
+    const WaveformEnvelope* waveform = nullptr; ///< of the whole render
+    const WaveformEnvelope* zoom = nullptr;     ///< of zoomWindow()
+    int sampleRateHz = 0;
+    double durationSeconds = 0.0;
+    std::string law;        ///< words for the numbers line: "linear law"
+    std::string provenance; ///< version, seed, source: what it takes to make this again
+};
+
+/// Index of the event with the largest |amplitude|, the first of equals; -1 without events. Any thread.
+std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept;
+
+/// Where the bodies of a scene stand at its strongest event; none if nothing was struck. Any thread.
+std::vector<BodyMark> bodiesAtStrongest(const Scene& scene, const SceneRun& run,
+                                        std::span<const CollisionEvent> events);
+
+/// Frames of a render, which may reach beyond its ends.
+struct FrameWindow {
+    std::int64_t firstFrame = 0;
+    std::int64_t frameCount = 0;
+};
+
+/// The part of a render that the picture enlarges: 10 ms before to 90 ms after the strongest onset. Any
+/// thread.
+FrameWindow zoomWindow(std::span<const CollisionEvent> events, int sampleRateHz) noexcept;
+
+/// The picture, 1600 x 1000 pixels. Without any font the words are missing and the rest is there. Any thread.
+picture::Image drawPicture(const PictureInput& input, const picture::Letters& letters = picture::Letters{});
+
+/// drawPicture as the bytes of a PNG, the same bytes for the same input and fonts. Any thread.
+std::string picturePng(const PictureInput& input);
+
+} // namespace physvib

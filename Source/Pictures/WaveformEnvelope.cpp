@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Lowest and highest sample per column, gathered block by block.
+#include "Pictures/WaveformEnvelope.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+namespace {
+constexpr SampleRange nothing{1.0f, -1.0f};
+constexpr bool isNothing(const SampleRange& r) {
+    return r.lowest > r.highest;
+}
+} // namespace
+
+WaveformEnvelope::WaveformEnvelope(int channels, std::int64_t firstFrame, std::int64_t frameCount)
+    : first_(firstFrame)
+    , count_(std::max<std::int64_t>(frameCount, 0))
+    , ranges_(static_cast<std::size_t>(channels) * columns, nothing)
+    , peaks_(static_cast<std::size_t>(channels), 0.0f) {}
+
+// First frame of a column, counted from the window's start; rounded up, so every frame has one column.
+std::int64_t WaveformEnvelope::columnStart(std::int64_t column) const noexcept {
+    return (column * count_ + columns - 1) / columns;
+}
+
+void WaveformEnvelope::add(const float* const* block, int frames) {
+    const std::int64_t blockStart = now_ - first_;
+    now_ += frames;
+    std::int64_t at = std::max<std::int64_t>(blockStart, 0);
+    const std::int64_t end = std::min(blockStart + frames, count_);
+    while (at < end) {
+        const std::int64_t column = at * columns / count_;
+        const std::int64_t runEnd = std::min(end, columnStart(column + 1));
+        for (int c = 0; c < channels(); ++c) addRun(c, column, block[c] + (at - blockStart), runEnd - at);
+        at = runEnd;
+    }
+}
+
+void WaveformEnvelope::addRun(int channel, std::int64_t column, const float* samples, std::int64_t frames) {
+    const auto [low, high] = std::minmax_element(samples, samples + frames);
+    auto& range = ranges_[static_cast<std::size_t>(channel * std::int64_t{columns} + column)];
+    range = isNothing(range) ? SampleRange{*low, *high}
+                             : SampleRange{std::min(range.lowest, *low), std::max(range.highest, *high)};
+    auto& peak = peaks_[static_cast<std::size_t>(channel)];
+    peak = std::max({peak, std::abs(*low), std::abs(*high)});
+}
+
+SampleRange WaveformEnvelope::column(int channel, int index) const noexcept {
+    if (index * count_ / columns >= now_ - first_) return {};
+    const auto lane = static_cast<std::size_t>(channel) * columns;
+    for (auto i = static_cast<std::size_t>(index) + 1; i-- > 0;)
+        if (!isNothing(ranges_[lane + i])) return ranges_[lane + i];
+    return {};
+}
+
+float WaveformEnvelope::peak() const noexcept {
+    return peaks_.empty() ? 0.0f : *std::max_element(peaks_.begin(), peaks_.end());
+}
+
+} // namespace physvib

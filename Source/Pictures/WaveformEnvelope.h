@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What a picture needs of a window of sound: the lowest and highest sample per column, whatever its length.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// Lowest and highest sample of one column.
+struct SampleRange {
+    float lowest = 0.0f;
+    float highest = 0.0f;
+};
+
+/// Reduces the frames [first, first + count) of a render to `columns` columns per channel. M only.
+class WaveformEnvelope {
+public:
+    static constexpr int columns = 1384; ///< pixels of a lane in the picture
+
+    /// `firstFrame` may be negative: what lies before the render is silence.
+    WaveformEnvelope(int channels, std::int64_t firstFrame, std::int64_t frameCount);
+
+    /// Takes the next block of the render, from frame 0 on and without gaps; looks only at what is in the
+    /// window.
+    void add(const float* const* block, int frames);
+
+    int channels() const noexcept { return static_cast<int>(peaks_.size()); }
+    std::int64_t firstFrame() const noexcept { return first_; }
+    std::int64_t frameCount() const noexcept { return count_; }
+    /// One column; where the window has fewer frames than columns, the frame before. Silence outside the
+    /// render.
+    SampleRange column(int channel, int index) const noexcept;
+    /// Largest magnitude of a channel inside the window.
+    float peak(int channel) const noexcept { return peaks_[static_cast<std::size_t>(channel)]; }
+    /// Largest magnitude of all channels.
+    float peak() const noexcept;
+
+private:
+    std::int64_t columnStart(std::int64_t column) const noexcept;
+    void addRun(int channel, std::int64_t column, const float* samples, std::int64_t frames);
+
+    std::int64_t first_;
+    std::int64_t count_;
+    std::int64_t now_ = 0;            // frames taken so far
+    std::vector<SampleRange> ranges_; // channel by channel; lowest > highest: nothing there yet
+    std::vector<float> peaks_;
+};
+
+} // namespace physvib

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "Pictures/PictureCanvas.h"
+#include <gtest/gtest.h>
+
+namespace physvib::picture {
+namespace {
+
+const std::string minus = "\xe2\x88\x92";
+
+TEST(PictureCanvas, NumbersAreGroupedAndSigned) {
+    EXPECT_EQ(number(1234567.0, 0), "1,234,567");
+    EXPECT_EQ(number(-48000.25, 1), minus + "48,000.2");
+    EXPECT_EQ(number(999.0, 2), "999.00");
+    EXPECT_EQ(number(-0.001, 1), "0.0"); // no minus zero
+}
+
+TEST(PictureCanvas, ShortNumbersDropWhatSaysNothing) {
+    EXPECT_EQ(shortNumber(349.2), "349");
+    EXPECT_EQ(shortNumber(11.97), "12");
+    EXPECT_EQ(shortNumber(6.4), "6.4");
+    EXPECT_EQ(shortNumber(0.07), "0.07");
+    EXPECT_EQ(shortNumber(80.0), "80");
+    EXPECT_EQ(shortNumber(0.0), "0");
+    EXPECT_EQ(shortNumber(1000.0), "1,000");
+}
+
+TEST(PictureCanvas, WhatHasFallenBy140dBIsSilent) {
+    EXPECT_EQ(decibelText(0.5), minus + "6.0 dBFS");
+    EXPECT_EQ(decibelText(-1.0), "0.0 dBFS");
+    EXPECT_EQ(decibelText(0.99e-7), "silent");
+    EXPECT_EQ(decibelText(0.0), "silent");
+}
+
+TEST(PictureCanvas, TicksAreRoundAndFew) {
+    EXPECT_EQ(ticks(0.0, 10.0, 12), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+    EXPECT_EQ(ticks(-10.0, 90.0, 5), (std::vector<double>{0, 20, 40, 60, 80}));
+    EXPECT_EQ(ticks(-9.999, 90.001, 10).front(), -10.0); // an edge between two frames keeps its tick
+    for (const double to : {0.03, 0.9, 7.0, 61.0, 3600.0, 1e6})
+        EXPECT_LE(ticks(0.0, to, 12).size(), 13u) << to;
+    EXPECT_EQ(ticks(0.0, 0.0, 12).size(), 1u);
+}
+
+TEST(PictureCanvas, WordsThatAreTooLongEndWithDotsAndStayInTheirArea) {
+    const Letters letters;
+    Image image{400, 40};
+    Painter painter{image};
+    const Canvas canvas{painter, letters};
+    canvas.text(std::string(300, 'W'), {50, 0, 200, 40}, Align::left, palette::white);
+    int inside = 0, outside = 0;
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 400; ++x)
+            if (image.at(x, y) != Colour{255, 0, 0, 0}) ++(x >= 49 && x <= 250 ? inside : outside);
+    EXPECT_GT(inside, 300);
+    EXPECT_EQ(outside, 0);
+    EXPECT_GT(canvas.textWidth("Wide", smallText), canvas.textWidth("ill", smallText));
+    EXPECT_EQ(canvas.textWidth("", smallText), 1);
+}
+
+TEST(Painter, EdgesAreSmoothAndClipped) {
+    Image image{20, 20};
+    Painter painter{image};
+    painter.setColour(palette::white);
+    painter.fillRect({2.5f, 2.0f, 5.0f, 3.0f});
+    EXPECT_NEAR(image.at(2, 3).red, 128, 1); // half of it
+    EXPECT_EQ(image.at(4, 3).red, 255);
+    EXPECT_EQ(image.at(4, 6).red, 0);
+    {
+        const Painter::Saved whole{painter};
+        painter.reduceClip({0, 10, 20, 2});
+        painter.fillEllipse({-1e9f, -1e9f, 2e9f, 2e9f}); // however large
+        EXPECT_EQ(image.at(10, 11).red, 255);
+        EXPECT_EQ(image.at(10, 12).red, 0);
+    }
+    painter.drawLine({1.0f, 15.0f}, {19.0f, 15.0f}, 2.0f);
+    EXPECT_EQ(image.at(10, 14).red, 255);
+    EXPECT_EQ(image.at(10, 15).red, 255);
+    EXPECT_EQ(image.at(10, 13).red, 0);
+    EXPECT_EQ(image.at(0, 15).red, 0); // flat ends
+}
+
+} // namespace
+} // namespace physvib::picture
