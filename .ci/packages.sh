@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 # What PhysVib needs from Debian, and how it gets there. Sourced by run.sh and test.sh.
 
+# What the first picture is made with: physvib-render, and nothing else (preset "first"; Tests/House/first-build.sh holds its size).
+physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core"
 # What the programs, the library and the plug-ins are made with, beside a compiler.
 physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
-    pkg-config libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev liblo-dev libaubio-dev"
-# Configuring covers the tests as well, so run.sh needs their libraries too.
+    pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev liblo-dev libaubio-dev"
+# Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang libclang-rt-14-dev \
     liblo-tools python3-numpy luajit love mono-mcs doxygen cmark-gfm libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
@@ -86,14 +88,37 @@ from_debian() (
     { apt-get $from update && apt-get $from "$@"; } >"$fetched/log" 2>&1 || { cat "$fetched/log" >&2; exit 1; }
 )
 
-# build PRESET TARGET...: configures and builds quietly; all of the output if something goes wrong.
+# progress: copies ninja's lines, and says on the way how far it is: at every step on a terminal, else at each quarter.
+progress() {
+    quarter=0
+    while IFS= read -r line; do
+        printf '%s\n' "$line"
+        case $line in "["[0-9]*/*[0-9]"] "*) ;; *) continue ;; esac
+        steps=${line%%]*}
+        steps=${steps#[}
+        now=$((4 * ${steps%/*} / ${steps#*/}))
+        if [ -t 2 ]; then
+            printf '\rphysvib: step %s of %s ' "${steps%/*}" "${steps#*/}" >&2
+            [ "$now" -lt 4 ] || printf '\n' >&2
+        elif [ "$now" -gt "$quarter" ]; then
+            quarter=$now
+            say "step ${steps%/*} of ${steps#*/}"
+        fi
+    done
+}
+
+# build PRESET TARGET...: configures and builds; all of the output if something goes wrong.
 build() {
     preset=$1
     shift
     mkdir -p build
     log="build/$preset.log"
     say "building $preset (log: $log)"
-    if ! { cmake --preset "$preset" && cmake --build --preset "$preset" --target "$@"; } >"$log" 2>&1; then
+    failed="build/$preset.failed"
+    rm -f "$failed"
+    { { cmake --preset "$preset" && cmake --build --preset "$preset" --target "$@"; } 2>&1 || : >"$failed"; } | progress >"$log"
+    if [ -e "$failed" ]; then
+        rm -f "$failed"
         cat "$log" >&2
         say "the build failed"
         return 1

@@ -29,9 +29,13 @@ tried="fresh machine: $commands"
 make_machine "$mirror"
 [ -z "$(git status --porcelain)" ] || say "changes that are not committed stay out"
 git clone --quiet . "$machine/root/PhysVib"
+packages() { in_machine dpkg-query -W -f '.' | wc -c; }
 for command in $commands; do
-    say "$command, $(in_machine dpkg-query -W -f '.' | wc -c) packages installed before it"
+    before=$(packages)
+    started=$(date +%s)
     in_machine "/root/PhysVib/$command"
+    seconds=$(($(date +%s) - started))
+    say "$command took $((seconds / 60)):$(printf %02d $((seconds % 60))) min, with $(($(packages) - before)) packages beyond the $before that were there"
 done
 [ "$commands" != Tests/Api/ten-minutes.sh ] || exit 0
 for file in shake-the-box.wav shake-the-box.csv shake-the-box.png; do
