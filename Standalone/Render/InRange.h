@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers that an option takes. CLI11's own checks let "nan" pass, which is not less than the least; these
-// say what they expect.
+// Numbers that an option takes. CLI11's own checks let "nan" pass, which is not less than the least; these say what they expect.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -15,9 +14,7 @@ CLI::Validator inRange(T low, T high, const std::string& unit = "") {
     return {[=](std::string& text) {
                 T value{};
                 const bool isNumber = CLI::detail::lexical_cast(text, value);
-                return isNumber && value >= low && value <= high
-                           ? std::string{}
-                           : "expected " + range + ", found \"" + text + "\"";
+                return isNumber && value >= low && value <= high ? std::string{} : "expected " + range + ", found \"" + text + "\"";
             },
             range};
 }
@@ -27,9 +24,7 @@ inline CLI::Validator positive() {
     return {[](std::string& text) {
                 double value = 0.0;
                 const bool isNumber = CLI::detail::lexical_cast(text, value);
-                return isNumber && value > 0.0 && std::isfinite(value)
-                           ? std::string{}
-                           : "expected more than 0, found \"" + text + "\"";
+                return isNumber && value > 0.0 && std::isfinite(value) ? std::string{} : "expected more than 0, found \"" + text + "\"";
             },
             "POSITIVE"};
 }

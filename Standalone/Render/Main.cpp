@@ -145,9 +145,13 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
         });
     warn(status.rejected, "events that could not be played");
     warn(status.stolen, "modes faded out early because too many different ones sounded at once");
-    std::string error = wav ? wav->commit() : "";
+    std::string error;
 #if PHYSVIB_PICTURES
-    if (error.empty() && picture) error = picture->commit(pictureWords(o, source, layout, settings));
+    if (picture) error = picture->draw(pictureWords(o, source, layout, settings));
+#endif
+    if (error.empty() && wav) error = wav->commit();
+#if PHYSVIB_PICTURES
+    if (error.empty() && picture) error = picture->commit();
 #endif
     return error;
 }

@@ -19,14 +19,13 @@ RenderedPicture::RenderedPicture(const std::string& path, std::span<const Collis
     , whole_{channels, 0, frames}
     , zoom_{zoomOf(events, channels, sampleRateHz)} {}
 
-const std::string& RenderedPicture::commit(PictureInput words) {
+const std::string& RenderedPicture::draw(PictureInput words) {
     words.events = events_;
     words.waveform = &whole_;
     words.zoom = &zoom_;
     words.sampleRateHz = sampleRateHz_;
     words.durationSeconds = static_cast<double>(whole_.frameCount()) / sampleRateHz_;
-    if (!file_.write(picturePng(words)).empty()) return file_.error();
-    return file_.commit();
+    return file_.write(picturePng(words));
 }
 
 } // namespace physvib

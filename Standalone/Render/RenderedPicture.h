@@ -22,9 +22,11 @@ public:
         zoom_.add(channels, frames);
     }
 
-    /// Draws `words`, to which this adds events, sound and its rate, and puts the file in its place. Returns
-    /// error().
-    const std::string& commit(PictureInput words);
+    /// Draws `words`, to which this adds events, sound and its rate. Returns error().
+    const std::string& draw(PictureInput words);
+
+    /// Puts the file in its place. Returns error().
+    const std::string& commit() { return file_.commit(); }
 
 private:
     AtomicFile file_;
