@@ -9,7 +9,9 @@
 namespace physvib::picture {
 namespace {
 
-constexpr float furthest = 100000.0f;       // pixels; FreeType refuses outlines that reach further
+constexpr float furthest = 100000.0f; // pixels; FreeType refuses outlines that reach further
+constexpr int mostCorners = 1000,
+              widestPart = 128;             // of an outline that FreeType is not asked for in one piece
 constexpr std::size_t longestStroke = 1000; // steps at once: an outline has at most 32767 points
 
 FT_Vector fixed(Spot p) {
@@ -88,6 +90,15 @@ struct Painter::Raster {
             }
     }
 
+    /// What may be painted of an outline.
+    static Area reach(const FT_Outline& outline, Area clip) {
+        FT_BBox box;
+        FT_Outline_Get_CBox(&outline, &box);
+        const auto left = static_cast<int>(box.xMin >> 6), top = static_cast<int>(box.yMin >> 6);
+        return clip.intersection({left, top, static_cast<int>(box.xMax >> 6) + 1 - left,
+                                  static_cast<int>(box.yMax >> 6) + 1 - top});
+    }
+
     // Its memory is small: of an outline with many corners FreeType fills a part at a time.
     void fill(Painter& painter, FT_Outline& outline, Area part) {
         if (outline.n_points == 0 || part.empty()) return;
@@ -97,7 +108,8 @@ struct Painter::Raster {
         params.user = this;
         params.clip_box = {part.x, part.y, part.right(), part.bottom()};
         spans.clear();
-        if (FT_Outline_Render(library, &outline, &params) == 0) return paint(painter);
+        const bool isTried = outline.n_points < mostCorners || part.width <= widestPart;
+        if (isTried && FT_Outline_Render(library, &outline, &params) == 0) return paint(painter);
         if (part.width == 1) return;
         const Area left = part.removeFromLeft(part.width / 2);
         fill(painter, outline, left);
@@ -113,7 +125,7 @@ struct Painter::Raster {
         FT_Outline outline{0, 0, made.points.data(), made.tags.data(), made.ends.data(), FT_OUTLINE_NONE};
         FT_Stroker_Export(stroker, &outline);
         FT_Stroker_Rewind(stroker);
-        fill(painter, outline, painter.clip_);
+        fill(painter, outline, reach(outline, painter.clip_));
     }
 
     // A long part is stroked in pieces.
@@ -162,7 +174,7 @@ void Painter::fillPath(const Path& path, const Transform& move) {
     outline.add(path, move.followedBy(transform_));
     if (!outline.fits()) return; // no shape of ours has so many corners
     auto view = outline.view();
-    raster_->fill(*this, view, clip_);
+    raster_->fill(*this, view, Raster::reach(view, clip_));
 }
 
 void Painter::strokePath(const Path& path, float width, const Transform& move) {
