@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rows out and in; the columns are in TrialColumns.h.
 #include "Files/TrialLog.h"
+#include "Files/Disk/FileClash.h"
 #include "Files/Text/CsvTable.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Text/NumberText.h"
@@ -230,10 +231,11 @@ void TrialLogFile::open(std::string_view version) {
     if (kept < text.value.size() && !file_.resize(static_cast<std::int64_t>(kept))) return failToWrite();
     std::error_code ignored;
     if (kept == 0 && !write(trialHeader(protocol_, participant_, version))) std::filesystem::remove(path_, ignored);
+    else SystemFile::syncFolder(folderOf(path_));
 }
 
 bool TrialLogFile::write(const std::string& text) {
-    if (error_.empty() && !file_.append(text)) failToWrite();
+    if (error_.empty() && !(file_.append(text) && file_.sync())) failToWrite();
     return error_.empty();
 }
 

@@ -51,7 +51,7 @@ public:
     /// The trials that were there when it was opened.
     const std::vector<TrialRecord>& records() const noexcept { return records_; }
 
-    /// Adds a row and hands it to the system before it returns. False after an error.
+    /// Adds a row, which is on the disk before this returns. False after an error.
     bool append(const TrialRecord& record);
 
 private:
