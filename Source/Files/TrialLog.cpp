@@ -230,15 +230,23 @@ void TrialLogFile::open(std::string_view version) {
     const std::size_t kept = log.value.wholeBytes;
     if (kept < text.value.size() && !file_.resize(static_cast<std::int64_t>(kept))) return failToWrite();
     std::error_code ignored;
-    if (kept == 0 && !write(trialHeader(protocol_, participant_, version))) std::filesystem::remove(path_, ignored);
+    if (kept == 0 && !(write(trialHeader(protocol_, participant_, version)) && sync())) std::filesystem::remove(path_, ignored);
     else SystemFile::syncFolder(folderOf(path_));
 }
 
 bool TrialLogFile::write(const std::string& text) {
-    if (error_.empty() && !(file_.append(text) && file_.sync())) failToWrite();
+    if (error_.empty() && !file_.append(text)) failToWrite();
     return error_.empty();
 }
 
-bool TrialLogFile::append(const TrialRecord& record) { return write(trialRow(protocol_, participant_, record, columns_)); }
+bool TrialLogFile::sync() {
+    if (error_.empty() && !file_.sync()) failToWrite();
+    return error_.empty();
+}
+
+bool TrialLogFile::append(const TrialRecord& record) {
+    const bool isPerson = participant_.observer == Participant{}.observer;
+    return write(trialRow(protocol_, participant_, record, columns_)) && (!isPerson || sync());
+}
 
 } // namespace physvib

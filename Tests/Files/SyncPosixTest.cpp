@@ -64,7 +64,7 @@ TEST_F(SyncTest, WhatCannotReachTheDiskDoesNotGetItsName) {
 
 TEST_F(SyncTest, ATrialsRowIsOnTheDiskBeforeItCounts) {
     const Protocol protocol = findProtocol("magnitudes").value;
-    const Participant participant{"P01", 1, "simulated"};
+    const Participant participant{"P01", 1};
     const fs::path path = folder / "magnitudes-P01.csv";
     watch(path);
     TrialLogFile log{path, protocol, participant, "1"};
@@ -79,6 +79,14 @@ TEST_F(SyncTest, ATrialsRowIsOnTheDiskBeforeItCounts) {
         const auto size = std::to_string(fs::file_size(path));
         EXPECT_EQ(seen, (std::vector{size + " bytes, there " + size}));
     }
+    seen.clear();
+    TrialLogFile simulated{folder / "magnitudes-P02.csv", protocol, {"P02", 1, "simulated"}, "1"};
+    seen.clear();
+    Experiment again{protocol, {"P02", 1, "simulated"}};
+    EXPECT_TRUE(simulated.append(again.take(observer.answer(again))));
+    EXPECT_TRUE(seen.empty()) << "who answers the same again";
+    EXPECT_TRUE(simulated.sync());
+    EXPECT_EQ(seen.size(), 1u);
     watcher = [](int) { return errno = EIO, -1; };
     EXPECT_FALSE(log.append(experiment.take(observer.answer(experiment))));
     EXPECT_EQ(log.error(), path.string() + ": cannot be written: Input/output error");

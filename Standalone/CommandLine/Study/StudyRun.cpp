@@ -100,7 +100,7 @@ std::string StudyRun::keepComment(const std::string& words) const {
 bool StudyRun::take(Answer answer) {
     if (!error_.empty()) return false;
     if (const std::string fault = experiment_.refusal(answer); !fault.empty()) return error_ = fault, false;
-    if (!log_.append(experiment_.take(std::move(answer)))) error_ = log_.error();
+    if (!log_.append(experiment_.take(std::move(answer))) || (experiment_.isDone() && !log_.sync())) error_ = log_.error();
     return error_.empty();
 }
 
