@@ -43,7 +43,9 @@ void lowerStrip(const Strip* most, bool isSilentThere, Strip& strip, const std::
 
 } // namespace
 
-DeskLimits DeskLimits::of(const Mix& mix) { return {mix.levelDb, mix.strips}; }
+DeskLimits DeskLimits::of(const Mix& mix) {
+    return {mix.levelDb, mix.strips};
+}
 
 std::string lowerTo(const DeskLimits& most, Mix& mix) {
     Notes notes;
@@ -53,19 +55,25 @@ std::string lowerTo(const DeskLimits& most, Mix& mix) {
         if (strip.output < 0) continue;
         const auto own = std::ranges::find(most.strips, strip.output, &Strip::output);
         const bool isThere = own != most.strips.end();
-        lowerStrip(isThere ? &*own : nullptr, isThere && isSilent(most.strips, static_cast<std::size_t>(own - most.strips.begin())), strip, mix.layout.enchanters[j].label, notes);
+        lowerStrip(isThere ? &*own : nullptr,
+                   isThere && isSilent(most.strips, static_cast<std::size_t>(own - most.strips.begin())),
+                   strip, mix.layout.enchanters[j].label, notes);
     }
     return notes.words();
 }
 
-std::string deskLimitsText(const DeskLimits& limits) { return OrderedJson{{"level_db", limits.levelDb}, {"strips", stripsJson(limits.strips, Outputs::chosen)}}.dump(); }
+std::string deskLimitsText(const DeskLimits& limits) {
+    return OrderedJson{{"level_db", limits.levelDb}, {"strips", stripsJson(limits.strips, Outputs::chosen)}}
+        .dump();
+}
 
 std::optional<DeskLimits> readDeskLimits(std::string_view text) {
     auto read = readJson(text, "settings", mostTextBytes, [](const Json& root) {
         const JsonField json{root, {}};
         json.expectObject({"level_db", "strips"});
         const JsonField strips = json["strips"];
-        return DeskLimits{json["level_db"].numberWithin(leastStripDb, 0.0), readStrips(strips, static_cast<int>(strips.arraySize()), Outputs::chosen)};
+        return DeskLimits{json["level_db"].numberWithin(leastStripDb, 0.0),
+                          readStrips(strips, static_cast<int>(strips.arraySize()), Outputs::chosen)};
     });
     return read ? std::optional{std::move(read.value)} : std::nullopt;
 }

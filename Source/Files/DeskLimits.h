@@ -17,8 +17,9 @@ struct DeskLimits {
     static DeskLimits of(const Mix& mix);
 };
 
-/// Lowers `mix` to `most`: its master level, and on each output the gain and the ceiling; what is silent there stays so. An enchanter on an
-/// output that is not in use there gets none. What was lowered, in words for people; empty: nothing. Any thread.
+/// Lowers `mix` to `most`: its master level, and on each output the gain and the ceiling; what is silent
+/// there stays so. An enchanter on an output that is not in use there gets none. What was lowered, in words
+/// for people; empty: nothing. Any thread.
 std::string lowerTo(const DeskLimits& most, Mix& mix);
 
 /// As text for a program's settings, and back; nullopt if it is none. Any thread.

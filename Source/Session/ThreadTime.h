@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How long the processor has worked for a thread: waiting, and what other programs do meanwhile, does not count.
+// How long the processor has worked for a thread: waiting, and what other programs do meanwhile, does not
+// count.
 #pragma once
 
 namespace physvib {

@@ -7,7 +7,9 @@
 namespace physvib {
 
 double threadSeconds() noexcept {
-    const auto secondsOf = [](const FILETIME& time) { return 1e-7 * (4294967296.0 * time.dwHighDateTime + time.dwLowDateTime); };
+    const auto secondsOf = [](const FILETIME& time) {
+        return 1e-7 * (4294967296.0 * time.dwHighDateTime + time.dwLowDateTime);
+    };
     FILETIME begun{}, ended{}, inKernel{}, inUser{};
     GetThreadTimes(GetCurrentThread(), &begun, &ended, &inKernel, &inUser);
     return secondsOf(inKernel) + secondsOf(inUser);

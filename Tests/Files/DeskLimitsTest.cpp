@@ -24,7 +24,8 @@ TEST(DeskLimits, NothingGetsLouder) {
     asked.levelDb = -3.0;
     for (Strip& strip : asked.strips) strip.gainDb = 3.0;
     EXPECT_EQ(lowerTo(DeskLimits::of(own), asked),
-              "master -3.0 to -20.0 dB; A gain 3.0 to -6.0 dB; B gain 3.0 to 0.0 dB; B ceiling 0.0 to -12.0 dB; C gain 3.0 to 0.0 dB; C muted; D without output 4");
+              "master -3.0 to -20.0 dB; A gain 3.0 to -6.0 dB; B gain 3.0 to 0.0 dB; B ceiling 0.0 to -12.0 "
+              "dB; C gain 3.0 to 0.0 dB; C muted; D without output 4");
     EXPECT_EQ(asked.levelDb, -20.0);
     EXPECT_EQ(asked.strips[0].gainDb, -6.0);
     EXPECT_EQ(asked.strips[1].gainDb, 0.0);
@@ -68,7 +69,9 @@ TEST(DeskLimits, AreKeptAsText) {
     ASSERT_TRUE(again);
     EXPECT_EQ(again->levelDb, own.levelDb);
     EXPECT_EQ(again->strips, own.strips);
-    for (const char* const text : {"", "{}", R"({"level_db": 3, "strips": []})", R"({"level_db": -3, "strips": [{}]})"}) EXPECT_FALSE(readDeskLimits(text)) << text;
+    for (const char* const text :
+         {"", "{}", R"({"level_db": 3, "strips": []})", R"({"level_db": -3, "strips": [{}]})"})
+        EXPECT_FALSE(readDeskLimits(text)) << text;
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What counts is on the disk: every fsync of this program is seen here, with what stood at the file's place at that moment.
+// What counts is on the disk: every fsync of this program is seen here, with what stood at the file's place
+// at that moment.
 #include "FileTesting.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/ProtocolFile.h"
@@ -18,7 +19,9 @@ std::function<int(int descriptor)> watcher; // of one test
 
 } // namespace
 
-extern "C" int fsync(int descriptor) { return watcher ? watcher(descriptor) : static_cast<int>(syscall(SYS_fsync, descriptor)); }
+extern "C" int fsync(int descriptor) {
+    return watcher ? watcher(descriptor) : static_cast<int>(syscall(SYS_fsync, descriptor));
+}
 
 namespace physvib {
 namespace {
@@ -34,11 +37,13 @@ protected:
     /// From now on: "folder" or "N bytes", and what `path` was then.
     void watch(const fs::path& path) {
         watcher = [this, path](int descriptor) {
-            struct stat synced {}, there {};
+            struct stat synced {
+            }, there{};
             EXPECT_EQ(fstat(descriptor, &synced), 0);
             const bool isThere = stat(path.c_str(), &there) == 0, isFolder = S_ISDIR(synced.st_mode);
             if (isFolder) EXPECT_TRUE(fs::equivalent(folder, path.parent_path()));
-            seen.push_back((isFolder ? std::string{"folder"} : std::to_string(synced.st_size) + " bytes") + ", there " + (isThere ? std::to_string(there.st_size) : "nothing"));
+            seen.push_back((isFolder ? std::string{"folder"} : std::to_string(synced.st_size) + " bytes") +
+                           ", there " + (isThere ? std::to_string(there.st_size) : "nothing"));
             return 0;
         };
     }
@@ -57,7 +62,8 @@ TEST_F(SyncTest, AFileIsOnTheDiskBeforeItHasItsNameAndThenTheNameIs) {
 TEST_F(SyncTest, WhatCannotReachTheDiskDoesNotGetItsName) {
     put(folder / "out.csv", "old");
     watcher = [](int) { return errno = EIO, -1; };
-    EXPECT_EQ(writeFile(folder / "out.csv", "new"), (folder / "out.csv").string() + ": cannot be written: Input/output error");
+    EXPECT_EQ(writeFile(folder / "out.csv", "new"),
+              (folder / "out.csv").string() + ": cannot be written: Input/output error");
     EXPECT_EQ(contentOf(folder / "out.csv"), "old");
     EXPECT_EQ(filesInFolder(), 1u);
 }

@@ -18,18 +18,23 @@ TEST(Patience, WaitingIsNoSlowWorld) {
 TEST(Patience, WorkIsGivenUp) {
     Patience patience{0.05};
     const double end = threadSeconds() + 0.15;
-    while (threadSeconds() < end) {}
+    while (threadSeconds() < end) {
+    }
     EXPECT_TRUE(patience(1'000'000'000)) << "a second was simulated";
     EXPECT_FALSE(patience(10'000'000));
-    EXPECT_TRUE(patience.fault().starts_with("expected a world that is simulated as fast as it lasts, found 0.01 s of it after 0.")) << patience.fault();
-    EXPECT_TRUE(patience.fault().ends_with(" s of processor time (--patience waits longer)")) << patience.fault();
+    EXPECT_TRUE(patience.fault().starts_with(
+        "expected a world that is simulated as fast as it lasts, found 0.01 s of it after 0."))
+        << patience.fault();
+    EXPECT_TRUE(patience.fault().ends_with(" s of processor time (--patience waits longer)"))
+        << patience.fault();
 }
 
 TEST(Patience, AnotherThreadsWorkIsNotCounted) {
     Patience patience{0.05};
     std::thread{[] {
         const double end = threadSeconds() + 0.15;
-        while (threadSeconds() < end) {}
+        while (threadSeconds() < end) {
+        }
     }}.join();
     EXPECT_TRUE(patience(0));
 }

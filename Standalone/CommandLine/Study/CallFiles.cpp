@@ -26,8 +26,11 @@ bool isWritten(CLI::Option& option) {
 void collect(CLI::App& app, CallFiles& files) {
     for (CLI::Option* const option : app.get_options())
         for (const std::string& value : option->results()) {
-            if (isWritten(*option)) files.outputs.push_back(value);
-            else files.inputs.insert(files.inputs.end(), {value, value.substr(value.find('=') + 1)}); // the latter for HZ=FILE.wav
+            if (isWritten(*option))
+                files.outputs.push_back(value);
+            else
+                files.inputs.insert(files.inputs.end(),
+                                    {value, value.substr(value.find('=') + 1)}); // the latter for HZ=FILE.wav
         }
     for (CLI::App* const command : app.get_subcommands()) collect(*command, files);
 }
@@ -60,7 +63,8 @@ std::string writtenWordFault(std::string_view call) {
     while (!call.empty()) {
         const std::string_view word = call.substr(0, call.find(' '));
         call.remove_prefix(std::min(word.size() + 1, call.size()));
-        if (words.contains(word.substr(0, word.find('=')))) return "expected no file to be written, found " + std::string(word);
+        if (words.contains(word.substr(0, word.find('='))))
+            return "expected no file to be written, found " + std::string(word);
     }
     return {};
 }
