@@ -76,7 +76,10 @@ Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state
         const DeskLimits limits = limitsOf(state);
         state.layout = std::move(layout.value);
         fitToLayout(state);
-        Mix mix{.layout = state.layout, .strips = state.strips, .levelDb = limits.levelDb};
+        Mix mix;
+        mix.layout = state.layout;
+        mix.strips = state.strips;
+        mix.levelDb = limits.levelDb;
         const std::string lowered = lowerByChannel(limits, mix);
         state.strips = std::move(mix.strips);
         return OpenedFile{std::move(state), noteOf(path, lowered)};

@@ -184,8 +184,9 @@ std::string levelsFault(const Protocol& p, const SessionPlan& s) {
 std::string firstCallFault(const Protocol& p, const ConditionPlan& c, const std::function<std::string(const std::string& call)>& faultOf) {
     const CallSet* const calls = callSetOf(c.stimuli);
     if (calls == nullptr) return {};
+    const auto parts = namedPartsOf(p, *calls);
     for (const StimulusItem& item : stimuliOf(c))
-        for (const std::string& part : namedPartsOf(p, *calls))
+        for (const std::string& part : parts)
             if (std::string fault = faultOf(callOf(*calls, item, part, "0")); !fault.empty()) return fault;
     return {};
 }
