@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of one's own in the plug-in: a scene, a layout, a mixer's session; what is wrong leaves everything as it was.
 #include "OpenedFile.h"
+#include "PluginSettings.h"
 #include "PluginTesting.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/SceneCatalogue.h"
@@ -125,9 +126,12 @@ TEST_F(PluginFiles, NoFileMakesAnythingLouder) {
     EXPECT_EQ(host_.plugin->state().strips[0].ceilingDb, -20.0);
     EXPECT_TRUE(host_.plugin->state().strips[1].isMuted);
     state.strips[1].isMuted = false;
-    const auto wider = openFile(write("layout.json", layoutJson(presetLayout("study1"))), state);
+    takePreset(state, "phone2");
+    const auto wider = openFile(write("layout.json", layoutJson(presetLayout("phone4"))), state);
     ASSERT_TRUE(wider) << wider.error;
-    for (std::size_t j = 4; j < wider.value.state.strips.size(); ++j) EXPECT_TRUE(wider.value.state.strips[j].isMuted) << "nothing was felt there: " << j;
+    EXPECT_EQ(wider.value.note, "layout.json: lowered to this desk: C without output 3; D without output 4");
+    ASSERT_EQ(wider.value.state.strips.size(), 4u);
+    for (std::size_t j = 0; j < 4; ++j) EXPECT_EQ(wider.value.state.strips[j].isMuted, j > 1) << "nothing was felt there: " << j;
 }
 
 TEST_F(PluginFiles, WhatOfASessionIsNotPlayedIsSaid) {
