@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // By what the file says it is.
 #include "OpenedFile.h"
+#include "Files/DeskLimits.h"
 #include "Files/Disk/FileKind.h"
 #include "Files/SceneFile.h"
 #include "Files/SessionFile.h"
 #include "Parameters.h"
 #include "PluginSettings.h"
 #include <algorithm>
+#include <utility>
 
 namespace physvib {
 
@@ -19,16 +21,35 @@ void setParameter(PluginState& state, Parameter which, double value) {
     kept.second = std::clamp(value, row.least, row.most);
 }
 
-PluginState leftBy(const SavedSession& session, PluginState state) {
-    const Mix mix = mixOf(session);
+/// As the person at this instance has left it; enchanter j leaves by channel j.
+DeskLimits limitsOf(const PluginState& state) {
+    const auto level = std::ranges::find(state.parameters, rowOf(Parameter::level).id, &std::pair<std::string, ParameterValue>::first);
+    const auto* const set = level == state.parameters.end() ? nullptr : std::get_if<double>(&level->second);
+    DeskLimits limits{set ? *set : rowOf(Parameter::level).initial, state.strips};
+    resizeStrips(limits.strips, state.layout.geometry.count);
+    for (std::size_t j = 0; j < limits.strips.size(); ++j) limits.strips[j].output = static_cast<int>(j);
+    return limits;
+}
+
+/// The same of a file's mix; a channel cannot be left out, so it is muted. What was lowered.
+std::string lowerByChannel(const DeskLimits& limits, Mix& mix) {
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) mix.strips[j].output = static_cast<int>(j);
+    std::string lowered = lowerTo(limits, mix);
+    for (std::size_t j = 0; j < mix.strips.size(); ++j)
+        if (std::exchange(mix.strips[j].output, static_cast<int>(j)) < 0) mix.strips[j].isMuted = true;
+    return lowered;
+}
+
+std::string noteOf(const std::filesystem::path& path, const std::string& lowered) { return lowered.empty() ? lowered : path.filename().string() + ": lowered to this desk: " + lowered; }
+
+PluginState leftBy(const SavedSession& session, Mix mix, PluginState state) {
     takeScene(state, *mix.scene);
     state.seed = mix.seed;
     state.stepsPerSecond = session.run.stepsPerSecond;
     state.layout = mix.layout;
     state.strips = mix.strips;
-    for (std::size_t j = 0; j < state.strips.size(); ++j) state.strips[j].output = static_cast<int>(j);
     state.equalised = session.equalised;
-    state.limiterEnabled = session.limiterEnabled;
+    state.limiterEnabled |= session.limiterEnabled;
     setParameter(state, Parameter::law, static_cast<double>(mix.law));
     setParameter(state, Parameter::exponent, mix.exponent);
     setParameter(state, Parameter::level, mix.levelDb);
@@ -52,15 +73,27 @@ Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state
     case FileKind::layout: {
         auto layout = loadLayout(path);
         if (!layout) return Failure{layout.error};
+        const DeskLimits limits = limitsOf(state);
         state.layout = std::move(layout.value);
         fitToLayout(state);
-        return OpenedFile{std::move(state), {}};
+        Mix mix;
+        mix.layout = state.layout;
+        mix.strips = state.strips;
+        mix.levelDb = limits.levelDb;
+        const std::string lowered = lowerByChannel(limits, mix);
+        state.strips = std::move(mix.strips);
+        return OpenedFile{std::move(state), noteOf(path, lowered)};
     }
     case FileKind::session: {
         const auto session = loadSession(path);
         if (!session) return Failure{session.error};
-        const std::string note = isPlayedOtherwise(session.value) ? path.filename().string() + ": its method, timing and recordings are not played here" : std::string{};
-        return OpenedFile{leftBy(session.value, std::move(state)), note};
+        Mix mix = mixOf(session.value);
+        std::string lowered = lowerByChannel(limitsOf(state), mix);
+        if (state.limiterEnabled && !session.value.limiterEnabled) lowered += lowered.empty() ? "the limiter stays on" : "; the limiter stays on";
+        std::string note = isPlayedOtherwise(session.value) ? path.filename().string() + ": its method, timing and recordings are not played here" : std::string{};
+        if (!note.empty() && !lowered.empty()) note += "; ";
+        note += noteOf(path, lowered);
+        return OpenedFile{leftBy(session.value, std::move(mix), std::move(state)), note};
     }
     case FileKind::unknown: break;
     }

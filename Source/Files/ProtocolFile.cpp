@@ -3,6 +3,7 @@
 #include "Files/ProtocolFile.h"
 #include "Files/Disk/ContentHash.h"
 #include "Files/Disk/Embedded.h"
+#include "Files/Disk/FileClash.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/Json/JsonFile.h"
@@ -13,6 +14,7 @@
 #include "Files/Text/NumberText.h"
 #include "Files/ProtocolFields.h"
 #include "Files/TrialColumns.h"
+#include "Study/CallWords.h"
 #include "Physics/Scenes/SceneRanges.h"
 
 namespace physvib {
@@ -79,11 +81,34 @@ std::string besideProtocol(const std::string& folder, const std::string& path) {
     return !folder.empty() && std::filesystem::is_regular_file(beside, none) ? beside.string() : path;
 }
 
+std::string linkFault(const std::string& folder, const std::string& path) {
+    std::error_code none;
+    const std::string found = besideProtocol(folder, path), home = found == path ? std::string{} : folder;
+    if (!isPlainPath(path) || !std::filesystem::exists(found, none) || isWithin(home, found)) return {};
+    return found + ": expected a file in " + (home.empty() ? "the folder" : home) + " or below, found a link that leads elsewhere";
+}
+
+namespace {
+
+/// The same of all that a protocol names but in its calls.
+std::string namedLinkFault(const Protocol& protocol) {
+    std::vector<std::string> paths{protocol.words};
+    for (const ConditionPlan& condition : protocol.conditions) paths.push_back(condition.layout);
+    for (const StudySoundFile& sound : protocol.sounds) paths.push_back(sound.file);
+    for (const SessionPlan& session : protocol.sessions) paths.push_back(session.levelsFile);
+    for (const std::string& path : paths)
+        if (auto fault = linkFault(protocol.folder, path); !fault.empty()) return fault;
+    return {};
+}
+
+} // namespace
+
 Result<Protocol> findProtocol(const std::string& nameOrPath) {
     if (isJsonPath(nameOrPath)) {
         auto protocol = loadProtocol(nameOrPath);
         if (!protocol) return protocol;
         protocol.value.folder = std::filesystem::path{nameOrPath}.parent_path().string();
+        if (auto fault = namedLinkFault(protocol.value); !fault.empty()) return Failure{fault};
         if (auto fault = takeLevels(protocol.value); !fault.empty()) return Failure{fault};
         return protocol;
     }

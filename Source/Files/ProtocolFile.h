@@ -32,6 +32,9 @@ const std::vector<Protocol>& builtInProtocols();
 /// A file that a protocol names: the one beside the protocol, if it is there, else the one of that path. M only.
 std::string besideProtocol(const std::string& folder, const std::string& path);
 
+/// Empty, or that the file which besideProtocol() finds for such a path stands behind a link that leads out of the folder. M only.
+std::string linkFault(const std::string& folder, const std::string& path);
+
 /// A built-in protocol by its name, else that of the file, which then is the folder of what it names. M only.
 Result<Protocol> findProtocol(const std::string& nameOrPath);
 

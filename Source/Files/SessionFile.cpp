@@ -3,6 +3,7 @@
 #include "Files/SessionFile.h"
 #include "Core/ClipNumber.h"
 #include "Files/ControlJson.h"
+#include "Files/Disk/FileClash.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Json/JsonFile.h"
 #include "Files/Json/JsonReader.h"
@@ -337,21 +338,11 @@ Result<SavedSession> readSession(std::string_view text, std::string_view name) {
     return readJson(text, name, limits::maxSessionFileBytes, [](const Json& root) { return detail::readSessionRoot(JsonField(root, {})); });
 }
 
-namespace {
-
-/// Whether a path does not leave the folder it begins in. On Windows "/x" and "C:x" are relative, to a drive.
-bool staysBelow(const std::filesystem::path& path) {
-    const auto normal = path.lexically_normal();
-    return normal.root_path().empty() && (normal.empty() || *normal.begin() != "..");
-}
-
-} // namespace
-
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
     auto session = loadText(path, limits::maxSessionFileBytes, readSession);
     for (const RecordingsChange& change : session.value.log.recordings)
         for (const RecordingFile& file : change.files)
-            if (file.hash.empty() && !syntheticSeed(file.path) && !staysBelow(file.path))
+            if (file.hash.empty() && !syntheticSeed(file.path) && !isWithin(path.parent_path(), path.parent_path() / file.path))
                 return Failure{path.string() + ": recordings: expected a hash for a file that is not in the session's folder or below, found none for " + inQuotes(file.path)};
     for (RecordingsChange& change : session.value.log.recordings)
         for (RecordingFile& file : change.files)

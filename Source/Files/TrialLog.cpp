@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rows out and in; the columns are in TrialColumns.h.
 #include "Files/TrialLog.h"
+#include "Files/Disk/FileClash.h"
 #include "Files/Text/CsvTable.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Text/NumberText.h"
@@ -229,7 +230,8 @@ void TrialLogFile::open(std::string_view version) {
     const std::size_t kept = log.value.wholeBytes;
     if (kept < text.value.size() && !file_.resize(static_cast<std::int64_t>(kept))) return failToWrite();
     std::error_code ignored;
-    if (kept == 0 && !write(trialHeader(protocol_, participant_, version))) std::filesystem::remove(path_, ignored);
+    if (kept == 0 && !(write(trialHeader(protocol_, participant_, version)) && sync())) std::filesystem::remove(path_, ignored);
+    else SystemFile::syncFolder(folderOf(path_));
 }
 
 bool TrialLogFile::write(const std::string& text) {
@@ -237,6 +239,14 @@ bool TrialLogFile::write(const std::string& text) {
     return error_.empty();
 }
 
-bool TrialLogFile::append(const TrialRecord& record) { return write(trialRow(protocol_, participant_, record, columns_)); }
+bool TrialLogFile::sync() {
+    if (error_.empty() && !file_.sync()) failToWrite();
+    return error_.empty();
+}
+
+bool TrialLogFile::append(const TrialRecord& record) {
+    const bool isPerson = participant_.observer == Participant{}.observer;
+    return write(trialRow(protocol_, participant_, record, columns_)) && (!isPerson || sync());
+}
 
 } // namespace physvib

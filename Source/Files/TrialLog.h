@@ -51,8 +51,12 @@ public:
     /// The trials that were there when it was opened.
     const std::vector<TrialRecord>& records() const noexcept { return records_; }
 
-    /// Adds a row and hands it to the system before it returns. False after an error.
+    /// Adds a row. A person's is on the disk before this returns; a simulated observer's, who would answer the same again, after sync().
+    /// False after an error.
     bool append(const TrialRecord& record);
+
+    /// All rows are on the disk. False after an error.
+    bool sync();
 
 private:
     void open(std::string_view version);

@@ -10,6 +10,12 @@ void add(std::string& bytes, std::uint32_t value, int width) {
     for (int i = 0; i < width; ++i) bytes += static_cast<char>(value >> (8 * i) & 255);
 }
 
+std::int64_t numberAt(std::string_view bytes, std::size_t at, std::size_t width) noexcept {
+    std::int64_t value = 0;
+    for (std::size_t i = width; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return value;
+}
+
 } // namespace
 
 std::string wavFormatChunk(int channels, int sampleRateHz) {
@@ -38,6 +44,13 @@ std::string wavHead(int channels, int sampleRateHz, std::uint32_t dataBytes) {
     bytes += "WAVE" + format + "data";
     add(bytes, dataBytes, 4);
     return bytes;
+}
+
+std::int64_t wavFileBytes(std::string_view head) noexcept {
+    constexpr std::size_t idBytes = 4, longSizeAt = 20; // of RF64, in its chunk ds64
+    if (head.size() < wavSizeBytes) return 0;
+    if (head.starts_with("RIFF")) return 8 + numberAt(head, idBytes, 4);
+    return head.starts_with("RF64") ? 8 + numberAt(head, longSizeAt, 8) : 0;
 }
 
 } // namespace physvib

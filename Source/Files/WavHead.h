@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace physvib {
 
@@ -11,6 +12,11 @@ std::string wavFormatChunk(int channels, int sampleRateHz);
 
 /// Everything up to the first sample of a file with so many bytes of them, less than wavMostBytes. Any thread.
 std::string wavHead(int channels, int sampleRateHz, std::uint32_t dataBytes);
+
+/// How long a WAVE file (RIFF or RF64) says it is in its first wavSizeBytes bytes; 0: they begin none. Any thread.
+std::int64_t wavFileBytes(std::string_view head) noexcept;
+
+constexpr std::size_t wavSizeBytes = 28;
 
 constexpr std::int64_t wavMostBytes = 0xffff'ff00; // what a plain WAVE file can count, with its head
 

@@ -18,6 +18,11 @@ public:
     /// Adds whole lines, behind what waits.
     void append(std::string_view lines);
 
+    /// What was written is on the disk, or error() says why not.
+    void sync() {
+        if (error_.empty() && !file_.sync()) fail(file_.reason());
+    }
+
     /// Empty, or one line: why something waits, or that more than maxWaitingBytes would have to; then it grows no more.
     const std::string& error() const noexcept { return error_; }
 

@@ -120,6 +120,7 @@ std::string SessionJournal::finish() {
     if (!text) return text.error;
     const auto session = readSession(text.value, path_.string());
     if (!session) return session.error;
+    events_.sync();
     whole_->write(sessionJson(session.value));
     if (const std::string& error = whole_->commit(); !error.empty()) return error + "; the session is there as it was kept while it played, and renders";
     return file_.error().empty() ? events_.error() : file_.error();

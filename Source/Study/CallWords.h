@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What may stand in the calls of a protocol. A protocol comes from anywhere; its calls are rendered, and stand in every row of the
-// trial file for somebody to copy into a shell: they render, read what is below their folder, and do nothing else.
+// trial file for somebody to copy into a shell: they render, read what is below their folder, and do nothing else. Which options
+// write a file, the program's parser knows (Standalone/CommandLine/Study/CallFiles.h).
 #pragma once
 #include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
 
@@ -28,9 +28,8 @@ constexpr bool isPlainPath(std::string_view path) noexcept {
     }
 }
 
-/// Empty, or why a call with all its names filled in is none that a protocol may make. Any thread (allocates).
+/// Empty, or why a call with all its names filled in is none that a protocol may make, by its characters and paths. Any thread (allocates).
 inline std::string callFault(std::string_view call) {
-    constexpr std::array<std::string_view, 5> writing{"--out", "--events", "--picture", "--pattern", "--contact-sound"};
     if (!call.starts_with("render ") && !call.starts_with("stimulus ")) return "expected render or stimulus, and what they take";
     if (const auto unknown = call.find('{'); unknown != std::string_view::npos)
         return "expected names of factors in braces, or alternative, object, level_db; found " + std::string(call.substr(unknown, call.find('}', unknown) - unknown)) + "}";
@@ -38,7 +37,6 @@ inline std::string callFault(std::string_view call) {
     while (!call.empty()) {
         const std::string_view word = call.substr(0, call.find(' '));
         call.remove_prefix(std::min(word.size() + 1, call.size()));
-        if (std::ranges::find(writing, word.substr(0, word.find('='))) != writing.end()) return "expected no file to be written, found " + std::string(word);
         for (std::string_view rest = word; !rest.empty();) { // 80=ball.wav
             const std::string_view piece = rest.substr(0, rest.find_first_of("=,:"));
             rest.remove_prefix(std::min(piece.size() + 1, rest.size()));

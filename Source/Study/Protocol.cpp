@@ -71,20 +71,21 @@ std::string valuesFault(const CallSet& calls) {
     return {};
 }
 
-/// Every call that a condition can make, as it would stand in a row. Empty, or what is wrong with the first.
+/// What a call's {alternative} and {object} may become.
+std::set<std::string> namedPartsOf(const Protocol& p, const CallSet& calls) {
+    const bool namesParts = calls.call.find("{alternative}") != std::string::npos || calls.call.find("{object}") != std::string::npos;
+    return namesParts ? callPartsOf(p) : std::set<std::string>{""};
+}
+
+/// Empty, or what is wrong with the first call that a condition can make.
 std::string callsFault(const Protocol& p, const ConditionPlan& c, const CallSet& calls) {
     if (std::string fault = valuesFault(calls); !fault.empty()) return fault;
-    const bool namesParts = calls.call.find("{alternative}") != std::string::npos || calls.call.find("{object}") != std::string::npos;
-    const auto parts = namesParts ? callPartsOf(p) : std::set<std::string>{""};
-    if (!std::ranges::all_of(parts, isPlain)) return "call: expected alternatives and objects without braces";
-    for (const StimulusItem& item : stimuliOf(c))
-        for (const std::string& part : parts) {
-            const std::string call = callOf(calls, item, part, "0");
-            if (std::string fault = callFault(call); !fault.empty()) return "call: " + fault;
-            if (const auto bytes = call.size() + soundWords(p, call).size(); bytes > mostCallBytes)
-                return "call: expected at most " + std::to_string(mostCallBytes) + " bytes with its recordings, found " + std::to_string(bytes);
-        }
-    return {};
+    if (!std::ranges::all_of(namedPartsOf(p, calls), isPlain)) return "call: expected alternatives and objects without braces";
+    return firstCallFault(p, c, [&p](const std::string& call) -> std::string {
+        if (std::string fault = callFault(call); !fault.empty()) return "call: " + fault;
+        const auto bytes = call.size() + soundWords(p, call).size();
+        return bytes <= mostCallBytes ? std::string{} : "call: expected at most " + std::to_string(mostCallBytes) + " bytes with its recordings, found " + std::to_string(bytes);
+    });
 }
 
 std::string stimulusFault(const ConditionPlan& c, const SessionPlan& s) {
@@ -179,6 +180,16 @@ std::string levelsFault(const Protocol& p, const SessionPlan& s) {
 }
 
 } // namespace
+
+std::string firstCallFault(const Protocol& p, const ConditionPlan& c, const std::function<std::string(const std::string& call)>& faultOf) {
+    const CallSet* const calls = callSetOf(c.stimuli);
+    if (calls == nullptr) return {};
+    const auto parts = namedPartsOf(p, *calls);
+    for (const StimulusItem& item : stimuliOf(c))
+        for (const std::string& part : parts)
+            if (std::string fault = faultOf(callOf(*calls, item, part, "0")); !fault.empty()) return fault;
+    return {};
+}
 
 std::string levelsFault(const Protocol& p) {
     for (const SessionPlan& s : p.sessions)

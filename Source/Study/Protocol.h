@@ -10,6 +10,7 @@
 #include "Study/Stimulus.h"
 #include "Study/StimulusLevels.h"
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -200,6 +201,9 @@ std::string callOf(const CallSet& set, const StimulusItem& item, const std::stri
 
 /// What alternatives and objects can be put into calls; at least one, which has no name. Any thread (allocates).
 std::set<std::string> callPartsOf(const Protocol& protocol);
+
+/// Empty, or the first that `faultOf` finds wrong with a call which the condition can make, as it would stand in a row. Any thread (allocates).
+std::string firstCallFault(const Protocol& protocol, const ConditionPlan& condition, const std::function<std::string(const std::string& call)>& faultOf);
 
 /// Number of stimuli without making them. Any thread.
 double stimulusCount(const ConditionPlan& condition) noexcept;

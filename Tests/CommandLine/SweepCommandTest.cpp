@@ -132,6 +132,30 @@ TEST_F(SweepCommand, AResultThatIsNotWholeIsMadeAgain) {
     EXPECT_EQ(call("sweep design.json --out s --events").out, "s/index.csv  24 tasks, 24 rendered now\n") << "what is wanted now was not kept before";
 }
 
+TEST_F(SweepCommand, WhatIsKeptOfATaskIsMadeAgainWhereItIsNotWhole) {
+    const std::string sweep = "sweep design.json --out s --wav --events";
+    ASSERT_EQ(call(sweep).exitCode, 0);
+    const std::string index = read("s/index.csv");
+    const auto wavs = below("s/tasks", ".wav"), lists = below("s/tasks", ".events.csv");
+    ASSERT_EQ(wavs.size(), 24u);
+    ASSERT_EQ(lists.size(), 24u);
+    const auto whole = fs::file_size(wavs[3]);
+    const auto at = [&](std::size_t i) { return lists[i].string().substr(folder_.string().size() + 1); };
+    const std::string list = read(at(9));
+    fs::resize_file(wavs[3], 0); // a machine that lost its power
+    fs::resize_file(wavs[4], 20);
+    fs::resize_file(wavs[5], whole / 2);
+    fs::resize_file(lists[8], 0);
+    write(at(9), list.substr(0, list.rfind('\n', list.size() - 2) + 1)); // up to a whole row
+    fs::resize_file(lists[10], fs::file_size(lists[10]) - 5);
+    EXPECT_EQ(call(sweep + " --gather").exitCode, 1);
+    EXPECT_EQ(call(sweep).out, "s/index.csv  24 tasks, 6 rendered now\n") << read(".err");
+    EXPECT_EQ(fs::file_size(wavs[3]), whole);
+    EXPECT_EQ(read(at(9)), list);
+    EXPECT_EQ(read("s/index.csv"), index);
+    EXPECT_EQ(call(sweep).out, "s/index.csv  24 tasks, 0 rendered now\n");
+}
+
 TEST_F(SweepCommand, ALargerDesignTakesWhatIsThereAndAnotherSceneFileDoesNot) {
     const std::string scene = R"({"physvib_scene":1,"name":"ball","field_m":[4,2],"materials":[{"name":"wood","density_kg_per_m2":850,"friction":0.4,"restitution":0.6,"frequency_hz":80,"decay_per_s":30}],
 "bodies":[{"name":"floor","type":"static","position_m":[2,0.1],"mass_kg":10,"fixtures":[{"shape":"box","size_m":[4,0.2],"material":"wood"}]},

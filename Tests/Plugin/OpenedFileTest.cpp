@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of one's own in the plug-in: a scene, a layout, a mixer's session; what is wrong leaves everything as it was.
 #include "OpenedFile.h"
+#include "PluginSettings.h"
 #include "PluginTesting.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/SceneCatalogue.h"
@@ -89,7 +90,7 @@ TEST_F(PluginFiles, ASessionBringsItsDeskSeedActuatorsAndSteps) {
     const auto session = sampleSession();
     const auto opened = openFile(write("session.json", sessionJson(session)), host_.plugin->state());
     ASSERT_TRUE(opened) << opened.error;
-    EXPECT_EQ(opened.value.note, "");
+    EXPECT_EQ(opened.value.note, "session.json: lowered to this desk: the limiter stays on");
     host_.plugin->open(opened.value.state);
     ASSERT_EQ(host_.plugin->trouble(), "");
     const auto now = host_.plugin->state();
@@ -97,7 +98,7 @@ TEST_F(PluginFiles, ASessionBringsItsDeskSeedActuatorsAndSteps) {
     EXPECT_EQ(now.seed, 11u);
     EXPECT_EQ(now.stepsPerSecond, 200);
     EXPECT_EQ(now.layout.name, "phone2");
-    EXPECT_FALSE(now.limiterEnabled);
+    EXPECT_TRUE(now.limiterEnabled) << "no file takes it off";
     EXPECT_EQ(now.equalised, session.equalised);
     ASSERT_EQ(now.strips.size(), 2u);
     EXPECT_EQ(now.strips[0].gainDb, -6.0);
@@ -108,8 +109,34 @@ TEST_F(PluginFiles, ASessionBringsItsDeskSeedActuatorsAndSteps) {
     EXPECT_NEAR(host_.plugin->parameter(Parameter::level).value(), -20.0, 1e-4);
 }
 
+TEST_F(PluginFiles, NoFileMakesAnythingLouder) {
+    auto session = sampleSession();
+    session.limiterEnabled = true;
+    session.mix->levelDb = -1.0;
+    session.mix->strips[0].gainDb = 6.0;
+    auto state = host_.plugin->state();
+    ASSERT_EQ(state.strips.size(), 4u);
+    state.strips[0].ceilingDb = -20.0;
+    state.strips[1].isMuted = true;
+    const auto opened = openFile(write("session.json", sessionJson(session)), state);
+    ASSERT_TRUE(opened) << opened.error;
+    EXPECT_EQ(opened.value.note, "session.json: lowered to this desk: master -1.0 to -12.0 dB; A gain 6.0 to 0.0 dB; A ceiling 0.0 to -20.0 dB; B muted");
+    host_.plugin->open(opened.value.state);
+    EXPECT_NEAR(host_.plugin->parameter(Parameter::level).value(), -12.0, 1e-4);
+    EXPECT_EQ(host_.plugin->state().strips[0].ceilingDb, -20.0);
+    EXPECT_TRUE(host_.plugin->state().strips[1].isMuted);
+    state.strips[1].isMuted = false;
+    takePreset(state, "phone2");
+    const auto wider = openFile(write("layout.json", layoutJson(presetLayout("phone4"))), state);
+    ASSERT_TRUE(wider) << wider.error;
+    EXPECT_EQ(wider.value.note, "layout.json: lowered to this desk: C without output 3; D without output 4");
+    ASSERT_EQ(wider.value.state.strips.size(), 4u);
+    for (std::size_t j = 0; j < 4; ++j) EXPECT_EQ(wider.value.state.strips[j].isMuted, j > 1) << "nothing was felt there: " << j;
+}
+
 TEST_F(PluginFiles, WhatOfASessionIsNotPlayedIsSaid) {
     auto session = sampleSession();
+    session.limiterEnabled = true;
     session.shaping.gain = 2.0;
     const auto opened = openFile(write("session.json", sessionJson(session)), host_.plugin->state());
     ASSERT_TRUE(opened) << opened.error;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Temporary siblings, renames, and sentences for what can go wrong with them.
 #include "Files/Disk/AtomicFile.h"
+#include "Files/Disk/FileClash.h"
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
@@ -29,7 +30,7 @@ int tryOpen(const fs::path& path, const char* mode) {
 /// Why nothing may be put at `target`; empty if something may.
 std::string obstacle(const fs::path& target) {
     std::error_code code;
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    const fs::path folder = folderOf(target);
     if (!target.has_filename()) return "it names a folder, expected a file";
     const bool isThere = fs::exists(folder, code);
     if (code) return code.message();
@@ -85,11 +86,14 @@ const std::string& AtomicFile::commit() {
     if (!error_.empty()) return error_;
     std::error_code code;
     file_.takePermissionsOf(target_);
-    if (!file_.isAt(temporary_) && fs::exists(fs::symlink_status(temporary_, code))) {
+    if (!file_.sync()) {
+        fail(file_.reason());
+    } else if (!file_.isAt(temporary_) && fs::exists(fs::symlink_status(temporary_, code))) {
         fail("its temporary file was replaced by another");
     } else if (fs::rename(temporary_, target_, code); code) {
         fail(code.message());
     }
+    if (error_.empty()) SystemFile::syncFolder(folderOf(target_));
     removeTemporary();
     return error_;
 }
@@ -97,6 +101,7 @@ const std::string& AtomicFile::commit() {
 std::string AtomicFile::prepare() {
     std::error_code code;
     if (fs::is_symlink(named_, code)) {
+        if (!isWithin(named_.parent_path(), named_)) return leadsElsewhere;
         target_ = fs::weakly_canonical(named_, code);
         if (code) return code.message();
     }

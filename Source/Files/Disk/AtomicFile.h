@@ -13,8 +13,9 @@ namespace physvib {
 /// as well: one path has one writer at a time, in all programs. M only.
 class AtomicFile {
 public:
-    /// Makes the empty temporary file beside `path`; see error(). A link at `path` is followed. Refused: a folder, a device, a
-    /// pipe (a rename would replace it), a file that may not be written, and one that is being written already.
+    /// Makes the empty temporary file beside `path`; see error(). A link at `path` is followed within its folder and below. Refused: a link
+    /// that leads elsewhere, a folder, a device, a pipe (a rename would replace it), a file that may not be written, and one that is being
+    /// written already.
     explicit AtomicFile(const std::filesystem::path& path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -32,7 +33,8 @@ public:
     /// Makes `bytes` all of the file. Returns error(); after an error nothing is left behind.
     const std::string& write(std::string_view bytes);
 
-    /// Renames the temporary file onto the path, once. After an error nothing is left behind.
+    /// Renames the temporary file onto the path, once; then both the file and its name are on the disk, so that what was whole stays whole
+    /// when the machine loses its power. After an error nothing is left behind.
     [[nodiscard]] const std::string& commit();
 
     /// Beside the path, until then. It is never opened again: what has that name need not be ours.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is the same on every system: who owns what is open, what an error is called, and what goes when the program ends.
 #include "Files/Disk/SystemFile.h"
+#include "Files/Disk/FileClash.h"
 #include <cerrno>
 #include <memory>
 #include <system_error>
@@ -16,7 +17,13 @@ struct RemovedOnEnd::Removal {
 std::array<std::atomic<RemovedOnEnd::Removal*>, 256> RemovedOnEnd::removals{};
 
 SystemFile SystemFile::create(const std::filesystem::path& path) { return opened(path, Opening::create); }
-SystemFile SystemFile::grow(const std::filesystem::path& path) { return opened(path, Opening::grow); }
+SystemFile SystemFile::grow(const std::filesystem::path& path) {
+    std::error_code code;
+    if (!std::filesystem::is_symlink(path, code) || isWithin(path.parent_path(), path)) return opened(path, Opening::grow);
+    SystemFile refused;
+    refused.error_ = ELOOP;
+    return refused;
+}
 SystemFile SystemFile::look(const std::filesystem::path& path) { return opened(path, Opening::look); }
 
 SystemFile::SystemFile(SystemFile&& other) noexcept
@@ -34,6 +41,7 @@ SystemFile::~SystemFile() {
 }
 
 std::string SystemFile::reason() const {
+    if (error_ == ELOOP) return leadsElsewhere;
     if (error_ == EINVAL) return "expected a regular file, found a folder, a device or a pipe";
     return error_ == 0 ? std::string{} : std::generic_category().message(error_);
 }

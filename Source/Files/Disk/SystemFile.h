@@ -19,7 +19,8 @@ public:
     /// A new file; an error if there is anything of that name already, a link as well.
     static SystemFile create(const std::filesystem::path& path);
 
-    /// What is there, to grow, or a new one. A link is followed; a pipe or a device is an error, and is not waited for.
+    /// What is there, to grow, or a new one. A link is followed, unless it leads out of its folder; a pipe or a device is an error, and is not
+    /// waited for.
     static SystemFile grow(const std::filesystem::path& path);
 
     /// What is there, only to lock it and to ask what it is; no link.
@@ -47,6 +48,9 @@ public:
     /// All of `bytes` at the end; or false, and the end is where it was.
     bool append(std::string_view bytes) noexcept;
 
+    /// All that was written is on the disk, whatever becomes of the machine; or false. Waits for the disk.
+    bool sync() noexcept;
+
     bool resize(std::int64_t bytes) noexcept;
     std::int64_t size() noexcept; ///< 0 after an error
 
@@ -56,6 +60,9 @@ public:
     /// May be read and written by whom `path` may. Best effort: another owner's permissions cannot always be copied, and on
     /// Windows a new file's are its folder's.
     void takePermissionsOf(const std::filesystem::path& path) const noexcept;
+
+    /// So are the names in a folder: of what was made or renamed in it. Where a system knows no such thing, nothing happens.
+    static void syncFolder(const std::filesystem::path& folder) noexcept;
 
 private:
     friend class RemovedOnEnd;

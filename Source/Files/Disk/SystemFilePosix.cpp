@@ -57,6 +57,15 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
     return error_ == 0;
 }
 
+bool SystemFile::sync() noexcept { return error_ == 0 && note(fsync(descriptorOf(handle_)) == 0 || errno == EINVAL); } // EINVAL: of a file system that has nothing to sync
+
+void SystemFile::syncFolder(const std::filesystem::path& folder) noexcept {
+    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return; // written to, but not read
+    fsync(descriptor);
+    close(descriptor);
+}
+
 bool SystemFile::resize(std::int64_t bytes) noexcept { return error_ == 0 && note(ftruncate(descriptorOf(handle_), bytes) == 0); }
 
 std::int64_t SystemFile::size() noexcept {

@@ -103,6 +103,10 @@ bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept
     return error_ == 0;
 }
 
+bool SystemFile::sync() noexcept { return error_ == 0 && note(FlushFileBuffers(handleOf(handle_)) != 0); }
+
+void SystemFile::syncFolder(const std::filesystem::path&) noexcept {} // NTFS keeps a journal of names
+
 bool SystemFile::resize(std::int64_t bytes) noexcept {
     FILE_END_OF_FILE_INFO end{};
     end.EndOfFile.QuadPart = bytes;

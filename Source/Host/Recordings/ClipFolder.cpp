@@ -2,6 +2,7 @@
 // A name is looked up, read, and known by its hash.
 #include "Host/Recordings/ClipFolder.h"
 #include "Files/Disk/ContentHash.h"
+#include "Files/Disk/FileClash.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/Text/NumberText.h"
@@ -72,10 +73,8 @@ Result<LoadedClip> ClipFolder::operator()(const std::string& name) const {
     std::error_code failed;
     const std::filesystem::path asked{name}, folder = std::filesystem::canonical(folder_, failed);
     if (failed) return Failure{folder_.string() + ": expected a folder of clips"};
-    const std::filesystem::path found = std::filesystem::weakly_canonical(folder / asked, failed);
-    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), found.begin(), found.end());
-    if (failed || name.empty() || asked.is_absolute() || end != folder.end()) return Failure{inQuotes(name) + ": expected a file in " + folder_.string() + " or below"};
-    return loadWholeClip(found);
+    if (name.empty() || asked.is_absolute() || !isWithin(folder, folder / asked)) return Failure{inQuotes(name) + ": expected a file in " + folder_.string() + " or below"};
+    return loadWholeClip(std::filesystem::weakly_canonical(folder / asked, failed));
 }
 
 Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>& clips) {

@@ -102,7 +102,7 @@ void declareRenderOptions(CLI::App& command, RenderOptions& o) {
         ->check(inRange(1, limits::maxBlockFrames, " frames"))->capture_default_str();
     command.add_option("--instructions", o.instructions, "best: the fastest here; scalar: the same bytes of the same hits on every machine")
         ->check(CLI::IsMember({"best", "scalar"}))->capture_default_str();
-    command.add_option("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds more")
+    command.add_option("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds of processor time more")
         ->check(inRange(0.0, 1e7, " s"))->capture_default_str();
 }
 

@@ -4,9 +4,9 @@
 #include "CommandLine/Report/StudyReport.h"
 #include "CommandLine/Report/ThesisReport.h"
 #include "CommandLine/Study/StudyOutput.h"
+#include "CommandLine/Study/StudyRun.h"
 #include "Files/BidsDataset.h"
 #include "Files/Disk/FileClash.h"
-#include "Files/ProtocolFile.h"
 #include <CLI/CLI.hpp>
 
 namespace physvib {
@@ -93,7 +93,7 @@ int runReport(const ReportOptions& o) {
     if (!columns) return leave(exitUsage, "--columns: " + columns.error);
     std::optional<Protocol> protocol;
     if (!o.protocol.empty()) {
-        auto found = findProtocol(o.protocol);
+        auto found = protocolNamed(o.protocol);
         if (!found) return leave(exitFailed, found.error);
         protocol = std::move(found.value);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files to one table; what their first lines say.
 #include "CommandLine/Report/ReportTrials.h"
+#include "CommandLine/Study/CallFiles.h"
 #include "Files/ProtocolFile.h"
 #include "Files/Text/NumberText.h"
 #include "Files/TrialColumns.h"
@@ -74,6 +75,14 @@ void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) 
     else trials.protocolNote = "protocol " + printable(name) + " (hash " + printable(hash) + ") is no built-in one: give it by --protocol, and its own words stand here";
 }
 
+/// The page shows calls of a trial file for somebody to repeat: empty, or the first that would write a file.
+std::string callsFault(const CsvTable& table) {
+    const auto column = table.column("render");
+    for (const CsvRow& row : table.rows)
+        if (column && !writtenWordFault(row.cells[*column]).empty()) return table.fault(row, *column, "calls that write no file");
+    return {};
+}
+
 } // namespace
 
 std::string ReportTrials::common(const std::string& key) const {
@@ -87,6 +96,7 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
         auto table = readCsvTable(text, path, columns.empty() ? CsvHeader::named : CsvHeader::loose);
         if (!table) return Failure{table.error};
         if (std::string fault = takeColumns(table.value, columns, trials.rowsLeftOut); !fault.empty()) return Failure{std::move(fault)};
+        if (std::string fault = callsFault(table.value); !fault.empty()) return Failure{std::move(fault)};
         TrialFile file{std::filesystem::path{path}.filename().string(), headOf(table.value), std::move(table.value)};
         if (!trials.files.empty()) {
             const TrialFile& first = trials.files.front();

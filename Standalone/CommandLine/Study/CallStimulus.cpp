@@ -2,6 +2,7 @@
 // The same parsers as the program's.
 #include "CommandLine/Study/CallStimulus.h"
 #include "CommandLine/Render/JobSession.h"
+#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StimulusOptions.h"
 #include "Files/ProtocolFile.h"
 #include <CLI/CLI.hpp>
@@ -65,11 +66,19 @@ struct ParsedCall {
         declareRenderOptions(*render, renderOptions);
         declareStimulus(*stimulus, stimulusOptions);
         words.require_subcommand(1);
+        if (auto fault = writtenWordFault(call); !fault.empty()) error = call + ": " + fault;
+        if (!error.empty()) return;
         try {
             words.parse(call, false);
         } catch (const CLI::ParseError& fault) {
             error = call + ": " + fault.what();
         }
+    }
+    ParsedCall(const std::string& call, const std::string& folder)
+        : ParsedCall{call} {
+        if (!error.empty()) return;
+        if (auto fault = linkOfCallFault(words, folder); !fault.empty()) error = call + ": " + fault;
+        findFiles(folder);
     }
     /// Those in `folder`, where they are there.
     void findFiles(const std::string& folder) {
@@ -90,10 +99,10 @@ struct ParsedCall {
 std::string wordsFault(const std::string& call) { return ParsedCall{call}.error; }
 
 std::string studyLevelFault(const std::string& call, const std::string& folder) {
-    ParsedCall parsed{call};
+    ParsedCall parsed{call, folder};
     RenderOptions& o = parsed.renderOptions;
-    if (!parsed.error.empty() || !parsed.words.got_subcommand(parsed.render) || !checkSceneOptions(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
-    parsed.findFiles(folder);
+    if (!parsed.error.empty()) return parsed.error;
+    if (!parsed.words.got_subcommand(parsed.render) || !checkSceneOptions(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
     const auto layout = layoutNamed(o.layout);
     if (!layout) return layout.error;
     const double leastG = leastStudyFullScaleG * std::pow(10.0, o.levelDb / 20.0);
@@ -105,18 +114,16 @@ std::string studyLevelFault(const std::string& call, const std::string& folder) 
 }
 
 Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz, const std::string& folder) {
-    ParsedCall parsed{call};
+    ParsedCall parsed{call, folder};
     if (!parsed.error.empty()) return Failure{parsed.error};
-    parsed.findFiles(folder);
     auto made = parsed.words.got_subcommand(parsed.render) ? ofScene(parsed.renderOptions) : ofStimulus(*parsed.stimulus, parsed.stimulusOptions, sampleRateHz);
     if (!made) return Failure{call + ": " + made.error};
     return made;
 }
 
 Result<CallWorld> worldOfCall(const std::string& call, const std::string& folder) {
-    ParsedCall parsed{call};
+    ParsedCall parsed{call, folder};
     if (!parsed.error.empty()) return Failure{parsed.error};
-    parsed.findFiles(folder);
     auto made = asWorld(parsed.renderOptions);
     if (!made) return Failure{call + ": " + made.error};
     return made;

@@ -70,7 +70,7 @@ int run(const StudyOptions& o) {
     if (!settings) return leave(exitUsage, "study run: --observer: expected " + std::string(observerNames) + ", found " + inQuotes(o.observer));
     if (!isStudyCode(o.participant)) return leave(exitUsage, "study run: --participant: expected at most 32 letters, digits, - and _, found " + inQuotes(o.participant));
     if (!o.participant.empty() && o.participants > 1) return leave(exitUsage, "study run: --participant: expected one participant with a code, found several");
-    auto protocol = findProtocol(o.protocol);
+    auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
     if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
     if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return leave(exitFailed, fault);
@@ -86,7 +86,7 @@ int run(const StudyOptions& o) {
 }
 
 int levels(const StudyOptions& o) {
-    const auto protocol = findProtocol(o.protocol);
+    const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
     const auto session = std::ranges::find_if(protocol.value.sessions, [](const SessionPlan& s) { return s.adjustment.has_value(); });
     if (session == protocol.value.sessions.end()) return leave(exitFailed, o.protocol + ": expected a session of the task adjust, found none");
@@ -126,7 +126,7 @@ int runStudy(const CLI::App& command, const StudyOptions& o) {
     if (command.got_subcommand("list")) return list();
     if (command.got_subcommand("run")) return run(o);
     if (command.got_subcommand("levels")) return levels(o);
-    const auto protocol = findProtocol(o.protocol);
+    const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
     std::cout << protocolJson(protocol.value);
     return exitDone;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Experiment and trial file, step by step together.
 #include "CommandLine/Study/StudyRun.h"
+#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/CallStimulus.h"
 #include "CommandLine/Render/LayoutNamed.h"
 #include "Files/Disk/AtomicFile.h"
@@ -44,6 +45,14 @@ bool wasWrittenToday(const std::filesystem::path& path) {
 }
 
 } // namespace
+
+Result<Protocol> protocolNamed(const std::string& nameOrPath) {
+    auto protocol = findProtocol(nameOrPath);
+    for (std::size_t i = 0; i < protocol.value.conditions.size(); ++i)
+        if (const auto fault = firstCallFault(protocol.value, protocol.value.conditions[i], writtenWordFault); !fault.empty())
+            return Failure{nameOrPath + ": conditions[" + std::to_string(i) + "].call: " + fault};
+    return protocol;
+}
 
 std::string protocolFault(const Protocol& protocol, const std::string& name) {
     if (!isStudyCode(protocol.name)) return name + ": name: expected letters, digits, - and _, as files are called after it";
@@ -91,7 +100,7 @@ std::string StudyRun::keepComment(const std::string& words) const {
 bool StudyRun::take(Answer answer) {
     if (!error_.empty()) return false;
     if (const std::string fault = experiment_.refusal(answer); !fault.empty()) return error_ = fault, false;
-    if (!log_.append(experiment_.take(std::move(answer)))) error_ = log_.error();
+    if (!log_.append(experiment_.take(std::move(answer))) || (experiment_.isDone() && !log_.sync())) error_ = log_.error();
     return error_.empty();
 }
 

@@ -11,6 +11,9 @@ namespace physvib {
 /// Whether files may be called after it: at most 32 letters, digits, - and _. Any thread.
 bool isStudyCode(const std::string& code) noexcept;
 
+/// A built-in protocol, or that of a file (see findProtocol) of whose calls none names a file to be written; or one line. M.
+Result<Protocol> protocolNamed(const std::string& nameOrPath);
+
 /// What the protocol asks of layouts and names that reading it could not tell; empty, or one line that begins with `name`. M.
 std::string protocolFault(const Protocol& protocol, const std::string& name);
 

@@ -59,9 +59,8 @@ int submit(const SweepPlan& plan, const SweepFolder& folder, const SweepOptions&
     const auto absolute = std::filesystem::absolute(o.folder);
     for (const auto& path : {absolute, std::filesystem::current_path()})
         if (!fitsSlurm(path.string())) return leave(exitFailed, path.string() + ": expected a path without quotes, $, %, ` and \\ for Slurm");
-    std::error_code isThere;
-    std::filesystem::create_directories(folder.slurm(), isThere);
     const auto script = folder.slurm() / "sweep.sbatch";
+    if (auto fault = folder.makeFolderOf(script); !fault.empty()) return leave(exitFailed, fault);
     const SlurmSweep sweep{absolute, absolute / "design.json", plan.size(), o.keepsWavs, o.keepsEvents, o.slurmWords};
     if (auto fault = writeFile(script, slurmScript(sweep)); !fault.empty()) return leave(exitFailed, fault);
     if (auto fault = submitToSlurm(script); !fault.empty()) return leave(exitFailed, fault);

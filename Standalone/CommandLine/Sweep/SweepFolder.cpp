@@ -2,11 +2,14 @@
 // Results are tables of one row: a person can open each.
 #include "CommandLine/Sweep/SweepFolder.h"
 #include "Files/Disk/AtomicFile.h"
+#include "Files/Disk/FileClash.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/Provenance.h"
 #include "Files/Text/NumberText.h"
+#include "Files/WavHead.h"
 #include <algorithm>
+#include <limits>
 
 namespace physvib {
 namespace {
@@ -15,34 +18,51 @@ namespace fs = std::filesystem;
 
 std::string headOf(const PlannedTask& task) { return provenanceComment({PHYSVIB_VERSION, {{"task", task.hash}, {"call", task.task.call}, {"files", task.files}}}); }
 
-bool isThere(const std::string& path) {
-    std::error_code none;
-    return path.empty() || fs::exists(path, none);
+/// Whether a file is as long as its head says: a machine that loses its power may leave the name, and nothing or a part behind it.
+bool isWavWhole(const std::string& path) {
+    if (path.empty()) return true;
+    std::string head(wavSizeBytes, '\0');
+    const auto file = openRegular(path, std::numeric_limits<std::size_t>::max());
+    if (!file || std::fread(head.data(), 1, head.size(), file.value.stream.get()) != head.size()) return false;
+    return wavFileBytes(head) == static_cast<std::int64_t>(file.value.bytes);
 }
 
 } // namespace
 
 std::string SweepFolder::prepare(const std::string& designText) const {
-    std::error_code fault;
-    fs::create_directories(folder_ / "tasks", fault);
-    if (fault) return folder_.string() + ": cannot be made: " + fault.message();
+    if (auto fault = makeFolderOf(folder_ / "tasks" / "of all"); !fault.empty()) return fault;
     const auto kept = readFile(design(), limits::maxSweepFileBytes);
     return kept && kept.value == designText ? std::string{} : writeFile(design(), designText);
 }
 
-std::optional<std::string> SweepFolder::read(const PlannedTask& task) const {
-    const auto text = readFile(result(task.hash), limits::maxSweepFileBytes);
-    if (!text || !text.value.starts_with(headOf(task)) || std::ranges::count(text.value, '\n') != 3 || !text.value.ends_with('\n')) return std::nullopt; // a disk that was full, a machine that lost its power
-    if (!isThere(wav(task.hash)) || !isThere(events(task.hash))) return std::nullopt;
-    return text.value;
+std::string SweepFolder::makeFolderOf(const fs::path& file) const {
+    const fs::path folder = file.parent_path();
+    std::error_code fault;
+    fs::create_directories(folder, fault);
+    if (fault) return folder.string() + ": cannot be made: " + fault.message();
+    return isWithin(folder_, folder) ? std::string{} : folder.string() + ": " + leadsElsewhere;
 }
 
 std::optional<CsvTable> SweepFolder::table(const PlannedTask& task) const {
-    const auto text = read(task);
-    if (!text) return std::nullopt;
-    auto table = readCsvTable(*text, result(task.hash).string());
+    const auto text = readFile(result(task.hash), limits::maxSweepFileBytes);
+    if (!text || !text.value.starts_with(headOf(task)) || std::ranges::count(text.value, '\n') != 3 || !text.value.ends_with('\n')) return std::nullopt; // a disk that was full
+    auto table = readCsvTable(text.value, result(task.hash).string());
     if (!table || table.value.rows.size() != 1 || !table.value.column("warnings")) return std::nullopt;
+    if (!isWavWhole(wav(task.hash)) || !isEventListWhole(task, table.value)) return std::nullopt;
     return std::move(table.value);
+}
+
+// Its rows are at least as many as the events that were measured.
+bool SweepFolder::isEventListWhole(const PlannedTask& task, const CsvTable& table) const {
+    const std::string path = events(task.hash);
+    if (path.empty()) return true;
+    const auto text = readFile(path, limits::maxEventsFileBytes);
+    double lines = 2.0; // where it is from, and its columns
+    for (const char* const counted : {"hits", "grains"}) {
+        const auto column = table.column(counted);
+        lines += column ? parseNumber<double>(table.rows.front().cells[*column]).value_or(0.0) : 0.0;
+    }
+    return text && text.value.ends_with('\n') && static_cast<double>(std::ranges::count(text.value, '\n')) >= lines;
 }
 
 std::string SweepFolder::text(const PlannedTask& task, const std::vector<SweepFeature>& features, const std::string& warnings) {

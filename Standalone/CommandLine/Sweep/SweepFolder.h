@@ -29,10 +29,13 @@ public:
     std::string wav(const std::string& hash) const { return keepsWavs_ ? ofTask(hash, ".wav").string() : std::string{}; }
     std::string events(const std::string& hash) const { return keepsEvents_ ? ofTask(hash, ".events.csv").string() : std::string{}; }
 
-    /// Whether all that is wanted of a task is there and whole.
-    bool has(const PlannedTask& task) const { return read(task).has_value(); }
+    /// Makes the folder of a file in it, where it is missing; empty, or one line, also if a link leads out of the sweep's folder.
+    std::string makeFolderOf(const std::filesystem::path& file) const;
 
-    /// The table of a task, a row; none if it is not done.
+    /// Whether all that is wanted of a task is there and whole.
+    bool has(const PlannedTask& task) const { return table(task).has_value(); }
+
+    /// The table of a task, a row; none if it is not done, or what is kept beside it is not whole.
     std::optional<CsvTable> table(const PlannedTask& task) const;
 
     /// What is kept of a task that is done.
@@ -40,7 +43,7 @@ public:
 
 private:
     std::filesystem::path ofTask(const std::string& hash, const char* ending) const { return folder_ / "tasks" / hash.substr(0, 2) / (hash + ending); }
-    std::optional<std::string> read(const PlannedTask& task) const;
+    bool isEventListWhole(const PlannedTask& task, const CsvTable& row) const;
 
     std::filesystem::path folder_;
     bool keepsWavs_, keepsEvents_;

@@ -2,11 +2,11 @@
 // One task per word is looked at: a sweep of many seeds is checked as fast as one of few.
 #include "CommandLine/Sweep/SweepPlan.h"
 #include "CommandLine/Render/RenderInputs.h"
+#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Sweep/HeardWords.h"
 #include "Files/Disk/ContentHash.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 namespace physvib {
@@ -26,6 +26,7 @@ const EmbeddedFile* embeddedScene(const std::string& name) {
 } // namespace
 
 Result<RenderOptions> renderOptionsOf(const std::string& call) {
+    if (auto fault = writtenWordFault(call); !fault.empty()) return Failure{fault};
     CLI::App words;
     RenderOptions options;
     CLI::App* const render = words.add_subcommand("render");
@@ -36,6 +37,7 @@ Result<RenderOptions> renderOptionsOf(const std::string& call) {
         if (fault.get_exit_code() == 0) return Failure{"expected words that say what is rendered, found a call for help"};
         return Failure{words.remaining().empty() ? fault.what() : "unknown: " + words.remaining().front()};
     }
+    if (auto fault = linkOfCallFault(words, {}); !fault.empty()) return Failure{fault};
     noteGiven(*render, options);
     if (auto fault = checkRenderInputs(options); !fault.empty()) return Failure{fault};
     return options;

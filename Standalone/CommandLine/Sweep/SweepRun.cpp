@@ -26,9 +26,7 @@ class WorkerLog {
 public:
     explicit WorkerLog(const SweepFolder& folder) {
         const auto path = folder.log(juce::SystemStats::getComputerName().toStdString() + '-' + std::to_string(processNumber()));
-        std::error_code isThere;
-        std::filesystem::create_directories(path.parent_path(), isThere);
-        file_.open(path);
+        if (folder.makeFolderOf(path).empty()) file_.open(path); // without one, the sweep is done all the same
     }
     void add(const std::string& line) { file_.append(line + '\n'); }
 
@@ -66,8 +64,7 @@ WorkEnd doTask(const SweepPlan& plan, const SweepFolder& folder, const TaskNumbe
     const PlannedTask task = plan.at(numbers.at(index));
     if (folder.has(task)) return endOf(index, Kind::wasDone);
     const auto path = folder.result(task.hash);
-    std::error_code isThere;
-    std::filesystem::create_directories(path.parent_path(), isThere);
+    if (const auto fault = folder.makeFolderOf(path); !fault.empty()) return WorkEnd::failedAt(index, fault);
     AtomicFile claim{path};
     if (claim.isTaken()) return endOf(index, Kind::isDoneElsewhere);
     if (!claim.error().empty()) return WorkEnd::failedAt(index, claim.error());

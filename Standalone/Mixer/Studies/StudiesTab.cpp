@@ -97,7 +97,7 @@ StudiesTab::StudiesTab(Desk& desk)
 StudiesTab::~StudiesTab() { end(); }
 
 std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
-    auto protocol = findProtocol(nameOrPath);
+    auto protocol = protocolNamed(nameOrPath);
     auto fault = protocol ? protocolFault(protocol.value, nameOrPath) : protocol.error;
     if (!fault.empty()) return say(utf8(fault), Shade::limit), fault;
     protocol_ = std::move(protocol.value);

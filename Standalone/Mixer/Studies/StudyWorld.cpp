@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lends a session to the output and keeps its journal.
 #include "Mixer/Studies/StudyWorld.h"
+#include "Files/Disk/FileClash.h"
 #include "Physics/Scenes/SceneEdits.h"
 #include <algorithm>
 #include <utility>
@@ -32,7 +33,9 @@ std::string StudyWorld::begin(CallWorld world, bool hasHands, const std::filesys
     stoppedNs_ = -1;
     fault_.clear();
     std::error_code none;
-    std::filesystem::create_directories(file.parent_path(), none);
+    const auto folder = file.parent_path();
+    std::filesystem::create_directories(folder, none);
+    if (!isWithin(folder.parent_path(), folder)) return folder.string() + ": " + leadsElsewhere;
     session_ = std::make_unique<Session>(setup_);
     if (!desk_.output().lend(session_.get())) return session_.reset(), "expected a device that plays";
     desk_.exposure().use(world.layout);

@@ -33,10 +33,10 @@ Result<Mix> mixWith(Mix mix, const juce::File& file) {
 
 } // namespace
 
-bool MixerWindow::load(const juce::File& file, const juce::File& document) {
+bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isOwn) {
     auto session = loadSession(pathOf(file));
     if (session) {
-        play(mixOf(session.value), document);
+        isOwn ? play(mixOf(session.value), document) : playLowered(mixOf(session.value), document);
         return true;
     }
     if (!desk_) play(firstMix(), {});
@@ -44,13 +44,35 @@ bool MixerWindow::load(const juce::File& file, const juce::File& document) {
     return false;
 }
 
+void MixerWindow::playLowered(Mix mix, const juce::File& document) {
+    const Mix asked = mix;
+    const auto lowered = lowerTo(limits(), mix);
+    play(std::move(mix), document);
+    tellLowered(lowered, asked);
+}
+
+void MixerWindow::tellLowered(const std::string& lowered, const Mix& asked) {
+    asked_ = lowered.empty() ? std::nullopt : std::optional{asked};
+    if (asked_) say("Lowered to this desk: " + utf8(lowered) + ". The menu has the file's own levels");
+}
+
+// A person at the machine may have what a file may not take.
+void MixerWindow::takeAsked() {
+    desk_->change("Levels of the file", [this](Mix& mix) {
+        mix.levelDb = asked_->levelDb;
+        if (asked_->count() == mix.count()) mix.strips = asked_->strips;
+    });
+    asked_.reset();
+}
+
 // What the command line names is not an edit: there is nothing to save yet.
 void MixerWindow::start(const juce::File& file) {
     if (!file.existsAsFile()) return play(firstMix(), file);
     if (fileKind(pathOf(file)) == FileKind::session) return void(load(file, file));
     const auto mix = mixWith(firstMix(), file);
-    play(mix ? mix.value : firstMix(), {});
-    if (!mix) say(utf8(mix.error));
+    if (mix) return playLowered(mix.value, {});
+    play(firstMix(), {});
+    say(utf8(mix.error));
 }
 
 juce::File MixerWindow::folderOfDocuments() const {
@@ -96,9 +118,12 @@ void MixerWindow::openDocument(const juce::File& file) {
 
 void MixerWindow::openFile(const juce::File& file) {
     if (fileKind(pathOf(file)) == FileKind::session) return openDocument(file);
-    const auto mix = mixWith(desk_->mix(), file);
+    auto mix = mixWith(desk_->mix(), file);
     if (!mix) return say(utf8(mix.error));
+    const Mix asked = mix.value;
+    const auto lowered = lowerTo(limits(), mix.value);
     desk_->edit(file.getFileName(), mix.value);
+    tellLowered(lowered, asked);
 }
 
 void MixerWindow::save() {
@@ -166,7 +191,7 @@ void MixerWindow::offerRecovery() {
     juce::AlertWindow::showOkCancelBox(juce::MessageBoxIconType::QuestionIcon, "Take up the last session?",
                                        "The mixer ended without being closed. A copy of its session was kept at " + file.getLastModificationTime().toString(true, true, false, true) + ".",
                                        "Take it up", "Discard it", view_.get(), juce::ModalCallbackFunction::create([this, copies](int answer) {
-                                           if (answer == 1 && load(copies.front(), {})) savedEdits_ = desk_->edits() + 1; // to be saved
+                                           if (answer == 1 && load(copies.front(), {}, true)) savedEdits_ = desk_->edits() + 1; // to be saved
                                            for (const auto& copy : copies)
                                                if (copy != copies.front() || answer != 1 || desk_->trouble().isEmpty()) copy.deleteFile();
                                        }));

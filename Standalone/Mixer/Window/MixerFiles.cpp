@@ -47,6 +47,8 @@ void MixerFiles::addRecent(const juce::File& file) {
     settings_.saveIfNeeded();
 }
 
+DeskLimits MixerFiles::limits() const { return readDeskLimits(settings_.getValue(limitsSetting).toStdString()).value_or(DeskLimits::of(Desk::firstMix())); }
+
 std::vector<juce::File> MixerFiles::leftBehind() const {
     std::vector<juce::File> found;
     for (const auto& file : folder_.findChildFiles(juce::File::findFiles, false, juce::String{copyPrefix} + "*.json"))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the mixer keeps between its runs: settings, recent documents, and a copy of the session in case it ends badly.
 #pragma once
+#include "Files/DeskLimits.h"
 #include "Mixer/Desk/Desk.h"
 #include <juce_gui_extra/juce_gui_extra.h>
 
@@ -19,6 +20,10 @@ public:
     juce::RecentlyOpenedFilesList& recent() noexcept { return recent_; }
     void addRecent(const juce::File& file);
 
+    /// What files may ask of the desk when there is none yet: as it was left, else nothing above firstMix(). Kept between runs.
+    DeskLimits limits() const;
+    void setLimits(const DeskLimits& limits) { settings_.setValue(limitsSetting, juce::String::fromUTF8(deskLimitsText(limits).c_str())); }
+
     /// Copies that runs which have ended left behind; the newest first.
     std::vector<juce::File> leftBehind() const;
 
@@ -28,6 +33,8 @@ public:
     void forget();
 
 private:
+    static constexpr const char* limitsSetting = "desk";
+
     juce::File folder_, copy_;
     juce::PropertiesFile settings_;
     juce::RecentlyOpenedFilesList recent_;

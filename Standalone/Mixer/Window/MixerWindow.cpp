@@ -52,6 +52,7 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
 
 MixerWindow::~MixerWindow() {
     stopTimer();
+    files_.setLimits(limits());
     rendering_.reset();
     clearContentComponent();
     view_.reset();
@@ -60,10 +61,13 @@ MixerWindow::~MixerWindow() {
 
 // Another document is another desk: its session begins at 0, with nothing to undo.
 void MixerWindow::play(Mix mix, const juce::File& document) {
+    const bool wasSilent = desk_ && desk_->isSilent();
+    asked_.reset();
     clearContentComponent();
     view_.reset();
     desk_.reset();
     desk_ = std::make_unique<Desk>(types_, device_, std::move(mix));
+    if (wasSilent) desk_->setSilent(true);
     view_ = std::make_unique<MixerView>(*desk_);
     setContentNonOwned(view_.get(), getWidth() == 0);
     document_ = document;
@@ -123,6 +127,7 @@ void MixerWindow::timerCallback() {
     settings.setValue("monitor-db", device_.monitorDb);
     settings.setValue("marker", device_.marker + 1);
     settings.setValue("clip-ending", hitEndings()[dragged_->ending()]);
+    files_.setLimits(limits());
     offerMonitor();
     if (const auto error = files_.keep(*desk_, isChanged()); !error.empty()) say(utf8(error));
 }
@@ -225,6 +230,7 @@ void MixerWindow::showMenu(juce::Component& from) {
     item("Scene" + dots(), {}, [this] { import("Scene"); });
     item("Layout" + dots(), {}, [this] { import("Layout of enchanters"); });
     item("Save the layout" + dots(), {}, [this] { exportLayout(); });
+    if (asked_) item("Levels of the file", {}, [this] { takeAsked(); });
     menu.addSeparator();
     item(desk_->recording().isRunning() ? "End the recording" : "Record", "Ctrl+R", [this] { record(); });
     item("Render" + dots(), "Ctrl+E", [this] { renderOffline(); });

@@ -47,7 +47,13 @@ private:
     void timerCallback() override;
     void start(const juce::File& file);
     void play(Mix mix, const juce::File& document);
-    bool load(const juce::File& file, const juce::File& document);
+    /// `isOwn`: what this mixer has kept itself is played as it is.
+    bool load(const juce::File& file, const juce::File& document, bool isOwn = false);
+    /// A file's mix, lowered to what the desk was; what was lowered is told, and can be had from the menu.
+    void playLowered(Mix mix, const juce::File& document);
+    void tellLowered(const std::string& lowered, const Mix& asked);
+    void takeAsked();
+    DeskLimits limits() const { return desk_ ? DeskLimits::of(desk_->mix()) : files_.limits(); }
     void useBoard(const DeviceChoice& choice);
     void saveTo(const juce::File& file);
     void askThen(std::function<void()> goOn);
@@ -70,6 +76,7 @@ private:
     std::unique_ptr<Desk> desk_;
     std::unique_ptr<MixerView> view_;
     juce::File document_, lastRecording_;
+    std::optional<Mix> asked_; // of the last file, if it was lowered
     std::uint64_t savedEdits_ = 0;
     std::unique_ptr<juce::FileChooser> chooser_;
     std::unique_ptr<juce::Thread> rendering_;

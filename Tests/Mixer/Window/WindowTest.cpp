@@ -257,6 +257,68 @@ TEST(Window, APersonsWayThroughTheMixer) {
     EXPECT_FALSE(again.isChanged());
 }
 
+/// Four enchanters as loud as a file can ask for, on outputs 1, 2, 3 and 6.
+juce::File loudSession(const TestFolder& folder) {
+    Desk desk{onlyNoDevice(), {"None:no device", 0, 0}};
+    desk.change("loud", [](Mix& mix) {
+        mix.levelDb = 0.0;
+        for (Strip& strip : mix.strips) strip.gainDb = mostStripDb;
+        mix.strips[3].output = 5;
+    });
+    const auto file = folder("theirs.json");
+    EXPECT_EQ(writeFile(file.getFullPathName().toStdString(), sessionJson(desk.saved())), "");
+    return file;
+}
+
+void expectLowered(const Mix& mix) {
+    EXPECT_EQ(mix.levelDb, -30.0);
+    EXPECT_EQ(mix.strips[0].gainDb, 0.0);
+    EXPECT_EQ(mix.strips[0].ceilingDb, -18.0);
+    EXPECT_TRUE(mix.strips[1].isMuted);
+    EXPECT_EQ(mix.strips[2].output, 2);
+    EXPECT_EQ(mix.strips[3].output, -1);
+}
+
+TEST(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
+    TestFolder folder;
+    const auto theirs = loudSession(folder);
+    {
+        MixerWindow window{onlyNoDevice(), "None:no device", folder("mine.json"), folder("config")};
+        window.desk().change("mine", [](Mix& mix) {
+            mix.levelDb = -30.0;
+            mix.strips[0].ceilingDb = -18.0;
+            mix.strips[1].isMuted = true;
+        });
+        window.save(); // nothing to be asked
+        window.desk().setSilent(true);
+        window.openFile(theirs);
+        ASSERT_EQ(window.document(), theirs);
+        expectLowered(window.desk().mix());
+        EXPECT_TRUE(window.desk().isSilent()) << "what was silenced by hand stays so";
+        const auto told = window.desk().trouble();
+        EXPECT_TRUE(told.startsWith("Lowered to this desk: master 0.0 to -30.0 dB; A gain 6.0 to 0.0 dB; A ceiling 0.0 to -18.0 dB")) << told;
+        EXPECT_TRUE(told.contains("D without output 6")) << told;
+    }
+    MixerWindow again{onlyNoDevice(), "None:no device", theirs, folder("config")};
+    expectLowered(again.desk().mix());
+}
+
+TEST(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
+    TestFolder folder;
+    const auto file = folder("eight.json");
+    EnchanterLayout eight = presetOf("phone4");
+    for (; eight.count < 8; ++eight.count) eight.places[static_cast<std::size_t>(eight.count)] = {0.01 * eight.count, 0.01};
+    ASSERT_EQ(writeFile(file.getFullPathName().toStdString(), layoutJson(describeLayout("eight", eight))), "");
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    window.openFile(file);
+    const auto& strips = window.desk().mix().strips;
+    ASSERT_EQ(strips.size(), 8u);
+    for (std::size_t j = 0; j < 8; ++j) EXPECT_EQ(strips[j].output, j < 4 ? static_cast<int>(j) : -1);
+    EXPECT_TRUE(window.desk().trouble().contains("E without output 5")) << window.desk().trouble();
+    window.desk().undoManager().undo();
+    EXPECT_EQ(window.desk().mix().strips.size(), 4u);
+}
+
 TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     TestFolder folder;
     ASSERT_TRUE(writeKnock(folder("knock.wav")));
