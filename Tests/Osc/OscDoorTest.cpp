@@ -220,5 +220,44 @@ TEST(OscDoors, AClosedDoorSaysWhy) {
     EXPECT_TRUE(open.struck().empty());
 }
 
+TEST(OscDoors, SilenceIsTakenAndAnsweredAlwaysAndInOrder) {
+    const auto answersOf = [](Open& open) {
+        std::vector<OscMessage> all;
+        for (const auto& answer : open.answers) all.push_back(readOscPacket(answer).value.at(0));
+        return all;
+    };
+    const auto silence = [](double isOn) { return oscPacket("/physvib/silence", {"", {{"on", isOn}}}); };
+    Open open;
+    open.closed = "a study is running";
+    open.door.take(silence(1.0), open.clock, open.answers, 6);
+    open.door.take(silence(0.0), open.clock, open.answers, 7);
+    ASSERT_EQ(open.acted.size(), 2U);
+    EXPECT_TRUE(std::get<SilenceControl>(open.acted[0]).isOn);
+    EXPECT_EQ(std::get<SilenceControl>(open.acted[0]).number, 7U) << "the next after those before it";
+    EXPECT_EQ(std::get<SilenceControl>(open.acted[1]).number, 7U) << "the last that it lifts";
+    const auto answers = answersOf(open);
+    ASSERT_EQ(answers.size(), 2U);
+    EXPECT_EQ(answers[0].address, "/physvib/answer/silence");
+    EXPECT_EQ(answers[0].values, (std::vector<OscValue>{"on"s, 1.0}));
+    EXPECT_EQ(answers[1].values, (std::vector<OscValue>{"on"s, 0.0}));
+    EXPECT_EQ(open.door.counts().refused, 0U);
+}
+
+TEST(OscDoors, SilencesOfAPacketAreCountedAsTheyAreRead) {
+    const PlainMessage on{"", {{"on", 1.0}}}, off{"", {{"on", 0.0}}};
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/silence", on)), 1U);
+    EXPECT_EQ(silencesIn(oscBundle("/physvib/silence", on, 12345)), 1U);
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/silence", off)), 0U);
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/silence", {"", {{"of", 1.0}}})), 0U) << "refused in its turn";
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/silences", on)), 0U);
+    EXPECT_EQ(
+        silencesIn(oscPacket("/physvib/gain", {"", {{"channel", 1.0}, {"value", "/physvib/silence"s}}})), 0U);
+    EXPECT_EQ(silencesIn(std::string{"/physvib/silence"}), 0U);
+    auto both = oscBundle("/physvib/silence", on, oscNow);
+    const auto second = oscBundle("/physvib/silence", off, oscNow);
+    both.insert(both.end(), second.begin() + 16, second.end());
+    EXPECT_EQ(silencesIn(both), 1U);
+}
+
 } // namespace
 } // namespace physvib

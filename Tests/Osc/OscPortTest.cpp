@@ -6,6 +6,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <memory>
+#include <optional>
 
 namespace physvib {
 namespace {
@@ -16,7 +17,6 @@ using namespace test;
 struct FakeOutput final : FeltOutput {
     FeltMoment felt(FeltReader) noexcept override { return now; }
     float level() const noexcept override { return 1.0f; }
-    bool isSilent() const noexcept override { return false; }
     FeltMoment now{1'000'000'000, 1'000'000'000, 50'000'000};
 };
 
@@ -100,6 +100,65 @@ TEST(OscPorts, WhatIsSentIsCounted) {
     EXPECT_EQ(counts.lost, 0U);
     EXPECT_TRUE(counts.fault.starts_with("127.0.0.1:")) << counts.fault;
     EXPECT_EQ(played.session.size().strikes, 0U) << "they were for now";
+}
+
+/// Whoever does what messages say is held up at the first of them until `goesOn`.
+struct HeldUp : Played {
+    std::unique_ptr<OscPort> openHeldUp() {
+        OscHooks hooks;
+        hooks.act = [this](const LineInput& input) {
+            isHeldUp = true;
+            while (!goesOn) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+            const auto* silence = std::get_if<SilenceControl>(&input);
+            return silence != nullptr ? takeSilence(output.silence(), *silence, SilenceHolder::osc)
+                                      : std::string{};
+        };
+        auto port = std::make_unique<OscPort>(anyPort(), session, messages, output, std::move(hooks));
+        sender.emplace(senderTo(*port));
+        EXPECT_TRUE(sender->send(oscPacket("/physvib/tilt", {"", {{"angle_rad", 0.5}}})));
+        EXPECT_TRUE(comes([this] { return isHeldUp.load(); }));
+        return port;
+    }
+    void silence(bool isOn) {
+        EXPECT_TRUE(sender->send(oscPacket("/physvib/silence", {"", {{"on", isOn ? 1.0 : 0.0}}})));
+    }
+
+    std::optional<OscSocket> sender;
+    std::atomic<bool> isHeldUp{false}, goesOn{false};
+};
+
+TEST(OscPorts, SilenceOvertakesTenThousandMessagesThatWait) {
+    HeldUp played;
+    const auto port = played.openHeldUp();
+    const auto gain = oscPacket("/physvib/gain", {"", {{"channel", 1.0}, {"value", 0.5}}});
+    for (int k = 0; k < 10'000; ++k) {
+        played.sender->send(gain);
+        if (k % 100 == 99)
+            std::this_thread::sleep_for(std::chrono::milliseconds{1}); // the system's buffer is small
+    }
+    played.silence(true);
+    EXPECT_TRUE(comes([&] { return played.output.isSilent(); }));
+    EXPECT_EQ(port->status().counts.messages, 0U) << "nothing of what came before it is done";
+    played.goesOn = true;
+    EXPECT_TRUE(comes([&] { return port->status().counts.packets + port->status().counts.lost == 10'002; }));
+    ASSERT_TRUE(played.sender->wait(60'000));
+    const auto answer = played.sender->receive();
+    ASSERT_TRUE(answer.has_value());
+    EXPECT_EQ(readOscPacket(*answer).value.at(0).address, "/physvib/answer/silence");
+}
+
+TEST(OscPorts, AnOffComesInItsTurnAndLiftsNoLaterOn) {
+    for (const auto& [asked, isSilent] : {std::pair{std::vector{true, false}, false},
+                                          {std::vector{false, true}, true},
+                                          {std::vector{true, false, true}, true}}) {
+        HeldUp played;
+        const auto port = played.openHeldUp();
+        for (const bool isOn : asked) played.silence(isOn);
+        EXPECT_TRUE(comes([&] { return played.output.isSilent(); }));
+        played.goesOn = true;
+        EXPECT_TRUE(comes([&] { return port->status().counts.messages == asked.size() + 1; }));
+        EXPECT_EQ(played.output.isSilent(), isSilent);
+    }
 }
 
 TEST(OscPorts, AnswersGoToWhoAsked) {

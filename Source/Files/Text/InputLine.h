@@ -5,6 +5,7 @@
 #include "Files/Result.h"
 #include "Files/Text/PlainMessage.h"
 #include "Physics/Scenes/Scene.h"
+#include <cstdint>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -14,6 +15,9 @@ namespace physvib {
 /// Everything heard goes, or may be heard again, at once.
 struct SilenceControl {
     bool isOn = true;
+    static constexpr std::uint64_t unnumbered = UINT64_MAX;
+    std::uint64_t number = unnumbered; ///< which of its input's requests it is; off: the last one that it
+                                       ///< lifts. Set by who reads the input
 };
 
 using LineInput = std::variant<Action, RenderControl, SilenceControl, PlainMessage>;

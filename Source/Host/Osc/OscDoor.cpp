@@ -17,7 +17,9 @@ OscDoor::OscDoor(Session& session, MessageRouter& messages, OscHooks hooks, doub
     , hooks_{std::move(hooks)}
     , sensors_{turnRadians} {}
 
-void OscDoor::take(std::span<const char> bytes, const OscClock& clock, std::vector<std::vector<char>>& answers) {
+void OscDoor::take(std::span<const char> bytes, const OscClock& clock,
+                   std::vector<std::vector<char>>& answers, std::uint64_t silences) {
+    silences_ = silences;
     ++counts_.packets;
     const auto read = readOscPacket(bytes);
     if (!read) {
@@ -34,7 +36,7 @@ void OscDoor::take(std::span<const char> bytes, const OscClock& clock, std::vect
 }
 
 std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers) {
-    if (hooks_.closed)
+    if (hooks_.closed && message.address != oscSilenceAddress)
         if (auto why = hooks_.closed(); !why.empty()) return why;
     const bool isOurs = message.address.starts_with(oscPrefix); // no phone is called so: /physvib/gravity is an input
     if (const auto* format = isOurs ? nullptr : sensorFormat(message.address)) return turn(*format, message);
@@ -42,8 +44,19 @@ std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::
     const auto plain = plainOf(std::string_view{message.address}.substr(oscPrefix.size()), message.values);
     if (!plain) return plain.error;
     if (isMessage(plain.value.name)) return route(plain.value, message.tag, clock, answers);
-    const auto input = readPlainInput(plain.value, session_.state().scene->materials, session_.channels());
-    return input ? hooks_.act(input.value) : input.error;
+    return actPlain(plain.value, answers);
+}
+
+std::string OscDoor::actPlain(const PlainMessage& plain, std::vector<std::vector<char>>& answers) {
+    auto input = readPlainInput(plain, session_.state().scene->materials, session_.channels());
+    if (!input) return input.error;
+    auto* silence = std::get_if<SilenceControl>(&input.value);
+    if (silence != nullptr) silence->number = silence->isOn ? ++silences_ : silences_;
+    std::string fault = hooks_.act(input.value);
+    if (silence != nullptr && fault.empty())
+        answers.push_back(oscPacket(std::string(oscAnswerPrefix) + plain.name,
+                                    {plain.name, {{"on", silence->isOn ? 1.0 : 0.0}}}));
+    return fault;
 }
 
 std::string OscDoor::turn(const SensorFormat& format, const OscMessage& message) {
@@ -72,6 +85,21 @@ PlainMessage OscDoor::status() {
     auto answer = messages_.take({"status", {}}).value;
     addCounts(answer);
     return answer;
+}
+
+// Read as act() reads it; a control needs no scene.
+std::uint64_t silencesIn(std::span<const char> bytes) {
+    if (std::string_view(bytes.data(), bytes.size()).find(oscSilenceAddress) == std::string_view::npos)
+        return 0;
+    return static_cast<std::uint64_t>(
+        std::ranges::count_if(readOscPacket(bytes).value, [](const OscMessage& message) {
+            if (message.address != oscSilenceAddress) return false;
+            const auto plain = plainOf(oscSilenceAddress.substr(oscPrefix.size()), message.values);
+            if (!plain) return false;
+            const auto input = readPlainInput(plain.value, {}, 1);
+            const auto* silence = std::get_if<SilenceControl>(&input.value);
+            return silence != nullptr && silence->isOn;
+        }));
 }
 
 } // namespace physvib

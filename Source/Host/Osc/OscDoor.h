@@ -13,12 +13,13 @@
 namespace physvib {
 
 /// Addresses are `/physvib/` and a name of the table of messages, of an input or of a control, and those of sensor programs.
-inline constexpr std::string_view oscPrefix = "/physvib/", oscAnswerPrefix = "/physvib/answer/", oscHitAddress = "/physvib/hit";
+inline constexpr std::string_view oscPrefix = "/physvib/", oscAnswerPrefix = "/physvib/answer/",
+                                  oscHitAddress = "/physvib/hit", oscSilenceAddress = "/physvib/silence";
 
 /// What the program does itself with what comes in; called on the port's thread.
 struct OscHooks {
     std::function<std::string(const LineInput&)> act; ///< inputs and controls; empty, or what is wrong
-    std::function<std::string()> closed;              ///< why nothing is taken now; empty: it is; may be left out
+    std::function<std::string()> closed;              ///< why nothing but silence is taken now; empty: it is; may be left out
     ClipSource clips{};                               ///< left out: none are taken
 };
 
@@ -40,8 +41,10 @@ public:
     /// Both outlive it. `turnRadians`: see PhoneSensors.
     OscDoor(Session& session, MessageRouter& messages, OscHooks hooks, double turnRadians = 0.0);
 
-    /// Does what is in a packet; answers of queries, each a packet, go to the end of `answers`.
-    void take(std::span<const char> bytes, const OscClock& clock, std::vector<std::vector<char>>& answers);
+    /// Does what is in a packet; answers of queries and of silence, each a packet, go to the end of
+    /// `answers`. `silences`: how many messages before this packet have asked for silence.
+    void take(std::span<const char> bytes, const OscClock& clock, std::vector<std::vector<char>>& answers,
+              std::uint64_t silences = 0);
 
     void lose(std::uint64_t packets) noexcept { counts_.lost += packets; }
     const OscCounts& counts() const noexcept { return counts_; }
@@ -51,6 +54,7 @@ public:
 
 private:
     std::string act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers);
+    std::string actPlain(const PlainMessage& plain, std::vector<std::vector<char>>& answers);
     std::string turn(const SensorFormat& format, const OscMessage& message);
     std::string route(const PlainMessage& plain, OscTag tag, const OscClock& clock, std::vector<std::vector<char>>& answers);
     void addCounts(PlainMessage& answer) const;
@@ -60,6 +64,10 @@ private:
     OscHooks hooks_;
     PhoneSensors sensors_;
     OscCounts counts_;
+    std::uint64_t silences_ = 0; // asked for so far
 };
+
+/// How many of a packet's messages ask for silence. Any thread but R.
+std::uint64_t silencesIn(std::span<const char> bytes);
 
 } // namespace physvib

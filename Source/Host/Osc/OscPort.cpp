@@ -26,19 +26,39 @@ OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& m
     if (!settings.receiver.empty()) use(out_, OscSocket::connected(settings.receiver));
     if (!error_.empty()) return;
     if (in_.isOpen()) address_ = settings.address + ":" + std::to_string(in_.port());
+    if (in_.isOpen()) reader_ = std::thread{[this] { read(); }};
     thread_ = std::thread{[this] { run(); }};
 }
 
 OscPort::~OscPort() {
     stop_ = true;
+    if (reader_.joinable()) reader_.join();
     if (thread_.joinable()) thread_.join();
+}
+
+void OscPort::read() {
+    while (!stop_)
+        if (in_.wait(pollMilliseconds)) readAll();
+}
+
+// A packet that has no room has silenced all the same; who asked gets no answer and may ask again.
+void OscPort::readAll() {
+    SilenceHolders& silence = device_.silence();
+    while (!stop_) {
+        const auto bytes = in_.receive();
+        if (!bytes) break;
+        const std::uint64_t before = silence.asked(SilenceHolder::osc), asked = silencesIn(*bytes);
+        if (asked > 0) silence.ask(SilenceHolder::osc, before + asked);
+        if (!packets_.push({{bytes->begin(), bytes->end()}, in_.sender(), before}, bytes->size())) ++lost_;
+    }
+    lost_ += in_.takeLost();
 }
 
 void OscPort::run() {
     while (!stop_) {
-        const bool hasCome = in_.wait(pollMilliseconds);
+        const bool hasCome = packets_.wait(std::chrono::milliseconds{pollMilliseconds});
         follow();
-        if (hasCome) receive();
+        if (hasCome || lost_ > 0) receive();
         if (out_.isOpen()) tellStatus();
     }
 }
@@ -52,15 +72,15 @@ void OscPort::follow() {
 void OscPort::receive() {
     int taken = 0;
     for (; taken < mostAtOnce; ++taken) {
-        const auto packet = in_.receive();
+        const auto packet = packets_.pop();
         if (!packet) break;
         const std::uint64_t wrong = door_.counts().wrong();
         answers_.clear();
-        door_.take(*packet, clock_, answers_);
-        if (door_.counts().wrong() != wrong) fault_ = in_.sender() + ": " + door_.counts().fault;
-        for (const auto& answer : answers_) in_.answer(answer);
+        door_.take(packet->bytes, clock_, answers_, packet->silences);
+        if (door_.counts().wrong() != wrong) fault_ = packet->from.text() + ": " + door_.counts().fault;
+        for (const auto& answer : answers_) in_.answer(answer, packet->from);
     }
-    door_.lose(in_.takeLost());
+    door_.lose(lost_.exchange(0));
     const std::lock_guard lock{mutex_};
     counts_ = door_.counts();
     counts_.fault = fault_;

@@ -5,6 +5,7 @@
 #include "Host/Osc/OscDoor.h"
 #include "Host/Osc/OscSocket.h"
 #include "Session/FeltOutput.h"
+#include "Session/InputQueue.h"
 #include <atomic>
 #include <mutex>
 #include <optional>
@@ -29,6 +30,8 @@ struct OscStatus {
     std::uint64_t sent = 0, unsent = 0; ///< hits and status
 };
 
+/// One thread reads packets, and silences at once if one of them says so; another does what they say, in
+/// their order.
 class OscPort {
 public:
     static constexpr std::int64_t statusEveryNs = 1'000'000'000;
@@ -51,6 +54,14 @@ public:
     OscStatus status() const;
 
 private:
+    /// What was read and is still to be done.
+    struct Packet {
+        std::vector<char> bytes;
+        OscSender from;
+        std::uint64_t silences = 0; // asked for before it
+    };
+    void read();
+    void readAll();
     void run();
     void receive();
     void follow();
@@ -70,7 +81,9 @@ private:
     OscCounts counts_;
     std::atomic<std::uint64_t> sent_{0}, unsent_{0};
     std::atomic<bool> stop_{false};
-    std::thread thread_;
+    InputQueue<Packet> packets_;
+    std::atomic<std::uint64_t> lost_{0}; // that had no room, here or in the system, and are not counted yet
+    std::thread thread_, reader_;
 };
 
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polls standard input, cuts it into lines, and hands each to the session.
+// Polls standard input, cuts it into lines, looks for silence in them, and hands each to the session.
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Process.h"
@@ -12,6 +12,16 @@ namespace {
 
 constexpr int pollMilliseconds = 50; // only the end of the program waits for it
 
+/// Whether a line asks for silence: read as act() reads it; a control needs no scene. A name may be spelled
+/// with escapes.
+bool asksForSilence(std::string_view line) {
+    if (line.find("silence") == std::string_view::npos && line.find('\\') == std::string_view::npos)
+        return false;
+    const auto read = readInputLine(line, {}, {}, 1);
+    const auto* silence = std::get_if<SilenceControl>(&read.value);
+    return silence != nullptr && silence->isOn;
+}
+
 } // namespace
 
 InputListener::InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips)
@@ -19,48 +29,68 @@ InputListener::InputListener(Session& session, AudioOutput& output, MessageRoute
     , output_{output}
     , messages_{messages}
     , clips_{std::move(clips)}
-    , thread_{[this] { run(); }} {}
+    , thread_{[this] { run(); }}
+    , reader_{[this] { read(); }} {}
 
 InputListener::~InputListener() {
     stop_ = true;
+    reader_.join();
     thread_.join();
 }
 
-void InputListener::run() {
+void InputListener::read() {
     LineCutter lines;
-    const auto takeLine = [this](std::string_view line, bool isWhole) { take(line, isWhole); };
+    const auto keepLine = [this](std::string_view line, bool isWhole) { keep(line, isWhole); };
     char bytes[4096];
     while (!stop_) {
         const auto count = readInput(bytes, pollMilliseconds);
         if (!count) continue;
-        if (*count == 0) return lines.end(takeLine);
-        lines.add({bytes, *count}, takeLine);
+        if (*count == 0) return lines.end(keepLine);
+        lines.add({bytes, *count}, keepLine);
     }
 }
 
-void InputListener::take(std::string_view line, bool isWhole) {
+// Lines are not lost: while very many wait, who writes them waits as well.
+void InputListener::keep(std::string_view text, bool isWhole) {
+    if (isWhole && asksForSilence(text)) output_.silence().ask(SilenceHolder::standardInput);
+    while (!waiting_.push({std::string(text), isWhole, output_.silence().asked(SilenceHolder::standardInput)},
+                          text.size()) &&
+           !stop_)
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+}
+
+void InputListener::run() {
+    while (!stop_) {
+        if (!waiting_.wait(std::chrono::milliseconds{pollMilliseconds})) continue;
+        if (const auto line = waiting_.pop()) take(*line);
+    }
+}
+
+void InputListener::take(const Line& line) {
     const std::string name = "standard input:" + std::to_string(++lines_);
-    const std::string fault = isWhole ? act(line, name) : name + ": expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out";
+    const std::string fault = line.isWhole ? act(line, name) : name + ": expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out";
     if (!fault.empty()) tell(fault);
 }
 
-std::string InputListener::act(std::string_view line, const std::string& name) {
-    if (line.find_first_not_of(" \t\r") == std::string_view::npos) return {};
-    const auto read = readInputLine(line, name, session_.state().scene->materials, session_.channels());
+std::string InputListener::act(const Line& line, const std::string& name) {
+    if (line.text.find_first_not_of(" \t\r") == std::string_view::npos) return {};
+    auto read = readInputLine(line.text, name, session_.state().scene->materials, session_.channels());
     if (!read) return read.error;
     if (const auto* message = std::get_if<PlainMessage>(&read.value)) {
         const auto answer = messages_.take(*message, nullptr, clips_);
         if (!answer.value.name.empty()) std::cout << answerLine(answer.value) << std::endl; // who asked waits for it
         return answer ? "" : name + ": " + answer.error;
     }
-    const std::string fault = actOn(read.value, session_, output_);
+    if (auto* silence = std::get_if<SilenceControl>(&read.value)) silence->number = line.silences;
+    const std::string fault = actOn(read.value, session_, output_, SilenceHolder::standardInput);
     return fault.empty() ? fault : name + ": " + fault;
 }
 
-std::string actOn(const LineInput& input, Session& session, AudioOutput& output) {
+std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from) {
     if (const auto* action = std::get_if<Action>(&input)) return session.act(*action);
     if (const auto* control = std::get_if<RenderControl>(&input)) return session.post(*control) < 0 ? "too many controls at once" : "";
-    if (const auto* silence = std::get_if<SilenceControl>(&input)) output.setSilent(silence->isOn);
+    if (const auto* silence = std::get_if<SilenceControl>(&input))
+        return takeSilence(output.silence(), *silence, from);
     return {};
 }
 

@@ -36,9 +36,13 @@ DeskOsc::~DeskOsc() {
     cancelPendingUpdate();
 }
 
+// Silence waits for nobody: M only shows it.
 std::string DeskOsc::take(const LineInput& input) {
+    const auto* silence = std::get_if<SilenceControl>(&input);
+    const bool isDone = silence != nullptr && silence->isOn;
+    if (isDone) takeSilence(output_.silence(), *silence, SilenceHolder::osc);
     const std::lock_guard lock{mutex_};
-    if (waiting_.size() == mostWaiting) return "too many inputs at once";
+    if (waiting_.size() == mostWaiting) return isDone ? "" : "too many inputs at once";
     waiting_.push_back(input);
     triggerAsyncUpdate();
     return {};
