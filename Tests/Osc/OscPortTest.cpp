@@ -172,6 +172,37 @@ TEST(OscPorts, AnswersGoToWhoAsked) {
     EXPECT_EQ(readOscPacket(*answer).value.at(0).address, "/physvib/answer/latency");
 }
 
+TEST(OscPorts, WhoSaysSomethingWrongIsToldSo) {
+    Played played;
+    const auto port = played.open(anyPort());
+    auto says = senderTo(*port);
+    ASSERT_TRUE(says.send(oscPacket("/physvib/strike", {"", {{"frequency_hz", 200.0}, {"seconds", 1.0}, {"level", 2.0}}})));
+    ASSERT_TRUE(says.wait(60'000));
+    const auto error = readOscPacket(*says.receive()).value.at(0);
+    EXPECT_EQ(error.address, oscErrorAddress);
+    ASSERT_EQ(error.values.size(), 2U);
+    EXPECT_EQ(std::get<std::string>(error.values[0]), "/physvib/strike");
+    EXPECT_EQ(std::get<std::string>(error.values[1]), "strike: level: expected 0 to 1, found 2");
+}
+
+// Of 300 queries in less than a second few are answered, and what is not is counted.
+TEST(OscPorts, NobodyGetsMuchMoreThanHeSends) {
+    Played played;
+    const auto port = played.open(anyPort());
+    auto asks = senderTo(*port);
+    const auto status = oscPacket("/physvib/status", {});
+    constexpr std::uint64_t each = 300;
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::uint64_t k = 0; k < each; ++k) ASSERT_TRUE(asks.send(status));
+    ASSERT_TRUE(comes([&] { return port->status().counts.packets == each; }));
+    const auto seconds = 1 + std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin).count();
+    std::size_t bytes = 0, answers = 0;
+    for (; asks.wait(100); ++answers) bytes += asks.receive()->size();
+    EXPECT_GT(answers, 0U);
+    EXPECT_LE(bytes, each * status.size() + static_cast<std::size_t>(seconds) * OscReplies::freeBytes);
+    EXPECT_EQ(port->status().counts.held, each - answers);
+}
+
 TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {
     Played played;
     auto in = std::move(OscSocket::listening(oscThisComputer, 0).value);

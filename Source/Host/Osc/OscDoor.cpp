@@ -7,6 +7,15 @@
 namespace physvib {
 namespace {
 
+/// What such a program as this sends by itself.
+bool isReply(std::string_view address) { return address.starts_with(oscAnswerPrefix) || address == oscErrorAddress || address == oscHitAddress; }
+
+/// Of a packet that is none of OSC's, as far as it looks like one.
+std::string_view addressIn(std::span<const char> bytes) {
+    const std::string_view text{bytes.data(), bytes.size()};
+    return text.starts_with('/') ? text.substr(0, text.find('\0')) : std::string_view{};
+}
+
 bool isMessage(const std::string& name) { return std::ranges::find(messageTable, name, &MessageDescription::name) != messageTable.end(); }
 
 } // namespace
@@ -21,18 +30,24 @@ void OscDoor::take(std::span<const char> bytes, const OscClock& clock,
                    std::vector<std::vector<char>>& answers, std::uint64_t silences) {
     silences_ = silences;
     ++counts_.packets;
+    refusals_.clear();
     const auto read = readOscPacket(bytes);
     if (!read) {
         ++counts_.bad;
-        counts_.fault = read.error;
+        refuse(addressIn(bytes), read.error);
     }
     for (const OscMessage& message : read.value) {
         ++counts_.messages;
         const std::string fault = act(message, clock, answers);
         if (fault.empty()) continue;
         ++counts_.refused;
-        counts_.fault = cleanLine(fault);
+        refuse(message.address, fault);
     }
+}
+
+void OscDoor::refuse(std::string_view address, std::string_view reason) {
+    counts_.fault = cleanLine(reason);
+    if (!isReply(address)) refusals_.push_back({printable(address), counts_.fault});
 }
 
 std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers) {
@@ -77,7 +92,7 @@ std::string OscDoor::route(const PlainMessage& plain, OscTag tag, const OscClock
 }
 
 void OscDoor::addCounts(PlainMessage& answer) const {
-    for (const auto& [name, count] : {std::pair{"osc_packets", counts_.packets}, {"osc_bad", counts_.bad}, {"osc_lost", counts_.lost}, {"osc_refused", counts_.refused}, {"osc_late", counts_.late}})
+    for (const auto& [name, count] : {std::pair{"osc_packets", counts_.packets}, {"osc_bad", counts_.bad}, {"osc_lost", counts_.lost}, {"osc_refused", counts_.refused}, {"osc_late", counts_.late}, {"osc_held_back", counts_.held}})
         answer.values.push_back({name, static_cast<double>(count)});
 }
 

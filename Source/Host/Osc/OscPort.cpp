@@ -78,12 +78,25 @@ void OscPort::receive() {
         answers_.clear();
         door_.take(packet->bytes, clock_, answers_, packet->silences);
         if (door_.counts().wrong() != wrong) fault_ = packet->from.text() + ": " + door_.counts().fault;
-        for (const auto& answer : answers_) in_.answer(answer, packet->from);
+        reply(packet->bytes.size(), packet->from);
     }
     door_.lose(lost_.exchange(0));
     const std::lock_guard lock{mutex_};
     counts_ = door_.counts();
     counts_.fault = fault_;
+}
+
+// Answers first: who asks gets no less because something else was wrong.
+void OscPort::reply(std::size_t packetBytes, const OscSender& to) {
+    if (answers_.empty() && door_.refusals().empty()) return;
+    replies_.begin(to.text(), packetBytes, steadyNs());
+    const auto send = [&](const std::vector<char>& bytes) {
+        if (replies_.mayReply(bytes.size())) in_.answer(bytes, to);
+    };
+    for (const auto& answer : answers_) send(answer);
+    for (const OscRefusal& refusal : door_.refusals())
+        if (replies_.mayRefuse(refusal.reason)) send(oscWords(std::string(oscErrorAddress), {refusal.address, refusal.reason}));
+    door_.holdBack(replies_.heldBack());
 }
 
 void OscPort::count(bool left) noexcept { (left ? sent_ : unsent_).fetch_add(1, std::memory_order_relaxed); }

@@ -3,6 +3,7 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Host/Osc/OscDoor.h"
+#include "Host/Osc/OscReplies.h"
 #include "Host/Osc/OscSocket.h"
 #include "Session/FeltOutput.h"
 #include "Session/InputQueue.h"
@@ -64,6 +65,7 @@ private:
     void readAll();
     void run();
     void receive();
+    void reply(std::size_t packetBytes, const OscSender& to);
     void follow();
     void tellStatus();
     void count(bool left) noexcept;
@@ -75,6 +77,7 @@ private:
     std::string error_;
     std::string address_, fault_;
     std::vector<std::vector<char>> answers_;
+    OscReplies replies_;
     std::int64_t unixAheadNs_ = 0, nextStatusNs_ = 0;
     mutable std::mutex mutex_; // guards what follows; the clock is changed by the port's thread alone
     OscClock clock_;
