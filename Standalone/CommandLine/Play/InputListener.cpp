@@ -3,6 +3,8 @@
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Process.h"
+#include "CommandLine/StandardStreams.h"
+#include "Session/BoardLink.h"
 #include <iostream>
 #include <type_traits>
 
@@ -17,7 +19,7 @@ constexpr int pollMilliseconds = 50; // only the end of the program waits for it
 bool asksForSilence(std::string_view line) {
     if (line.find("silence") == std::string_view::npos && line.find('\\') == std::string_view::npos)
         return false;
-    const auto read = readInputLine(line, {}, {}, 1);
+    const auto read = readInputLine(line, {}, 1);
     const auto* silence = std::get_if<SilenceControl>(&read.value);
     return silence != nullptr && silence->isOn;
 }
@@ -36,6 +38,7 @@ InputListener::~InputListener() {
     stop_ = true;
     reader_.join();
     thread_.join();
+    tellLeftOut();
 }
 
 void InputListener::read() {
@@ -67,23 +70,37 @@ void InputListener::run() {
 }
 
 void InputListener::take(const Line& line) {
-    const std::string name = "standard input:" + std::to_string(++lines_);
-    const std::string fault = line.isWhole ? act(line, name) : name + ": expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out";
-    if (!fault.empty()) tell(fault);
+    ++lines_;
+    if (line.isWhole && line.text.find_first_not_of(" \t\r") == std::string_view::npos) return;
+    InputLine read = line.isWhole ? readInputLine(line.text, session_.state().scene->materials, session_.channels())
+                                  : InputLine{Failure{"expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out"}};
+    auto answer = read ? act(read.value, line) : Result<PlainMessage>{Failure{read.error}};
+    if (!answer) complain(answer.error);
+    if (read.id && !answer) answer.value = {"error", {{"reason", answer.error}}};
+    if (read.id && answer.value.name.empty()) answer.value.name = "done";
+    if (read.id) answer.value.values.insert(answer.value.values.begin(), {"id", *read.id});
+    if (!answer.value.name.empty()) std::cout << answerLine(answer.value) + '\n' << std::flush;
 }
 
-std::string InputListener::act(const Line& line, const std::string& name) {
-    if (line.text.find_first_not_of(" \t\r") == std::string_view::npos) return {};
-    auto read = readInputLine(line.text, name, session_.state().scene->materials, session_.channels());
-    if (!read) return read.error;
-    if (const auto* message = std::get_if<PlainMessage>(&read.value)) {
-        const auto answer = messages_.take(*message, nullptr, clips_);
-        if (!answer.value.name.empty()) std::cout << answerLine(answer.value) << std::endl; // who asked waits for it
-        return answer ? "" : name + ": " + answer.error;
+Result<PlainMessage> InputListener::act(LineInput& input, const Line& line) {
+    if (const auto* message = std::get_if<PlainMessage>(&input)) {
+        auto answer = messages_.take(*message, nullptr, clips_);
+        if (answer.value.name == "status") answer.value.values.push_back({"unread", static_cast<double>(droppedLines(Standard::output))});
+        return answer;
     }
-    if (auto* silence = std::get_if<SilenceControl>(&read.value)) silence->number = line.silences;
-    const std::string fault = actOn(read.value, session_, output_, SilenceHolder::standardInput);
-    return fault.empty() ? fault : name + ": " + fault;
+    if (auto* silence = std::get_if<SilenceControl>(&input)) silence->number = line.silences;
+    const std::string fault = actOn(input, session_, output_, SilenceHolder::standardInput);
+    return fault.empty() ? Result<PlainMessage>{PlainMessage{}} : Failure{fault};
+}
+
+void InputListener::complain(const std::string& reason) {
+    if (!complaints_.take(reason, BoardLink::nowNs())) return;
+    tellLeftOut();
+    tell("standard input:" + std::to_string(lines_) + ": " + reason);
+}
+
+void InputListener::tellLeftOut() {
+    if (const std::uint64_t count = complaints_.takeLeftOut(); count > 0) tell("standard input: " + std::to_string(count) + " lines were refused as well");
 }
 
 std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from) {

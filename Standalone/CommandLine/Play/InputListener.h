@@ -4,6 +4,7 @@
 #include "Files/Text/InputLine.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Session/InputQueue.h"
+#include "Session/Messages/ComplaintLimit.h"
 #include "Session/Messages/MessageRouter.h"
 #include "Session/Session.h"
 #include "CommandLine/Play/LineCutter.h"
@@ -14,7 +15,7 @@
 namespace physvib {
 
 /// One thread reads lines, and silences at once if one of them says so; another does what they say, in their
-/// order. Refusals are told on stderr, a line each.
+/// order. Refusals are told on stderr, one of a cause in a second.
 class InputListener {
 public:
     /// All outlive the listener. M.
@@ -32,7 +33,9 @@ private:
     void keep(std::string_view text, bool isWhole);
     void run();
     void take(const Line& line);
-    std::string act(const Line& line, const std::string& name);
+    Result<PlainMessage> act(LineInput& input, const Line& line); // the answer of a query; without a name: it is done
+    void complain(const std::string& reason);
+    void tellLeftOut();
 
     Session& session_;
     AudioOutput& output_;
@@ -40,6 +43,7 @@ private:
     const ClipSource clips_;
     std::uint64_t lines_ = 0;
     InputQueue<Line> waiting_;
+    ComplaintLimit complaints_{1'000'000'000};
     std::atomic<bool> stop_{false};
     std::thread thread_, reader_;
 };
