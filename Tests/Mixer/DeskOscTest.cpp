@@ -104,6 +104,19 @@ TEST(DeskOsc, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
     EXPECT_TRUE(runUntil([&] { return desk.look(), desk.isSilent(); }));
 }
 
+TEST(DeskOsc, WhatTheDeskRefusesIsToldToItsSender) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    auto socket = OscSocket::connected(desk.osc()->address);
+    using namespace std::string_literals;
+    ASSERT_TRUE(socket.value.send(oscPacket("/physvib/impulse", {"", {{"body", "nobody"s}, {"impulse_ns", std::vector{0.0, 1.0}}}})));
+    ASSERT_TRUE(runUntil([&] { return socket.value.wait(0); }));
+    const auto error = readOscPacket(*socket.value.receive()).value.at(0);
+    EXPECT_EQ(error.address, oscErrorAddress);
+    EXPECT_EQ(std::get<std::string>(error.values.at(0)), "/physvib/impulse");
+    EXPECT_NE(std::get<std::string>(error.values.at(1)).find("nobody"), std::string::npos);
+}
+
 TEST(DeskOsc, WhatAPersonSilencedIsLiftedAtTheMachineAlone) {
     Desk desk{onlyNoDevice(), noDevice};
     ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");

@@ -32,7 +32,7 @@ struct Open {
 
     explicit Open(Direct direct = Direct::no, const ClipSource& clips = {})
         : session{quietSetup(direct)}
-        , door{session, messages, {[this](const LineInput& input) { return acted.push_back(input), std::string{}; }, [this] { return closed; }, clips}} {
+        , door{session, messages, {[this](const LineInput& input, const OscOrigin&) { return acted.push_back(input), std::string{}; }, [this] { return closed; }, clips}} {
         session.prepare(hostRate, 512);
     }
     /// Half a second at 48 kHz, told to the clock as if the session had begun at 1 s of the steady clock, which is the system's.

@@ -4,6 +4,7 @@
 #include "Session/FakeHost.h"
 #include <chrono>
 #include <functional>
+#include <future>
 #include <gtest/gtest.h>
 #include <memory>
 #include <optional>
@@ -26,7 +27,7 @@ struct Played {
     FakeOutput output;
     Played() { session.prepare(hostRate, 512); }
     std::unique_ptr<OscPort> open(const OscSettings& settings) {
-        return std::make_unique<OscPort>(settings, session, messages, output, OscHooks{[](const LineInput&) { return std::string{}; }, {}});
+        return std::make_unique<OscPort>(settings, session, messages, output, OscHooks{[](const LineInput&, const OscOrigin&) { return std::string{}; }, {}});
     }
 };
 
@@ -106,7 +107,7 @@ TEST(OscPorts, WhatIsSentIsCounted) {
 struct HeldUp : Played {
     std::unique_ptr<OscPort> openHeldUp() {
         OscHooks hooks;
-        hooks.act = [this](const LineInput& input) {
+        hooks.act = [this](const LineInput& input, const OscOrigin&) {
             isHeldUp = true;
             while (!goesOn) std::this_thread::sleep_for(std::chrono::milliseconds{1});
             const auto* silence = std::get_if<SilenceControl>(&input);
@@ -183,6 +184,23 @@ TEST(OscPorts, WhoSaysSomethingWrongIsToldSo) {
     ASSERT_EQ(error.values.size(), 2U);
     EXPECT_EQ(std::get<std::string>(error.values[0]), "/physvib/strike");
     EXPECT_EQ(std::get<std::string>(error.values[1]), "strike: level: expected 0 to 1, found 2");
+}
+
+// As where a window's thread finds out.
+TEST(OscPorts, WhatCouldNotBeDoneAfterAllIsToldToItsSender) {
+    Played played;
+    OscHooks hooks;
+    std::promise<OscOrigin> taken;
+    hooks.act = [&taken](const LineInput&, const OscOrigin& origin) { return taken.set_value(origin), std::string{}; };
+    OscPort port{anyPort(), played.session, played.messages, played.output, std::move(hooks)};
+    auto says = senderTo(port);
+    ASSERT_TRUE(says.send(oscPacket("/physvib/tilt", {"", {{"angle_rad", 0.5}}})));
+    port.refuse(taken.get_future().get(), "tilt: expected\nanother day");
+    ASSERT_TRUE(says.wait(60'000));
+    const auto error = readOscPacket(*says.receive()).value.at(0);
+    EXPECT_EQ(error.address, oscErrorAddress);
+    EXPECT_EQ(std::get<std::string>(error.values.at(0)), "/physvib/tilt");
+    EXPECT_EQ(std::get<std::string>(error.values.at(1)), "tilt: expected\\x0aanother day");
 }
 
 // Of 300 queries in less than a second few are answered, and what is not is counted.

@@ -27,8 +27,9 @@ OscDoor::OscDoor(Session& session, MessageRouter& messages, OscHooks hooks, doub
     , sensors_{turnRadians} {}
 
 void OscDoor::take(std::span<const char> bytes, const OscClock& clock,
-                   std::vector<std::vector<char>>& answers, std::uint64_t silences) {
+                   std::vector<std::vector<char>>& answers, std::uint64_t silences, const OscSender& from) {
     silences_ = silences;
+    origin_.from = from;
     ++counts_.packets;
     refusals_.clear();
     const auto read = readOscPacket(bytes);
@@ -38,6 +39,7 @@ void OscDoor::take(std::span<const char> bytes, const OscClock& clock,
     }
     for (const OscMessage& message : read.value) {
         ++counts_.messages;
+        origin_.address = message.address;
         const std::string fault = act(message, clock, answers);
         if (fault.empty()) continue;
         ++counts_.refused;
@@ -45,9 +47,12 @@ void OscDoor::take(std::span<const char> bytes, const OscClock& clock,
     }
 }
 
+OscRefusal refusalOf(std::string_view address, std::string_view reason) { return {printable(address), cleanLine(reason)}; }
+
 void OscDoor::refuse(std::string_view address, std::string_view reason) {
-    counts_.fault = cleanLine(reason);
-    if (!isReply(address)) refusals_.push_back({printable(address), counts_.fault});
+    OscRefusal refusal = refusalOf(address, reason);
+    counts_.fault = refusal.reason;
+    if (!isReply(address)) refusals_.push_back(std::move(refusal));
 }
 
 std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::vector<std::vector<char>>& answers) {
@@ -67,7 +72,7 @@ std::string OscDoor::actPlain(const PlainMessage& plain, std::vector<std::vector
     if (!input) return input.error;
     auto* silence = std::get_if<SilenceControl>(&input.value);
     if (silence != nullptr) silence->number = silence->isOn ? ++silences_ : silences_;
-    std::string fault = hooks_.act(input.value);
+    std::string fault = hooks_.act(input.value, origin_);
     if (silence != nullptr && fault.empty())
         answers.push_back(oscPacket(std::string(oscAnswerPrefix) + plain.name,
                                     {plain.name, {{"on", silence->isOn ? 1.0 : 0.0}}}));
@@ -76,7 +81,7 @@ std::string OscDoor::actPlain(const PlainMessage& plain, std::vector<std::vector
 
 std::string OscDoor::turn(const SensorFormat& format, const OscMessage& message) {
     const auto gravity = sensors_.take(format, message);
-    return gravity && gravity.value ? hooks_.act(Action{*gravity.value}) : gravity.error;
+    return gravity && gravity.value ? hooks_.act(Action{*gravity.value}, origin_) : gravity.error;
 }
 
 std::string OscDoor::route(const PlainMessage& plain, OscTag tag, const OscClock& clock, std::vector<std::vector<char>>& answers) {

@@ -3,6 +3,7 @@
 #pragma once
 #include "Files/Text/InputLine.h"
 #include "Host/Osc/OscClock.h"
+#include "Host/Osc/OscSocket.h"
 #include "Host/Osc/PhoneSensors.h"
 #include "Session/Messages/MessageRouter.h"
 #include "Session/Session.h"
@@ -17,9 +18,15 @@ inline constexpr std::string_view oscPrefix = "/physvib/", oscAnswerPrefix = "/p
                                   oscHitAddress = "/physvib/hit", oscSilenceAddress = "/physvib/silence",
                                   oscErrorAddress = "/physvib/error";
 
+/// Of a message: to whom a refusal goes.
+struct OscOrigin {
+    OscSender from;
+    std::string address; ///< of the message
+};
+
 /// What the program does itself with what comes in; called on the port's thread.
 struct OscHooks {
-    std::function<std::string(const LineInput&)> act; ///< inputs and controls; empty, or what is wrong
+    std::function<std::string(const LineInput&, const OscOrigin&)> act; ///< inputs and controls; empty, or what is wrong
     std::function<std::string()> closed;              ///< why nothing but silence is taken now; empty: it is; may be left out
     ClipSource clips{};                               ///< left out: none are taken
 };
@@ -29,6 +36,8 @@ struct OscRefusal {
     std::string address; ///< as it came, as far as it can be printed; empty: it could not be read
     std::string reason;  ///< one line
 };
+
+OscRefusal refusalOf(std::string_view address, std::string_view reason);
 
 struct OscCounts {
     std::uint64_t packets = 0;
@@ -52,7 +61,7 @@ public:
     /// Does what is in a packet; answers of queries and of silence, each a packet, go to the end of
     /// `answers`. `silences`: how many messages before this packet have asked for silence.
     void take(std::span<const char> bytes, const OscClock& clock, std::vector<std::vector<char>>& answers,
-              std::uint64_t silences = 0);
+              std::uint64_t silences = 0, const OscSender& from = {});
 
     /// What was refused of the last packet, but for what only answers: two programs that refuse each other's refusals never end.
     const std::vector<OscRefusal>& refusals() const noexcept { return refusals_; }
@@ -77,6 +86,7 @@ private:
     PhoneSensors sensors_;
     OscCounts counts_;
     std::uint64_t silences_ = 0; // asked for so far
+    OscOrigin origin_;           // of what is done now
     std::vector<OscRefusal> refusals_;
 };
 

@@ -7,7 +7,7 @@ namespace physvib {
 namespace {
 
 constexpr int pollMilliseconds = 10;     // the device's blocks are looked at so often
-constexpr int mostAtOnce = 1000;         // packets, before they are
+constexpr std::size_t mostAtOnce = 1000;         // packets, before they are
 constexpr std::int64_t clockSlackNs = 100'000; // two clocks are not read at once
 
 std::int64_t steadyNs() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -59,6 +59,7 @@ void OscPort::run() {
         const bool hasCome = packets_.wait(std::chrono::milliseconds{pollMilliseconds});
         follow();
         if (hasCome || lost_ > 0) receive();
+        refuseLate();
         if (out_.isOpen()) tellStatus();
     }
 }
@@ -70,13 +71,12 @@ void OscPort::follow() {
 }
 
 void OscPort::receive() {
-    int taken = 0;
-    for (; taken < mostAtOnce; ++taken) {
+    for (std::size_t taken = 0; taken < mostAtOnce; ++taken) {
         const auto packet = packets_.pop();
         if (!packet) break;
         const std::uint64_t wrong = door_.counts().wrong();
         answers_.clear();
-        door_.take(packet->bytes, clock_, answers_, packet->silences);
+        door_.take(packet->bytes, clock_, answers_, packet->silences, packet->from);
         if (door_.counts().wrong() != wrong) fault_ = packet->from.text() + ": " + door_.counts().fault;
         reply(packet->bytes.size(), packet->from);
     }
@@ -90,13 +90,33 @@ void OscPort::receive() {
 void OscPort::reply(std::size_t packetBytes, const OscSender& to) {
     if (answers_.empty() && door_.refusals().empty()) return;
     replies_.begin(to.text(), packetBytes, steadyNs());
-    const auto send = [&](const std::vector<char>& bytes) {
-        if (replies_.mayReply(bytes.size())) in_.answer(bytes, to);
-    };
-    for (const auto& answer : answers_) send(answer);
-    for (const OscRefusal& refusal : door_.refusals())
-        if (replies_.mayRefuse(refusal.reason)) send(oscWords(std::string(oscErrorAddress), {refusal.address, refusal.reason}));
+    for (const auto& answer : answers_)
+        if (replies_.mayReply(answer.size())) in_.answer(answer, to);
+    for (const OscRefusal& refusal : door_.refusals()) sendRefusal(refusal, to);
     door_.holdBack(replies_.heldBack());
+}
+
+void OscPort::sendRefusal(const OscRefusal& refusal, const OscSender& to) {
+    if (!replies_.mayRefuse(refusal.reason)) return;
+    const auto bytes = oscWords(std::string(oscErrorAddress), {refusal.address, refusal.reason});
+    if (replies_.mayReply(bytes.size())) in_.answer(bytes, to);
+}
+
+void OscPort::refuse(const OscOrigin& origin, const std::string& reason) {
+    const std::lock_guard lock{mutex_};
+    if (late_.size() < mostAtOnce) late_.emplace_back(refusalOf(origin.address, reason), origin.from);
+}
+
+void OscPort::refuseLate() {
+    std::vector<std::pair<OscRefusal, OscSender>> late;
+    {
+        const std::lock_guard lock{mutex_};
+        late.swap(late_);
+    }
+    for (const auto& [refusal, to] : late) {
+        replies_.begin(to.text(), 0, steadyNs());
+        sendRefusal(refusal, to);
+    }
 }
 
 void OscPort::count(bool left) noexcept { (left ? sent_ : unsent_).fetch_add(1, std::memory_order_relaxed); }

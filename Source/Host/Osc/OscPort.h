@@ -51,6 +51,9 @@ public:
     /// What was played, to the receiver. M.
     void tell(const PlayedEvent& played, int sampleRateHz);
 
+    /// What a hook has taken could not be done after all: its sender is told. Any thread but R.
+    void refuse(const OscOrigin& origin, const std::string& reason);
+
     /// Any thread but R.
     OscStatus status() const;
 
@@ -66,6 +69,8 @@ private:
     void run();
     void receive();
     void reply(std::size_t packetBytes, const OscSender& to);
+    void refuseLate();
+    void sendRefusal(const OscRefusal& refusal, const OscSender& to);
     void follow();
     void tellStatus();
     void count(bool left) noexcept;
@@ -82,6 +87,7 @@ private:
     mutable std::mutex mutex_; // guards what follows; the clock is changed by the port's thread alone
     OscClock clock_;
     OscCounts counts_;
+    std::vector<std::pair<OscRefusal, OscSender>> late_;
     std::atomic<std::uint64_t> sent_{0}, unsent_{0};
     std::atomic<bool> stop_{false};
     InputQueue<Packet> packets_;

@@ -169,7 +169,7 @@ std::string playLive(LivePlay wanted) {
         if (wanted.listens) listener.emplace(session, output, messages, clips);
         std::optional<OscPort> osc;
         if (wanted.osc.port || !wanted.osc.receiver.empty()) {
-            osc.emplace(wanted.osc, session, messages, output, OscHooks{[&](const LineInput& input) { return actOn(input, session, output, SilenceHolder::osc); }, {}, clips});
+            osc.emplace(wanted.osc, session, messages, output, OscHooks{[&](const LineInput& input, const OscOrigin&) { return actOn(input, session, output, SilenceHolder::osc); }, {}, clips});
             if (!osc->error().empty()) return "OSC: " + osc->error();
             if (osc->port() != 0) tellPort(wanted.osc, osc->status().address);
         }
