@@ -15,9 +15,13 @@ namespace {
 constexpr std::chrono::milliseconds retryTime{20}; // a reader without room is looked at so often
 constexpr std::array bothStandards{Standard::output, Standard::error};
 
-std::size_t index(Standard standard) { return static_cast<std::size_t>(standard); }
+std::size_t index(Standard standard) {
+    return static_cast<std::size_t>(standard);
+}
 
-std::string lineCount(std::uint64_t lines) { return std::to_string(lines) + (lines == 1 ? " line was" : " lines were") + " not read"; }
+std::string lineCount(std::uint64_t lines) {
+    return std::to_string(lines) + (lines == 1 ? " line was" : " lines were") + " not read";
+}
 
 struct Line {
     std::uint64_t number; // of both streams together
@@ -28,8 +32,8 @@ struct Stream {
     std::deque<Line> lines;
     std::size_t bytes = 0, written = 0; // that wait; of the first line, that do not
     std::uint64_t dropped = 0, untold = 0;
-    int fault = 0;           // an errno
-    bool isHeldUp = false;   // there was no room
+    int fault = 0;         // an errno
+    bool isHeldUp = false; // there was no room
 
     void push(std::uint64_t number, std::string text) {
         bytes += text.size();
@@ -57,7 +61,8 @@ struct Stream {
 } // namespace
 
 struct OutputWriter::State {
-    explicit State(Sink to) : sink{std::move(to)} {}
+    explicit State(Sink to)
+        : sink{std::move(to)} {}
 
     Stream& of(Standard standard) { return streams[index(standard)]; }
 
@@ -77,8 +82,10 @@ struct OutputWriter::State {
     void run() {
         std::unique_lock lock{mutex};
         while (!isEnding) {
-            if (const auto standard = next()) write(*standard, lock);
-            else rest(lock);
+            if (const auto standard = next())
+                write(*standard, lock);
+            else
+                rest(lock);
         }
         isDone = true;
         changed.notify_all();
@@ -92,17 +99,22 @@ struct OutputWriter::State {
         const auto count = sink(standard, text);
         const int why = errno;
         lock.lock();
-        if (!count) stream.fail(why);
-        else if (*count > 0) stream.take(*count);
-        else stream.isHeldUp = true;
+        if (!count)
+            stream.fail(why);
+        else if (*count > 0)
+            stream.take(*count);
+        else
+            stream.isHeldUp = true;
         changed.notify_all();
     }
 
     void rest(std::unique_lock<std::mutex>& lock) {
         bool isHeldUp = false;
         for (Stream& stream : streams) isHeldUp = isHeldUp || stream.isHeldUp;
-        if (isHeldUp) woken.wait_for(lock, retryTime);
-        else woken.wait(lock);
+        if (isHeldUp)
+            woken.wait_for(lock, retryTime);
+        else
+            woken.wait(lock);
         for (Stream& stream : streams) stream.isHeldUp = false;
     }
 
@@ -130,7 +142,8 @@ OutputWriter::~OutputWriter() {
 void OutputWriter::say(Standard standard, std::string line) {
     const std::lock_guard lock{state_->mutex};
     Stream& stream = state_->of(standard);
-    if (standard == Standard::error && stream.untold > 0) line = "physvib: standard error: " + lineCount(stream.untold) + '\n' + line;
+    if (standard == Standard::error && stream.untold > 0)
+        line = "physvib: standard error: " + lineCount(stream.untold) + '\n' + line;
     if (stream.fault != 0 || stream.bytes + line.size() > mostBytes) return stream.drop(1);
     stream.untold = 0;
     stream.push(state_->said++, std::move(line));

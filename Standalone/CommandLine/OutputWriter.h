@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a program says while it plays: one bounded queue for standard output and standard error, and one thread that writes. Nobody else
-// ever waits for a reader.
+// What a program says while it plays: one bounded queue for standard output and standard error, and one
+// thread that writes. Nobody else ever waits for a reader.
 #pragma once
 #include "CommandLine/Process.h"
 #include <chrono>
@@ -17,7 +17,7 @@ namespace physvib {
 /// Any thread but R.
 class OutputWriter {
 public:
-    static constexpr std::size_t mostBytes = 1 << 18;      ///< that wait, on each of the two
+    static constexpr std::size_t mostBytes = 1 << 18;         ///< that wait, on each of the two
     static constexpr std::chrono::milliseconds patience{250}; ///< at the end, for each of them
     /// As writeSome.
     using Sink = std::function<std::optional<std::size_t>(Standard, std::string_view)>;
@@ -26,7 +26,8 @@ public:
     /// What waits still is given up. A thread that a reader holds up is left behind.
     ~OutputWriter();
 
-    /// Puts one line into the queue. If there is no room, it is dropped and counted; standard error says so when there is room again.
+    /// Puts one line into the queue. If there is no room, it is dropped and counted; standard error says so
+    /// when there is room again.
     void say(Standard standard, std::string line);
 
     /// How many lines were dropped so far.

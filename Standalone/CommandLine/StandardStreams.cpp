@@ -39,7 +39,8 @@ private:
         return c == EOF ? 0 : c;
     }
     int sync() override {
-        if (std::string& begun = begunOn(standard_); !begun.empty()) writer_.say(standard_, std::exchange(begun, {}));
+        if (std::string& begun = begunOn(standard_); !begun.empty())
+            writer_.say(standard_, std::exchange(begun, {}));
         return 0;
     }
 
@@ -78,12 +79,16 @@ void sayWithoutWaiting() {
     if (!voice) voice = std::make_unique<Voice>();
 }
 
-std::uint64_t droppedLines(Standard standard) { return voice ? voice->writer.dropped(standard) : 0; }
+std::uint64_t droppedLines(Standard standard) {
+    return voice ? voice->writer.dropped(standard) : 0;
+}
 
 std::optional<std::string> finishOutput() {
     return voice ? std::optional{voice->writer.finish(Standard::output)} : std::nullopt;
 }
 
-void endOutput() { voice.reset(); }
+void endOutput() {
+    voice.reset();
+}
 
 } // namespace physvib

@@ -8,7 +8,8 @@
 
 namespace physvib {
 
-/// From now on std::cout and std::cerr go, by whole lines, to an OutputWriter. What has no newline needs a flush. M.
+/// From now on std::cout and std::cerr go, by whole lines, to an OutputWriter. What has no newline needs a
+/// flush. M.
 void sayWithoutWaiting();
 
 /// How many lines the one of sayWithoutWaiting has dropped. Any thread but R.

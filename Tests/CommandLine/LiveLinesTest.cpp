@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `physvib play --listen` as a script meets it: its lines are answered, and whether somebody reads the answers changes nothing that is felt.
+// `physvib play --listen` as a script meets it: its lines are answered, and whether somebody reads the
+// answers changes nothing that is felt.
 #include "Calls.h"
 #include <array>
 #include <chrono>
@@ -32,21 +33,26 @@ protected:
     }
 
     void play() {
-        for (auto& pair : pipes_) fcntl(pair[&pair == &pipes_[in] ? 0 : 1], F_SETFL, 0); // as a program finds them
+        for (auto& pair : pipes_)
+            fcntl(pair[&pair == &pipes_[in] ? 0 : 1], F_SETFL, 0); // as a program finds them
         player_ = fork();
         ASSERT_GE(player_, 0);
         if (player_ > 0) return;
-        for (int standard = 0; standard < 3; ++standard) dup2(pipes_[static_cast<std::size_t>(standard)][standard == 0 ? 0 : 1], standard);
+        for (int standard = 0; standard < 3; ++standard)
+            dup2(pipes_[static_cast<std::size_t>(standard)][standard == 0 ? 0 : 1], standard);
         for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
         if (chdir(folder_.c_str()) == 0)
-            execl(PHYSVIB_PROGRAM, PHYSVIB_PROGRAM, "play", PHYSVIB_SOURCE_DIR "/Standalone/Examples/quiet.json", "--device", "None:no device", "--listen", "--seconds", "600", "--save", "s.json", nullptr);
+            execl(PHYSVIB_PROGRAM, PHYSVIB_PROGRAM, "play",
+                  PHYSVIB_SOURCE_DIR "/Standalone/Examples/quiet.json", "--device", "None:no device",
+                  "--listen", "--seconds", "600", "--save", "s.json", nullptr);
         _exit(127);
     }
 
     /// So that the player finds no room in it.
     void fill(std::size_t stream) {
         const std::string much(4096, '.');
-        while (::write(pipes_[stream][1], much.data(), much.size()) > 0) {}
+        while (::write(pipes_[stream][1], much.data(), much.size()) > 0) {
+        }
     }
 
     /// False if the player does not take it all.
@@ -63,7 +69,8 @@ protected:
     /// What has come on a stream so far.
     const std::string& heard(std::size_t stream) {
         char bytes[4096];
-        for (ssize_t count; (count = ::read(pipes_[stream][0], bytes, sizeof bytes)) > 0;) heard_[stream].append(bytes, static_cast<std::size_t>(count));
+        for (ssize_t count; (count = ::read(pipes_[stream][0], bytes, sizeof bytes)) > 0;)
+            heard_[stream].append(bytes, static_cast<std::size_t>(count));
         return heard_[stream];
     }
     static std::size_t count(const std::string& text, std::string_view what) {
@@ -102,27 +109,31 @@ std::string times(int count, const std::string& line) {
 TEST_F(LiveLines, AnswersThatNobodyReadsHoldUpNothing) {
     play();
     ASSERT_TRUE(say(times(20'000, "{\"message\": \"status\"}\n")));
-    ASSERT_TRUE(say("{\"control\": \"gain\", \"channel\": 1, \"value\": 0.25}\n"));
-    EXPECT_TRUE(comes([this] { return read("s.json").find("0.25") != std::string::npos; })) << "the line after them acts";
+    ASSERT_TRUE(say("{\"control\": \"gain\", \"channel\": 1, \"value\": 0.2718}\n"));
+    EXPECT_TRUE(comes([this] { return read("s.json").find("0.2718") != std::string::npos; }))
+        << "the line after them acts";
     EXPECT_EQ(end(), 1) << "words were lost";
-    EXPECT_NE(heard(err).find("physvib: standard output: cannot be written: "), std::string::npos) << heard(err);
-    EXPECT_NE(read("s.json").find("0.25"), std::string::npos) << "saved";
+    EXPECT_NE(heard(err).find("physvib: standard output: cannot be written: "), std::string::npos)
+        << heard(err);
+    EXPECT_NE(read("s.json").find("0.2718"), std::string::npos) << "saved";
 }
 
 TEST_F(LiveLines, AFullStandardErrorHoldsUpNothing) {
     fill(out);
     fill(err);
     play();
-    ASSERT_TRUE(say(times(2'000, "{\"message\": \"status\"}\n{\"message\": \"strike\", \"level\": 2}\nno line\n")));
-    ASSERT_TRUE(say("{\"control\": \"gain\", \"channel\": 1, \"value\": 0.25}\n"));
-    EXPECT_TRUE(comes([this] { return read("s.json").find("0.25") != std::string::npos; }));
+    ASSERT_TRUE(
+        say(times(2'000, "{\"message\": \"status\"}\n{\"message\": \"strike\", \"level\": 2}\nno line\n")));
+    ASSERT_TRUE(say("{\"control\": \"gain\", \"channel\": 1, \"value\": 0.2718}\n"));
+    EXPECT_TRUE(comes([this] { return read("s.json").find("0.2718") != std::string::npos; }));
     EXPECT_EQ(end(), 1);
 }
 
 TEST_F(LiveLines, WhatWasNotReadIsCountedInTheStatus) {
     play();
-    ASSERT_TRUE(say(times(20'000, "{\"message\": \"layout\"}\n") + "{\"control\": \"gain\", \"channel\": 1, \"value\": 0.25}\n"));
-    ASSERT_TRUE(comes([this] { return read("s.json").find("0.25") != std::string::npos; }));
+    ASSERT_TRUE(say(times(20'000, "{\"message\": \"layout\"}\n") +
+                    "{\"control\": \"gain\", \"channel\": 1, \"value\": 0.2718}\n"));
+    ASSERT_TRUE(comes([this] { return read("s.json").find("0.2718") != std::string::npos; }));
     ASSERT_TRUE(comes([this] { return heard(out).size() > 65'536; }));
     ASSERT_TRUE(say("{\"message\": \"status\", \"id\": 1}\n"));
     ASSERT_TRUE(comes([this] { return heard(out).find("\"id\": 1,") != std::string::npos; }));
@@ -134,31 +145,39 @@ TEST_F(LiveLines, WhatWasNotReadIsCountedInTheStatus) {
 TEST_F(LiveLines, ALineWithANumberIsAnsweredWithIt) {
     play();
     const std::pair<const char*, const char*> lines[] = {
-        {R"({"message": "strike", "frequency_hz": 205, "seconds": 0.1, "id": 1})", R"({ "answer": "done", "id": 1 })"},
+        {R"({"message": "strike", "frequency_hz": 205, "seconds": 0.1, "id": 1})",
+         R"({ "answer": "done", "id": 1 })"},
         {R"({"id": 2, "control": "gain", "channel": 1, "value": 0.5})", R"({ "answer": "done", "id": 2 })"},
         {R"({"input": "tilt", "angle_rad": 0.1, "id": 3})", R"({ "answer": "done", "id": 3 })"},
         {R"({"control": "silence", "on": true, "id": 4})", R"({ "answer": "done", "id": 4 })"},
         {R"({"message": "latency", "id": 5})", R"({ "answer": "latency", "id": 5, "play_out_s": )"},
-        {R"({"message": "strike", "frequency_hz": 205, "seconds": 1, "level": 2, "id": 6})", R"({ "answer": "error", "id": 6, "reason": "strike: level: expected 0 to 1, found 2" })"},
-        {R"({"control": "gain", "channel": 9, "value": 1, "id": -7})", R"({ "answer": "error", "id": -7, "reason": "channel: expected a channel from 1 to 4, found 9" })"},
-        {R"({"input": "impulse", "body": "nobody", "impulse_ns": [0, 1], "id": 8})", R"({ "answer": "error", "id": 8, "reason": ")"},
+        {R"({"message": "strike", "frequency_hz": 205, "seconds": 1, "level": 2, "id": 6})",
+         R"({ "answer": "error", "id": 6, "reason": "strike: level: expected 0 to 1, found 2" })"},
+        {R"({"control": "gain", "channel": 9, "value": 1, "id": -7})",
+         R"({ "answer": "error", "id": -7, "reason": "channel: expected a channel from 1 to 4, found 9" })"},
+        {R"({"input": "impulse", "body": "nobody", "impulse_ns": [0, 1], "id": 8})",
+         R"({ "answer": "error", "id": 8, "reason": ")"},
         {R"({"message": "strike", "id": 9, "level": )", R"({ "answer": "error", "id": 9, "reason": ")"},
-        {R"({"message": "leap", "id": 9007199254740991})", R"({ "answer": "error", "id": 9007199254740991, "reason": ")"},
+        {R"({"message": "leap", "id": 9007199254740991})",
+         R"({ "answer": "error", "id": 9007199254740991, "reason": ")"},
         {R"({"message": "stop", "id": 11})", R"({ "answer": "done", "id": 11 })"}};
     std::string all;
     for (const auto& [line, answer] : lines) all.append(line).append("\n");
     ASSERT_TRUE(say(all));
-    ASSERT_TRUE(comes([this] { return heard(out).find("\"id\": 11") != std::string::npos; })) << heard(out) << heard(err);
+    ASSERT_TRUE(comes([this] { return heard(out).find("\"id\": 11") != std::string::npos; }))
+        << heard(out) << heard(err);
     std::size_t at = 0;
     for (const auto& [line, answer] : lines) {
         EXPECT_EQ(heard(out).find(answer, at), at) << line << '\n' << heard(out).substr(at);
         at = heard(out).find('\n', at) + 1;
     }
     EXPECT_EQ(at, heard(out).size()) << "one answer to each";
-    ASSERT_TRUE(say("{\"message\": \"strike\", \"id\": 1.5}\n{\"message\": \"stop\", \"id\": \"a\"}\n{\"message\": \"stop\", \"id\": 12}\n"));
+    ASSERT_TRUE(say("{\"message\": \"strike\", \"id\": 1.5}\n{\"message\": \"stop\", \"id\": "
+                    "\"a\"}\n{\"message\": \"stop\", \"id\": 12}\n"));
     ASSERT_TRUE(comes([this] { return heard(out).find("\"id\": 12") != std::string::npos; }));
     EXPECT_NE(heard(err).find("id: expected a whole number"), std::string::npos) << heard(err);
-    EXPECT_EQ(heard(out).substr(at), "{ \"answer\": \"done\", \"id\": 12 }\n") << "what is no number cannot be given back";
+    EXPECT_EQ(heard(out).substr(at), "{ \"answer\": \"done\", \"id\": 12 }\n")
+        << "what is no number cannot be given back";
     EXPECT_EQ(end(), 0);
 }
 
@@ -166,9 +185,13 @@ TEST_F(LiveLines, ComplaintsOfACauseAreOneASecondAndTheRestIsCounted) {
     play();
     constexpr int lines = 100'000;
     const auto begin = std::chrono::steady_clock::now();
-    ASSERT_TRUE(say(times(lines, "{\"message\": \"strike\", \"level\": 2}\n") + "{\"message\": \"latency\"}\n"));
+    ASSERT_TRUE(
+        say(times(lines, "{\"message\": \"strike\", \"level\": 2}\n") + "{\"message\": \"latency\"}\n"));
     ASSERT_TRUE(comes([this] { return heard(out).find("latency") != std::string::npos; }));
-    const auto most = static_cast<std::size_t>(std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin).count()) + 1;
+    const auto most = static_cast<std::size_t>(std::chrono::duration_cast<std::chrono::seconds>(
+                                                   std::chrono::steady_clock::now() - begin)
+                                                   .count()) +
+                      1;
     EXPECT_EQ(end(), 0);
     const std::string& told = heard(err);
     EXPECT_LE(count(told, "strike:"), most) << told;
@@ -176,7 +199,8 @@ TEST_F(LiveLines, ComplaintsOfACauseAreOneASecondAndTheRestIsCounted) {
     EXPECT_EQ(all, 1U) << "the first at once";
     all = count(told, "strike:");
     constexpr std::string_view before = "physvib: standard input: ";
-    for (auto at = told.find(before); at != std::string::npos; at = told.find(before, at + 1)) all += std::stoul(told.substr(at + before.size()));
+    for (auto at = told.find(before); at != std::string::npos; at = told.find(before, at + 1))
+        all += std::stoul(told.substr(at + before.size()));
     EXPECT_EQ(all, static_cast<std::uint64_t>(lines)) << told;
 }
 

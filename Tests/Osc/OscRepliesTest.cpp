@@ -68,7 +68,8 @@ TEST(OscRepliesLimits, ARefusalOfACauseIsSentTenTimesASecond) {
     EXPECT_EQ(others, 10) << "each address by itself";
     replies.begin("192.0.2.1:5", 100, 1000 * ms);
     EXPECT_TRUE(replies.mayRefuse("strike: level: expected 0 to 1, found 3"));
-    EXPECT_TRUE(replies.mayRefuse("gain: channel: expected a channel from 1 to 4, found 9")) << "another cause";
+    EXPECT_TRUE(replies.mayRefuse("gain: channel: expected a channel from 1 to 4, found 9"))
+        << "another cause";
     EXPECT_FALSE(replies.mayRefuse("gain: channel: expected a channel from 1 to 4, found 5"));
 }
 

@@ -13,7 +13,11 @@ TEST(ComplaintLimits, EachCauseIsSaidOnceInAWhileAndTheOthersAreCounted) {
     ComplaintLimit limit{second};
     constexpr int lines = 161'806;
     int said = 0;
-    for (int k = 0; k < lines; ++k) said += limit.take("strike: level: expected 0 to 1, found " + std::to_string(k), k * (4 * second / lines)) ? 1 : 0;
+    for (int k = 0; k < lines; ++k)
+        said +=
+            limit.take("strike: level: expected 0 to 1, found " + std::to_string(k), k * (4 * second / lines))
+                ? 1
+                : 0;
     EXPECT_EQ(said, 4);
     EXPECT_EQ(limit.takeLeftOut(), static_cast<std::uint64_t>(lines - 4));
     EXPECT_EQ(limit.takeLeftOut(), 0U);
@@ -32,11 +36,15 @@ TEST(ComplaintLimits, CausesThatAreMadeUpDoNotHelp) {
 
 TEST(ComplaintLimits, ACauseIsWhatIsExpected) {
     const auto cause = [](const char* reason) { return ComplaintLimit::causeOf(reason); };
-    EXPECT_EQ(cause("gain: channel: expected a channel from 1 to 4, found 9"), cause("gain: channel: expected a channel from 1 to 4, found 12"));
-    EXPECT_EQ(cause("\"jump\": expected the name of a message"), cause("\"leap\": expected the name of a message"));
-    EXPECT_EQ(cause("at: expected a session time that is not over: it is 1.204 s, found 1 s"), cause("at: expected a session time that is not over: it is 12.301 s, found 2 s"));
+    EXPECT_EQ(cause("gain: channel: expected a channel from 1 to 4, found 9"),
+              cause("gain: channel: expected a channel from 1 to 4, found 12"));
+    EXPECT_EQ(cause("\"jump\": expected the name of a message"),
+              cause("\"leap\": expected the name of a message"));
+    EXPECT_EQ(cause("at: expected a session time that is not over: it is 1.204 s, found 1 s"),
+              cause("at: expected a session time that is not over: it is 12.301 s, found 2 s"));
     EXPECT_NE(cause("gain: channel: expected a channel"), cause("mute: channel: expected a channel"));
-    EXPECT_NE(cause("strike: level: expected 0 to 1, found 2"), cause("strike: seconds: expected 0 to 3600, found -1"));
+    EXPECT_NE(cause("strike: level: expected 0 to 1, found 2"),
+              cause("strike: seconds: expected 0 to 3600, found -1"));
 }
 
 } // namespace

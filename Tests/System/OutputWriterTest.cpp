@@ -99,7 +99,8 @@ TEST(OutputWriters, StandardErrorTellsWhatItLacks) {
     EXPECT_NE(writer.finish(Standard::error), "");
     writer.say(Standard::error, "last\n");
     writer.finish(Standard::error);
-    EXPECT_TRUE(reader.read(Standard::error).ends_with("\nphysvib: standard error: 3 lines were not read\nlast\n"));
+    EXPECT_TRUE(
+        reader.read(Standard::error).ends_with("\nphysvib: standard error: 3 lines were not read\nlast\n"));
 }
 
 TEST(OutputWriters, OneThatCannotBeWrittenSaysWhy) {

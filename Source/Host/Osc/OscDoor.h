@@ -37,6 +37,7 @@ struct OscRefusal {
     std::string reason;  ///< one line
 };
 
+/// Any thread.
 OscRefusal refusalOf(std::string_view address, std::string_view reason);
 
 struct OscCounts {

@@ -7,7 +7,7 @@ namespace physvib {
 namespace {
 
 constexpr int pollMilliseconds = 10;     // the device's blocks are looked at so often
-constexpr std::size_t mostAtOnce = 1000;         // packets, before they are
+constexpr std::size_t mostAtOnce = 1000; // packets, before they are; refusals that come later
 constexpr std::int64_t clockSlackNs = 100'000; // two clocks are not read at once
 
 std::int64_t steadyNs() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -105,6 +105,7 @@ void OscPort::sendRefusal(const OscRefusal& refusal, const OscSender& to) {
 void OscPort::refuse(const OscOrigin& origin, const std::string& reason) {
     const std::lock_guard lock{mutex_};
     if (late_.size() < mostAtOnce) late_.emplace_back(refusalOf(origin.address, reason), origin.from);
+    else ++lateHeld_;
 }
 
 void OscPort::refuseLate() {
@@ -113,10 +114,14 @@ void OscPort::refuseLate() {
         const std::lock_guard lock{mutex_};
         late.swap(late_);
     }
+    if (late.empty()) return;
     for (const auto& [refusal, to] : late) {
         replies_.begin(to.text(), 0, steadyNs());
         sendRefusal(refusal, to);
     }
+    door_.holdBack(replies_.heldBack());
+    const std::lock_guard lock{mutex_};
+    counts_.held = replies_.heldBack();
 }
 
 void OscPort::count(bool left) noexcept { (left ? sent_ : unsent_).fetch_add(1, std::memory_order_relaxed); }
@@ -143,7 +148,9 @@ void OscPort::tell(const PlayedEvent& played, int sampleRateHz) {
 
 OscStatus OscPort::status() const {
     const std::lock_guard lock{mutex_};
-    return {address_, counts_, sent_, unsent_};
+    OscStatus now{address_, counts_, sent_, unsent_};
+    now.counts.held += lateHeld_;
+    return now;
 }
 
 } // namespace physvib

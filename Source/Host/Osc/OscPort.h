@@ -87,7 +87,8 @@ private:
     mutable std::mutex mutex_; // guards what follows; the clock is changed by the port's thread alone
     OscClock clock_;
     OscCounts counts_;
-    std::vector<std::pair<OscRefusal, OscSender>> late_;
+    std::vector<std::pair<OscRefusal, OscSender>> late_; // to be sent by the port's thread
+    std::uint64_t lateHeld_ = 0;                         // that found no room there
     std::atomic<std::uint64_t> sent_{0}, unsent_{0};
     std::atomic<bool> stop_{false};
     InputQueue<Packet> packets_;

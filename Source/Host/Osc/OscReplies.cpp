@@ -7,7 +7,9 @@
 namespace physvib {
 namespace {
 
-bool isThisComputer(std::string_view sender) { return sender.starts_with("127.") || sender.starts_with("::1:"); }
+bool isThisComputer(std::string_view sender) {
+    return sender.starts_with("127.") || sender.starts_with("::1:");
+}
 
 } // namespace
 
@@ -25,16 +27,21 @@ OscReplies::Sender* OscReplies::find(std::string_view name) {
     const auto known = std::ranges::find(senders_, name, &Sender::name);
     if (known != senders_.end()) return &*known;
     const auto quiet = std::ranges::min_element(senders_, {}, &Sender::lastNs);
-    if (senders_.size() < mostSenders) senders_.push_back({std::string(name), nowNs_, {}});
-    else if (quiet->lastNs <= nowNs_ - secondNs) return &(*quiet = {std::string(name), nowNs_, {}});
-    else return nullptr;
+    if (senders_.size() < mostSenders)
+        senders_.push_back({std::string(name), nowNs_, {}});
+    else if (quiet->lastNs <= nowNs_ - secondNs)
+        return &(*quiet = {std::string(name), nowNs_, {}});
+    else
+        return nullptr;
     return &senders_.back();
 }
 
 bool OscReplies::mayReply(std::size_t bytes) {
     const std::size_t beyond = bytes - std::min(bytes, bytesLeft_);
     const auto add = [](std::size_t sum, const Spent& one) { return sum + one.bytes; };
-    if (current_ == nullptr || std::accumulate(current_->spent.begin(), current_->spent.end(), beyond, add) > freeBytes) return ++heldBack_, false;
+    if (current_ == nullptr ||
+        std::accumulate(current_->spent.begin(), current_->spent.end(), beyond, add) > freeBytes)
+        return ++heldBack_, false;
     bytesLeft_ -= bytes - beyond;
     if (beyond > 0) current_->spent.push_back({nowNs_, beyond});
     return true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What may be sent back to a sender. Its address may be somebody else's: nobody is to get a flood from here that he did not send.
+// What may be sent back to a sender. Its address may be somebody else's: nobody is to get a flood from here
+// that he did not send.
 #pragma once
 #include "Session/Messages/ComplaintLimit.h"
 #include <cstddef>
@@ -10,8 +11,9 @@
 
 namespace physvib {
 
-/// A packet is answered with as many bytes as it has; beyond that an address gets at most `freeBytes` in any second, and a refusal of one
-/// cause once in `refusalEveryNs`. An address is another computer, or a port of this one. The clock is the caller's. One thread at a time.
+/// A packet is answered with as many bytes as it has; beyond that an address gets at most `freeBytes` in any
+/// second, and a refusal of one cause once in `refusalEveryNs`. An address is another computer, or a port of
+/// this one. The clock is the caller's. One thread at a time.
 class OscReplies {
 public:
     static constexpr std::size_t freeBytes = 2000;
