@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a second output has to know of the one that a session is felt on.
 #pragma once
+#include "Session/SilenceHolders.h"
 #include <cstdint>
 
 namespace physvib {
@@ -21,10 +22,21 @@ public:
     /// Master level, as a gain. Any thread, wait-free.
     virtual float level() const noexcept = 0;
     /// Nothing is felt, whatever the level. Any thread, wait-free.
-    virtual bool isSilent() const noexcept = 0;
+    virtual bool isSilent() const noexcept { return silence_.isSilent(); }
+
+    /// Who holds it silent. Any thread.
+    SilenceHolders& silence() noexcept { return silence_; }
+    /// The wish of a person at the machine: silent within a block, or back in a ramp, whoever has asked for
+    /// silence. Any thread, without locks.
+    void setSilent(bool silent) noexcept {
+        silent ? void(silence_.ask(SilenceHolder::machine)) : silence_.liftAll();
+    }
 
 protected:
     ~FeltOutput() = default;
+
+private:
+    SilenceHolders silence_;
 };
 
 } // namespace physvib

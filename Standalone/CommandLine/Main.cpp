@@ -16,6 +16,7 @@
 #include "CommandLine/Render/ExportCommand.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Report/ReportCommand.h"
+#include "CommandLine/StandardStreams.h"
 #include "CommandLine/Study/StimulusCommand.h"
 #include "CommandLine/Study/StudyCommand.h"
 #include "CommandLine/Sweep/SweepCommand.h"
@@ -137,5 +138,7 @@ int main(int argc, char** argv) {
         leave(exitFailed, error.what());
     }
     const std::string fault = outputFault();
-    return fault.empty() || code != exitDone ? code : leave(exitFailed, fault);
+    if (!fault.empty() && code == exitDone) code = leave(exitFailed, fault);
+    endOutput();
+    return code;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The end of a program: by a signal, or with all that it wrote.
 #include "CommandLine/Process.h"
+#include "CommandLine/StandardStreams.h"
 #include "Files/Disk/SystemFile.h"
 #include <cerrno>
 #include <csignal>
@@ -17,10 +18,12 @@ void endBySignal(int signal) {
 }
 
 std::string outputFault() {
+    constexpr const char* fault = "standard output: cannot be written";
     errno = 0;
     std::cout.flush();
+    if (const auto why = finishOutput()) return why->empty() ? "" : std::string(fault) + ": " + *why;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return {};
-    return "standard output: cannot be written" + (errno == 0 ? std::string{} : ": " + std::generic_category().message(errno));
+    return fault + (errno == 0 ? std::string{} : ": " + std::generic_category().message(errno));
 }
 
 } // namespace physvib

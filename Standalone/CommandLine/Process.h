@@ -7,12 +7,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace physvib {
 
 /// First of all: the standard descriptors are open, a signal that ends the program takes half-written files along, and a file
 /// that may not grow is an error, not a signal. M.
 void beginProcess();
+
+enum class Standard { output, error };
+
+/// Writes some of `bytes` there: how many; 0: it has no room now; nothing: it cannot be written, and `errno` says why. On Windows it may wait
+/// for who reads. One thread, not R.
+std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept;
 
 /// Last of all: empty if all that was written to standard output arrived, or one line with the reason. M.
 std::string outputFault();

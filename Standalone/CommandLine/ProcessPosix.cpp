@@ -2,8 +2,10 @@
 // POSIX: descriptors 0 to 2, signals, other processes.
 #if !defined(_WIN32)
 #include "CommandLine/Process.h"
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
@@ -51,6 +53,15 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
     if (poll(&input, 1, milliseconds) <= 0) return std::nullopt;
     const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
     return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+// A pipe that is ready takes this many without a wait.
+std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept {
+    pollfd out{standard == Standard::output ? STDOUT_FILENO : STDERR_FILENO, POLLOUT, 0};
+    if (poll(&out, 1, 0) <= 0) return 0;
+    const ssize_t count = write(out.fd, bytes.data(), std::min<std::size_t>(bytes.size(), PIPE_BUF));
+    if (count < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
+    return count < 0 ? std::nullopt : std::optional{static_cast<std::size_t>(count)};
 }
 
 int processNumber() noexcept { return getpid(); }

@@ -19,14 +19,6 @@ physvib-mixer --shot FILE.png [--state NAME]   a picture of the window, without 
 physvib-mixer --states | --help | --version
 )";
 
-AudioDeviceTypes deviceTypes() {
-    return [] {
-        auto types = systemAudioDeviceTypes();
-        types.push_back(std::make_unique<NoDeviceType>());
-        return types;
-    };
-}
-
 /// The word after `option`; empty if there is none.
 juce::String valueOf(const juce::ArgumentList& arguments, juce::StringRef option) {
     const int at = arguments.indexOfOption(option);
@@ -73,7 +65,7 @@ public:
         juce::File file;
         for (int k = 0; k < arguments.size(); ++k)
             if (!arguments[k].isOption() && (k == 0 || arguments[k - 1].text != "--device")) file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[k].text);
-        window_ = std::make_unique<MixerWindow>(deviceTypes(), device, file);
+        window_ = std::make_unique<MixerWindow>(audioDeviceTypesAndNone, device, file);
         heedInterrupts();
         startTimer(milliseconds);
     }

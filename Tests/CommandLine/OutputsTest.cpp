@@ -88,7 +88,7 @@ TEST_F(Outputs, WhatInputsNameIsNotWrittenOverEither) {
 
 TEST_F(Outputs, WordsThatDoNotArriveAreAFailure) {
     for (const char* words : {"scenes", "actuators", "study list", "study show patterns", "material --list", "analyse confusion trials.csv", "stimulus list", "--help", "--version", "render --help",
-                              "render drop --seconds 0.1 --out new.wav"}) {
+                              "render drop --seconds 0.1 --out new.wav", "play drop --device 'None:no device' --seconds 0.1"}) {
         EXPECT_EQ(shell(program_ + words + " >/dev/full"), 1) << words;
         EXPECT_NE(read(".err").find("physvib: standard output: cannot be written"), std::string::npos) << words << read(".err");
         EXPECT_EQ(shell(program_ + words + " >&-"), 1) << words;

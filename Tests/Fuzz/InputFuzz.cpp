@@ -9,9 +9,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;
     static const Scene scene = *findBuiltInScene("drop");
-    const auto read = readInputLine(fuzz::asText(data, size), "f", scene.materials, 4);
+    const auto read = readInputLine(fuzz::asText(data, size), scene.materials, 4);
     if (!read) {
-        fuzz::demandClearRefusal(read, true);
+        fuzz::demandClearRefusal(Result<LineInput>{Failure{"f: " + read.error}}, true);
         return 0;
     }
     const auto* action = std::get_if<Action>(&read.value);

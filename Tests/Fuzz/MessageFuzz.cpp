@@ -11,7 +11,7 @@ using namespace physvib;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::unique_ptr<Session> session = fuzz::makeSession();
     static std::array<std::array<float, 256>, 4> samples;
-    const auto read = readInputLine(fuzz::asText(data, size), "f", session->state().scene->materials, 4);
+    const auto read = readInputLine(fuzz::asText(data, size), session->state().scene->materials, 4);
     const auto* message = std::get_if<PlainMessage>(&read.value);
     if (message == nullptr) return 0;
     session->prepare(8000, 256);

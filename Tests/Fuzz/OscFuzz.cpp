@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::unique_ptr<Session> session = fuzz::makeSession();
     session->prepare(8000, 256);
     MessageRouter messages{*session};
-    OscDoor door{*session, messages, {[](const LineInput& input) { return session->act(std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}); }, {}, fuzz::anyClip}};
+    OscDoor door{*session, messages, {[](const LineInput& input, const OscOrigin&) { return session->act(std::get_if<Action>(&input) ? std::get<Action>(input) : Action{TiltAction{}}); }, {}, fuzz::anyClip}};
     OscClock clock;
     std::vector<std::vector<char>> answers;
     const std::span<const char> bytes{reinterpret_cast<const char*>(data), size};

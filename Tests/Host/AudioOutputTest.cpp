@@ -382,6 +382,32 @@ TEST(AudioOutput, TheSilenceSwitchActsWithinABlockAndComesBackInARamp) {
     }
 }
 
+TEST(AudioOutput, SilenceIsLiftedByWhoAskedOrAtTheMachine) {
+    Rig rig, steady;
+    ASSERT_EQ(rig.open(), "");
+    ASSERT_EQ(steady.open(), "");
+    SilenceHolders& silence = rig.output.silence();
+    const auto lift = [&silence](SilenceHolder holder) { silence.lift(holder, silence.asked(holder)); };
+    const auto expect = [&](bool isFelt, const char* why) {
+        playUntilLoud(rig, steady);
+        EXPECT_EQ(loudest(rig.play(0.1, 64)[0]) > 0.0f, isFelt) << why;
+        steady.play(0.1, 64);
+    };
+    silence.ask(SilenceHolder::standardInput);
+    silence.ask(SilenceHolder::osc);
+    lift(SilenceHolder::osc);
+    expect(false, "OSC lifts nothing of standard input's");
+    lift(SilenceHolder::standardInput);
+    expect(true, "who asked has lifted it");
+    rig.output.setSilent(true);
+    lift(SilenceHolder::osc);
+    lift(SilenceHolder::standardInput);
+    expect(false, "what a person has asked for is lifted at the machine alone");
+    silence.ask(SilenceHolder::osc);
+    rig.output.setSilent(false);
+    expect(true, "the machine lifts all");
+}
+
 TEST(AudioOutput, ASignalIsSilenceBeforeAnythingEnds) {
     for (const int block : {64, 2048}) {
         Rig rig, steady;

@@ -78,6 +78,70 @@ TEST(DeskOsc, StripsAndSilenceAreMovedAtTheDesk) {
     EXPECT_TRUE(runUntil([&] { return desk.osc()->counts.refused == 3; }));
 }
 
+// The window's thread does nothing here: what is for it waits, and is refused at last.
+TEST(DeskOsc, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    const auto comes = [&](auto isTrue) {
+        for (int k = 0; k < 6000 && !isTrue(); ++k)
+            std::this_thread::sleep_for(std::chrono::milliseconds{10});
+        return isTrue();
+    };
+    auto socket = OscSocket::connected(desk.osc()->address);
+    const auto mute = oscPacket("/physvib/mute", {"", {{"channel", 1.0}, {"on", 1.0}}});
+    for (std::uint64_t k = 0; k < 1200; k += 100) { // the system's buffer is small
+        for (int one = 0; one < 100; ++one) socket.value.send(mute);
+        ASSERT_TRUE(comes([&] { return desk.osc()->counts.messages == k + 100; }));
+    }
+    ASSERT_EQ(desk.osc()->counts.refused, 200U);
+    EXPECT_EQ(desk.osc()->counts.fault.substr(desk.osc()->counts.fault.find(": ") + 2),
+              "too many inputs at once");
+    EXPECT_TRUE(socket.value.send(oscPacket("/physvib/silence", {"", {{"on", 1.0}}})));
+    EXPECT_TRUE(comes([&] { return desk.output().isSilent(); }));
+    ASSERT_TRUE(comes([&] { return desk.osc()->counts.messages == 1201; }));
+    EXPECT_EQ(desk.osc()->counts.refused, 200U) << "silence is never refused for want of room";
+    EXPECT_FALSE(desk.isSilent()) << "not yet shown";
+    EXPECT_TRUE(runUntil([&] { return desk.look(), desk.isSilent(); }));
+}
+
+TEST(DeskOsc, WhatTheDeskRefusesIsToldToItsSender) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    auto socket = OscSocket::connected(desk.osc()->address);
+    using namespace std::string_literals;
+    ASSERT_TRUE(socket.value.send(oscPacket("/physvib/impulse", {"", {{"body", "nobody"s}, {"impulse_ns", std::vector{0.0, 1.0}}}})));
+    ASSERT_TRUE(runUntil([&] { return socket.value.wait(0); }));
+    const auto error = readOscPacket(*socket.value.receive()).value.at(0);
+    EXPECT_EQ(error.address, oscErrorAddress);
+    EXPECT_EQ(std::get<std::string>(error.values.at(0)), "/physvib/impulse");
+    EXPECT_NE(std::get<std::string>(error.values.at(1)).find("nobody"), std::string::npos);
+}
+
+TEST(DeskOsc, WhatAPersonSilencedIsLiftedAtTheMachineAlone) {
+    Desk desk{onlyNoDevice(), noDevice};
+    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    const auto taken = [&](std::uint64_t messages) {
+        return runUntil([&] {
+            return desk.osc()->counts.messages == messages && desk.osc()->counts.refused == messages - 1;
+        });
+    };
+    desk.setSilent(true);
+    send(desk, "/physvib/silence", {{"on", 1.0}});
+    ASSERT_TRUE(runUntil([&] { return desk.osc()->counts.messages == 1; }));
+    send(desk, "/physvib/silence", {{"on", 0.0}});
+    EXPECT_TRUE(taken(2)) << "that it did not help is said";
+    EXPECT_EQ(desk.osc()->counts.fault, "silence: still asked for at the machine");
+    EXPECT_TRUE(desk.isSilent());
+    EXPECT_TRUE(desk.output().isSilent());
+    desk.setSilent(false);
+    EXPECT_FALSE(desk.output().isSilent());
+    send(desk, "/physvib/silence", {{"on", 1.0}});
+    EXPECT_TRUE(runUntil([&] { return desk.isSilent(); }));
+    desk.setSilent(false);
+    EXPECT_FALSE(desk.isSilent()) << "a person lifts what OSC asked for as well";
+    EXPECT_FALSE(desk.output().isSilent());
+}
+
 TEST(DeskOsc, APhoneTiltsTheWorld) {
     Desk desk{onlyNoDevice(), noDevice};
     ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");

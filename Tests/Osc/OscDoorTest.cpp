@@ -32,7 +32,7 @@ struct Open {
 
     explicit Open(Direct direct = Direct::no, const ClipSource& clips = {})
         : session{quietSetup(direct)}
-        , door{session, messages, {[this](const LineInput& input) { return acted.push_back(input), std::string{}; }, [this] { return closed; }, clips}} {
+        , door{session, messages, {[this](const LineInput& input, const OscOrigin&) { return acted.push_back(input), std::string{}; }, [this] { return closed; }, clips}} {
         session.prepare(hostRate, 512);
     }
     /// Half a second at 48 kHz, told to the clock as if the session had begun at 1 s of the steady clock, which is the system's.
@@ -169,6 +169,62 @@ TEST(OscDoors, RefusalsSayWhy) {
     EXPECT_TRUE(open.acted.empty());
 }
 
+/// A packet with one message, its types and the bytes of its values as they are.
+std::vector<char> rawMessage(const std::string& address, const std::string& types, const std::string& values) {
+    const auto padded = [](std::string text) { return text.append(4 - text.size() % 4, '\0'); };
+    const std::string all = padded(address) + padded("," + types) + values;
+    return {all.begin(), all.end()};
+}
+
+// Each says where, and what was expected.
+TEST(OscDoors, EveryWrongMessageIsRefusedWithItsAddressAndReason) {
+    Open open{Direct::no};
+    const auto plain = [](const std::string& address, std::vector<NamedValue> values) { return oscPacket(address, {"", std::move(values)}); };
+    const std::string strike = "/physvib/strike";
+    const struct {
+        std::vector<char> packet;
+        std::string address, reason;
+    } wrong[] = {
+        {plain("/physvib/jump", {}), "/physvib/jump", "expected the name of a message, an input or a control"},
+        {plain("/jump", {}), "/jump", "expected an address that begins with /physvib/"},
+        {plain(strike, {{"loudness", 1.0}}), strike, "loudness"},
+        {plain(strike, {{"frequency_hz", 200.0}, {"seconds", 1.0}, {"level", 2.0}}), strike, "strike: level: expected 0 to 1, found 2"},
+        {plain(strike, {{"frequency_hz", 200.0}}), strike, "strike: seconds: expected a length"},
+        {plain(strike, {{"level", "loud"s}}), strike, "strike: level: expected"},
+        {rawMessage(strike, "f", "\x3f\0\0\0"s), strike, "strike: expected a name before 0.5"},
+        {rawMessage(strike, "s", "level\0\0\0"s), strike, "strike: level: expected a value"},
+        {rawMessage(strike, "sb", "level\0\0\0\0\0\0\4abcd"s), strike, "expected numbers and words, found one of type \"b\""},
+        {rawMessage(strike, "sf", "level\0\0\0\x7f\xc0\0\0"s), strike, "expected numbers that are finite"},
+        {plain("/physvib/gain", {{"channel", 9.0}, {"value", 1.0}}), "/physvib/gain", "gain: channel: expected a channel from 1 to 4, found 9"},
+        {plain("/phone/gravity", {}), "/phone/gravity", "expected 3 numbers"},
+        {plain("/physvib/clip", {{"file", "knock.wav"s}}), "/physvib/clip", "no folder was given"},
+        {{'n', 'o', 'n', 'e'}, "", "expected an OSC message"},
+    };
+    for (const auto& one : wrong) {
+        open.take(one.packet);
+        ASSERT_EQ(open.door.refusals().size(), 1U) << one.reason;
+        EXPECT_EQ(open.door.refusals()[0].address, one.address);
+        EXPECT_NE(open.door.refusals()[0].reason.find(one.reason), std::string::npos) << open.door.refusals()[0].reason;
+    }
+    open.closed = "a study is running";
+    open.strike(0.5, oscNow);
+    ASSERT_EQ(open.door.refusals().size(), 1U);
+    EXPECT_EQ(open.door.refusals()[0].reason, "a study is running");
+    EXPECT_TRUE(open.answers.empty());
+    EXPECT_TRUE(open.struck().empty());
+}
+
+// Two programs that refuse each other's refusals would never end.
+TEST(OscDoors, WhatIsAReplyIsCountedAndNotRefused) {
+    Open open;
+    open.take(oscWords(std::string(oscErrorAddress), {"/physvib/strike", "strike: level: expected 0 to 1, found 2"}));
+    open.take(oscPacket("/physvib/answer/status", {"", {{"session_s", 1.0}}}));
+    open.take(oscPacket(std::string(oscHitAddress), {"", {{"session_s", 1.0}}}));
+    open.take(rawMessage(std::string(oscErrorAddress), "b", ""));
+    EXPECT_EQ(open.door.counts().wrong(), 4U);
+    EXPECT_TRUE(open.door.refusals().empty());
+}
+
 TEST(OscDoors, ClipsAreReadWhereTheDoorHasAFolder) {
     Open closed;
     closed.take(oscPacket("/physvib/clip", {"", {{"file", "knock.wav"s}, {"place", "A"s}}}));
@@ -218,6 +274,45 @@ TEST(OscDoors, AClosedDoorSaysWhy) {
     open.strike(0.5, oscNow);
     EXPECT_EQ(open.door.counts().fault, "a study is running");
     EXPECT_TRUE(open.struck().empty());
+}
+
+TEST(OscDoors, SilenceIsTakenAndAnsweredAlwaysAndInOrder) {
+    const auto answersOf = [](Open& open) {
+        std::vector<OscMessage> all;
+        for (const auto& answer : open.answers) all.push_back(readOscPacket(answer).value.at(0));
+        return all;
+    };
+    const auto silence = [](double isOn) { return oscPacket("/physvib/silence", {"", {{"on", isOn}}}); };
+    Open open;
+    open.closed = "a study is running";
+    open.door.take(silence(1.0), open.clock, open.answers, 6);
+    open.door.take(silence(0.0), open.clock, open.answers, 7);
+    ASSERT_EQ(open.acted.size(), 2U);
+    EXPECT_TRUE(std::get<SilenceControl>(open.acted[0]).isOn);
+    EXPECT_EQ(std::get<SilenceControl>(open.acted[0]).number, 7U) << "the next after those before it";
+    EXPECT_EQ(std::get<SilenceControl>(open.acted[1]).number, 7U) << "the last that it lifts";
+    const auto answers = answersOf(open);
+    ASSERT_EQ(answers.size(), 2U);
+    EXPECT_EQ(answers[0].address, "/physvib/answer/silence");
+    EXPECT_EQ(answers[0].values, (std::vector<OscValue>{"on"s, 1.0}));
+    EXPECT_EQ(answers[1].values, (std::vector<OscValue>{"on"s, 0.0}));
+    EXPECT_EQ(open.door.counts().refused, 0U);
+}
+
+TEST(OscDoors, SilencesOfAPacketAreCountedAsTheyAreRead) {
+    const PlainMessage on{"", {{"on", 1.0}}}, off{"", {{"on", 0.0}}};
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/silence", on)), 1U);
+    EXPECT_EQ(silencesIn(oscBundle("/physvib/silence", on, 12345)), 1U);
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/silence", off)), 0U);
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/silence", {"", {{"of", 1.0}}})), 0U) << "refused in its turn";
+    EXPECT_EQ(silencesIn(oscPacket("/physvib/silences", on)), 0U);
+    EXPECT_EQ(
+        silencesIn(oscPacket("/physvib/gain", {"", {{"channel", 1.0}, {"value", "/physvib/silence"s}}})), 0U);
+    EXPECT_EQ(silencesIn(std::string{"/physvib/silence"}), 0U);
+    auto both = oscBundle("/physvib/silence", on, oscNow);
+    const auto second = oscBundle("/physvib/silence", off, oscNow);
+    both.insert(both.end(), second.begin() + 16, second.end());
+    EXPECT_EQ(silencesIn(both), 1U);
 }
 
 } // namespace

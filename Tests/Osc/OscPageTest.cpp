@@ -44,6 +44,9 @@ TEST(OscPage, HasTheFigures) {
     expectOnThePage(numberText(PhoneSensors::leastChange) + " m/s²");
     expectOnThePage("by more than " + numberText(1e-6 * static_cast<double>(OscClock::slackNs)) + " ms");
     expectOnThePage("at most " + std::to_string(OscClock::mostSlewPpm) + " ppm");
+    expectOnThePage("once per cause and " + std::to_string(OscReplies::refusalEveryNs / 1'000'000) + " ms");
+    expectOnThePage(std::to_string(OscReplies::freeBytes) + " bytes a second");
+    expectOnThePage("at most\n" + std::to_string(OscReplies::mostSenders) + " of them");
 }
 
 } // namespace

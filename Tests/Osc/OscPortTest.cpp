@@ -4,8 +4,10 @@
 #include "Session/FakeHost.h"
 #include <chrono>
 #include <functional>
+#include <future>
 #include <gtest/gtest.h>
 #include <memory>
+#include <optional>
 
 namespace physvib {
 namespace {
@@ -16,7 +18,6 @@ using namespace test;
 struct FakeOutput final : FeltOutput {
     FeltMoment felt(FeltReader) noexcept override { return now; }
     float level() const noexcept override { return 1.0f; }
-    bool isSilent() const noexcept override { return false; }
     FeltMoment now{1'000'000'000, 1'000'000'000, 50'000'000};
 };
 
@@ -26,7 +27,7 @@ struct Played {
     FakeOutput output;
     Played() { session.prepare(hostRate, 512); }
     std::unique_ptr<OscPort> open(const OscSettings& settings) {
-        return std::make_unique<OscPort>(settings, session, messages, output, OscHooks{[](const LineInput&) { return std::string{}; }, {}});
+        return std::make_unique<OscPort>(settings, session, messages, output, OscHooks{[](const LineInput&, const OscOrigin&) { return std::string{}; }, {}});
     }
 };
 
@@ -102,6 +103,65 @@ TEST(OscPorts, WhatIsSentIsCounted) {
     EXPECT_EQ(played.session.size().strikes, 0U) << "they were for now";
 }
 
+/// Whoever does what messages say is held up at the first of them until `goesOn`.
+struct HeldUp : Played {
+    std::unique_ptr<OscPort> openHeldUp() {
+        OscHooks hooks;
+        hooks.act = [this](const LineInput& input, const OscOrigin&) {
+            isHeldUp = true;
+            while (!goesOn) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+            const auto* silence = std::get_if<SilenceControl>(&input);
+            return silence != nullptr ? takeSilence(output.silence(), *silence, SilenceHolder::osc)
+                                      : std::string{};
+        };
+        auto port = std::make_unique<OscPort>(anyPort(), session, messages, output, std::move(hooks));
+        sender.emplace(senderTo(*port));
+        EXPECT_TRUE(sender->send(oscPacket("/physvib/tilt", {"", {{"angle_rad", 0.5}}})));
+        EXPECT_TRUE(comes([this] { return isHeldUp.load(); }));
+        return port;
+    }
+    void silence(bool isOn) {
+        EXPECT_TRUE(sender->send(oscPacket("/physvib/silence", {"", {{"on", isOn ? 1.0 : 0.0}}})));
+    }
+
+    std::optional<OscSocket> sender;
+    std::atomic<bool> isHeldUp{false}, goesOn{false};
+};
+
+TEST(OscPorts, SilenceOvertakesTenThousandMessagesThatWait) {
+    HeldUp played;
+    const auto port = played.openHeldUp();
+    const auto gain = oscPacket("/physvib/gain", {"", {{"channel", 1.0}, {"value", 0.5}}});
+    for (int k = 0; k < 10'000; ++k) {
+        played.sender->send(gain);
+        if (k % 100 == 99)
+            std::this_thread::sleep_for(std::chrono::milliseconds{1}); // the system's buffer is small
+    }
+    played.silence(true);
+    EXPECT_TRUE(comes([&] { return played.output.isSilent(); }));
+    EXPECT_EQ(port->status().counts.messages, 0U) << "nothing of what came before it is done";
+    played.goesOn = true;
+    EXPECT_TRUE(comes([&] { return port->status().counts.packets + port->status().counts.lost == 10'002; }));
+    ASSERT_TRUE(played.sender->wait(60'000));
+    const auto answer = played.sender->receive();
+    ASSERT_TRUE(answer.has_value());
+    EXPECT_EQ(readOscPacket(*answer).value.at(0).address, "/physvib/answer/silence");
+}
+
+TEST(OscPorts, AnOffComesInItsTurnAndLiftsNoLaterOn) {
+    for (const auto& [asked, isSilent] : {std::pair{std::vector{true, false}, false},
+                                          {std::vector{false, true}, true},
+                                          {std::vector{true, false, true}, true}}) {
+        HeldUp played;
+        const auto port = played.openHeldUp();
+        for (const bool isOn : asked) played.silence(isOn);
+        EXPECT_TRUE(comes([&] { return played.output.isSilent(); }));
+        played.goesOn = true;
+        EXPECT_TRUE(comes([&] { return port->status().counts.messages == asked.size() + 1; }));
+        EXPECT_EQ(played.output.isSilent(), isSilent);
+    }
+}
+
 TEST(OscPorts, AnswersGoToWhoAsked) {
     Played played;
     const auto port = played.open(anyPort());
@@ -111,6 +171,54 @@ TEST(OscPorts, AnswersGoToWhoAsked) {
     const auto answer = asks.receive();
     ASSERT_TRUE(answer.has_value());
     EXPECT_EQ(readOscPacket(*answer).value.at(0).address, "/physvib/answer/latency");
+}
+
+TEST(OscPorts, WhoSaysSomethingWrongIsToldSo) {
+    Played played;
+    const auto port = played.open(anyPort());
+    auto says = senderTo(*port);
+    ASSERT_TRUE(says.send(oscPacket("/physvib/strike", {"", {{"frequency_hz", 200.0}, {"seconds", 1.0}, {"level", 2.0}}})));
+    ASSERT_TRUE(says.wait(60'000));
+    const auto error = readOscPacket(*says.receive()).value.at(0);
+    EXPECT_EQ(error.address, oscErrorAddress);
+    ASSERT_EQ(error.values.size(), 2U);
+    EXPECT_EQ(std::get<std::string>(error.values[0]), "/physvib/strike");
+    EXPECT_EQ(std::get<std::string>(error.values[1]), "strike: level: expected 0 to 1, found 2");
+}
+
+// As where a window's thread finds out.
+TEST(OscPorts, WhatCouldNotBeDoneAfterAllIsToldToItsSender) {
+    Played played;
+    OscHooks hooks;
+    std::promise<OscOrigin> taken;
+    hooks.act = [&taken](const LineInput&, const OscOrigin& origin) { return taken.set_value(origin), std::string{}; };
+    OscPort port{anyPort(), played.session, played.messages, played.output, std::move(hooks)};
+    auto says = senderTo(port);
+    ASSERT_TRUE(says.send(oscPacket("/physvib/tilt", {"", {{"angle_rad", 0.5}}})));
+    port.refuse(taken.get_future().get(), "tilt: expected\nanother day");
+    ASSERT_TRUE(says.wait(60'000));
+    const auto error = readOscPacket(*says.receive()).value.at(0);
+    EXPECT_EQ(error.address, oscErrorAddress);
+    EXPECT_EQ(std::get<std::string>(error.values.at(0)), "/physvib/tilt");
+    EXPECT_EQ(std::get<std::string>(error.values.at(1)), "tilt: expected\\x0aanother day");
+}
+
+// Of 300 queries in less than a second few are answered, and what is not is counted.
+TEST(OscPorts, NobodyGetsMuchMoreThanHeSends) {
+    Played played;
+    const auto port = played.open(anyPort());
+    auto asks = senderTo(*port);
+    const auto status = oscPacket("/physvib/status", {});
+    constexpr std::uint64_t each = 300;
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::uint64_t k = 0; k < each; ++k) ASSERT_TRUE(asks.send(status));
+    ASSERT_TRUE(comes([&] { return port->status().counts.packets == each; }));
+    const auto seconds = 1 + std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin).count();
+    std::size_t bytes = 0, answers = 0;
+    for (; asks.wait(100); ++answers) bytes += asks.receive()->size();
+    EXPECT_GT(answers, 0U);
+    EXPECT_LE(bytes, each * status.size() + static_cast<std::size_t>(seconds) * OscReplies::freeBytes);
+    EXPECT_EQ(port->status().counts.held, each - answers);
 }
 
 TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {

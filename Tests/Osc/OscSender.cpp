@@ -4,6 +4,7 @@
 //   random COUNT PER_SECOND          packets of random bytes, some of which begin like OSC
 //   tags COUNT                       strikes tagged at irregular times, each told in ns since 1970
 //   phone SECONDS PER_SECOND         the accelerometer of an Android phone that is turned slowly, and lies upright in the end
+//   silence COUNT PER_SECOND         strikes as of flood, and meanwhile silence on and off: how long until each is answered
 //   ask NAME                         a query; its answer
 #include "Host/Osc/OscClock.h"
 #include "Host/Osc/OscSocket.h"
@@ -17,6 +18,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace {
 
@@ -83,6 +85,24 @@ void sendPhone(lo_address to, double seconds, double perSecond) {
     });
 }
 
+/// An answer comes when silence has acted. Fails if one took longer than `mostMs`.
+int timeSilence(lo_address to, OscSocket& socket, int count, double perSecond) {
+    constexpr double mostMs = 20.0;
+    std::jthread flooding{[=] { flood(to, count, perSecond, 0.1); }};
+    const auto end = Clock::now() + std::chrono::duration<double>(count / perSecond);
+    std::vector<double> ms;
+    for (double isOn = 1.0; Clock::now() < end; isOn = 1.0 - isOn) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{20});
+        const auto start = Clock::now();
+        socket.send(oscPacket("/physvib/silence", {"", {{"on", isOn}}}));
+        if (!socket.wait(1000) || !socket.receive()) return std::puts("silence was not answered"), 1;
+        ms.push_back(1e3 * std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    std::ranges::sort(ms);
+    std::printf("%zu silences: answered after %.2f ms, the slowest after %.2f ms\n", ms.size(), ms[ms.size() / 2], ms.back());
+    return ms.back() <= mostMs ? 0 : 1;
+}
+
 int ask(OscSocket& to, const std::string& name) {
     const auto query = oscPacket("/physvib/" + name, {});
     for (int tries = 0; tries < 20; ++tries) {
@@ -112,6 +132,7 @@ int main(int argc, char** argv) {
     else if (command == "random") sendRandom(socket.value, count, number(4));
     else if (command == "tags") sendTags(to, count);
     else if (command == "phone") sendPhone(to, number(3), number(4));
+    else if (command == "silence") return timeSilence(to, socket.value, count, number(4));
     else if (command == "ask") return ask(socket.value, argv[3]);
     else return 2;
     lo_address_free(to);

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Open Sound Control as a sender meets it, beside CI: floods from liblo and Pd, random bytes, eight programs at once, tags against a JACK
 # recording to the bit, a phone for minutes. On JACK servers without hardware.
-# Usage: run.sh BIN_FOLDER [PACKETS (1000000)] [PER_SECOND (10000)] [PHONE_SECONDS (600)] [STEP...]: flood pd random eight tags phone
+# Usage: run.sh BIN_FOLDER [PACKETS (1000000)] [PER_SECOND (10000)] [PHONE_SECONDS (600)] [STEP...]: flood silence pd random eight tags phone
 set -eu
 bin=$(realpath "$1") packets=${2:-1000000} rate=${3:-10000} held=${4:-600}
-[ $# -gt 4 ] && shift 4 && steps="$*" || steps="flood pd random eight tags phone"
+[ $# -gt 4 ] && shift 4 && steps="$*" || steps="flood silence pd random eight tags phone"
 here=$(dirname "$(realpath "$0")")
 . "$here/../../.ci/packages.sh"
 # shellcheck disable=SC2086 # a list of words
@@ -49,6 +49,12 @@ for step in $steps; do
         finish
         for none in bad lost refused late; do is $none 0 flood; done
         is packets $((packets + 101)) flood # the question as well
+        ;;
+    silence) # asked for in the middle of a flood, it acts within 20 ms
+        listen "$long" "$quiet"
+        "$sender" "$port" silence "$packets" "$rate"
+        finish
+        is refused 0 silence
         ;;
     pd)
         listen "$long" "$quiet"

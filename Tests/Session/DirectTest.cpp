@@ -20,7 +20,7 @@ SessionSetup stillSetup(Direct direct) {
     return setup;
 }
 
-PlainMessage lineMessage(std::string_view line) { return std::get<PlainMessage>(readInputLine(line, "line", {}, hostChannels).value); }
+PlainMessage lineMessage(std::string_view line) { return std::get<PlainMessage>(readInputLine(line, {}, hostChannels).value); }
 
 constexpr std::string_view knock = R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "place": "A"})";
 

@@ -66,7 +66,7 @@ TEST(MessagesPage, ItsLinesAreTaken) {
     int lines = 0;
     for (std::size_t at = text.find("{\"message\""); at != std::string::npos; at = text.find("{\"message\"", at + 1), ++lines) {
         const std::string line = text.substr(at, text.find('\n', at) - at);
-        const auto read = readInputLine(line, "line", {}, 4);
+        const auto read = readInputLine(line, {}, 4);
         ASSERT_EQ(read.error, "") << line;
         EXPECT_EQ(router.take(std::get<PlainMessage>(read.value), nullptr, anyClip).error, "") << line;
     }

@@ -21,7 +21,7 @@ namespace {
 using namespace test;
 
 PlainMessage messageOf(std::string_view line) {
-    const auto read = readInputLine(line, "line", {}, hostChannels);
+    const auto read = readInputLine(line, {}, hostChannels);
     EXPECT_EQ(read.error, "");
     const auto* message = std::get_if<PlainMessage>(&read.value);
     return message != nullptr ? *message : PlainMessage{};

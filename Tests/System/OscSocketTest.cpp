@@ -26,9 +26,9 @@ TEST(OscSockets, APacketArrivesWholeAndItsAnswerComesBack) {
     ASSERT_TRUE(out.value.send(longest));
     ASSERT_TRUE(in.value.wait(soon));
     EXPECT_EQ(textOf(in.value.receive()), longest);
-    EXPECT_TRUE(in.value.sender().starts_with(here + ":")) << in.value.sender();
+    EXPECT_TRUE(in.value.sender().text().starts_with(here + ":")) << in.value.sender().text();
     EXPECT_EQ(in.value.takeLost(), 0U);
-    ASSERT_TRUE(in.value.answer(std::string{"yes"}));
+    ASSERT_TRUE(in.value.answer(std::string{"yes"}, in.value.sender()));
     ASSERT_TRUE(out.value.wait(soon));
     EXPECT_EQ(textOf(out.value.receive()), "yes");
 }

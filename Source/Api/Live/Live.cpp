@@ -10,17 +10,6 @@
 
 namespace physvib::api {
 
-namespace {
-
-// Of the system, and the one that is not there.
-std::vector<std::unique_ptr<juce::AudioIODeviceType>> liveDeviceTypes() {
-    auto types = systemAudioDeviceTypes();
-    types.push_back(std::make_unique<NoDeviceType>());
-    return types;
-}
-
-} // namespace
-
 // Empties what the session tells, keeps the device, ends the loop.
 class Live::Watch final : private juce::Timer {
 public:
@@ -94,7 +83,7 @@ LiveStatus Live::status() const {
 
 void Live::run(std::promise<std::string> opened) {
     const juce::ScopedJuceInitialiser_GUI juce;
-    output_.emplace(session_, liveDeviceTypes);
+    output_.emplace(session_, audioDeviceTypesAndNone);
     play(opened);
     output_.reset(); // before JUCE
 }

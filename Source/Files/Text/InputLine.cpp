@@ -6,6 +6,7 @@
 #include "Files/Json/JsonReader.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
+#include <cmath>
 
 namespace physvib {
 
@@ -66,6 +67,32 @@ LineInput readLine(const JsonField& json, const std::vector<Material>& materials
     return SilenceControl{json["on"].truth()};
 }
 
+constexpr std::string_view idName = "id";
+constexpr double mostId = 9'007'199'254'740'991; // above, not every whole number is one of JSON's
+
+bool isId(double number) { return std::abs(number) <= mostId && number == std::floor(number); }
+
+/// The number goes out of `root`, which is then as if it had none.
+std::optional<double> takeId(Json& root) {
+    if (!root.is_object() || !root.contains(idName)) return std::nullopt;
+    const JsonField field = JsonField(root, {})[idName];
+    const double id = field.number();
+    if (!isId(id)) field.fail("expected a whole number from -" + plainNumber(mostId) + " to " + plainNumber(mostId));
+    root.erase(std::string(idName));
+    return id;
+}
+
+/// Of a line that may be anything: the number behind the first "id".
+std::optional<double> idIn(std::string_view line) {
+    constexpr std::string_view key = "\"id\"", blank = " \t";
+    const auto at = line.find(key);
+    const auto colon = at == line.npos ? at : line.find_first_not_of(blank, at + key.size());
+    const auto begin = colon == line.npos || line[colon] != ':' ? line.npos : line.find_first_not_of(blank, colon + 1);
+    if (begin == line.npos) return std::nullopt;
+    const auto id = parseNumber<double>(line.substr(begin, line.find_first_of(",} \t\r", begin) - begin));
+    return id && isId(*id) ? id : std::nullopt;
+}
+
 OrderedJson plainJson(const PlainValue& value) {
     return std::visit([](const auto& plain) { return OrderedJson(plain); }, value);
 }
@@ -80,13 +107,19 @@ std::string answerLine(const PlainMessage& answer) {
     return jsonLine(json);
 }
 
-Result<LineInput> readInputLine(std::string_view line, std::string_view name, const std::vector<Material>& materials, int channels) {
-    try {
-        const Json root = parseStrictly(line);
-        return readLine(JsonField(root, {}), materials, channels);
-    } catch (const JsonError& error) {
-        return Failure{std::string(name) + ": " + error.what()};
-    }
+InputLine readInputLine(std::string_view line, const std::vector<Material>& materials, int channels) {
+    std::optional<double> id = idIn(line);
+    InputLine read = [&]() -> InputLine {
+        try {
+            Json root = parseStrictly(line);
+            id = takeId(root);
+            return readLine(JsonField(root, {}), materials, channels);
+        } catch (const JsonError& error) {
+            return Failure{error.what()};
+        }
+    }();
+    read.id = id;
+    return read;
 }
 
 Result<LineInput> readPlainInput(const PlainMessage& plain, const std::vector<Material>& materials, int channels) {

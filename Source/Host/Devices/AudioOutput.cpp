@@ -14,11 +14,11 @@ constexpr double noiseFadeSeconds = 2.0; // to full scale; nobody shall start
 
 } // namespace
 
-AudioOutput::AudioOutput(Session& session, AudioDeviceTypes types, const std::atomic<bool>* silence)
+AudioOutput::AudioOutput(Session& session, AudioDeviceTypes types, const std::atomic<bool>* isEnded)
     : own_{session}
     , played_{&session}
     , types_{std::move(types)}
-    , silence_{silence} {}
+    , isEnded_{isEnded} {}
 
 AudioOutput::~AudioOutput() { close(); }
 

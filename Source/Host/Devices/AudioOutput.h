@@ -35,9 +35,10 @@ public:
     /// A device that calls for no block for this long has gone; the longest block lasts 1.6 s (8192 frames at 5 kHz).
     static constexpr std::chrono::seconds patience{2};
 
-    /// `session` outlives the output; `types` is where devices are looked for. `silence`, if there is one, outlives it too: while
-    /// it is true, as setSilent. M.
-    explicit AudioOutput(Session& session, AudioDeviceTypes types = systemAudioDeviceTypes, const std::atomic<bool>* silence = nullptr);
+    /// `session` outlives the output; `types` is where devices are looked for. `isEnded`, if there is one,
+    /// outlives it too: while it is true, nothing is felt. M.
+    explicit AudioOutput(Session& session, AudioDeviceTypes types = systemAudioDeviceTypes,
+                         const std::atomic<bool>* isEnded = nullptr);
     ~AudioOutput() override;
 
     /// Opens that device and no other; empty, or one line with the reason. The session is prepared by the first
@@ -63,9 +64,9 @@ public:
     /// what is missing. M, about once a second.
     std::string maintain(Clock::time_point now = Clock::now());
 
-    /// Silent within a block, back in a ramp. Any thread, wait-free.
-    void setSilent(bool silent) noexcept { silent_.store(silent, std::memory_order_relaxed); }
-    bool isSilent() const noexcept override { return silent_.load(std::memory_order_relaxed) || (silence_ && silence_->load(std::memory_order_relaxed)); }
+    bool isSilent() const noexcept override {
+        return FeltOutput::isSilent() || (isEnded_ && isEnded_->load(std::memory_order_relaxed));
+    }
     float level() const noexcept override { return level_.load(std::memory_order_relaxed); }
     void setLevel(float level) noexcept { level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed); }
 
@@ -136,10 +137,10 @@ private:
     std::atomic<Session*> played_;
     std::atomic<bool> isInBlock_{false}; // with played_, sequentially consistent: who has changed it sees whether R may still have the old one
     AudioDeviceTypes types_;
-    const std::atomic<bool>* const silence_;
+    const std::atomic<bool>* const isEnded_;
     AudioOutputSettings settings_;
     FoundDevice found_;
-    std::atomic<bool> running_{false}, silent_{false}, ending_{false};
+    std::atomic<bool> running_{false}, ending_{false};
     std::atomic<float> level_{0.0f}, noiseGain_{0.0f}, contactGain_{0.0f};
     std::atomic<int> largestBlock_{0}; // that the device has asked for
     std::atomic<PlayedRecorder*> recorder_{nullptr};

@@ -2,6 +2,7 @@
 // A thread with absolute deadlines, one per block.
 #include "Host/Devices/NoDevice.h"
 #include "Core/Limits.h"
+#include "Host/Devices/AudioDevices.h"
 #include <chrono>
 #include <thread>
 #include <vector>
@@ -83,5 +84,11 @@ private:
 } // namespace
 
 juce::AudioIODevice* NoDeviceType::createDevice(const juce::String& output, const juce::String&) { return output == noDeviceName ? new NoDevice : nullptr; }
+
+std::vector<std::unique_ptr<juce::AudioIODeviceType>> audioDeviceTypesAndNone() {
+    auto types = systemAudioDeviceTypes();
+    types.push_back(std::make_unique<NoDeviceType>());
+    return types;
+}
 
 } // namespace physvib

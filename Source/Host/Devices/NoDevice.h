@@ -3,6 +3,8 @@
 // and can be recorded on a machine without an interface.
 #pragma once
 #include <juce_audio_devices/juce_audio_devices.h>
+#include <memory>
+#include <vector>
 
 namespace physvib {
 
@@ -22,5 +24,8 @@ public:
     bool hasSeparateInputsAndOutputs() const override { return false; }
     juce::AudioIODevice* createDevice(const juce::String& output, const juce::String&) override;
 };
+
+/// The system's drivers, and that one. M.
+std::vector<std::unique_ptr<juce::AudioIODeviceType>> audioDeviceTypesAndNone();
 
 } // namespace physvib

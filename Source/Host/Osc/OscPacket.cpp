@@ -99,6 +99,12 @@ MessagePointer writtenMessage(const PlainMessage& plain) {
     return message;
 }
 
+std::vector<char> bytesOf(const MessagePointer& message, const std::string& address) {
+    std::vector<char> bytes(lo_message_length(message.get(), address.c_str()));
+    lo_message_serialise(message.get(), address.c_str(), bytes.data(), nullptr);
+    return bytes;
+}
+
 } // namespace
 
 Result<std::vector<OscMessage>> readOscPacket(std::span<const char> bytes) {
@@ -112,10 +118,13 @@ Result<std::vector<OscMessage>> readOscPacket(std::span<const char> bytes) {
 }
 
 std::vector<char> oscPacket(const std::string& address, const PlainMessage& message) {
-    const MessagePointer written = writtenMessage(message);
-    std::vector<char> bytes(lo_message_length(written.get(), address.c_str()));
-    lo_message_serialise(written.get(), address.c_str(), bytes.data(), nullptr);
-    return bytes;
+    return bytesOf(writtenMessage(message), address);
+}
+
+std::vector<char> oscWords(const std::string& address, std::initializer_list<std::string> words) {
+    const MessagePointer message{lo_message_new()};
+    for (const std::string& word : words) lo_message_add_string(message.get(), word.c_str());
+    return bytesOf(message, address);
 }
 
 std::vector<char> oscBundle(const std::string& address, const PlainMessage& message, OscTag tag) {

@@ -4,6 +4,7 @@
 #include "Files/Result.h"
 #include "Files/Text/PlainMessage.h"
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,6 +34,8 @@ constexpr int deepestBundle = 16;
 std::vector<char> oscPacket(const std::string& address, const PlainMessage& message);
 /// The same in a bundle.
 std::vector<char> oscBundle(const std::string& address, const PlainMessage& message, OscTag tag);
+/// A message of words alone. Any thread but R.
+std::vector<char> oscWords(const std::string& address, std::initializer_list<std::string> words);
 
 /// `level 0.5 place 1 0.5 law energy`: a name, then a word or one or more numbers, and so on. Or what is wrong. Any thread but R.
 Result<PlainMessage> plainOf(std::string_view name, const std::vector<OscValue>& values);

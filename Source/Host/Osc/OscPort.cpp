@@ -7,7 +7,7 @@ namespace physvib {
 namespace {
 
 constexpr int pollMilliseconds = 10;     // the device's blocks are looked at so often
-constexpr int mostAtOnce = 1000;         // packets, before they are
+constexpr std::size_t mostAtOnce = 1000; // packets, before they are; refusals that come later
 constexpr std::int64_t clockSlackNs = 100'000; // two clocks are not read at once
 
 std::int64_t steadyNs() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -26,19 +26,40 @@ OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& m
     if (!settings.receiver.empty()) use(out_, OscSocket::connected(settings.receiver));
     if (!error_.empty()) return;
     if (in_.isOpen()) address_ = settings.address + ":" + std::to_string(in_.port());
+    if (in_.isOpen()) reader_ = std::thread{[this] { read(); }};
     thread_ = std::thread{[this] { run(); }};
 }
 
 OscPort::~OscPort() {
     stop_ = true;
+    if (reader_.joinable()) reader_.join();
     if (thread_.joinable()) thread_.join();
+}
+
+void OscPort::read() {
+    while (!stop_)
+        if (in_.wait(pollMilliseconds)) readAll();
+}
+
+// A packet that has no room has silenced all the same; who asked gets no answer and may ask again.
+void OscPort::readAll() {
+    SilenceHolders& silence = device_.silence();
+    while (!stop_) {
+        const auto bytes = in_.receive();
+        if (!bytes) break;
+        const std::uint64_t before = silence.asked(SilenceHolder::osc), asked = silencesIn(*bytes);
+        if (asked > 0) silence.ask(SilenceHolder::osc, before + asked);
+        if (!packets_.push({{bytes->begin(), bytes->end()}, in_.sender(), before}, bytes->size())) ++lost_;
+    }
+    lost_ += in_.takeLost();
 }
 
 void OscPort::run() {
     while (!stop_) {
-        const bool hasCome = in_.wait(pollMilliseconds);
+        const bool hasCome = packets_.wait(std::chrono::milliseconds{pollMilliseconds});
         follow();
-        if (hasCome) receive();
+        if (hasCome || lost_ > 0) receive();
+        refuseLate();
         if (out_.isOpen()) tellStatus();
     }
 }
@@ -50,20 +71,57 @@ void OscPort::follow() {
 }
 
 void OscPort::receive() {
-    int taken = 0;
-    for (; taken < mostAtOnce; ++taken) {
-        const auto packet = in_.receive();
+    for (std::size_t taken = 0; taken < mostAtOnce; ++taken) {
+        const auto packet = packets_.pop();
         if (!packet) break;
         const std::uint64_t wrong = door_.counts().wrong();
         answers_.clear();
-        door_.take(*packet, clock_, answers_);
-        if (door_.counts().wrong() != wrong) fault_ = in_.sender() + ": " + door_.counts().fault;
-        for (const auto& answer : answers_) in_.answer(answer);
+        door_.take(packet->bytes, clock_, answers_, packet->silences, packet->from);
+        if (door_.counts().wrong() != wrong) fault_ = packet->from.text() + ": " + door_.counts().fault;
+        reply(packet->bytes.size(), packet->from);
     }
-    door_.lose(in_.takeLost());
+    door_.lose(lost_.exchange(0));
     const std::lock_guard lock{mutex_};
     counts_ = door_.counts();
     counts_.fault = fault_;
+}
+
+// Answers first: who asks gets no less because something else was wrong.
+void OscPort::reply(std::size_t packetBytes, const OscSender& to) {
+    if (answers_.empty() && door_.refusals().empty()) return;
+    replies_.begin(to.text(), packetBytes, steadyNs());
+    for (const auto& answer : answers_)
+        if (replies_.mayReply(answer.size())) in_.answer(answer, to);
+    for (const OscRefusal& refusal : door_.refusals()) sendRefusal(refusal, to);
+    door_.holdBack(replies_.heldBack());
+}
+
+void OscPort::sendRefusal(const OscRefusal& refusal, const OscSender& to) {
+    if (!replies_.mayRefuse(refusal.reason)) return;
+    const auto bytes = oscWords(std::string(oscErrorAddress), {refusal.address, refusal.reason});
+    if (replies_.mayReply(bytes.size())) in_.answer(bytes, to);
+}
+
+void OscPort::refuse(const OscOrigin& origin, const std::string& reason) {
+    const std::lock_guard lock{mutex_};
+    if (late_.size() < mostAtOnce) late_.emplace_back(refusalOf(origin.address, reason), origin.from);
+    else ++lateHeld_;
+}
+
+void OscPort::refuseLate() {
+    std::vector<std::pair<OscRefusal, OscSender>> late;
+    {
+        const std::lock_guard lock{mutex_};
+        late.swap(late_);
+    }
+    if (late.empty()) return;
+    for (const auto& [refusal, to] : late) {
+        replies_.begin(to.text(), 0, steadyNs());
+        sendRefusal(refusal, to);
+    }
+    door_.holdBack(replies_.heldBack());
+    const std::lock_guard lock{mutex_};
+    counts_.held = replies_.heldBack();
 }
 
 void OscPort::count(bool left) noexcept { (left ? sent_ : unsent_).fetch_add(1, std::memory_order_relaxed); }
@@ -90,7 +148,9 @@ void OscPort::tell(const PlayedEvent& played, int sampleRateHz) {
 
 OscStatus OscPort::status() const {
     const std::lock_guard lock{mutex_};
-    return {address_, counts_, sent_, unsent_};
+    OscStatus now{address_, counts_, sent_, unsent_};
+    now.counts.held += lateHeld_;
+    return now;
 }
 
 } // namespace physvib

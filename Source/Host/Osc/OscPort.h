@@ -3,8 +3,10 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Host/Osc/OscDoor.h"
+#include "Host/Osc/OscReplies.h"
 #include "Host/Osc/OscSocket.h"
 #include "Session/FeltOutput.h"
+#include "Session/InputQueue.h"
 #include <atomic>
 #include <mutex>
 #include <optional>
@@ -29,6 +31,8 @@ struct OscStatus {
     std::uint64_t sent = 0, unsent = 0; ///< hits and status
 };
 
+/// One thread reads packets, and silences at once if one of them says so; another does what they say, in
+/// their order.
 class OscPort {
 public:
     static constexpr std::int64_t statusEveryNs = 1'000'000'000;
@@ -47,12 +51,26 @@ public:
     /// What was played, to the receiver. M.
     void tell(const PlayedEvent& played, int sampleRateHz);
 
+    /// What a hook has taken could not be done after all: its sender is told. Any thread but R.
+    void refuse(const OscOrigin& origin, const std::string& reason);
+
     /// Any thread but R.
     OscStatus status() const;
 
 private:
+    /// What was read and is still to be done.
+    struct Packet {
+        std::vector<char> bytes;
+        OscSender from;
+        std::uint64_t silences = 0; // asked for before it
+    };
+    void read();
+    void readAll();
     void run();
     void receive();
+    void reply(std::size_t packetBytes, const OscSender& to);
+    void refuseLate();
+    void sendRefusal(const OscRefusal& refusal, const OscSender& to);
     void follow();
     void tellStatus();
     void count(bool left) noexcept;
@@ -64,13 +82,18 @@ private:
     std::string error_;
     std::string address_, fault_;
     std::vector<std::vector<char>> answers_;
+    OscReplies replies_;
     std::int64_t unixAheadNs_ = 0, nextStatusNs_ = 0;
     mutable std::mutex mutex_; // guards what follows; the clock is changed by the port's thread alone
     OscClock clock_;
     OscCounts counts_;
+    std::vector<std::pair<OscRefusal, OscSender>> late_; // to be sent by the port's thread
+    std::uint64_t lateHeld_ = 0;                         // that found no room there
     std::atomic<std::uint64_t> sent_{0}, unsent_{0};
     std::atomic<bool> stop_{false};
-    std::thread thread_;
+    InputQueue<Packet> packets_;
+    std::atomic<std::uint64_t> lost_{0}; // that had no room, here or in the system, and are not counted yet
+    std::thread thread_, reader_;
 };
 
 } // namespace physvib

@@ -112,23 +112,27 @@ std::optional<std::span<const char>> OscSocket::receive() {
     socklen_t senderSize = 0;
     const auto size = sockets::receive(systems(handle_), bytes_, sender, senderSize, lost_);
     if (size < 0) return std::nullopt;
-    static_assert(sizeof sender <= sizeof sender_);
-    std::memcpy(sender_.data(), &sender, sizeof sender);
-    senderSize_ = static_cast<std::size_t>(senderSize);
+    static_assert(sizeof sender <= sizeof sender_.address);
+    std::memcpy(sender_.address.data(), &sender, sizeof sender);
+    sender_.size = static_cast<std::size_t>(senderSize);
     return std::span<const char>{bytes_.data(), static_cast<std::size_t>(size)};
 }
 
-std::string OscSocket::sender() const {
+std::string OscSender::text() const {
     char host[NI_MAXHOST], port[NI_MAXSERV];
-    if (getnameinfo(reinterpret_cast<const sockaddr*>(sender_.data()), static_cast<socklen_t>(senderSize_), host, sizeof host, port, sizeof port, NI_NUMERICHOST | NI_NUMERICSERV) != 0) return "unknown";
+    if (getnameinfo(reinterpret_cast<const sockaddr*>(address.data()), static_cast<socklen_t>(size), host,
+                    sizeof host, port, sizeof port, NI_NUMERICHOST | NI_NUMERICSERV) != 0)
+        return "unknown";
     return std::string(host) + ":" + port;
 }
 
 std::uint32_t OscSocket::takeLost() noexcept { return lost_ - std::exchange(toldLost_, lost_); }
 
-bool OscSocket::answer(std::span<const char> bytes) noexcept {
-    const auto* to = reinterpret_cast<const sockaddr*>(sender_.data());
-    return std::cmp_equal(sendto(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags, to, static_cast<socklen_t>(senderSize_)), bytes.size());
+bool OscSocket::answer(std::span<const char> bytes, const OscSender& to) noexcept {
+    const auto* address = reinterpret_cast<const sockaddr*>(to.address.data());
+    return std::cmp_equal(sendto(systems(handle_), bytes.data(), sizeOf(bytes), sockets::sendFlags, address,
+                                 static_cast<socklen_t>(to.size)),
+                          bytes.size());
 }
 
 bool OscSocket::send(std::span<const char> bytes) noexcept {

@@ -11,6 +11,13 @@
 
 namespace physvib {
 
+/// Where a packet came from.
+struct OscSender {
+    alignas(8) std::array<std::byte, 128> address{}; ///< a sockaddr_storage
+    std::size_t size = 0;
+    std::string text() const; ///< HOST:PORT
+};
+
 /// One thread per direction.
 class OscSocket {
 public:
@@ -37,11 +44,11 @@ public:
     /// What has come, if something has; valid until the next call.
     std::optional<std::span<const char>> receive();
     /// From where that was.
-    std::string sender() const;
+    const OscSender& sender() const noexcept { return sender_; }
     /// Packets that found no room, since the last call.
     std::uint32_t takeLost() noexcept;
-    /// Back to where that was, or to the receiver that it is connected to; false: it did not leave.
-    bool answer(std::span<const char> bytes) noexcept;
+    /// To who sent something, or to the receiver that it is connected to; false: it did not leave.
+    bool answer(std::span<const char> bytes, const OscSender& to) noexcept;
     bool send(std::span<const char> bytes) noexcept;
 
 private:
@@ -51,8 +58,7 @@ private:
     Handle handle_ = none;
     int port_ = 0;
     std::string bytes_;
-    alignas(8) std::array<std::byte, 128> sender_{}; // a sockaddr_storage
-    std::size_t senderSize_ = 0;
+    OscSender sender_;
     std::uint32_t lost_ = 0, toldLost_ = 0;
 };
 

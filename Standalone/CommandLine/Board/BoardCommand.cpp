@@ -3,6 +3,7 @@
 #include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
+#include "CommandLine/StandardStreams.h"
 #include "CommandLine/Render/RenderJob.h"
 #include "Files/EventsCsv.h"
 #include "Physics/Simulation.h"
@@ -130,6 +131,7 @@ int runBoard(const BoardOptions& o) {
         panner = {geometry, PanningLaw::linear, 1.0, geometry.extentWidthMetres, geometry.extentHeightMetres};
     }
     heedInterrupts();
+    sayWithoutWaiting();
     BoardLink link{boardPort(o.port)};
     if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
     if (o.action == "info") return printBoardInfo(link.status()), exitDone;
@@ -141,6 +143,7 @@ int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelD
     const SceneRun run = job.run();
     Simulation world(*job.scene, run.seed, run.stepsPerSecond, run.timing, run.location);
     heedInterrupts();
+    sayWithoutWaiting();
     BoardLink link{boardPort(port)};
     if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
     setLevel(link, levelDb);

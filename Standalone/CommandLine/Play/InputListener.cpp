@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polls standard input, cuts it into lines, and hands each to the session.
+// Polls standard input, cuts it into lines, looks for silence in them, and hands each to the session.
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Process.h"
+#include "CommandLine/StandardStreams.h"
+#include "Session/BoardLink.h"
 #include <iostream>
 #include <type_traits>
 
@@ -12,6 +14,16 @@ namespace {
 
 constexpr int pollMilliseconds = 50; // only the end of the program waits for it
 
+/// Whether a line asks for silence: read as act() reads it; a control needs no scene. A name may be spelled
+/// with escapes.
+bool asksForSilence(std::string_view line) {
+    if (line.find("silence") == std::string_view::npos && line.find('\\') == std::string_view::npos)
+        return false;
+    const auto read = readInputLine(line, {}, 1);
+    const auto* silence = std::get_if<SilenceControl>(&read.value);
+    return silence != nullptr && silence->isOn;
+}
+
 } // namespace
 
 InputListener::InputListener(Session& session, AudioOutput& output, MessageRouter& messages, ClipSource clips)
@@ -19,48 +31,83 @@ InputListener::InputListener(Session& session, AudioOutput& output, MessageRoute
     , output_{output}
     , messages_{messages}
     , clips_{std::move(clips)}
-    , thread_{[this] { run(); }} {}
+    , thread_{[this] { run(); }}
+    , reader_{[this] { read(); }} {}
 
 InputListener::~InputListener() {
     stop_ = true;
+    reader_.join();
     thread_.join();
+    tellLeftOut();
 }
 
-void InputListener::run() {
+void InputListener::read() {
     LineCutter lines;
-    const auto takeLine = [this](std::string_view line, bool isWhole) { take(line, isWhole); };
+    const auto keepLine = [this](std::string_view line, bool isWhole) { keep(line, isWhole); };
     char bytes[4096];
     while (!stop_) {
         const auto count = readInput(bytes, pollMilliseconds);
         if (!count) continue;
-        if (*count == 0) return lines.end(takeLine);
-        lines.add({bytes, *count}, takeLine);
+        if (*count == 0) return lines.end(keepLine);
+        lines.add({bytes, *count}, keepLine);
     }
 }
 
-void InputListener::take(std::string_view line, bool isWhole) {
-    const std::string name = "standard input:" + std::to_string(++lines_);
-    const std::string fault = isWhole ? act(line, name) : name + ": expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out";
-    if (!fault.empty()) tell(fault);
+// Lines are not lost: while very many wait, who writes them waits as well.
+void InputListener::keep(std::string_view text, bool isWhole) {
+    if (isWhole && asksForSilence(text)) output_.silence().ask(SilenceHolder::standardInput);
+    while (!waiting_.push({std::string(text), isWhole, output_.silence().asked(SilenceHolder::standardInput)},
+                          text.size()) &&
+           !stop_)
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
 }
 
-std::string InputListener::act(std::string_view line, const std::string& name) {
-    if (line.find_first_not_of(" \t\r") == std::string_view::npos) return {};
-    const auto read = readInputLine(line, name, session_.state().scene->materials, session_.channels());
-    if (!read) return read.error;
-    if (const auto* message = std::get_if<PlainMessage>(&read.value)) {
-        const auto answer = messages_.take(*message, nullptr, clips_);
-        if (!answer.value.name.empty()) std::cout << answerLine(answer.value) << std::endl; // who asked waits for it
-        return answer ? "" : name + ": " + answer.error;
+void InputListener::run() {
+    while (!stop_) {
+        if (!waiting_.wait(std::chrono::milliseconds{pollMilliseconds})) continue;
+        if (const auto line = waiting_.pop()) take(*line);
     }
-    const std::string fault = actOn(read.value, session_, output_);
-    return fault.empty() ? fault : name + ": " + fault;
 }
 
-std::string actOn(const LineInput& input, Session& session, AudioOutput& output) {
+void InputListener::take(const Line& line) {
+    ++lines_;
+    if (line.isWhole && line.text.find_first_not_of(" \t\r") == std::string_view::npos) return;
+    InputLine read = line.isWhole ? readInputLine(line.text, session_.state().scene->materials, session_.channels())
+                                  : InputLine{Failure{"expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out"}};
+    auto answer = read ? act(read.value, line) : Result<PlainMessage>{Failure{read.error}};
+    if (!answer) complain(answer.error);
+    if (read.id && !answer) answer.value = {"error", {{"reason", answer.error}}};
+    if (read.id && answer.value.name.empty()) answer.value.name = "done";
+    if (read.id) answer.value.values.insert(answer.value.values.begin(), {"id", *read.id});
+    if (!answer.value.name.empty()) std::cout << answerLine(answer.value) + '\n' << std::flush;
+}
+
+Result<PlainMessage> InputListener::act(LineInput& input, const Line& line) {
+    if (const auto* message = std::get_if<PlainMessage>(&input)) {
+        auto answer = messages_.take(*message, nullptr, clips_);
+        if (answer.value.name == "status") answer.value.values.push_back({"unread", static_cast<double>(droppedLines(Standard::output))});
+        return answer;
+    }
+    if (auto* silence = std::get_if<SilenceControl>(&input)) silence->number = line.silences;
+    const std::string fault = actOn(input, session_, output_, SilenceHolder::standardInput);
+    return fault.empty() ? Result<PlainMessage>{PlainMessage{}} : Failure{fault};
+}
+
+void InputListener::complain(const std::string& reason) {
+    if (!complaints_.take(reason, BoardLink::nowNs())) return;
+    tellLeftOut();
+    tell("standard input:" + std::to_string(lines_) + ": " + reason);
+}
+
+void InputListener::tellLeftOut() {
+    if (const std::uint64_t count = complaints_.takeLeftOut(); count > 0) tell("standard input: " + std::to_string(count) + " lines were refused as well");
+}
+
+std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from) {
     if (const auto* action = std::get_if<Action>(&input)) return session.act(*action);
     if (const auto* control = std::get_if<RenderControl>(&input)) return session.post(*control) < 0 ? "too many controls at once" : "";
-    if (const auto* silence = std::get_if<SilenceControl>(&input)) output.setSilent(silence->isOn);
+    if (const auto* silence = std::get_if<SilenceControl>(&input))
+        return takeSilence(output.silence(), *silence, from);
     return {};
 }
 

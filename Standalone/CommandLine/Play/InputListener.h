@@ -3,6 +3,8 @@
 #pragma once
 #include "Files/Text/InputLine.h"
 #include "Host/Devices/AudioOutput.h"
+#include "Session/InputQueue.h"
+#include "Session/Messages/ComplaintLimit.h"
 #include "Session/Messages/MessageRouter.h"
 #include "Session/Session.h"
 #include "CommandLine/Play/LineCutter.h"
@@ -12,7 +14,8 @@
 
 namespace physvib {
 
-/// Reads on a thread of its own, so that an input waits for nothing; refusals are told on stderr, a line each.
+/// One thread reads lines, and silences at once if one of them says so; another does what they say, in their
+/// order. Refusals are told on stderr, one of a cause in a second.
 class InputListener {
 public:
     /// All outlive the listener. M.
@@ -20,20 +23,33 @@ public:
     ~InputListener();
 
 private:
+    /// What was read and is still to be done.
+    struct Line {
+        std::string text;
+        bool isWhole = true;
+        std::uint64_t silences = 0; // asked for up to this line
+    };
+    void read();
+    void keep(std::string_view text, bool isWhole);
     void run();
-    void take(std::string_view line, bool isWhole);
-    std::string act(std::string_view line, const std::string& name);
+    void take(const Line& line);
+    Result<PlainMessage> act(LineInput& input, const Line& line); // the answer of a query; without a name: it is done
+    void complain(const std::string& reason);
+    void tellLeftOut();
 
     Session& session_;
     AudioOutput& output_;
     MessageRouter& messages_;
     const ClipSource clips_;
     std::uint64_t lines_ = 0;
+    InputQueue<Line> waiting_;
+    ComplaintLimit complaints_{1'000'000'000};
     std::atomic<bool> stop_{false};
-    std::thread thread_;
+    std::thread thread_, reader_;
 };
 
-/// Does what an input or a control says. Empty, or what is wrong with it. Any thread but R.
-std::string actOn(const LineInput& input, Session& session, AudioOutput& output);
+/// Does what an input or a control says that came from there. Empty, or what is wrong with it. Any thread but
+/// R.
+std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from);
 
 } // namespace physvib

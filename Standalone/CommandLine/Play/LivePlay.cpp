@@ -6,11 +6,12 @@
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/OscReport.h"
-#include "CommandLine/Process.h"
+#include "CommandLine/StandardStreams.h"
 #include "Session/BoardOutput.h"
 #include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include "Session/SessionJournal.h"
+#include "Host/Devices/NoDevice.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "CommandLine/Render/MarkWords.h"
 #include <cmath>
@@ -20,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace physvib {
 
@@ -63,6 +65,7 @@ private:
         if (journal_ && trouble.empty()) trouble = journal_->news();
         report(trouble);
         if (osc_) oscReport_.tellWrong(osc_->status().counts);
+        tellUnread();
         static const bool isTerminal = isErrorTerminal();
         if (isTerminal) show(status);
     }
@@ -71,10 +74,17 @@ private:
         const AudioOutputStatus o = output_.status();
         const double rate = output_.sampleRateHz() / 1e3;
         const auto margin = status.leastMarginFrames == noMargin ? 0 : status.leastMarginFrames;
-        std::fprintf(stderr, "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  %llu dropped   ",
+        char words[200];
+        std::snprintf(words, sizeof words, "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  %llu dropped   ",
                      static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
                      static_cast<double>(session_.playOutFrames()) / rate, static_cast<double>(margin) / rate, status.render.liveModes,
                      static_cast<unsigned long long>(status.render.late), static_cast<unsigned long long>(session_.drops() + status.render.untold));
+        std::cerr << words << std::flush;
+    }
+
+    void tellUnread() {
+        const std::uint64_t dropped = droppedLines(Standard::output);
+        if (std::exchange(unread_, dropped) != dropped) tell("standard output: lines that were dropped, as nobody read them: " + std::to_string(dropped));
     }
 
     void report(const std::string& trouble) {
@@ -90,7 +100,7 @@ private:
     OscPort* osc_;
     std::int64_t endNs_;
     OscReport oscReport_;
-    std::uint64_t played_ = 0;
+    std::uint64_t played_ = 0, unread_ = 0;
     int ticks_ = 0;
     std::string lastTrouble_;
 };
@@ -120,6 +130,7 @@ std::unique_ptr<SimulationDriver> makeDriver(const LivePlay& wanted, Session& se
 std::string playLive(LivePlay wanted) {
     const juce::ScopedJuceInitialiser_GUI juce; // the message loop
     heedInterrupts();
+    sayWithoutWaiting();
     std::optional<BoardLink> board;
     if (!wanted.board.empty()) {
         board.emplace(boardPort(wanted.board));
@@ -132,7 +143,7 @@ std::string playLive(LivePlay wanted) {
     std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
     const auto inputs = wanted.beats ? std::make_unique<InputTap>() : nullptr; // outlives the output as well
-    AudioOutput output{session, systemAudioDeviceTypes, &interrupted};
+    AudioOutput output{session, audioDeviceTypesAndNone, &interrupted};
     output.hearInputs(inputs.get());
     if (auto error = output.open(wanted.output); !error.empty()) return error;
     if (!wanted.recordPath.empty()) {
@@ -158,7 +169,7 @@ std::string playLive(LivePlay wanted) {
         if (wanted.listens) listener.emplace(session, output, messages, clips);
         std::optional<OscPort> osc;
         if (wanted.osc.port || !wanted.osc.receiver.empty()) {
-            osc.emplace(wanted.osc, session, messages, output, OscHooks{[&](const LineInput& input) { return actOn(input, session, output); }, {}, clips});
+            osc.emplace(wanted.osc, session, messages, output, OscHooks{[&](const LineInput& input, const OscOrigin&) { return actOn(input, session, output, SilenceHolder::osc); }, {}, clips});
             if (!osc->error().empty()) return "OSC: " + osc->error();
             if (osc->port() != 0) tellPort(wanted.osc, osc->status().address);
         }

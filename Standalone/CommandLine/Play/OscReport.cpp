@@ -11,7 +11,7 @@ namespace {
 
 std::string summary(const OscCounts& c) {
     std::ostringstream words;
-    words << c.packets << " packets, " << c.bad << " bad, " << c.lost << " lost; " << c.messages << " messages, " << c.refused << " refused, " << c.late << " late";
+    words << c.packets << " packets, " << c.bad << " bad, " << c.lost << " lost; " << c.messages << " messages, " << c.refused << " refused, " << c.late << " late, " << c.held << " replies held back";
     return words.str();
 }
 
@@ -29,7 +29,7 @@ void summariseOsc(const OscStatus& osc) {
 }
 
 void OscReport::tellWrong(const OscCounts& counts) {
-    const std::uint64_t wrong = counts.wrong() + counts.late + counts.lost;
+    const std::uint64_t wrong = counts.wrong() + counts.late + counts.lost + counts.held;
     if (std::exchange(told_, wrong) == wrong) return;
     tell(std::string("OSC: ").append(summary(counts)).append(counts.fault.empty() ? "" : "; the last fault: ").append(counts.fault));
 }

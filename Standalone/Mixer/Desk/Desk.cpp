@@ -239,6 +239,7 @@ std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
 
 void Desk::watchOutput() {
     told_.tell(session_, mix_); // what found no room before
+    if (isSilent_ != output_.isSilent()) showSilence();
     if (const double now = nowMs(); now - maintainedAtMs_ > maintainMs) {
         maintainedAtMs_ = now;
         hearWanted(); // the device may have gone, or may be back
@@ -249,8 +250,12 @@ void Desk::watchOutput() {
 }
 
 void Desk::setSilent(bool silent) {
-    isSilent_ = silent;
     output_.setSilent(silent);
+    showSilence();
+}
+
+void Desk::showSilence() {
+    isSilent_ = output_.isSilent();
     sendChangeMessage();
 }
 

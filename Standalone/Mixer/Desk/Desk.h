@@ -101,8 +101,8 @@ public:
     std::string hear(const ListeningSettings& ofStudy);
     void endStudy();
     const ListeningSettings& listening() const noexcept { return heard_; }
-    void setSilent(bool silent);
-    bool isSilent() const noexcept { return isSilent_; }
+    void setSilent(bool silent);                         ///< as a person at the machine wishes
+    bool isSilent() const noexcept { return isSilent_; } ///< as it is shown: what is pressed then means that
     double playOutSeconds() const noexcept;
 
     /// What the four-channel board says, if one is wanted. It plays the first four enchanters.
@@ -151,6 +151,7 @@ private:
     std::string hearWanted();
     std::string listen(const ListeningSettings& wanted, const DeviceChoice& choice);
     std::string takeControl(const RenderControl& control);
+    void showSilence();
     std::string openOsc();
     void watchOsc();
     void takePlayed();

@@ -36,7 +36,11 @@ std::string Desk::openOsc() {
 std::string Desk::take(const LineInput& input) {
     if (const auto* action = std::get_if<Action>(&input)) return act(*action);
     if (const auto* control = std::get_if<RenderControl>(&input)) return takeControl(*control);
-    if (const auto* silence = std::get_if<SilenceControl>(&input)) setSilent(silence->isOn);
+    if (const auto* silence = std::get_if<SilenceControl>(&input)) {
+        std::string fault = takeSilence(output_.silence(), *silence, SilenceHolder::osc);
+        showSilence();
+        return fault;
+    }
     return {};
 }
 

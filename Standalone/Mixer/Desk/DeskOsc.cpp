@@ -26,7 +26,7 @@ DeskOsc::DeskOsc(const OscChoice& choice, Session& session, AudioOutput& output,
     , takePlayed_{std::move(takePlayed)}
     , messages_{session}
     , port_{std::make_unique<OscPort>(settingsOf(choice), session, messages_, output,
-                                      OscHooks{[this](const LineInput& input) { return take(input); }, [this] { return std::string{output_.isLent() ? "a study is running" : ""}; }})} {
+                                      OscHooks{[this](const LineInput& input, const OscOrigin& origin) { return take(input, origin); }, [this] { return std::string{output_.isLent() ? "a study is running" : ""}; }})} {
     if (!choice.receiver.empty() && port_->error().empty()) startTimer(tellMilliseconds);
 }
 
@@ -36,23 +36,28 @@ DeskOsc::~DeskOsc() {
     cancelPendingUpdate();
 }
 
-std::string DeskOsc::take(const LineInput& input) {
+// Silence waits for nobody: M only shows it.
+std::string DeskOsc::take(const LineInput& input, const OscOrigin& origin) {
+    const auto* silence = std::get_if<SilenceControl>(&input);
+    const bool isDone = silence != nullptr && silence->isOn;
+    if (isDone) takeSilence(output_.silence(), *silence, SilenceHolder::osc);
     const std::lock_guard lock{mutex_};
-    if (waiting_.size() == mostWaiting) return "too many inputs at once";
-    waiting_.push_back(input);
+    if (waiting_.size() == mostWaiting) return isDone ? "" : "too many inputs at once";
+    waiting_.push_back({input, origin});
     triggerAsyncUpdate();
     return {};
 }
 
 void DeskOsc::handleAsyncUpdate() {
-    std::vector<LineInput> inputs;
+    std::vector<Waiting> inputs;
     {
         const std::lock_guard lock{mutex_};
         inputs.swap(waiting_);
     }
-    for (const LineInput& input : inputs) {
-        const std::string fault = act_(input);
+    for (const Waiting& one : inputs) {
+        const std::string fault = act_(one.input);
         if (fault.empty()) continue;
+        port_->refuse(one.origin, fault);
         fault_ = fault;
         ++refused_;
     }

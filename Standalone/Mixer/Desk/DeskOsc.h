@@ -37,7 +37,11 @@ public:
     OscStatus status() const;
 
 private:
-    std::string take(const LineInput& input);
+    struct Waiting {
+        LineInput input;
+        OscOrigin origin;
+    };
+    std::string take(const LineInput& input, const OscOrigin& origin);
     void handleAsyncUpdate() override;
     void timerCallback() override { takePlayed_(); }
 
@@ -45,7 +49,7 @@ private:
     std::function<std::string(const LineInput&)> act_;
     std::function<void()> takePlayed_;
     std::mutex mutex_; // guards what follows
-    std::vector<LineInput> waiting_;
+    std::vector<Waiting> waiting_;
     // M
     std::string fault_; // the last of what the desk was to do
     std::uint64_t refused_ = 0;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Which complaints are said, so that whoever sends much nonsense does not fill a log or a line: each cause
+// once in a while.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace physvib {
+
+/// Of one cause at most one complaint in `everyNs`, and of all causes together at most `mostCauses`; the
+/// others are counted. The clock is the caller's. One thread at a time.
+class ComplaintLimit {
+public:
+    static constexpr std::size_t mostCauses = 16;
+
+    explicit ComplaintLimit(std::int64_t everyNs) noexcept
+        : everyNs_{everyNs} {}
+
+    /// Whether this one is said.
+    bool take(std::string_view reason, std::int64_t nowNs) noexcept {
+        const std::uint64_t cause = causeOf(reason);
+        Said* place = nullptr; // of this cause, or a free one
+        for (Said& one : said_) {
+            const bool isFree = one.untilNs <= nowNs;
+            if (!isFree && one.cause == cause) return ++leftOut_, false;
+            if (isFree) place = &one;
+        }
+        if (place == nullptr) return ++leftOut_, false;
+        *place = {cause, nowNs + everyNs_};
+        return true;
+    }
+
+    /// How many were not said since this was asked last.
+    std::uint64_t takeLeftOut() noexcept { return std::exchange(leftOut_, 0); }
+
+    /// The same for all reasons that differ only in what was found, in numbers and in words between quotes.
+    /// Any thread.
+    static constexpr std::uint64_t causeOf(std::string_view reason) noexcept {
+        std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
+        bool isQuoted = false;
+        for (const char c : reason.substr(0, reason.find(", found "))) {
+            if (c == '"')
+                isQuoted = !isQuoted;
+            else if (!isQuoted && (c < '0' || c > '9'))
+                hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+        }
+        return hash;
+    }
+
+private:
+    struct Said {
+        std::uint64_t cause = 0;
+        std::int64_t untilNs = INT64_MIN;
+    };
+    std::int64_t everyNs_;
+    std::array<Said, mostCauses> said_{};
+    std::uint64_t leftOut_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Silence among the lines of standard input: it overtakes what waits, and is lifted by who asked.
+#include "CommandLine/Play/InputListener.h"
+#include "Session/FakeHost.h"
+#include <atomic>
+#include <functional>
+#include <gtest/gtest.h>
+#include <optional>
+#include <unistd.h>
+
+namespace physvib {
+namespace {
+
+/// A minute at most; sanitizers are slow.
+bool comesTrue(const std::function<bool()>& isTrue) {
+    for (int k = 0; k < 6000; ++k) {
+        if (isTrue()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    return false;
+}
+
+/// A session that listens to a pipe in the place of standard input. A message `clip` holds up whoever does
+/// what lines say, until `goOn`.
+struct Listening {
+    Listening() {
+        EXPECT_EQ(pipe(ends), 0);
+        before = dup(STDIN_FILENO);
+        dup2(ends[0], STDIN_FILENO);
+        listener.emplace(session, output, messages, [this](const std::string&) {
+            isHeldUp = true;
+            while (!goesOn) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+            return Result<LoadedClip>{Failure{"no clip"}};
+        });
+    }
+    ~Listening() {
+        goesOn = true;
+        if (writer.joinable()) writer.join();
+        listener.reset();
+        dup2(before, STDIN_FILENO);
+        for (const int end : {ends[0], ends[1], before}) close(end);
+    }
+    void write(std::string text) {
+        if (writer.joinable()) writer.join();
+        writer = std::thread{[this, text = std::move(text)] {
+            for (std::size_t at = 0; at < text.size();) {
+                const ssize_t count = ::write(ends[1], text.data() + at, text.size() - at);
+                if (count <= 0) return;
+                at += static_cast<std::size_t>(count);
+            }
+        }};
+    }
+    void holdUp() {
+        write(heldUp);
+        ASSERT_TRUE(comesTrue([this] { return isHeldUp.load(); }));
+    }
+    /// All that was written before is done: one more clip is asked for.
+    void goOnToTheEnd() {
+        isHeldUp = false;
+        goesOn = true;
+        write(heldUp);
+        ASSERT_TRUE(comesTrue([this] { return isHeldUp.load(); }));
+    }
+    static constexpr const char* heldUp = "{\"message\": \"clip\", \"file\": \"a.wav\", \"place\": \"A\"}\n";
+
+    Session session{test::shakeTheBoxSetup(0.05)};
+    AudioOutput output{session};
+    MessageRouter messages{session};
+    std::atomic<bool> isHeldUp{false}, goesOn{false};
+    int ends[2]{}, before = 0;
+    std::thread writer;
+    std::optional<InputListener> listener;
+};
+
+const std::string on = "{\"control\": \"silence\", \"on\": true}\n",
+                  off = "{\"control\": \"silence\", \"on\": false}\n";
+
+TEST(InputListeners, SilenceOvertakesTenThousandLinesThatWait) {
+    Listening one;
+    one.holdUp();
+    std::string flood;
+    for (int k = 0; k < 10'000; ++k) flood += "{\"control\": \"gain\", \"channel\": 1, \"value\": 0.5}\n";
+    one.write(flood + on);
+    EXPECT_TRUE(comesTrue([&] { return one.output.isSilent(); }));
+    EXPECT_FALSE(one.goesOn) << "nothing of what came before it is done";
+}
+
+TEST(InputListeners, SpelledWithEscapesItIsSilenceAsWell) {
+    Listening one;
+    one.holdUp();
+    one.write("{\"control\": \"\\u0073ilence\", \"on\": true}\n");
+    EXPECT_TRUE(comesTrue([&] { return one.output.isSilent(); }));
+}
+
+TEST(InputListeners, AnOffComesInItsTurnAndLiftsNoLaterOn) {
+    for (const auto& [lines, isSilent] :
+         {std::pair{on + off, false}, {off + on, true}, {on + off + on, true}, {on + on + off, false}}) {
+        Listening one;
+        one.holdUp();
+        one.write(lines);
+        EXPECT_TRUE(comesTrue([&] { return one.output.isSilent(); })) << lines;
+        one.goOnToTheEnd();
+        EXPECT_EQ(one.output.isSilent(), isSilent) << lines;
+    }
+}
+
+TEST(InputListeners, WhatOneInputAsksForAnotherDoesNotLift) {
+    Listening one;
+    const auto byOsc = [&](bool isOn) {
+        return actOn(SilenceControl{isOn}, one.session, one.output, SilenceHolder::osc);
+    };
+    one.write(on);
+    ASSERT_TRUE(comesTrue([&] { return one.output.isSilent(); }));
+    EXPECT_EQ(byOsc(false), "silence: still asked for by standard input");
+    EXPECT_TRUE(one.output.isSilent());
+    one.write(off);
+    EXPECT_TRUE(comesTrue([&] { return !one.output.isSilent(); }));
+    EXPECT_EQ(byOsc(true), "");
+    one.write(off);
+    one.goOnToTheEnd();
+    EXPECT_TRUE(one.output.isSilent()) << "OSC asked for it";
+    one.output.setSilent(false);
+    EXPECT_FALSE(one.output.isSilent()) << "a person at the machine lifts all";
+    one.output.setSilent(true);
+    EXPECT_NE(byOsc(false), "");
+    EXPECT_TRUE(one.output.isSilent());
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Who says something never waits for who reads it.
+#include "CommandLine/OutputWriter.h"
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <future>
+#include <gtest/gtest.h>
+#include <memory>
+#include <mutex>
+#include <system_error>
+
+namespace physvib {
+namespace {
+
+/// Reads as much as it is told to, of each stream.
+class Reader {
+public:
+    OutputWriter::Sink sink() {
+        return [this](Standard standard, std::string_view text) -> std::optional<std::size_t> {
+            const std::lock_guard lock{mutex_};
+            std::size_t& room = room_[standard == Standard::error];
+            const std::size_t taken = std::min({text.size(), room, std::size_t{5}});
+            room -= taken;
+            read_[standard == Standard::error].append(text.substr(0, taken));
+            both_.append(text.substr(0, taken));
+            return taken;
+        };
+    }
+    void give(Standard standard, std::size_t room) {
+        const std::lock_guard lock{mutex_};
+        room_[standard == Standard::error] = room;
+    }
+    std::string read(Standard standard) {
+        const std::lock_guard lock{mutex_};
+        return read_[standard == Standard::error];
+    }
+    std::string both() {
+        const std::lock_guard lock{mutex_};
+        return both_;
+    }
+
+private:
+    std::mutex mutex_;
+    std::array<std::size_t, 2> room_{};
+    std::array<std::string, 2> read_;
+    std::string both_;
+};
+
+constexpr std::size_t plenty = SIZE_MAX / 2;
+constexpr const char* line = "a line of thirty-two characters\n";
+
+TEST(OutputWriters, WhatNobodyReadsIsDroppedAndCounted) {
+    Reader nobody;
+    OutputWriter writer{nobody.sink()};
+    constexpr std::uint64_t said = 100'000, kept = OutputWriter::mostBytes / 32;
+    for (std::uint64_t k = 0; k < said; ++k) writer.say(Standard::output, line);
+    EXPECT_EQ(writer.dropped(Standard::output), said - kept);
+    EXPECT_EQ(writer.dropped(Standard::error), 0U) << "each has room of its own";
+    EXPECT_EQ(writer.finish(Standard::output), std::to_string(said) + " lines were not read");
+    EXPECT_EQ(writer.finish(Standard::error), "");
+}
+
+TEST(OutputWriters, AReaderThatTakesAllGetsAllInOrder) {
+    Reader reader;
+    reader.give(Standard::output, plenty);
+    reader.give(Standard::error, plenty);
+    OutputWriter writer{reader.sink()};
+    std::string all;
+    for (int k = 0; k < 1000; ++k) {
+        const std::string text = std::to_string(k) + '\n';
+        all += text;
+        writer.say(k % 3 == 0 ? Standard::error : Standard::output, text);
+    }
+    EXPECT_EQ(writer.finish(Standard::output), "");
+    EXPECT_EQ(writer.finish(Standard::error), "");
+    EXPECT_EQ(reader.both(), all);
+}
+
+TEST(OutputWriters, OneThatIsFullHoldsUpNoOther) {
+    Reader reader;
+    reader.give(Standard::error, plenty);
+    OutputWriter writer{reader.sink()};
+    writer.say(Standard::output, "first\n");
+    writer.say(Standard::error, "second\n");
+    EXPECT_EQ(writer.finish(Standard::error), "");
+    EXPECT_EQ(reader.read(Standard::error), "second\n");
+    EXPECT_EQ(reader.read(Standard::output), "");
+    reader.give(Standard::output, plenty);
+    EXPECT_EQ(writer.finish(Standard::output), "");
+    EXPECT_EQ(reader.read(Standard::output), "first\n");
+}
+
+TEST(OutputWriters, StandardErrorTellsWhatItLacks) {
+    Reader reader;
+    OutputWriter writer{reader.sink()};
+    for (std::size_t k = 0; k < OutputWriter::mostBytes / 32 + 3; ++k) writer.say(Standard::error, line);
+    reader.give(Standard::error, plenty);
+    EXPECT_NE(writer.finish(Standard::error), "");
+    writer.say(Standard::error, "last\n");
+    writer.finish(Standard::error);
+    EXPECT_TRUE(
+        reader.read(Standard::error).ends_with("\nphysvib: standard error: 3 lines were not read\nlast\n"));
+}
+
+TEST(OutputWriters, OneThatCannotBeWrittenSaysWhy) {
+    OutputWriter writer{[](Standard, std::string_view) -> std::optional<std::size_t> {
+        errno = ENOSPC;
+        return std::nullopt;
+    }};
+    writer.say(Standard::output, line);
+    const std::string reason = std::generic_category().message(ENOSPC);
+    EXPECT_EQ(writer.finish(Standard::output), reason);
+    writer.say(Standard::output, line);
+    EXPECT_EQ(writer.finish(Standard::output), reason);
+    EXPECT_EQ(writer.dropped(Standard::output), 2U);
+}
+
+// As a terminal or a socket may.
+TEST(OutputWriters, OneThatHoldsTheThreadDoesNotHoldTheEnd) {
+    const auto isHeld = std::make_shared<std::promise<void>>();
+    const auto goesOn = std::make_shared<std::promise<void>>();
+    {
+        OutputWriter writer{[isHeld, goesOn](Standard, std::string_view text) -> std::optional<std::size_t> {
+            isHeld->set_value();
+            goesOn->get_future().wait();
+            return text.size();
+        }};
+        writer.say(Standard::output, line);
+        isHeld->get_future().wait();
+        writer.say(Standard::error, line);
+        EXPECT_EQ(writer.finish(Standard::output), "1 line was not read");
+    }
+    goesOn->set_value();
+}
+
+} // namespace
+} // namespace physvib
