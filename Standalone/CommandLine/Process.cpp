@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <system_error>
 
@@ -16,11 +17,19 @@ void endBySignal(int signal) {
     std::raise(signal);
 }
 
+void endAtOnce(int exitCode) {
+    std::cout.flush();
+    std::fflush(nullptr);
+    removeAllOnEnd();
+    std::_Exit(exitCode);
+}
+
 std::string outputFault() {
     errno = 0;
     std::cout.flush();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return {};
-    return "standard output: cannot be written" + (errno == 0 ? std::string{} : ": " + std::generic_category().message(errno));
+    return "standard output: cannot be written" +
+           (errno == 0 ? std::string{} : ": " + std::generic_category().message(errno));
 }
 
 } // namespace physvib

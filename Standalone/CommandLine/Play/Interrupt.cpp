@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a signal sets, and a thread that ends what hangs.
+#include "CommandLine/Play/Interrupt.h"
+#include "CommandLine/Process.h"
+#include <chrono>
+#include <thread>
+
+namespace physvib {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto patience = 800ms, pause = 20ms;
+
+std::atomic<int> firstSignal{0}, filesAtWork{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal may set it");
+
+void interrupt(int signal) {
+    if (interrupted.exchange(true)) endBySignal(signal);
+    firstSignal = signal;
+}
+
+// A thread and not an alarm, so that it is the same on every system.
+void endWhatHangs() {
+    while (firstSignal == 0) std::this_thread::sleep_for(pause);
+    std::this_thread::sleep_for(patience);
+    while (filesAtWork > 0) std::this_thread::sleep_for(pause);
+    endBySignal(firstSignal);
+}
+
+} // namespace
+
+FilesFirst::FilesFirst() noexcept {
+    ++filesAtWork;
+}
+FilesFirst::~FilesFirst() {
+    --filesAtWork;
+}
+
+void heedInterrupts() {
+    catchEnding(interrupt, KeepIgnored::hangUp); // a script's background ignores SIGINT, and yet means it
+    ignoreLostReader();
+    static const bool isWatched =
+        (std::thread{endWhatHangs}.detach(), true); // it lives as long as the program
+    static_cast<void>(isWatched);
+}
+
+} // namespace physvib
