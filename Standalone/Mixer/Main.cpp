@@ -96,7 +96,7 @@ public:
     void systemRequestedQuit() override { window_->requestQuit(); }
 
 private:
-    static constexpr int milliseconds = 200;
+    static constexpr int milliseconds = 50;
 
     void timerCallback() override {
         if (interrupted) quit();

@@ -14,8 +14,8 @@ constexpr double fadeInSeconds = 0.005;
 constexpr DeviceKeeper::Limit opening = 5s; // whoever opens a device waits for it
 constexpr DeviceKeeper::Limit reopening =
     500ms; // a driver that takes longer is looked at again a second later
-constexpr AudioOutput::Clock::duration longestFade = 250ms;
-constexpr int mostOutputs = 65'536; // of a device
+constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // for three blocks
+constexpr int mostOutputs = 65'536;                                      // of a device
 
 } // namespace
 
@@ -111,8 +111,7 @@ void AudioOutput::fadeOut() {
     ending_ = true;
     const auto blocks = status().blocks + 2; // one may have begun before
     const auto end =
-        Clock::now() +
-        std::min(longestFade, Clock::duration{10ms + std::chrono::milliseconds{3000 * block_ / rate_}});
+        Clock::now() + std::clamp(std::chrono::milliseconds{3000 * block_ / rate_}, leastFade, mostFade);
     while (running_ && status().blocks < blocks && Clock::now() < end) std::this_thread::sleep_for(1ms);
 }
 
@@ -273,8 +272,7 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
 AudioOutputStatus AudioOutput::status() {
     const LoadMeter::Load load = load_.read();
     const bool isRunning = running_;
-    return {load.blocks, load.last,
-            load.worst,  keeper_.device() ? keeper_.device()->getXRunCount() : -1,
+    return {load.blocks, load.last, load.worst, keeper_.device() ? keeper_.device()->getXRunCount() : -1,
             isRunning,   losses_};
 }
 
