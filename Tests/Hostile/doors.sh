@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Tries the doors by which somebody ends what he feels, in the states in which that is hard, on a JACK server without hardware: prints
 # a table of door, state, and milliseconds to zero (or to the end), and fails if one is later than it may be, or a file is not whole.
-# Usage: doors.sh BIN_FOLDER [GROUP...]: silence, overtake, readers, ends, commands, pauses, answers, complaints; all unless told.
+# Usage: doors.sh BIN_FOLDER [GROUP...]: silence, overtake, readers, ends, commands, mixer (on a display), pauses, answers, complaints; all unless told.
 set -eu
 bin=$1
 shift
 here=$(cd "$(dirname "$0")" && pwd)
 physvib=$bin/physvib
-groups=${*:-silence overtake readers ends commands pauses answers complaints}
+groups=${*:-silence overtake readers ends commands mixer pauses answers complaints}
+display=${DISPLAY:-}
 . "$here/../Live/jack.sh"
 cd "$folder"
 port=$((20000 + $$ % 20000))
@@ -73,7 +74,7 @@ play() {
     playing="$victim $listener $helpers"
     exec 3>in
     echo "$tone" >&3
-    until_true 15000 sounds || { row play "$scene: a tone" never 15000; return 1; }
+    until_true 15000 sounds || row play "$scene: a tone" never 15000
 }
 say() { printf '%s\n' "$*" >&3; }
 # whole: the recording has its place and length, the session renders, nothing half is left.
@@ -103,6 +104,7 @@ end_by() {
 gone() { ! alive "$1"; }
 ended() { kill -9 "$victim" 2>/dev/null || true; wait "$victim" 2>/dev/null || true; exec 3>&-; until_true 3000 quiet || true; }
 osc() { python3 "$here/osc.py" "$port" "$@"; }
+sent() { osc say "$@" | sed -n 's/^sent //p'; }
 
 # ---- 1: silence is held by who asked, and lifted there or at the machine
 try_silence() {
@@ -113,7 +115,7 @@ try_silence() {
     if quiet; then row "/physvib/silence 0" "held by --listen: stays silent" 0 0; else row "/physvib/silence 0" "held by --listen: stays silent" sounds 0; fi
     say '{"control": "silence", "on": false}'
     until_true 2000 sounds || row "--listen" "lifted by who asked" never 2000
-    t=$(now); osc say /physvib/silence si on 1 >/dev/null; zero "/physvib/silence" "plays" "$t" 100
+    t=$(sent /physvib/silence si on 1); zero "/physvib/silence" "plays" "$t" 100
     say '{"control": "silence", "on": false}'; sleep 0.4
     if quiet; then row "--listen off" "held by OSC: stays silent" 0 0; else row "--listen off" "held by OSC: stays silent" sounds 0; fi
     osc say /physvib/silence si on 0 >/dev/null
@@ -128,7 +130,7 @@ try_overtake() {
     begin_server 48000
     play out err still.json --osc "$port"
     osc flood 4 10000 & helpers=$!
-    sleep 2; t=$(now); osc say /physvib/silence si on 1 >/dev/null; zero "/physvib/silence" "10,000 OSC messages a second" "$t" 150
+    sleep 2; t=$(sent /physvib/silence si on 1); zero "/physvib/silence" "10,000 OSC messages a second" "$t" 150
     wait "$helpers" || true; helpers=
     ended
     play out err still.json --osc "$port"
@@ -218,7 +220,7 @@ command_ends() {
         [ "$output" = - ] || rm -rf "$output"
         as_in_a_terminal "$@" </dev/null >out 2>err &
         victim=$!
-        sleep 1
+        sleep "${patience:-1}"
         alive "$victim" || { row "SIG$signal" "$name" "over before" 1000; continue; }
         children=$(pgrep -P "$victim" || true)
         absent=$output
@@ -235,25 +237,46 @@ try_commands() {
     helpers=$!
     playing=$helpers
     until_true 5000 test -s mute
-    command_ends "render" never.wav "$physvib" render shake-the-box --seconds 86000 --out never.wav
-    echo '{"physvib_sweep": 1, "name": "long", "scenes": ["shake-the-box", "drop"], "seeds": {"from": 1, "count": 4}, "options": {"seconds": 80000}}' >design.json
+    command_ends "render" never.wav "$physvib" render shake-the-box --seconds 86000 --layout phone1 --rate 8000 --out never.wav
+    echo '{"physvib_sweep": 1, "name": "long", "scenes": ["shake-the-box", "drop"], "seeds": {"from": 1, "count": 4}, "layouts": ["phone1"], "options": {"seconds": 80000, "rate": 8000}}' >design.json
     command_ends "sweep, two processes" cut/index.csv "$physvib" sweep design.json --out cut --jobs 2
     command_ends "study run" - "$physvib" study run magnitudes --observer simulated --out . --pace 5
-    command_ends "stimulus" never.wav "$physvib" stimulus --seconds 1000 --out never.wav
+    command_ends "stimulus" never.wav "$physvib" stimulus phantom --seconds 600 --rate 192000 --layout ring4 --out never.wav
     command_ends "board info, no answer" - "$physvib" board "$(cat mute)" info
     command_ends "board test, no answer" - "$physvib" board "$(cat mute)" test
     command_ends "play on a board alone, no answer" - "$physvib" play drop --board "$(cat mute)"
     begin_server 48000
     playing="$listener $helpers"
-    command_ends "calibrate" never.json "$physvib" calibrate --device JACK:system --channel 1 --input 1 --seconds 30 --out never.json
+    "$bin/physvib-jack-actuator" 204 12 0.4 700 >ready &
+    helpers="$helpers $!"
+    until_true 5000 grep -qs ready ready
+    command_ends "calibrate" never.json "$physvib" calibrate --device JACK:actuator --channel 1 --input 1 --seconds 30 --out never.json
     command_ends "play beside a board, no answer" never.wav "$physvib" play still.json --device JACK:system --board "$(cat mute)" --record never.wav
     kill -STOP "$server"
     command_ends "calibrate, the JACK server is stopped" never.json "$physvib" calibrate --device JACK:system --channel 1 --input 1 --out never.json
     command_ends "devices, the JACK server is stopped" - "$physvib" devices
     kill -CONT "$server"
     end_server
-    kill "$helpers" 2>/dev/null || true
+    # shellcheck disable=SC2086 # several
+    kill $helpers 2>/dev/null || true
     helpers=
+}
+
+# The mixer's process; with-display.sh makes it a display.
+try_mixer() {
+    [ -n "$display" ] || { echo "mixer: skipped, there is no display"; return 0; }
+    export XDG_CONFIG_HOME="$folder"
+    begin_server 48000
+    for device in "None:no device" JACK:system; do
+        patience=5 command_ends "mixer on $device" - env DISPLAY="$display" "$bin/physvib-mixer" --device "$device"
+    done
+    as_in_a_terminal env DISPLAY="$display" "$bin/physvib-mixer" --device JACK:system >out 2>err & victim=$!
+    sleep 5
+    kill -STOP "$server"
+    sleep 4
+    end_by TERM "mixer, the JACK server is stopped for 4 s" "$victim" true
+    kill -CONT "$server"
+    end_server
 }
 
 # ---- 5: a pause is not a loss
@@ -269,7 +292,7 @@ try_pauses() {
     done
     if [ -s err ]; then row "no device was lost" "$(head -n 1 err)" told 0; fi
     end_by TERM "after four pauses" "$victim"
-    "$bin/physvib-jack-recorder" one.raw 1 0.5 >ready & until_true 5000 grep -qs xruns ready || row "JACK server" "after four pauses" "does not answer" 0
+    timeout 5 jack_lsp >/dev/null || row "the JACK server" "after four pauses" "is wedged" 0
 
     play out err still.json
     kill -STOP "$server"; sleep 4

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""OSC to a port of this computer, for doors.sh: `osc.py PORT say ADDRESS [TYPES VALUE...]` prints what is answered within 0.3 s,
+"""OSC to a port of this computer, for doors.sh: `osc.py PORT say ADDRESS [TYPES VALUE...]` prints when it was sent (ms since 1970) and what is answered within 0.3 s,
 `osc.py PORT flood SECONDS PER_SECOND` sends strikes that are not felt."""
 import socket
 import struct
@@ -21,6 +21,7 @@ def main():
     door = ("127.0.0.1", int(sys.argv[1]))
     wire = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     if sys.argv[2] == "say":
+        print("sent", time.time_ns() // 1_000_000)
         wire.sendto(message(sys.argv[3], sys.argv[4] if len(sys.argv) > 4 else "", sys.argv[5:]), door)
         wire.settimeout(0.3)
         try:

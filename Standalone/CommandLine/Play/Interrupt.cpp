@@ -11,9 +11,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto patience = 800ms, pause = 20ms;
+constexpr std::chrono::milliseconds patience = 800ms, patienceForFiles = 3s, pause = 20ms;
 
-std::atomic<int> firstSignal{0}, filesAtWork{0};
+std::atomic<int> firstSignal{0}, promised{0}, finishing{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal may set it");
 
 void interrupt(int signal) {
@@ -25,25 +25,33 @@ void interrupt(int signal) {
 void endWhatHangs() {
     while (firstSignal == 0) std::this_thread::sleep_for(pause);
     std::this_thread::sleep_for(patience);
-    while (filesAtWork > 0) std::this_thread::sleep_for(pause);
+    for (auto waited = 0ms; waited < patienceForFiles && promised > 0; waited += pause)
+        std::this_thread::sleep_for(pause);
+    while (finishing > 0) std::this_thread::sleep_for(pause);
     endBySignal(firstSignal);
 }
 
 } // namespace
 
 FilesFirst::FilesFirst() noexcept {
-    ++filesAtWork;
+    ++promised;
 }
+
 FilesFirst::~FilesFirst() {
-    --filesAtWork;
+    --promised;
+    if (isFinishing_) --finishing;
+}
+
+void FilesFirst::finish() noexcept {
+    if (!isFinishing_) ++finishing;
+    isFinishing_ = true;
 }
 
 void heedInterrupts() {
     catchEnding(interrupt, KeepIgnored::hangUp); // a script's background ignores SIGINT, and yet means it
     ignoreLostReader();
-    static const bool isWatched =
-        (std::thread{endWhatHangs}.detach(), true); // it lives as long as the program
-    static_cast<void>(isWatched);
+    static std::atomic<bool> isWatched{false};
+    if (!isWatched.exchange(true)) std::thread{endWhatHangs}.detach(); // it lives as long as the program
 }
 
 } // namespace physvib

@@ -11,19 +11,24 @@ inline std::atomic<bool> interrupted{
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal may set it");
 
 /// From now on these signals set `interrupted` and end nothing by themselves. A program that has not ended
-/// 0.8 s after the first is ended as by that signal, and so is one that gets a second: something in it hangs.
-/// A reader of standard output that goes away ends nothing either: what was recorded is still to be put in
-/// its place. M.
+/// 0.8 s after the first is ended as by that signal: something in it hangs (FilesFirst says when it may last
+/// longer). So is one that gets a second. A reader of standard output that goes away ends nothing either:
+/// what was recorded is still to be put in its place. M.
 void heedInterrupts();
 
-/// While there is one, nothing is ended for being late: files are being put in their places. Any thread but
-/// R.
+/// Files that are promised: while there are any, a program that does not end is given three seconds more. M.
 class FilesFirst {
 public:
     FilesFirst() noexcept;
     ~FilesFirst();
     FilesFirst(const FilesFirst&) = delete;
     FilesFirst& operator=(const FilesFirst&) = delete;
+
+    /// They are being put in their places, which takes as long as the disk takes.
+    void finish() noexcept;
+
+private:
+    bool isFinishing_ = false;
 };
 
 } // namespace physvib

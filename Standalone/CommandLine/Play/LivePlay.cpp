@@ -129,8 +129,9 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
 }
 
 std::unique_ptr<SimulationDriver> makeDriver(const LivePlay& wanted, Session& session) {
-    if (wanted.ownThread) return std::make_unique<ThreadDriver>(session, wanted.setup.stepsPerSecond);
-    return std::make_unique<MessageTimerDriver>(session);
+    if (wanted.ownThread)
+        return std::make_unique<ThreadDriver>(session, wanted.setup.stepsPerSecond, &interrupted);
+    return std::make_unique<MessageTimerDriver>(session, &interrupted);
 }
 
 } // namespace
@@ -149,6 +150,7 @@ std::string playLive(LivePlay wanted) {
     Session session{wanted.setup};
     std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
+    std::optional<FilesFirst> files;
     const auto inputs = wanted.beats ? std::make_unique<InputTap>() : nullptr; // outlives the output as well
     AudioOutput output{session, systemAudioDeviceTypes, &interrupted};
     output.hearInputs(inputs.get());
@@ -164,6 +166,7 @@ std::string playLive(LivePlay wanted) {
         journal.emplace(wanted.savePath, session, wanted.setup, provenance);
         if (!journal->error().empty()) return journal->error();
     }
+    if (recording || journal) files.emplace();
     std::uint64_t played = 0, beats = 0;
     std::string saved, recorded; // each, whatever becomes of the other
     MessageRouter messages{session};
@@ -196,11 +199,10 @@ std::string playLive(LivePlay wanted) {
             played = watch.played();
         }
         const bool isWhole = !recording || output.isRecording();
-        { // before all that may hang
-            const FilesFirst files;
-            output.stop();
-            saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : "";
-        }
+        if (files) files->finish(); // before all that may hang
+        output.stop();
+        saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : "";
+        files.reset();
         if (!isWhole) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
         beats = heard ? heard->beats() : 0;
         if (osc) summariseOsc(osc->status());

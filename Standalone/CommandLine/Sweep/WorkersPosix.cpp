@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// POSIX: one counter in shared memory says what comes next; one pipe, whose writes are whole, brings what became of it.
+// POSIX: one counter in shared memory says what comes next; one pipe, whose writes are whole, brings what
+// became of it.
 #if !defined(_WIN32)
 #include "CommandLine/Process.h"
 #include "CommandLine/Sweep/Workers.h"
@@ -32,7 +33,9 @@ struct Board {
     std::array<std::atomic<std::uint64_t>, maxWorkers> at{}; ///< what a worker is at, from 1; 0: nothing
 };
 
-[[noreturn]] void failAs(const char* what) { throw std::system_error{errno, std::generic_category(), what}; }
+[[noreturn]] void failAs(const char* what) {
+    throw std::system_error{errno, std::generic_category(), what};
+}
 
 class SharedBoard {
 public:
@@ -76,13 +79,16 @@ void endWithWorkers(int signal) {
 void hearAll(int pipe, const std::function<void(const WorkEnd&)>& hear) {
     for (WorkEnd end;;) {
         const ssize_t bytes = read(pipe, &end, sizeof end);
-        if (bytes == static_cast<ssize_t>(sizeof end)) hear(end);
-        else if (bytes >= 0 || errno != EINTR) return;
+        if (bytes == static_cast<ssize_t>(sizeof end))
+            hear(end);
+        else if (bytes >= 0 || errno != EINTR)
+            return;
     }
 }
 
 /// One set of workers, to the end of the last.
-void shareOnce(std::size_t workers, SharedBoard& board, std::uint64_t count, const Work& work, const std::function<void(const WorkEnd&)>& hear) {
+void shareOnce(std::size_t workers, SharedBoard& board, std::uint64_t count, const Work& work,
+               const std::function<void(const WorkEnd&)>& hear) {
     int ends[2];
     if (pipe(ends) != 0) failAs("a pipe");
     std::cout.flush();
@@ -96,27 +102,35 @@ void shareOnce(std::size_t workers, SharedBoard& board, std::uint64_t count, con
             close(ends[0]);
             workOn(*board.operator->(), w, count, work, ends[1]);
         }
-        if (child > 0) children.push_back(child), running[w] = child;
-        else if (w == 0) failAs("a process");
+        if (child > 0)
+            children.push_back(child), running[w] = child;
+        else if (w == 0)
+            failAs("a process");
     }
     close(ends[1]);
     hearAll(ends[0], hear);
     close(ends[0]);
     for (std::size_t w = 0; w < children.size(); ++w) {
         int status = 0;
-        while (waitpid(children[w], &status, 0) < 0 && errno == EINTR) {}
+        while (waitpid(children[w], &status, 0) < 0 && errno == EINTR) {
+        }
         running[w] = 0;
         if (const std::uint64_t at = board->at[w]; at > 0)
-            hear(WorkEnd::failedAt(at - 1, WIFSIGNALED(status) ? "its process was ended by signal " + std::to_string(WTERMSIG(status)) : "its process ended"));
+            hear(WorkEnd::failedAt(at - 1, WIFSIGNALED(status) ? "its process was ended by signal " +
+                                                                     std::to_string(WTERMSIG(status))
+                                                               : "its process ended"));
     }
 }
 
 } // namespace
 
-void shareWork(int jobs, std::uint64_t count, const Work& work, const std::function<void(const WorkEnd&)>& hear) {
+void shareWork(int jobs, std::uint64_t count, const Work& work,
+               const std::function<void(const WorkEnd&)>& hear) {
     SharedBoard board;
     while (board->next < count) // again, where every worker was ended
-        shareOnce(static_cast<std::size_t>(std::min<std::uint64_t>({static_cast<std::uint64_t>(jobs), count, maxWorkers})), board, count, work, hear);
+        shareOnce(static_cast<std::size_t>(
+                      std::min<std::uint64_t>({static_cast<std::uint64_t>(jobs), count, maxWorkers})),
+                  board, count, work, hear);
 }
 
 } // namespace physvib

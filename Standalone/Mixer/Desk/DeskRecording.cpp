@@ -15,7 +15,8 @@ DeskRecording::DeskRecording(Session& session, AudioOutput& output, const Mix& m
     , onChange_{std::move(onChange)} {}
 
 void DeskRecording::keep() {
-    const FilesFirst files;
+    FilesFirst files;
+    files.finish();
     if (recording_) close(); // whoever closes the window while it runs wants what is there
 }
 
