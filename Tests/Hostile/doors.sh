@@ -74,7 +74,7 @@ play() {
     playing="$victim $listener $helpers"
     exec 3>in
     echo "$tone" >&3
-    until_true 15000 sounds || row play "$scene: a tone" never 15000
+    until_true 20000 sounds || { row play "$scene: a tone" never 20000; [ ! -f "$told" ] || head -n 2 "$told"; }
 }
 say() { printf '%s\n' "$*" >&3; }
 # whole: the recording has its place and length, the session renders, nothing half is left.
@@ -295,10 +295,10 @@ try_pauses() {
     timeout 5 jack_lsp >/dev/null || row "the JACK server" "after four pauses" "is wedged" 0
 
     play out err still.json
-    kill -STOP "$server"; sleep 4
-    grep -q "its driver does not answer" err || row "told" "the JACK server is stopped for 4 s" no 0
+    kill -STOP "$server"; sleep 6
+    grep -q "its driver does not answer" err || row "told" "the JACK server is stopped for 6 s" no 0
     kill -CONT "$server"; t=$(now)
-    back "the JACK server was stopped for 4 s" "$t" 6000
+    back "the JACK server was stopped for 6 s" "$t" 6000
     end_by TERM "after that" "$victim"
     end_server; begin_server 48000
 

@@ -11,7 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double fadeInSeconds = 0.005;
-constexpr DeviceKeeper::Limit opening = 5s; // whoever opens a device waits for it
+constexpr DeviceKeeper::Limit opening = 10s; // whoever opens a device waits for it
 constexpr DeviceKeeper::Limit reopening =
     500ms; // a driver that takes longer is looked at again a second later
 constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // for three blocks

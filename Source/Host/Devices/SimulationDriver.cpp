@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Timer and thread.
 #include "Host/Devices/SimulationDriver.h"
+#include <algorithm>
 #include <thread>
 
 namespace physvib {
@@ -37,11 +38,12 @@ ThreadDriver::~ThreadDriver() {
 
 void ThreadDriver::run() {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::milliseconds others{
-        1}; // who waits for the world gets it between two steps that take too long
+    constexpr std::chrono::nanoseconds leastPause{1'000'000}, mostPause{20'000'000};
     for (auto deadline = Clock::now(); !threadShouldExit() && !isOver(ends_); deadline += step_) {
-        if (const auto now = Clock::now(); now > deadline + 10 * step_)
-            deadline = now + others; // after a stall: no burst of ticks
+        if (const auto now = Clock::now();
+            now > deadline + 10 * step_) // after a stall: no burst of ticks, and
+            deadline = now + std::clamp<Clock::duration>((now - deadline) / 8, leastPause,
+                                                         mostPause); // whoever waits for the world gets it
         std::this_thread::sleep_until(deadline);
         session_.advance([this](auto) { return !threadShouldExit() && !isOver(ends_); });
     }
