@@ -102,7 +102,7 @@ end_by() {
     exec 3>&-
 }
 gone() { ! alive "$1"; }
-ended() { kill -9 "$victim" 2>/dev/null || true; wait "$victim" 2>/dev/null || true; exec 3>&-; until_true 3000 quiet || true; }
+ended() { kill "$victim" 2>/dev/null || true; until_true 3000 gone "$victim" || kill -9 "$victim" 2>/dev/null || true; wait "$victim" 2>/dev/null || true; exec 3>&-; until_true 3000 quiet || true; }
 osc() { python3 "$here/osc.py" "$port" "$@"; }
 sent() { osc say "$@" | sed -n 's/^sent //p'; }
 
@@ -241,7 +241,9 @@ try_commands() {
     echo '{"physvib_sweep": 1, "name": "long", "scenes": ["shake-the-box", "drop"], "seeds": {"from": 1, "count": 4}, "layouts": ["phone1"], "options": {"seconds": 80000, "rate": 8000}}' >design.json
     command_ends "sweep, two processes" cut/index.csv "$physvib" sweep design.json --out cut --jobs 2
     command_ends "study run" - "$physvib" study run magnitudes --observer simulated --out . --pace 5
-    command_ends "stimulus" never.wav "$physvib" stimulus phantom --seconds 600 --rate 192000 --layout ring4 --out never.wav
+    patience=0.2
+    command_ends "stimulus" never.wav "$physvib" stimulus phantom --at 0.5,0.5 --seconds 600 --rate 192000 --layout ring4 --out never.wav
+    patience=1
     command_ends "board info, no answer" - "$physvib" board "$(cat mute)" info
     command_ends "board test, no answer" - "$physvib" board "$(cat mute)" test
     command_ends "play on a board alone, no answer" - "$physvib" play drop --board "$(cat mute)"
@@ -266,9 +268,10 @@ try_commands() {
 try_mixer() {
     [ -n "$display" ] || { echo "mixer: skipped, there is no display"; return 0; }
     export XDG_CONFIG_HOME="$folder"
+    patience=5
     begin_server 48000
     for device in "None:no device" JACK:system; do
-        patience=5 command_ends "mixer on $device" - env DISPLAY="$display" "$bin/physvib-mixer" --device "$device"
+        command_ends "mixer on $device" - env DISPLAY="$display" "$bin/physvib-mixer" --device "$device"
     done
     as_in_a_terminal env DISPLAY="$display" "$bin/physvib-mixer" --device JACK:system >out 2>err & victim=$!
     sleep 5

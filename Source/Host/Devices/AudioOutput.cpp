@@ -13,7 +13,8 @@ using namespace std::chrono_literals;
 constexpr double fadeInSeconds = 0.005;
 constexpr DeviceKeeper::Limit opening = 10s; // whoever opens a device waits for it
 constexpr DeviceKeeper::Limit reopening =
-    500ms; // a driver that takes longer is looked at again a second later
+    500ms;                                    // a driver that takes longer is looked at again a second later
+constexpr DeviceKeeper::Limit ending = 400ms; // cut off in the middle, a JACK client keeps its server busy
 constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // for three blocks
 constexpr int mostOutputs = 65'536;                                      // of a device
 
@@ -135,7 +136,7 @@ bool AudioOutput::lend(Session* other) {
 
 void AudioOutput::close() {
     stop();
-    keeper_.close();
+    keeper_.close(ending);
     settings_.device.clear();
 }
 
