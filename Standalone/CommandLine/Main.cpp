@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The `physvib` program: its commands, and how a wrong call is told.
-#include "CommandLine/Render/ActuatorChoice.h"
 #include "CommandLine/Analyse/AnalyseCommand.h"
-#include "CommandLine/Measure/AttenuationCommand.h"
 #include "CommandLine/Board/BoardCommand.h"
+#include "CommandLine/ExitCode.h"
+#include "CommandLine/Measure/AttenuationCommand.h"
 #include "CommandLine/Measure/CalibrateCommand.h"
 #include "CommandLine/Measure/CouplingCommand.h"
-#include "CommandLine/Study/CallFiles.h"
-#include "CommandLine/ExitCode.h"
 #include "CommandLine/Measure/MaterialCommand.h"
 #include "CommandLine/Music/BeatsCommand.h"
 #include "CommandLine/Play/PlayCommand.h"
 #include "CommandLine/Process.h"
 #include "CommandLine/Reference/Reference.h"
+#include "CommandLine/Render/ActuatorChoice.h"
 #include "CommandLine/Render/ExportCommand.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Report/ReportCommand.h"
 #include "CommandLine/StandardStreams.h"
+#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StimulusCommand.h"
 #include "CommandLine/Study/StudyCommand.h"
 #include "CommandLine/Sweep/SweepCommand.h"
 #include "Files/SceneCatalogue.h"
+#include "Host/Devices/DeviceThread.h"
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -33,7 +34,8 @@ int listScenes() {
         std::cout << scene.name << "  " << scene.description;
         for (const SceneVariable& variable : scene.variables) {
             std::cout << "  --set " << variable.name << '=';
-            for (const std::string& choice : variable.choices) std::cout << (&choice == &variable.choices.front() ? "" : "|") << choice;
+            for (const std::string& choice : variable.choices)
+                std::cout << (&choice == &variable.choices.front() ? "" : "|") << choice;
         }
         std::cout << '\n';
     }
@@ -54,13 +56,16 @@ int run(int argc, char** argv) {
     CLI::App* render = app.add_subcommand("render", "render a scene, an event list or a clip to files");
     declareRenderOptions(*render, options);
     SweepOptions sweepOptions;
-    CLI::App* sweep = app.add_subcommand("sweep", "many renders of a design as a table of numbers, on all processors or a cluster");
+    CLI::App* sweep = app.add_subcommand(
+        "sweep", "many renders of a design as a table of numbers, on all processors or a cluster");
     declareSweep(*sweep, sweepOptions);
     ExportOptions exportOptions;
-    CLI::App* exported = app.add_subcommand("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others");
+    CLI::App* exported =
+        app.add_subcommand("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others");
     declareExport(*exported, exportOptions);
     BeatsOptions beatsOptions;
-    CLI::App* beats = app.add_subcommand("beats", "music as strikes on enchanters, or what of it they can render");
+    CLI::App* beats =
+        app.add_subcommand("beats", "music as strikes on enchanters, or what of it they can render");
     declareBeats(*beats, beatsOptions);
     PlayOptions playOptions;
     CLI::App* play = app.add_subcommand("play", "play a scene live on an audio device");
@@ -84,12 +89,16 @@ int run(int argc, char** argv) {
     CLI::App* material = app.add_subcommand("material", "frequency and decay of a recorded contact");
     declareMaterial(*material, materialOptions);
     AttenuationOptions attenuationOptions;
-    CLI::App* attenuation = app.add_subcommand("attenuation", "what an isolation layer holds back, from two recordings or a folder of conditions (thesis 3.1.1)");
+    CLI::App* attenuation = app.add_subcommand(
+        "attenuation",
+        "what an isolation layer holds back, from two recordings or a folder of conditions (thesis 3.1.1)");
     declareAttenuation(*attenuation, attenuationOptions);
     CouplingOptions couplingOptions;
-    CLI::App* coupling = app.add_subcommand("coupling", "what enchanters make of each other's vibration, from recordings, for render --coupling");
+    CLI::App* coupling = app.add_subcommand(
+        "coupling", "what enchanters make of each other's vibration, from recordings, for render --coupling");
     declareCoupling(*coupling, couplingOptions);
-    CLI::App* actuators = app.add_subcommand("actuators", "list the built-in actuator profiles; what is not known is empty");
+    CLI::App* actuators =
+        app.add_subcommand("actuators", "list the built-in actuator profiles; what is not known is empty");
     CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
     CalibrateOptions calibrateOptions;
     CLI::App* calibrate = app.add_subcommand("calibrate", "measure an actuator and write its profile");
@@ -140,5 +149,6 @@ int main(int argc, char** argv) {
     const std::string fault = outputFault();
     if (!fault.empty() && code == exitDone) code = leave(exitFailed, fault);
     endOutput();
+    if (DeviceThread::threadsLeft() > 0) endAtOnce(code);
     return code;
 }

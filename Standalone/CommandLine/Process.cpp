@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <system_error>
 
@@ -15,6 +16,13 @@ void endBySignal(int signal) {
     removeAllOnEnd();
     std::signal(signal, SIG_DFL);
     std::raise(signal);
+}
+
+void endAtOnce(int exitCode) {
+    std::cout.flush();
+    std::fflush(nullptr);
+    removeAllOnEnd();
+    std::_Exit(exitCode);
 }
 
 std::string outputFault() {

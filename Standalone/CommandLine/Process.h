@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the programs need of the system: before their first word, after their last, and in between. One file per system does it,
-// ProcessPosix.cpp and ProcessWindows.cpp.
+// What the programs need of the system: before their first word, after their last, and in between. One file
+// per system does it, ProcessPosix.cpp and ProcessWindows.cpp.
 #pragma once
 #include "Files/Result.h"
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace physvib {
 
-/// First of all: the standard descriptors are open, a signal that ends the program takes half-written files along, and a file
-/// that may not grow is an error, not a signal. M.
+/// First of all: the standard descriptors are open, a signal that ends the program takes half-written files
+/// along, and a file that may not grow is an error, not a signal. M.
 void beginProcess();
 
 enum class Standard { output, error };
@@ -24,11 +24,19 @@ std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) 
 /// Last of all: empty if all that was written to standard output arrived, or one line with the reason. M.
 std::string outputFault();
 
+/// Ends the program now, with that exit code: what is written goes out, and no destructor of a static object
+/// runs, which a thread that is left to its driver may still use. M.
+[[noreturn]] void endAtOnce(int exitCode);
+
 /// Ends the program as that signal does, half-written files first. For the handlers of signals.
 void endBySignal(int signal);
 
-enum class KeepIgnored { all, hangUp }; ///< what was ignored before and stays so: every such signal, or the one that `nohup` means
-/// From now on what asks this program to end (Ctrl-C, `kill`, a terminal that is closed) calls `handler` with the signal. M.
+enum class KeepIgnored {
+    all,
+    hangUp
+}; ///< what was ignored before and stays so: every such signal, or the one that `nohup` means
+/// From now on what asks this program to end (Ctrl-C, `kill`, a terminal that is closed) calls `handler` with
+/// the signal. M.
 void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept;
 
 /// A reader of standard output that goes away ends nothing. M.
@@ -37,14 +45,16 @@ void ignoreLostReader() noexcept;
 /// Whether somebody watches standard error, for words that are rewritten in place. Any thread but R.
 bool isErrorTerminal() noexcept;
 
-/// What has come on standard input, waiting up to `milliseconds` for it: how many bytes, 0 at the end, nothing if none came. One thread, not R.
+/// What has come on standard input, waiting up to `milliseconds` for it: how many bytes, 0 at the end,
+/// nothing if none came. One thread, not R.
 std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept;
 
 /// By which other processes know this one, and whether there is one of that number. Any thread but R.
 int processNumber() noexcept;
 bool isProcessRunning(int number) noexcept;
 
-/// Runs a program of that name, with what we have for standard streams, to its end: whether it said that all is well, or why it did not begin. M.
+/// Runs a program of that name, with what we have for standard streams, to its end: whether it said that all
+/// is well, or why it did not begin. M.
 Result<bool> runProgram(std::string name, std::string argument);
 
 } // namespace physvib

@@ -3,9 +3,10 @@
 #include "CommandLine/Play/Interrupt.h"
 #include "CommandLine/Process.h"
 #include "CommandLine/Reference/Reference.h"
+#include "Host/Devices/DeviceThread.h"
+#include "Host/Devices/NoDevice.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/Window/Shots.h"
-#include "Host/Devices/NoDevice.h"
 #include <iostream>
 
 namespace physvib {
@@ -13,7 +14,8 @@ namespace physvib {
 namespace {
 
 constexpr int exitFailed = 1, exitUsage = 2;
-constexpr const char* usage = R"(physvib-mixer [SESSION.json | SCENE.json | LAYOUT.json] [--device TYPE:NAME] [--summary]
+constexpr const char* usage =
+    R"(physvib-mixer [SESSION.json | SCENE.json | LAYOUT.json] [--device TYPE:NAME] [--summary]
     --summary: at the end, what the last session played, late and dropped
 physvib-mixer --shot FILE.png [--state NAME]   a picture of the window, without a display
 physvib-mixer --states | --help | --version
@@ -29,16 +31,20 @@ juce::String valueOf(const juce::ArgumentList& arguments, juce::StringRef option
 std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     if (arguments.containsOption("--help|-h")) return std::cout << usage, 0;
     if (arguments.containsOption("--version")) return std::cout << "physvib-mixer " PHYSVIB_VERSION "\n", 0;
-    if (arguments.containsOption("--states")) return std::cout << shotStates().joinIntoString("\n") << '\n', 0;
+    if (arguments.containsOption("--states"))
+        return std::cout << shotStates().joinIntoString("\n") << '\n', 0;
     if (const auto folder = valueOf(arguments, referenceWord); folder.isNotEmpty()) {
-        const std::string error = writeReference(listedUsage("physvib-mixer", "see a world, feel it, and mix what each enchanter plays", usage), folder.toStdString());
+        const std::string error = writeReference(
+            listedUsage("physvib-mixer", "see a world, feel it, and mix what each enchanter plays", usage),
+            folder.toStdString());
         return error.empty() ? 0 : (std::cerr << "physvib-mixer: " << error << '\n', exitFailed);
     }
     if (!arguments.containsOption("--shot")) return {};
     const auto path = valueOf(arguments, "--shot");
     const auto state = valueOf(arguments, "--state");
     if (path.isEmpty()) return std::cerr << "physvib-mixer: --shot: expected a file\n", exitUsage;
-    const auto error = takeShot(juce::File::getCurrentWorkingDirectory().getChildFile(path), state.isEmpty() ? shotStates()[0] : state);
+    const auto error = takeShot(juce::File::getCurrentWorkingDirectory().getChildFile(path),
+                                state.isEmpty() ? shotStates()[0] : state);
     if (error.isEmpty()) return 0;
     return std::cerr << "physvib-mixer: " << error << '\n', error.startsWith("--") ? exitUsage : exitFailed;
 }
@@ -46,12 +52,16 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
 void summarise(Desk& desk) {
     const auto moment = desk.look();
     const auto& r = moment.session.render;
-    std::cout << "session of " << number(1e-9 * static_cast<double>(moment.session.sessionNs), 1) << " s: " << r.played << " collisions played, " << r.late << " late, "
-              << desk.session().drops() + r.untold << " dropped, " << number(1e-6 * static_cast<double>(desk.session().slippedNs()), 0) << " ms of stalls; worst load "
-              << number(100.0 * moment.device.worstLoad, 1) << " %" << std::endl;
+    std::cout << "session of " << number(1e-9 * static_cast<double>(moment.session.sessionNs), 1)
+              << " s: " << r.played << " collisions played, " << r.late << " late, "
+              << desk.session().drops() + r.untold << " dropped, "
+              << number(1e-6 * static_cast<double>(desk.session().slippedNs()), 0)
+              << " ms of stalls; worst load " << number(100.0 * moment.device.worstLoad, 1) << " %"
+              << std::endl;
 }
 
-// A signal ends it in order, without a question: a recording gets its place, and the copy of the session stays.
+// A signal ends it in order, without a question: a recording gets its place, and the copy of the session
+// stays.
 class MixerApplication final : public juce::JUCEApplication, private juce::Timer {
 public:
     const juce::String getApplicationName() override { return "PhysVib mixer"; }
@@ -64,7 +74,8 @@ public:
         hasSummary_ = arguments.containsOption("--summary");
         juce::File file;
         for (int k = 0; k < arguments.size(); ++k)
-            if (!arguments[k].isOption() && (k == 0 || arguments[k - 1].text != "--device")) file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[k].text);
+            if (!arguments[k].isOption() && (k == 0 || arguments[k - 1].text != "--device"))
+                file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[k].text);
         window_ = std::make_unique<MixerWindow>(audioDeviceTypesAndNone, device, file);
         heedInterrupts();
         startTimer(milliseconds);
@@ -77,7 +88,7 @@ public:
     void systemRequestedQuit() override { window_->requestQuit(); }
 
 private:
-    static constexpr int milliseconds = 200;
+    static constexpr int milliseconds = 50;
 
     void timerCallback() override {
         if (interrupted) quit();
@@ -87,7 +98,9 @@ private:
     bool hasSummary_ = false;
 };
 
-juce::JUCEApplicationBase* makeApplication() { return new MixerApplication; }
+juce::JUCEApplicationBase* makeApplication() {
+    return new MixerApplication;
+}
 
 } // namespace
 } // namespace physvib
@@ -104,5 +117,7 @@ int main(int argc, char* argv[]) {
         }
     }
     juce::JUCEApplicationBase::createInstance = physvib::makeApplication;
-    return juce::JUCEApplicationBase::main(argc, const_cast<const char**>(argv));
+    const int code = juce::JUCEApplicationBase::main(argc, const_cast<const char**>(argv));
+    if (physvib::DeviceThread::threadsLeft() > 0) physvib::endAtOnce(code);
+    return code;
 }

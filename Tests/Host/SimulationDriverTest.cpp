@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drivers take over from each other at any moment, and from blocks that step the world themselves: nothing is missing.
+// Drivers take over from each other at any moment, and from blocks that step the world themselves: nothing is
+// missing.
 #include "Host/Devices/SimulationDriver.h"
-#include "Session/FakeHost.h"
 #include "Host/MessageLoop.h"
 #include "Physics/Scenes/SceneRun.h"
+#include "Session/FakeHost.h"
 #include <atomic>
 #include <gtest/gtest.h>
 #include <thread>
@@ -50,6 +51,28 @@ TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
     ASSERT_GT(played.size(), 40u);
     EXPECT_TRUE(played == runTakes(log.takes, setup.run(), played.back().timeNs + 1).events);
     EXPECT_EQ(session.status().render.late, 0u);
+}
+
+TEST(SimulationDriver, NoStepIsMadeOnceAllShallEnd) {
+    const juce::ScopedJuceInitialiser_GUI juce;
+    for (const bool hasThread : {false, true}) {
+        Session session{shakeTheBoxSetup(0.1)};
+        session.prepare(hostRate, 480);
+        session.advance();
+        std::atomic<bool> ends{true};
+        std::unique_ptr<SimulationDriver> driver;
+        if (hasThread)
+            driver = std::make_unique<ThreadDriver>(session, 100, &ends);
+        else
+            driver = std::make_unique<MessageTimerDriver>(session, &ends);
+        Block block;
+        for (int i = 0; i < 10; ++i) {
+            session.render(block.at.data(), 480, RenderMode::realtime);
+            runFor(0.02);
+        }
+        driver.reset();
+        EXPECT_GT(session.advance(), 0) << "what was due was left";
+    }
 }
 
 } // namespace

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the programs need of the system, by this program run again.
 #include "CommandLine/Process.h"
+#include "CommandLine/Play/Interrupt.h"
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
 #include <string_view>
+#include <thread>
 
 namespace physvib {
 namespace {
 
 std::string self; // this program
 constexpr const char* spokenTo = "--hears-hello-and-the-end";
+constexpr const char* hangs = "--hangs-after-a-signal";
+constexpr const char* hangsWithFiles = "--is-slow-with-its-files";
 constexpr const char* threeWords = "with three words";
 
 /// Whether standard input says hello, and then ends.
@@ -26,16 +32,20 @@ bool hearsHello() {
     return false;
 }
 
-std::string shellWord(const std::string& text) { return '"' + text + '"'; }
+std::string shellWord(const std::string& text) {
+    return '"' + text + '"';
+}
 
 TEST(Processes, StandardInputIsReadAsItComesAndEnds) {
     EXPECT_EQ(std::system(("echo hello| " + shellWord(self) + ' ' + spokenTo).c_str()), 0);
-    EXPECT_NE(std::system(("echo goodbye| " + shellWord(self) + ' ' + spokenTo).c_str()), 0) << "it is this test that hears";
+    EXPECT_NE(std::system(("echo goodbye| " + shellWord(self) + ' ' + spokenTo).c_str()), 0)
+        << "it is this test that hears";
 }
 
 TEST(Processes, AProgramSaysWhetherAllIsWell) {
     EXPECT_NE(self.find("physvib-system-tests"), std::string::npos);
-    const auto well = runProgram(self, threeWords), ill = runProgram(self, "--no-such-option"), none = runProgram("physvib-no-such-program", "");
+    const auto well = runProgram(self, threeWords), ill = runProgram(self, "--no-such-option"),
+               none = runProgram("physvib-no-such-program", "");
     EXPECT_TRUE(well && well.value) << well.error << ": its argument came as one";
     EXPECT_TRUE(ill && !ill.value) << ill.error;
     EXPECT_TRUE(none.error.starts_with("physvib-no-such-program: ")) << none.error;
@@ -48,6 +58,25 @@ TEST(Processes, ANumberIsThereWhileItsProcessIs) {
     EXPECT_FALSE(isProcessRunning(2'147'483'646)) << "more than any system has";
 }
 
+/// Gets a signal, and does not end in time: for a minute, or until its files have their places.
+int hangAfterSignal(bool hasFiles) {
+    heedInterrupts();
+    FilesFirst files;
+    if (hasFiles) files.finish();
+    std::raise(SIGTERM);
+    if (!interrupted) return 2;
+    std::this_thread::sleep_for(hasFiles ? std::chrono::seconds{5} : std::chrono::seconds{60});
+    return 0;
+}
+
+TEST(Processes, WhatHangsAfterASignalIsEndedAndFilesAreFinishedFirst) {
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_NE(std::system((shellWord(self) + ' ' + hangs).c_str()), 0)
+        << "it would end by itself, and say that all is well";
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds{50});
+    EXPECT_EQ(std::system((shellWord(self) + ' ' + hangsWithFiles).c_str()), 0);
+}
+
 TEST(Processes, WhatWasWrittenArrives) {
     std::printf("words\n");
     EXPECT_EQ(outputFault(), "");
@@ -58,6 +87,8 @@ TEST(Processes, WhatWasWrittenArrives) {
 
 int main(int count, char** words) {
     const std::string_view first = count > 1 ? words[1] : "";
+    if (first == physvib::hangs || first == physvib::hangsWithFiles)
+        return physvib::hangAfterSignal(first == physvib::hangsWithFiles);
     if (first == physvib::spokenTo) return physvib::hearsHello() ? 0 : 1;
     if (first == physvib::threeWords) return 0;
     if (first == "--no-such-option") return 3;

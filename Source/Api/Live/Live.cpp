@@ -106,8 +106,9 @@ void Live::play(std::promise<std::string>& opened) {
     } else {
         opened.set_value(std::move(error));
     }
+    output_->stop();
+    if (isOpen && journal) unsaved_ = journal->finish(); // before what may hang
     output_->close();
-    if (isOpen && journal) unsaved_ = journal->finish();
 }
 
 } // namespace physvib::api

@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A session on a multichannel audio device, with hands in mind: a device that is not there means silence and a
-// message, never another device; levels come up in a ramp; one switch silences everything within a block.
+// A session on a multichannel audio device, with hands in mind: a device that is not there means silence and
+// a message, never another device; levels come up in a ramp; one switch silences everything within a block.
 //
-// It uses JUCE's devices themselves and not its AudioDeviceManager, which opens the default device (the speakers)
-// when the chosen one disappears.
+// It uses JUCE's devices themselves and not its AudioDeviceManager, which opens the default device (the
+// speakers) when the chosen one disappears.
 #pragma once
 #include "Core/Actuators/ExposureMeter.h"
 #include "Core/Actuators/GainRamp.h"
-#include "Core/Actuators/VibrationConverter.h"
 #include "Core/Limits.h"
 #include "Core/Nonblocking.h"
-#include "Host/Devices/AudioDevices.h"
 #include "Host/Devices/AudioOutputSettings.h"
-#include "Session/FeltOutput.h"
+#include "Host/Devices/DeviceKeeper.h"
+#include "Host/Devices/DeviceWatch.h"
+#include "Host/Devices/HeardSignals.h"
 #include "Host/Devices/InputTap.h"
-#include "Host/Devices/OutputMap.h"
+#include "Host/Devices/LoadMeter.h"
+#include "Host/Devices/OnOffMotors.h"
 #include "Host/Recordings/PlayedRecorder.h"
-#include "Session/Session.h"
-#include "Host/Devices/SignalTap.h"
-#include "Study/PinkNoise.h"
+#include "Session/FeltOutput.h"
 #include <array>
 #include <atomic>
-#include <chrono>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,10 +27,7 @@ namespace physvib {
 
 class AudioOutput final : public FeltOutput, private juce::AudioIODeviceCallback {
 public:
-    using Clock = std::chrono::steady_clock;
-
-    /// A device that calls for no block for this long has gone; the longest block lasts 1.6 s (8192 frames at 5 kHz).
-    static constexpr std::chrono::seconds patience{2};
+    using Clock = DeviceWatch::Clock;
 
     /// `session` outlives the output; `types` is where devices are looked for. `isEnded`, if there is one,
     /// outlives it too: while it is true, nothing is felt. M.
@@ -41,56 +35,68 @@ public:
                          const std::atomic<bool>* isEnded = nullptr);
     ~AudioOutput() override;
 
-    /// Opens that device and no other; empty, or one line with the reason. The session is prepared by the first
-    /// device and resumed by later ones. M.
+    /// Opens that device and no other; empty, or one line with the reason. The session is prepared by the
+    /// first device and resumed by later ones. M.
     std::string open(const AudioOutputSettings& settings);
 
-    /// Another map of outputs and number of enchanters, while it plays if the device's outputs are open; empty, or one
-    /// line with the reason, and all is as before. M.
+    /// Another map of outputs and number of enchanters, while it plays if the device's outputs are open;
+    /// empty, or one line with the reason, and all is as before. M.
     std::string assign(const std::vector<int>& channelMap, int enchanters);
 
-    /// What is listened to, while it plays as assign(); empty, or one line with the reason, and all is as before. M.
+    /// What is listened to, while it plays as assign(); empty, or one line with the reason, and all is as
+    /// before. M.
     std::string hear(const ListeningSettings& listening);
 
-    /// Plays `other` from the next block on, from its beginning, instead of the output's own session, which stands still meanwhile; null: the
-    /// own one goes on. `other` has no more channels and outputs, no contact sound, and is prepared here. R has left the one that was played when this
-    /// returns; what rings in it is cut. False, and nothing changes, while no device has run. M.
+    /// Plays `other` from the next block on, from its beginning, instead of the output's own session, which
+    /// stands still meanwhile; null: the own one goes on. `other` has no more channels and outputs, no
+    /// contact sound, and is prepared here. R has left the one that was played when this returns; what rings
+    /// in it is cut. False, and nothing changes, while no device has run. M.
     bool lend(Session* other);
 
-    /// Silent within two blocks, then stops and closes; what is left of the session stays. M.
+    /// Silent within two blocks; then R has left session, recorder and taps, though the device may go on. M.
+    void stop();
+
+    /// The same, and closes the device, or leaves it to a driver that hangs; what is left of the session
+    /// stays. M.
     void close();
 
-    /// Tries to get back a device that has gone, follows one that has changed its block; empty while all is well, else
-    /// what is missing. M, about once a second.
+    /// Tries to get back a device that has gone, follows one that has changed its block or rate; empty while
+    /// all is well, else what is missing or was changed. M, about once a second.
     std::string maintain(Clock::time_point now = Clock::now());
 
     bool isSilent() const noexcept override {
         return FeltOutput::isSilent() || (isEnded_ && isEnded_->load(std::memory_order_relaxed));
     }
     float level() const noexcept override { return level_.load(std::memory_order_relaxed); }
-    void setLevel(float level) noexcept { level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed); }
+    void setLevel(float level) noexcept {
+        level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed);
+    }
 
-    /// From now on `recorder` takes all that is played, until the output is closed, or comes back at another rate: a
-    /// file has one rate, so it ends there. Null ends it: R has let go of the old one when a further block has come, or
-    /// the output does not run. M.
+    /// From now on `recorder` takes all that is played, until the output is closed, or comes back at another
+    /// rate: a file has one rate, so it ends there. Null ends it: R has let go of the old one when a further
+    /// block has come, or the output does not run. M.
     void record(PlayedRecorder* recorder) noexcept { recorder_.store(recorder, std::memory_order_release); }
     bool isRecording() const noexcept { return recorder_.load(std::memory_order_relaxed) != nullptr; }
 
     /// `tap` takes all that is played until the output is closed; it outlives the output. M, before open().
     void listen(SignalTap* tap) noexcept { tap_ = tap; }
 
-    /// `tap` takes the mean of the wanted inputs until the output is closed; it outlives the output. M, before open().
+    /// `tap` takes the mean of the wanted inputs until the output is closed; it outlives the output. M,
+    /// before open().
     void hearInputs(InputTap* tap) noexcept { inputTap_ = tap; }
 
     /// The device that is wanted, as type:name once it was found; empty: none. M.
     const std::string& device() const noexcept { return settings_.device; }
 
-    FeltMoment felt(FeltReader reader) noexcept override { return felt_[static_cast<std::size_t>(reader)].read(); }
+    FeltMoment felt(FeltReader reader) noexcept override {
+        return felt_[static_cast<std::size_t>(reader)].read();
+    }
 
     /// What plays is a session that was lent. Any thread.
     bool isLent() const noexcept { return played_.load() != &own_; }
 
-    /// What has left for the enchanters, behind the master level, the ceilings and the switch; of the session's channels. M.
+    /// What has left for the enchanters, behind the master level, the ceilings and the switch; of the
+    /// session's channels. M.
     const ExposureSums& exposure() noexcept { return exposure_.read(); }
     /// Peaks and plain sums start again. M.
     std::uint32_t restartLevels() noexcept { return exposure_.restart(); }
@@ -103,56 +109,41 @@ public:
     int deviceOutputs() const; ///< that it offers; 0: there is none
 
 private:
-    void audioDeviceIOCallbackWithContext(const float* const* in, int inputs, float* const* out, int outputs, int frames,
-                                          const juce::AudioIODeviceCallbackContext&) override;
+    void audioDeviceIOCallbackWithContext(const float* const* in, int inputs, float* const* out, int outputs,
+                                          int frames, const juce::AudioIODeviceCallbackContext&) override;
     void audioDeviceAboutToStart(juce::AudioIODevice* device) override;
     void audioDeviceStopped() override { running_ = false; }
     void audioDeviceError(const juce::String&) override { running_ = false; }
 
     std::string remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening);
-    void setHeardLevels();
     std::string listeningFault() const;
-    std::string inputFault() const;
-    std::string openDevice();
-    std::string startDevice();
+    DeviceWish wish() const;
+    std::string openDevice(DeviceKeeper::Limit limit);
     void fadeOut();
-    void stopDevice();
     bool hasGone(Clock::time_point now);
+    std::string follow();
     std::string unfelt() const;
     void prepareBuffers(int block);
     void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
-    void renderPart(Session& session, float* const* out, int outputs, int first, int frames, bool rests) noexcept;
-    void switchMotors(int frames) noexcept;
-    void renderHeard(const Session& session, float* const* out, int outputs, int first, int frames) noexcept;
-    void renderMarks(const Session& session, float* const* out, int outputs, int first, int frames, bool rests) noexcept;
-    void addTo(Heard source, float* const* signals, int count, float* const* out, int outputs, int first, int frames) noexcept;
-    void measure(juce::int64 startTicks, int frames) noexcept;
-
-    struct Load {
-        std::uint64_t blocks = 0;
-        float last = 0.0f, worst = 0.0f;
-    };
+    void renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept;
 
     Session& own_;
-    std::atomic<Session*> played_;
-    std::atomic<bool> isInBlock_{false}; // with played_, sequentially consistent: who has changed it sees whether R may still have the old one
-    AudioDeviceTypes types_;
+    std::atomic<Session*> played_; // sequentially consistent, as the keeper's calls: who has changed it sees
+                                   // whether R may still have the old one
     const std::atomic<bool>* const isEnded_;
     AudioOutputSettings settings_;
-    FoundDevice found_;
     std::atomic<bool> running_{false}, ending_{false};
-    std::atomic<float> level_{0.0f}, noiseGain_{0.0f}, contactGain_{0.0f};
+    std::atomic<float> level_{0.0f};
     std::atomic<int> largestBlock_{0}; // that the device has asked for
     std::atomic<PlayedRecorder*> recorder_{nullptr};
     SignalTap* tap_ = nullptr;
     InputTap* inputTap_ = nullptr;
-    LatestValue<Load> load_;
+    LoadMeter load_;
     std::array<LatestValue<FeltMoment>, 2> felt_; // as FeltReader
 
     // M
     int losses_ = 0, lentRate_ = 0, lentBlock_ = 0; // the latter: as they were when a session was lent
-    std::uint64_t seenBlocks_ = 0;
-    Clock::time_point seenAt_;
+    DeviceWatch watch_;
 
     // R, set while the device is stopped
     int rate_ = 0, block_ = 0;
@@ -160,17 +151,12 @@ private:
     OutputMap map_;
     std::vector<std::vector<float>> scratch_;
     std::vector<float*> scratchAt_;
-    GainRamp master_, noiseRamp_, contactRamp_;
-    PinkNoise noise_;
-    std::vector<float> noiseScratch_;
-    bool areMarksOpen_ = true; // the next pulse is whole
+    GainRamp master_;
+    HeardSignals heard_{map_};
     ExposureMeter exposure_;
-    struct Motor {
-        std::size_t enchanter;
-        OnOffSteps steps;
-    };
-    std::vector<Motor> motors_;
-    Load measured_;
+    OnOffMotors motors_;
+
+    DeviceKeeper keeper_; // last: its thread calls the others
 };
 
 } // namespace physvib

@@ -1,30 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Timer and thread.
 #include "Host/Devices/SimulationDriver.h"
+#include <algorithm>
 #include <thread>
 
 namespace physvib {
 
-MessageTimerDriver::MessageTimerDriver(Session& session)
-    : session_{session} {
+namespace {
+
+bool isOver(const std::atomic<bool>* ends) {
+    return ends != nullptr && *ends;
+}
+
+} // namespace
+
+MessageTimerDriver::MessageTimerDriver(Session& session, const std::atomic<bool>* ends)
+    : session_{session}
+    , ends_{ends} {
     startTimer(10);
 }
 
-ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond)
+void MessageTimerDriver::timerCallback() {
+    if (!isOver(ends_)) session_.advance([this](auto) { return !isOver(ends_); });
+}
+
+ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* ends)
     : juce::Thread{"PhysVib driver"}
     , session_{session}
-    , step_{1'000'000'000 / stepsPerSecond} {
+    , step_{1'000'000'000 / stepsPerSecond}
+    , ends_{ends} {
     if (!startRealtimeThread({})) startThread(Priority::highest); // few users are allowed the first
 }
 
-ThreadDriver::~ThreadDriver() { stopThread(-1); }
+ThreadDriver::~ThreadDriver() {
+    stopThread(-1);
+}
 
 void ThreadDriver::run() {
     using Clock = std::chrono::steady_clock;
-    for (auto deadline = Clock::now(); !threadShouldExit(); deadline += step_) {
-        if (const auto now = Clock::now(); now > deadline + 10 * step_) deadline = now; // after a stall: no burst of ticks
+    constexpr std::chrono::nanoseconds leastPause{1'000'000}, mostPause{20'000'000};
+    for (auto deadline = Clock::now(); !threadShouldExit() && !isOver(ends_); deadline += step_) {
+        if (const auto now = Clock::now();
+            now > deadline + 10 * step_) // after a stall: no burst of ticks, and
+            deadline = now + std::clamp<Clock::duration>((now - deadline) / 8, leastPause,
+                                                         mostPause); // whoever waits for the world gets it
         std::this_thread::sleep_until(deadline);
-        session_.advance([this](auto) { return !threadShouldExit(); });
+        session_.advance([this](auto) { return !threadShouldExit() && !isOver(ends_); });
     }
 }
 

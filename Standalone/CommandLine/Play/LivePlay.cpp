@@ -6,14 +6,15 @@
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/OscReport.h"
+#include "CommandLine/Process.h"
+#include "CommandLine/Render/MarkWords.h"
 #include "CommandLine/StandardStreams.h"
-#include "Session/BoardOutput.h"
-#include "Host/Recordings/ClipFolder.h"
-#include "Host/Recordings/PlayedRecorder.h"
-#include "Session/SessionJournal.h"
 #include "Host/Devices/NoDevice.h"
 #include "Host/Devices/SimulationDriver.h"
-#include "CommandLine/Render/MarkWords.h"
+#include "Host/Recordings/ClipFolder.h"
+#include "Host/Recordings/PlayedRecorder.h"
+#include "Session/BoardOutput.h"
+#include "Session/SessionJournal.h"
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -27,11 +28,19 @@ namespace physvib {
 
 namespace {
 
-// What the message thread does while the session plays: empties the queues, keeps device and journal, ends the call.
+// What the message thread does while the session plays: empties the queues, keeps device and journal, ends
+// the call.
 class Watch final : private juce::Timer {
 public:
-    Watch(Session& session, AudioOutput& output, const BoardLink* board, PlayedRecorder* recorder, SessionJournal* journal, OscPort* osc, double seconds)
-        : session_{session}, output_{output}, board_{board}, recorder_{recorder}, journal_{journal}, osc_{osc}, endNs_{std::llround(seconds * 1e9)} {
+    Watch(Session& session, AudioOutput& output, const BoardLink* board, PlayedRecorder* recorder,
+          SessionJournal* journal, OscPort* osc, double seconds)
+        : session_{session}
+        , output_{output}
+        , board_{board}
+        , recorder_{recorder}
+        , journal_{journal}
+        , osc_{osc}
+        , endNs_{std::llround(seconds * 1e9)} {
         startTimer(milliseconds);
     }
     ~Watch() override {
@@ -49,7 +58,8 @@ private:
         if (recorder_) recorder_->drain();
         const SessionStatus status = session_.status();
         if (++ticks_ % (1000 / milliseconds) == 0) everySecond(status);
-        if (interrupted || status.sessionNs >= endNs_) juce::MessageManager::getInstance()->stopDispatchLoop();
+        if (interrupted || status.sessionNs >= endNs_)
+            juce::MessageManager::getInstance()->stopDispatchLoop();
     }
 
     void drain() {
@@ -75,16 +85,20 @@ private:
         const double rate = output_.sampleRateHz() / 1e3;
         const auto margin = status.leastMarginFrames == noMargin ? 0 : status.leastMarginFrames;
         char words[200];
-        std::snprintf(words, sizeof words, "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  %llu dropped   ",
-                     static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
-                     static_cast<double>(session_.playOutFrames()) / rate, static_cast<double>(margin) / rate, status.render.liveModes,
-                     static_cast<unsigned long long>(status.render.late), static_cast<unsigned long long>(session_.drops() + status.render.untold));
+        std::snprintf(words, sizeof words,
+                      "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  "
+                      "%llu dropped   ",
+                      static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
+                      static_cast<double>(session_.playOutFrames()) / rate, static_cast<double>(margin) / rate,
+                      status.render.liveModes, static_cast<unsigned long long>(status.render.late),
+                      static_cast<unsigned long long>(session_.drops() + status.render.untold));
         std::cerr << words << std::flush;
     }
 
     void tellUnread() {
         const std::uint64_t dropped = droppedLines(Standard::output);
-        if (std::exchange(unread_, dropped) != dropped) tell("standard output: lines that were dropped, as nobody read them: " + std::to_string(dropped));
+        if (std::exchange(unread_, dropped) != dropped)
+            tell("standard output: lines that were dropped, as nobody read them: " + std::to_string(dropped));
     }
 
     void report(const std::string& trouble) {
@@ -110,19 +124,26 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
     const RenderStatus& r = status.render;
     const AudioOutputStatus o = output.status();
     const double framesPerMs = output.sampleRateHz() / 1e3;
-    std::cout << std::fixed << std::setprecision(1) << "felt " << static_cast<double>(session.playOutFrames()) / framesPerMs
-              << " ms after the contact; " << played << " collisions played, " << r.late << " late, " << session.drops() + r.untold
-              << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.slippedNs()) * 1e-6 << " ms of stalls; ";
-    if (status.leastMarginFrames != noMargin) std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs << " ms; ";
+    std::cout << std::fixed << std::setprecision(1) << "felt "
+              << static_cast<double>(session.playOutFrames()) / framesPerMs << " ms after the contact; "
+              << played << " collisions played, " << r.late << " late, " << session.drops() + r.untold
+              << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.slippedNs()) * 1e-6
+              << " ms of stalls; ";
+    if (status.leastMarginFrames != noMargin)
+        std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs
+                  << " ms; ";
     std::cout << "worst load " << 100 * o.worstLoad << " %, " << o.deviceXruns << " xruns of the device\n";
-    if (session.toldAheadNs() > 0) std::cout << "messages were felt " << 1e3 * session.directSeconds() << " ms after they came\n";
+    if (session.toldAheadNs() > 0)
+        std::cout << "messages were felt " << 1e3 * session.directSeconds() << " ms after they came\n";
     if (session.marks()) std::cout << "marked: " << markWords(*session.marks()) << '\n';
-    if (o.losses > 0) std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
+    if (o.losses > 0)
+        std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
 }
 
 std::unique_ptr<SimulationDriver> makeDriver(const LivePlay& wanted, Session& session) {
-    if (wanted.ownThread) return std::make_unique<ThreadDriver>(session, wanted.setup.stepsPerSecond);
-    return std::make_unique<MessageTimerDriver>(session);
+    if (wanted.ownThread)
+        return std::make_unique<ThreadDriver>(session, wanted.setup.stepsPerSecond, &interrupted);
+    return std::make_unique<MessageTimerDriver>(session, &interrupted);
 }
 
 } // namespace
@@ -142,6 +163,7 @@ std::string playLive(LivePlay wanted) {
     Session session{wanted.setup};
     std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
+    std::optional<FilesFirst> files;
     const auto inputs = wanted.beats ? std::make_unique<InputTap>() : nullptr; // outlives the output as well
     AudioOutput output{session, audioDeviceTypesAndNone, &interrupted};
     output.hearInputs(inputs.get());
@@ -152,11 +174,14 @@ std::string playLive(LivePlay wanted) {
         output.record(&*recording);
     }
     if (!wanted.savePath.empty()) {
-        const Provenance provenance{PHYSVIB_VERSION, {{"scene", wanted.setup.scene.name}, {"session", wanted.savePath}}};
+        const Provenance provenance{PHYSVIB_VERSION,
+                                    {{"scene", wanted.setup.scene.name}, {"session", wanted.savePath}}};
         journal.emplace(wanted.savePath, session, wanted.setup, provenance);
         if (!journal->error().empty()) return journal->error();
     }
+    if (recording || journal) files.emplace();
     std::uint64_t played = 0, beats = 0;
+    std::string saved, recorded; // each, whatever becomes of the other
     MessageRouter messages{session};
     {
         std::optional<BoardOutput> onBoard;
@@ -169,24 +194,44 @@ std::string playLive(LivePlay wanted) {
         if (wanted.listens) listener.emplace(session, output, messages, clips);
         std::optional<OscPort> osc;
         if (wanted.osc.port || !wanted.osc.receiver.empty()) {
-            osc.emplace(wanted.osc, session, messages, output, OscHooks{[&](const LineInput& input, const OscOrigin&) { return actOn(input, session, output, SilenceHolder::osc); }, {}, clips});
+            osc.emplace(wanted.osc, session, messages, output,
+                        OscHooks{[&](const LineInput& input, const OscOrigin&) {
+                                     return actOn(input, session, output, SilenceHolder::osc);
+                                 },
+                                 {},
+                                 clips});
             if (!osc->error().empty()) return "OSC: " + osc->error();
             if (osc->port() != 0) tellPort(wanted.osc, osc->status().address);
         }
-        Watch watch{session, output, board ? &*board : nullptr, recording ? &*recording : nullptr, journal ? &*journal : nullptr, osc ? &*osc : nullptr, wanted.seconds};
-        juce::MessageManager::getInstance()->runDispatchLoop();
-        played = watch.played();
+        {
+            Watch watch{session,
+                        output,
+                        board ? &*board : nullptr,
+                        recording ? &*recording : nullptr,
+                        journal ? &*journal : nullptr,
+                        osc ? &*osc : nullptr,
+                        wanted.seconds};
+            juce::MessageManager::getInstance()->runDispatchLoop();
+            played = watch.played();
+        }
+        const bool isWhole = !recording || output.isRecording();
+        if (files) files->finish(); // before all that may hang
+        output.stop();
+        saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : "";
+        files.reset();
+        if (!isWhole) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
         beats = heard ? heard->beats() : 0;
         if (osc) summariseOsc(osc->status());
     }
     summarise(session, output, played);
     if (inputs) std::cout << beats << " beats heard\n";
-    if (inputs && inputs->piecesLost() > 0) std::cerr << "physvib: warning: sound was lost on its way to the beats: " << inputs->piecesLost() << " times\n";
-    if (recording && !output.isRecording()) std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
-    output.close();
+    if (inputs && inputs->piecesLost() > 0)
+        std::cerr << "physvib: warning: sound was lost on its way to the beats: " << inputs->piecesLost()
+                  << " times\n";
+    if (recording && recording->framesLost() > 0)
+        std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
     const std::string trouble = board ? reportBoard(*board, before) : "";
-    if (recording && recording->framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
-    const std::string saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : ""; // each, whatever becomes of the other
+    output.close();
     return !saved.empty() ? saved : !recorded.empty() ? recorded : trouble;
 }
 

@@ -40,7 +40,9 @@ SessionSetup setupOf(const Mix& mix, bool hasBoard) {
 
 } // namespace
 
-Mix Desk::firstMix() { return shakeTheBox(); }
+Mix Desk::firstMix() {
+    return shakeTheBox();
+}
 
 juce::String titleOf(const std::string& name) {
     const auto words = juce::String::fromUTF8(name.c_str()).replaceCharacter('-', ' ');
@@ -86,11 +88,14 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     open(device);
     told_.tell(session_, mix_);
     edits_ = 0;
-    if (!device.board.empty()) board_ = std::make_unique<DeskBoard>(device.board, session_, output_, mix_.panner());
+    if (!device.board.empty())
+        board_ = std::make_unique<DeskBoard>(device.board, session_, output_, mix_.panner());
     driver_ = std::make_unique<ThreadDriver>(session_, stepsPerSecond);
 }
 
 Desk::~Desk() {
+    output_.stop();
+    recording_.keep(); // before what may hang
     osc_.reset();
     driver_.reset();
     board_.reset();
@@ -110,8 +115,11 @@ void Desk::apply(const Mix& next) {
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
     told_.tell(session_, mix_);
-    if (outputMap() != std::vector<int>{} && (before.count() != mix_.count() || !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))) {
-        output_.hear(heard_ = ofStudy_.value_or(ListeningSettings{})); // hands first: an enchanter may come where somebody listens
+    if (outputMap() != std::vector<int>{} &&
+        (before.count() != mix_.count() ||
+         !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))) {
+        output_.hear(heard_ = ofStudy_.value_or(
+                         ListeningSettings{})); // hands first: an enchanter may come where somebody listens
         if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8(error));
         hearWanted();
     }
@@ -129,12 +137,17 @@ bool Desk::attach(double shareX, double shareY) {
     if (mix_.count() >= limits::maxEnchanters) return false;
     change("Attach an enchanter", [&](Mix& mix) {
         auto& layout = mix.layout;
-        const auto label = [&layout](int n) { return describeLayout("", EnchanterLayout{1, 1, n + 1, {}}).enchanters.back().label; };
+        const auto label = [&layout](int n) {
+            return describeLayout("", EnchanterLayout{1, 1, n + 1, {}}).enchanters.back().label;
+        };
         int n = 0;
-        while (std::ranges::any_of(layout.enchanters, [&](const auto& e) { return e.label == label(n); })) ++n;
+        while (std::ranges::any_of(layout.enchanters, [&](const auto& e) { return e.label == label(n); }))
+            ++n;
         layout.name = "own";
-        layout.enchanters.push_back({label(n), layout.enchanters.back().actuator, layout.enchanters.back().fullScaleG});
-        layout.geometry.places[static_cast<std::size_t>(layout.geometry.count++)] = {shareX * layout.geometry.extentWidthMetres, shareY * layout.geometry.extentHeightMetres};
+        layout.enchanters.push_back(
+            {label(n), layout.enchanters.back().actuator, layout.enchanters.back().fullScaleG});
+        layout.geometry.places[static_cast<std::size_t>(layout.geometry.count++)] = {
+            shareX * layout.geometry.extentWidthMetres, shareY * layout.geometry.extentHeightMetres};
         mix.strips.push_back(nextStrip(mix.strips));
         mix.strips.back().gainDb = newStripDb;
     });
@@ -143,15 +156,18 @@ bool Desk::attach(double shareX, double shareY) {
 
 void Desk::detach(int enchanter) {
     if (mix_.count() < 2) return;
-    change("Detach " + juce::String::fromUTF8(mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()), [&](Mix& mix) {
-        auto& layout = mix.layout;
-        auto& places = layout.geometry.places;
-        std::copy(places.begin() + enchanter + 1, places.begin() + layout.geometry.count, places.begin() + enchanter);
-        --layout.geometry.count;
-        layout.name = "own";
-        layout.enchanters.erase(layout.enchanters.begin() + enchanter);
-        mix.strips.erase(mix.strips.begin() + enchanter);
-    });
+    change("Detach " + juce::String::fromUTF8(
+                           mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()),
+           [&](Mix& mix) {
+               auto& layout = mix.layout;
+               auto& places = layout.geometry.places;
+               std::copy(places.begin() + enchanter + 1, places.begin() + layout.geometry.count,
+                         places.begin() + enchanter);
+               --layout.geometry.count;
+               layout.name = "own";
+               layout.enchanters.erase(layout.enchanters.begin() + enchanter);
+               mix.strips.erase(mix.strips.begin() + enchanter);
+           });
 }
 
 const SavedSession& Desk::saved() {
@@ -163,7 +179,14 @@ const SavedSession& Desk::saved() {
 }
 
 std::string Desk::open(const DeviceChoice& device) {
-    AudioOutputSettings settings{device.name, outputMap(), device.sampleRateHz, device.blockFrames, masterGain(mix_), mix_.count(), true, heard_ = ofStudy_.value_or(ListeningSettings{})};
+    AudioOutputSettings settings{device.name,
+                                 outputMap(),
+                                 device.sampleRateHz,
+                                 device.blockFrames,
+                                 masterGain(mix_),
+                                 mix_.count(),
+                                 true,
+                                 heard_ = ofStudy_.value_or(ListeningSettings{})};
     const auto error = output_.open(settings);
     device_ = device;
     hearWanted();
@@ -172,15 +195,22 @@ std::string Desk::open(const DeviceChoice& device) {
     return error;
 }
 
-bool Desk::isFree(int output) const { return output >= 0 && output < outputs() && std::ranges::find(mix_.strips, output, &Strip::output) == mix_.strips.end(); }
+bool Desk::isFree(int output) const {
+    return output >= 0 && output < outputs() &&
+           std::ranges::find(mix_.strips, output, &Strip::output) == mix_.strips.end();
+}
 
 // What is only heard never keeps a device from being felt: where it cannot be, it is not asked for.
 ListeningSettings Desk::wantedListening() const {
     ListeningSettings wanted = ofStudy_.value_or(ListeningSettings{});
-    if (!ofStudy_ && std::ranges::all_of(device_.monitor, [this](int output) { return isFree(output); })) wanted.contacts = device_.monitor;
+    if (!ofStudy_ && std::ranges::all_of(device_.monitor, [this](int output) { return isFree(output); }))
+        wanted.contacts = device_.monitor;
     wanted.contactDb = device_.monitorDb;
-    const auto has = [&](const std::vector<int>& those) { return std::ranges::find(those, device_.marker) != those.end(); };
-    if (isFree(device_.marker) && !has(wanted.noise) && !has(wanted.contacts)) wanted.marks = {device_.marker};
+    const auto has = [&](const std::vector<int>& those) {
+        return std::ranges::find(those, device_.marker) != those.end();
+    };
+    if (isFree(device_.marker) && !has(wanted.noise) && !has(wanted.contacts))
+        wanted.marks = {device_.marker};
     return wanted;
 }
 
@@ -229,7 +259,8 @@ std::string Desk::mark(int output) {
 }
 
 std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
-    if (!std::ranges::all_of(outputs, [this](int output) { return output >= this->outputs() || isFree(output); }))
+    if (!std::ranges::all_of(outputs,
+                             [this](int output) { return output >= this->outputs() || isFree(output); }))
         change("Listen instead of feeling", [&](Mix& mix) {
             for (Strip& strip : mix.strips)
                 if (std::ranges::find(outputs, strip.output) != outputs.end()) strip.output = -1;
@@ -245,7 +276,9 @@ void Desk::watchOutput() {
         hearWanted(); // the device may have gone, or may be back
         deviceTrouble_ = utf8(output_.maintain());
     }
-    const auto board = board_ ? board_->trouble() : juce::String{}, both = deviceTrouble_.isEmpty() || board.isEmpty() ? deviceTrouble_ + board : deviceTrouble_ + "; " + board;
+    const auto board = board_ ? board_->trouble() : juce::String{},
+               both = deviceTrouble_.isEmpty() || board.isEmpty() ? deviceTrouble_ + board
+                                                                  : deviceTrouble_ + "; " + board;
     if (both != outputTrouble_) report(outputTrouble_ = both);
 }
 
@@ -265,7 +298,8 @@ void Desk::setDisplayWidth(double metres) {
 }
 
 double Desk::playOutSeconds() const noexcept {
-    return output_.sampleRateHz() > 0 ? static_cast<double>(session_.playOutFrames()) / output_.sampleRateHz() : 0.0;
+    return output_.sampleRateHz() > 0 ? static_cast<double>(session_.playOutFrames()) / output_.sampleRateHz()
+                                      : 0.0;
 }
 
 void Desk::report(const juce::String& trouble) {

@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // When a recording begins, and when all of it has come.
 #include "Mixer/Desk/DeskRecording.h"
+#include "CommandLine/Play/Interrupt.h"
 #include "Mixer/Desk/DeskWords.h"
 #include <utility>
 
 namespace physvib {
 
-DeskRecording::DeskRecording(Session& session, AudioOutput& output, const Mix& mix, std::function<void()> onChange)
+DeskRecording::DeskRecording(Session& session, AudioOutput& output, const Mix& mix,
+                             std::function<void()> onChange)
     : session_{session}
     , output_{output}
     , mix_{mix}
     , onChange_{std::move(onChange)} {}
 
-DeskRecording::~DeskRecording() {
+void DeskRecording::keep() {
+    FilesFirst files;
+    files.finish();
     if (recording_) close(); // whoever closes the window while it runs wants what is there
 }
 
 std::string DeskRecording::start(const juce::File& file) {
     if (recording_) return {};
     if (output_.sampleRateHz() == 0) return "nothing to record: no device runs";
-    auto recording = std::make_unique<Recording>(file.getFullPathName().toStdString(), mix_.count(), output_.sampleRateHz());
+    auto recording = std::make_unique<Recording>(file.getFullPathName().toStdString(), mix_.count(),
+                                                 output_.sampleRateHz());
     if (!recording->error().empty()) return recording->error();
     recording_ = std::move(recording);
     file_ = file;
@@ -38,7 +43,9 @@ void DeskRecording::stop() {
 }
 
 double DeskRecording::seconds() const noexcept {
-    return recording_ ? static_cast<double>(recording_->recorder().frames()) / recording_->recorder().sampleRateHz() : 0.0;
+    return recording_
+               ? static_cast<double>(recording_->recorder().frames()) / recording_->recorder().sampleRateHz()
+               : 0.0;
 }
 
 void DeskRecording::take(const PlayedEvent& played) {
@@ -54,7 +61,8 @@ void DeskRecording::look(const AudioOutputStatus& device) {
     from_ = recording_->recorder().firstFrame();
     const auto lost = recording_->recorder().framesLost();
     auto error = close();
-    if (error.isEmpty() && lost > 0) error = "frames missing in the recording: " + juce::String{static_cast<juce::int64>(lost)};
+    if (error.isEmpty() && lost > 0)
+        error = "frames missing in the recording: " + juce::String{static_cast<juce::int64>(lost)};
     if (error.isEmpty() && !isEnding_) error = "the recording ends where the device changed its rate";
     if (onEnd) onEnd(file_, error);
     onChange_();
@@ -62,7 +70,8 @@ void DeskRecording::look(const AudioOutputStatus& device) {
 
 /// Both files in their places; empty, or one line with the reason.
 juce::String DeskRecording::close() {
-    const Provenance provenance{PHYSVIB_VERSION, {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
+    const Provenance provenance{PHYSVIB_VERSION,
+                                {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
     for (PlayedEvent played; session_.played().pop(played);) recording_->take(played);
     const auto error = utf8(recording_->finish(session_.playOutFrames(), provenance));
     recording_.reset();

@@ -17,8 +17,10 @@ public:
     /// All outlive it. `onChange` is called when a recording begins, is to end, and has ended.
     DeskRecording(Session& session, AudioOutput& output, const Mix& mix, std::function<void()> onChange);
 
-    /// After the output has been closed: what is there of a recording that runs is kept.
-    ~DeskRecording();
+    ~DeskRecording() { keep(); }
+
+    /// What is there of a recording that runs is in its place. After the output was stopped.
+    void keep();
 
     /// WAV of the enchanters that are attached now, and the events beside it; empty, or why not.
     std::string start(const juce::File& file);

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Calls of the thread, and what becomes of those that were late.
+#include "Host/Devices/DeviceKeeper.h"
+#include <utility>
+
+namespace physvib {
+
+struct DeviceKeeper::Opening {
+    DeviceWish wish;
+    AudioDeviceTypes types;
+    FoundDevice found{};
+    std::string error{};
+
+    void open();
+    std::string openFound();
+};
+
+std::string DeviceWish::fault(juce::AudioIODevice& device) const {
+    const int offered = device.getOutputChannelNames().size();
+    if (highestHeard >= offered)
+        return name + ": has " + std::to_string(offered) +
+               " outputs; expected one of them to listen to or for marks, found output " +
+               std::to_string(highestHeard + 1);
+    if (inputs.isZero()) return {};
+    const int wanted = inputs.getHighestBit(), has = device.getInputChannelNames().size();
+    return wanted < has ? ""
+                        : name + ": has " + std::to_string(has) +
+                              " inputs; expected one of them, found input " + std::to_string(wanted + 1);
+}
+
+void DeviceKeeper::Opening::open() {
+    found = findAudioDevice(types, wish.name, !wish.inputs.isZero());
+    error = found.device ? openFound()
+                         : wish.name + ": no such device (see physvib devices); nothing else is played on";
+    if (error.empty()) return;
+    found.device.reset(); // before its driver
+    found.type.reset();
+}
+
+std::string DeviceKeeper::Opening::openFound() {
+    auto& device = *found.device;
+    if (auto fault = wish.fault(device); !fault.empty()) return fault;
+    const int offered = device.getOutputChannelNames().size();
+    juce::BigInteger outputs = wish.outputs;
+    outputs.setRange(offered, std::max(0, outputs.getHighestBit() + 1 - offered), false);
+    if (wish.opensAll) outputs.setRange(0, offered, true);
+    if (outputs.isZero()) return wish.name + ": has none of the outputs that are wanted";
+    const auto fault = device.open(wish.inputs, outputs,
+                                   wish.sampleRateHz > 0 ? wish.sampleRateHz : device.getCurrentSampleRate(),
+                                   wish.blockFrames > 0 ? wish.blockFrames : device.getDefaultBufferSize());
+    return fault.isEmpty() ? "" : wish.name + ": " + fault.toStdString();
+}
+
+DeviceKeeper::DeviceKeeper(AudioDeviceTypes types, const std::atomic<bool>* hurry)
+    : types_{std::move(types)}
+    , hurry_{hurry} {}
+
+DeviceKeeper::~DeviceKeeper() {
+    if (found_.device || opening_) close();
+}
+
+std::string DeviceKeeper::open(const DeviceWish& wish, Limit limit) {
+    const auto end = isLate_ ? Clock::time_point{}
+                             : Clock::now() + limit; // whoever was late once is looked at, and not waited for
+    isLate_ = true;
+    const std::string noAnswer = wish.name + ": its driver does not answer; nothing else is played on";
+    if (!isIdle(end, hurry_)) {
+        if (at_ == wish.name) return noAnswer;
+        thread_.leave(); // another device may have a driver that answers
+        opening_.reset();
+        closed_.reset();
+    }
+    if (opening_ && opening_->wish != wish) drop(std::exchange(opening_, nullptr)->found);
+    if (!opening_ && isIdle(Clock::now() + limit, hurry_)) {
+        opening_ = std::make_shared<Opening>(Opening{wish, types_});
+        at_ = wish.name;
+        thread_.begin([opening = opening_] { opening->open(); });
+    }
+    if (!opening_ || !isIdle(Clock::now() + limit, hurry_)) return noAnswer;
+    isLate_ = false;
+    const auto opened = std::exchange(opening_, nullptr);
+    found_ = std::move(opened->found);
+    return opened->error;
+}
+
+void DeviceKeeper::start(juce::AudioIODeviceCallback& owner) {
+    callback_ = std::make_shared<DeviceCallback>(owner);
+    found_.device->start(callback_.get());
+}
+
+void DeviceKeeper::restart() {
+    found_.device->stop();
+    found_.device->start(callback_.get());
+}
+
+void DeviceKeeper::letGo() noexcept {
+    if (callback_) callback_->letGo();
+}
+
+void DeviceKeeper::awaitBlock() const noexcept {
+    if (callback_) callback_->awaitBlock();
+}
+
+void DeviceKeeper::close(Limit limit) {
+    letGo();
+    if (opening_ && isIdle({}, nullptr))
+        found_ = std::move(std::exchange(opening_, nullptr)->found); // it came late
+    drop(found_);
+    isIdle(Clock::now() + limit, nullptr);
+}
+
+void DeviceKeeper::drop(FoundDevice& found) {
+    if (!found.device) return;
+    at_ = found.fullName();
+    closed_ = std::make_shared<FoundDevice>(std::move(found));
+    thread_.begin([closed = closed_, callback = std::exchange(callback_, nullptr)] {
+        closed->device->stop();
+        closed->device->close();
+    });
+}
+
+// Devices are destroyed while M waits for it: JUCE's JACK device is told of its ports on M's loop.
+bool DeviceKeeper::isIdle(Clock::time_point end, const std::atomic<bool>* hurry) {
+    if (!thread_.isOver(end, hurry)) return false;
+    if (!closed_) return true;
+    thread_.begin([closed = std::exchange(closed_, nullptr)] {
+        closed->device.reset(); // before its driver
+        closed->type.reset();
+    });
+    return thread_.isOver(end, hurry);
+}
+
+} // namespace physvib

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Levels, ramps, and the outputs' turns.
+#include "Host/Devices/HeardSignals.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace physvib {
+
+namespace {
+
+constexpr double fadeInSeconds = 0.005;
+constexpr double noiseFadeSeconds = 2.0; // to full scale; nobody shall start
+
+} // namespace
+
+// The noise's generator has a level of its own.
+void HeardSignals::setLevels(const ListeningSettings& l) {
+    const auto gainOf = [](double db, double leastDb, double mostDb) {
+        return std::pow(10.0, std::clamp(db, leastDb, mostDb) / 20.0);
+    };
+    noiseGain_ = l.noise.empty()
+                     ? 0.0f
+                     : static_cast<float>(gainOf(l.noiseDb, PinkNoise::leastDb, PinkNoise::mostDb) /
+                                          PinkNoise::rootMeanSquare);
+    contactGain_ =
+        l.contacts.empty() ? 0.0f : static_cast<float>(gainOf(l.contactDb, leastContactDb, mostContactDb));
+}
+
+void HeardSignals::prepare(int sampleRateHz, int blockFrames) {
+    noiseScratch_.assign(static_cast<std::size_t>(blockFrames), 0.0f);
+    noiseRamp_.prepare(sampleRateHz, noiseFadeSeconds, 0.0f);
+    contactRamp_.prepare(sampleRateHz, fadeInSeconds, 0.0f);
+}
+
+void HeardSignals::begin(bool rests, int frames) noexcept {
+    rests_ = rests;
+    for (auto [ramp, gain] : {std::pair{&noiseRamp_, &noiseGain_}, {&contactRamp_, &contactGain_}}) {
+        if (rests)
+            ramp->moveTo(0.0f, frames);
+        else
+            ramp->moveTo(gain->load(std::memory_order_relaxed));
+    }
+    if (rests) areMarksOpen_ = false;
+}
+
+void HeardSignals::render(const Session& session, float* const* signals, float* const* out, int outputs,
+                          int first, int frames) noexcept {
+    if (noiseGain_.load(std::memory_order_relaxed) > 0.0f) {
+        float* noise = noiseScratch_.data();
+        std::generate_n(noise, frames, [this] { return noise_.next(); });
+        noiseRamp_.apply(&noise, 1, frames);
+        addTo(Heard::noise, &noise, 1, out, outputs, first, frames);
+    }
+    if (session.heardChannels() > 0) {
+        float* const* const ears = signals + session.channels();
+        contactRamp_.apply(ears, session.heardChannels(), frames);
+        addTo(Heard::contacts, ears, session.heardChannels(), out, outputs, first, frames);
+    }
+    if (session.marks()) renderMarks(signals[session.outputs() - 1], out, outputs, first, frames);
+}
+
+// What is silenced is not felt, so it is not marked; what is left of a pulse when all comes back has its edge
+// in the silence.
+void HeardSignals::renderMarks(float* marks, float* const* out, int outputs, int first, int frames) noexcept {
+    int begin = rests_ ? frames : 0;
+    while (begin < frames && !areMarksOpen_)
+        areMarksOpen_ = marks[begin] == 0.0f, begin += areMarksOpen_ ? 0 : 1;
+    marks += begin;
+    addTo(Heard::marks, &marks, 1, out, outputs, first + begin, frames - begin);
+}
+
+// Of two signals the outputs take turns: left, right, left... Nothing else plays on them; together noise and
+// contacts stay within full scale.
+void HeardSignals::addTo(Heard source, float* const* signals, int count, float* const* out, int outputs,
+                         int first, int frames) noexcept {
+    for (int i = 0; i < OutputMap::mostHeard; ++i) {
+        const int k = map_.heardAt(source, i);
+        if (k < 0 || k >= outputs) continue;
+        juce::FloatVectorOperations::add(out[k] + first, signals[i % count], frames);
+        juce::FloatVectorOperations::clip(out[k] + first, out[k] + first, -1.0f, 1.0f, frames);
+    }
+}
+
+} // namespace physvib

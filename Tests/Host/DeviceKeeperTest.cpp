@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Drivers that hang, however long: nobody waits longer than he said, and what comes late is taken up or
+// closed.
+#include "Host/Devices/DeviceKeeper.h"
+#include "FakeAudioDevice.h"
+#include "Host/Devices/AudioOutput.h"
+#include "Session/FakeHost.h"
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using namespace std::chrono_literals;
+
+constexpr auto noTime = 5ms, muchTime = std::chrono::milliseconds{60s};
+
+DeviceWish wishOf(const std::string& name) {
+    DeviceWish wish{.name = name};
+    wish.outputs.setRange(0, 4, true);
+    return wish;
+}
+
+struct Counted final : juce::AudioIODeviceCallback {
+    void audioDeviceIOCallbackWithContext(const float* const*, int, float* const* out, int outputs,
+                                          int frames, const juce::AudioIODeviceCallbackContext&) override {
+        ++blocks;
+        for (int k = 0; k < outputs; ++k) std::fill_n(out[k], frames, 0.5f);
+    }
+    void audioDeviceAboutToStart(juce::AudioIODevice*) override { ++starts; }
+    void audioDeviceStopped() override { ++stops; }
+    int blocks = 0, starts = 0, stops = 0;
+};
+
+bool isSilent(const std::vector<std::vector<float>>& block) {
+    for (const auto& channel : block)
+        for (const float sample : channel)
+            if (sample != 0.0f) return false;
+    return true;
+}
+
+constexpr const char* noAnswer = "hands: its driver does not answer; nothing else is played on";
+
+/// As whoever keeps a device asks, again and again.
+std::string openAtLast(DeviceKeeper& keeper, const DeviceWish& wish) {
+    std::string error = noAnswer;
+    for (int i = 0; i < 60'000 && error == noAnswer; ++i) {
+        error = keeper.open(wish, muchTime);
+        std::this_thread::sleep_for(1ms);
+    }
+    return error;
+}
+
+TEST(DeviceKeeper, NobodyWaitsForADriverThatHangsAndWhatItOpensLateIsTakenUp) {
+    FakeInterface thing;
+    DeviceKeeper keeper{fakeTypes({&thing}), nullptr};
+    thing.hangsIn = FakeInterface::Call::open;
+    EXPECT_EQ(keeper.open(wishOf("hands"), noTime), noAnswer);
+    EXPECT_EQ(keeper.open(wishOf("hands"), muchTime), noAnswer)
+        << "asked once, then looked at; else this test takes a minute";
+    EXPECT_EQ(keeper.device(), nullptr);
+    thing.goOn();
+    EXPECT_EQ(openAtLast(keeper, wishOf("hands")), "");
+    EXPECT_EQ(thing.timesOpened, 1);
+    EXPECT_NE(keeper.device(), nullptr);
+}
+
+TEST(DeviceKeeper, WhatIsOpenedLateAndNoLongerWantedIsClosed) {
+    FakeInterface thing;
+    DeviceKeeper keeper{fakeTypes({&thing}), nullptr};
+    thing.hangsIn = FakeInterface::Call::open;
+    EXPECT_EQ(keeper.open(wishOf("hands"), noTime), noAnswer);
+    auto other = wishOf("hands");
+    other.outputs.setBit(6);
+    thing.goOn();
+    EXPECT_EQ(openAtLast(keeper, other), "");
+    EXPECT_EQ(thing.timesOpened, 2);
+    EXPECT_EQ(thing.opened, other.outputs);
+    keeper.close();
+    EXPECT_EQ(thing.device, nullptr);
+}
+
+TEST(DeviceKeeper, HurryEndsTheWaiting) {
+    FakeInterface thing;
+    std::atomic<bool> hurry{true};
+    DeviceKeeper keeper{fakeTypes({&thing}), &hurry};
+    thing.hangsIn = FakeInterface::Call::open;
+    EXPECT_EQ(keeper.open(wishOf("hands"), muchTime), noAnswer) << "else this test takes a minute";
+    thing.goOn();
+}
+
+TEST(DeviceKeeper, WhoIsLetGoIsCalledNoMoreAndTheDeviceHearsSilence) {
+    FakeInterface thing;
+    DeviceKeeper keeper{fakeTypes({&thing}), nullptr};
+    Counted owner;
+    ASSERT_EQ(keeper.open(wishOf("hands"), muchTime), "");
+    keeper.start(owner);
+    EXPECT_EQ(owner.starts, 1);
+    EXPECT_FALSE(isSilent(thing.play(64)));
+    keeper.letGo();
+    EXPECT_TRUE(isSilent(thing.play(64)));
+    keeper.close();
+    EXPECT_EQ(owner.blocks, 1);
+    EXPECT_EQ(owner.stops, 0);
+}
+
+TEST(DeviceKeeper, ADeviceThatDoesNotCloseIsLeftAndAnotherCanBeOpened) {
+    FakeInterface hung, other;
+    other.name = "feet";
+    const int before = DeviceThread::threadsLeft();
+    {
+        DeviceKeeper keeper{fakeTypes({&hung, &other}), nullptr};
+        Counted owner;
+        ASSERT_EQ(keeper.open(wishOf("hands"), muchTime), "");
+        keeper.start(owner);
+        hung.hangsIn = FakeInterface::Call::close;
+        keeper.close(noTime);
+        EXPECT_TRUE(isSilent(hung.play(64))) << "though it is open";
+        EXPECT_EQ(keeper.open(wishOf("Fake:hands"), noTime), "Fake:" + std::string{noAnswer})
+            << "it is not asked twice at once";
+        EXPECT_EQ(DeviceThread::threadsLeft(), before);
+        ASSERT_EQ(keeper.open(wishOf("feet"), muchTime), "");
+        EXPECT_EQ(DeviceThread::threadsLeft(), before + 1);
+        EXPECT_EQ(owner.blocks, 0);
+    }
+    hung.goOn();
+    while (DeviceThread::threadsLeft() > before) std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(hung.device, nullptr) << "closed after all";
+}
+
+/// An output on an interface whose driver can hang.
+struct Rig {
+    FakeInterface interface;
+    Session session{shakeTheBoxSetup(0.02)};
+    AudioOutput output{session, fakeTypes({&interface})};
+};
+
+TEST(AudioOutput, ADriverThatHangsIsToldAndPlayedOnAgainWhenItAnswers) {
+    Rig rig;
+    ASSERT_EQ(rig.output.open({"hands"}), "");
+    rig.interface.play(64);
+    rig.interface.hangsIn =
+        FakeInterface::Call::close; // the server of a driver is stopped: no block, no answer
+    auto now = AudioOutput::Clock::now();
+    std::string told;
+    for (int second = 0; second < 6; ++second) told = rig.output.maintain(now += 1s);
+    EXPECT_EQ(told, std::string{"Fake:"} + noAnswer);
+    EXPECT_FALSE(rig.output.status().isRunning);
+    EXPECT_TRUE(isSilent(rig.interface.play(64)));
+    rig.interface.goOn();
+    for (int i = 0; i < 60'000 && !told.empty(); ++i, std::this_thread::sleep_for(1ms))
+        told = rig.output.maintain(now += 1s);
+    EXPECT_EQ(told, "");
+    EXPECT_EQ(rig.output.status().losses, 1);
+    const auto blocks = rig.output.status().blocks;
+    rig.interface.play(64);
+    EXPECT_EQ(rig.output.status().blocks, blocks + 1);
+}
+
+TEST(AudioOutput, WhoeverStoppedAnOutputMayEndWhileItsDeviceHangs) {
+    Rig rig;
+    ASSERT_EQ(rig.output.open({"hands"}), "");
+    rig.interface.play(64);
+    rig.interface.hangsIn = FakeInterface::Call::close;
+    rig.output.stop();
+    EXPECT_TRUE(isSilent(rig.interface.play(64))) << "R has left the session";
+    rig.output.close();
+    EXPECT_EQ(rig.output.device(), "");
+    rig.interface.goOn();
+}
+
+TEST(AudioOutput, ARateThatChangesUnderUsIsToldAndFollowed) {
+    Rig rig;
+    ASSERT_EQ(rig.output.open({"hands"}), "");
+    rig.interface.play(64);
+    EXPECT_EQ(rig.output.maintain(), "");
+    rig.interface.rate = 44'100;
+    EXPECT_EQ(rig.output.maintain(), "Fake:hands: runs at 44100 Hz now, at 48000 Hz before");
+    EXPECT_EQ(rig.output.sampleRateHz(), 44'100);
+    EXPECT_EQ(rig.output.maintain(), "") << "told once";
+    const auto blocks = rig.output.status().blocks;
+    rig.interface.play(64);
+    EXPECT_EQ(rig.output.status().blocks, blocks + 1);
+    EXPECT_EQ(rig.interface.timesOpened, 1);
+}
+
+TEST(AudioOutput, APauseOfTheProgramIsNotALossOfItsDevice) {
+    Rig rig;
+    ASSERT_EQ(rig.output.open({"hands"}), "");
+    rig.interface.play(64);
+    auto now = AudioOutput::Clock::now();
+    EXPECT_EQ(rig.output.maintain(now), "");
+    for (int i = 0; i < 5; ++i)
+        EXPECT_EQ(rig.output.maintain(now += 2200ms), "")
+            << "stopped, and on again before the device has asked";
+    EXPECT_EQ(rig.output.status().losses, 0);
+    EXPECT_EQ(rig.interface.timesOpened, 1);
+}
+
+} // namespace
+} // namespace physvib
