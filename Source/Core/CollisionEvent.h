@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One collision as the renderer needs it: the thesis' L_col node (Eq. 5.1, 6.2), the only type on this edge.
 #pragma once
+#include "Core/ClipNumber.h"
 #include "Core/Limits.h"
 #include "Core/Spread.h"
 #include <cmath>
@@ -34,7 +35,7 @@ struct StrikeCourse {
 struct CollisionEvent {
     std::int64_t timeNs = 0; ///< onset, nanoseconds since the session began; between frames as a rule
     double frequencyHz = 0.0; ///< above 0, to limits::maxFrequencyHz
-    double decayPerSecond = 0.0; ///< 0 to limits::maxDecayPerSecond; 0 needs a duration
+    double decayPerSecond = 0.0; ///< 0 to limits::maxDecayPerSecond; 0 needs a duration; below limits::slowestToneHz at least limits::slowDecayPerSecond
     double amplitude = 0.0; ///< 1 = full scale of an enchanter
     double x = 0.0;         ///< place of the hit in metres of the field, origin lower left
     double y = 0.0; ///< upwards
@@ -44,7 +45,13 @@ struct CollisionEvent {
     bool operator==(const CollisionEvent&) const = default; ///< Member by member.
 };
 
-/// True if the event can be played: finite, inside `limits`, and sure to end (a decay or a duration). Any thread.
+/// True if it would hold a coil at nearly direct current: slower than limits::slowestToneHz, and hardly decaying. A clip that stays where
+/// it is has samples instead of a tone. Any thread.
+inline bool isTooSlow(const CollisionEvent& e) noexcept {
+    return e.frequencyHz < limits::slowestToneHz && e.decayPerSecond < limits::slowDecayPerSecond && !(isClip(e.frequencyHz) && e.course.travelNs == 0);
+}
+
+/// True if the event can be played: finite, inside `limits`, not isTooSlow, and sure to end (a decay or a duration). Any thread.
 inline bool isPlayable(const CollisionEvent& e) noexcept {
     const bool inTime = e.timeNs >= 0 && e.timeNs <= limits::maxTimeNs && e.durationNs >= 0 &&
                         e.durationNs <= limits::maxTimeNs;
@@ -55,7 +62,7 @@ inline bool isPlayable(const CollisionEvent& e) noexcept {
     const StrikeCourse& c = e.course;
     const bool goes = c.travelNs >= 0 && c.travelNs <= limits::maxTimeNs && c.sinceNs >= 0 && c.sinceNs <= limits::maxTimeNs &&
                       std::isfinite(c.toX) && std::isfinite(c.toY);
-    return inTime && audible && ends && goes && std::isfinite(e.x) && std::isfinite(e.y);
+    return inTime && audible && ends && goes && !isTooSlow(e) && std::isfinite(e.x) && std::isfinite(e.y);
 }
 
 } // namespace physvib

@@ -84,7 +84,7 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
     if (control.kind == Kind::level) actuators_.setLevel(control.value);
     if (control.kind == Kind::mute && isChannel) actuators_.setMuted(control.channel, control.value != 0.0f);
     if (control.kind == Kind::delay && isChannel) actuators_.setDelay(control.channel, control.value);
-    if (control.kind == Kind::ceiling && isChannel && control.value > 0.0f) {
+    if (control.kind == Kind::ceiling && isChannel && control.value > 0.0f && std::isfinite(control.value)) {
         settings_.ceilings[static_cast<std::size_t>(control.channel)] = control.value;
         limiter_.setCeiling(control.channel, control.value);
     }
@@ -136,7 +136,7 @@ bool HapticRenderer<P>::strikeStill(const CollisionEvent& event, FramePosition o
         s.phase = phaseAfter(event.frequencyHz * seconds);
         s.amplitude *= shareLeft(event.decayPerSecond, seconds);
     }
-    const bool isRecorded = player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz));
+    const bool isRecorded = isClip(event.frequencyHz) || (player_.isOn() && (!othersAreModes_ || player_.has(event.frequencyHz)));
     if (isRecorded) return player_.strike(s.frequencyHz, s.amplitude, onset.frame, closeFrame, gains_.data());
     return isCoupled() ? strikeCoupled(s) : bank_.strike(s, gains_.data());
 }

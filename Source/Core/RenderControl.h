@@ -16,7 +16,7 @@ struct RenderControl {
         mute,    ///< of `channel`: value not 0
         stopAll, ///< whatever rings fades out; later events are played
         delay,   ///< of `channel`: `value` seconds, 0 to limits::maxChannelDelaySeconds
-        ceiling,  ///< of `channel`: largest sample while the limiter is on, `value` > 0
+        ceiling,  ///< of `channel`: largest sample while the limiter is on, `value` > 0, in a ramp
         recordings, ///< from now on `recordings` are played instead of modes; recordings that sound fade out
         level,      ///< of all channels, on top of their gains: `value`, 0 or more
         silence     ///< as stopAll, and events before `untilNs` are not played; if `value` is not 0, of those apart from a world only what is before `timeNs`. These two are born in the render call: no file names them

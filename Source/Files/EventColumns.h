@@ -72,6 +72,11 @@ inline constexpr std::array<EventColumn, 12> eventColumns{{
 /// Columns up to y_m must be there when read; an event without the others has their defaults.
 inline constexpr std::size_t requiredEventColumns = 6;
 
+/// What is wrong with the frequency of an event that isTooSlow. Any thread.
+inline std::string tooSlowFault(const CollisionEvent& event) {
+    return "expected at least " + numberText(limits::slowestToneHz) + " Hz, or a decay of at least " + numberText(limits::slowDecayPerSecond) + " per second, found " + numberText(event.frequencyHz) + " Hz";
+}
+
 /// What the cell should have held, empty if the event has taken it.
 inline std::string readCell(const SecondsColumn& column, std::string_view cell, CollisionEvent& event) {
     const auto nanoseconds = parseSeconds(cell);

@@ -115,6 +115,7 @@ private:
     bool accept(const CollisionEvent& event) {
         if (event.decayPerSecond == 0.0 && event.durationNs == 0)
             return fail("column decay_per_s: expected a number > 0, or a duration_s > 0, found 0");
+        if (isTooSlow(event)) return fail("column frequency_hz: " + tooSlowFault(event));
         if (count_ > 0 && event.timeNs < lastNs_) return failOrder(event.timeNs);
         ++count_;
         lastNs_ = event.timeNs;

@@ -5,6 +5,7 @@
 #include "Files/ControlJson.h"
 #include "Files/Disk/FileClash.h"
 #include "Files/Disk/FileLimits.h"
+#include "Files/EventColumns.h"
 #include "Files/Json/JsonFile.h"
 #include "Files/Json/JsonReader.h"
 #include "Files/Json/JsonVersion.h"
@@ -133,6 +134,7 @@ CollisionEvent readStrike(const JsonField& json) {
     strike.y = json["y_m"].number();
     if (json.has("duration_s")) strike.durationNs = readTime(json["duration_s"]);
     strike.course = readCourse(json);
+    if (isTooSlow(strike)) json["frequency_hz"].fail(tooSlowFault(strike));
     if (!isPlayable(strike)) json.fail("expected a strike that can be played: within the ranges of an event list, with a decay or a duration");
     return strike;
 }

@@ -40,6 +40,13 @@ std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordin
     return files;
 }
 
+std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings) {
+    std::vector<std::string> notes;
+    for (const ContactRecording& recording : recordings)
+        if (!recording.note.empty() && std::ranges::find(notes, recording.note) == notes.end()) notes.push_back(recording.note);
+    return notes;
+}
+
 ContactSounds::ContactSounds(const std::vector<ContactRecording>& recordings, int sampleRateHz) {
     for (const ContactRecording& recording : recordings) samples_.push_back(resampled(recording, sampleRateHz));
     for (std::size_t i = 0; i < recordings.size(); ++i) contacts_.push_back({recordings[i].frequencyHz, samples_[i]});

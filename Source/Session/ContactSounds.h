@@ -4,6 +4,7 @@
 #include "Core/RecordedContact.h"
 #include "Files/RecordingFile.h"
 #include <span>
+#include <string>
 #include <vector>
 
 namespace physvib {
@@ -14,11 +15,15 @@ struct ContactRecording {
     int sampleRateHz = 0;
     std::vector<float> samples;
     RecordingFile file{}; ///< what it was read from, with its hash
+    std::string note{};   ///< a line for people on what was taken away when it was read; mostly empty
     bool operator==(const ContactRecording&) const = default;
 };
 
 /// The files of recordings. Any thread.
 std::vector<RecordingFile> filesOf(const std::vector<ContactRecording>& recordings);
+
+/// Their notes, each once. Any thread.
+std::vector<std::string> notesOf(const std::vector<ContactRecording>& recordings);
 
 /// Recordings at one rate, and the list of them that a renderer takes; both live as long as this object, which stays where
 /// it is. Any thread but R.

@@ -5,6 +5,14 @@
 
 namespace physvib {
 
+std::vector<std::string> notesOf(const LoadedRecordings& loaded) {
+    std::vector<std::string> notes = notesOf(loaded.clips);
+    for (const auto& set : loaded.sets)
+        for (std::string& note : notesOf(set))
+            if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
+    return notes;
+}
+
 SessionRecordings::SessionRecordings(const SessionLog& log, const LoadedRecordings& loaded, int sampleRateHz)
     : sampleRateHz_{sampleRateHz} {
     for (const ContactRecording& clip : loaded.clips) sets_.add(clip);

@@ -4,6 +4,7 @@
 #include "Core/RenderControl.h"
 #include "Files/SessionLog.h"
 #include "Session/RecordingSets.h"
+#include <string>
 #include <vector>
 
 namespace physvib {
@@ -14,6 +15,9 @@ struct LoadedRecordings {
     std::vector<std::size_t> setOfChange;            ///< per change in SessionLog::recordings
     std::vector<ContactRecording> clips{};           ///< as SessionLog::clips
 };
+
+/// All their notes. Any thread.
+std::vector<std::string> notesOf(const LoadedRecordings& loaded);
 
 /// They at one rate, and the controls that exchange them; lives as long as whoever renders. M only.
 class SessionRecordings {

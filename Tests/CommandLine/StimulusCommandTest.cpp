@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib stimulus` as researchers and scripts hold on to it.
 #include "Calls.h"
+#include "Support/WavBytes.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -44,7 +45,7 @@ TEST_F(StimulusCommand, TheResonanceIsThatOfTheLayoutsActuators) {
     EXPECT_EQ(read("a.wav"), read("b.wav"));
     refuses("stimulus pattern AB-100 --layout two.json --frequency resonance --out c.wav", 1, "enchanter R: expected the resonance of the others, 205 Hz, found 230 Hz", 5);
     refuses("stimulus phantom --at 0,0 --layout none.json --frequency resonance --out c.wav", 1, "enchanter L: expected an actuator, found none", 5);
-    refuses("stimulus phantom --at 0,0 --frequency loud --out c.wav", 2, "--frequency: expected 1 to 20000 Hz, or resonance, found \"loud\"", 5);
+    refuses("stimulus phantom --at 0,0 --frequency loud --out c.wav", 2, "--frequency: expected 5 to 20000 Hz, or resonance, found \"loud\"", 5);
 }
 
 TEST_F(StimulusCommand, EveryPatternIsListed) {
@@ -66,6 +67,19 @@ TEST_F(StimulusCommand, ARecordingIsPlacedLikeAPhantom) {
     refuses("stimulus wav direct.wav --at 0,0 --out x.wav", 1, "direct.wav: expected one channel, found 4", 3);
     write("no.wav", "RIFF, but not really");
     refuses("stimulus wav no.wav --at 0,0 --out x.wav", 1, "no.wav: expected a WAV file", 4);
+}
+
+TEST_F(StimulusCommand, WhatLiesBelow5HzInARecordingIsTakenAwayAndTold) {
+    std::vector<float> samples(8000, 0.02f);
+    const auto writeWav = [&](const std::string& name) { write(name, test::wavBytes({.format = 3, .rateHz = 8000, .bits = 32}, {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(float)})); };
+    for (std::size_t n = 0; n < samples.size(); ++n) samples[n] += 0.02f * std::sin(0.16f * static_cast<float>(n));
+    writeWav("offset.wav");
+    const auto outcome = call("stimulus wav offset.wav --at 0,0 --layout phone1 --out a.wav");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("offset.wav: what lies below 5 Hz is not played: a mean of 0.50, of full scale\n"), std::string::npos) << outcome.err;
+    const auto placed = samplesOf(read("a.wav"));
+    EXPECT_NEAR(*std::ranges::min_element(placed), -1.0f, 0.01f);
+    EXPECT_NEAR(*std::ranges::max_element(placed), 1.0f, 0.01f);
 }
 
 TEST_F(StimulusCommand, LevelsAreInG) {

@@ -25,6 +25,24 @@ TEST(CollisionEvent, NoDecayNeedsADuration) {
     EXPECT_TRUE(isPlayable(e));
 }
 
+TEST(CollisionEvent, WhatIsSlowerThan5HzDecays) {
+    CollisionEvent e = sound();
+    e.durationNs = 10'000'000'000;
+    const auto isTaken = [&](double frequencyHz, double decayPerSecond, std::int64_t travelNs = 0) {
+        e.frequencyHz = frequencyHz;
+        e.decayPerSecond = decayPerSecond;
+        e.course.travelNs = travelNs;
+        return isPlayable(e);
+    };
+    EXPECT_TRUE(isTaken(5.0, 0.0));
+    EXPECT_FALSE(isTaken(4.999, 0.0));
+    EXPECT_FALSE(isTaken(0.5, 1e-9)) << "a decay that is none";
+    EXPECT_TRUE(isTaken(0.5, 1.0));
+    EXPECT_FALSE(isTaken(2.0, 0.0, 10'000'000'000)) << "wherever it goes";
+    EXPECT_TRUE(isTaken(clipFrequencyHz(3), 0.0)) << "a clip";
+    EXPECT_FALSE(isTaken(clipFrequencyHz(3), 0.0, 10'000'000'000)) << "no clip moves";
+}
+
 TEST(CollisionEvent, NothingThatIsNotANumberIsPlayable) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                              -std::numeric_limits<double>::infinity()})

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 namespace physvib {
 namespace {
@@ -54,6 +55,54 @@ TEST(LinkedLimiter, NoChannelExceedsItsCeiling) {
     const Block out = limited(noise(5 * rate, 10, 1));
     for (std::size_t j = 0; j < channels; ++j)
         for (const float y : out[j]) ASSERT_LE(std::abs(y), 0.2f + 0.1f * static_cast<float>(j));
+}
+
+/// A tone of full scale on all channels; from `changeFrame` on, the ceiling of channel 2 is another.
+Block toneAcrossACeiling(int changeFrame, float before, float after, int size, InstructionSet set = InstructionSet::best) {
+    Limited limited{true, set};
+    limited.limiter->setCeiling(2, before);
+    Block in(channels, std::vector<float>(rate));
+    for (auto& channel : in)
+        for (std::size_t n = 0; n < channel.size(); ++n) channel[n] = static_cast<float>(std::sin(2.0 * std::numbers::pi * 205.0 * static_cast<double>(n) / rate));
+    Block first(channels), rest(channels);
+    for (std::size_t j = 0; j < channels; ++j) {
+        first[j].assign(in[j].begin(), in[j].begin() + changeFrame);
+        rest[j].assign(in[j].begin() + changeFrame, in[j].end());
+    }
+    Block out = limited(first, size);
+    limited.limiter->setCeiling(2, after);
+    rest = limited(rest, size);
+    for (std::size_t j = 0; j < channels; ++j) out[j].insert(out[j].end(), rest[j].begin(), rest[j].end());
+    return out;
+}
+
+TEST(LinkedLimiter, ACeilingThatChangesIsARamp) {
+    constexpr double slope = 2.0 * std::numbers::pi * 205.0 / rate; // the tone's own, the most in a frame
+    constexpr double ramp = 1.0 / (limits::channelRampSeconds * rate);
+    for (const auto& [before, after] : {std::pair{1.0f, 0.3f}, {0.3f, 1.0f}, {0.9f, 0.05f}})
+        for (int change = 20000; change < 20240; change += 13) { // anywhere in a period
+            const std::vector<float> out = toneAcrossACeiling(change, before, after, 100)[2];
+            for (std::size_t n = 1; n < out.size(); ++n) ASSERT_LE(std::abs(out[n] - out[n - 1]), slope + ramp) << before << ' ' << after << ' ' << change << ' ' << n;
+            const auto settled = static_cast<std::size_t>(change + limits::channelRampSeconds * rate) + Limited{}.latency();
+            for (std::size_t n = 0; n < out.size(); ++n) ASSERT_LE(std::abs(out[n]), n < static_cast<std::size_t>(change) ? before : n < settled ? std::max(before, after) : after) << n;
+        }
+}
+
+TEST(LinkedLimiter, ACeilingsRampIsTheSameForEveryBlockSizeAndInstructionSet) {
+    const Block whole = toneAcrossACeiling(20111, 1.0f, 0.3f, rate);
+    for (const int size : {1, 7, 64, 333}) ASSERT_EQ(toneAcrossACeiling(20111, 1.0f, 0.3f, size), whole) << size;
+    ASSERT_EQ(toneAcrossACeiling(20111, 1.0f, 0.3f, 64, InstructionSet::scalar), whole);
+}
+
+TEST(LinkedLimiter, ACeilingChangesInSilenceToo) {
+    Limited limited;
+    std::vector<float> silence(rate, 0.0f);
+    std::vector<float*> at(channels, silence.data());
+    limited.limiter->process(at.data(), rate / 2, true);
+    limited.limiter->setCeiling(2, 0.3f);
+    limited.limiter->process(at.data(), rate / 2, true);
+    const Block out = limited(noise(rate / 10, 10, 11));
+    for (const float y : out[2]) ASSERT_LE(std::abs(y), 0.3f);
 }
 
 TEST(LinkedLimiter, ChannelRatiosAreThoseOfTheInput) {

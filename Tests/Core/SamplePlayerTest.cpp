@@ -93,6 +93,24 @@ TEST(SamplePlayer, WhatHasNoRecordingOrNoRoomIsRejectedAndCounted) {
     EXPECT_EQ(status.played, static_cast<std::uint64_t>(DesktopProfile::maxSampleVoices));
 }
 
+TEST(SamplePlayer, AClipThatIsNotThereIsNotASlowToneInstead) { // as in a list of what a session played
+    CollisionEvent clip = hit(0, 1.0, 0.0, 1.0);
+    clip.frequencyHz = clipFrequencyHz(mostClips - 1);
+    clip.decayPerSecond = 0.0;
+    clip.durationNs = 10'000'000'000;
+    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    renderer->prepare(square());
+    const std::vector<CollisionEvent> list{clip};
+    test::ListSource source{list};
+    std::vector<std::vector<float>> all(4, std::vector<float>(8 * 48000));
+    std::vector<float*> at;
+    for (auto& channel : all) at.push_back(channel.data());
+    renderer->render(source, at.data(), 8 * 48000);
+    for (const auto& channel : all)
+        for (const float x : channel) ASSERT_EQ(x, 0.0f);
+    EXPECT_EQ(renderer->status().rejected, 1u);
+}
+
 TEST(SamplePlayer, StopFadesItWithoutAStep) {
     SamplePlayer<DesktopProfile> player;
     const std::vector<float> ones(48000, 1.0f);

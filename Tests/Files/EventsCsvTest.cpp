@@ -27,6 +27,7 @@ Events randomEvents(std::uint32_t seed, std::size_t count) {
         e.timeNs = static_cast<std::int64_t>(random()) * 200'000 + random() % 200'000;
         e.frequencyHz = magnitudeUpTo(random, limits::maxFrequencyHz);
         e.decayPerSecond = magnitudeUpTo(random, limits::maxDecayPerSecond);
+        if (isTooSlow(e)) e.decayPerSecond += limits::slowDecayPerSecond;
         e.amplitude = magnitudeUpTo(random, limits::maxAmplitude) * (random() % 2 == 0 ? 1.0 : -1.0);
         e.x = anyDouble(random);
         e.y = anyDouble(random);
@@ -129,6 +130,7 @@ TEST(EventsCsv, EqualTimesAreInOrder) {
 TEST(EventsCsv, ADecayOfZeroNeedsADuration) {
     EXPECT_EQ(errorOfRow("1,200,0,0.5,0.1,0.2,0,1,2,0,1"),
               "hits.csv:3: column decay_per_s: expected a number > 0, or a duration_s > 0, found 0");
+    EXPECT_EQ(errorOf(shortHeader + "0,4.5,0.5,1,0,0\n"), "hits.csv:2: column frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 4.5 Hz");
     EXPECT_EQ(readGood(allColumns + "1,200,0,0.5,0.1,0.2,1e-3,1,2,0,1\n")[0].durationNs, 1'000'000);
 }
 

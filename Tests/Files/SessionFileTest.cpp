@@ -20,6 +20,15 @@ std::string sessionWith(const std::string& from, const std::string& to) {
 
 std::string faultWith(const std::string& from, const std::string& to) { return readSession(sessionWith(from, to), "s.json").error; }
 
+TEST(SessionFile, AStrikeThatWouldHoldACoilAtDirectCurrentIsNamed) {
+    const auto fault = [](const std::string& sound) {
+        return faultWith("\"channels\": 2,", "\"channels\": 2, \"strikes\": [{\"time_s\": 0.01, " + sound + ", \"amplitude\": 1, \"x_m\": 0, \"y_m\": 0, \"duration_s\": 60}],");
+    };
+    EXPECT_EQ(fault("\"frequency_hz\": 5, \"decay_per_s\": 0"), "");
+    EXPECT_EQ(fault("\"frequency_hz\": 2, \"decay_per_s\": 1"), "");
+    EXPECT_EQ(fault("\"frequency_hz\": 2, \"decay_per_s\": 0"), "s.json: strikes[0].frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz");
+}
+
 TEST(SessionFile, AnEqualiserOutOfRangeIsNamed) {
     const auto fault = [](const std::string& resonator, const std::string& band) {
         return faultWith("\"channels\": 2,", "\"channels\": 2, \"equalised\": [null, {" + resonator + ", \"band_hz\": " + band + "}],");

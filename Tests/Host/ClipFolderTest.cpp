@@ -6,6 +6,8 @@
 #include "Formats/ClipFile.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Support/WavBytes.h"
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -67,6 +69,34 @@ TEST_F(ClipFolderTest, SamplesHashAndPlacesAreThoseOfTheFile) {
     expectTheSameInParts(folder / "half.hjif", {});
     expectTheSameInParts(folder / "a.hjif", {});
     expectTheSameInParts(folder / "sampled.wav", {});
+}
+
+std::string floatWav(const std::vector<float>& samples) {
+    return test::wavBytes({.format = 3, .channels = 1, .rateHz = 8000, .bits = 32}, {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(float)});
+}
+
+TEST_F(ClipFolderTest, WhatWouldHoldACoilAtDirectCurrentIsTakenAwayAndTold) {
+    std::vector<float> tone(8000), offset(8000);
+    for (std::size_t n = 0; n < tone.size(); ++n) {
+        tone[n] = 0.5f * std::sin(0.16f * static_cast<float>(n));
+        offset[n] = tone[n] + 0.25f;
+    }
+    std::ofstream{folder / "tone.wav", std::ios::binary} << floatWav(tone);
+    std::ofstream{folder / "offset.wav", std::ios::binary} << floatWav(offset);
+    std::ofstream{folder / "constant.wav", std::ios::binary} << floatWav(std::vector<float>(8000, 1.0f));
+    constexpr const char* slow = R"({"perceptions": [{"perception_modality": "Vibrotactile", "channels": [{"bands": [{"band_type": "VectorialWave", "effects": [{"effect_type": "Basis", "keyframes": [
+        {"relative_position": 0, "amplitude_modulation": 1, "frequency_modulation": 1}, {"relative_position": 10000, "amplitude_modulation": 1}]}]}]}]}]})";
+    std::ofstream{folder / "slow.hjif"} << slow;
+    const auto load = [&](const char* name) { return loadWholeClip(folder / name).value.channels.at(0); };
+    EXPECT_EQ(load("tone.wav").samples, tone) << "to the bit";
+    EXPECT_EQ(load("tone.wav").note, "");
+    const auto without = load("offset.wav"), nothing = load("constant.wav"), drawn = load("slow.hjif");
+    for (std::size_t n = 0; n < tone.size(); ++n) ASSERT_NEAR(without.samples[n], tone[n], 0.01);
+    EXPECT_EQ(without.note, (folder / "offset.wav").string() + ": what lies below 5 Hz is not played: a mean of 0.25, of full scale");
+    EXPECT_TRUE(std::ranges::all_of(nothing.samples, [](float x) { return x == 0.0f; }));
+    EXPECT_NE(nothing.note.find("a mean of 1.00"), std::string::npos);
+    for (std::size_t n = drawn.samples.size() / 10; n < drawn.samples.size() * 9 / 10; ++n) ASSERT_LT(std::abs(drawn.samples[n]), 0.04);
+    EXPECT_NE(drawn.note.find("up to 0.9"), std::string::npos) << drawn.note;
 }
 
 TEST_F(ClipFolderTest, WhatCannotBeReadIsToldAsByReadRecording) {

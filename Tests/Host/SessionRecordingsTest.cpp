@@ -61,6 +61,24 @@ TEST_F(Recordings, AreAsHighAsTheModeOrAsStrong) {
     }
 }
 
+TEST_F(Recordings, OfAContactWhatLiesBelow5HzIsTakenAwayAndTold) {
+    const auto plain = loadContact({349.0, writeHit("hit.wav", 3, 0.2f), 30.0});
+    EXPECT_EQ(plain.value.note, "");
+    const std::string path = (folder / "leaning.wav").string();
+    std::vector<float> samples(2400);
+    for (int n = 0; n < 24000; ++n) samples.push_back(static_cast<float>(0.3 * std::sin(0.04 * n) * std::exp(-n / 4000.0) - 0.1)); // an accelerometer that the hit has turned
+    const float* at = samples.data();
+    WavSink sink{path, 1, 48000};
+    sink.write(&at, static_cast<int>(samples.size()));
+    ASSERT_EQ(sink.finish(), "");
+    const auto contact = loadContact({300.0, path, 30.0});
+    ASSERT_EQ(contact.error, "");
+    EXPECT_EQ(contact.value.note.find(path + ": what lies below 5 Hz is not played: a mean of 0."), 0u) << contact.value.note;
+    double sum = 0.0;
+    for (const float x : contact.value.samples) sum += x;
+    EXPECT_LT(std::abs(sum / static_cast<double>(contact.value.samples.size())), 0.01);
+}
+
 TEST_F(Recordings, WhatIsSyntheticIsTheSameForTheSameSeedOnly) {
     const auto a = loadContact({80.0, "synthetic-1", 34.0}), again = loadContact({80.0, "synthetic-1", 34.0}), b = loadContact({80.0, "synthetic-2", 34.0});
     ASSERT_TRUE(a && again && b);

@@ -13,6 +13,7 @@
 #include <future>
 #include <gtest/gtest.h>
 #include <map>
+#include <numbers>
 #include <thread>
 
 namespace physvib {
@@ -41,7 +42,7 @@ std::vector<CollisionEvent> strikesOfLine(std::string_view line) {
     const auto setup = quietSetup();
     const PlainMessage message = messageOf(line);
     const auto found = std::ranges::find(messageTable, message.name, &MessageDescription::name);
-    return strikesOf(static_cast<MessageKind>(found - messageTable.begin()), {message, *found, setup.panner}, setup.scene.materials);
+    return strikesOf(static_cast<MessageKind>(found - messageTable.begin()), {message, *found, setup.panner}, setup.scene.materials, setup.shaping);
 }
 
 std::string refusalOf(std::string_view line) {
@@ -74,7 +75,7 @@ TEST(Messages, APatternIsOnItsEnchantersAlone) {
     constexpr int on[] = {0, 3, 0};
     for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_EQ(strikes[k].timeNs, static_cast<std::int64_t>(k) * 350'000'000);
-        EXPECT_EQ(strikes[k].durationNs, 250'000'000);
+        EXPECT_EQ(strikes[k].durationNs, 251'219'512) << "103 half periods of 205 Hz";
         PhantomPanner::Gains gains{};
         setup.panner.gainsAt(strikes[k].x, strikes[k].y, strikes[k].course.spread, gains);
         for (int j = 0; j < hostChannels; ++j) EXPECT_EQ(gains[static_cast<std::size_t>(j)], j == on[k] ? 1.0 : 0.0);
@@ -103,14 +104,55 @@ TEST(Messages, APathIsOneToneFromLegToLeg) {
     EXPECT_EQ(byTimes[1].course.sinceNs, 250'000'000);
 }
 
+/// The largest step between two samples of a channel, in steps of the tone itself at that frequency and level.
+double largestStep(const SessionSetup& setup, const std::string& line, double frequencyHz, double seconds);
+
+TEST(Messages, WhatIsCutBeginsAndEndsWithoutAStep) {
+    auto remapped = quietSetup();
+    remapped.shaping.remap.band = {100.0, 200.0};
+    const std::pair<std::string, double> lines[] = {
+        {R"({"message": "pattern", "pattern": "ABA-250", "level": 1})", 205.0},
+        {R"({"message": "pattern", "enchanters": "ABCDDCBA", "pulse_s": 0.05, "gap_s": 0, "frequency_hz": 173.3, "level": 1})", 173.3},
+        {R"({"message": "pattern", "enchanters": "AD", "pulse_s": 0.001, "frequency_hz": 40, "level": 1})", 40.0},
+        {R"({"message": "phantom", "place": "A", "seconds": 0.7, "frequency_hz": 207.3, "level": 1})", 207.3},
+        {R"({"message": "strike", "frequency_hz": 90, "decay_per_s": 3, "seconds": 0.3, "place": "A", "level": 1})", 90.0},
+        {R"({"message": "strike", "material": "bell", "seconds": 0.011, "place": "A", "level": 1})", 220.0},
+        {R"({"message": "path", "places": "ABDC", "seconds": 0.7, "frequency_hz": 207.3, "level": 1})", 207.3},
+        {R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.51], "frequency_hz": 207.3, "level": 1})", 207.3},
+        {R"({"message": "path", "places": "AD", "seconds": 0.7, "strokes": 5, "frequency_hz": 61.7, "level": 0.5, "law": "alone"})", 61.7}, // two at a time
+    };
+    for (const auto& [line, hz] : lines) {
+        EXPECT_LT(largestStep(quietSetup(), line, hz, 1.3), 1.3) << line;
+        EXPECT_LT(largestStep(remapped, line, remapped.shaping.remap(hz), 1.3), 1.3) << "remapped: " << line;
+    }
+}
+
+TEST(Messages, APathThatIsCutGoesOnAtItsSpeed) {
+    const auto longer = strikesOfLine(R"({"message": "path", "places": "AB", "seconds": 0.25})"), shorter = strikesOfLine(R"({"message": "path", "places": "AB", "seconds": 0.249})");
+    EXPECT_EQ(longer[0].course.travelNs, 250'000'000);
+    EXPECT_EQ(longer[0].durationNs, 251'219'512) << "it stays where it is for the rest";
+    EXPECT_EQ(shorter[0].course.travelNs, 249'000'000);
+    EXPECT_EQ(shorter[0].durationNs, 248'780'488);
+    const auto legs = strikesOfLine(R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61.7})");
+    ASSERT_EQ(legs.size(), 2u);
+    EXPECT_EQ(legs[0].durationNs, 500'000'000) << "legs join where they did";
+    EXPECT_NEAR(static_cast<double>(legs[1].course.sinceNs + legs[1].durationNs) * 2e-9 * 61.7, 62.0, 1e-6);
+    EXPECT_EQ(strikesOfLine(R"({"message": "path", "places": "ABD", "times_s": [0, 0.5, 0.5001], "frequency_hz": 61})").size(), 1u) << "the last leg lies after the end";
+}
+
 TEST(Messages, StrokesHaveTactileBrushsTiming) {
     for (const int count : {2, 5, 9}) {
         const auto strokes = strikesOfLine(R"({"message": "path", "places": "AB", "seconds": 1, "strokes": )" + std::to_string(count) + "}");
         ASSERT_EQ(strokes.size(), static_cast<std::size_t>(count));
-        const double length = static_cast<double>(strokes[0].durationNs) * 1e-9;
-        for (std::size_t k = 1; k < strokes.size(); ++k)
-            EXPECT_NEAR(static_cast<double>(strokes[k].timeNs - strokes[k - 1].timeNs) * 1e-9, 0.32 * length + 0.0473, 2e-9);
-        EXPECT_NEAR(static_cast<double>(strokes.back().timeNs + strokes.back().durationNs) * 1e-9, 1.0, 2e-9);
+        constexpr double quarter = 0.25 / 205.0 + 2e-9; // to the nearest crossing
+        const double length = strokeSeconds(count, 1.0);
+        for (std::size_t k = 0; k < strokes.size(); ++k) {
+            const double onset = static_cast<double>(k) * (0.32 * length + 0.0473);
+            EXPECT_NEAR(static_cast<double>(strokes[k].timeNs) * 1e-9, onset, quarter);
+            EXPECT_NEAR(static_cast<double>(strokes[k].timeNs + strokes[k].durationNs) * 1e-9, onset + length, quarter);
+            EXPECT_EQ(strokes[k].course.sinceNs, strokes[k].timeNs);
+        }
+        EXPECT_NEAR(static_cast<double>(strokes.back().timeNs + strokes.back().durationNs) * 1e-9, 1.0, quarter);
         EXPECT_EQ(strokes.back().x, quietSetup().scene.fieldWidthMetres);
     }
 }
@@ -123,6 +165,9 @@ TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
         {R"({"message": "strike", "frequency_hz": 100})", "strike: seconds: expected a length, or a decay: it would not end"},
         {R"({"message": "strike", "frequency_hz": 100, "material": "x"})", "strike: frequency_hz: expected either this or material"},
         {R"({"message": "phantom", "level": 3})", "phantom: level: expected 0 to 1, found 3"},
+        {R"({"message": "phantom", "frequency_hz": 4.9})", "phantom: frequency_hz: expected 5 to 20000, found 4.9"},
+        {R"({"message": "strike", "frequency_hz": 2, "seconds": 60})", "strike: frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
+        {R"({"message": "strike", "frequency_hz": 2, "decay_per_s": 0.001})", "strike: frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
         {R"({"message": "phantom", "levle": 3})", "phantom: has no \"levle\""},
         {R"({"message": "phantom", "place": "Q"})", "phantom: place: expected letters from A to D, found \"Q\""},
         {R"({"message": "phantom", "place": [1, 2, 3]})", "phantom: place: expected x and y in metres, or an enchanter's letter"},
@@ -203,6 +248,18 @@ Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames,
     return signal;
 }
 
+double largestStep(const SessionSetup& setup, const std::string& line, double frequencyHz, double seconds) {
+    Session session{setup};
+    const Interleaved signal = play(session, {{0.1, line}}, seconds).signal;
+    double most = 0.0, loudest = 0.0;
+    for (std::size_t i = hostChannels; i < signal.size(); ++i) {
+        most = std::max(most, std::abs(static_cast<double>(signal[i]) - signal[i - hostChannels]));
+        loudest = std::max(loudest, std::abs(static_cast<double>(signal[i])));
+    }
+    EXPECT_GT(loudest, 0.5) << line;
+    return most / (2.0 * std::numbers::pi * frequencyHz / hostRate);
+}
+
 const std::multimap<double, std::string> everything{
     {0.1, R"({"message": "strike", "frequency_hz": 180, "decay_per_s": 30, "place": [1, 1]})"},
     {0.2, R"({"message": "path", "places": "ABDC", "seconds": 1.1, "frequency_hz": 207.3})"},
@@ -248,6 +305,21 @@ TEST(Messages, AClipIsFeltBesideWhatSounds) {
     EXPECT_LE(most, 1e-6) << "the first fades, or the second is not there";
     EXPECT_NEAR(loudest, 0.3, 0.01);
     EXPECT_EQ(both.log.clips.size(), 2u);
+}
+
+TEST(Messages, WhatWasTakenAwayOfAClipIsAnswered) {
+    Session session{quietSetup()};
+    session.prepare(hostRate, 512);
+    MessageRouter router{session};
+    const auto answerOf = [&](const std::string& note) {
+        return router.take(messageOf(R"({"message": "clip", "file": "a.1"})"), nullptr, [&](const std::string& name) {
+            auto clip = clipOf(name);
+            for (ContactRecording& channel : clip.value.channels) channel.note = note;
+            return clip;
+        });
+    };
+    EXPECT_EQ(answerOf("").value, PlainMessage{});
+    EXPECT_EQ(answerOf("a.1: a mean of 1.00").value, (PlainMessage{"clip", {{"note", "a.1: a mean of 1.00"}}}));
 }
 
 TEST(Messages, AClipIsNoCollision) { // of a scene with a gain, a method and a level

@@ -50,7 +50,7 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
 
 std::string_view faultOf(std::span<const physvib_event> events) noexcept {
     const auto isOut = [](const physvib_event& e) { return !isPlayable(eventOf(e)); };
-    if (std::ranges::any_of(events, isOut)) return "event: expected 0 to 20000 Hz, a decay of 0 to 2000 per second or a duration, numbers, a time from 0 on";
+    if (std::ranges::any_of(events, isOut)) return "event: expected 0 to 20000 Hz, a decay of 0 to 2000 per second or a duration, below 5 Hz a decay of at least 1 per second, numbers, a time from 0 on";
     if (std::ranges::any_of(events, [](int kind) { return kind < PHYSVIB_HIT || kind > PHYSVIB_SLIDE; }, &physvib_event::kind)) return "kind: expected PHYSVIB_HIT, PHYSVIB_ROLL or PHYSVIB_SLIDE";
     if (!std::ranges::is_sorted(events, {}, &physvib_event::time_ns)) return "events: expected in the order of their times";
     return {};

@@ -61,7 +61,7 @@ typedef struct physvib_world_name *physvib_world;       /**< contacts in, events
 /** A collision as it is felt: amplitude * sin(2 pi frequency_hz t) * exp(-decay_per_s t), t counted from time_ns. */
 typedef struct physvib_event {
     physvib_int64 time_ns;     /**< onset, from 0 on */
-    physvib_int64 duration_ns; /**< 0: until it has decayed; a decay of 0 needs a duration */
+    physvib_int64 duration_ns; /**< 0: until it has decayed; a decay of 0 needs a duration, and 5 Hz or more; below, it is at least 1 */
     double frequency_hz;       /**< above 0, to 20,000 */
     double decay_per_s;        /**< 0 to 2,000 */
     double amplitude;          /**< 1: full scale of an enchanter */

@@ -30,6 +30,15 @@ public:
     bool isResting() const noexcept { return now_ == target_; }
     bool isOne() const noexcept { return now_ == 1.0f && target_ == 1.0f; } ///< What it is applied to stays as it is.
 
+    float now() const noexcept { return now_; }
+    /// From here on it is never less.
+    float leastAhead() const noexcept { return std::min(now_, target_); }
+    /// The gain of the next frame.
+    float next() noexcept {
+        if (!isResting()) step();
+        return now_;
+    }
+
     /// As apply, on silence.
     void pass(int frames) noexcept {
         for (int n = 0; n < frames && !isResting(); ++n) step();

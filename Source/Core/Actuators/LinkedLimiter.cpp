@@ -21,7 +21,6 @@ bool LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled, [[m
         const TileKernel* kernels = tileKernel(set);
         kernel_ = kernels != nullptr ? &kernels->limiter : nullptr;
     }
-    for (int j = 0; j < P::maxChannels; ++j) setCeiling(j, 1.0f);
     const auto floats = static_cast<std::size_t>(channels) * floatsPerLine;
     if (!lines_.resize(floats)) return false;
     std::fill_n(lines_.data(), floats, 0.0f);
@@ -34,15 +33,41 @@ bool LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled, [[m
     sum_ = unit * window_;
     gain_ = 1.0f;
     nonFinite_ = 0;
+    rampFrames_ = static_cast<int>(limits::channelRampSeconds * sampleRateHz);
+    isSettled_ = true;
+    for (int j = 0; j < P::maxChannels; ++j) {
+        ceilings_[static_cast<std::size_t>(j)].prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
+        setCeiling(j, 1.0f);
+    }
     return true;
 }
 
 template <class P>
 void LinkedLimiter<P>::setCeiling(int channel, float ceiling) noexcept {
     const auto j = static_cast<std::size_t>(channel);
-    ceilings_[j] = ceiling;
-    bounds_[j] = enabled_ ? ceiling : std::numeric_limits<float>::infinity();
-    mostBits_[j] = std::min(std::bit_cast<std::int32_t>(bounds_[j]), infiniteBits - 1);
+    if (frame_ == 0) { // there is nothing to ramp from
+        ceilings_[j].jumpTo(ceiling);
+        return boundBy(j, ceiling);
+    }
+    const float before = bounds_[j];
+    ceilings_[j].moveTo(ceiling, rampFrames_);
+    boundBy(j, ceilings_[j].leastAhead());
+    bounds_[j] = std::max({before, bounds_[j], enabled_ ? ceiling : 0.0f});
+    settledFrame_ = frame_ + rampFrames_ + latencyFrames();
+    isSettled_ = false;
+}
+
+template <class P>
+void LinkedLimiter<P>::boundBy(std::size_t channel, float ceiling) noexcept {
+    bounds_[channel] = enabled_ ? ceiling : std::numeric_limits<float>::infinity();
+    mostBits_[channel] = std::min(std::bit_cast<std::int32_t>(bounds_[channel]), infiniteBits - 1);
+}
+
+template <class P>
+void LinkedLimiter<P>::settle() noexcept {
+    if (isSettled_ || frame_ < settledFrame_) return;
+    for (std::size_t j = 0; j < width; ++j) boundBy(j, ceilings_[j].now());
+    isSettled_ = true;
 }
 
 template <class P>
@@ -66,8 +91,12 @@ void LinkedLimiter<P>::pass(const float* const* in, float* const* out, int frame
 template <class P>
 void LinkedLimiter<P>::processAll(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {
     const auto all = static_cast<std::size_t>(frames);
-    for (std::size_t first = 0; first < all; first += partMost)
-        processPart({in, out, first, std::min(partMost, all - first), static_cast<std::size_t>(channels_), lines_.data(), kept, floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())});
+    for (std::size_t first = 0, part; first < all; first += part) {
+        settle();
+        part = std::min(partMost, all - first);
+        if (!isSettled_) part = std::min(part, static_cast<std::size_t>(settledFrame_ - frame_));
+        processPart({in, out, first, part, static_cast<std::size_t>(channels_), lines_.data(), kept, floatsPerLine, front(), static_cast<std::size_t>(latencyFrames())});
+    }
 }
 
 // Channel by channel, so that the loops over frames are vectors.
@@ -88,7 +117,7 @@ bool LinkedLimiter<P>::takeIn(const LimiterLines& lines) noexcept {
     if (kernel_ != nullptr && !kernel_->take(lines, mostBits_.data())) return false;
     bool isOver = false;
     for (std::size_t j = 0; j < lines.channels; ++j)
-        if (cleanAndCompare(lines.in[j] + lines.first, lines.frames, ceilings_[j], lines.line(j) + lines.front)) isOver = true;
+        if (cleanAndCompare(lines.in[j] + lines.first, lines.frames, mostBits_[j], lines.line(j) + lines.front)) isOver = true;
     return isOver;
 }
 
@@ -100,7 +129,7 @@ void LinkedLimiter<P>::giveOut(const LimiterLines& lines, const float* gains) no
 
 // Sizes are compared as integers, which order as the floats do (IEEE 754).
 template <class P>
-bool LinkedLimiter<P>::cleanAndCompare(const float* samples, std::size_t frames, float ceiling, float* line) noexcept {
+bool LinkedLimiter<P>::cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits, float* line) noexcept {
     constexpr std::int32_t least = 0x00800000;
     std::int32_t most = 0, bad = 0;
     for (std::size_t n = 0; n < frames; ++n) {
@@ -112,7 +141,7 @@ bool LinkedLimiter<P>::cleanAndCompare(const float* samples, std::size_t frames,
         line[n] = std::bit_cast<float>(bits & isNormal);
     }
     nonFinite_ += static_cast<std::uint64_t>(bad);
-    return enabled_ && most > std::bit_cast<std::int32_t>(ceiling);
+    return most > mostBits;
 }
 
 // The gain, in units, that keeps every channel that is heard at its ceiling, and what the limiter makes of it.
@@ -122,7 +151,10 @@ void LinkedLimiter<P>::followGains(const LimiterLines& lines, Gains& gains) noex
     excess.fill(1);
     for (std::size_t j = 0; j < lines.channels; ++j) {
         const float* const samples = lines.line(j) + lines.front;
-        for (std::size_t n = 0; n < lines.frames; ++n) excess[n] = std::max(excess[n], static_cast<Real>(std::abs(samples[n])) / static_cast<Real>(ceilings_[j]));
+        const auto compare = [&](std::size_t n, float ceiling) { excess[n] = std::max(excess[n], static_cast<Real>(std::abs(samples[n])) / static_cast<Real>(ceiling)); };
+        std::size_t n = 0;
+        while (n < lines.frames && !ceilings_[j].isResting()) compare(n++, ceilings_[j].next());
+        for (const float ceiling = ceilings_[j].now(); n < lines.frames; ++n) compare(n, ceiling);
     }
     for (std::size_t n = 0; n < lines.frames; ++n) {
         const bool isOver = enabled_ && excess[n] > 1;
@@ -136,6 +168,8 @@ template <class P>
 void LinkedLimiter<P>::rest(std::size_t frames) noexcept {
     gain_ = 1.0f;
     frame_ += static_cast<std::int64_t>(frames);
+    if (!isSettled_)
+        for (std::size_t j = 0; j < width; ++j) ceilings_[j].pass(static_cast<int>(frames));
     candidates_[front_] = {unit, frame_ - 1};
     candidateCount_ = 1;
 }

@@ -5,8 +5,10 @@
 // (sliding minimum), released linearly, averaged over W frames, applied to the input of W - 1 frames ago. Each value
 // averaged is at most what the delayed frame needs, so the ceiling holds; the average bounds the attack's slope by
 // 1/W a frame, the release by 1/(limits::limiterReleaseSeconds * rate). Gains are integers (2^30 = 1): their running
-// sum neither drifts nor differs between machines, and the gain returns to exactly 1.
+// sum neither drifts nor differs between machines, and the gain returns to exactly 1. A ceiling that changes is a ramp, of
+// limits::channelRampSeconds at most: each frame needs the gain for the ceiling of its own time.
 #pragma once
+#include "Core/Actuators/GainRamp.h"
 #include "Core/Actuators/LimiterKernel.h"
 #include "Core/Limits.h"
 #include "Core/Modes/InstructionSet.h"
@@ -26,7 +28,7 @@ public:
     /// False: no memory. M, not while rendering.
     bool prepare(int sampleRateHz, int channels, bool enabled, InstructionSet set = InstructionSet::best) noexcept;
 
-    /// Largest absolute sample of that channel, > 0.
+    /// Largest absolute sample of that channel, > 0 and finite; after the first frame, in a ramp.
     void setCeiling(int channel, float ceiling) noexcept;
 
     /// In place: io[channel][0..frames) becomes the limited input of latencyFrames() earlier.
@@ -58,11 +60,13 @@ private:
     void processPart(const LimiterLines& lines) noexcept;
     bool takeIn(const LimiterLines& lines) noexcept;
     void giveOut(const LimiterLines& lines, const float* gains) noexcept;
-    bool cleanAndCompare(const float* samples, std::size_t frames, float ceiling, float* line) noexcept;
+    bool cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits, float* line) noexcept;
     void followGains(const LimiterLines& lines, Gains& gains) noexcept;
     void delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains, float ceiling) const noexcept;
     bool isResting() const noexcept { return released_ == unit && sum_ == unit * window_; }
     void rest(std::size_t frames) noexcept;
+    void boundBy(std::size_t channel, float ceiling) noexcept;
+    void settle() noexcept;
     std::int64_t slidingMinimum(std::int64_t needed) noexcept;
     float advanceGain(std::int64_t needed) noexcept;
 
@@ -73,8 +77,12 @@ private:
     static constexpr std::size_t step = Profile::isOnHeap ? LimiterLines::padding : 1, floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
     std::size_t front() const noexcept { return (static_cast<std::size_t>(window_) + step - 2) / step * step; } // of latencyFrames(), whole vectors
     const LimiterKernel* kernel_ = nullptr;
-    std::array<float, width> ceilings_{}, bounds_{};            // bounds: infinite if it is off
-    std::array<std::int32_t, width> mostBits_{};                // sizes up to here are neither over nor infinite
+    std::array<GainRamp, width> ceilings_{};                    // of what comes in
+    std::array<float, width> bounds_{};                         // of what goes out, the highest of a ramp's; infinite if it is off
+    std::array<std::int32_t, width> mostBits_{};                // sizes up to here are neither over, the lowest of a ramp's, nor infinite
+    std::int64_t settledFrame_ = 0;                             // from here on no frame has a ramp's ceiling
+    int rampFrames_ = 1;
+    bool isSettled_ = true;
     Storage<float, width * floatsPerLine, Profile::isOnHeap> lines_; // of each channel the last latencyFrames() inputs, in order
     std::int64_t silentFrames_ = 0;                             // up to now
     int position_ = 0; // in the ring of `window_` gains

@@ -57,12 +57,14 @@ Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
     auto content = format ? readDrawn(path, *format) : readSampled(path);
     if (!content) return Failure{content.error};
     LoadedClip clip;
+    const std::string note = takeSlowPart(content.value.sound, path);
     for (std::vector<float>& samples : content.value.sound.channels) {
         ContactRecording& channel = clip.channels.emplace_back();
         channel.sampleRateHz = content.value.sound.sampleRateHz;
         channel.samples = std::move(samples);
         channel.file.path = path.string();
         channel.file.hash = content.value.hash;
+        channel.note = note;
     }
     if (clip.channels.empty() || clip.channels.front().samples.empty()) return Failure{path.string() + ": expected something to feel, found no samples"};
     clip.shares = std::move(content.value.shares);

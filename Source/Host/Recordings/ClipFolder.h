@@ -22,7 +22,7 @@ private:
     std::filesystem::path folder_;
 };
 
-/// All channels of that file. Any thread but R.
+/// All channels of that file, without what lies below 5 Hz (takeSlowPart). Any thread but R.
 Result<LoadedClip> loadWholeClip(const std::filesystem::path& path);
 
 /// The channels that a session has kept; or one line: a file is missing or has changed. Any thread but R.

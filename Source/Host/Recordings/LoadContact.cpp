@@ -8,6 +8,7 @@
 #include "Measure/LoudestChannel.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Measure/RecordingFaults.h"
+#include "Measure/SlowPart.h"
 #include "Host/Recordings/SyntheticContact.h"
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,9 @@ Result<ContactRecording> readContact(const RecordingFile& file) {
     ContactRecording contact{file.frequencyHz, read.value.sampleRateHz, {heard.begin() + static_cast<std::ptrdiff_t>(hit.begin), heard.begin() + static_cast<std::ptrdiff_t>(hit.end)}, file};
     for (float& x : contact.samples) x -= static_cast<float>(hit.offset);
     if (!(peakOf(contact.samples) > 0.0f)) return Failure{path + ": expected a hit, found silence"};
+    const SlowPart taken = takeSlowPart(contact.samples, rateHz, peakOf(contact.samples));
+    if (!(peakOf(contact.samples) > 0.0f)) return Failure{path + ": expected a hit, found nothing above " + numberText(limits::slowestToneHz) + " Hz"};
+    if (taken.isAny()) contact.note = cleanLine(path + ": " + taken.text());
     return contact;
 }
 
@@ -79,7 +83,7 @@ Result<ContactRecording> loadContact(const RecordingFile& file) {
     auto contact = readContact(file);
     if (!contact) return contact;
     if (auto fault = takeHash(contact.value.file); !fault.empty()) return Failure{fault};
-    auto& [frequencyHz, rateHz, samples, source] = contact.value;
+    auto& [frequencyHz, rateHz, samples, source, note] = contact.value;
     normalise(samples);
     if (!file.isMatched || !(file.decayPerSecond > 0.0)) return contact;
     const auto gain = static_cast<float>(std::sqrt(energyOfMode(frequencyHz, file.decayPerSecond, rateHz) / energyOf(samples, rateHz)));

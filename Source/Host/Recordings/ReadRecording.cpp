@@ -7,6 +7,7 @@
 #include "Formats/ClipFile.h"
 #include "Formats/ClipSound.h"
 #include "Host/Recordings/RecordingStream.h"
+#include "Measure/SlowPart.h"
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -111,6 +112,12 @@ Result<SampledSound> readRecording(const std::filesystem::path& path) {
     SoundKeeper keeper;
     if (auto fault = streamSound(*file.value.stream, file.value.bytes, keeper); !fault.empty()) return Failure{path.string() + ": " + fault};
     return std::move(keeper.sound);
+}
+
+std::string takeSlowPart(SampledSound& sound, const std::filesystem::path& path, double fullScale) {
+    SlowPart taken;
+    for (auto& samples : sound.channels) taken.join(takeSlowPart(samples, sound.sampleRateHz, fullScale));
+    return taken.isAny() ? cleanLine(path.string() + ": " + taken.text()) : "";
 }
 
 std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker) {

@@ -5,6 +5,7 @@
 #include "Files/SampledSound.h"
 #include "Formats/Clip.h"
 #include <filesystem>
+#include <string>
 
 namespace physvib {
 
@@ -15,6 +16,10 @@ Result<SampledSound> readRecording(const std::filesystem::path& path);
 
 /// The same of a clip that has been read from that file. Any thread.
 Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path);
+
+/// Takes what lies below 5 Hz out of a recording that is to be felt (Measure/SlowPart.h): what is to be said of it, naming the file, or
+/// nothing. `fullScale` is what is played as such. Any thread but R.
+std::string takeSlowPart(SampledSound& sound, const std::filesystem::path& path, double fullScale = 1.0);
 
 /// The same of a recording of up to a day, block by block, so that memory does not grow with it: empty, or one line naming the
 /// file: what is wrong with it, or what `taker` says. No clips. Any thread but R.

@@ -47,13 +47,14 @@ Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag
         const MessageValues values{message, *description, panner};
         if (description->isQuery) return answer(kind);
         expectTime(values, tag);
-        auto strikes = kind == MessageKind::clip ? clip(values, clips, panner) : strikesOf(kind, values, session_.state().scene->materials);
+        std::string note;
+        auto strikes = kind == MessageKind::clip ? clip(values, clips, panner, note) : strikesOf(kind, values, session_.state().scene->materials, session_.shaping());
         const std::lock_guard lock{mutex_};
         const std::int64_t time = timeOf(values, tag);
         const bool isNow = !values.has("at") && !values.has("in") && (tag == nullptr || tag->isLate);
         if (kind == MessageKind::stop) stop(time);
         else strike(std::move(strikes), time, isNow);
-        return PlainMessage{};
+        return note.empty() ? PlainMessage{} : PlainMessage{message.name, {{"note", note}}};
     } catch (const MessageError& error) {
         return Failure{message.name + ": " + error.what()};
     }
@@ -104,7 +105,7 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
 }
 
 // Kept before it is struck: a strike finds its samples. Reading and keeping takes long; no other door waits for it.
-std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner) {
+std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner, std::string& note) {
     if (!clips) values.fail("file", "expected no clips here: no folder was given to read them from");
     if (values.word("file").empty()) values.fail("file", "expected a file's name");
     const auto loaded = clips(values.word("file"));
@@ -112,6 +113,7 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
     auto strikes = clipStrikes(values, loaded.value, panner); // refused before anything is kept
     const auto number = session_.keepClip(loaded.value.channels);
     if (!number) values.fail("file", "expected no more than " + std::to_string(mostClips) + " channels of clips in a session, and " + std::to_string(limits::maxRecordingSamples) + " samples");
+    note = loaded.value.channels.front().note;
     for (std::size_t j = 0; j < strikes.size(); ++j) strikes[j].frequencyHz = clipFrequencyHz(*number + static_cast<int>(j));
     return strikes;
 }

@@ -8,6 +8,7 @@
 #include "Session/Session.h"
 #include <cstdint>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace physvib {
@@ -26,13 +27,13 @@ public:
     /// `session` outlives it.
     explicit MessageRouter(Session& session) noexcept : session_{session} {}
 
-    /// Does what the message says, all of it or nothing; at the time of its tag, if it has one, as with `at`. The answer of a query
-    /// (without a name: nothing to tell), or one line. `clips` is where this door's clips come from; none: it takes none.
+    /// Does what the message says, all of it or nothing; at the time of its tag, if it has one, as with `at`. The answer of a query,
+    /// or a note on what was done (without a name: nothing to tell), or one line. `clips` is where this door's clips come from; none: it takes none.
     Result<PlainMessage> take(const PlainMessage& message, MessageTag* tag = nullptr, const ClipSource& clips = {});
 
 private:
     void expectTime(const MessageValues& values, const MessageTag* tag);
-    std::vector<CollisionEvent> clip(const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner);
+    std::vector<CollisionEvent> clip(const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner, std::string& note);
     std::int64_t timeOf(const MessageValues& values, MessageTag* tag) const;
     std::int64_t aheadOrFail(const MessageValues& values, std::string_view name, std::int64_t at) const;
     void strike(std::vector<CollisionEvent> strikes, std::int64_t start, bool isNow);

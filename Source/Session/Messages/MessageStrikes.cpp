@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Strikes, patterns, phantoms and paths.
 #include "Session/Messages/MessageStrikes.h"
+#include "Core/ToneEnd.h"
+#include "Files/EventColumns.h"
 #include "Files/Text/NumberText.h"
 #include "Study/PulsePattern.h"
 #include <algorithm>
@@ -23,6 +25,12 @@ CollisionEvent toneOf(const MessageValues& values, const EnchanterPlace& at, dou
     return tone;
 }
 
+/// Of a tone that begins at its phase 0: it ends where what is played of it crosses zero.
+CollisionEvent softlyEnded(CollisionEvent tone, const EventShaping& shaping) {
+    if (tone.durationNs > 0) tone.durationNs = softEndNs(shaping(tone).frequencyHz, tone.durationNs);
+    return tone;
+}
+
 void takeMaterial(CollisionEvent& strike, const MessageValues& values, const std::vector<Material>& materials) {
     const std::string name = values.word("material");
     const auto found = std::ranges::find(materials, name, &Material::name);
@@ -32,35 +40,36 @@ void takeMaterial(CollisionEvent& strike, const MessageValues& values, const std
     strike.decayPerSecond = found->decayPerSecond;
 }
 
-std::vector<CollisionEvent> strikeOf(const MessageValues& values, const std::vector<Material>& materials) {
+std::vector<CollisionEvent> strikeOf(const MessageValues& values, const std::vector<Material>& materials, const EventShaping& shaping) {
     values.expectOneOf({"material", "frequency_hz"});
     CollisionEvent strike = toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread());
     strike.decayPerSecond = values.number("decay_per_s");
     if (values.has("material")) takeMaterial(strike, values, materials);
     else if (!values.has("frequency_hz")) values.fail("material", "expected a material, or frequency_hz");
     if (strike.decayPerSecond == 0.0 && strike.durationNs == 0) values.fail("seconds", "expected a length, or a decay: it would not end");
-    return {strike};
+    if (isTooSlow(strike)) values.fail(values.has("material") ? "material" : "frequency_hz", tooSlowFault(strike));
+    return {softlyEnded(strike, shaping)};
 }
 
-std::vector<CollisionEvent> pulses(const MessageValues& values, std::string_view name, const std::string& letters, double pulseSeconds) {
+std::vector<CollisionEvent> pulses(const MessageValues& values, std::string_view name, const std::string& letters, double pulseSeconds, const EventShaping& shaping) {
     if (letters.empty() || letters.size() > messages::mostPulses) values.fail(name, "expected 1 to " + std::to_string(messages::mostPulses) + " letters, found " + std::to_string(letters.size()));
     std::vector<CollisionEvent> all;
     double from = 0.0;
     for (const char letter : letters) {
-        all.push_back(toneOf(values, values.enchanter(name, letter), from, from + pulseSeconds, Spread::alone));
+        all.push_back(softlyEnded(toneOf(values, values.enchanter(name, letter), from, from + pulseSeconds, Spread::alone), shaping));
         from += pulseSeconds + values.number("gap_s");
     }
     return all;
 }
 
-std::vector<CollisionEvent> patternOf(const MessageValues& values) {
+std::vector<CollisionEvent> patternOf(const MessageValues& values, const EventShaping& shaping) {
     values.expectOneOf({"pattern", "enchanters"});
     values.expectOneOf({"pattern", "pulse_s"});
-    if (values.has("enchanters")) return pulses(values, "enchanters", values.word("enchanters"), values.number("pulse_s"));
+    if (values.has("enchanters")) return pulses(values, "enchanters", values.word("enchanters"), values.number("pulse_s"), shaping);
     const std::string label = values.word("pattern");
     const auto pattern = parsePatternLabel(label);
     if (!pattern) values.fail("pattern", "expected one like ABA-250 (one to three enchanters, then milliseconds), found " + inQuotes(label));
-    return pulses(values, "pattern", label.substr(0, static_cast<std::size_t>(pattern->count)), pattern->pulseSeconds);
+    return pulses(values, "pattern", label.substr(0, static_cast<std::size_t>(pattern->count)), pattern->pulseSeconds, shaping);
 }
 
 /// Places and when they are reached, from 0 on or later.
@@ -103,8 +112,16 @@ Route timedRoute(const MessageValues& values) {
     return route;
 }
 
+/// The last leg ends softly, at a crossing of the whole tone; what would begin after it is not there.
+void endSoftly(std::vector<CollisionEvent>& legs, const EventShaping& shaping) {
+    const auto& last = legs.back();
+    const std::int64_t end = softEndNs(shaping(last).frequencyHz, last.course.sinceNs + last.durationNs);
+    while (legs.back().course.sinceNs >= end) legs.pop_back(); // the first begins at 0
+    legs.back().durationNs = end - legs.back().course.sinceNs;
+}
+
 /// One tone from leg to leg: each goes on where the one before is.
-std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route& route) {
+std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route& route, const EventShaping& shaping) {
     std::vector<CollisionEvent> legs;
     for (std::size_t i = 0; i + 1 < route.places.size(); ++i) {
         CollisionEvent leg = toneOf(values, route.places[i], route.times[i], route.times[i + 1], values.spread());
@@ -115,11 +132,12 @@ std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route&
         leg.course.sinceNs = leg.timeNs - nanoseconds(route.startSeconds());
         legs.push_back(leg);
     }
+    if (!legs.empty()) endSoftly(legs, shaping);
     return legs;
 }
 
-/// Still vibrations that overlap, in phase: one tone that is somewhere else each time.
-std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Route& route, int count) {
+/// Still vibrations that overlap, in phase: one tone that is somewhere else each time. Each begins and ends at a crossing of it.
+std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Route& route, int count, const EventShaping& shaping) {
     const double length = strokeSeconds(count, route.seconds());
     constexpr double least = 0.01; // two periods of 200 Hz
     if (length < least) values.fail("strokes", "expected so few that each lasts 0.01 s, found " + std::to_string(count) + " in " + numberText(route.seconds()) + " s");
@@ -128,17 +146,22 @@ std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Rout
         const double from = route.startSeconds() + k * strokeOnsetsSeconds(length);
         const EnchanterPlace at = route.at(route.startSeconds() + route.seconds() * k / (count - 1));
         strokes.push_back(toneOf(values, at, from, from + length, values.spread()));
-        strokes.back().course.sinceNs = strokes.back().timeNs - strokes.front().timeNs;
+        CollisionEvent& stroke = strokes.back();
+        const std::int64_t begin = strokes.front().timeNs;
+        const double playedHz = shaping(stroke).frequencyHz;
+        stroke.course.sinceNs = nearestCrossingNs(playedHz, stroke.timeNs - begin);
+        stroke.durationNs = softEndNs(playedHz, stroke.timeNs + stroke.durationNs - begin - stroke.course.sinceNs);
+        stroke.timeNs = begin + stroke.course.sinceNs;
     }
     return strokes;
 }
 
-std::vector<CollisionEvent> pathOf(const MessageValues& values) {
+std::vector<CollisionEvent> pathOf(const MessageValues& values, const EventShaping& shaping) {
     values.expectOneOf({"seconds", "speed_m_per_s", "times_s"});
     const Route route = values.has("times_s") ? timedRoute(values) : steadyRoute(values);
     const int strokes = values.wholeNumber("strokes");
     if (strokes == 1) values.fail("strokes", "expected 0, or 2 and more, found 1");
-    return strokes == 0 ? movingTone(values, route) : strokesAlong(values, route, strokes);
+    return strokes == 0 ? movingTone(values, route, shaping) : strokesAlong(values, route, strokes, shaping);
 }
 
 EnchanterPlace placeOfChannel(std::size_t j, const MessageValues& values, const LoadedClip& clip, const PhantomPanner& panner) {
@@ -169,12 +192,12 @@ std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const Loade
     return strikes;
 }
 
-std::vector<CollisionEvent> strikesOf(MessageKind kind, const MessageValues& values, const std::vector<Material>& materials) {
+std::vector<CollisionEvent> strikesOf(MessageKind kind, const MessageValues& values, const std::vector<Material>& materials, const EventShaping& shaping) {
     switch (kind) {
-    case MessageKind::strike: return strikeOf(values, materials);
-    case MessageKind::pattern: return patternOf(values);
-    case MessageKind::phantom: return {toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread())};
-    case MessageKind::path: return pathOf(values);
+    case MessageKind::strike: return strikeOf(values, materials, shaping);
+    case MessageKind::pattern: return patternOf(values, shaping);
+    case MessageKind::phantom: return {softlyEnded(toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread()), shaping)};
+    case MessageKind::path: return pathOf(values, shaping);
     default: return {};
     }
 }

@@ -39,7 +39,7 @@ constexpr double mostAheadSeconds = 86'400.0; // a day's programme, sent in the 
 constexpr int mostPlaces = 64, mostPulses = 64;
 
 /// What a name means is the same in every message.
-inline constexpr MessageArgument frequency{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "205", "of the tone"};
+inline constexpr MessageArgument frequency{"frequency_hz", Type::number, limits::slowestToneHz, limits::maxFrequencyHz, "205", "of the tone"};
 inline constexpr MessageArgument level{"level", Type::number, 0.0, 1.0, "0.5", "peak at gain 1, in shares of full scale"};
 inline constexpr MessageArgument place{"place", Type::place, 0.0, 0.0, "", "where; left out: the middle of the field"};
 inline constexpr MessageArgument law{"law", Type::word, 0.0, 0.0, "layout", "how it is spread: `layout` (as hits are), `linear`, `log`, `log-outer`, `energy`, `equal`, `alone`"};
@@ -50,10 +50,10 @@ inline constexpr std::array when{
 
 inline constexpr std::array strike{
     MessageArgument{"material", Type::word, 0.0, 0.0, "", "of the scene, for its frequency and decay"},
-    MessageArgument{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "", "instead of a material"},
+    MessageArgument{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "", "instead of a material; below 5 with a decay of at least 1"},
     MessageArgument{"decay_per_s", Type::number, 0.0, limits::maxDecayPerSecond, "", "with it; left out: 0"},
     place, level,
-    MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0", "after which it is cut; 0: when it has decayed"},
+    MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0", "after which it is cut, at a zero crossing; 0: when it has decayed"},
     law};
 inline constexpr std::array pattern{
     MessageArgument{"pattern", Type::word, 0.0, 0.0, "", "one to three enchanters and a pulse's ms: `ABA-250`"},

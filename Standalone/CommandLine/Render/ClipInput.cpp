@@ -4,6 +4,7 @@
 #include "CommandLine/Render/ClipInput.h"
 #include "Files/ActuatorFile.h"
 #include "Formats/ClipSound.h"
+#include "Host/Recordings/ReadRecording.h"
 
 namespace physvib {
 namespace {
@@ -40,6 +41,7 @@ std::string faultOf(const RenderJob& job) {
 
 ClipVoices::ClipVoices(const RenderJob& job)
     : sound_{clipSound(*job.clip, job.options.sampleRateHz)} {
+    if (const std::string note = takeSlowPart(sound_, job.options.scene); !note.empty()) tell(note);
     for (std::size_t j = 0; j < sound_.channels.size(); ++j) {
         const EnchanterPlace place = placeOf(job, j);
         const double name = static_cast<double>(j + 1); // recordings are known by a frequency

@@ -11,7 +11,7 @@ namespace physvib {
 /// A clip's channels at a rate, and one event for each: the renderer plays them as it plays recorded contacts.
 class ClipVoices {
 public:
-    /// `job` has a clip; see ClipInput.cpp for where its channels are felt.
+    /// `job` has a clip; see ClipInput.cpp for where its channels are felt. What is taken away of them is told on stderr.
     explicit ClipVoices(const RenderJob& job);
 
     const std::vector<CollisionEvent>& events() const { return events_; }

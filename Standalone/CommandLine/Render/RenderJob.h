@@ -136,6 +136,7 @@ inline std::string takeRecordings(RenderJob& job, const std::vector<CollisionEve
         if (!contact) return contact.error;
         job.recordings.push_back(std::move(contact.value));
     }
+    for (const std::string& note : notesOf(job.recordings)) tell(note);
     for (const CollisionEvent& e : events)
         if (job.options.playsRecordings() && !isClip(e.frequencyHz) && std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) == job.recordings.end())
             return source + ": expected a --sound for " + numberText(e.frequencyHz) + " Hz, found none";
@@ -158,6 +159,7 @@ inline int takeSession(RenderJob& job) {
     auto recordings = loadRecordings(log);
     if (!recordings) return leave(exitFailed, job.options.scene + ": " + recordings.error);
     job.sessionRecordings = std::move(recordings.value);
+    for (const std::string& note : notesOf(job.sessionRecordings)) tell(note);
     return exitDone;
 }
 

@@ -77,6 +77,7 @@ int runStimulus(const CLI::App& command, const StimulusOptions& o) {
     MadeStimulus made = makeStimulus(command, o, layout.value);
     if (!made.usage.empty()) return leave(exitUsage, "stimulus: " + made.usage);
     if (o.wavPath.empty() && o.picturePath.empty()) return leave(exitUsage, "stimulus: nothing to write; give --out or --picture");
+    if (!made.note.empty()) tell(made.note);
     if (o.recording.empty() && made.error.empty()) {
         auto sound = renderStimulus(made.stimulus, layout.value, o.sampleRateHz);
         made.error = sound.error;

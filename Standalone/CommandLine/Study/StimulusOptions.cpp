@@ -3,6 +3,7 @@
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StimulusOptions.h"
 #include "Core/Limits.h"
+#include "Core/SamplePeak.h"
 #include "Files/ActuatorFile.h"
 #include "Files/Text/NumberText.h"
 #include "Host/Recordings/ReadRecording.h"
@@ -51,6 +52,7 @@ Result<double> resonanceOf(const LayoutDescription& layout) {
         const auto profile = findActuator(enchanter.actuator);
         if (!profile) return fail(profile.error);
         if (!profile.value.resonanceHz) return fail(profile.value.name + ": resonance_hz is not known (measure it with physvib calibrate)");
+        if (*profile.value.resonanceHz < limits::slowestToneHz) return fail("expected at least " + numberText(limits::slowestToneHz) + " Hz, found " + numberText(*profile.value.resonanceHz) + " Hz");
         if (found && *found != *profile.value.resonanceHz) return fail("expected the resonance of the others, " + numberText(*found) + " Hz, found " + numberText(*profile.value.resonanceHz) + " Hz");
         found = profile.value.resonanceHz;
     }
@@ -65,8 +67,8 @@ std::string findFrequency(const StimulusOptions& o, const LayoutDescription& lay
         return {};
     }
     frequencyHz = parseNumber<double>(o.frequency).value_or(0.0);
-    const bool isInRange = frequencyHz >= 1.0 && frequencyHz <= limits::maxFrequencyHz;
-    return isInRange ? "" : "--frequency: expected 1 to " + numberText(limits::maxFrequencyHz) + " Hz, or resonance, found " + inQuotes(o.frequency);
+    const bool isInRange = frequencyHz >= limits::slowestToneHz && frequencyHz <= limits::maxFrequencyHz;
+    return isInRange ? "" : "--frequency: expected " + numberText(limits::slowestToneHz) + " to " + numberText(limits::maxFrequencyHz) + " Hz, or resonance, found " + inQuotes(o.frequency);
 }
 
 std::string makePattern(const StimulusOptions& o, const LayoutDescription& layout, MadeStimulus& made) {
@@ -96,12 +98,13 @@ std::string makePhantom(const StimulusOptions& o, const LayoutDescription& layou
     if (o.recording.empty()) return {};
     made.title = std::filesystem::path{o.recording}.filename().string();
     made.stimulus.events.clear();
-    const auto recording = readRecording(o.recording);
+    auto recording = readRecording(o.recording);
     if (!recording) {
         made.error = recording.error;
     } else if (recording.value.channels.size() != 1) {
         made.error = o.recording + ": expected one channel, found " + std::to_string(recording.value.channels.size());
     } else {
+        made.note = takeSlowPart(recording.value, o.recording, peakOf(recording.value.channels.front()));
         auto placed = placeRecording(recording.value, place, o.levelG, panner, layout);
         made.error = placed.error;
         made.sound = std::move(placed.value);

@@ -29,6 +29,7 @@ struct StimulusOptions {
 /// A stimulus on its way to a file or a hand; `usage` says what is wrong with the call, `error` with a file or a level.
 struct MadeStimulus {
     std::string usage, error, title;
+    std::string note; ///< on what was taken away from a recording; mostly empty
     Stimulus stimulus; ///< empty events: a recording
     StimulusSound sound;
 };

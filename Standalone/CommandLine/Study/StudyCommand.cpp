@@ -61,6 +61,7 @@ std::string takeSounds(const std::vector<std::string>& sounds, Protocol& protoco
     }
     for (const StudySoundFile& sound : protocol.sounds)
         if (auto contact = loadContact({sound.frequencyHz, besideProtocol(protocol.folder, sound.file)}); !contact) return contact.error;
+        else if (!contact.value.note.empty()) tell(contact.value.note);
     return {};
 }
 

@@ -78,7 +78,7 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     , undo_{1000, 30}
     , sceneNow_{*mix_.scene}
     , told_{mix_.panner()}
-    , clips_{session_, output_, [this](const std::string& fault) { takeFelt(fault); }} {
+    , clips_{session_, output_, [this](const Result<std::string>& note) { takeFelt(note); }} {
     saved_.run = setupOf(mix_, false).run();
     saved_.panner = mix_.panner();
     mostEnchanters_ = mix_.count();

@@ -158,7 +158,7 @@ private:
     void strike(int enchanter, std::vector<CollisionEvent> strikes);
     EnchanterPlace placeOf(int enchanter) const;
     void feel(const juce::StringArray& files, const EnchanterPlace& at, bool isAlone);
-    void takeFelt(const std::string& fault);
+    void takeFelt(const Result<std::string>& note);
 
     AudioDeviceTypes types_;
     Mix mix_;

@@ -8,7 +8,7 @@ namespace physvib {
 
 bool isClipDrag(const juce::StringArray& files) { return !files.isEmpty() && !files[0].endsWithIgnoreCase(".json"); }
 
-DeskClips::DeskClips(Session& session, const AudioOutput& output, std::function<void(const std::string&)> told)
+DeskClips::DeskClips(Session& session, const AudioOutput& output, std::function<void(const Result<std::string>&)> told)
     : output_{output}
     , told_{std::move(told)}
     , messages_{session} {}
@@ -29,22 +29,24 @@ void DeskClips::feel(const juce::File& file, const EnchanterPlace& atMetres, boo
 }
 
 // On the reader's thread.
-std::string DeskClips::strike(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
+Result<std::string> DeskClips::strike(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
     PlainMessage clip{"clip", {{"file", file.getFullPathName().toStdString()}, {"place", std::vector{atMetres.xMetres, atMetres.yMetres}}}};
     if (isAlone) clip.values.push_back({"law", std::string{spreadNames[static_cast<std::size_t>(Spread::alone)]}});
     const auto unlessLent = [this](const std::string& path) { // it may have been lent while others were read
         return output_.isLent() ? Result<LoadedClip>{Failure{"a study is running"}} : loadWholeClip(path);
     };
-    return messages_.take(clip, nullptr, unlessLent).error;
+    const auto result = messages_.take(clip, nullptr, unlessLent);
+    if (!result) return Failure{result.error};
+    return result.value.values.empty() ? std::string{} : std::get<std::string>(result.value.values.front().value); // a note
 }
 
 void DeskClips::handleAsyncUpdate() {
-    std::vector<std::string> results;
+    std::vector<Result<std::string>> results;
     {
         const std::lock_guard lock{mutex_};
         results.swap(results_);
     }
-    for (const std::string& result : results) told_(result);
+    for (const auto& result : results) told_(result);
 }
 
 } // namespace physvib

@@ -72,10 +72,12 @@ void Desk::feel(const juce::StringArray& files, const EnchanterPlace& at, bool i
     clips_.feel(juce::File{files[0]}, at, isAlone);
 }
 
-void Desk::takeFelt(const std::string& fault) {
-    if (!fault.empty()) return report(utf8(fault));
+void Desk::takeFelt(const Result<std::string>& note) {
+    if (!note) return report(utf8(note.error));
     ++edits_;
-    if (board_) tell("The board plays no clips: it is felt on the device alone");
+    juce::StringArray news{utf8(note.value), board_ ? "The board plays no clips: it is felt on the device alone" : ""};
+    news.removeEmptyStrings();
+    if (!news.isEmpty()) tell(news.joinIntoString("; "));
     sendChangeMessage(); // who rests looks again
 }
 

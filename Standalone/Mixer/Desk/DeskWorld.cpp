@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the desk does to the world: inputs, edits with their opposites, strikes of single enchanters.
 #include "Mixer/Desk/Desk.h"
+#include "Core/ToneEnd.h"
 #include "Files/ActuatorFile.h"
 #include "Mixer/Desk/DeskWords.h"
 #include "Physics/InputCheck.h"
@@ -196,8 +197,8 @@ void Desk::testSweep(int enchanter) {
     for (int k = 0; k < count; ++k) {
         CollisionEvent tone;
         tone.timeNs = k * std::int64_t{60'000'000};
-        tone.durationNs = 60'000'000;
         tone.frequencyHz = 40.0 * std::pow(10.0, static_cast<double>(k) / (count - 1)); // 40 to 400 Hz: what is felt
+        tone.durationNs = softEndNs(tone.frequencyHz, 60'000'000);
         tone.amplitude = 0.3;
         tones.push_back(tone);
     }
