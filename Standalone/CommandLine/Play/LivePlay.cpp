@@ -7,6 +7,7 @@
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/OscReport.h"
 #include "CommandLine/Process.h"
+#include "Files/Text/NumberText.h"
 #include "Session/BoardOutput.h"
 #include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/PlayedRecorder.h"
@@ -138,6 +139,7 @@ std::string playLive(LivePlay wanted) {
     if (!wanted.recordPath.empty()) {
         recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
         if (!recording->error().empty()) return recording->error();
+        recording->tellBeginning(session.playOutFrames());
         output.record(&*recording);
     }
     if (!wanted.savePath.empty()) {
@@ -175,6 +177,7 @@ std::string playLive(LivePlay wanted) {
     output.close();
     const std::string trouble = board ? reportBoard(*board, before) : "";
     if (recording && recording->framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
+    if (recording && recording->beginsSeconds()) std::cout << wanted.recordPath << "  begins at session time " << fixedNumber(*recording->beginsSeconds(), 6) << " s\n";
     const std::string saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : ""; // each, whatever becomes of the other
     return !saved.empty() ? saved : !recorded.empty() ? recorded : trouble;
 }
