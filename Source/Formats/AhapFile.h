@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Apple's .ahap: continuous and transient events, and curves that control them all.
 //
-// Carries: one channel, intensities and sharpnesses from 0 to 1, transients; continuous events of at most 30 s
-// that follow one another.
-// Does not carry: several channels, places, several frequencies at once, phases, levels beyond full scale, Hz.
+// Carries: one channel, intensities and sharpnesses from 0 to 1, transients; continuous events of at most 30
+// s that follow one another.
+//
+// Does not carry: several channels, places, several frequencies at once, phases, levels beyond full scale,
+// Hz.
+//
 // Left out of what others write, and told: sound, attack, decay, release, and what is not known.
 #pragma once
 #include "Files/Result.h"

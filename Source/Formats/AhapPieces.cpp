@@ -3,6 +3,7 @@
 // rises or halves.
 #include "Formats/AhapPieces.h"
 #include "Formats/ClipLimits.h"
+#include <numeric>
 #include <span>
 
 namespace physvib {
@@ -13,6 +14,7 @@ constexpr double rounding = 1e-9;       // of a line's values
 constexpr double envelopeRiseSeconds =
     0.0005; // how long the envelope may stand still for a transient: as a hit may rise
 constexpr double leastPieceSeconds = 0.001;
+constexpr double leadSeconds = 0.0004; // by which curves are neutral before a transient
 constexpr double mostChange =
     2.0; // of the amplitude within a piece: the curves then take at most 3 dB off a transient's end
 
@@ -50,21 +52,22 @@ public:
     explicit Cutter(const ClipChannel& channel)
         : envelope_{envelopeOf(channel)}
         , hasTransients_{!channel.transients.empty()} {
+        const std::vector<ClipTransient>& transients = channel.transients;
         double from = 0.0;
-        for (std::size_t i = 0; i < channel.transients.size(); ++i) {
-            const double at = channel.transients[i].seconds, end = at + ClipTransient::lastsSeconds;
-            cutStretches(from, at);
-            from = i + 1 < channel.transients.size() ? std::min(end, channel.transients[i + 1].seconds) : end;
-            cutBeside(at, from);
+        for (std::size_t i = 0; i < transients.size(); ++i) {
+            const double start = startBeside(transients, i),
+                         end = transients[i].seconds + ClipTransient::lastsSeconds;
+            cutStretches(from, start);
+            from = i + 1 < transients.size() ? std::min(end, startBeside(transients, i + 1)) : end;
+            cutBeside(start, transients[i].seconds, from);
         }
         cutStretches(from, limits::maxClipSeconds);
     }
     std::vector<AhapPiece> take() { return std::move(pieces_); }
 
 private:
-    void add(std::vector<EnvelopePoint> points, bool holdsLevel) {
-        if (points.back().seconds > points.front().seconds)
-            pieces_.push_back({std::move(points), holdsLevel});
+    void add(std::vector<EnvelopePoint> points, const std::optional<EnvelopePoint>& level) {
+        if (points.back().seconds > points.front().seconds) pieces_.push_back({std::move(points), level});
     }
 
     void cutStretches(double start, double end) {
@@ -76,30 +79,45 @@ private:
         for (std::size_t from = 0; from + 1 < points.size();) {
             const std::size_t to = stretchEnd(points, from);
             const std::span stretch = std::span{points}.subspan(from, to - from + 1);
-            if (to > from && !(hasTransients_ && isSilent(stretch))) add({stretch.begin(), stretch.end()}, false);
+            if (to > from && !(hasTransients_ && isSilent(stretch)))
+                add({stretch.begin(), stretch.end()}, {});
             const bool endsInSilence =
                 to + 1 < points.size() && points[to].amplitude == 0.0 && points[to + 1].amplitude == 0.0;
             from = to > from && !endsInSilence ? to : to + 1;
         }
     }
 
-    /// From a transient on: never above what its first piece begins with, so that the curve there is at 1.
-    void cutBeside(double transient, double end) {
-        const EnvelopePoint first = pointAt(envelope_, transient);
-        double from = transient, to = changesAt(first, end, 1.0);
-        if (to < std::min(end, transient + envelopeRiseSeconds)) {
-            to = std::min(end, transient + envelopeRiseSeconds);
-            EnvelopePoint begin = first, held = first;
-            held.seconds = to;
-            begin.amplitude = held.amplitude = std::min(first.amplitude, pointAt(envelope_, to).amplitude);
-            add({begin, held}, true);
-            from = to;
-        }
-        for (; from < end; from = to) {
-            if (from > transient)
-                to = std::min(end, std::max(from + leastPieceSeconds,
-                                            changesAt(pointAt(envelope_, from), end, mostChange)));
-            add(partOf(envelope_, from, to), true);
+    /// A moment before that transient, and not before the one that precedes it.
+    static double startBeside(const std::vector<ClipTransient>& transients, std::size_t i) {
+        const double at = transients[i].seconds, last = i > 0 ? transients[i - 1].seconds : 0.0;
+        return std::max(at - leadSeconds, std::midpoint(last, at));
+    }
+
+    /// The first piece is nowhere above what the envelope is at the transient, so that the curve there is
+    /// at 1.
+    void cutBeside(double start, double transient, double end) {
+        EnvelopePoint level = pointAt(envelope_, transient);
+        const double changes = changesAt(level, end, 1.0),
+                     held = std::min(end, transient + envelopeRiseSeconds);
+        const bool isHeld = changes < held;
+        double from = isHeld ? held : changes;
+        std::vector<EnvelopePoint> points = partOf(envelope_, start, from);
+        if (isHeld)
+            std::erase_if(points,
+                          [&](const EnvelopePoint& p) { return p.seconds > transient && p.seconds < held; });
+        for (EnvelopePoint& p : points)
+            p.amplitude =
+                isHeld && p.seconds >= transient ? level.amplitude : std::min(p.amplitude, level.amplitude);
+        const auto at = std::ranges::lower_bound(points, transient, {}, &EnvelopePoint::seconds);
+        if (at == points.end() || at->seconds > transient) points.insert(at, level);
+        add(std::move(points), level);
+        for (double to; from < end; from = to) {
+            const EnvelopePoint begin = pointAt(envelope_, from);
+            to = std::min(end, std::max(from + leastPieceSeconds, changesAt(begin, end, mostChange)));
+            std::vector<EnvelopePoint> part = partOf(envelope_, from, to);
+            level = {from, std::ranges::max(part, {}, &EnvelopePoint::amplitude).amplitude,
+                     begin.frequencyHz};
+            add(std::move(part), level);
         }
     }
 

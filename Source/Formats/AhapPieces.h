@@ -6,13 +6,15 @@
 // curves are neutral where it begins.
 #pragma once
 #include "Formats/ClipEnvelope.h"
+#include <optional>
 #include <vector>
 
 namespace physvib {
 
 struct AhapPiece {
     std::vector<EnvelopePoint> points; ///< two or more
-    bool holdsLevel = false;           ///< in its event, for a transient sounds beside it; else in its curves
+    std::optional<EnvelopePoint>
+        level{}; ///< what its event has, for a transient sounds beside it; none: full intensity, no sharpness
 };
 
 /// In time order; silences are left out, except where a transient sounds. `channel.transients` are in time

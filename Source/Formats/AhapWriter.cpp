@@ -54,10 +54,9 @@ public:
         const double start = shortened(piece.points.front().seconds),
                      seconds = shortened(shortened(piece.points.back().seconds) - start);
         if (!(seconds > 0.0)) return;
-        const double strongest = std::ranges::max(piece.points, {}, &EnvelopePoint::amplitude).amplitude;
-        const double intensity = piece.holdsLevel ? shortened(std::sqrt(std::min(1.0, strongest))) : 1.0;
-        const double sharpness =
-            piece.holdsLevel ? shortened(scale_.share(piece.points.front().frequencyHz)) : 0.0;
+        const double intensity =
+            piece.level ? shortened(std::sqrt(std::min(1.0, piece.level->amplitude))) : 1.0;
+        const double sharpness = piece.level ? shortened(scale_.share(piece.level->frequencyHz)) : 0.0;
         if (intensity > 0.0)
             json_.push_back({{"Event",
                               {{"Time", start},

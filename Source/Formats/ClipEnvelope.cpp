@@ -7,7 +7,8 @@
 namespace physvib {
 namespace {
 
-constexpr double sameSeconds = 1e-6; // moments that are closer are one: a wave that begins where another ends follows it
+/// Moments that are closer are one: a wave that begins where another ends follows it. Files have whole microseconds.
+constexpr double sameSeconds = 5e-7;
 
 /// What sounds of a band, asked at growing times.
 class BandWalk {
@@ -21,7 +22,9 @@ public:
         while (next_ < band_.waves.size() && band_.waves[next_].endSeconds() < seconds) ++next_;
         for (std::size_t i = next_; i < band_.waves.size() && band_.waves[i].startSeconds <= after; ++i) {
             const ClipWave& wave = band_.waves[i];
-            if (isBefore ? wave.startSeconds < seconds && seconds <= wave.endSeconds() : after < wave.endSeconds()) return &wave;
+            if (isBefore ? wave.startSeconds < seconds && seconds <= wave.endSeconds()
+                         : after < wave.endSeconds())
+                return &wave;
         }
         return nullptr;
     }

@@ -115,8 +115,11 @@ std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const F
     if (format == ClipFormat::hmpg) return hmpgLosses(clip, facts);
     if (format == ClipFormat::hjif) return hjifLosses(clip, facts);
     std::vector<std::string> losses = monoLosses(facts, scale);
-    const std::size_t raised = format == ClipFormat::haptic && !clip.channels.empty() ? metaHapticRaised(clip.channels.front()) : 0;
-    if (raised > 0) losses.push_back(std::to_string(raised) + " transients are weaker than what sounds beside them and become as strong as it");
+    const std::size_t raised =
+        format == ClipFormat::haptic && !clip.channels.empty() ? metaHapticRaised(clip.channels.front()) : 0;
+    if (raised > 0)
+        losses.push_back(std::to_string(raised) +
+                         " transients are weaker than what sounds beside them and become as strong as it");
     return losses;
 }
 

@@ -32,7 +32,10 @@ public:
 private:
     void readPerception(const JsonField& perception) {
         perception.expectObject();
-        if (!isVibrotactile(perception)) return leftOut_.add("a perception of " + perception["perception_modality"].line()); // nothing that an enchanter could do
+        if (!isVibrotactile(perception))
+            return leftOut_.add(
+                "a perception of " +
+                perception["perception_modality"].line()); // nothing that an enchanter could do
         library_.clear();
         for (std::size_t i = 0; perception.has("effect_library") && i < perception["effect_library"].arraySize(); ++i) {
             const JsonField effect = perception["effect_library"].item(i);
@@ -44,7 +47,8 @@ private:
         for (std::size_t i = 0; i < channels.arraySize(); ++i) readChannel(channels.item(i), perception);
     }
 
-    /// Also "Other" with waves or transients, as MPEG's encoder makes of every .ahap; not with wavelets, which may be anything.
+    /// Also "Other" with waves or transients, as MPEG's encoder makes of every .ahap; not with wavelets,
+    /// which may be anything.
     static bool isVibrotactile(const JsonField& perception) {
         const JsonField modality = perception["perception_modality"];
         if (!modality.is("Other") || !perception.has("channels")) return modality.is("Vibrotactile");

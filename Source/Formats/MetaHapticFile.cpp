@@ -70,25 +70,30 @@ std::vector<ClipPoint> amplitudesOf(const std::vector<EnvelopePoint>& envelope) 
 
 constexpr double unfeltSeconds = 0.0009; // by which a transient may move
 
-/// The nearest moment at which the envelope is not stronger than the transient: there, or at a point of the envelope beside it.
+/// The nearest moment at which the envelope is not stronger than the transient: there, or at a point of the
+/// envelope beside it.
 double placeOf(const ClipTransient& transient, const std::vector<ClipPoint>& curve) {
     const double at = transient.seconds;
     if (valueAt(curve, at) <= transient.amplitude) return at;
     double nearest = 2.0 * unfeltSeconds;
-    for (auto p = std::ranges::lower_bound(curve, at - unfeltSeconds, {}, &ClipPoint::seconds); p != curve.end() && p->seconds <= at + unfeltSeconds; ++p)
-        if (p->value <= transient.amplitude && std::abs(p->seconds - at) < std::abs(nearest)) nearest = p->seconds - at;
+    for (auto p = std::ranges::lower_bound(curve, at - unfeltSeconds, {}, &ClipPoint::seconds);
+         p != curve.end() && p->seconds <= at + unfeltSeconds; ++p)
+        if (p->value <= transient.amplitude && std::abs(p->seconds - at) < std::abs(nearest))
+            nearest = p->seconds - at;
     return std::abs(nearest) <= unfeltSeconds ? at + nearest : at;
 }
 
 /// In time order.
-std::vector<ClipTransient> placed(std::vector<ClipTransient> transients, const std::vector<ClipPoint>& curve) {
+std::vector<ClipTransient> placed(std::vector<ClipTransient> transients,
+                                  const std::vector<ClipPoint>& curve) {
     for (ClipTransient& t : transients) t.seconds = placeOf(t, curve);
     std::ranges::stable_sort(transients, {}, &ClipTransient::seconds);
     return transients;
 }
 
 /// The envelope with a point at each transient, and time enough for two.
-std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve, const std::vector<ClipTransient>& transients) {
+std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
+                                      const std::vector<ClipTransient>& transients) {
     std::vector<ClipPoint> with = curve;
     for (const ClipTransient& t : transients) with.push_back({t.seconds, valueAt(curve, t.seconds)});
     std::ranges::stable_sort(with, {}, &ClipPoint::seconds);
@@ -127,14 +132,18 @@ Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const 
 std::size_t metaHapticRaised(const ClipChannel& channel) {
     const auto amplitudes = amplitudesOf(envelopeOf(channel));
     constexpr double unfelt = 0.01; // of full scale
-    return static_cast<std::size_t>(std::ranges::count_if(placed(channel.transients, amplitudes), [&](const ClipTransient& t) { return t.amplitude + unfelt < valueAt(amplitudes, t.seconds); }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(placed(channel.transients, amplitudes), [&](const ClipTransient& t) {
+            return t.amplitude + unfelt < valueAt(amplitudes, t.seconds);
+        }));
 }
 
 std::string metaHapticText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale) {
     const auto envelope = envelopeOf(channel);
     const auto amplitudes = amplitudesOf(envelope);
     const auto transients = placed(channel.transients, amplitudes);
-    OrderedJson envelopes{{"amplitude", amplitudesJson(withTransients(amplitudes, transients), transients, scale)}};
+    OrderedJson envelopes{
+        {"amplitude", amplitudesJson(withTransients(amplitudes, transients), transients, scale)}};
     if (auto frequencies = frequenciesJson(envelope, scale); !frequencies.empty()) envelopes["frequency"] = std::move(frequencies);
     return jsonLines({{"version", {{"major", 1}, {"minor", 0}, {"patch", 0}}},
                       {"metadata", {{"editor", "PhysVib"}, {"author", ""}, {"source", ""}, {"project", ""}, {"tags", OrderedJson::array()}, {"description", title}}},

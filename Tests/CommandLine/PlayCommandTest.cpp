@@ -23,9 +23,11 @@ TEST_F(PlayCommand, ThereHasToBeSomethingToPlayOn) {
 TEST_F(PlayCommand, ARecordingSaysAtWhichSessionTimeItBegins) {
     const auto outcome = call("play drop --device 'None:no device' --seconds 0.3 --record a.wav");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    const auto told = outcome.out.find("a.wav  begins at session time -0."); // felt the play-out delay after it happens
+    const auto told =
+        outcome.out.find("a.wav  begins at session time -0."); // felt the play-out delay after it happens
     ASSERT_NE(told, std::string::npos) << outcome.out;
-    EXPECT_NE(read("a.wav").find(outcome.out.substr(told + 7, outcome.out.find('\n', told) - told - 7)), std::string::npos);
+    EXPECT_NE(read("a.wav").find(outcome.out.substr(told + 7, outcome.out.find('\n', told) - told - 7)),
+              std::string::npos);
 }
 
 TEST_F(PlayCommand, CeilingsAreOneForAllOrOneForEach) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Host/Recordings/PlayedRecorder.h"
 #include "Host/Recordings/WavSink.h"
 #include "Files/FileTesting.h"
 #include "Files/FullDisk.h"
+#include "Host/Recordings/PlayedRecorder.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

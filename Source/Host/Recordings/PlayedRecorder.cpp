@@ -7,7 +7,8 @@ namespace physvib {
 
 void PlayedRecorder::drain() {
     tap_.read([this](const float* const* channels, int frames) {
-        if (const auto begins = beginsSeconds(); begins && written_ == 0) wav_.setComment("begins at session time " + fixedNumber(*begins, 6) + " s");
+        if (const auto begins = beginsSeconds(); begins && written_ == 0)
+            wav_.setComment("begins at session time " + fixedNumber(*begins, 6) + " s");
         wav_.write(channels, frames);
         written_ += frames;
     });

@@ -56,7 +56,8 @@ juce::StringPairArray infoChunk(const std::string& comment) {
 
 } // namespace
 
-WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRateHz, const std::string& comment)
+WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRateHz,
+                 const std::string& comment)
     : file_{path}
     , channels_(channels)
     , sampleRateHz_(sampleRateHz)

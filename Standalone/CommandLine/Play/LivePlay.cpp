@@ -177,7 +177,9 @@ std::string playLive(LivePlay wanted) {
     output.close();
     const std::string trouble = board ? reportBoard(*board, before) : "";
     if (recording && recording->framesLost() > 0) std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
-    if (recording && recording->beginsSeconds()) std::cout << wanted.recordPath << "  begins at session time " << fixedNumber(*recording->beginsSeconds(), 6) << " s\n";
+    if (recording && recording->beginsSeconds())
+        std::cout << wanted.recordPath << "  begins at session time "
+                  << fixedNumber(*recording->beginsSeconds(), 6) << " s\n";
     const std::string saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : ""; // each, whatever becomes of the other
     return !saved.empty() ? saved : !recorded.empty() ? recorded : trouble;
 }
