@@ -58,7 +58,7 @@ public:
             const double start = startBeside(transients, i),
                          end = transients[i].seconds + ClipTransient::lastsSeconds;
             cutStretches(from, start);
-            from = i + 1 < transients.size() ? std::min(end, startBeside(transients, i + 1)) : end;
+            from = i + 1 < transients.size() ? endOrAll(end, startBeside(transients, i + 1)) : end;
             cutBeside(start, transients[i].seconds, from);
         }
         cutStretches(from, limits::maxClipSeconds);
@@ -87,6 +87,11 @@ private:
         }
     }
 
+    /// The moment, or all until `end`, of which less than a piece would be left.
+    static double endOrAll(double seconds, double end) {
+        return seconds + leastPieceSeconds < end ? seconds : end;
+    }
+
     /// A moment before that transient, and not before the one that precedes it.
     static double startBeside(const std::vector<ClipTransient>& transients, std::size_t i) {
         const double at = transients[i].seconds, last = i > 0 ? transients[i - 1].seconds : 0.0;
@@ -113,7 +118,7 @@ private:
         add(std::move(points), level);
         for (double to; from < end; from = to) {
             const EnvelopePoint begin = pointAt(envelope_, from);
-            to = std::min(end, std::max(from + leastPieceSeconds, changesAt(begin, end, mostChange)));
+            to = endOrAll(std::max(from + leastPieceSeconds, changesAt(begin, end, mostChange)), end);
             std::vector<EnvelopePoint> part = partOf(envelope_, from, to);
             level = {from, std::ranges::max(part, {}, &EnvelopePoint::amplitude).amplitude,
                      begin.frequencyHz};
