@@ -98,7 +98,9 @@ std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
     for (const ClipTransient& t : transients) with.push_back({t.seconds, valueAt(curve, t.seconds)});
     std::ranges::stable_sort(with, {}, &ClipPoint::seconds);
     if (with.front().seconds > 0.0) with.insert(with.begin(), {0.0, 0.0});
-    if (with.size() < 2 || !transients.empty()) with.push_back({std::max(with.back().seconds, transients.empty() ? 0.0 : transients.back().seconds) + ClipTransient::lastsSeconds, 0.0});
+    const double last = std::max(with.back().seconds, transients.empty() ? 0.0 : transients.back().seconds);
+    if (with.size() < 2 || !transients.empty())
+        with.push_back({std::min(limits::maxClipSeconds, last + ClipTransient::lastsSeconds), 0.0});
     return with;
 }
 
