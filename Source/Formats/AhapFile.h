@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Apple's .ahap: continuous and transient events, and curves that control them all.
 //
-// Carries: one channel, intensities and sharpnesses from 0 to 1, transients; continuous events of at most 30 s, which follow one another.
-// Does not carry: several channels, places, several frequencies at once, phases, levels beyond full scale, Hz.
-// Of what others write, sound is left out, and so are attack, decay and release.
+// Carries: one channel, intensities and sharpnesses from 0 to 1, transients; continuous events of at most 30
+// s that follow one another.
+//
+// Does not carry: several channels, places, several frequencies at once, phases, levels beyond full scale,
+// Hz.
+//
+// Left out of what others write, and told: sound, attack, decay, release, and what is not known.
 #pragma once
 #include "Files/Result.h"
 #include "Formats/Clip.h"
@@ -13,11 +17,12 @@
 
 namespace physvib {
 
-/// One channel. Amplitude is the intensity squared, sharpness a share of the scale. Values beyond their range are brought to its
-/// ends, as Apple does; a missing intensity is 1, a missing sharpness 0.5 (assumed). Any thread.
+/// One channel. Amplitude is the intensity squared, sharpness a share of the scale. Values beyond their range
+/// are brought to its ends and missing ones have defaults, as Apple has it (Docs/formats.md). Any thread.
 Result<Clip> readAhap(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
 
-/// `channel` as such a file. Any thread.
+/// `channel` as such a file; no curve bends a transient (see AhapPieces.h), or has more than 16 points. Any
+/// thread.
 std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale = {});
 
 } // namespace physvib

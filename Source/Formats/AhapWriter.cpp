@@ -1,31 +1,27 @@
 // SPDX-License-Identifier: MIT
-// The envelope in stretches between silences: a continuous event of full intensity and no sharpness each, and two curves.
+// The envelope in pieces: a continuous event each, and two curves that bend it. Of full intensity and no
+// sharpness, except where a transient sounds: there the event has the level, and the curves begin at 1 and 0.
 #include "Files/Json/JsonLines.h"
 #include "Formats/AhapFile.h"
-#include "Formats/ClipEnvelope.h"
+#include "Formats/AhapPieces.h"
 #include <cmath>
 
 namespace physvib {
 namespace {
 
-constexpr double longestEventSeconds = 30.0; // of Apple's continuous events
-constexpr double silenceSeconds = 0.05;      // what lasts longer is no part of an event
+constexpr std::size_t mostCurvePoints = 16; // of a curve on a phone
 constexpr double intensityTolerance = 0.002, sharpnessTolerance = 0.001;
-constexpr double steepSeconds = 0.001;       // what rises or falls sooner is a step to a hand
-constexpr int rootLines = 6; // of a line of amplitude: its root bends
+constexpr double steepSeconds = 0.001; // what rises or falls sooner is a step to a hand
+constexpr int rootLines = 6;           // of a line of amplitude: its root bends
 
 OrderedJson parametersJson(double intensity, double sharpness) {
-    return OrderedJson::array({{{"ParameterID", "HapticIntensity"}, {"ParameterValue", shortened(intensity)}}, {{"ParameterID", "HapticSharpness"}, {"ParameterValue", shortened(sharpness)}}});
+    return OrderedJson::array(
+        {{{"ParameterID", "HapticIntensity"}, {"ParameterValue", shortened(intensity)}},
+         {{"ParameterID", "HapticSharpness"}, {"ParameterValue", shortened(sharpness)}}});
 }
 
-OrderedJson curveJson(const char* parameter, double start, const std::vector<ClipPoint>& curve) {
-    OrderedJson points = OrderedJson::array();
-    for (const ClipPoint& p : curve) points.push_back({{"Time", shortened(p.seconds - start)}, {"ParameterValue", shortened(p.value)}});
-    return {{"ParameterCurve", {{"ParameterID", parameter}, {"Time", shortened(start)}, {"ParameterCurveControlPoints", std::move(points)}}}};
-}
-
-/// Closer together where the amplitude is small, for there its root is steep.
-std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope) {
+/// In shares of `full`. Closer together where the amplitude is small, for there its root is steep.
+std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope, double full) {
     std::vector<ClipPoint> curve;
     for (std::size_t i = 0; i < envelope.size(); ++i) {
         const EnvelopePoint& p = envelope[i];
@@ -33,65 +29,103 @@ std::vector<ClipPoint> intensitiesOf(std::span<const EnvelopePoint> envelope) {
         const bool isLine = i > 0 && p.seconds - envelope[i - 1].seconds > steepSeconds;
         for (int k = 1; isLine && k < rootLines; ++k) { // even steps of intensity
             const EnvelopePoint& from = envelope[i - 1];
-            const double root = std::sqrt(std::min(1.0, from.amplitude)), value = root + (intensity - root) * k / rootLines;
-            if (p.amplitude != from.amplitude) curve.push_back({from.seconds + (p.seconds - from.seconds) * std::clamp((value * value - from.amplitude) / (p.amplitude - from.amplitude), 0.0, 1.0), value});
+            const double root = std::sqrt(std::min(1.0, from.amplitude)),
+                         value = root + (intensity - root) * k / rootLines;
+            if (p.amplitude != from.amplitude)
+                curve.push_back({from.seconds + (p.seconds - from.seconds) *
+                                                    std::clamp((value * value - from.amplitude) /
+                                                                   (p.amplitude - from.amplitude),
+                                                               0.0, 1.0),
+                                 value});
         }
         curve.push_back({p.seconds, intensity});
     }
+    for (ClipPoint& p : curve) p.value = std::min(1.0, p.value / full);
     return thinned(curve, intensityTolerance);
 }
 
-void addStretch(OrderedJson& pattern, std::span<const EnvelopePoint> envelope, const FrequencyScale& scale) {
-    const double start = envelope.front().seconds, seconds = envelope.back().seconds - start;
-    if (!(seconds > 0.0)) return;
-    std::vector<ClipPoint> sharpness;
-    for (const EnvelopePoint& p : envelope) sharpness.push_back({p.seconds, scale.share(p.frequencyHz)});
-    pattern.push_back({{"Event", {{"Time", shortened(start)}, {"EventType", "HapticContinuous"}, {"EventDuration", shortened(seconds)}, {"EventParameters", parametersJson(1.0, 0.0)}}}});
-    pattern.push_back(curveJson("HapticIntensityControl", start, intensitiesOf(envelope)));
-    pattern.push_back(curveJson("HapticSharpnessControl", start, thinned(sharpness, sharpnessTolerance)));
-}
+/// Events in the order in which they are added, and what the curves are after the last of them.
+class Pattern {
+public:
+    explicit Pattern(const FrequencyScale& scale)
+        : scale_{scale} {}
 
-/// Ends of the stretch that begins at `from`: before a silence, or while it is short enough.
-std::size_t stretchEnd(const std::vector<EnvelopePoint>& envelope, std::size_t from) {
-    std::size_t to = from;
-    while (to + 1 < envelope.size()) {
-        const EnvelopePoint &a = envelope[to], &b = envelope[to + 1];
-        if (a.amplitude == 0.0 && b.amplitude == 0.0 && b.seconds - a.seconds > silenceSeconds) break;
-        if (to > from && b.seconds - envelope[from].seconds > longestEventSeconds) break;
-        ++to;
+    void add(const AhapPiece& piece) {
+        const double start = shortened(piece.points.front().seconds),
+                     seconds = shortened(shortened(piece.points.back().seconds) - start);
+        if (!(seconds > 0.0)) return;
+        const double intensity =
+            piece.level ? shortened(std::sqrt(std::min(1.0, piece.level->amplitude))) : 1.0;
+        const double sharpness = piece.level ? shortened(scale_.share(piece.level->frequencyHz)) : 0.0;
+        if (intensity > 0.0)
+            json_.push_back({{"Event",
+                              {{"Time", start},
+                               {"EventType", "HapticContinuous"},
+                               {"EventDuration", seconds},
+                               {"EventParameters", parametersJson(intensity, sharpness)}}}});
+        addCurves("HapticIntensityControl",
+                  intensity > 0.0 ? intensitiesOf(piece.points, intensity) : constant(piece, 1.0),
+                  intensity_);
+        addCurves("HapticSharpnessControl",
+                  intensity > 0.0 ? sharpnessesOf(piece.points, sharpness) : constant(piece, 0.0),
+                  sharpness_);
     }
-    return to;
-}
 
-/// A line that takes longer than an event may in pieces that an event takes.
-std::vector<EnvelopePoint> cutToLength(const std::vector<EnvelopePoint>& envelope) {
-    std::vector<EnvelopePoint> cut;
-    for (const EnvelopePoint& p : envelope) {
-        const EnvelopePoint from = cut.empty() ? p : cut.back();
-        const int pieces = static_cast<int>(std::ceil((p.seconds - from.seconds) / (0.5 * longestEventSeconds)));
-        for (int k = 1; k < pieces; ++k) {
-            const double s = static_cast<double>(k) / pieces;
-            cut.push_back({std::lerp(from.seconds, p.seconds, s), std::lerp(from.amplitude, p.amplitude, s), std::lerp(from.frequencyHz, p.frequencyHz, s)});
+    void add(const ClipTransient& t) {
+        json_.push_back({{"Event",
+                          {{"Time", shortened(t.seconds)},
+                           {"EventType", "HapticTransient"},
+                           {"EventParameters", parametersJson(std::sqrt(std::clamp(t.amplitude, 0.0, 1.0)),
+                                                              scale_.share(t.frequencyHz))}}}});
+    }
+
+    OrderedJson take() { return std::move(json_); }
+
+private:
+    static std::vector<ClipPoint> constant(const AhapPiece& piece, double value) {
+        return {{piece.points.front().seconds, value}, {piece.points.back().seconds, value}};
+    }
+
+    std::vector<ClipPoint> sharpnessesOf(std::span<const EnvelopePoint> envelope, double before) const {
+        std::vector<ClipPoint> curve;
+        for (const EnvelopePoint& p : envelope)
+            curve.push_back({p.seconds, scale_.share(p.frequencyHz) - before});
+        return thinned(curve, sharpnessTolerance);
+    }
+
+    /// In as many curves as it takes: each begins with the last point of the one before. None if it only goes
+    /// on as it `isNow`.
+    void addCurves(const char* parameter, std::vector<ClipPoint> curve, double& isNow) {
+        for (ClipPoint& p : curve) p = {shortened(p.seconds), shortened(p.value)};
+        if (std::ranges::all_of(curve, [&](const ClipPoint& p) { return p.value == isNow; })) return;
+        isNow = curve.back().value;
+        for (std::size_t from = 0; from + 1 < curve.size(); from += mostCurvePoints - 1) {
+            const double start = curve[from].seconds;
+            OrderedJson points = OrderedJson::array();
+            for (std::size_t i = from; i < std::min(from + mostCurvePoints, curve.size()); ++i)
+                points.push_back(
+                    {{"Time", shortened(curve[i].seconds - start)}, {"ParameterValue", curve[i].value}});
+            json_.push_back({{"ParameterCurve",
+                              {{"ParameterID", parameter},
+                               {"Time", start},
+                               {"ParameterCurveControlPoints", std::move(points)}}}});
         }
-        cut.push_back(p);
     }
-    return cut;
-}
+
+    FrequencyScale scale_;
+    OrderedJson json_ = OrderedJson::array();
+    double intensity_ = 1.0, sharpness_ = 0.0;
+};
 
 } // namespace
 
 std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale) {
-    OrderedJson pattern = OrderedJson::array();
-    const auto envelope = cutToLength(envelopeOf(channel));
-    for (std::size_t from = 0; from + 1 < envelope.size();) {
-        const std::size_t to = stretchEnd(envelope, from);
-        if (to > from) addStretch(pattern, std::span{envelope}.subspan(from, to - from + 1), scale);
-        const bool isSilent = to + 1 < envelope.size() && envelope[to].amplitude == 0.0 && envelope[to + 1].amplitude == 0.0;
-        from = to > from && !isSilent ? to : to + 1;
-    }
-    for (const ClipTransient& t : channel.transients)
-        pattern.push_back({{"Event", {{"Time", shortened(t.seconds)}, {"EventType", "HapticTransient"}, {"EventParameters", parametersJson(std::sqrt(std::clamp(t.amplitude, 0.0, 1.0)), scale.share(t.frequencyHz))}}}});
-    return jsonLines({{"Version", 1}, {"Metadata", {{"Project", title}, {"Created", "PhysVib"}}}, {"Pattern", std::move(pattern)}});
+    Pattern pattern{scale};
+    for (const AhapPiece& piece : ahapPieces(channel)) pattern.add(piece);
+    for (const ClipTransient& t : channel.transients) pattern.add(t);
+    return jsonLines({{"Version", 1},
+                      {"Metadata", {{"Project", title}, {"Created", "PhysVib"}}},
+                      {"Pattern", pattern.take()}});
 }
 
 } // namespace physvib

@@ -8,8 +8,6 @@
 namespace physvib {
 namespace {
 
-constexpr double sameMoment = 1e-9; // seconds: a tick, reached in two ways
-
 bool isWithin(std::span<const ClipPoint> curve, double least, double most) {
     double last = 0.0;
     for (const ClipPoint& p : curve) {
@@ -67,7 +65,7 @@ void keepOneAtATime(ClipBand& band) {
     for (std::size_t i = 0; i + 1 < band.waves.size(); ++i) {
         ClipWave& wave = band.waves[i];
         const double left = band.waves[i + 1].startSeconds - wave.startSeconds;
-        if (left >= wave.seconds() - sameMoment) continue;
+        if (left >= wave.seconds() - sameMomentSeconds) continue;
         const ClipPoint end{left, valueAt(wave.amplitude, left)};
         std::erase_if(wave.amplitude, [=](const ClipPoint& p) { return p.seconds >= left; });
         wave.amplitude.push_back(end);

@@ -3,6 +3,7 @@
 #pragma once
 #include "Core/EnchanterLayout.h"
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -10,6 +11,11 @@
 #include <vector>
 
 namespace physvib {
+
+constexpr double sameMomentSeconds = 1e-9; ///< a time, reached in two ways
+
+/// In whole nanoseconds: times that a file reaches by different sums are equal. Any thread.
+inline double momentOf(double seconds) noexcept { return std::round(seconds * 1e9) / 1e9; }
 
 /// A point of a curve; from one to the next it is a line.
 struct ClipPoint {
@@ -83,6 +89,7 @@ struct Clip {
     std::string title;
     double extentWidthMetres = 0.0, extentHeightMetres = 0.0; ///< 0: no channel has a place
     std::vector<ClipChannel> channels;
+    std::string leftOut{}; ///< one line: what the file holds and is not felt; empty: nothing
     bool operator==(const Clip&) const = default;
 
     double seconds() const noexcept {

@@ -7,6 +7,9 @@
 namespace physvib {
 namespace {
 
+/// Moments that are closer are one: a wave that begins where another ends follows it. Files have whole microseconds.
+constexpr double sameSeconds = 5e-7;
+
 /// What sounds of a band, asked at growing times.
 class BandWalk {
 public:
@@ -15,10 +18,13 @@ public:
 
     /// The wave just before `seconds`, or from then on; none.
     const ClipWave* at(double seconds, bool isBefore) {
+        const double after = seconds + sameSeconds;
         while (next_ < band_.waves.size() && band_.waves[next_].endSeconds() < seconds) ++next_;
-        for (std::size_t i = next_; i < band_.waves.size() && band_.waves[i].startSeconds <= seconds; ++i) {
+        for (std::size_t i = next_; i < band_.waves.size() && band_.waves[i].startSeconds <= after; ++i) {
             const ClipWave& wave = band_.waves[i];
-            if (isBefore ? wave.startSeconds < seconds && seconds <= wave.endSeconds() : seconds < wave.endSeconds()) return &wave;
+            if (isBefore ? wave.startSeconds < seconds && seconds <= wave.endSeconds()
+                         : after < wave.endSeconds())
+                return &wave;
         }
         return nullptr;
     }
@@ -38,22 +44,33 @@ std::vector<double> momentsOf(const ClipChannel& channel) {
                     if (p.seconds <= wave.seconds()) moments.push_back(wave.startSeconds + p.seconds);
         }
     std::ranges::sort(moments);
-    moments.erase(std::unique(moments.begin(), moments.end(), [](double a, double b) { return b - a < 1e-6; }), moments.end());
+    moments.erase(
+        std::unique(moments.begin(), moments.end(), [](double a, double b) { return b - a < sameSeconds; }),
+        moments.end());
     return moments;
+}
+
+/// Of a curve that steps there: its value before the step, or after it.
+double sideOf(std::span<const ClipPoint> curve, double seconds, bool isBefore) {
+    const auto first = std::ranges::lower_bound(curve, seconds - sameMomentSeconds, {}, &ClipPoint::seconds);
+    const auto end = std::ranges::upper_bound(curve, seconds + sameMomentSeconds, {}, &ClipPoint::seconds);
+    return first == end ? valueAt(curve, seconds) : isBefore ? first->value : (end - 1)->value;
 }
 
 EnvelopePoint sumAt(std::vector<BandWalk>& bands, double seconds, bool isBefore, double heldHz) {
     double squares = 0.0, weighted = 0.0;
     for (BandWalk& band : bands)
         if (const ClipWave* wave = band.at(seconds, isBefore)) {
-            const double a = valueAt(wave->amplitude, seconds - wave->startSeconds);
+            const double a = sideOf(wave->amplitude, seconds - wave->startSeconds, isBefore);
             squares += a * a;
-            weighted += a * a * valueAt(wave->frequencyHz, seconds - wave->startSeconds);
+            weighted += a * a * sideOf(wave->frequencyHz, seconds - wave->startSeconds, isBefore);
         }
     return {seconds, std::sqrt(squares), squares > 0.0 ? weighted / squares : heldHz};
 }
 
-bool isJump(const EnvelopePoint& a, const EnvelopePoint& b) { return std::abs(a.amplitude - b.amplitude) > 1e-6 || std::abs(a.frequencyHz - b.frequencyHz) > 1e-3; }
+bool isJump(const EnvelopePoint& a, const EnvelopePoint& b) {
+    return std::abs(a.amplitude - b.amplitude) > 1e-6 || std::abs(a.frequencyHz - b.frequencyHz) > 1e-3;
+}
 
 } // namespace
 
@@ -64,7 +81,8 @@ std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSec
         const double held = points.empty() ? 0.0 : points.back().frequencyHz;
         EnvelopePoint before = sumAt(bands, moment, true, held);
         EnvelopePoint after = sumAt(bands, moment, false, before.frequencyHz);
-        if (before.amplitude == 0.0) before.frequencyHz = after.frequencyHz; // nobody feels a glide within silence
+        if (before.amplitude == 0.0)
+            before.frequencyHz = after.frequencyHz; // nobody feels a glide within silence
         const double last = points.empty() ? 0.0 : points.back().seconds;
         after.seconds = std::max(moment, last); // what follows within the rise of what begins at 0 s
         if (!isJump(before, after)) {
@@ -72,12 +90,36 @@ std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSec
             continue;
         }
         before.seconds = std::max(moment - riseSeconds, 0.5 * (last + moment));
-        if (after.seconds < riseSeconds && points.empty()) after.seconds = riseSeconds, before.seconds = 0.0; // what begins at 0 s rises from there
+        if (after.seconds < riseSeconds && points.empty())
+            after.seconds = riseSeconds, before.seconds = 0.0; // what begins at 0 s rises from there
         if (before.seconds > last || points.empty()) points.push_back(before);
         points.push_back(after);
     }
-    if (!points.empty() && points.back().amplitude > 0.0) points.push_back({points.back().seconds + riseSeconds, 0.0, points.back().frequencyHz});
+    if (!points.empty() && points.back().amplitude > 0.0)
+        points.push_back({points.back().seconds + riseSeconds, 0.0, points.back().frequencyHz});
     return points;
+}
+
+EnvelopePoint pointAt(std::span<const EnvelopePoint> envelope, double seconds) {
+    const auto next = std::ranges::upper_bound(envelope, seconds, {}, &EnvelopePoint::seconds);
+    if (envelope.empty()) return {seconds, 0.0, 0.0};
+    if (next == envelope.begin()) return {seconds, 0.0, next->frequencyHz};
+    const EnvelopePoint& last = *(next - 1);
+    if (next == envelope.end())
+        return {seconds, seconds > last.seconds ? 0.0 : last.amplitude, last.frequencyHz};
+    EnvelopePoint point = between(last, *next, (seconds - last.seconds) / (next->seconds - last.seconds));
+    point.seconds = seconds;
+    return point;
+}
+
+std::vector<EnvelopePoint> partOf(std::span<const EnvelopePoint> envelope, double fromSeconds,
+                                  double toSeconds) {
+    const auto first = std::ranges::upper_bound(envelope, fromSeconds, {}, &EnvelopePoint::seconds);
+    const auto end = std::ranges::lower_bound(envelope, toSeconds, {}, &EnvelopePoint::seconds);
+    std::vector<EnvelopePoint> part{pointAt(envelope, fromSeconds)};
+    if (first < end) part.insert(part.end(), first, end);
+    part.push_back(pointAt(envelope, toSeconds));
+    return part;
 }
 
 std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance) {

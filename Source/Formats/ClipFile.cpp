@@ -113,7 +113,14 @@ Result<std::string> clipBytes(const Clip& clip, ClipFormat format, const Frequen
 std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {
     const Facts facts = factsOf(clip);
     if (format == ClipFormat::hmpg) return hmpgLosses(clip, facts);
-    return format == ClipFormat::hjif ? hjifLosses(clip, facts) : monoLosses(facts, scale);
+    if (format == ClipFormat::hjif) return hjifLosses(clip, facts);
+    std::vector<std::string> losses = monoLosses(facts, scale);
+    const std::size_t raised =
+        format == ClipFormat::haptic && !clip.channels.empty() ? metaHapticRaised(clip.channels.front()) : 0;
+    if (raised > 0)
+        losses.push_back(std::to_string(raised) +
+                         " transients are weaker than what sounds beside them and become as strong as it");
+    return losses;
 }
 
 } // namespace physvib

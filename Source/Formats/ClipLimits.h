@@ -14,6 +14,8 @@ constexpr double maxClipSounding = 7200.0;           // seconds of all waves: a 
 constexpr double maxClipFrequencyHz = 10'000.0;      // of MPEG's schema
 constexpr double maxClipAmplitude = 1000.0;          // a channel's gain times an amplitude within -1 to 1
 
+constexpr double maxAhapEventSeconds = 30.0; // of Apple's continuous events
+
 constexpr std::size_t maxTextureFileBytes = 16'000'000; // the toolkit's have under a tenth
 constexpr std::size_t maxTextureModels = 4096;          // of speeds and forces
 constexpr std::size_t maxTextureCoefficients = 256;     // of each

@@ -5,6 +5,7 @@
 #include "Files/Text/NumberText.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
+#include "Formats/LeftOut.h"
 #include "Formats/MpegEffects.h"
 #include "Formats/MpegPlaces.h"
 #include <map>
@@ -24,13 +25,17 @@ public:
         for (std::size_t i = 0; i < perceptions.arraySize(); ++i) readPerception(perceptions.item(i));
         if (clip_.channels.empty()) perceptions.fail("expected a vibrotactile perception with channels, found none");
         if (auto fault = clipFault(clip_); !fault.empty()) perceptions.fail(fault);
+        clip_.leftOut = leftOut_.line();
         return std::move(clip_);
     }
 
 private:
     void readPerception(const JsonField& perception) {
         perception.expectObject();
-        if (!perception["perception_modality"].is("Vibrotactile")) return; // nothing that an enchanter could do
+        if (!isVibrotactile(perception))
+            return leftOut_.add(
+                "a perception of " +
+                perception["perception_modality"].line()); // nothing that an enchanter could do
         library_.clear();
         for (std::size_t i = 0; perception.has("effect_library") && i < perception["effect_library"].arraySize(); ++i) {
             const JsonField effect = perception["effect_library"].item(i);
@@ -40,6 +45,23 @@ private:
         if (clip_.channels.size() + channels.arraySize() > static_cast<std::size_t>(limits::maxEnchanters))
             channels.fail("expected at most " + std::to_string(limits::maxEnchanters) + " channels, found more");
         for (std::size_t i = 0; i < channels.arraySize(); ++i) readChannel(channels.item(i), perception);
+    }
+
+    /// Also "Other" with waves or transients, as MPEG's encoder makes of every .ahap; not with wavelets,
+    /// which may be anything.
+    static bool isVibrotactile(const JsonField& perception) {
+        const JsonField modality = perception["perception_modality"];
+        if (!modality.is("Other") || !perception.has("channels")) return modality.is("Vibrotactile");
+        bool isFelt = false;
+        for (std::size_t i = 0; i < perception["channels"].arraySize(); ++i) {
+            const JsonField bands = perception["channels"].item(i)["bands"];
+            for (std::size_t j = 0; j < bands.arraySize(); ++j) {
+                const JsonField type = bands.item(j)["band_type"];
+                if (type.is("WaveletWave")) return false;
+                isFelt = isFelt || type.is("VectorialWave") || type.is("Transient");
+            }
+        }
+        return isFelt;
     }
 
     void readChannel(const JsonField& json, const JsonField& perception) {
@@ -108,6 +130,7 @@ private:
 
     static constexpr std::array<std::string_view, 2> curveTypes{"Linear", "Cubic"};
     Clip clip_;
+    LeftOut leftOut_;
     std::map<int, std::size_t> library_; // of this perception: where effects of a number stand
     int timescale_ = 1000;
     double gain_ = 1.0;

@@ -81,7 +81,8 @@ std::string bandsText(const ClipChannel& channel, double gain) {
 
 std::string channelText(const Clip& clip, const ClipChannel& channel, std::size_t j) {
     const double gain = gainOf(channel);
-    OrderedJson head{{"id", j}, {"description", channel.label}, {"reference_device_id", j + 1}, {"gain", gain}, {"mixing_coefficient", 1}};
+    OrderedJson head{{"id", j},      {"description", channel.label}, {"reference_device_id", j + 1},
+                     {"gain", gain}, {"mixing_coefficient", 1},      {"body_part_mask", mpeg::anyBodyPart}};
     if (channel.place) {
         const mpeg::PlaceGrid grid{clip};
         head["actuator_resolution"] = vectorJson(grid.points, 1);

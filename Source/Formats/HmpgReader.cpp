@@ -261,6 +261,9 @@ private:
 Result<Clip> readHmpg(std::string_view bytes, std::string_view name) {
     const std::string file{name};
     if (bytes.size() > limits::maxClipFileBytes) return Failure{file + ": expected at most " + std::to_string(limits::maxClipFileBytes) + " bytes, found " + std::to_string(bytes.size())};
+    if (const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+        first != std::string_view::npos && bytes[first] == '{')
+        return Failure{file + ": expected the bits of an .hmpg, found JSON: this looks like .hjif"};
     try {
         Clip clip = HmpgReader{}.read(BitReader{bytes});
         if (clip.channels.empty()) return Failure{file + ": expected a vibrotactile perception with channels, found none"};

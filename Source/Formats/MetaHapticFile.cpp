@@ -17,6 +17,24 @@ double timeOf(const JsonField& point, double last) {
     return seconds;
 }
 
+/// Since `start`. Before its first point, and where there is none, a device plays the middle of its band.
+std::vector<ClipPoint> frequenciesOf(const JsonField& envelopes, double start, const FrequencyScale& scale) {
+    std::vector<ClipPoint> curve{{0.0, scale.hertz(0.5)}};
+    if (!envelopes.has("frequency") || envelopes["frequency"].isNull()) return curve;
+    const JsonField list = envelopes["frequency"];
+    double last = 0.0;
+    for (std::size_t i = 0; i < list.arraySize(); ++i) {
+        const JsonField point = list.item(i);
+        last = timeOf(point, last);
+        if (i == 0) curve.push_back({last, curve.back().value}); // from where it steps
+        curve.push_back({last, scale.hertz(point["frequency"].numberUpTo(1.0))});
+    }
+    std::vector<ClipPoint> since{{0.0, valueAt(curve, start)}};
+    for (const ClipPoint& p : curve)
+        if (p.seconds > start) since.push_back({p.seconds - start, p.value});
+    return since;
+}
+
 Clip readClip(const JsonField& root, const FrequencyScale& scale) {
     root.expectObject();
     if (const JsonField version = root["version"]; version["major"].wholeNumber() != 1) version["major"].fail("expected version 1");
@@ -37,29 +55,52 @@ Clip readClip(const JsonField& root, const FrequencyScale& scale) {
         clip.channels[0].transients.push_back({last, strength, scale.hertz(emphasis["frequency"].numberUpTo(1.0))});
     }
     if (!(wave.seconds() > 0.0)) amplitudes.fail("expected an envelope that lasts");
-    last = 0.0;
-    if (envelopes.has("frequency") && !envelopes["frequency"].isNull())
-        for (std::size_t i = 0; i < envelopes["frequency"].arraySize(); ++i) {
-            const JsonField point = envelopes["frequency"].item(i);
-            last = timeOf(point, last);
-            wave.frequencyHz.push_back({std::max(0.0, last - wave.startSeconds), scale.hertz(point["frequency"].numberUpTo(1.0))});
-        }
-    if (wave.frequencyHz.empty()) wave.frequencyHz.push_back({0.0, scale.hertz(0.0)});
+    wave.frequencyHz = frequenciesOf(envelopes, wave.startSeconds, scale);
     clip.channels[0].bands.push_back({{std::move(wave)}});
     if (auto fault = clipFault(clip); !fault.empty()) envelopes.fail(fault);
     return clip;
 }
 
-/// The envelope with a point at each transient, and time enough for two.
-std::vector<ClipPoint> amplitudesOf(const std::vector<EnvelopePoint>& envelope, const std::vector<ClipTransient>& transients) {
+std::vector<ClipPoint> amplitudesOf(const std::vector<EnvelopePoint>& envelope) {
     std::vector<ClipPoint> curve;
     for (const EnvelopePoint& p : envelope) curve.push_back({p.seconds, std::min(1.0, p.amplitude)});
     if (curve.empty()) curve = {{0.0, 0.0}};
+    return curve;
+}
+
+constexpr double unfeltSeconds = 0.0009; // by which a transient may move
+
+/// The nearest moment at which the envelope is not stronger than the transient: there, or at a point of the
+/// envelope beside it.
+double placeOf(const ClipTransient& transient, const std::vector<ClipPoint>& curve) {
+    const double at = transient.seconds;
+    if (valueAt(curve, at) <= transient.amplitude) return at;
+    double nearest = 2.0 * unfeltSeconds;
+    for (auto p = std::ranges::lower_bound(curve, at - unfeltSeconds, {}, &ClipPoint::seconds);
+         p != curve.end() && p->seconds <= at + unfeltSeconds; ++p)
+        if (p->value <= transient.amplitude && std::abs(p->seconds - at) < std::abs(nearest))
+            nearest = p->seconds - at;
+    return std::abs(nearest) <= unfeltSeconds ? at + nearest : at;
+}
+
+/// In time order.
+std::vector<ClipTransient> placed(std::vector<ClipTransient> transients,
+                                  const std::vector<ClipPoint>& curve) {
+    for (ClipTransient& t : transients) t.seconds = placeOf(t, curve);
+    std::ranges::stable_sort(transients, {}, &ClipTransient::seconds);
+    return transients;
+}
+
+/// The envelope with a point at each transient, and time enough for two.
+std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
+                                      const std::vector<ClipTransient>& transients) {
     std::vector<ClipPoint> with = curve;
     for (const ClipTransient& t : transients) with.push_back({t.seconds, valueAt(curve, t.seconds)});
     std::ranges::stable_sort(with, {}, &ClipPoint::seconds);
     if (with.front().seconds > 0.0) with.insert(with.begin(), {0.0, 0.0});
-    if (with.size() < 2 || !transients.empty()) with.push_back({std::max(with.back().seconds, transients.empty() ? 0.0 : transients.back().seconds) + ClipTransient::lastsSeconds, 0.0});
+    const double last = std::max(with.back().seconds, transients.empty() ? 0.0 : transients.back().seconds);
+    if (with.size() < 2 || !transients.empty())
+        with.push_back({std::min(limits::maxClipSeconds, last + ClipTransient::lastsSeconds), 0.0});
     return with;
 }
 
@@ -70,7 +111,7 @@ OrderedJson amplitudesJson(const std::vector<ClipPoint>& curve, const std::vecto
         OrderedJson& point = list.emplace_back(OrderedJson{{"time", shortened(p.seconds)}, {"amplitude", shortened(p.value)}});
         if (next == transients.end() || next->seconds > p.seconds) continue;
         point["emphasis"] = {{"amplitude", shortened(std::clamp(next->amplitude, p.value, 1.0))}, {"frequency", shortened(scale.share(next->frequencyHz))}};
-        while (next != transients.end() && next->seconds <= p.seconds) ++next;
+        ++next;
     }
     return list;
 }
@@ -90,10 +131,21 @@ Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const 
     return readJson(text, name, limits::maxClipFileBytes, [&](const Json& root) { return readClip({root, {}}, scale); });
 }
 
+std::size_t metaHapticRaised(const ClipChannel& channel) {
+    const auto amplitudes = amplitudesOf(envelopeOf(channel));
+    constexpr double unfelt = 0.01; // of full scale
+    return static_cast<std::size_t>(
+        std::ranges::count_if(placed(channel.transients, amplitudes), [&](const ClipTransient& t) {
+            return t.amplitude + unfelt < valueAt(amplitudes, t.seconds);
+        }));
+}
+
 std::string metaHapticText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale) {
     const auto envelope = envelopeOf(channel);
-    const auto amplitudes = amplitudesOf(envelope, channel.transients);
-    OrderedJson envelopes{{"amplitude", amplitudesJson(amplitudes, channel.transients, scale)}};
+    const auto amplitudes = amplitudesOf(envelope);
+    const auto transients = placed(channel.transients, amplitudes);
+    OrderedJson envelopes{
+        {"amplitude", amplitudesJson(withTransients(amplitudes, transients), transients, scale)}};
     if (auto frequencies = frequenciesJson(envelope, scale); !frequencies.empty()) envelopes["frequency"] = std::move(frequencies);
     return jsonLines({{"version", {{"major", 1}, {"minor", 0}, {"patch", 0}}},
                       {"metadata", {{"editor", "PhysVib"}, {"author", ""}, {"source", ""}, {"project", ""}, {"tags", OrderedJson::array()}, {"description", title}}},

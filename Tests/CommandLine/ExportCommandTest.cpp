@@ -179,6 +179,22 @@ TEST_F(ExportCommand, TurnsOneFormatIntoAnother) {
     EXPECT_GT(farthest(wav("c.wav"), ClipSignals(1, std::vector<float>(96000))), 0.01);
 }
 
+TEST_F(ExportCommand, TellsWhatOfAClipIsLeftOut) {
+    write(
+        "a.ahap",
+        R"({"Pattern": [{"Event": {"EventType": "HapticTransient", "EventParameters": [{"ParameterID": "AttackTime", "ParameterValue": 0.1},]}}, {"Event": {"EventType": "AudioCustom"}}]})");
+    for (const char* arguments : {"export a.ahap --to a.hjif", "render a.ahap --layout phone1 --out a.wav"}) {
+        const auto outcome = call(arguments);
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_NE(outcome.err.find("physvib: warning: a.ahap: left out: AttackTime (1), AudioCustom (1)\n"),
+                  std::string::npos)
+            << outcome.err;
+    }
+    write("b.hmpg", read("a.hjif"));
+    refuses("render b.hmpg --out b.wav", 1,
+            "b.hmpg: expected the bits of an .hmpg, found JSON: this looks like .hjif", 4);
+}
+
 TEST_F(ExportCommand, ReadsClipsWhereARecordingIs) {
     runs("export drop --seconds 2 --layout phone1 --to a.haptic");
     runs("stimulus wav a.haptic --at 0.3,0.4 --level-g 0.5 --out s.wav");

@@ -95,6 +95,40 @@ TEST(HjifFile, ReadsWhatOthersWrite) {
     EXPECT_EQ(channel.transients, (std::vector<ClipTransient>{{0.015, 0.5, 90.0}}));
 }
 
+TEST(HjifFile, GivesEveryChannelABodyPartForMpegsReader) {
+    const std::string text = hjifText(scene());
+    std::size_t channels = 0;
+    for (std::size_t at = text.find("\"body_part_mask\": 0,"); at != std::string::npos;
+         at = text.find("\"body_part_mask\": 0,", at + 1))
+        ++channels;
+    EXPECT_EQ(channels, 4u);
+}
+
+TEST(HjifFile, ReadsWhatMpegsEncoderCallsOther) {
+    const auto perceptions = [](const std::string& modality, const std::string& band) {
+        return R"({"perceptions": [{"perception_modality": ")" + modality + R"(", "channels": [{"bands": [)" +
+               band + "]}]}]}";
+    };
+    const std::string effects =
+        R"("effects": [{"effect_type": "Basis", "position": 10, "keyframes": [{"relative_position": 0, "amplitude_modulation": 1, "frequency_modulation": 90}, {"relative_position": 5, "amplitude_modulation": 1}]}]})";
+    EXPECT_EQ(
+        read(perceptions("Other", R"({"band_type": "Transient", )" + effects)).channels[0].transients.size(),
+        2u);
+    EXPECT_EQ(
+        read(perceptions("Other", R"({"band_type": "VectorialWave", )" + effects)).channels[0].bands.size(),
+        1u);
+    const std::string none = "f: perceptions: expected a vibrotactile perception with channels, found none";
+    EXPECT_EQ(refusal(perceptions("Other", R"({"band_type": "Curve", )" + effects)),
+              none); // a force, a position
+    EXPECT_EQ(refusal(perceptions("Other", R"({"band_type": "VectorialWave", )" + effects +
+                                               R"(, {"band_type": "WaveletWave"})")),
+              none);
+    EXPECT_EQ(refusal(perceptions("Force", R"({"band_type": "VectorialWave", )" + effects)), none);
+    std::string both = perceptions("Vibrotactile", R"({"band_type": "VectorialWave", )" + effects);
+    both.insert(both.size() - 2, R"(, {"perception_modality": "Force", "channels": []})");
+    EXPECT_EQ(read(both).leftOut, "left out: a perception of Force (1)");
+}
+
 TEST(HjifFile, LetsAnEffectEndWhereTheNextOfItsBandBegins) {
     const std::string effect = R"("effect_type": "Basis", "keyframes": [{"relative_position": 0, "amplitude_modulation": 1, "frequency_modulation": 100}, {"relative_position": 100, "amplitude_modulation": 0}]})";
     const Clip clip = read(file(vectorial("{\"position\": 50, " + effect + ", {\"position\": 0, " + effect)));

@@ -112,6 +112,13 @@ TEST(HmpgFile, CarriesLongWavesTransientsAndSilences) {
     EXPECT_LT(hmpgBytes(clip).value.size(), 600u); // 500 s of silence take 9 bytes for each 349 s
 }
 
+TEST(HmpgFile, TellsJsonByItsBeginning) {
+    const std::string json = "f: expected the bits of an .hmpg, found JSON: this looks like .hjif";
+    EXPECT_EQ(refusal("{}"), json);
+    EXPECT_EQ(refusal(" \r\n\t{\"version\": \"2023\"}"), json);
+    EXPECT_NE(refusal(" "), json);
+}
+
 TEST(HmpgFile, ReadsWhatOthersWrite) {
     // effects cut at units, as MPEG's software has it unless told otherwise; a word for what they mean; an effect of the library; curves; silence
     const std::string library = packet(6, bits("3:8 2:16  7:16 0:2 1 513:12 0:25 0:16 0:4 2:16 111 0:16 255:8 100:16 011 30:16 0:8 0:16  8:16 2:2 0 0:25 0:16 1:16 9:16 0:2 0 0:25 0:16 0:4 0:16 0:16"));
@@ -147,7 +154,7 @@ TEST(HmpgFile, ReadsWhatOthersWrite) {
 
 TEST(HmpgFile, RefusesInOneLine) {
     EXPECT_EQ(refusal(""), "f: expected a vibrotactile perception with channels, found none");
-    EXPECT_EQ(refusal("{}"), "f: byte 0: expected a unit of type 0 to 3, found 30");
+    EXPECT_EQ(refusal("|}"), "f: byte 0: expected a unit of type 0 to 3, found 31");
     EXPECT_EQ(refusal(std::string(4, '\0')), "f: byte 1: expected 3 more bytes, found 2");
     EXPECT_EQ(refusal(unit(1, 1, "")), "f: byte 0: expected a unit of type 0 first, found 1");
     EXPECT_EQ(refusal(unit(0, 0, "")), "f: byte 0: expected a timescale in the first unit");

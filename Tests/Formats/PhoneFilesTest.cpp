@@ -165,6 +165,86 @@ TEST(PhoneFiles, ReadAppleAsAppleSays) {
     EXPECT_NEAR(valueAt(wave.frequencyHz, 0.5), 150.0, 1e-9);
 }
 
+TEST(PhoneFiles, ReadApplesDefaultsAndLastCommas) {
+    const auto clip = readAhap(R"({"Pattern": [
+        {"ParameterCurve": {"ParameterID": "HapticIntensityControl", "Time": 40, "ParameterCurveControlPoints": [{"ParameterValue": 0.5,}, {"Time": 1}]}},
+        {"ParameterCurve": {"ParameterID": "HapticIntensityControl"}}, {"Parameter": {"ParameterID": "HapticSharpnessControl", "Time": 40}},
+        {"Event": {"EventType": "HapticContinuous", "EventParameters": [{"ParameterID": "HapticIntensity"}, {"ParameterID": "HapticSharpness"}],},},
+        {"Event": {"Time": 40, "EventType": "HapticTransient",}},
+    ],})",
+                               "f", {100.0, 200.0});
+    ASSERT_EQ(clip.error, "");
+    EXPECT_EQ(clip.value.leftOut, "");
+    const ClipChannel& channel = clip.value.channels[0];
+    EXPECT_EQ(channel.transients, (std::vector<ClipTransient>{{40.0, 0.25, 150.0}}));
+    EXPECT_EQ(
+        channel.bands[0].waves[0].amplitude,
+        (std::vector<ClipPoint>{{0.0, 1.0}, {30.0, 1.0}})); // no end of its own: as long as a phone plays it
+    EXPECT_EQ(
+        readAhap(
+            R"({"Version": "a,]", "Pattern": [{"Event": {"EventType": "HapticTransient"}, "a\",}": 1}]})",
+            "f")
+            .error,
+        "");
+}
+
+TEST(PhoneFiles, TellWhatIsLeftOutInOneLine) {
+    const auto clip = readAhap(R"({"Version": 1, "Authored": "by\u001b hand", "Pattern": [
+        {"Event": {"EventType": "HapticContinuous", "EventDuration": 1, "Speed": 3, "EventParameters": [{"ParameterID": "AttackTime", "ParameterValue": 0.1}, {"ParameterID": "DecayTime", "ParameterValue": 0.1},
+            {"ParameterID": "ReleaseTime", "ParameterValue": 0.1}, {"ParameterID": "Sustained", "ParameterValue": 1}]}},
+        {"Event": {"EventType": "HapticTransient", "EventParameters": [{"ParameterID": "AttackTime", "ParameterValue": 0.1}, {"ParameterValue": 0.1}]}},
+        {"ParameterCurve": {"ParameterID": "HapticDecayTimeControl", "ParameterCurveControlPoints": []}}, {"Event": {"EventType": "AudioCustom"}}]})",
+                               "f");
+    ASSERT_EQ(clip.error, "");
+    EXPECT_EQ(
+        clip.value.leftOut,
+        "left out: AttackTime (2), AudioCustom (1), Authored (1), DecayTime (1), HapticDecayTimeControl (1), "
+        "ReleaseTime (1), Speed (1), Sustained (1), a parameter without ParameterID (1)");
+    std::string many = R"({"Pattern": [{"Event": {"EventType": "HapticTransient"}})";
+    for (int k = 0; k < 1000; ++k) many += R"(, {"unknown)" + std::to_string(k) + R"(": 1})";
+    const std::string line = readAhap(many + "]}", "f").value.leftOut;
+    EXPECT_NE(line.find("others (988)"), std::string::npos);
+    EXPECT_LT(line.size(), 300u);
+}
+
+std::vector<ClipPoint> frequenciesOf(const std::string& frequency) {
+    const auto clip = readMetaHaptic(
+        R"({"version": {"major": 1}, "signals": {"continuous": {"envelopes": {"amplitude": [{"time": 0.5, "amplitude": 0.1}, {"time": 2.5, "amplitude": 1}])" +
+            frequency + "}}}}",
+        "f", {100.0, 200.0});
+    EXPECT_EQ(clip.error, "");
+    return clip.value.channels[0].bands[0].waves[0].frequencyHz;
+}
+
+TEST(PhoneFiles, PlayTheMiddleOfTheBandWhereMetaSaysNoFrequency) {
+    for (const char* none : {"", R"(, "frequency": null)", R"(, "frequency": [])"})
+        EXPECT_EQ(frequenciesOf(none), (std::vector<ClipPoint>{{0.0, 150.0}})) << none;
+    const auto late =
+        frequenciesOf(R"(, "frequency": [{"time": 1.5, "frequency": 0}, {"time": 2, "frequency": 1}])");
+    EXPECT_EQ(valueAt(late, 0.999), 150.0);
+    EXPECT_EQ(valueAt(late, 1.0), 100.0);
+    EXPECT_NEAR(valueAt(late, 1.25), 150.0, 1e-9);
+    EXPECT_EQ(valueAt(late, 2.0), 200.0);
+    EXPECT_EQ(frequenciesOf(R"(, "frequency": [{"time": 0, "frequency": 0}, {"time": 1, "frequency": 1}])"),
+              (std::vector<ClipPoint>{{0.0, 150.0}, {0.5, 200.0}})); // begun before the envelope
+}
+
+TEST(PhoneFiles, PutATransientWhereTheEnvelopeIsNotStronger) {
+    const ClipChannel channel{"",
+                              {},
+                              {},
+                              {{{ClipWave{1.0, 0.0, {}, {{0.0, 0.9}, {1.0, 0.9}}, {{0.0, 100.0}}}}}},
+                              {{1.0, 0.2, 200.0}, {1.5, 0.4, 200.0}}};
+    const auto again = readMetaHaptic(metaHapticText(channel, ""), "f").value.channels[0].transients;
+    ASSERT_EQ(again.size(), 2u);
+    EXPECT_NEAR(again[0].amplitude, 0.2, 1e-6);
+    EXPECT_NEAR(again[0].seconds, 0.9995, 1e-6);
+    EXPECT_NEAR(again[1].amplitude, 0.9, 1e-6); // the format has none weaker
+    EXPECT_EQ(clipLosses({"", 0, 0, {channel}}, ClipFormat::haptic).back(),
+              "1 transients are weaker than what sounds beside them and become as strong as it");
+    EXPECT_EQ(clipLosses({"", 0, 0, {channel}}, ClipFormat::ahap).size(), 1u);
+}
+
 TEST(PhoneFiles, RefuseInOneLine) {
     const auto meta = [](const std::string& amplitude) { return readMetaHaptic(R"({"version": {"major": 1, "minor": 0, "patch": 0}, "signals": {"continuous": {"envelopes": {"amplitude": [)" + amplitude + "]}}}}", "f").error; };
     const std::string at = "f: signals.continuous.envelopes.amplitude";
@@ -178,7 +258,9 @@ TEST(PhoneFiles, RefuseInOneLine) {
     EXPECT_EQ(readAhap(R"({"Pattern": []})", "f").error, "f: Pattern: expected something to feel, found silence");
     EXPECT_EQ(readAhap(R"({"Pattern": [{"Event": {"EventType": "Smell"}}]})", "f").error,
               "f: Pattern[0].Event.EventType: expected one of HapticTransient, HapticContinuous, AudioContinuous, AudioCustom, found \"Smell\"");
-    EXPECT_EQ(readAhap(R"({"Pattern": [{"Event": {"EventType": "HapticContinuous"}}]})", "f").error, "f: Pattern[0].Event: field \"EventDuration\" is missing");
+    EXPECT_EQ(readAhap(R"({"Pattern": [{"Event": {"Time": 0}}]})", "f").error,
+              "f: Pattern[0].Event: field \"EventType\" is missing");
+    EXPECT_EQ(readAhap(R"({"Pattern": [,]})", "f").error.substr(0, 20), "f: line 1, column 14");
 }
 
 TEST(PhoneFiles, AreBoundedWhereManyEventsShareLongCurves) {

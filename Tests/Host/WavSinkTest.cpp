@@ -2,6 +2,7 @@
 #include "Host/Recordings/WavSink.h"
 #include "Files/FileTesting.h"
 #include "Files/FullDisk.h"
+#include "Host/Recordings/PlayedRecorder.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -136,6 +137,24 @@ TEST(WavSink, KeepsTheComment) {
     ASSERT_EQ(writeBlocks(path, 4, 10, 10, "shake-the-box, seed 1"), "");
     EXPECT_NE(bytesOf(path).find("ICMT"), std::string::npos);
     EXPECT_NE(bytesOf(path).find("shake-the-box, seed 1"), std::string::npos);
+}
+
+TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {
+    const auto path = pathOf("begins.wav");
+    PlayedRecorder recorder{path, 1, rateHz};
+    ASSERT_EQ(recorder.error(), "");
+    recorder.tellBeginning(2400);
+    recorder.drain(); // nothing yet
+    EXPECT_FALSE(recorder.beginsSeconds());
+    const std::vector<float> block(480, 0.5f);
+    const float* const channels[] = {block.data()};
+    recorder.take(channels, 480, 960);
+    recorder.take(channels, 480, 1440);
+    ASSERT_EQ(recorder.finish(), "");
+    EXPECT_EQ(recorder.beginsSeconds(), -0.03);
+    const auto bytes = bytesOf(path);
+    EXPECT_NE(bytes.find("begins at session time -0.030000 s"), std::string::npos);
+    EXPECT_EQ(numberAt<std::uint32_t>(bytes, chunkAt(bytes, "data") - 4), 960u * 4u);
 }
 
 TEST(WavSink, NoFramesAreAFileToo) {

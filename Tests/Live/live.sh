@@ -33,3 +33,5 @@ echo "events: $((common - 1)) played as rendered again"
 own_is_render $((48000 * (seconds - 1)))
 "$bin/physvib-compare-recording" "$folder/live.raw" "$folder/render.raw" 4 "$block" "$(sed -n 's/xruns //p' "$folder/ready")"
 grep -q " 0 late, 0 dropped, 0 refused" "$folder/report"
+begins=$(sed -n 's|.*own.wav  \(begins at session time -0\.\)|\1|p' "$folder/report") # felt the play-out delay after it happens
+[ -n "$begins" ] && grep -qaF "$begins" "$folder/own.wav"

@@ -5,6 +5,7 @@
 #include "Host/Recordings/WavSink.h"
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace physvib {
@@ -29,6 +30,9 @@ public:
         tap_.take(channels, frames);
     }
 
+    /// Says in the file at which session time it begins, by the session's play-out delay L; before the first drain(). M.
+    void tellBeginning(std::int64_t playOutFrames) noexcept { playOutFrames_ = playOutFrames; }
+
     /// Writes what has come. M, often enough.
     void drain();
 
@@ -36,6 +40,11 @@ public:
     const std::string& finish();
 
     std::int64_t firstFrame() const noexcept { return firstFrame_.load(std::memory_order_relaxed); } ///< of the session; -1: nothing yet
+    /// What happens at session time t is felt t less this behind the file's first frame; none before tellBeginning() and that frame.
+    std::optional<double> beginsSeconds() const noexcept {
+        if (!playOutFrames_ || firstFrame() < 0) return {};
+        return static_cast<double>(firstFrame() - *playOutFrames_) / sampleRateHz_;
+    }
     std::int64_t frames() const noexcept { return written_; }                                       ///< in the file. M
     std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
 
@@ -44,6 +53,7 @@ private:
     WavSink wav_;
     SignalTap tap_;
     std::atomic<std::int64_t> firstFrame_{-1};
+    std::optional<std::int64_t> playOutFrames_;
     std::int64_t written_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include "Files/Text/CleanText.h"
 #include "Files/WavHead.h"
 #include <juce_audio_formats/juce_audio_formats.h>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -55,29 +56,36 @@ juce::StringPairArray infoChunk(const std::string& comment) {
 
 } // namespace
 
-WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRateHz, const std::string& comment)
+WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRateHz,
+                 const std::string& comment)
     : file_{path}
     , channels_(channels)
-    , sampleRateHz_(sampleRateHz) {
+    , sampleRateHz_(sampleRateHz)
+    , comment_{comment} {}
+
+void WavSink::begin() {
+    if (writer_ != nullptr) return;
     auto stream = std::make_unique<FileStream>(file_);
-    writer_.reset(juce::WavAudioFormat().createWriterFor(stream.get(), sampleRateHz,
-                                                         juce::AudioChannelSet::discreteChannels(channels),
-                                                         32, infoChunk(comment), 0));
+    writer_.reset(juce::WavAudioFormat().createWriterFor(stream.get(), sampleRateHz_,
+                                                         juce::AudioChannelSet::discreteChannels(channels_),
+                                                         32, infoChunk(comment_), 0));
     stream.release(); // now the writer's, which there is for 32 bits
 }
 
 WavSink::~WavSink() = default;
 
 bool WavSink::write(const float* const* channels, int frames) {
-    if (!error().empty() || writer_ == nullptr) return false;
+    if (!error().empty() || isComplete_) return false;
     if (frames <= 0) return true;
+    begin();
     writer_->writeFromFloatArrays(channels, channels_, frames);
     dataBytes_ += std::int64_t{frames} * channels_ * 4;
     return error().empty();
 }
 
 const std::string& WavSink::complete() {
-    if (writer_ == nullptr) return error();
+    if (std::exchange(isComplete_, true)) return error();
+    begin();
     writer_.reset(); // its destructor writes the sizes into the header
     if (channels_ > 2 && dataBytes_ < rf64Bytes) file_.writeAt(junkChunkAt, extensibleHeader());
     return error();

@@ -9,6 +9,7 @@
 #include "CommandLine/Process.h"
 #include "CommandLine/Render/MarkWords.h"
 #include "CommandLine/StandardStreams.h"
+#include "Files/Text/NumberText.h"
 #include "Host/Devices/NoDevice.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/Recordings/ClipFolder.h"
@@ -171,6 +172,7 @@ std::string playLive(LivePlay wanted) {
     if (!wanted.recordPath.empty()) {
         recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
         if (!recording->error().empty()) return recording->error();
+        recording->tellBeginning(session.playOutFrames());
         output.record(&*recording);
     }
     if (!wanted.savePath.empty()) {
@@ -231,6 +233,9 @@ std::string playLive(LivePlay wanted) {
     if (recording && recording->framesLost() > 0)
         std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
     const std::string trouble = board ? reportBoard(*board, before) : "";
+    if (recording && recording->beginsSeconds())
+        std::cout << wanted.recordPath << "  begins at session time "
+                  << fixedNumber(*recording->beginsSeconds(), 6) << " s\n";
     output.close();
     return !saved.empty() ? saved : !recorded.empty() ? recorded : trouble;
 }

@@ -65,6 +65,7 @@ int takeClip(RenderJob& job) {
     if (!scale) return leave(exitFailed, scale.error);
     auto clip = loadClip(o.scene, *clipFormatOf(o.scene), scale.value);
     if (!clip) return leave(exitFailed, clip.error);
+    if (!clip.value.leftOut.empty()) tell("warning: " + o.scene + ": " + clip.value.leftOut);
     job.clip = std::move(clip.value);
     if (!o.given.contains("--layout") && hasPlaces(*job.clip)) {
         job.layout = layoutOf(*job.clip);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What an .ahap file says, between its words and the clip: events, and the curves that bend all of them.
+#pragma once
+#include "Formats/Clip.h"
+#include "Formats/FrequencyScale.h"
+#include <vector>
+
+namespace physvib {
+
+/// What a dynamic parameter does over time: curves and steps, one after the other.
+class AhapControl {
+public:
+    AhapControl(double before, double least)
+        : before_{before}
+        , least_{least} {}
+
+    double before() const noexcept { return before_; } ///< what it is without curves
+
+    /// Values beyond its range are brought to its ends.
+    void add(std::vector<ClipPoint> points) {
+        for (ClipPoint& p : points) p.value = std::clamp(p.value, least_, 1.0);
+        if (!points.empty()) pieces_.push_back(std::move(points));
+    }
+    /// All in one: each piece holds until the next begins.
+    std::vector<ClipPoint> curve() {
+        std::ranges::stable_sort(pieces_, {}, [](const auto& piece) { return piece.front().seconds; });
+        std::vector<ClipPoint> all{{0.0, before_}};
+        for (const auto& piece : pieces_) {
+            const double start = piece.front().seconds, held = valueAt(all, start);
+            while (!all.empty() && all.back().seconds > start) all.pop_back();
+            all.push_back({start, held});
+            all.insert(all.end(), piece.begin(), piece.end());
+        }
+        return all;
+    }
+
+private:
+    double before_, least_;
+    std::vector<std::vector<ClipPoint>> pieces_;
+};
+
+struct AhapEvent {
+    double start, seconds; ///< 0: a transient
+    double intensity, sharpness;
+};
+
+struct AhapPattern {
+    std::vector<AhapEvent> events{};
+    AhapControl intensity{1.0, 0.0}, sharpness{0.0, -1.0};
+};
+
+/// Events become waves and transients, bent by the curves that hold while they last. Throws JsonError if that
+/// is too much. Any thread.
+Clip clipOf(AhapPattern pattern, const FrequencyScale& scale);
+
+} // namespace physvib
