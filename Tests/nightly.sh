@@ -1,5 +1,5 @@
 #!/bin/sh
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 # Everything that is too long for test.sh: the other modules under the sanitizers, a million fuzzed inputs, soaks, other processors and
 # systems, programs of others that judge ours. It needs root, a network, and about nine hours on two cores.
 # Prints a line per step as it ends, and a table. Logs: build/nightly/STEP.log. Exit code 1 if a step failed.
