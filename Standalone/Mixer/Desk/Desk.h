@@ -175,7 +175,7 @@ private:
     std::optional<ListeningSettings> ofStudy_;
     ListeningSettings heard_; // what the output has been told
     juce::String trouble_, deviceTrouble_, outputTrouble_; // shown; of the device; with the board's
-    double displayWidthMetres_ = 0.0;
+    double displayWidthMetres_ = 0.0, maintainedAtMs_ = 0.0;
     bool isSilent_ = false, isNews_ = false;
     std::uint64_t edits_ = 0, worldEdits_ = 0;
     ToldMix told_;
@@ -183,7 +183,6 @@ private:
     int mostEnchanters_ = 0, added_ = 0;
     RecentContacts recent_;
     DeskMoment now_;
-    double maintainedAtMs_ = 0.0;
     std::vector<CollisionEvent> hits_; // played since the last look
     OscChoice oscChoice_;
     std::uint64_t oscMessages_ = 0; // as of the last look
