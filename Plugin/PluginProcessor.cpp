@@ -11,7 +11,7 @@ namespace physvib {
 namespace {
 
 /// A message may quote bytes of a broken chunk, and JUCE writes beyond its memory where a text is no UTF-8.
-juce::String readable(std::string text) {
+juce::String asString(std::string text) {
     if (!juce::CharPointer_UTF8::isValidString(text.data(), static_cast<int>(text.size())))
         for (char& c : text)
             if (static_cast<unsigned char>(c) >= 0x80) c = '?';
@@ -75,7 +75,7 @@ bool PluginProcessor::apply(PluginState state) {
     try {
         takes_.set(sessionSetupOf(state), {state.transport, state.layout.geometry, MidiTable{state}}, state.strips);
     } catch (const std::invalid_argument& error) {
-        return refuse(readable(error.what()));
+        return refuse(asString(error.what()));
     }
     tailSeconds_ = tailSeconds(state);
     program_ = programOf(state.scene);
@@ -136,7 +136,7 @@ juce::String PluginProcessor::trouble() const {
     if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate))
         return "the host runs at " + juce::String{rate} + " Hz; expected " + juce::String{limits::minSampleRateHz} + " to " + juce::String{limits::maxSampleRateHz} + ": silent";
     const std::lock_guard lock{mutex_};
-    return trouble_.isNotEmpty() ? trouble_ : readable(fault);
+    return trouble_.isNotEmpty() ? trouble_ : asString(fault);
 }
 
 bool PluginProcessor::keepsRefused() const {
@@ -226,8 +226,8 @@ void PluginProcessor::setStateInformation(const void* data, int size) {
 
 bool PluginProcessor::takeChunk(std::string_view text) {
     const auto read = readPluginState(text, "state");
-    if (!read) return refuse(readable(read.error));
-    if (const auto fault = faultOfParameters(read.value); !fault.empty()) return refuse(readable("state: " + fault));
+    if (!read) return refuse(asString(read.error));
+    if (const auto fault = faultOfParameters(read.value); !fault.empty()) return refuse(asString("state: " + fault));
     if (!apply(read.value)) return false;
     takeParameters(read.value);
     return true;

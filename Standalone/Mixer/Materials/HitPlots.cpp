@@ -35,7 +35,7 @@ juce::String measured(double value, double error, const juce::String& unit) {
     return number(value, decimals) + juce::String::fromUTF8(" \xc2\xb1 ") + number(std::max(error, 0.01), decimals) + unit;
 }
 
-juce::Colour readable(const juce::Component& c, juce::Colour colour) {
+juce::Colour legible(const juce::Component& c, juce::Colour colour) {
     return shade(c, Shade::panel).getPerceivedBrightness() > 0.5f ? colour.withMultipliedBrightness(0.75f) : colour.brighter(0.15f);
 }
 
@@ -59,7 +59,7 @@ void SpectrumPlot::paint(juce::Graphics& g) {
     if (!(hit_.frequencyHz > 0.0)) return drawHead(g, *this, area.removeFromTop(headHeight), {"spectrum"}, {});
     const auto head = area.removeFromTop(headHeight);
     area = drawFrequencyAxis(g, *this, area);
-    const auto colour = readable(*this, hit_.colour);
+    const auto colour = legible(*this, hit_.colour);
     auto heights = levels_;
     for (float& level : heights) level = juce::Decibels::decibelsToGain(level, FrequencyAxis::floorDb); // a peak is seen better without logarithm
     drawSpectrum(g, heights, area.toFloat(), colour);
@@ -93,7 +93,7 @@ void CoursePlot::paint(juce::Graphics& g) {
         const auto [low, high] = std::minmax_element(from, std::max(from + 1, std::min(to + 1, course_.samples.end())));
         columns.addWithoutMerging({static_cast<float>(area.getX() + x), middle - reach * *high, 1.0f, std::max(1.0f, reach * (*high - *low))});
     }
-    g.setColour(readable(*this, hit_.colour).withAlpha(0.75f));
+    g.setColour(legible(*this, hit_.colour).withAlpha(0.75f));
     g.fillRectList(columns);
     const double start = hit_.recording ? hit_.recording->amplitude : 1.0;
     juce::Path upper;
