@@ -133,28 +133,48 @@ struct Painter::Raster {
         const bool isLong = part.steps.size() > longestStroke, closes = part.isClosed && !isLong;
         FT_Vector p[3]{fixed(move.at(part.points[0]))}; // the last is where the line is
         const FT_Vector start = p[0];
-        FT_Stroker_BeginSubPath(stroker, &p[0], !closes);
-        for (std::size_t step = 1, at = 1; step < part.steps.size(); ++step) {
+        FT_Vector at = start;
+        begin(at, !closes);
+        for (std::size_t step = 1, next = 1; step < part.steps.size(); ++step) {
             const auto count = static_cast<std::size_t>(part.steps[step]); // of points: see Kind
-            for (std::size_t i = 0; i < count; ++i) p[i] = fixed(move.at(part.points[at++]));
-            if (count == 1)
-                FT_Stroker_LineTo(stroker, &p[0]);
-            else if (count == 2)
-                FT_Stroker_ConicTo(stroker, &p[0], &p[1]);
-            else
-                FT_Stroker_CubicTo(stroker, &p[0], &p[1], &p[2]);
+            for (std::size_t i = 0; i < count; ++i) p[i] = fixed(move.at(part.points[next++]));
+            add(at, p, count);
+            at = p[count - 1];
             if (step % longestStroke != 0) continue;
-            FT_Stroker_EndSubPath(stroker);
-            fillStroke(painter);
-            FT_Stroker_BeginSubPath(stroker, &p[count - 1], true);
+            end(painter);
+            begin(at, true);
         }
-        if (part.isClosed && isLong) {
-            p[0] = start;
-            FT_Stroker_LineTo(stroker, &p[0]);
-        }
+        if (part.isClosed && isLong) add(at, &start, 1);
+        end(painter);
+    }
+
+private:
+    void begin(FT_Vector at, bool isOpen) {
+        FT_Stroker_BeginSubPath(stroker, &at, isOpen);
+        isBegun_ = false;
+    }
+    void add(FT_Vector at, const FT_Vector* p, std::size_t count) {
+        FT_Vector to[3]{};
+        std::copy_n(p, count, to);
+        for (std::size_t i = 0; i < count; at = to[i++]) isBegun_ |= isApart(at, to[i], count);
+        if (count == 1)
+            FT_Stroker_LineTo(stroker, &to[0]);
+        else if (count == 2)
+            FT_Stroker_ConicTo(stroker, &to[0], &to[1]);
+        else
+            FT_Stroker_CubicTo(stroker, &to[0], &to[1], &to[2]);
+    }
+    // FreeType's stroker leaves out what goes nowhere, and ends a path of nothing else outside its memory.
+    void end(Painter& painter) {
+        if (!isBegun_) return FT_Stroker_Rewind(stroker);
         FT_Stroker_EndSubPath(stroker);
         fillStroke(painter);
     }
+    static bool isApart(FT_Vector a, FT_Vector b, std::size_t count) noexcept {
+        const FT_Pos least = count == 1 ? 1 : 2; // of 64ths of a pixel, in curves
+        return std::abs(a.x - b.x) >= least || std::abs(a.y - b.y) >= least;
+    }
+    bool isBegun_ = false;
 };
 
 Painter::Painter(Image& image)

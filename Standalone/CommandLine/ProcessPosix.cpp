@@ -2,6 +2,7 @@
 // POSIX: descriptors 0 to 2, signals, other processes.
 #if !defined(_WIN32)
 #include "CommandLine/Process.h"
+#include "Files/Disk/SystemFile.h"
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -38,7 +39,7 @@ void beginProcess() {
 }
 
 void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : endingSignals()) {
         const bool wasIgnored = std::signal(signal, handler) == SIG_IGN;
         if (wasIgnored && (kept == KeepIgnored::all || signal == SIGHUP)) std::signal(signal, SIG_IGN);
     }

@@ -2,6 +2,7 @@
 // Windows: handles, the console's signals, other processes.
 #if defined(_WIN32)
 #include "CommandLine/Process.h"
+#include "Files/Disk/SystemFile.h"
 #include "Files/Disk/SystemWindows.h"
 #include <cerrno>
 #include <csignal>
@@ -33,7 +34,7 @@ std::optional<DWORD> waitingInPipe(HANDLE pipe, int milliseconds) noexcept {
 void beginProcess() { catchEnding(endBySignal, KeepIgnored::all); }
 
 void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept {
-    for (const int signal : {SIGINT, SIGTERM, SIGBREAK})
+    for (const int signal : endingSignals())
         if (std::signal(signal, handler) == SIG_IGN && kept == KeepIgnored::all) std::signal(signal, SIG_IGN);
 }
 

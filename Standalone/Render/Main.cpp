@@ -212,10 +212,8 @@ extern "C" void endNow(int signal) {
 } // namespace
 
 int main(int argc, char** argv) {
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, endNow);
-#ifdef SIGHUP // a terminal that is closed; not every system has it
-    if (std::signal(SIGHUP, endNow) == SIG_IGN) std::signal(SIGHUP, SIG_IGN); // nohup
-#endif
+    for (const int signal : endingSignals())
+        if (std::signal(signal, endNow) == SIG_IGN) std::signal(signal, SIG_IGN); // as nohup wants
     Options o;
     CLI::App app{"Collisions one can feel: a scene or an event list to a WAV file. The library without "
                  "windows and devices."};

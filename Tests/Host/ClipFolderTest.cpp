@@ -21,7 +21,9 @@ constexpr const char* knock = R"({"perceptions": [{"perception_modality": "Vibro
     {"relative_position": 0, "amplitude_modulation": 0.5, "frequency_modulation": 100}, {"relative_position": 100, "amplitude_modulation": 0}]}]}]}]}]})";
 
 struct ClipFolderTest : testing::Test {
-    fs::path top = fs::path{testing::TempDir()} / "clip-folder", folder = top / "clips";
+    // Each test has its own: they run side by side.
+    fs::path top = fs::path{testing::TempDir()} / (std::string{"clip-folder-"} + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::path folder = top / "clips";
     void SetUp() override {
         fs::remove_all(top);
         fs::create_directories(folder / "more");

@@ -56,6 +56,19 @@ TEST(PictureCanvas, WordsThatAreTooLongEndWithDotsAndStayInTheirArea) {
     EXPECT_EQ(canvas.textWidth("", smallText), 1);
 }
 
+TEST(Painter, LinesThatGoNowhereDrawNothing) {
+    Image image{20, 20};
+    const auto empty = image.at(10, 10);
+    Painter painter{image};
+    painter.drawLine({10, 10}, {10, 10}, 3.0f);
+    Path curve;
+    curve.startNewSubPath(10, 10);
+    curve.cubicTo({10, 10}, {10, 10}, {10, 10});
+    curve.closeSubPath();
+    painter.strokePath(curve, 3.0f);
+    EXPECT_EQ(image.at(10, 10), empty);
+}
+
 TEST(Painter, EdgesAreSmoothAndClipped) {
     Image image{20, 20};
     Painter painter{image};

@@ -114,6 +114,8 @@ TEST_F(PluginFiles, NoFileMakesAnythingLouder) {
     session.limiterEnabled = true;
     session.mix->levelDb = -1.0;
     session.mix->strips[0].gainDb = 6.0;
+    auto& level = host_.plugin->parameter(Parameter::level);
+    level.setValue(level.getDefaultValue());
     auto state = host_.plugin->state();
     ASSERT_EQ(state.strips.size(), 4u);
     state.strips[0].ceilingDb = -20.0;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -113,6 +114,9 @@ private:
 
 /// For the handler of a signal that ends the program: allocates, locks and waits for nothing (on Windows it waits for HeldSignals).
 void removeAllOnEnd() noexcept;
+
+/// What asks a program to end: Ctrl-C, `kill`, a terminal that is closed. Any thread.
+std::span<const int> endingSignals() noexcept;
 
 /// A file of that name by the C library, as std::fopen; nullptr and errno if it cannot be opened. Any thread but R.
 std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept;

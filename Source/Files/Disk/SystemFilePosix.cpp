@@ -109,6 +109,8 @@ HeldSignals::~HeldSignals() {
 
 void removeAllOnEnd() noexcept { RemovedOnEnd::removeAll(); }
 
+std::span<const int> endingSignals() noexcept { return ending; }
+
 std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept { return std::fopen(path.c_str(), mode); }
 
 } // namespace physvib

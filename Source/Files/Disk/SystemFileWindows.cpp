@@ -5,6 +5,7 @@
 #include "Files/Disk/SystemWindows.h"
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cwchar>
 
@@ -135,6 +136,11 @@ bool SystemFile::note(bool isGood) noexcept {
 
 HeldSignals::HeldSignals() noexcept { AcquireSRWLockShared(&makers); }
 HeldSignals::~HeldSignals() { ReleaseSRWLockShared(&makers); }
+
+std::span<const int> endingSignals() noexcept {
+    static constexpr int ending[]{SIGINT, SIGTERM, SIGBREAK};
+    return ending;
+}
 
 void removeAllOnEnd() noexcept {
     AcquireSRWLockExclusive(&makers);
