@@ -24,7 +24,8 @@ public:
     static constexpr int files = 64;
 
     HapticFolder()
-        : folder_{std::filesystem::path(testing::TempDir()) / "haptic-chain"} {
+        : folder_{std::filesystem::path(testing::TempDir()) /
+                  (std::string{"haptic-chain-"} + testing::UnitTest::GetInstance()->current_test_info()->name())} {
         std::filesystem::create_directories(folder_);
         for (int k = 0; k < files; ++k) std::ofstream{path(k)} << fileOf(k).dump();
     }

@@ -4,7 +4,7 @@
 # a table of door, state, and milliseconds to zero (or to the end), and fails if one is later than it may be, or a file is not whole.
 # Usage: doors.sh BIN_FOLDER [GROUP...]: silence, overtake, readers, ends, commands, mixer (on a display), pauses, answers, complaints; all unless told.
 set -eu
-bin=$1
+bin=$(realpath "$1")
 shift
 here=$(cd "$(dirname "$0")" && pwd)
 physvib=$bin/physvib
