@@ -157,7 +157,8 @@ TEST(OscPorts, AnOffComesInItsTurnAndLiftsNoLaterOn) {
         for (const bool isOn : asked) played.silence(isOn);
         EXPECT_TRUE(comes([&] { return played.output.isSilent(); }));
         played.goesOn = true;
-        EXPECT_TRUE(comes([&] { return port->status().counts.messages == asked.size() + 1; }));
+        const std::uint64_t messages = asked.size() + 1;
+        EXPECT_TRUE(comes([&] { return port->status().counts.messages == messages; }));
         EXPECT_EQ(played.output.isSilent(), isSilent);
     }
 }
