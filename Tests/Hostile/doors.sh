@@ -321,7 +321,7 @@ try_answers() {
     begin_server 48000
     play out err still.json --osc "$port"
     for wrong in "/physvib/strike ss material lead" "/physvib/strike sf level 7" "/physvib/nonsense" "/physvib/strike" "/physvib/strike s material" \
-        "/physvib/silence si on 7" "/physvib/pattern ss pattern AZ" "/physvib/gain sisf channel 99 value 0.5" "/elsewhere si on 1"; do
+        "/physvib/silence ss on maybe" "/physvib/pattern ss pattern AZ" "/physvib/gain sisf channel 99 value 0.5" "/elsewhere si on 1"; do
         t=$(now)
         # shellcheck disable=SC2086 # words
         if osc say $wrong | grep -q /physvib/error; then row "/physvib/error" "$wrong" $(($(now) - t)) 1000; else row "/physvib/error" "$wrong" never 1000; fi
@@ -329,8 +329,8 @@ try_answers() {
     done
     say '{"control": "silence", "on": true, "id": 7}'
     if until_true 1000 grep -q '"id": 7' out; then row '"id"' "accepted" 0 0; else row '"id"' "accepted" never 0; fi
-    say '{"message": "strike", "material": "lead", "id": "x"}'
-    if until_true 1000 grep -q '"answer": "error".*"id": "x"' out; then row '"id"' "refused" 0 0; else row '"id"' "refused" never 0; fi
+    say '{"message": "strike", "material": "lead", "id": 8}'
+    if until_true 1000 grep -q '"answer": "error".*"id": 8' out; then row '"id"' "refused" 0 0; else row '"id"' "refused" never 0; fi
     ended
     end_server
 }
