@@ -6,21 +6,19 @@
 
 namespace physvib {
 
-template <class P>
-bool HapticRenderer<P>::canTake(const RendererSettings& settings) noexcept {
+bool HapticRenderer::canTake(const RendererSettings& settings) noexcept {
     const int outputs = settings.outputs();
-    if (!isSampleRate(settings.sampleRateHz) || settings.channels < 0 || settings.modes < 0 || settings.modes > P::maxModes || outputs < 1 || outputs > P::maxChannels) return false;
+    if (!isSampleRate(settings.sampleRateHz) || settings.channels < 0 || settings.modes < 0 || settings.modes > limits::maxModes || outputs < 1 || outputs > limits::maxEnchanters) return false;
     if (settings.panner.channels() < 0 || settings.panner.channels() > outputs) return false;
     return std::all_of(settings.ceilings.begin(), settings.ceilings.begin() + outputs,
                        [](float ceiling) { return ceiling > 0.0f && std::isfinite(ceiling); });
 }
 
-template <class P>
-bool HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
+bool HapticRenderer::prepare(const RendererSettings& settings) noexcept {
     isPrepared_ = canTake(settings);
     position_ = 0;
     played_ = late_ = rejected_ = 0;
-    channels_ = std::clamp(settings.outputs(), 0, P::maxChannels);
+    channels_ = std::clamp(settings.outputs(), 0, limits::maxEnchanters);
     if (!isPrepared_) return false;
     settings_ = settings;
     clock_ = FrameClock{settings.sampleRateHz};
@@ -32,29 +30,25 @@ bool HapticRenderer<P>::prepare(const RendererSettings& settings) noexcept {
     return isPrepared_ = takeMemory();
 }
 
-template <class P>
-bool HapticRenderer<P>::takeMemory() noexcept {
-    const auto share = [this](int most, int least) { return settings_.shareOf(most, P::maxModes, std::min(most, least)); };
-    return bank_.prepare(settings_.sampleRateHz, channels_, settings_.instructions, share(P::maxModes, 1), share(P::maxGates, 256)) &&
-           actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) && prepareLimiter() && pending_.resize(share(P::maxPending, 512)) &&
-           controls_.resize(share(P::maxControls, 64));
+bool HapticRenderer::takeMemory() noexcept {
+    const auto share = [this](int most, int least) { return settings_.shareOf(most, limits::maxModes, std::min(most, least)); };
+    return bank_.prepare(settings_.sampleRateHz, channels_, settings_.instructions, share(limits::maxModes, 1), share(limits::maxGates, 256)) &&
+           actuators_.prepare(settings_.sampleRateHz, channels_, settings_.equalised) && prepareLimiter() && pending_.resize(share(limits::maxPending, 512)) &&
+           controls_.resize(share(limits::maxControls, 64));
 }
 
-template <class P>
-bool HapticRenderer<P>::prepareLimiter() noexcept {
+bool HapticRenderer::prepareLimiter() noexcept {
     const bool has = limiter_.prepare(settings_.sampleRateHz, channels_, settings_.limiterEnabled, settings_.instructions);
     for (int j = 0; j < channels_; ++j) limiter_.setCeiling(j, settings_.ceilings[static_cast<std::size_t>(j)]);
     return has;
 }
 
-template <class P>
-void HapticRenderer<P>::setContacts(const RecordedContacts& contacts) noexcept {
+void HapticRenderer::setContacts(const RecordedContacts& contacts) noexcept {
     player_.setContacts(contacts.list);
     othersAreModes_ = contacts.othersAreModes;
 }
 
-template <class P>
-bool HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
+bool HapticRenderer::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
     if (!isPrepared_ || !isSampleRate(sampleRateHz)) return false;
     bank_.moveTo(position_, sampleRateHz, frame);
     settings_.sampleRateHz = sampleRateHz;
@@ -66,8 +60,7 @@ bool HapticRenderer<P>::moveTo(int sampleRateHz, std::int64_t frame) noexcept {
 }
 
 // A gate that ends where a strike begins closes first; a control acts before the strikes of its frame.
-template <class P>
-void HapticRenderer<P>::actOnDue() noexcept {
+void HapticRenderer::actOnDue() noexcept {
     while (bank_.nextGateFrame() <= position_) bank_.closeNextGate();
     while (!controls_.empty() && clock_.at(controls_.nextTime()).frame <= position_) {
         apply(controls_.next());
@@ -75,8 +68,7 @@ void HapticRenderer<P>::actOnDue() noexcept {
     }
 }
 
-template <class P>
-void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
+void HapticRenderer::apply(const RenderControl& control) noexcept {
     using Kind = RenderControl::Kind;
     const bool isChannel = control.channel >= 0 && control.channel < channels_;
     if (control.kind == Kind::panner && control.panner.channels() <= channels_) panner_ = control.panner;
@@ -101,14 +93,12 @@ void HapticRenderer<P>::apply(const RenderControl& control) noexcept {
     if (isSilence || control.kind == Kind::stopAll || control.kind == Kind::recordings) player_.fadeAll(position_);
 }
 
-template <class P>
-bool HapticRenderer<P>::isSilenced(const CollisionEvent& event) const noexcept {
+bool HapticRenderer::isSilenced(const CollisionEvent& event) const noexcept {
     return event.timeNs < (event.source.fixture < 0 ? strikesSilentUntilNs_ : silentUntilNs_);
 }
 
 // False: it could not be played.
-template <class P>
-bool HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset) noexcept {
+bool HapticRenderer::strike(const CollisionEvent& event, FramePosition onset) noexcept {
     const std::int64_t delay = position_ - onset.frame;
     if (delay > 0) onset = {position_, 0.0}; // late: the whole vibration, at once
     const bool isGated = event.durationNs > 0;
@@ -126,8 +116,7 @@ bool HapticRenderer<P>::strike(const CollisionEvent& event, FramePosition onset)
     return taken;
 }
 
-template <class P>
-bool HapticRenderer<P>::strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {
+bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {
     panner_.gainsAt(event.x, event.y, event.course.spread, gains_);
     std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
     Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, closeFrame};
@@ -141,9 +130,8 @@ bool HapticRenderer<P>::strikeStill(const CollisionEvent& event, FramePosition o
     return isCoupled() ? strikeCoupled(s) : bank_.strike(s, gains_.data());
 }
 
-template <class P>
-typename MovingTones<P>::Drive HapticRenderer<P>::driveAt(const CollisionEvent& event, double x, double y) noexcept {
-    typename MovingTones<P>::Drive drive;
+MovingTones::Drive HapticRenderer::driveAt(const CollisionEvent& event, double x, double y) noexcept {
+    MovingTones::Drive drive;
     panner_.gainsAt(x, y, event.course.spread, gains_);
     if (isCoupled()) settings_.drives.apply(event.frequencyHz, gains_.data(), drive.inPhase.data(), drive.ahead.data());
     else std::copy_n(gains_.begin(), panner_.channels(), drive.inPhase.begin());
@@ -151,10 +139,9 @@ typename MovingTones<P>::Drive HapticRenderer<P>::driveAt(const CollisionEvent& 
 }
 
 // A complex drive is two strikes of one mode, a quarter turn apart: they merge, so it costs no mode. Both or none.
-template <class P>
-bool HapticRenderer<P>::strikeCoupled(Strike strike) noexcept {
+bool HapticRenderer::strikeCoupled(Strike strike) noexcept {
     if (strike.closeFrame != Strike::never && bank_.freeGates() < 2) return false;
-    std::array<double, static_cast<std::size_t>(P::maxChannels)> inPhase{}, ahead{};
+    std::array<double, static_cast<std::size_t>(limits::maxEnchanters)> inPhase{}, ahead{};
     settings_.drives.apply(strike.frequencyHz, gains_.data(), inPhase.data(), ahead.data());
     bank_.strike(strike, inPhase.data());
     strike.phase += std::uint64_t{1} << 62;
@@ -163,26 +150,21 @@ bool HapticRenderer<P>::strikeCoupled(Strike strike) noexcept {
 
 // Modes alone, that leave as they are but for the limiter: it reads them where they were summed, and keeps what a delay set later
 // begins with. False: something else is to be done.
-template <class P>
-bool HapticRenderer<P>::passModes([[maybe_unused]] const Channels& out, [[maybe_unused]] int frames) noexcept {
-    if constexpr (P::hasTiles) {
-        Channels kept;
-        std::array<const float*, static_cast<std::size_t>(P::maxChannels)> sums;
-        const bool isAlone = bank_.liveModes() > 0 && limiter_.canPass() && player_.voices() == 0 && moving_.count() == 0;
-        if (!isAlone || !actuators_.passes(kept.data(), frames)) return false;
-        if (!bank_.sumsAt(sums.data(), position_)) {
-            if (!bank_.render(out.data(), position_, frames)) return false;
-            std::copy_n(out.begin(), channels_, sums.begin());
-        }
-        actuators_.pass(frames);
-        limiter_.pass(sums.data(), out.data(), frames, kept.data());
-        return true;
+bool HapticRenderer::passModes(const Channels& out, int frames) noexcept {
+    Channels kept;
+    std::array<const float*, static_cast<std::size_t>(limits::maxEnchanters)> sums;
+    const bool isAlone = bank_.liveModes() > 0 && limiter_.canPass() && player_.voices() == 0 && moving_.count() == 0;
+    if (!isAlone || !actuators_.passes(kept.data(), frames)) return false;
+    if (!bank_.sumsAt(sums.data(), position_)) {
+        if (!bank_.render(out.data(), position_, frames)) return false;
+        std::copy_n(out.begin(), channels_, sums.begin());
     }
-    return false;
+    actuators_.pass(frames);
+    limiter_.pass(sums.data(), out.data(), frames, kept.data());
+    return true;
 }
 
-template <class P>
-void HapticRenderer<P>::playAll(const Channels& out, int frames) noexcept {
+void HapticRenderer::playAll(const Channels& out, int frames) noexcept {
     const bool modesSound = bank_.render(out.data(), position_, frames), recordingsSound = player_.render(out.data(), position_, frames);
     const bool movingSounds = moving_.count() > 0 && moving_.render(out.data(), position_, frames, [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
     const bool isSilent = actuators_.process(out.data(), frames, !modesSound && !recordingsSound && !movingSounds);
@@ -190,17 +172,15 @@ void HapticRenderer<P>::playAll(const Channels& out, int frames) noexcept {
 }
 
 // The end of the tile, the next gate or the next control; `most` frames away at the latest.
-template <class P>
-std::int64_t HapticRenderer<P>::nextChange(int most) const noexcept {
-    constexpr int tile = P::tileFrames;
+std::int64_t HapticRenderer::nextChange(int most) const noexcept {
+    constexpr int tile = limits::tileFrames;
     std::int64_t end = std::min(position_ + most, position_ - position_ % tile + tile);
     end = std::min(end, bank_.nextGateFrame());
     if (!controls_.empty()) end = std::min(end, clock_.at(controls_.nextTime()).frame);
     return end;
 }
 
-template <class P>
-RenderStatus HapticRenderer<P>::status() const noexcept {
+RenderStatus HapticRenderer::status() const noexcept {
     return {.framesRendered = position_,
             .played = played_,
             .late = late_,
@@ -212,8 +192,5 @@ RenderStatus HapticRenderer<P>::status() const noexcept {
             .pending = pending_.size(),
             .limiterGain = limiter_.gain()};
 }
-
-template class HapticRenderer<DesktopProfile>;
-template class HapticRenderer<BoardProfile>;
 
 } // namespace physvib

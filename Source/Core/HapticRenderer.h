@@ -14,7 +14,6 @@
 #include "Core/Modes/ModeBank.h"
 #include "Core/MovingTones.h"
 #include "Core/Nonblocking.h"
-#include "Core/PendingEvents.h"
 #include "Core/PhantomPanner.h"
 #include "Core/RenderControl.h"
 #include "Core/RendererSettings.h"
@@ -25,13 +24,12 @@
 
 namespace physvib {
 
-/// Its memory follows channels and modes and is taken in prepare (DesktopProfile), or inside the object: keep it on the heap.
-template <class Profile>
+/// Its memory follows channels and modes and is taken in prepare; the object itself is large: keep it on the heap.
 class HapticRenderer {
 public:
-    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(Profile::playedQueueSize)>; ///< What was played, and when.
+    using PlayedQueue = EventQueue<PlayedEvent, static_cast<std::size_t>(limits::playedQueueSize)>; ///< What was played, and when.
 
-    /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most Profile::maxChannels outputs, or
+    /// Silence at frame 0. False if the settings are not what RendererSettings allows, with at most limits::maxEnchanters outputs, or
     /// if there is no memory: then render writes zeros, takes no events and moves nowhere, as before the first call. M, not while rendering.
     bool prepare(const RendererSettings& settings) noexcept;
 
@@ -56,13 +54,13 @@ public:
 
     /// Frames by which the output lags the event times (the limiter's look-ahead). Any thread after prepare.
     int latencyFrames() const noexcept { return limiter_.latencyFrames(); }
-    static int latencyFramesAt(int sampleRateHz) noexcept { return LinkedLimiter<Profile>::latencyFramesAt(sampleRateHz); } ///< Any thread.
+    static int latencyFramesAt(int sampleRateHz) noexcept { return LinkedLimiter::latencyFramesAt(sampleRateHz); } ///< Any thread.
 
     /// R only.
     RenderStatus status() const noexcept;
 
 private:
-    using Channels = std::array<float*, static_cast<std::size_t>(Profile::maxChannels)>;
+    using Channels = std::array<float*, static_cast<std::size_t>(limits::maxEnchanters)>;
     template <class Source>
     void refill(Source& source) noexcept;
     static bool canTake(const RendererSettings& settings) noexcept;
@@ -79,20 +77,20 @@ private:
     bool isSilenced(const CollisionEvent& event) const noexcept;
     bool strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept;
     bool strikeCoupled(Strike strike) noexcept;
-    typename MovingTones<Profile>::Drive driveAt(const CollisionEvent& event, double x, double y) noexcept;
+    MovingTones::Drive driveAt(const CollisionEvent& event, double x, double y) noexcept;
     bool isCoupled() const noexcept { return settings_.drives.isOn() && settings_.drives.channels == static_cast<std::size_t>(panner_.channels()); }
     std::int64_t nextChange(int most) const noexcept;
 
     FrameClock clock_;
     PhantomPanner panner_;
     PhantomPanner::Gains gains_{};
-    ModeBank<Profile> bank_;
-    SamplePlayer<Profile> player_;
-    MovingTones<Profile> moving_;
-    ActuatorStage<Profile> actuators_;
-    LinkedLimiter<Profile> limiter_;
-    PendingEvents<Profile> pending_;
-    TimeOrdered<RenderControl, Profile::maxControls, Profile::isOnHeap> controls_;
+    ModeBank bank_;
+    SamplePlayer player_;
+    MovingTones moving_;
+    ActuatorStage actuators_;
+    LinkedLimiter limiter_;
+    TimeOrdered<CollisionEvent, limits::maxPending, true> pending_;
+    TimeOrdered<RenderControl, limits::maxControls, true> controls_;
     PlayedQueue playedQueue_;
     RendererSettings settings_;
     int channels_ = 1;
@@ -101,9 +99,6 @@ private:
     std::int64_t position_ = 0, silentUntilNs_ = INT64_MIN, strikesSilentUntilNs_ = INT64_MIN; // no event before it is played; none that is apart from a world
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0;
 };
-
-extern template class HapticRenderer<DesktopProfile>;
-extern template class HapticRenderer<BoardProfile>;
 
 } // namespace physvib
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every limit of PhysVib, with the reason for its value, and the two profiles of the renderer.
+// Every limit of PhysVib, with the reason for its value.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +26,19 @@ constexpr double maxChannelDelaySeconds = 0.05; // aligns hands and sound; longe
 constexpr double limiterLookAheadSeconds = 0.001; // attack of the limiter = its constant latency
 constexpr double limiterReleaseSeconds = 0.2;     // silence to full gain: slower than any tactile period (20 Hz)
 
+// Of one renderer.
+constexpr int tileFrames = 64;     // strikes and retirement happen on this absolute grid
+constexpr int maxModes = 4096;     // distinct (frequency, decay) pairs sounding at once
+constexpr int maxFadingModes = 64; // stolen modes on their way out
+constexpr int maxGates = 4096;     // strikes with a duration that are open at once
+constexpr int maxSampleVoices = 64; // recorded contacts sounding at once: 128 a second of half a second each
+constexpr int maxMovingTones = 16; // phantoms on their way at once: more than hands can tell apart
+constexpr int maxPending = 8192;   // events ahead of their time: 80 ms at 10^5 strikes per second
+constexpr int maxLookAheadFrames = 192; // 1 ms at 192 kHz
+constexpr int maxDelayFrames = 9600;    // maxChannelDelaySeconds at 192 kHz
+constexpr int maxControls = 256;   // edits ahead of their time: a hand makes tens a second
+constexpr int playedQueueSize = 4096; // 40 ms at 10^5 strikes per second until somebody reads
+
 // The four-channel board: 72 MHz, 12 KB of RAM and 4 KB beside the core. Why these: Docs/board.md.
 namespace board {
 constexpr int sampleRateHz = 8000;  // 20 samples in a period of the fastest felt vibration (400 Hz); divides 72 and 64 MHz
@@ -39,43 +52,5 @@ constexpr int amplitudeBits = 12;
 constexpr int retireOctaves = 17;   // 2^-17 is a thousandth of a step: even 128 tails together stay below one
 } // namespace board
 } // namespace limits
-
-/// Memory and precision of a renderer that runs on a computer: error at most 1e-6 of full scale.
-struct DesktopProfile {
-    using Real = double;                     // amplitudes, and the scalar kernel to the very end
-    static constexpr int maxChannels = limits::maxEnchanters;
-    static constexpr int tileFrames = 64;    // strikes and retirement happen on this absolute grid
-    static constexpr int maxModes = 4096;    // distinct (frequency, decay) pairs sounding at once
-    static constexpr int maxFadingModes = 64; // stolen modes on their way out
-    static constexpr int maxGates = 4096;    // strikes with a duration that are open at once
-    static constexpr int maxSampleVoices = 64; // recorded contacts sounding at once: 128 a second of half a second each
-    static constexpr int maxMovingTones = 16; // phantoms on their way at once: more than hands can tell apart
-    static constexpr int maxPending = 8192;  // events ahead of their time: 80 ms at 10^5 strikes per second
-    static constexpr int maxLookAheadFrames = 192; // 1 ms at 192 kHz
-    static constexpr int maxDelayFrames = 9600;    // maxChannelDelaySeconds at 192 kHz
-    static constexpr int maxControls = 256;  // edits ahead of their time: a hand makes tens a second
-    static constexpr int playedQueueSize = 4096; // 40 ms at 10^5 strikes per second until somebody reads
-    static constexpr bool isOnHeap = true;   // memory for as many channels and modes as are asked for, taken in prepare
-    static constexpr bool hasTiles = true;   // vector kernels on whole tiles (Core/Modes/ModeTiles.h)
-};
-
-/// Memory and precision of the four-channel board (12 KB of RAM, single-precision unit): at most 1 LSB of 8 bit.
-struct BoardProfile {
-    using Real = float;
-    static constexpr int maxChannels = 4;
-    static constexpr int tileFrames = 8;
-    static constexpr int maxModes = 40;
-    static constexpr int maxFadingModes = 4;
-    static constexpr int maxGates = 16;
-    static constexpr int maxSampleVoices = 1; // no recordings on the board
-    static constexpr int maxMovingTones = 1; // of a renderer of one's own; our board's strikes do not move
-    static constexpr int maxPending = 32;
-    static constexpr int maxLookAheadFrames = 16;
-    static constexpr int maxDelayFrames = 0; // no room
-    static constexpr int maxControls = 2;
-    static constexpr int playedQueueSize = 16;
-    static constexpr bool isOnHeap = false;  // there is none
-    static constexpr bool hasTiles = false;  // 8 frames on 12 KB: the scalar kernel alone
-};
 
 } // namespace physvib

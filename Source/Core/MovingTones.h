@@ -16,13 +16,11 @@
 namespace physvib {
 
 /// Adds them to what the modes made. All memory is inside the object. R only, but for prepare: M.
-template <class Profile>
 class MovingTones {
 public:
-    using Real = typename Profile::Real;
     /// Per output, for the part in phase with the tone and for the one a quarter turn ahead.
     struct Drive {
-        std::array<double, static_cast<std::size_t>(Profile::maxChannels)> inPhase{}, ahead{};
+        std::array<double, static_cast<std::size_t>(limits::maxEnchanters)> inPhase{}, ahead{};
     };
 
     /// Silence. M, not while rendering.
@@ -41,7 +39,7 @@ public:
         voice->phaseIncrement = phaseIncrementOf(event.frequencyHz, rate_);
         voice->decayIncrement = decayIncrementOf(event.decayPerSecond, rate_);
         voice->phase = phaseAfter(event.frequencyHz * static_cast<double>(event.course.sinceNs) * 1e-9);
-        voice->level = static_cast<Real>(event.amplitude * shareLeft(event.decayPerSecond, static_cast<double>(event.course.sinceNs) * 1e-9));
+        voice->level = static_cast<double>(event.amplitude * shareLeft(event.decayPerSecond, static_cast<double>(event.course.sinceNs) * 1e-9));
         const std::int64_t life = lifeFramesOf(voice->decayIncrement);
         voice->end = voice->closeFrame = std::min({closeFrame, VoiceTime::never, life < VoiceTime::never ? onset.frame + life : life});
         return true;
@@ -58,7 +56,7 @@ public:
         for (Voice& voice : voices_) {
             const std::int64_t from = std::max(first, voice.onset), to = std::min(first + frames, voice.end);
             if (from >= to) continue;
-            enterTile(voice, first - first % Profile::tileFrames, driveAt);
+            enterTile(voice, first - first % limits::tileFrames, driveAt);
             for (std::int64_t frame = from; frame < to; ++frame) add(voice, frame, io, frame - first);
             sounds = true;
         }
@@ -72,7 +70,7 @@ private:
         double leadFrames = 0.0; // the onset lies that much before its frame
         std::uint64_t phase = 0, phaseIncrement = 0;
         std::int64_t decayIncrement = 0, closeFrame = 0; // before which it may be faded out
-        Real level = 0;
+        double level = 0;
         std::int64_t first = 0, last = 0; // frames of the line between these
         Drive from, to;
     };
@@ -81,7 +79,7 @@ private:
     void enterTile(Voice& voice, std::int64_t tile, DriveAt driveAt) noexcept {
         if (voice.last > tile) return;
         voice.first = std::max(tile, voice.onset);
-        voice.last = std::min(tile + Profile::tileFrames, voice.closeFrame);
+        voice.last = std::min(tile + limits::tileFrames, voice.closeFrame);
         voice.from = voice.first == voice.onset ? at(voice, voice.first, driveAt) : voice.to; // as it was: the law may be another by now
         voice.to = at(voice, voice.last, driveAt);
     }
@@ -98,17 +96,17 @@ private:
     void add(const Voice& voice, std::int64_t frame, float* const* io, std::int64_t n) const noexcept {
         const auto lead = [&](auto increment) { return static_cast<decltype(increment)>(static_cast<double>(increment) * voice.leadFrames); };
         const std::int64_t k = frame - voice.onset;
-        const auto tone = unitPhasor<Real>(voice.phase + lead(voice.phaseIncrement) + voice.phaseIncrement * static_cast<std::uint64_t>(k)) *
-                          (decayFactor<Real>(voice.decayIncrement * k + lead(voice.decayIncrement)) * voice.level * static_cast<Real>(voices_.fadeAt(voice, frame)));
-        const auto share = static_cast<Real>(frame - voice.first) / static_cast<Real>(voice.last - voice.first);
-        const auto between = [share](double from, double to) { return static_cast<Real>(from) + share * static_cast<Real>(to - from); };
+        const auto tone = unitPhasor<double>(voice.phase + lead(voice.phaseIncrement) + voice.phaseIncrement * static_cast<std::uint64_t>(k)) *
+                          (decayFactor<double>(voice.decayIncrement * k + lead(voice.decayIncrement)) * voice.level * static_cast<double>(voices_.fadeAt(voice, frame)));
+        const auto share = static_cast<double>(frame - voice.first) / static_cast<double>(voice.last - voice.first);
+        const auto between = [share](double from, double to) { return static_cast<double>(from) + share * static_cast<double>(to - from); };
         for (std::size_t j = 0; j < channels_; ++j)
             io[j][n] += static_cast<float>(between(voice.from.inPhase[j], voice.to.inPhase[j]) * tone.im + between(voice.from.ahead[j], voice.to.ahead[j]) * tone.re);
     }
 
     double rate_ = 48000.0;
     std::size_t channels_ = 1;
-    FadingVoices<Voice, Profile::maxMovingTones> voices_;
+    FadingVoices<Voice, limits::maxMovingTones> voices_;
 };
 
 } // namespace physvib

@@ -12,10 +12,10 @@ namespace physvib {
 /// Renders frames 0 to `frames` of a renderer that has just been prepared, in blocks of `blockFrames`, which are written to out[channel]
 /// and given to `consume(channels, n)`, the next n frames in order, until it says false. The limiter's look-ahead is rendered first
 /// and dropped, so that frame n is time n/rate. M, or whoever holds R.
-template <class Profile, class Source, class Consume>
-void renderFromStart(HapticRenderer<Profile>& renderer, Source& source, float* const* out, int channels, std::int64_t frames, int blockFrames,
+template <class Source, class Consume>
+void renderFromStart(HapticRenderer& renderer, Source& source, float* const* out, int channels, std::int64_t frames, int blockFrames,
                      Consume&& consume) {
-    std::array<float*, static_cast<std::size_t>(Profile::maxChannels)> kept{};
+    std::array<float*, static_cast<std::size_t>(limits::maxEnchanters)> kept{};
     const std::int64_t latency = renderer.latencyFrames(), end = frames + latency;
     for (std::int64_t done = 0; done < end;) {
         const int block = static_cast<int>(std::min<std::int64_t>(blockFrames, end - done));

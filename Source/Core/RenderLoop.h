@@ -5,9 +5,8 @@
 
 namespace physvib {
 
-template <class Profile>
 template <class Source>
-void HapticRenderer<Profile>::refill(Source& source) noexcept {
+void HapticRenderer::refill(Source& source) noexcept {
     while (!pending_.full() && source.pop(pending_.blank())) {
         if (const CollisionEvent& event = pending_.blank(); canPlay(event)) pending_.pushBlank(event.timeNs);
         else ++rejected_;
@@ -21,9 +20,8 @@ void HapticRenderer<Profile>::refill(Source& source) noexcept {
 // Strikes what comes before the next change that needs a cut, and says how many frames lie before it: at the next
 // onset as well, unless the bank takes strikes ahead. Taking an event makes room in the pending store for another, and one
 // with a duration is a change.
-template <class Profile>
 template <class Source>
-int HapticRenderer<Profile>::strikeAndReach(Source& source, int most) noexcept {
+int HapticRenderer::strikeAndReach(Source& source, int most) noexcept {
     for (;;) {
         refill(source);
         actOnDue();
@@ -42,9 +40,8 @@ int HapticRenderer<Profile>::strikeAndReach(Source& source, int most) noexcept {
     }
 }
 
-template <class Profile>
 template <class Source>
-void HapticRenderer<Profile>::render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
+void HapticRenderer::render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING {
     if (!isPrepared_) {
         for (int j = 0; j < channels_; ++j) std::fill_n(out[j], frames, 0.0f);
         return;

@@ -18,11 +18,11 @@ constexpr bool isSampleRate(int hz) noexcept { return hz >= limits::minSampleRat
 /// What a renderer is set up with.
 struct RendererSettings {
     int sampleRateHz = 48000; ///< isSampleRate
-    int channels = 0;         ///< outputs; 0: as many as the panner has enchanters. Without one an output is silent. At most Profile::maxChannels
+    int channels = 0;         ///< outputs; 0: as many as the panner has enchanters. Without one an output is silent. At most limits::maxEnchanters
     PhantomPanner panner;     ///< at most `channels` enchanters; can be changed by a control
     bool limiterEnabled = true; ///< off: samples may exceed 1; the latency stays the same
     std::array<float, limits::maxEnchanters> ceilings = fullScale(); ///< drive ceiling per channel, > 0
-    int modes = 0; ///< that sound at once; one more steals the quietest, which is counted. Memory follows it. At most, and if it is 0, Profile::maxModes
+    int modes = 0; ///< that sound at once; one more steals the quietest, which is counted. Memory follows it. At most, and if it is 0, limits::maxModes
     InstructionSet instructions = InstructionSet::best; ///< one that is not available: scalar
     EqualisedActuators equalised{}; ///< per channel; without figures it is played as it is
     DriveMatrices drives{}; ///< of the panner's enchanters, against their coupling; empty: none. They outlive the renderer

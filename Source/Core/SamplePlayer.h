@@ -12,7 +12,6 @@
 namespace physvib {
 
 /// Adds recordings to what the modes made, from their exact frames on. R only, but for prepare and setContacts: M.
-template <class Profile>
 class SamplePlayer {
 public:
     /// No contacts, silence. M, not while rendering.
@@ -62,12 +61,12 @@ public:
 private:
     struct Voice : VoiceTime {
         std::span<const float> samples;
-        std::array<float, static_cast<std::size_t>(Profile::maxChannels)> gains{};
+        std::array<float, static_cast<std::size_t>(limits::maxEnchanters)> gains{};
     };
 
     int channels_ = 0;
     std::span<const RecordedContact> contacts_;
-    FadingVoices<Voice, Profile::maxSampleVoices> voices_;
+    FadingVoices<Voice, limits::maxSampleVoices> voices_;
 };
 
 } // namespace physvib

@@ -57,7 +57,7 @@ private:
     PhantomPanner field_;
     int ears_;
     ContactSounds contacts_;
-    std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_ = std::make_unique<HapticRenderer<DesktopProfile>>();
+    std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
 };
 
 } // namespace physvib

@@ -33,7 +33,7 @@ struct ListSource {
 
 RenderStatus renderOffline(std::span<const CollisionEvent> events, const OfflineSettings& settings,
                            const BlockConsumer& consume) {
-    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    const auto renderer = std::make_unique<HapticRenderer>();
     if (!renderer->prepare(settings.renderer)) return {};
     renderer->setContacts(settings.contacts);
     const auto channels = static_cast<std::size_t>(settings.renderer.outputs());

@@ -50,7 +50,7 @@ Session::Session(const SessionSetup& setup)
     : WantedTake{{std::make_shared<const Scene>(setup.scene), setup.seed}}
     , OwnBirths{*this, setup}
     , setup_{setup}
-    , renderer_{std::make_unique<HapticRenderer<DesktopProfile>>()}
+    , renderer_{std::make_unique<HapticRenderer>()}
     , heard_{setup.contactSound ? std::make_unique<HeardContacts>(*setup.contactSound, setup.ears, setup.panner) : nullptr}
     , marks_{setup.marks ? std::make_unique<OnsetMarks>(*setup.marks) : nullptr}
     , told_{setup.boardSeconds > 0.0 ? std::make_unique<ToldEvents>() : nullptr}
@@ -102,7 +102,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
 }
 
 ClockLaw Session::lawAt(int sampleRateHz, int maxBlockFrames) const {
-    return {sampleRateHz, maxBlockFrames, setup_.stepsPerSecond, setup_.longestGapSeconds, HapticRenderer<DesktopProfile>::latencyFramesAt(sampleRateHz),
+    return {sampleRateHz, maxBlockFrames, setup_.stepsPerSecond, setup_.longestGapSeconds, HapticRenderer::latencyFramesAt(sampleRateHz),
             setup_.boardSeconds};
 }
 

@@ -131,7 +131,7 @@ public:
     std::int64_t readLog(SessionLog& log);
 
     /// What has been played, in the renderer's frames (session frame - L). One reader.
-    HapticRenderer<DesktopProfile>::PlayedQueue& played() noexcept { return renderer_->played(); }
+    HapticRenderer::PlayedQueue& played() noexcept { return renderer_->played(); }
 
     /// What the world makes and what is posted, once more: for the one reader of another output. Null unless the setup
     /// has a board. What is born in the render call is not told.
@@ -180,7 +180,7 @@ private:
     void renderOwnWorld(float* const* out, int frames, std::int64_t endNs);
 
     SessionSetup setup_;
-    std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_;
+    std::unique_ptr<HapticRenderer> renderer_;
     RecordingSets recordings_; // under the input mutex
     std::vector<ClipFile> clips_; // as they are in recordings_; likewise
     const std::unique_ptr<HeardContacts> heard_;

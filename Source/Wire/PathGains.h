@@ -26,7 +26,7 @@ public:
     /// That long after the onset. `gainsAt(event, x, y)`: Gains, of the panner.
     template <class GainsAt>
     Gains at(double seconds, GainsAt& gainsAt) noexcept {
-        constexpr std::int64_t tile = DesktopProfile::tileFrames;
+        constexpr std::int64_t tile = limits::tileFrames;
         const double frame = std::max(0.0, seconds * rate_ - onset_.leadFrames); // from the onset's on, as all here
         const std::int64_t before = onset_.frame % tile;
         const std::int64_t first = (static_cast<std::int64_t>(frame) + before) / tile * tile - before;

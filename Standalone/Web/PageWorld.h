@@ -74,7 +74,7 @@ private:
     Vector fieldMetres_;
     ClockLaw law_;
     EnchanterLayout layout_;
-    std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_ = std::make_unique<HapticRenderer<DesktopProfile>>();
+    std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
     std::vector<CollisionEvent> made_;
     std::deque<CollisionEvent> events_;
     std::deque<RenderControl> controls_;

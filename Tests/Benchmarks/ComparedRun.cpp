@@ -64,7 +64,7 @@ struct Chain {
     RendererSettings settings;
     std::vector<float> memory;
     std::vector<float*> out;
-    std::unique_ptr<HapticRenderer<DesktopProfile>> renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    std::unique_ptr<HapticRenderer> renderer = std::make_unique<HapticRenderer>();
 };
 
 void strikes(InstructionSet set) {
@@ -88,7 +88,7 @@ void chainAndBank(InstructionSet set) {
     constexpr int channels = 4, together = 1000;
     const auto voices = tones(64, 1e-4); // they sound for hours
     Chain chain{channels, set, voices};
-    const auto bank = std::make_unique<ModeBank<DesktopProfile>>();
+    const auto bank = std::make_unique<ModeBank>();
     bank->prepare(rate, channels, set);
     PhantomPanner::Gains gains{};
     chain.settings.panner.gainsAt(0.3, 0.3, gains);
@@ -145,7 +145,7 @@ template <class Settings>
 void memory(Settings settings) {
     const auto megabytes = [&] {
         const std::size_t before = bytesTaken();
-        const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+        const auto renderer = std::make_unique<HapticRenderer>();
         renderer->prepare(settings);
         return 1e-6 * static_cast<double>(bytesTaken() - before);
     };

@@ -16,11 +16,11 @@ namespace {
 using namespace physvib;
 using bench::secondsOf;
 
-constexpr int rate = 48000, tile = ModeBank<DesktopProfile>::tile;
+constexpr int rate = 48000, tile = ModeBank::tile;
 
 /// `modes` modes of log-uniform frequency that sound on for hours.
 struct Sounding {
-    std::unique_ptr<ModeBank<DesktopProfile>> bank = std::make_unique<ModeBank<DesktopProfile>>();
+    std::unique_ptr<ModeBank> bank = std::make_unique<ModeBank>();
     std::vector<float> memory;
     std::vector<float*> channels;
     std::int64_t frame = 0;

@@ -64,7 +64,7 @@ struct Balls {
 void stepOfRollingBalls(benchmark::State& state) {
     const int count = static_cast<int>(state.range(0));
     Balls smooth(count, 0.0), rough(count, 1.0e-3 * static_cast<double>(state.range(1)));
-    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    const auto renderer = std::make_unique<HapticRenderer>();
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
     RendererSettings settings{.sampleRateHz = rate, .panner = {layout, PanningLaw::linear, 1.0, 2.0 * static_cast<double>(count), 1.0}};

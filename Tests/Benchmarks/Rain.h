@@ -77,7 +77,7 @@ public:
     RenderStatus status() const noexcept { return renderer_->status(); }
 
 private:
-    std::unique_ptr<HapticRenderer<DesktopProfile>> renderer_ = std::make_unique<HapticRenderer<DesktopProfile>>();
+    std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
     Rain rain_;
     std::vector<float> memory_;
     std::vector<float*> at_;

@@ -59,7 +59,7 @@ TEST(HapticRenderer, PlaysAfterMonthsAsAtTheBeginning) {
             e.timeNs += second * 1'000'000'000;
             queue.push(e);
         }
-        const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+        const auto renderer = std::make_unique<HapticRenderer>();
         renderer->prepare(settingsFor(layout, PanningLaw::linear, rate));
         renderer->moveTo(rate, second * rate);
         std::vector<std::vector<float>> signal(4, std::vector<float>(frames));
@@ -150,7 +150,7 @@ TEST(HapticRenderer, MoreEventsAtOneMomentThanThePendingStoreHoldsAreAllPlayed) 
     e.frequencyHz = 205;
     e.decayPerSecond = 30;
     e.amplitude = 1e-4;
-    const std::vector<CollisionEvent> events(3 * DesktopProfile::maxPending, e);
+    const std::vector<CollisionEvent> events(3 * limits::maxPending, e);
     const auto rendered = renderEvents(events, settingsFor(layoutOf(1), PanningLaw::linear, 48000), 4800);
     EXPECT_EQ(rendered.status.played, events.size());
     EXPECT_EQ(rendered.status.late, 0u);
@@ -165,7 +165,7 @@ TEST(HapticRenderer, LimiterKeepsEverythingBelowFullScale) {
 }
 
 TEST(HapticRenderer, ALateEventIsPlayedWholeAtOnceAndCounted) {
-    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settingsFor(layoutOf(1), PanningLaw::linear, 48000));
     EventQueue<CollisionEvent, 16> queue;
     std::vector<float> block(4800);
@@ -204,7 +204,7 @@ private:
 };
 
 test::Channels renderSession(Session session, const RendererSettings& settings, int frames, int block, RenderStatus& status) {
-    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settings);
     test::Channels all(static_cast<std::size_t>(settings.channels), std::vector<float>(static_cast<std::size_t>(frames)));
     for (int done = 0; done < frames; done += block) {
@@ -323,7 +323,7 @@ TEST(HapticRenderer, StopAllFadesWhatRingsAndLaterEventsArePlayed) {
 
 TEST(HapticRenderer, TellsWhatItPlayedAndWhen) {
     const auto events = randomEvents(100, 0.05, 10);
-    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settingsFor(layoutOf(1), PanningLaw::linear, 48000));
     test::ListSource source{events};
     std::vector<float> block(4800);
@@ -351,20 +351,6 @@ TEST(HapticRenderer, WhatCannotBePlayedIsCountedAndSilent) {
     const auto rendered = renderEvents({e, high, nan}, settingsFor(layoutOf(1), PanningLaw::linear, 5000), 500);
     EXPECT_EQ(rendered.status.rejected, 3u);
     for (const float y : rendered.channels[0]) ASSERT_EQ(y, 0.0f);
-}
-
-TEST(HapticRenderer, BoardProfileAgreesWithTheDesktop) {
-    auto events = randomEvents(60, 2, 6, 4);
-    for (auto& e : events) {
-        e.durationNs = 0;
-        e.amplitude *= 0.05;
-        e.decayPerSecond = std::max(e.decayPerSecond, 20.0);
-    }
-    const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 8000);
-    const auto desktop = renderEvents(events, settings, 16000);
-    const auto board = renderEvents<BoardProfile>(events, settings, 16000, {8});
-    EXPECT_EQ(board.status.stolen + board.status.rejected, 0u);
-    for (std::size_t n = 0; n < 16000; ++n) ASSERT_NEAR(board.channels[0][n], desktop.channels[0][n], 1e-6);
 }
 
 TEST(HapticRenderer, LeavesTheCallersDenormalModeAsItWas) {

@@ -24,7 +24,7 @@ Block noise(int frames, double level, std::uint32_t seed) {
 }
 
 struct Limited {
-    std::unique_ptr<LinkedLimiter<DesktopProfile>> limiter = std::make_unique<LinkedLimiter<DesktopProfile>>();
+    std::unique_ptr<LinkedLimiter> limiter = std::make_unique<LinkedLimiter>();
     explicit Limited(bool enabled = true, InstructionSet set = InstructionSet::best) { limiter->prepare(rate, channels, enabled, set); }
     Block operator()(Block block, int size = 100) {
         for (std::size_t done = 0; done < block[0].size(); done += static_cast<std::size_t>(size)) {

@@ -11,9 +11,8 @@ namespace {
 
 constexpr int rate = 48000;
 
-template <class Profile>
 struct Bank {
-    std::unique_ptr<ModeBank<Profile>> bank = std::make_unique<ModeBank<Profile>>();
+    std::unique_ptr<ModeBank> bank = std::make_unique<ModeBank>();
     std::int64_t frame = 0;
     explicit Bank(InstructionSet set) { bank->prepare(rate, 1, set); }
 
@@ -26,7 +25,7 @@ struct Bank {
         std::vector<float> out(static_cast<std::size_t>(end - frame));
         for (std::size_t done = 0; frame < end;) {
             while (bank->nextGateFrame() <= frame) bank->closeNextGate();
-            const std::int64_t tileEnd = frame - frame % Profile::tileFrames + Profile::tileFrames;
+            const std::int64_t tileEnd = frame - frame % limits::tileFrames + limits::tileFrames;
             const auto part = std::min({end, tileEnd, bank->nextGateFrame()}) - frame;
             float* at = out.data() + done;
             bank->render(&at, frame, static_cast<int>(part));
@@ -36,7 +35,6 @@ struct Bank {
         return out;
     }
 };
-using Desktop = Bank<DesktopProfile>;
 
 class OnEachModeBank : public test::OnEachSet {};
 INSTANTIATE_TEST_SUITE_P(ModeBank, OnEachModeBank, test::eachSet(), test::setName);
@@ -44,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(ModeBank, OnEachModeBank, test::eachSet(), test::setNam
 double sinusoid(double f, double tau, double t) { return t < 0 ? 0 : std::sin(2 * std::numbers::pi * f * t) * std::exp(-tau * t); }
 
 TEST_P(OnEachModeBank, OneStrikeIsTheClosedFormOverItsWholeLife) {
-    Desktop bank{GetParam()};
+    Bank bank{GetParam()};
     bank.renderTo(777);
     bank.strike(205.3, 2, 1, 0.37);
     const auto out = bank.renderTo(777 + 8 * rate);
@@ -52,16 +50,6 @@ TEST_P(OnEachModeBank, OneStrikeIsTheClosedFormOverItsWholeLife) {
     for (std::size_t n = 0; n < out.size(); ++n)
         worst = std::max(worst, std::abs(out[n] - sinusoid(205.3, 2, (static_cast<double>(n) + 0.37) / rate)));
     EXPECT_LT(worst, GetParam() == InstructionSet::scalar ? 7e-8 : 3e-7) << "scalar: one rounding to float, no more";
-}
-
-TEST(ModeBank, BoardProfileStaysFarBelowHalfAnEightBitStep) {
-    Bank<BoardProfile> bank{InstructionSet::best};
-    bank.strike(205.3, 2, 1, 0.37);
-    const auto out = bank.renderTo(8 * rate);
-    double worst = 0;
-    for (std::size_t n = 0; n < out.size(); ++n)
-        worst = std::max(worst, std::abs(out[n] - sinusoid(205.3, 2, (static_cast<double>(n) + 0.37) / rate)));
-    EXPECT_LT(worst, 2.8e-7) << "-131 dB in float arithmetic";
 }
 
 TEST(ModeBank, TenThousandStrikesOfOneMaterialCostOneModeAndEqualTheirSum) {
@@ -78,7 +66,7 @@ TEST(ModeBank, TenThousandStrikesOfOneMaterialCostOneModeAndEqualTheirSum) {
         for (std::int64_t n = h.frame; n < end; ++n)
             expected[static_cast<std::size_t>(n)] += h.amplitude * sinusoid(205, 12, (static_cast<double>(n - h.frame) + h.lead) / rate);
     for (const auto set : test::runnableSets()) {
-        Desktop bank{set};
+        Bank bank{set};
         std::vector<float> out;
         const auto renderTo = [&](std::int64_t frame) {
             const auto part = bank.renderTo(frame);
@@ -101,7 +89,7 @@ TEST(ModeBank, TenThousandStrikesOfOneMaterialCostOneModeAndEqualTheirSum) {
 }
 
 TEST_P(OnEachModeBank, GateOf100MillisecondsAt205HzEndsInExactSilence) {
-    Desktop bank{GetParam()};
+    Bank bank{GetParam()};
     bank.strike(205, 0, 1, 0, rate / 10);
     const auto on = bank.renderTo(rate / 10);
     EXPECT_NEAR(on[rate / 10 - 1], sinusoid(205, 0, 0.1 - 1.0 / rate), 1e-7);
@@ -110,7 +98,7 @@ TEST_P(OnEachModeBank, GateOf100MillisecondsAt205HzEndsInExactSilence) {
 }
 
 TEST_P(OnEachModeBank, GatesOfOneMaterialOverlapAndEndInExactSilence) {
-    Desktop bank{GetParam()};
+    Bank bank{GetParam()};
     bank.strike(180, 3, 1, 0.5, 5000);
     const auto first = bank.renderTo(2000);
     bank.strike(180, 3, 0.5, 0.25, 1000);
@@ -122,8 +110,8 @@ TEST_P(OnEachModeBank, GatesOfOneMaterialOverlapAndEndInExactSilence) {
 }
 
 TEST_P(OnEachModeBank, GatedAndFreeStrikesOfOneMaterialDoNotDisturbEachOther) {
-    Desktop with{GetParam()}, without{GetParam()};
-    for (Desktop* bank : {&with, &without}) bank->strike(205, 20, 1);
+    Bank with{GetParam()}, without{GetParam()};
+    for (Bank* bank : {&with, &without}) bank->strike(205, 20, 1);
     with.strike(205, 20, 1, 0, 480);
     with.renderTo(480);
     without.renderTo(480);
@@ -131,7 +119,7 @@ TEST_P(OnEachModeBank, GatedAndFreeStrikesOfOneMaterialDoNotDisturbEachOther) {
 }
 
 TEST_P(OnEachModeBank, AGateMayCloseLongAfterItsStrikeHasDied) {
-    Desktop bank{GetParam()};
+    Bank bank{GetParam()};
     bank.strike(100, 1500, 1, 0, rate); // dead after 10 ms, in a mode that the next ones keep alive
     for (int i = 0; i < 150; ++i) {
         bank.strike(100, 1500, 1, 0, 500);
@@ -142,7 +130,7 @@ TEST_P(OnEachModeBank, AGateMayCloseLongAfterItsStrikeHasDied) {
 }
 
 TEST_P(OnEachModeBank, RetiresAModeWhenItHasFallenBy140dBAndNotBefore) {
-    Desktop bank{GetParam()};
+    Bank bank{GetParam()};
     bank.strike(205, 50, 1);
     const double lifeSeconds = 140 / 20.0 * std::log(10.0) / 50;
     bank.renderTo(static_cast<std::int64_t>(lifeSeconds * rate) - 64);
@@ -152,7 +140,7 @@ TEST_P(OnEachModeBank, RetiresAModeWhenItHasFallenBy140dBAndNotBefore) {
 }
 
 TEST_P(OnEachModeBank, SoundsOnAtAnotherRate) {
-    Desktop bank{GetParam()};
+    Bank bank{GetParam()};
     bank.renderTo(100);
     bank.strike(205, 3, 1, 0.25);
     bank.strike(90, 0, 0.5, 0, rate / 2); // half a second
@@ -170,8 +158,8 @@ TEST_P(OnEachModeBank, SoundsOnAtAnotherRate) {
 }
 
 TEST_P(OnEachModeBank, AFullBankFadesTheQuietestModeWithoutAClick) {
-    Desktop bank{GetParam()};
-    const int modes = DesktopProfile::maxModes;
+    Bank bank{GetParam()};
+    const int modes = limits::maxModes;
     for (int i = 0; i < modes; ++i) bank.strike(100 + 0.01 * i, 0.5, i == 7 ? 1e-3 : 1e-2);
     bank.renderTo(4833); // inside a tile
     EXPECT_EQ(bank.bank->stolenModes(), 0u);
@@ -192,25 +180,25 @@ TEST_P(OnEachModeBank, AFullBankFadesTheQuietestModeWithoutAClick) {
 }
 
 TEST_P(OnEachModeBank, WhatFadesIsNobodysToMergeWith) {
-    Desktop bank{GetParam()};
-    for (int i = 0; i <= DesktopProfile::maxModes; ++i) bank.strike(100 + 0.01 * i, 0.5, i == 7 ? 1e-3 : 1e-2);
+    Bank bank{GetParam()};
+    for (int i = 0; i <= limits::maxModes; ++i) bank.strike(100 + 0.01 * i, 0.5, i == 7 ? 1e-3 : 1e-2);
     EXPECT_EQ(bank.bank->stolenModes(), 1u);
     bank.strike(100.07, 0.5 + limits::stealFadePerSecond, 1e-2);
     EXPECT_EQ(bank.bank->stolenModes(), 2u);
 }
 
 TEST_P(OnEachModeBank, ManyMoreModesThanRoomStayBounded) {
-    Desktop bank{GetParam()};
-    for (int i = 0; i < 3 * DesktopProfile::maxModes; ++i) {
+    Bank bank{GetParam()};
+    for (int i = 0; i < 3 * limits::maxModes; ++i) {
         ASSERT_TRUE(bank.strike(20 + 0.05 * i, 0.5, 1e-3));
-        ASSERT_LE(bank.bank->liveModes(), ModeBank<DesktopProfile>::slotCount);
+        ASSERT_LE(bank.bank->liveModes(), ModeBank::slotCount);
     }
     for (const float y : bank.renderTo(100)) ASSERT_TRUE(std::isfinite(y));
 }
 
 TEST_P(OnEachModeBank, TooManyOpenGatesAreRefusedAndChangeNothing) {
-    Desktop bank{GetParam()}, twin{GetParam()};
-    for (int i = 0; i < DesktopProfile::maxGates; ++i) {
+    Bank bank{GetParam()}, twin{GetParam()};
+    for (int i = 0; i < limits::maxGates; ++i) {
         ASSERT_TRUE(bank.strike(205, 0, 1e-3, 0, 1000));
         ASSERT_TRUE(twin.strike(205, 0, 1e-3, 0, 1000));
     }
@@ -219,7 +207,7 @@ TEST_P(OnEachModeBank, TooManyOpenGatesAreRefusedAndChangeNothing) {
 }
 
 TEST_P(OnEachModeBank, AGateBetweenTwoFramesLeavesNoSample) {
-    Desktop bank{GetParam()};
+    Bank bank{GetParam()};
     const double gain = 1;
     EXPECT_TRUE(bank.bank->strike({205, 0, 1, {0, 0.5}, 0}, &gain));
     EXPECT_EQ(bank.bank->liveModes(), 0);

@@ -65,7 +65,7 @@ TEST(ModeTiles, SetsWithFusedMultiplyAddsAgreeToTheBit) {
 }
 
 TEST(ModeTiles, ASetThatIsNotThereMeansTheScalarKernel) {
-    const auto bank = std::make_unique<ModeBank<DesktopProfile>>();
+    const auto bank = std::make_unique<ModeBank>();
     bank->prepare(48000, 1, InstructionSet::scalar);
     EXPECT_EQ(bank->instructionSet(), InstructionSet::scalar);
     for (const auto set : {InstructionSet::sse4, InstructionSet::avx2, InstructionSet::avx512, InstructionSet::neon}) {
@@ -75,7 +75,7 @@ TEST(ModeTiles, ASetThatIsNotThereMeansTheScalarKernel) {
 }
 
 TEST(ModeTiles, AStrikeInTheTileOfAClosingGateKeepsItsBits) {
-    const auto with = std::make_unique<ModeBank<DesktopProfile>>(), without = std::make_unique<ModeBank<DesktopProfile>>();
+    const auto with = std::make_unique<ModeBank>(), without = std::make_unique<ModeBank>();
     const double gain = 0.7;
     std::array<float, 64> a{}, b{};
     float *atA = a.data(), *atB = b.data();
@@ -97,7 +97,7 @@ TEST(ModeTiles, AStrikeInTheTileOfAClosingGateKeepsItsBits) {
 TEST(ModeTiles, AStrikeOnATilesFirstFrameBeginsAtExactlyZero) {
     for (const auto set : test::runnableSets()) {
         if (set == InstructionSet::scalar) continue; // rounds its amplitudes first
-        const auto bank = std::make_unique<ModeBank<DesktopProfile>>();
+        const auto bank = std::make_unique<ModeBank>();
         std::array<float, 64> tile{};
         float* at = tile.data();
         const double gain = 0.7;
@@ -113,7 +113,7 @@ TEST(ModeTiles, AStrikeOnATilesFirstFrameBeginsAtExactlyZero) {
 
 /// A tile of a bank that is struck so often, by more modes than it has room for, so that some are stolen; `apart`: none waits for another.
 Channels struck(InstructionSet set, int channels, bool apart) {
-    const auto bank = std::make_unique<ModeBank<DesktopProfile>>();
+    const auto bank = std::make_unique<ModeBank>();
     bank->prepare(48000, channels, set, 5, 64);
     Channels out(static_cast<std::size_t>(channels), std::vector<float>(128));
     std::vector<float*> at;

@@ -159,7 +159,7 @@ TEST(MovingTones, AStopFadesThem) {
             return !std::exchange(isStopped, true);
         }
     } source;
-    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(phone4());
     std::vector<std::vector<float>> out(4, std::vector<float>(rate));
     for (int done = 0; done < rate; done += 480) {
@@ -175,7 +175,7 @@ TEST(MovingTones, AStopFadesThem) {
 TEST(MovingTones, TooManyAtOnceAreRefused) {
     const std::vector<CollisionEvent> events(40, fromAToD);
     const auto status = test::renderEvents(events, phone4(), 480).status;
-    EXPECT_EQ(status.played, static_cast<std::uint64_t>(DesktopProfile::maxMovingTones));
+    EXPECT_EQ(status.played, static_cast<std::uint64_t>(limits::maxMovingTones));
     EXPECT_EQ(status.rejected, 40u - status.played);
 }
 

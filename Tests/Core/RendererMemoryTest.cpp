@@ -40,7 +40,7 @@ TEST(RendererMemory, FollowsChannelsAndModes) {
     test::beforeMemory = count;
     const auto bytesFor = [](int channels, int modes) {
         const std::size_t before = bytesTaken;
-        const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+        const auto renderer = std::make_unique<HapticRenderer>();
         EXPECT_TRUE(renderer->prepare(settingsFor(channels, modes)));
         const std::size_t first = bytesTaken - before;
         EXPECT_TRUE(renderer->prepare(settingsFor(channels, modes)));
@@ -67,18 +67,18 @@ TEST(RendererMemory, BeyondItTheQuietestModesFadeAndAreCounted) {
     EXPECT_EQ(rendered.status.played, 100U);
     EXPECT_EQ(rendered.status.rejected, 0U);
     EXPECT_EQ(rendered.status.stolen, 36U);
-    EXPECT_LE(rendered.status.liveModes, 64 + DesktopProfile::maxFadingModes);
+    EXPECT_LE(rendered.status.liveModes, 64 + limits::maxFadingModes);
 }
 
-TEST(RendererMemory, MoreModesThanTheProfileHasAreRefused) {
-    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
-    EXPECT_FALSE(renderer->prepare(settingsFor(4, DesktopProfile::maxModes + 1)));
+TEST(RendererMemory, MoreModesThanAtMostAreRefused) {
+    const auto renderer = std::make_unique<HapticRenderer>();
+    EXPECT_FALSE(renderer->prepare(settingsFor(4, limits::maxModes + 1)));
     EXPECT_FALSE(renderer->prepare(settingsFor(4, -1)));
 }
 
 TEST(RendererMemory, WithoutItAllIsSilentUntilThereIsSome) {
     if (!test::ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
-    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    const auto renderer = std::make_unique<HapticRenderer>();
     test::beforeMemory = [](std::size_t) { return false; };
     EXPECT_FALSE(renderer->prepare(settingsFor(2, 0)));
     test::beforeMemory = nullptr;

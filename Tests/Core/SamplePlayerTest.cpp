@@ -35,7 +35,7 @@ struct Played {
 };
 
 Played play(const std::vector<CollisionEvent>& events, int frames, int block) {
-    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(square());
     renderer->setContacts({contacts});
     const int latency = renderer->latencyFrames();
@@ -87,10 +87,10 @@ TEST(SamplePlayer, WhatHasNoRecordingOrNoRoomIsRejectedAndCounted) {
     auto unknown = hit(0, 1.0, 0, 1);
     unknown.frequencyHz = 350.0;
     EXPECT_EQ(play({unknown}, 100, 100).status.rejected, 1u);
-    const std::vector<CollisionEvent> many(DesktopProfile::maxSampleVoices + 3, hit(0, 0.001, 0, 1));
+    const std::vector<CollisionEvent> many(limits::maxSampleVoices + 3, hit(0, 0.001, 0, 1));
     const auto status = play(many, 4000, 100).status;
     EXPECT_EQ(status.rejected, 3u);
-    EXPECT_EQ(status.played, static_cast<std::uint64_t>(DesktopProfile::maxSampleVoices));
+    EXPECT_EQ(status.played, static_cast<std::uint64_t>(limits::maxSampleVoices));
 }
 
 TEST(SamplePlayer, AClipThatIsNotThereIsNotASlowToneInstead) { // as in a list of what a session played
@@ -98,7 +98,7 @@ TEST(SamplePlayer, AClipThatIsNotThereIsNotASlowToneInstead) { // as in a list o
     clip.frequencyHz = clipFrequencyHz(mostClips - 1);
     clip.decayPerSecond = 0.0;
     clip.durationNs = 10'000'000'000;
-    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    const auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(square());
     const std::vector<CollisionEvent> list{clip};
     test::ListSource source{list};
@@ -112,7 +112,7 @@ TEST(SamplePlayer, AClipThatIsNotThereIsNotASlowToneInstead) { // as in a list o
 }
 
 TEST(SamplePlayer, StopFadesItWithoutAStep) {
-    SamplePlayer<DesktopProfile> player;
+    SamplePlayer player;
     const std::vector<float> ones(48000, 1.0f);
     const RecordedContact constant[] = {{1.0, ones}};
     player.prepare(48000, 1);
@@ -132,7 +132,7 @@ TEST(SamplePlayer, StopFadesItWithoutAStep) {
 TEST(SamplePlayer, RecordingsThatAreExchangedFadeWithoutAStep) {
     const std::vector<float> ones(48000, 1.0f);
     const RecordedContact constant[] = {{349.0, ones}};
-    auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(square());
     renderer->setContacts({constant});
     RenderControl exchange;

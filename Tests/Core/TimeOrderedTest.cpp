@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TimeOrdered and PendingEvents: time order, arrival order among equals, refusal when full.
-#include "Core/PendingEvents.h"
+// TimeOrdered: time order, arrival order among equals, refusal when full.
+#include "Core/TimeOrdered.h"
 #include <gtest/gtest.h>
 #include <random>
 #include <set>

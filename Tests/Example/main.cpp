@@ -28,7 +28,7 @@ int main() {
     haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true});
     physvib::EnchanterLayout layout;
     physvib::layoutPreset("phone4", layout);
-    const auto renderer = std::make_unique<physvib::HapticRenderer<physvib::DesktopProfile>>();
+    const auto renderer = std::make_unique<physvib::HapticRenderer>();
     if (!renderer->prepare({.channels = 4, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}})) return 1;
 
     std::vector<physvib::CollisionEvent> events;

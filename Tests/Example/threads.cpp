@@ -67,7 +67,7 @@ void stepTheWorld() {
 int main() {
     physvib::EnchanterLayout layout;
     physvib::layoutPreset("phone4", layout);
-    const auto renderer = std::make_unique<physvib::HapticRenderer<physvib::DesktopProfile>>();
+    const auto renderer = std::make_unique<physvib::HapticRenderer>();
     if (!renderer->prepare({.sampleRateHz = rate, .channels = 4, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}})) return 1;
     std::array<std::array<float, block>, 4> out{};
     std::array<float*, 4> channels{out[0].data(), out[1].data(), out[2].data(), out[3].data()};

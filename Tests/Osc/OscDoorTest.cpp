@@ -75,7 +75,7 @@ TEST(OscDoors, ATagIsFeltToTheFrameInADirectSessionAsWell) {
         const std::int64_t now = open.session.framesRendered();
         open.strike(0.5, tagOf(1'000'000'000 + (now * 2 + 10'001) * 500'000'000 / hostRate)); // 5,000 frames and a half from now
         open.play();
-        const auto delay = direct == Direct::no ? open.session.playOutFrames() : 512 + HapticRenderer<DesktopProfile>::latencyFramesAt(hostRate);
+        const auto delay = direct == Direct::no ? open.session.playOutFrames() : 512 + HapticRenderer::latencyFramesAt(hostRate);
         const auto first = std::find_if(open.signal.begin(), open.signal.end(), [](float sample) { return std::abs(sample) > 1e-5f; });
         EXPECT_EQ((first - open.signal.begin()) / hostChannels, now + 5001 + delay);
         EXPECT_EQ(open.door.counts().late + open.door.counts().refused, 0U);

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-int lookAheadFrames() { return HapticRenderer<DesktopProfile>::latencyFramesAt(48000); }
+int lookAheadFrames() { return HapticRenderer::latencyFramesAt(48000); }
 
 juce::MidiBuffer onlyNote(int frame) {
     juce::MidiBuffer midi;

@@ -51,7 +51,7 @@ struct Host {
     Interleaved signal;
 };
 
-int limiterFrames() { return HapticRenderer<DesktopProfile>::latencyFramesAt(hostRate); }
+int limiterFrames() { return HapticRenderer::latencyFramesAt(hostRate); }
 
 TEST(Direct, AMessageIsFeltABlockAndTheLimiterLaterWhateverTheBlock) {
     for (const int block : {16, 64, 480, 2048}) {

@@ -103,7 +103,7 @@ TEST(Session, ABoardBesideItIsToldTheSameEventsAndLCoversIt) {
     Session session{s};
     std::vector<CollisionEvent> played, told;
     const auto signal = playLive(session, 5 * rate, 512, 0.02, 9, played);
-    EXPECT_EQ(session.playOutFrames() - alone.playOutFrames(), 0.030 * rate - HapticRenderer<DesktopProfile>::latencyFramesAt(rate));
+    EXPECT_EQ(session.playOutFrames() - alone.playOutFrames(), 0.030 * rate - HapticRenderer::latencyFramesAt(rate));
     EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 5 * rate));
     for (CollisionEvent e; session.told()->events.pop(e);) told.push_back(e);
     ASSERT_GT(played.size(), 50u);

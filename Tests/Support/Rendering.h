@@ -28,17 +28,15 @@ inline EnchanterLayout gridLayout(int columns, int rows) {
     return layout;
 }
 
-template <class Profile = DesktopProfile>
 struct Rendered {
     Channels channels;
     RenderStatus status;
 };
 
 /// Renders `frames` without the limiter's latency; block sizes are taken from `blocks` in turn.
-template <class Profile = DesktopProfile>
-Rendered<Profile> renderEvents(const std::vector<CollisionEvent>& events, const RendererSettings& settings, int frames,
-                               const std::vector<int>& blocks = {256}) {
-    auto renderer = std::make_unique<HapticRenderer<Profile>>();
+inline Rendered renderEvents(const std::vector<CollisionEvent>& events, const RendererSettings& settings, int frames,
+                             const std::vector<int>& blocks = {256}) {
+    auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settings);
     const int latency = renderer->latencyFrames(), total = frames + latency;
     Channels all(static_cast<std::size_t>(settings.channels), std::vector<float>(static_cast<std::size_t>(total)));

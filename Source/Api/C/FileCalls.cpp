@@ -151,7 +151,7 @@ int physvib_render(const physvib_renderer_settings* settings, const physvib_even
             return nothingThere("render: expected events and a place for samples");
         ListSource source{{events, static_cast<std::size_t>(count)}};
         if (const auto fault = faultOf(source.events); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
-        const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+        const auto renderer = std::make_unique<HapticRenderer>();
         if (!renderer->prepare(wanted)) return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
         constexpr int blockFrames = 256;
         const int channels = wanted.outputs();

@@ -21,7 +21,7 @@ struct Renderer {
         bool pop(CollisionEvent& event) noexcept { return events.pop(event); }
         bool pop(RenderControl& control) noexcept { return controls.pop(control); }
     };
-    HapticRenderer<DesktopProfile> renderer;
+    HapticRenderer renderer;
     Source source;
     int rateHz = 0, channels = 0;
     std::mutex producers, readers; // never R

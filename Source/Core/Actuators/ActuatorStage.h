@@ -13,7 +13,6 @@ namespace physvib {
 
 /// Per channel: out = gain * delayed, equalised in, every change in a ramp of limits::channelRampSeconds; before the first frame
 /// there is nothing to ramp from. R only, but for prepare: M.
-template <class Profile>
 class ActuatorStage {
 public:
     /// All gains 1, nothing muted or delayed, equalisers at rest. False: no memory. M, not while rendering.
@@ -112,18 +111,18 @@ private:
     bool prepareDelays(int sampleRateHz) noexcept {
         sampleRateHz_ = sampleRateHz;
         isAsleep_ = false;
-        const int most = std::min(Profile::maxDelayFrames, static_cast<int>(std::lround(limits::maxChannelDelaySeconds * sampleRateHz)));
+        const int most = std::min(limits::maxDelayFrames, static_cast<int>(std::lround(limits::maxChannelDelaySeconds * sampleRateHz)));
         bool has = true;
         for (int j = 0; j < channels_; ++j) has = delays_[index(j)].prepare(static_cast<int>(limits::channelRampSeconds * sampleRateHz), framesOf(j), most) && has;
         return has;
     }
 
-    static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
+    static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
     int channels_ = 0;
     bool hasBegun_ = false;
     bool isAsleep_ = false; // nothing goes on in any channel, so that silence needs no look at them
     int sampleRateHz_ = 48000;
-    std::array<ChannelDelay<Profile::maxDelayFrames>, width> delays_{};
+    std::array<ChannelDelay<limits::maxDelayFrames>, width> delays_{};
     std::array<float, width> delaySeconds_{};
     EqualisedActuators actuators_{};
     std::array<ActuatorEqualiser, width> equalisers_{};

@@ -11,16 +11,13 @@ namespace physvib {
 
 static constexpr std::int32_t infiniteBits = 0x7f800000;
 
-template <class P>
-bool LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled, [[maybe_unused]] InstructionSet set) noexcept {
+bool LinkedLimiter::prepare(int sampleRateHz, int channels, bool enabled, InstructionSet set) noexcept {
     channels_ = channels;
     enabled_ = enabled;
     window_ = windowAt(sampleRateHz);
     releaseStep_ = static_cast<std::int64_t>(unit / (sampleRateHz * limits::limiterReleaseSeconds));
-    if constexpr (P::hasTiles) {
-        const TileKernel* kernels = tileKernel(set);
-        kernel_ = kernels != nullptr ? &kernels->limiter : nullptr;
-    }
+    const TileKernel* kernels = tileKernel(set);
+    kernel_ = kernels != nullptr ? &kernels->limiter : nullptr;
     const auto floats = static_cast<std::size_t>(channels) * floatsPerLine;
     if (!lines_.resize(floats)) return false;
     std::fill_n(lines_.data(), floats, 0.0f);
@@ -35,15 +32,14 @@ bool LinkedLimiter<P>::prepare(int sampleRateHz, int channels, bool enabled, [[m
     nonFinite_ = 0;
     rampFrames_ = static_cast<int>(limits::channelRampSeconds * sampleRateHz);
     isSettled_ = true;
-    for (int j = 0; j < P::maxChannels; ++j) {
+    for (int j = 0; j < limits::maxEnchanters; ++j) {
         ceilings_[static_cast<std::size_t>(j)].prepare(sampleRateHz, limits::channelRampSeconds, 1.0f);
         setCeiling(j, 1.0f);
     }
     return true;
 }
 
-template <class P>
-void LinkedLimiter<P>::setCeiling(int channel, float ceiling) noexcept {
+void LinkedLimiter::setCeiling(int channel, float ceiling) noexcept {
     const auto j = static_cast<std::size_t>(channel);
     if (frame_ == 0) { // there is nothing to ramp from
         ceilings_[j].jumpTo(ceiling);
@@ -57,39 +53,33 @@ void LinkedLimiter<P>::setCeiling(int channel, float ceiling) noexcept {
     isSettled_ = false;
 }
 
-template <class P>
-void LinkedLimiter<P>::boundBy(std::size_t channel, float ceiling) noexcept {
+void LinkedLimiter::boundBy(std::size_t channel, float ceiling) noexcept {
     bounds_[channel] = enabled_ ? ceiling : std::numeric_limits<float>::infinity();
     mostBits_[channel] = std::min(std::bit_cast<std::int32_t>(bounds_[channel]), infiniteBits - 1);
 }
 
-template <class P>
-void LinkedLimiter<P>::settle() noexcept {
+void LinkedLimiter::settle() noexcept {
     if (isSettled_ || frame_ < settledFrame_) return;
     for (std::size_t j = 0; j < width; ++j) boundBy(j, ceilings_[j].now());
     isSettled_ = true;
 }
 
-template <class P>
-int LinkedLimiter<P>::windowAt(int sampleRateHz) noexcept {
-    return std::clamp(static_cast<int>(sampleRateHz * limits::limiterLookAheadSeconds), 1, P::maxLookAheadFrames);
+int LinkedLimiter::windowAt(int sampleRateHz) noexcept {
+    return std::clamp(static_cast<int>(sampleRateHz * limits::limiterLookAheadSeconds), 1, limits::maxLookAheadFrames);
 }
 
-template <class P>
-void LinkedLimiter<P>::process(float* const* io, int frames, bool isSilent) noexcept {
+void LinkedLimiter::process(float* const* io, int frames, bool isSilent) noexcept {
     if (isSilent && silentFrames_ >= window_ && isResting()) return rest(static_cast<std::size_t>(frames));
     silentFrames_ = isSilent ? silentFrames_ + frames : 0;
     processAll(io, io, frames, nullptr);
 }
 
-template <class P>
-void LinkedLimiter<P>::pass(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {
+void LinkedLimiter::pass(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {
     silentFrames_ = 0;
     processAll(in, out, frames, kept);
 }
 
-template <class P>
-void LinkedLimiter<P>::processAll(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {
+void LinkedLimiter::processAll(const float* const* in, float* const* out, int frames, float* const* kept) noexcept {
     const auto all = static_cast<std::size_t>(frames);
     for (std::size_t first = 0, part; first < all; first += part) {
         settle();
@@ -100,8 +90,7 @@ void LinkedLimiter<P>::processAll(const float* const* in, float* const* out, int
 }
 
 // Channel by channel, so that the loops over frames are vectors.
-template <class P>
-void LinkedLimiter<P>::processPart(const LimiterLines& lines) noexcept {
+void LinkedLimiter::processPart(const LimiterLines& lines) noexcept {
     if (!takeIn(lines) && isResting()) {
         rest(lines.frames);
         return giveOut(lines, nullptr);
@@ -112,8 +101,7 @@ void LinkedLimiter<P>::processPart(const LimiterLines& lines) noexcept {
 }
 
 // True if a sample exceeds its ceiling.
-template <class P>
-bool LinkedLimiter<P>::takeIn(const LimiterLines& lines) noexcept {
+bool LinkedLimiter::takeIn(const LimiterLines& lines) noexcept {
     if (kernel_ != nullptr && !kernel_->take(lines, mostBits_.data())) return false;
     bool isOver = false;
     for (std::size_t j = 0; j < lines.channels; ++j)
@@ -121,15 +109,13 @@ bool LinkedLimiter<P>::takeIn(const LimiterLines& lines) noexcept {
     return isOver;
 }
 
-template <class P>
-void LinkedLimiter<P>::giveOut(const LimiterLines& lines, const float* gains) noexcept {
+void LinkedLimiter::giveOut(const LimiterLines& lines, const float* gains) noexcept {
     if (kernel_ != nullptr) return kernel_->give(lines, gains, bounds_.data());
     for (std::size_t j = 0; j < lines.channels; ++j) delayAndLimit(lines.line(j), lines.out[j] + lines.first, lines.frames, gains, bounds_[j]);
 }
 
 // Sizes are compared as integers, which order as the floats do (IEEE 754).
-template <class P>
-bool LinkedLimiter<P>::cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits, float* line) noexcept {
+bool LinkedLimiter::cleanAndCompare(const float* samples, std::size_t frames, std::int32_t mostBits, float* line) noexcept {
     constexpr std::int32_t least = 0x00800000;
     std::int32_t most = 0, bad = 0;
     for (std::size_t n = 0; n < frames; ++n) {
@@ -145,27 +131,25 @@ bool LinkedLimiter<P>::cleanAndCompare(const float* samples, std::size_t frames,
 }
 
 // The gain, in units, that keeps every channel that is heard at its ceiling, and what the limiter makes of it.
-template <class P>
-void LinkedLimiter<P>::followGains(const LimiterLines& lines, Gains& gains) noexcept {
-    std::array<Real, partMost> excess;
+void LinkedLimiter::followGains(const LimiterLines& lines, Gains& gains) noexcept {
+    std::array<double, partMost> excess;
     excess.fill(1);
     for (std::size_t j = 0; j < lines.channels; ++j) {
         const float* const samples = lines.line(j) + lines.front;
-        const auto compare = [&](std::size_t n, float ceiling) { excess[n] = std::max(excess[n], static_cast<Real>(std::abs(samples[n])) / static_cast<Real>(ceiling)); };
+        const auto compare = [&](std::size_t n, float ceiling) { excess[n] = std::max(excess[n], static_cast<double>(std::abs(samples[n])) / static_cast<double>(ceiling)); };
         std::size_t n = 0;
         while (n < lines.frames && !ceilings_[j].isResting()) compare(n++, ceilings_[j].next());
         for (const float ceiling = ceilings_[j].now(); n < lines.frames; ++n) compare(n, ceiling);
     }
     for (std::size_t n = 0; n < lines.frames; ++n) {
         const bool isOver = enabled_ && excess[n] > 1;
-        gain_ = gains[n] = advanceGain(isOver ? static_cast<std::int64_t>(static_cast<Real>(unit) / excess[n]) : unit);
+        gain_ = gains[n] = advanceGain(isOver ? static_cast<std::int64_t>(static_cast<double>(unit) / excess[n]) : unit);
         position_ = position_ + 1 == window_ ? 0 : position_ + 1;
     }
 }
 
 // Nothing was over for a window and nothing is: the gain is 1, and the next window starts from here.
-template <class P>
-void LinkedLimiter<P>::rest(std::size_t frames) noexcept {
+void LinkedLimiter::rest(std::size_t frames) noexcept {
     gain_ = 1.0f;
     frame_ += static_cast<std::int64_t>(frames);
     if (!isSettled_)
@@ -175,8 +159,7 @@ void LinkedLimiter<P>::rest(std::size_t frames) noexcept {
 }
 
 // The product may round up past the ceiling by its last bit, or down into the denormals.
-template <class P>
-void LinkedLimiter<P>::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains, float ceiling) const noexcept {
+void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains, float ceiling) const noexcept {
     const float* const delayed = line + front() - latencyFrames();
     for (std::size_t n = 0; n < frames; ++n) {
         const float y = std::min(std::max(gains != nullptr ? delayed[n] * gains[n] : delayed[n], -ceiling), ceiling);
@@ -186,8 +169,7 @@ void LinkedLimiter<P>::delayAndLimit(float* line, float* samples, std::size_t fr
 }
 
 // The classic monotone queue: whoever needs more gain than a newcomer will never be the minimum again.
-template <class P>
-std::int64_t LinkedLimiter<P>::slidingMinimum(std::int64_t needed) noexcept {
+std::int64_t LinkedLimiter::slidingMinimum(std::int64_t needed) noexcept {
     const auto at = [this](std::size_t k) -> Candidate& { return candidates_[(front_ + k) % candidates_.size()]; };
     while (candidateCount_ > 0 && at(candidateCount_ - 1).needed >= needed) --candidateCount_;
     at(candidateCount_++) = {needed, frame_};
@@ -199,16 +181,12 @@ std::int64_t LinkedLimiter<P>::slidingMinimum(std::int64_t needed) noexcept {
     return at(0).needed;
 }
 
-template <class P>
-float LinkedLimiter<P>::advanceGain(std::int64_t needed) noexcept {
+float LinkedLimiter::advanceGain(std::int64_t needed) noexcept {
     released_ = std::min(slidingMinimum(needed), released_ + releaseStep_);
     auto& oldest = averaged_[static_cast<std::size_t>(position_)];
     sum_ += released_ - oldest;
     oldest = released_;
-    return static_cast<float>(static_cast<Real>(sum_) / static_cast<Real>(unit * window_));
+    return static_cast<float>(static_cast<double>(sum_) / static_cast<double>(unit * window_));
 }
-
-template class LinkedLimiter<DesktopProfile>;
-template class LinkedLimiter<BoardProfile>;
 
 } // namespace physvib

@@ -19,10 +19,8 @@
 namespace physvib {
 
 /// R only, but for prepare: M.
-template <class Profile>
 class LinkedLimiter {
 public:
-    using Real = typename Profile::Real;
 
     /// Forgets everything; ceilings 1. Disabled, it only delays and cleans. The bits do not depend on the set of instructions.
     /// False: no memory. M, not while rendering.
@@ -49,10 +47,10 @@ public:
 
 private:
     static constexpr std::int64_t unit = std::int64_t{1} << 30;
-    static constexpr auto windowMax = static_cast<std::size_t>(Profile::maxLookAheadFrames);
-    static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
+    static constexpr auto windowMax = static_cast<std::size_t>(limits::maxLookAheadFrames);
+    static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
 
-    static constexpr auto partMost = static_cast<std::size_t>(Profile::tileFrames);
+    static constexpr auto partMost = static_cast<std::size_t>(limits::tileFrames);
     using Gains = std::array<float, partMost>;
 
     static int windowAt(int sampleRateHz) noexcept;
@@ -74,7 +72,7 @@ private:
     int window_ = 1;
     bool enabled_ = true;
     std::int64_t releaseStep_ = unit;
-    static constexpr std::size_t step = Profile::isOnHeap ? LimiterLines::padding : 1, floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
+    static constexpr std::size_t step = LimiterLines::padding, floatsPerLine = (windowMax + partMost + 2 * step - 2) / step * step;
     std::size_t front() const noexcept { return (static_cast<std::size_t>(window_) + step - 2) / step * step; } // of latencyFrames(), whole vectors
     const LimiterKernel* kernel_ = nullptr;
     std::array<GainRamp, width> ceilings_{};                    // of what comes in
@@ -83,7 +81,7 @@ private:
     std::int64_t settledFrame_ = 0;                             // from here on no frame has a ramp's ceiling
     int rampFrames_ = 1;
     bool isSettled_ = true;
-    Storage<float, width * floatsPerLine, Profile::isOnHeap> lines_; // of each channel the last latencyFrames() inputs, in order
+    Storage<float, width * floatsPerLine, true> lines_; // of each channel the last latencyFrames() inputs, in order
     std::int64_t silentFrames_ = 0;                             // up to now
     int position_ = 0; // in the ring of `window_` gains
     std::int64_t frame_ = 0;
@@ -100,8 +98,5 @@ private:
     float gain_ = 1.0f;
     std::uint64_t nonFinite_ = 0;
 };
-
-extern template class LinkedLimiter<DesktopProfile>;
-extern template class LinkedLimiter<BoardProfile>;
 
 } // namespace physvib

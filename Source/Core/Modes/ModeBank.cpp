@@ -9,13 +9,12 @@
 
 namespace physvib {
 
-template <class P>
-bool ModeBank<P>::prepare(int sampleRateHz, int channels, InstructionSet set, int modes, int gates) noexcept {
+bool ModeBank::prepare(int sampleRateHz, int channels, InstructionSet set, int modes, int gates) noexcept {
     channels_ = channels;
     rate_ = sampleRateHz;
     tileStart_ = 0;
     modes_ = modes;
-    slots_ = modes + P::maxFadingModes;
+    slots_ = modes + limits::maxFadingModes;
     activeCount_ = fadingCount_ = 0;
     stolen_ = 0;
     nextEnd_ = Strike::never;
@@ -29,8 +28,7 @@ bool ModeBank<P>::prepare(int sampleRateHz, int channels, InstructionSet set, in
     return true;
 }
 
-template <class P>
-bool ModeBank<P>::takeMemory(InstructionSet set, int gates) noexcept {
+bool ModeBank::takeMemory(InstructionSet set, int gates) noexcept {
     const auto count = static_cast<std::size_t>(slots_), each = static_cast<std::size_t>(channels_);
     if (!index_.resize(slots_) || !tiles_.prepare(channels_, set, slots_)) return false;
     return active_.resize(count) && freeSlots_.resize(count) && slotModes_.resize(count) && amplitudes_.resize(count * each + padding) &&
@@ -38,8 +36,7 @@ bool ModeBank<P>::takeMemory(InstructionSet set, int gates) noexcept {
            gates_.resize(gates) && gateGains_.resize(static_cast<std::size_t>(gates) * each) && freeGates_.resize(static_cast<std::size_t>(gates));
 }
 
-template <class P>
-void ModeBank<P>::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept {
+void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept {
     enterTile(fromFrame);
     finishStrikes();
     const double ratio = sampleRateHz / rate_;
@@ -53,11 +50,11 @@ void ModeBank<P>::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t 
     for (int i = 0; i < activeCount_; ++i) {
         const int slot = active_[static_cast<std::size_t>(i)];
         Mode& m = mode(slot);
-        const auto sounding = unitPhasor<Real>(m.phaseIncrement * static_cast<std::uint64_t>(fromFrame)) *
-                              decayFactor<Real>(m.decayIncrement * (fromFrame - m.referenceFrame));
+        const auto sounding = unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(fromFrame)) *
+                              decayFactor<double>(m.decayIncrement * (fromFrame - m.referenceFrame));
         setIncrements(m);
-        const auto turn = sounding * unitPhasor<Real>(std::uint64_t{0} - m.phaseIncrement * static_cast<std::uint64_t>(toFrame)) *
-                          decayFactor<Real>(-m.decayIncrement * (toFrame - tileStart_));
+        const auto turn = sounding * unitPhasor<double>(std::uint64_t{0} - m.phaseIncrement * static_cast<std::uint64_t>(toFrame)) *
+                          decayFactor<double>(-m.decayIncrement * (toFrame - tileStart_));
         for (int j = 0; j < channels_; ++j) {
             auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
             z = z * turn;
@@ -65,26 +62,23 @@ void ModeBank<P>::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t 
         m.referenceFrame = tileStart_;
         m.endFrame = moved(m.endFrame);
         if (!m.isFading) index_.insert(m.hash(), slot);
-        if constexpr (P::hasTiles)
-            if (tiles_.isOn()) tiles_.remove(slot);
+        if (tiles_.isOn()) tiles_.remove(slot);
         shape(slot);
         refreshTile(slot);
     }
-    if constexpr (P::hasTiles)
-        if (tiles_.isOn()) tiles_.begin();
+    if (tiles_.isOn()) tiles_.begin();
     gates_.retime([=](std::int64_t closeFrame, Gate& gate) {
         gate.onset.frame = moved(gate.onset.frame);
         return moved(closeFrame);
     });
 }
 
-template <class P>
-bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
+bool ModeBank::strike(const Strike& strike, const double* gains) noexcept {
     const bool isGated = strike.closeFrame != Strike::never;
     if (isGated && strike.closeFrame <= strike.onset.frame) return true; // ends between two frames: no sample of it
     if (isGated && freeGateCount_ == 0) return false;
     enterTile(strike.onset.frame);
-    if constexpr (P::hasTiles) tiles_.settle();
+    tiles_.settle();
     const int slot = slotFor(strike);
     Mode& struck = mode(slot);
     add(slot, strike, gains);
@@ -94,8 +88,7 @@ bool ModeBank<P>::strike(const Strike& strike, const double* gains) noexcept {
 }
 
 // The mode that it is merged into, or a new one.
-template <class P>
-int ModeBank<P>::slotFor(const Strike& strike) noexcept {
+int ModeBank::slotFor(const Strike& strike) noexcept {
     const auto hash = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(strike.frequencyHz) * 0x9e3779b97f4a7c15 >> 32);
     auto& recent = recent_[(hash >> 24) % recent_.size()];
     if (mode(recent).isOf(strike)) return recent;
@@ -116,30 +109,26 @@ int ModeBank<P>::slotFor(const Strike& strike) noexcept {
     return recent = slot;
 }
 
-template <class P>
-void ModeBank<P>::add(int slot, const Strike& strike, const double* gains) noexcept {
+void ModeBank::add(int slot, const Strike& strike, const double* gains) noexcept {
     Mode& m = mode(slot);
-    if constexpr (P::hasTiles)
-        if (tiles_.isOn()) { // rebased together with the strike
-            const std::int64_t octaves = m.decayIncrement * (tileStart_ - m.referenceFrame);
-            m.referenceFrame = tileStart_;
-            return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_),
-                                 {onsetTurn(m, strike.onset, strike.phase), m.phaseIncrement * static_cast<std::uint64_t>(tileStart_), octaves}, strike.amplitude, gains, &amplitudes_[row(slot)]);
-        }
+    if (tiles_.isOn()) { // rebased together with the strike
+        const std::int64_t octaves = m.decayIncrement * (tileStart_ - m.referenceFrame);
+        m.referenceFrame = tileStart_;
+        return tiles_.strike(slot, static_cast<int>(strike.onset.frame - tileStart_),
+                             {onsetTurn(m, strike.onset, strike.phase), m.phaseIncrement * static_cast<std::uint64_t>(tileStart_), octaves}, strike.amplitude, gains, &amplitudes_[row(slot)]);
+    }
     rebase(slot);
     const auto phasor = phasorOf(onsetTurn(m, strike.onset, strike.phase));
-    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) amplitudes_[row(slot) + j] += phasor * static_cast<Real>(strike.amplitude * gains[j]);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(channels_); ++j) amplitudes_[row(slot) + j] += phasor * (strike.amplitude * gains[j]);
     refreshTile(slot);
 }
 
 // Strikes may wait for others of their tile, until somebody looks at amplitudes.
-template <class P>
-void ModeBank<P>::finishStrikes() noexcept {
-    if constexpr (P::hasTiles) tiles_.finishStrikes();
+void ModeBank::finishStrikes() noexcept {
+    tiles_.finishStrikes();
 }
 
-template <class P>
-typename ModeBank<P>::Mode ModeBank<P>::modeFor(const Strike& strike) const noexcept {
+ModeBank::Mode ModeBank::modeFor(const Strike& strike) const noexcept {
     Mode m;
     m.frequencyHz = strike.frequencyHz;
     m.decayPerSecond = strike.decayPerSecond;
@@ -149,35 +138,28 @@ typename ModeBank<P>::Mode ModeBank<P>::modeFor(const Strike& strike) const noex
     return m;
 }
 
-template <class P>
-void ModeBank<P>::setIncrements(Mode& m) const noexcept {
+void ModeBank::setIncrements(Mode& m) const noexcept {
     m.phaseIncrement = phaseIncrementOf(m.frequencyHz, rate_);
     m.decayIncrement = decayIncrementOf(m.decayPerSecond, rate_);
     m.lifeFrames = lifeFramesOf(m.decayIncrement);
 }
 
-template <class P>
-int ModeBank<P>::find(const Mode& wanted) const noexcept {
-    if constexpr (P::hasTiles) return index_.find(wanted.hash(), [&](int slot) { return mode(slot).matches(wanted); });
-    for (int i = 0; i < activeCount_; ++i)
-        if (mode(active_[static_cast<std::size_t>(i)]).matches(wanted)) return active_[static_cast<std::size_t>(i)];
-    return -1;
+int ModeBank::find(const Mode& wanted) const noexcept {
+    return index_.find(wanted.hash(), [&](int slot) { return mode(slot).matches(wanted); });
 }
 
-template <class P>
-int ModeBank<P>::create(const Mode& m) noexcept {
+int ModeBank::create(const Mode& m) noexcept {
     const int slot = freeSlots_[static_cast<std::size_t>(--freeCount_)];
     active_[static_cast<std::size_t>(activeCount_++)] = slot;
     mode(slot) = m;
     mode(slot).life = ++lives_;
-    std::fill_n(amplitudes_.data() + row(slot), channels_, Complex<Real>{});
+    std::fill_n(amplitudes_.data() + row(slot), channels_, Complex<double>{});
     index_.insert(m.hash(), slot);
     shape(slot);
     return slot;
 }
 
-template <class P>
-void ModeBank<P>::release(int slot) noexcept {
+void ModeBank::release(int slot) noexcept {
     int* const end = active_.data() + activeCount_;
     int* const at = std::find(active_.data(), end, slot);
     std::copy(at + 1, end, at);
@@ -185,19 +167,16 @@ void ModeBank<P>::release(int slot) noexcept {
     recycle(slot);
 }
 
-template <class P>
-void ModeBank<P>::recycle(int slot) noexcept {
+void ModeBank::recycle(int slot) noexcept {
     if (mode(slot).isFading) --fadingCount_;
     else index_.erase(mode(slot).hash(), slot);
-    if constexpr (P::hasTiles)
-        if (tiles_.isOn()) tiles_.remove(slot);
+    if (tiles_.isOn()) tiles_.remove(slot);
     mode(slot).life = 0; // gates that are still open find nothing to close
     freeSlots_[static_cast<std::size_t>(freeCount_++)] = slot;
 }
 
 // From `frame` on the mode decays faster: same phase, no step, gone within milliseconds.
-template <class P>
-void ModeBank<P>::fade(int slot, std::int64_t frame, double perSecond) noexcept {
+void ModeBank::fade(int slot, std::int64_t frame, double perSecond) noexcept {
     rebase(slot);
     Mode& m = mode(slot);
     index_.erase(m.hash(), slot);
@@ -207,40 +186,37 @@ void ModeBank<P>::fade(int slot, std::int64_t frame, double perSecond) noexcept 
     m.isFading = true;
     m.endFrame = std::min(m.endFrame, frame + m.lifeFrames);
     nextEnd_ = std::min(nextEnd_, m.endFrame);
-    const Real backwards = decayFactor<Real>((before - m.decayIncrement) * (frame - tileStart_)); // so that nothing changes at `frame`
+    const double backwards = decayFactor<double>((before - m.decayIncrement) * (frame - tileStart_)); // so that nothing changes at `frame`
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
         z = z * backwards;
     }
-    if constexpr (P::hasTiles)
-        if (tiles_.isOn()) tiles_.remove(slot);
+    if (tiles_.isOn()) tiles_.remove(slot);
     shape(slot);
     refreshTile(slot);
     redoTile(slot, frame);
     ++fadingCount_;
 }
 
-template <class P>
-void ModeBank<P>::fadeAll(std::int64_t frame, double perSecond) noexcept {
+void ModeBank::fadeAll(std::int64_t frame, double perSecond) noexcept {
     enterTile(frame);
     finishStrikes();
     for (int i = 0; i < activeCount_; ++i)
         if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading) fade(slot, frame, perSecond);
 }
 
-template <class P>
-int ModeBank<P>::quietest(bool fading) const noexcept {
+int ModeBank::quietest(bool fading) const noexcept {
     int found = -1;
-    Real least = 0;
+    double least = 0;
     for (int i = 0; i < activeCount_; ++i) {
         const int slot = active_[static_cast<std::size_t>(i)];
         if (mode(slot).isFading != fading) continue;
-        Real level = 0;
+        double level = 0;
         for (int j = 0; j < channels_; ++j) {
             const auto z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
             level = std::max(level, z.re * z.re + z.im * z.im);
         }
-        const Real decay = decayFactor<Real>(mode(slot).decayIncrement * (tileStart_ - mode(slot).referenceFrame));
+        const double decay = decayFactor<double>(mode(slot).decayIncrement * (tileStart_ - mode(slot).referenceFrame));
         level *= decay * decay;
         if (found >= 0 && level >= least) continue;
         found = slot;
@@ -249,12 +225,11 @@ int ModeBank<P>::quietest(bool fading) const noexcept {
     return found;
 }
 
-template <class P>
-void ModeBank<P>::fillPowers(int slot) noexcept {
+void ModeBank::fillPowers(int slot) noexcept {
     const Mode& m = mode(slot);
     for (int k = 0; k < tile; ++k) {
-        const auto power = unitPhasor<Real>(m.phaseIncrement * static_cast<std::uint64_t>(k)) *
-                           decayFactor<Real>(m.decayIncrement * k);
+        const auto power = unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(k)) *
+                           decayFactor<double>(m.decayIncrement * k);
         const std::size_t at = static_cast<std::size_t>(slot) * tileSize + static_cast<std::size_t>(k);
         cosPowers_[at] = power.re;
         sinPowers_[at] = power.im;
@@ -262,28 +237,24 @@ void ModeBank<P>::fillPowers(int slot) noexcept {
 }
 
 // What follows from a mode's increments.
-template <class P>
-void ModeBank<P>::shape(int slot) noexcept {
+void ModeBank::shape(int slot) noexcept {
     fillPowers(slot);
-    if constexpr (P::hasTiles) {
-        if (!tiles_.isOn()) return;
-        const Mode& m = mode(slot);
-        const double turn = static_cast<double>(m.phaseIncrement) * (2.0 * std::numbers::pi / 18446744073709551616.0);
-        const double decay = static_cast<double>(m.decayIncrement) * (std::numbers::ln2 / octaveUnit);
-        const std::size_t powers = static_cast<std::size_t>(slot) * tileSize;
-        tiles_.add(slot, {&cosPowers_[powers], &sinPowers_[powers], std::hypot(turn, decay),
-                          unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(tile)) * decayFactor<double>(m.decayIncrement * tile),
-                          m.isGated});
-        renewCarrier(slot);
-    }
+    if (!tiles_.isOn()) return;
+    const Mode& m = mode(slot);
+    const double turn = static_cast<double>(m.phaseIncrement) * (2.0 * std::numbers::pi / 18446744073709551616.0);
+    const double decay = static_cast<double>(m.decayIncrement) * (std::numbers::ln2 / octaveUnit);
+    const std::size_t powers = static_cast<std::size_t>(slot) * tileSize;
+    tiles_.add(slot, {&cosPowers_[powers], &sinPowers_[powers], std::hypot(turn, decay),
+                      unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(tile)) * decayFactor<double>(m.decayIncrement * tile),
+                      m.isGated});
+    renewCarrier(slot);
 }
 
 // Brings the amplitudes' decay to the tile's first frame.
-template <class P>
-void ModeBank<P>::rebase(int slot) noexcept {
+void ModeBank::rebase(int slot) noexcept {
     Mode& m = mode(slot);
     if (m.referenceFrame == tileStart_) return;
-    const Real decay = decayFactor<Real>(m.decayIncrement * (tileStart_ - m.referenceFrame));
+    const double decay = decayFactor<double>(m.decayIncrement * (tileStart_ - m.referenceFrame));
     for (int j = 0; j < channels_; ++j) {
         auto& z = amplitudes_[row(slot) + static_cast<std::size_t>(j)];
         z = z * decay;
@@ -292,22 +263,17 @@ void ModeBank<P>::rebase(int slot) noexcept {
     renewCarrier(slot);
 }
 
-template <class P>
-Complex<typename ModeBank<P>::Real> ModeBank<P>::carrier(const Mode& m) const noexcept {
-    return unitPhasor<Real>(m.phaseIncrement * static_cast<std::uint64_t>(tileStart_)) *
-           decayFactor<Real>(m.decayIncrement * (tileStart_ - m.referenceFrame));
+Complex<double> ModeBank::carrier(const Mode& m) const noexcept {
+    return unitPhasor<double>(m.phaseIncrement * static_cast<std::uint64_t>(tileStart_)) *
+           decayFactor<double>(m.decayIncrement * (tileStart_ - m.referenceFrame));
 }
 
-template <class P>
-void ModeBank<P>::renewCarrier([[maybe_unused]] int slot) noexcept {
-    if constexpr (P::hasTiles)
-        if (tiles_.isOn()) tiles_.setCarrier(slot, carrier(mode(slot)));
+void ModeBank::renewCarrier(int slot) noexcept {
+    if (tiles_.isOn()) tiles_.setCarrier(slot, carrier(mode(slot)));
 }
 
-template <class P>
-void ModeBank<P>::refreshTile(int slot) noexcept {
-    if constexpr (P::hasTiles)
-        if (tiles_.isOn()) return tiles_.setAmplitudes(slot, &amplitudes_[row(slot)]);
+void ModeBank::refreshTile(int slot) noexcept {
+    if (tiles_.isOn()) return tiles_.setAmplitudes(slot, &amplitudes_[row(slot)]);
     const auto turn = carrier(mode(slot));
     for (int j = 0; j < channels_; ++j) {
         const std::size_t at = row(slot) + static_cast<std::size_t>(j);
@@ -316,13 +282,11 @@ void ModeBank<P>::refreshTile(int slot) noexcept {
 }
 
 // A mode has changed other than by a strike: what is left of its tile is to be made again.
-template <class P>
-void ModeBank<P>::redoTile([[maybe_unused]] int slot, [[maybe_unused]] std::int64_t frame) noexcept {
-    if constexpr (P::hasTiles) tiles_.redoFrom(mode(slot).isGated, static_cast<int>(frame - tileStart_));
+void ModeBank::redoTile(int slot, std::int64_t frame) noexcept {
+    tiles_.redoFrom(mode(slot).isGated, static_cast<int>(frame - tileStart_));
 }
 
-template <class P>
-void ModeBank<P>::enterTile(std::int64_t frame) noexcept {
+void ModeBank::enterTile(std::int64_t frame) noexcept {
     const std::int64_t start = frame - frame % tile;
     if (start == tileStart_) return;
     finishStrikes();
@@ -332,8 +296,7 @@ void ModeBank<P>::enterTile(std::int64_t frame) noexcept {
     refreshAll(isNext);
 }
 
-template <class P>
-void ModeBank<P>::retireModes() noexcept {
+void ModeBank::retireModes() noexcept {
     int kept = 0;
     nextEnd_ = Strike::never;
     for (int i = 0; i < activeCount_; ++i) {
@@ -349,31 +312,26 @@ void ModeBank<P>::retireModes() noexcept {
 }
 
 // Carriers are multiplied on, and set from their integers every so many tiles, a few slots at a time.
-template <class P>
-void ModeBank<P>::refreshAll(bool isNextTile) noexcept {
-    if constexpr (P::hasTiles) {
-        if (tiles_.isOn()) {
-            if (isNextTile) tiles_.advance();
-            const int stride = isNextTile ? ModeTiles::renewalTiles : 1;
-            for (int slot = static_cast<int>(tileStart_ / tile % stride); slot < tiles_.slotsInUse(); slot += stride)
-                if (mode(slot).life != 0) renewCarrier(slot);
-            return tiles_.begin();
-        }
+void ModeBank::refreshAll(bool isNextTile) noexcept {
+    if (tiles_.isOn()) {
+        if (isNextTile) tiles_.advance();
+        const int stride = isNextTile ? ModeTiles::renewalTiles : 1;
+        for (int slot = static_cast<int>(tileStart_ / tile % stride); slot < tiles_.slotsInUse(); slot += stride)
+            if (mode(slot).life != 0) renewCarrier(slot);
+        return tiles_.begin();
     }
     for (int i = 0; i < activeCount_; ++i) refreshTile(active_[static_cast<std::size_t>(i)]);
 }
 
-template <class P>
-bool ModeBank<P>::openGate(int slot, const Strike& strike, const double* gains) noexcept {
+bool ModeBank::openGate(int slot, const Strike& strike, const double* gains) noexcept {
     const int entry = freeGates_[static_cast<std::size_t>(--freeGateCount_)];
     for (int j = 0; j < channels_; ++j)
-        gateGains_[static_cast<std::size_t>(entry * channels_ + j)] = static_cast<Real>(strike.amplitude * gains[j]);
+        gateGains_[static_cast<std::size_t>(entry * channels_ + j)] = strike.amplitude * gains[j];
     ++mode(slot).openGates;
     return gates_.push(strike.closeFrame, {slot, mode(slot).life, entry, strike.onset, strike.phase});
 }
 
-template <class P>
-void ModeBank<P>::closeNextGate() noexcept {
+void ModeBank::closeNextGate() noexcept {
     const Gate gate = gates_.next();
     const std::int64_t closeFrame = gates_.nextTime();
     enterTile(closeFrame);
@@ -395,8 +353,7 @@ void ModeBank<P>::closeNextGate() noexcept {
     redoTile(gate.slot, closeFrame);
 }
 
-template <class P>
-Turn ModeBank<P>::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {
+Turn ModeBank::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {
     const auto leadPhase = static_cast<std::uint64_t>(static_cast<double>(m.phaseIncrement) * onset.leadFrames);
     const auto leadDecay = static_cast<std::int64_t>(static_cast<double>(m.decayIncrement) * onset.leadFrames);
     // A gate may close long after its own strike has died away inside a mode that others keep alive.
@@ -406,29 +363,20 @@ Turn ModeBank<P>::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t ph
     return {phase + leadPhase - m.phaseIncrement * static_cast<std::uint64_t>(onset.frame), hasDied ? inaudible : m.decayIncrement * age + leadDecay};
 }
 
-template <class P>
-bool ModeBank<P>::render(float* const* out, std::int64_t first, int frames) noexcept {
+bool ModeBank::render(float* const* out, std::int64_t first, int frames) noexcept {
     enterTile(first);
     finishStrikes();
     const int from = static_cast<int>(first - tileStart_);
-    if constexpr (P::hasTiles)
-        if (tiles_.isOn()) return tiles_.render(out, from, frames);
-    const ModeTable<P> table{active_.data(), activeCount_, channels_, tileAmplitudes_.data(), cosPowers_.data(), sinPowers_.data()};
+    if (tiles_.isOn()) return tiles_.render(out, from, frames);
+    const ModeTable table{active_.data(), activeCount_, channels_, tileAmplitudes_.data(), cosPowers_.data(), sinPowers_.data()};
     renderScalar(table, out, from, frames);
     return activeCount_ > 0;
 }
 
-template <class P>
-bool ModeBank<P>::sumsAt([[maybe_unused]] const float** at, [[maybe_unused]] std::int64_t first) noexcept {
-    if constexpr (P::hasTiles) {
-        if (!tiles_.isOn()) return false;
-        enterTile(first);
-        return tiles_.sumsAt(at, static_cast<int>(first - tileStart_));
-    }
-    return false;
+bool ModeBank::sumsAt(const float** at, std::int64_t first) noexcept {
+    if (!tiles_.isOn()) return false;
+    enterTile(first);
+    return tiles_.sumsAt(at, static_cast<int>(first - tileStart_));
 }
-
-template class ModeBank<DesktopProfile>;
-template class ModeBank<BoardProfile>;
 
 } // namespace physvib

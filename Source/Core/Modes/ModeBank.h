@@ -16,7 +16,6 @@
 #include "Core/TimeOrdered.h"
 #include <array>
 #include <cstdint>
-#include <type_traits>
 
 namespace physvib {
 
@@ -32,18 +31,16 @@ struct Strike {
 };
 
 /// Its memory follows channels and modes, and is taken when it is prepared. R only, but for prepare: M.
-template <class Profile>
 class ModeBank {
 public:
-    using Real = typename Profile::Real;
-    static constexpr int tile = Profile::tileFrames;
-    static constexpr int slotCount = Profile::maxModes + Profile::maxFadingModes;
+    static constexpr int tile = limits::tileFrames;
+    static constexpr int slotCount = limits::maxModes + limits::maxFadingModes;
 
-    /// Silence, for this rate and number of channels (1 to Profile::maxChannels). A set of instructions that is not
-    /// available means the scalar kernel. `modes`: that sound at once without one being stolen, 1 to Profile::maxModes; `gates`:
+    /// Silence, for this rate and number of channels (1 to limits::maxEnchanters). A set of instructions that is not
+    /// available means the scalar kernel. `modes`: that sound at once without one being stolen, 1 to limits::maxModes; `gates`:
     /// strikes with a duration that are open at once. False: no memory for them, and it is not to be used. M, not while rendering.
-    bool prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best, int modes = Profile::maxModes,
-                 int gates = Profile::maxGates) noexcept;
+    bool prepare(int sampleRateHz, int channels, InstructionSet set = InstructionSet::best, int modes = limits::maxModes,
+                 int gates = limits::maxGates) noexcept;
 
     /// What it runs on. Any thread after prepare.
     InstructionSet instructionSet() const noexcept { return tiles_.set(); }
@@ -74,15 +71,13 @@ public:
     /// Writes out[j][0..frames) for absolute frames [first, first + frames), which lie within one tile. False if all are 0.
     bool render(float* const* out, std::int64_t first, int frames) noexcept;
 
-    /// Instead of render, for profiles with tiles: where each channel's frames from `first` on stand already. False: nowhere, and render is to be called.
+    /// Instead of render, if there are tiles: where each channel's frames from `first` on stand already. False: nowhere, and render is to be called.
     bool sumsAt(const float** at, std::int64_t first) noexcept;
 
     int liveModes() const noexcept { return activeCount_; }
     std::uint64_t stolenModes() const noexcept { return stolen_; }
 
 private:
-    using Index = std::conditional_t<Profile::hasTiles, ModeIndex<slotCount>, NoIndex>;
-    using Tiles = std::conditional_t<Profile::hasTiles, ModeTiles, NoTiles>;
     struct Mode {
         double frequencyHz = 0.0;
         double decayPerSecond = 0.0;
@@ -134,20 +129,20 @@ private:
     void redoTile(int slot, std::int64_t frame) noexcept;
     void enterTile(std::int64_t frame) noexcept;
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
-    Complex<Real> carrier(const Mode& mode) const noexcept;
+    Complex<double> carrier(const Mode& mode) const noexcept;
     static Turn onsetTurn(const Mode& mode, FramePosition onset, std::uint64_t phase) noexcept;
-    static Complex<Real> phasorOf(const Turn& turn) noexcept { return unitPhasor<Real>(turn.phase) * decayFactor<Real>(turn.octaves); }
+    static Complex<double> phasorOf(const Turn& turn) noexcept { return unitPhasor<double>(turn.phase) * decayFactor<double>(turn.octaves); }
     Mode& mode(int slot) noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     const Mode& mode(int slot) const noexcept { return slotModes_[static_cast<std::size_t>(slot)]; }
     std::size_t row(int slot) const noexcept { return static_cast<std::size_t>(slot * channels_); }
 
     static constexpr auto slots = static_cast<std::size_t>(slotCount);
     static constexpr auto tileSize = static_cast<std::size_t>(tile);
-    static constexpr auto width = static_cast<std::size_t>(Profile::maxChannels);
-    static constexpr auto gateCount = static_cast<std::size_t>(Profile::maxGates);
-    static constexpr std::size_t padding = Profile::hasTiles ? tiles::channelsPerLine : 0; // tiles read whole lines
+    static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
+    static constexpr auto gateCount = static_cast<std::size_t>(limits::maxGates);
+    static constexpr std::size_t padding = tiles::channelsPerLine; // tiles read whole lines
     template <class T, std::size_t most>
-    using Room = Storage<T, most, Profile::isOnHeap>;
+    using Room = Storage<T, most, true>;
 
     int channels_ = 1;
     double rate_ = 48000.0;
@@ -162,20 +157,17 @@ private:
     std::uint64_t stolen_ = 0;
     std::uint32_t lives_ = 0;
     Room<Mode, slots> slotModes_;
-    [[no_unique_address]] Index index_; // of modes that do not fade
-    [[no_unique_address]] Tiles tiles_;
-    std::array<std::int32_t, Profile::hasTiles ? 256 : 1> recent_{}; // slots that were struck, by their frequency's bits
-    Room<Complex<Real>, slots * width + padding> amplitudes_;     // as of the mode's reference frame
-    Room<Complex<Real>, slots * width> tileAmplitudes_; // as of the tile's first frame; scalar kernel
-    Room<Real, slots * tileSize> cosPowers_;
-    Room<Real, slots * tileSize> sinPowers_;
-    TimeOrdered<Gate, Profile::maxGates, Profile::isOnHeap> gates_;
-    Room<Real, gateCount * width> gateGains_; // amplitude times gain, per channel
+    ModeIndex<slotCount> index_; // of modes that do not fade
+    ModeTiles tiles_;
+    std::array<std::int32_t, 256> recent_{}; // slots that were struck, by their frequency's bits
+    Room<Complex<double>, slots * width + padding> amplitudes_;     // as of the mode's reference frame
+    Room<Complex<double>, slots * width> tileAmplitudes_; // as of the tile's first frame; scalar kernel
+    Room<double, slots * tileSize> cosPowers_;
+    Room<double, slots * tileSize> sinPowers_;
+    TimeOrdered<Gate, limits::maxGates, true> gates_;
+    Room<double, gateCount * width> gateGains_; // amplitude times gain, per channel
     Room<int, gateCount> freeGates_;
     int freeGateCount_ = 0;
 };
-
-extern template class ModeBank<DesktopProfile>;
-extern template class ModeBank<BoardProfile>;
 
 } // namespace physvib

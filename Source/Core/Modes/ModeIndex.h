@@ -71,12 +71,4 @@ private:
     int bits_ = 1;
 };
 
-/// For profiles of a few modes: a search through them is as quick, and needs no memory.
-struct NoIndex {
-    static constexpr bool resize(int) noexcept { return true; }
-    static constexpr void clear() noexcept {}
-    static constexpr void insert(std::uint64_t, int) noexcept {}
-    static constexpr void erase(std::uint64_t, int) noexcept {}
-};
-
 } // namespace physvib

@@ -1,39 +1,35 @@
 // SPDX-License-Identifier: MIT
 // The sounding modes as a kernel reads them, and the scalar kernel: the oracle that faster ones are held against.
 #pragma once
+#include "Core/Limits.h"
 #include "Core/Trigonometry.h"
 #include <array>
 #include <cstddef>
 
 namespace physvib {
 
-/// A view of a ModeBank for one tile. Mode slot s has `tile` powers and `channels` amplitudes:
+/// A view of a ModeBank for one tile. Mode slot s has limits::tileFrames powers and `channels` amplitudes:
 /// at frame k of the tile, channel j of it is im(amplitudes[s * channels + j] * p_s^k).
-template <class Profile>
 struct ModeTable {
-    using Real = typename Profile::Real;
-    static constexpr int tile = Profile::tileFrames;
     const int* slots = nullptr; ///< the active slots, in the order in which they are summed
     int count = 0;
     int channels = 0;
-    const Complex<Real>* amplitudes = nullptr; ///< at the tile's first frame
-    const Real* cosPowers = nullptr;           ///< re(p_s^k) at [s * tile + k]
-    const Real* sinPowers = nullptr;           ///< im(p_s^k)
+    const Complex<double>* amplitudes = nullptr; ///< at the tile's first frame
+    const double* cosPowers = nullptr;           ///< re(p_s^k) at [s * limits::tileFrames + k]
+    const double* sinPowers = nullptr;           ///< im(p_s^k)
 };
 
 /// Writes frames [first, first + frames) of the tile to out[j][0..frames). Each sample depends on its own frame
 /// only, so any partition of a tile gives the same bits; it is rounded to float once, at the end. R, wait-free.
-template <class Profile>
-void renderScalar(const ModeTable<Profile>& table, float* const* out, int first, int frames) noexcept {
-    using Real = typename Profile::Real;
-    constexpr auto tile = static_cast<std::size_t>(Profile::tileFrames);
+inline void renderScalar(const ModeTable& table, float* const* out, int first, int frames) noexcept {
+    constexpr auto tile = static_cast<std::size_t>(limits::tileFrames);
     for (int j = 0; j < table.channels; ++j) {
-        std::array<Real, tile> sum{};
+        std::array<double, tile> sum{};
         for (int i = 0; i < table.count; ++i) {
             const auto slot = static_cast<std::size_t>(table.slots[i]);
             const auto z = table.amplitudes[slot * static_cast<std::size_t>(table.channels) + static_cast<std::size_t>(j)];
-            const Real* c = table.cosPowers + slot * tile + first;
-            const Real* s = table.sinPowers + slot * tile + first;
+            const double* c = table.cosPowers + slot * tile + first;
+            const double* s = table.sinPowers + slot * tile + first;
             for (int k = 0; k < frames; ++k) sum[static_cast<std::size_t>(k)] += z.re * s[k] + z.im * c[k];
         }
         for (int k = 0; k < frames; ++k) out[j][k] = static_cast<float>(sum[static_cast<std::size_t>(k)]);

@@ -24,11 +24,10 @@ struct TileMode {
     bool isGated = false;
 };
 
-/// For DesktopProfile. R only, but for prepare: M. Off when there is no kernel.
+/// R only, but for prepare: M. Off when there is no kernel.
 class ModeTiles {
 public:
-    static constexpr int slotCount = DesktopProfile::maxModes + DesktopProfile::maxFadingModes;
-    static_assert(DesktopProfile::tileFrames == tiles::frames);
+    static constexpr int slotCount = limits::maxModes + limits::maxFadingModes;
 
     /// Nothing sounds; off, and without memory, if the set has no kernel here. At most slotCount slots. False: no memory for them.
     bool prepare(int channels, InstructionSet set, int slotsMost) noexcept;
@@ -79,7 +78,7 @@ private:
     static constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
     static constexpr auto slots = static_cast<std::size_t>(slotCount);
     static constexpr auto padded = (slots + 7) / 8 * 8; // for the widest vector of doubles
-    static constexpr auto width = static_cast<std::size_t>(DesktopProfile::maxChannels);
+    static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
     static constexpr auto frames = static_cast<std::size_t>(tiles::frames);
     static constexpr auto rankCount = tiles::ranks.size();
     template <class T, std::size_t most>
@@ -137,13 +136,6 @@ private:
     Room<float, slots * width * 4> amplitudes_;
     Room<float, slots * rowFloats> rows_;
     std::array<Room<std::int32_t, slots>, rankCount> rowSlots_;
-};
-
-/// For profiles without vector kernels: never on, no memory.
-struct NoTiles {
-    static constexpr bool prepare(int, InstructionSet, int) noexcept { return true; }
-    static constexpr bool isOn() noexcept { return false; }
-    static constexpr InstructionSet set() noexcept { return InstructionSet::scalar; }
 };
 
 } // namespace physvib

@@ -17,7 +17,7 @@
 namespace physvib {
 
 namespace tiles {
-constexpr int frames = 64;                        // DesktopProfile::tileFrames; one mode's share stays in registers
+constexpr int frames = limits::tileFrames;         // one mode's share stays in registers
 constexpr std::array<int, 4> ranks{8, 16, 32, 64}; // coefficients of a row; 64: the tile's frames themselves
 constexpr int maxRank = 32;                       // of the polynomials
 constexpr int channelsPerLine = 4;                // amplitudes of four channels share a cache line

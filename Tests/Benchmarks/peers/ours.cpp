@@ -21,7 +21,7 @@ struct Source {
 int main(int, char** arguments) {
     EnchanterLayout layout;
     layoutPreset("phone4", layout);
-    const auto renderer = std::make_unique<HapticRenderer<DesktopProfile>>();
+    const auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare({.sampleRateHz = rate, .channels = channels, .panner = {layout, PanningLaw::linear, 1, layout.extentWidthMetres, layout.extentHeightMetres}});
     Source source;
     for (const Voice& v : readVoices(arguments[1]))
@@ -41,7 +41,7 @@ int main(int, char** arguments) {
 }
 #else
 int main(int, char** arguments) {
-    const auto bank = std::make_unique<ModeBank<DesktopProfile>>();
+    const auto bank = std::make_unique<ModeBank>();
     bank->prepare(rate, channels);
     for (const Voice& v : readVoices(arguments[1])) bank->strike({v.frequencyHz, v.decayPerSecond, v.amplitude, {0, 0.0}, Strike::never}, v.gains);
     return play(arguments, [&](float* const* out, long first) { bank->render(out, first, block); });

@@ -13,7 +13,7 @@ static_assert(PHYSVIB_VERSION_MAJOR * 100 + PHYSVIB_VERSION_MINOR >= 1, "expecte
 int main() {
     physvib::EnchanterLayout layout;
     physvib::layoutPreset("phone2", layout);
-    const auto renderer = std::make_unique<physvib::HapticRenderer<physvib::DesktopProfile>>();
+    const auto renderer = std::make_unique<physvib::HapticRenderer>();
     if (!renderer->prepare({.channels = user::outputs, .panner = {layout, physvib::PanningLaw::linear, 1.0, 1.0, 1.0}})) return 1;
     physvib::EventQueue<physvib::CollisionEvent, 4> queue;
     physvib::CollisionEvent hit;

@@ -4,6 +4,6 @@
 #include <memory>
 
 extern "C" __attribute__((visibility("default"))) int userEntry() {
-    const auto renderer = std::make_unique<physvib::HapticRenderer<physvib::DesktopProfile>>();
+    const auto renderer = std::make_unique<physvib::HapticRenderer>();
     return renderer->prepare({}) ? 1 : 0;
 }
