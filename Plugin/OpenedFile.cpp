@@ -50,7 +50,7 @@ PluginState leftBy(const SavedSession& session, Mix mix, PluginState state) {
     state.strips = mix.strips;
     state.equalised = session.equalised;
     state.limiterEnabled |= session.limiterEnabled;
-    setParameter(state, Parameter::law, static_cast<double>(mix.law));
+    setParameter(state, Parameter::law, valueOf(rowOf(Parameter::law), nameOf(mix.law)));
     setParameter(state, Parameter::exponent, mix.exponent);
     setParameter(state, Parameter::level, mix.levelDb);
     return state;

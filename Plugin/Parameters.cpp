@@ -9,7 +9,20 @@ namespace physvib {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> lawNames{"linear", "log", "log-outer", "energy"}; // as PanningLaw
+/// The first choices stand where they have always stood, the others between them (decision 34); where nobody is yet stands the one before.
+template <std::size_t first, std::size_t count>
+constexpr auto atTheirPlaces(const std::array<std::string_view, count>& names) {
+    static_assert(count < 2 * first, "others need a parameter of their own");
+    constexpr std::size_t step = count == first ? 1 : 2;
+    std::array<std::string_view, step * (first - 1) + 1> places{};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const bool isBetween = i % step != 0 && first + i / 2 < count;
+        places[i] = isBetween ? names[first + i / 2] : names[i / step];
+    }
+    return places;
+}
+
+constexpr auto lawNames = atTheirPlaces<4>(panningLawNames);
 constexpr std::array<std::string_view, 9> materialNames{"as the scene", "1", "2", "3", "4", "5", "6", "7", "8"};
 constexpr std::array<std::string_view, 2> switchNames{"off", "on"};
 constexpr double silentDb = -60.0; // below it nobody feels anything: full scale is some g
@@ -35,12 +48,13 @@ constexpr std::array strikeGroup{Parameter::strikeLevel, Parameter::strikeX, Par
 constexpr std::array beatGroup{Parameter::beats};
 constexpr std::array<ParameterGroup, 4> groups{{{"panning", "Panning", panningGroup}, {"world", "World", worldGroup}, {"strikes", "Strikes by notes", strikeGroup}, {"side_chain", "Side chain", beatGroup}}};
 
-std::string_view wordOf(const ParameterRow& row, double value) {
-    const auto index = static_cast<std::size_t>(std::lround(std::clamp(value, row.least, row.most) - row.least));
-    return row.choices[index];
-}
+bool hasWords(const ParameterRow& row) noexcept { return !row.choices.empty(); }
 
-bool hasWords(const ParameterRow& row) { return !row.choices.empty(); }
+double stepOf(const ParameterRow& row) noexcept { return (row.most - row.least) / static_cast<double>(row.choices.size() - 1); }
+
+std::string_view wordOf(const ParameterRow& row, double value) noexcept {
+    return row.choices[static_cast<std::size_t>(std::lround((std::clamp(value, row.least, row.most) - row.least) / stepOf(row)))];
+}
 
 } // namespace
 
@@ -63,7 +77,7 @@ double denormalised(const ParameterRow& row, double normal) noexcept {
     const double n = std::clamp(normal, 0.0, 1.0);
     if (row.scale == log) return row.least * std::pow(row.most / row.least, n);
     const double value = row.least + n * (row.most - row.least);
-    return hasWords(row) ? std::round(value) : value;
+    return hasWords(row) ? row.least + stepOf(row) * std::round((value - row.least) / stepOf(row)) : value;
 }
 
 std::string valueText(const ParameterRow& row, double value) {
@@ -78,12 +92,18 @@ std::string valueText(const ParameterRow& row, double value) {
 
 double valueOf(const ParameterRow& row, std::string_view text) {
     const auto word = std::ranges::find(row.choices, text);
-    if (hasWords(row)) return word == row.choices.end() ? row.initial : row.least + static_cast<double>(word - row.choices.begin());
+    if (hasWords(row)) return word == row.choices.end() ? row.initial : row.least + stepOf(row) * static_cast<double>(word - row.choices.begin());
     while (!text.empty() && (text.front() == ' ' || text.front() == '+')) text.remove_prefix(1);
     if (text.starts_with("-inf")) return row.least;
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc{} && std::isfinite(value) ? std::clamp(value, row.least, row.most) : row.initial;
+}
+
+PanningLaw lawOf(double value) noexcept {
+    PanningLaw law{};
+    panningLawNamed(wordOf(rowOf(Parameter::law), value), law);
+    return law;
 }
 
 double gainOfLevel(double levelDb) noexcept { return levelDb <= silentDb ? 0.0 : std::pow(10.0, levelDb / 20.0); }

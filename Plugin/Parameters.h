@@ -2,6 +2,7 @@
 // Every parameter once: id, name, unit, range, default, mapping, words. The plug-in, its editor, its saved state and
 // the table in Docs/plugin.md read this table.
 #pragma once
+#include "Core/PanningLaws.h"
 #include <array>
 #include <cstddef>
 #include <span>
@@ -18,7 +19,7 @@ constexpr std::size_t parameterCount = 11;
 enum class ParameterScale {
     linear,
     log,    ///< equal steps are equal ratios; the range is above 0
-    choice, ///< one of `choices`, 0 to choices.size() - 1; each keeps its place from 0 to 1 (decision 34)
+    choice, ///< one of `choices`, in equal steps over the range; each keeps its place from 0 to 1 (decision 34)
     toggle  ///< 0 or 1
 };
 
@@ -58,6 +59,9 @@ double denormalised(const ParameterRow& row, double normal) noexcept;
 /// "-12.0 dB", "energy", "on"; and back, with or without the unit. What cannot be read is the default. Any thread.
 std::string valueText(const ParameterRow& row, double value);
 double valueOf(const ParameterRow& row, std::string_view text);
+
+/// Of a value of `law`. Any thread.
+PanningLaw lawOf(double value) noexcept;
 
 /// A level in dB as a gain; the least level is silence. Any thread.
 double gainOfLevel(double levelDb) noexcept;

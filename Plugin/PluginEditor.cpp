@@ -207,7 +207,7 @@ void PluginEditor::takeState() {
     direct_.setToggleState(state_.isDirect, juce::dontSendNotification);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
-    world_.show(state_.layout, {state_.layout.geometry, static_cast<PanningLaw>(value(Parameter::law)), value(Parameter::exponent), state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
+    world_.show(state_.layout, {state_.layout.geometry, lawOf(value(Parameter::law)), value(Parameter::exponent), state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
     midiPanel_.take(state_);
     mix_.take(state_);
     nameMaterials();

@@ -132,7 +132,7 @@ void PluginProcessor::sendControls(int frame) noexcept {
 
 RenderControl PluginProcessor::pannerControl() const noexcept {
     const auto& settings = takes_.settings();
-    const auto law = static_cast<PanningLaw>(juce::roundToInt(value(Parameter::law)));
+    const auto law = lawOf(value(Parameter::law));
     auto control = controlOf(RenderControl::Kind::panner);
     control.panner = {settings.layout, law, value(Parameter::exponent), settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres()};
     return control;

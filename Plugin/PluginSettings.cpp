@@ -2,6 +2,7 @@
 // Panner, session, tail and parameters of a state.
 #include "PluginSettings.h"
 #include "Files/SceneCatalogue.h"
+#include "Files/Text/NameList.h"
 #include "MidiMap.h"
 #include <algorithm>
 #include <cmath>
@@ -9,16 +10,6 @@
 #include <utility>
 
 namespace physvib {
-
-namespace {
-
-std::string wordsOf(const ParameterRow& row) {
-    std::string words;
-    for (const auto word : row.choices) words += (words.empty() ? "" : ", ") + std::string{word};
-    return words;
-}
-
-} // namespace
 
 LayoutDescription presetLayout(std::string_view name) {
     EnchanterLayout geometry;
@@ -116,7 +107,7 @@ std::string faultOfParameters(const PluginState& state) {
         const int which = parameterOfId(id);
         if (which < 0) return noSuch(id);
         if (const auto& row = rowOf(static_cast<Parameter>(which)); !valueOfState(row, value))
-            return "parameters." + id + ": expected " + (row.choices.empty() ? "a number" : "one of " + wordsOf(row)) + ", found \"" + std::get<std::string>(value) + "\"";
+            return "parameters." + id + ": expected " + (row.choices.empty() ? "a number" : "one of " + listed(row.choices)) + ", found \"" + std::get<std::string>(value) + "\"";
     }
     for (const auto& rule : state.controllers)
         if (parameterOfId(rule.parameter) < 0) return noSuch(rule.parameter);

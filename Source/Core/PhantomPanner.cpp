@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The panning laws and the four arrangements they are applied to.
+// The arrangements that a panning law is applied to.
 #include "Core/PhantomPanner.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace physvib {
-
-bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept {
-    const auto found = std::find(panningLawNames.begin(), panningLawNames.end(), name);
-    if (found == panningLawNames.end()) return false;
-    law = static_cast<PanningLaw>(found - panningLawNames.begin());
-    return true;
-}
 
 PhantomPanner::PhantomPanner(const EnchanterLayout& layout, PanningLaw law, double exponent,
                              double fieldWidthMetres, double fieldHeightMetres) noexcept
@@ -79,10 +72,7 @@ bool PhantomPanner::isRectangle() const noexcept {
 
 double PhantomPanner::factor(double distanceRatio) const noexcept {
     const double u = std::clamp(distanceRatio, 0.0, 1.0);
-    double value = 1.0 - u;
-    if (law_ == PanningLaw::log) value = 1.0 - std::log2(1.0 + u);
-    if (law_ == PanningLaw::logOuter) value = std::log2(2.0 - u);
-    if (law_ == PanningLaw::energy) value = std::sqrt(1.0 - u);
+    const double value = describe(law_).factor(u);
     return exponent_ == 1.0 ? value : std::pow(value, exponent_);
 }
 
@@ -101,7 +91,9 @@ void PhantomPanner::gainsAt(double x, double y, Spread spread, Gains& gains) con
     if (spread == Spread::layout) return gainsAt(x, y, gains);
     if (spread == Spread::alone) return nearestGains({x * scaleX_, y * scaleY_}, gains);
     PhantomPanner other = *this;
-    other.law_ = spread == Spread::equal ? PanningLaw::energy : static_cast<PanningLaw>(static_cast<int>(spread) - static_cast<int>(Spread::linear));
+    if (spread == Spread::equal) other.law_ = PanningLaw::energy;
+    for (const auto& one : panningLaws)
+        if (spread == spreadBy(one.law)) other.law_ = one.law;
     other.exponent_ = 1.0;
     other.gainsAt(x, y, gains);
     if (spread != Spread::equal) return;

@@ -2,25 +2,11 @@
 // Phantom sensations: from the place of a hit to one gain per enchanter (thesis Eq. 4.2, 4.3, 6.2).
 #pragma once
 #include "Core/EnchanterLayout.h"
+#include "Core/PanningLaws.h"
 #include "Core/Spread.h"
 #include <array>
-#include <string_view>
 
 namespace physvib {
-
-/// How a gain falls with the distance ratio u = d/D from an enchanter, u in [0, 1].
-enum class PanningLaw {
-    linear,   ///< 1 - u (Eq. 4.2)
-    log,      ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear
-    logOuter, ///< log2(2 - u): the other reconstruction, stays above linear
-    energy    ///< sqrt(1 - u): squares sum to one wherever linear gains do
-};
-
-/// Names of the laws, in their order.
-inline constexpr std::array<std::string_view, 4> panningLawNames{"linear", "log", "log-outer", "energy"};
-
-/// The law of that name; false if there is none. Any thread.
-bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept;
 
 /// Gains of one layout. Formulas for every arrangement stand in Docs/panning.md.
 class PhantomPanner {

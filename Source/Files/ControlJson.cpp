@@ -10,7 +10,6 @@
 namespace physvib {
 namespace {
 
-constexpr std::array<std::string_view, 4> lawNames{"linear", "log", "log-outer", "energy"}; // as PanningLaw
 constexpr double leastExponent = 1e-3, mostExponent = 100.0;
 constexpr double largestGain = 1000.0, leastCeiling = 1e-6;
 
@@ -36,7 +35,7 @@ PhantomPanner readPanner(const JsonField& json, int channels) {
         json["layout"].fail("expected at most " + std::to_string(channels) + " enchanters, as many as there are channels");
     const JsonField field = json["field_m"];
     if (field.arraySize() != 2) field.fail("expected [width, height]");
-    return {layout, static_cast<PanningLaw>(json["law"].oneOf(lawNames)), json["exponent"].numberWithin(leastExponent, mostExponent),
+    return {layout, panningLaws[json["law"].oneOf(panningLawNames)].law, json["exponent"].numberWithin(leastExponent, mostExponent),
             field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres), field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
 }
 
@@ -80,7 +79,7 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
 
 OrderedJson pannerJson(const PhantomPanner& panner) {
     return {{"layout", OrderedJson::parse(layoutJson(describeLayout("", panner.layout())))},
-            {"law", lawNames[static_cast<std::size_t>(panner.law())]},
+            {"law", nameOf(panner.law())},
             {"exponent", panner.exponent()},
             {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
 }

@@ -84,7 +84,7 @@ Mix readMix(const JsonField& json) {
     json.expectObject({"layout", "law", "exponent", "level_db", "drag_ns_per_screen_m", oldDrag, "strips"});
     Mix mix;
     mix.layout = readLayoutFields(json["layout"]);
-    mix.law = static_cast<PanningLaw>(json["law"].oneOf(panningLawNames));
+    mix.law = panningLaws[json["law"].oneOf(panningLawNames)].law;
     mix.exponent = json["exponent"].numberWithin(1e-3, 100.0);
     mix.levelDb = json["level_db"].numberWithin(leastStripDb, 0.0);
     for (const char* const name : {oldDrag, "drag_ns_per_screen_m"})
@@ -95,7 +95,7 @@ Mix readMix(const JsonField& json) {
 
 OrderedJson mixJson(const Mix& mix) {
     return {{"layout", OrderedJson::parse(layoutJson(mix.layout))},
-            {"law", panningLawNames[static_cast<std::size_t>(mix.law)]},
+            {"law", nameOf(mix.law)},
             {"exponent", mix.exponent},
             {"level_db", mix.levelDb},
             {"drag_ns_per_screen_m", mix.dragNewtonSecondsPerScreenMetre},

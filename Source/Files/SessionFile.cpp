@@ -241,7 +241,7 @@ OrderedJson strikeJson(const CollisionEvent& strike) {
     const StrikeCourse& course = strike.course;
     if (course.travelNs > 0) json.update({{"to_x_m", course.toX}, {"to_y_m", course.toY}, {"travel_s", seconds(course.travelNs)}});
     if (course.sinceNs > 0) json["since_s"] = seconds(course.sinceNs);
-    if (course.spread != Spread::layout) json["spread"] = spreadNames[static_cast<std::size_t>(course.spread)];
+    if (course.spread != Spread::layout) json["spread"] = nameOf(course.spread);
     return json;
 }
 

@@ -7,6 +7,7 @@
 #include "Files/LayoutFile.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/Text/CleanText.h"
+#include "Files/Text/NameList.h"
 #include "InRange.h"
 #include "Physics/Scenes/SceneRun.h"
 #include "Session/OfflineRender.h"
@@ -186,7 +187,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--steps-per-second", o.run.stepsPerSecond, "physics steps per second")
         ->check(inRange(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond))
         ->capture_default_str();
-    app.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4 or a layout file")
+    app.add_option("--layout", o.layout, listedByNumber(layoutPresetNames) + " or a layout file")
         ->capture_default_str();
     app.add_option("--rate", o.sampleRateHz, "sample rate in Hz")
         ->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz))

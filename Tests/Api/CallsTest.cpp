@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The library as a program in another language sees it.
+#include "Core/PanningLaws.h"
 #include "Files/WavFile.h"
 #include "Support/BegunStructs.h"
 #include "Support/RandomCalls.h"
@@ -224,6 +225,18 @@ TEST(Calls, WrongOrderIsOneAndNothingHappens) {
     EXPECT_EQ(physvib_world_remove_body(world, 1), PHYSVIB_ERROR_ORDER);
     EXPECT_EQ(physvib_world_begin_step(world, std::nan(""), 9.81), PHYSVIB_ERROR_ARGUMENT);
     EXPECT_EQ(physvib_world_free(world), PHYSVIB_OK);
+}
+
+TEST(Calls, LawsAreThoseOfTheTable) {
+    const auto expect = [](int law, const char* name) { EXPECT_STREQ(physvib_law_name(law), name); };
+    expect(PHYSVIB_LAW_LINEAR, "linear");
+    expect(PHYSVIB_LAW_LOG, "log");
+    expect(PHYSVIB_LAW_LOG_OUTER, "log-outer");
+    expect(PHYSVIB_LAW_ENERGY, "energy");
+    int count = 0;
+    while (physvib_law_name(count) != nullptr) ++count;
+    EXPECT_EQ(count, static_cast<int>(panningLaws.size()));
+    EXPECT_EQ(physvib_law_name(-1), nullptr);
 }
 
 TEST(Calls, ListsLayoutsAndSoundsComeBack) {

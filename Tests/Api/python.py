@@ -13,6 +13,7 @@ os.environ["PHYSVIB_LIBRARY"] = sys.argv[1]
 import numpy as np  # noqa: E402
 
 import physvib  # noqa: E402
+from physvib.layout import LAWS  # noqa: E402
 
 program = sys.argv[2]
 
@@ -80,6 +81,10 @@ class Package(unittest.TestCase):
                 world.touch(0, 1, impulse_n_s=1.0)
             self.assertEqual(world.send(renderer, physvib.play_out_s(), at_once=True), 1)
             self.assertGreater(np.abs(renderer.pull(9600)).max(), 0.1)
+
+    def test_laws_are_those_of_the_program(self) -> None:
+        shown = subprocess.run([program, "render", "--help"], capture_output=True, text=True, check=True).stdout
+        self.assertIn("panning law: " + ", ".join(LAWS), " ".join(shown.split()))
 
     def test_refusals_say_what_was_expected(self) -> None:
         for wrong, line in ((lambda: physvib.Layout.preset("phone9"), "phone1 to phone4"), (lambda: physvib.Renderer(rate_hz=1), "5000 to 192000"),

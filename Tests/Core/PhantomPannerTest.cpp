@@ -3,8 +3,12 @@
 #include "Core/PhantomPanner.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"
+#include "TestPlaces.h"
 #include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <sstream>
+#include <string>
 
 namespace physvib {
 namespace {
@@ -30,8 +34,7 @@ double sumOfSquares(const PhantomPanner::Gains& gains) {
 }
 
 TEST(PhantomPanner, OneEnchanterPlaysEverythingFully) {
-    for (const auto law : {PanningLaw::linear, PanningLaw::log, PanningLaw::logOuter, PanningLaw::energy})
-        EXPECT_EQ(gainsOf(preset("phone1"), law, 0.3, 3.0)[0], 1.0);
+    for (const auto& one : panningLaws) EXPECT_EQ(gainsOf(preset("phone1"), one.law, 0.3, 3.0)[0], 1.0);
 }
 
 TEST(PhantomPanner, FourFollowEquation42InOrderUpperLeftUpperRightLowerLeftLowerRight) {
@@ -102,8 +105,8 @@ TEST(PhantomPanner, EnergySquaresSumToOneAndNoGainLeavesZeroToOne) {
     for (const auto& layout : {preset("phone2"), preset("phone3"), preset("phone4"), test::gridLayout(4, 4)})
         for (int i = 0; i < 500; ++i) {
             const double x = random.uniform(-1, W + 1), y = random.uniform(-1, H + 1);
-            for (const auto law : {PanningLaw::linear, PanningLaw::log, PanningLaw::logOuter, PanningLaw::energy})
-                for (const double g : gainsOf(layout, law, x, y)) ASSERT_TRUE(g >= 0 && g <= 1);
+            for (const auto& one : panningLaws)
+                for (const double g : gainsOf(layout, one.law, x, y)) ASSERT_TRUE(g >= 0 && g <= 1);
             if (x >= 0 && x <= W && y >= 0 && y <= H)
                 ASSERT_NEAR(sumOfSquares(gainsOf(layout, PanningLaw::energy, x, y)), 1, 1e-9);
         }
@@ -114,6 +117,35 @@ TEST(PhantomPanner, KnowsItsLawsByName) {
     EXPECT_TRUE(panningLawNamed("log-outer", law));
     EXPECT_EQ(law, PanningLaw::logOuter);
     EXPECT_FALSE(panningLawNamed("quadratic", law));
+    EXPECT_EQ(nameOf(spreadBy(PanningLaw::logOuter)), "log-outer");
+}
+
+TEST(PhantomPanner, EveryLawFallsFromOneToZero) {
+    for (const auto& one : panningLaws) {
+        EXPECT_EQ(one.factor(0.0), 1.0) << one.name;
+        EXPECT_EQ(one.factor(1.0), 0.0) << one.name;
+        for (int i = 1; i <= 64; ++i) EXPECT_LT(one.factor(i / 64.0), one.factor((i - 1) / 64.0)) << one.name << ' ' << i;
+    }
+}
+
+// Every law has a row in Docs/panning.md, in this order, with the gains that its formula has at 1/4, 1/2 and 3/4.
+TEST(PhantomPanner, ThePageHasTheTableOfLaws) {
+    std::ifstream page{PHYSVIB_SOURCE_DIR "/Docs/panning.md"};
+    std::string line;
+    while (std::getline(page, line) && !line.starts_with("| `--law`")) continue;
+    std::getline(page, line); // the rule below the heads
+    for (const auto& one : panningLaws) {
+        std::getline(page, line);
+        ASSERT_TRUE(line.starts_with("| `" + std::string{one.name} + "`")) << "expected the row of " << one.name << " in Docs/panning.md, found " << line;
+        std::istringstream gains{line.substr(line.find(" |", line.find(" |") + 1) + 2)};
+        for (const double u : {0.25, 0.5, 0.75}) {
+            double gain = 0.0;
+            gains >> gain;
+            EXPECT_NEAR(gain, one.factor(u), 5.1e-5) << one.name << ' ' << u;
+        }
+    }
+    std::getline(page, line);
+    EXPECT_EQ(line, "") << "expected no other law in Docs/panning.md";
 }
 
 } // namespace

@@ -65,7 +65,7 @@ TEST(Messages, AStrikeIsOfAMaterialOrOfNumbers) {
     EXPECT_EQ(ofNumbers[0].frequencyHz, 180.0);
     EXPECT_EQ(ofNumbers[0].durationNs, 200'000'000);
     EXPECT_EQ(ofNumbers[0].x, 1.0);
-    EXPECT_EQ(ofNumbers[0].course.spread, Spread::energy);
+    EXPECT_EQ(ofNumbers[0].course.spread, spreadBy(PanningLaw::energy));
 }
 
 TEST(Messages, APatternIsOnItsEnchantersAlone) {

@@ -98,9 +98,9 @@ TEST(BoardPath, FromAToDInASecondIsWithinOneStepOfTheDeviceByEveryLaw) {
 }
 
 TEST(BoardPath, SoItIsByEveryLawOfALayout) {
-    for (std::size_t law = 0; law < panningLawNames.size(); ++law) {
-        SCOPED_TRACE(panningLawNames[law]);
-        expectOneStep({diagonal(Spread::layout, 0.5)}, deskOf(static_cast<PanningLaw>(law)));
+    for (const auto& one : panningLaws) {
+        SCOPED_TRACE(one.name);
+        expectOneStep({diagonal(Spread::layout, 0.5)}, deskOf(one.law));
     }
 }
 

@@ -36,7 +36,7 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     if (!isSampleRate(from.rate_hz)) return "rate: expected 5000 to 192000 Hz";
     if (from.channels != 0 && (from.channels < layout.count || from.channels > limits::maxEnchanters))
         return "channels: expected 0, or as many as the layout has enchanters to 64";
-    if (from.law < 0 || from.law >= static_cast<int>(panningLawNames.size())) return "law: expected one of PHYSVIB_LAW_...";
+    if (from.law < 0 || from.law >= static_cast<int>(panningLaws.size())) return "law: expected one of PHYSVIB_LAW_...";
     if (!(from.exponent > 0.0 && from.exponent <= 1000.0)) return "exponent: expected more than 0, to 1000";
     if (!isSize(from.field_width_m) || !isSize(from.field_height_m)) return "field: expected 0 to 10^9 m";
     const double width = from.field_width_m > 0.0 ? from.field_width_m : layout.extentWidthMetres;
@@ -44,7 +44,7 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     to.sampleRateHz = from.rate_hz;
     to.channels = from.channels;
     to.limiterEnabled = from.limiter != 0;
-    to.panner = {layout, static_cast<PanningLaw>(from.law), from.exponent, width, height};
+    to.panner = {layout, panningLaws[static_cast<std::size_t>(from.law)].law, from.exponent, width, height};
     return {};
 }
 

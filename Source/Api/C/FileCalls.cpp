@@ -7,6 +7,7 @@
 #include "Files/EventsCsv.h"
 #include "Files/FloatWav.h"
 #include "Files/LayoutFile.h"
+#include "Files/Text/NameList.h"
 #include <memory>
 #include <physvib/Version.h>
 #include <vector>
@@ -34,6 +35,7 @@ struct ListSource {
 } // namespace
 
 const char* physvib_version(void) { return PHYSVIB_VERSION; }
+const char* physvib_law_name(int law) { return law < 0 || law >= static_cast<int>(panningLaws.size()) ? nullptr : panningLaws[static_cast<std::size_t>(law)].name.data(); }
 const char* physvib_error(void) { return lastError().data(); }
 
 int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t size) {
@@ -77,9 +79,11 @@ int physvib_contact_init(physvib_contact* contact, size_t size) {
 int physvib_layout_preset(const char* name, physvib_layout* layout) {
     EnchanterLayout preset;
     if (name == nullptr || layout == nullptr) return nothingThere("layout: expected a name and a place for it, found NULL");
-    if (!layoutPreset(name, preset)) return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected phone1 to phone4 or ring1 to ring4");
-    *layout = layoutOf(preset);
-    return PHYSVIB_OK;
+    return guarded([&] {
+        if (!layoutPreset(name, preset)) return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected " + listedByNumber(layoutPresetNames, " to ", " or "));
+        *layout = layoutOf(preset);
+        return PHYSVIB_OK;
+    });
 }
 
 int physvib_layout_load(const char* path, physvib_layout* layout) {

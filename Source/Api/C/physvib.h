@@ -188,6 +188,9 @@ typedef struct physvib_contact {
 /** "0.1.0". Any thread. */
 PHYSVIB_API const char *physvib_version(void);
 
+/** The name of a panning law, as options and files have it; they are counted from 0 (PHYSVIB_LAW_...), and behind the last NULL. Any thread. */
+PHYSVIB_API const char *physvib_law_name(int law);
+
 /** What the last error of this thread was about, in one line; "" before the first. Valid until this thread's next call. pull says
  * nothing: it returns its code alone. Any thread. */
 PHYSVIB_API const char *physvib_error(void);
@@ -205,7 +208,7 @@ PHYSVIB_API int physvib_contact_init(physvib_contact *contact, size_t size);
 
 /* ---- Layouts and files. Any thread; they allocate, and read or write files. ---- */
 
-/** "phone1" to "phone4", "ring1" to "ring4". */
+/** By its name, "phone4": they stand in Docs/panning.md. */
 PHYSVIB_API int physvib_layout_preset(const char *name, physvib_layout *layout);
 /** Layout files (JSON), see README.md. `path` is UTF-8. */
 PHYSVIB_API int physvib_layout_load(const char *path, physvib_layout *layout);

@@ -26,7 +26,7 @@ public struct Layout {
     [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public double[] Y_m;
     public int Count;
 
-    /// <summary>"phone1" to "phone4", "ring1" to "ring4".</summary>
+    /// <summary>By its name, "phone4": they stand in Docs/panning.md.</summary>
     public static Layout Preset(string name) {
         var layout = new Layout();
         Native.Check(Native.physvib_layout_preset(Native.Utf8(name), ref layout));

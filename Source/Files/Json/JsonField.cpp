@@ -3,6 +3,7 @@
 #include "Files/Json/JsonField.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Text/CleanText.h"
+#include "Files/Text/NameList.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
@@ -109,9 +110,7 @@ std::size_t JsonField::oneOf(std::span<const std::string_view> names) const {
     const std::string word = text();
     const auto found = std::ranges::find(names, std::string_view(word));
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    std::string list;
-    for (const std::string_view name : names) list += (list.empty() ? "" : ", ") + std::string(name);
-    fail("expected one of " + list + ", found " + inQuotes(word));
+    fail("expected one of " + listed(names) + ", found " + inQuotes(word));
 }
 
 std::vector<std::string> JsonField::names() const {

@@ -3,6 +3,7 @@
 #include "Files/Json/JsonVariables.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Json/JsonField.h"
+#include "Files/Text/NameList.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
 
@@ -25,12 +26,6 @@ std::size_t sizeOf(const JsonField& list, std::size_t most) {
     if (size < 1 || size > most)
         list.fail("expected 1 to " + std::to_string(most) + " items, found " + std::to_string(size));
     return size;
-}
-
-std::string wordsOf(const std::vector<std::string>& names) {
-    std::string words;
-    for (const std::string& name : names) words += (words.empty() ? "" : ", ") + name;
-    return words;
 }
 
 Choice readChoice(const JsonField& json, const Json& value) {
@@ -66,7 +61,7 @@ void choose(std::vector<Variable>& variables, const SceneSettings& settings) {
             for (const Variable& v : variables) names.push_back(v.described.name);
             throw JsonError(
                 {}, "no variable " + inQuotes(name) +
-                        (names.empty() ? ", the scene has none" : ", expected one of " + wordsOf(names)));
+                        (names.empty() ? ", the scene has none" : ", expected one of " + listed(names)));
         }
         variable->described.value = value;
     }
@@ -76,7 +71,7 @@ const Choice& chosen(const Variable& variable) {
     const auto& [name, value, choices] = variable.described;
     const auto found = std::ranges::find(choices, value);
     if (found == choices.end())
-        throw JsonError({}, "variable " + inQuotes(name) + ": expected one of " + wordsOf(choices) +
+        throw JsonError({}, "variable " + inQuotes(name) + ": expected one of " + listed(choices) +
                                 ", found " + inQuotes(value));
     return variable.choices[static_cast<std::size_t>(found - choices.begin())];
 }

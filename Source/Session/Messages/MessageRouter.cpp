@@ -30,7 +30,7 @@ PlainMessage layoutAnswer(const PhantomPanner& panner) {
     for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j)
         places.insert(places.end(), {layout.places[j].xMetres * scaleX, layout.places[j].yMetres * scaleY});
     return {"layout",
-            {{"law", std::string(panningLawNames[static_cast<std::size_t>(panner.law())])},
+            {{"law", std::string(nameOf(panner.law()))},
              {"exponent", panner.exponent()},
              {"field_m", std::vector{panner.fieldWidthMetres(), panner.fieldHeightMetres()}},
              {"enchanters_m", places}}};

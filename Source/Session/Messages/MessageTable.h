@@ -42,7 +42,7 @@ constexpr int mostPlaces = 64, mostPulses = 64;
 inline constexpr MessageArgument frequency{"frequency_hz", Type::number, limits::slowestToneHz, limits::maxFrequencyHz, "205", "of the tone"};
 inline constexpr MessageArgument level{"level", Type::number, 0.0, 1.0, "0.5", "peak at gain 1, in shares of full scale"};
 inline constexpr MessageArgument place{"place", Type::place, 0.0, 0.0, "", "where; left out: the middle of the field"};
-inline constexpr MessageArgument law{"law", Type::word, 0.0, 0.0, "layout", "how it is spread: `layout` (as hits are), `linear`, `log`, `log-outer`, `energy`, `equal`, `alone`"};
+inline constexpr MessageArgument law{"law", Type::word, 0.0, 0.0, "layout", "how it is spread: `layout` (as hits are), by a [law](panning.md#laws), `equal`, `alone`"};
 
 inline constexpr std::array when{
     MessageArgument{"at", Type::number, 0.0, limits::maxTimeNs * 1e-9, "now", "session time in s, or `now`; felt the play-out delay later"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Types and ranges of the table, places and letters.
 #include "Session/Messages/MessageValues.h"
+#include "Files/Text/NameList.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
@@ -89,9 +90,7 @@ Spread MessageValues::spread() const {
     const std::string name = word("law");
     const auto found = std::ranges::find(spreadNames, name);
     if (found != spreadNames.end()) return static_cast<Spread>(found - spreadNames.begin());
-    std::string known;
-    for (const auto other : spreadNames) known.append(known.empty() ? "" : ", ").append(other);
-    fail("law", "expected one of " + known + ", found " + inQuotes(name));
+    fail("law", "expected one of " + listed(spreadNames) + ", found " + inQuotes(name));
 }
 
 EnchanterPlace MessageValues::enchanter(std::string_view name, char letter) const {

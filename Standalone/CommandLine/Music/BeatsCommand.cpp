@@ -7,6 +7,7 @@
 #include "CommandLine/Study/CallFiles.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
+#include "Files/Text/NameList.h"
 #include "Host/Music/BandPass.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Host/Recordings/WavSink.h"
@@ -189,7 +190,7 @@ void declareBeats(CLI::App& command, BeatsOptions& o) {
     command.add_flag("--through", o.isThrough, "not its beats but the music itself, between the slopes of --band");
     command.add_option("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told")->type_name("LO-HI");
     command.add_option("--enchanters", o.enchanters, "who feels it, with --through: all unless told")->type_name("AC");
-    command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file")->capture_default_str();
+    command.add_option("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file")->capture_default_str();
     declareBeatOptions(command, o.beats);
 }
 

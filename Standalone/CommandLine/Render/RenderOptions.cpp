@@ -3,6 +3,7 @@
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "Core/EventShaping.h"
+#include "Files/Text/NameList.h"
 #include "Files/Text/NumberText.h"
 #include "Physics/Simulation.h"
 #include "Render/InRange.h"
@@ -53,9 +54,9 @@ void declareSceneOptions(CLI::App& command, RenderOptions& o) {
     command.add_option("--set", o.sets, "a variable of the scene; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
     command.add_option("--seconds", o.seconds, "length of the render")->check(inRange(0.001, 86400.0, " s"))->capture_default_str();
     command.add_option("--seed", o.seed, "seed of the scene")->check(inRange(0u, 4294967295u))->capture_default_str();
-    command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file")->capture_default_str();
+    command.add_option("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file")->capture_default_str();
     command.add_option("--field", o.field, "metres that x and y span (scene: its field; events: the layout's extent)")->type_name("W,H");
-    command.add_option("--law", o.law, "panning law: linear, log, log-outer, energy")->capture_default_str();
+    command.add_option("--law", o.law, "panning law: " + listed(panningLawNames))->capture_default_str();
     command.add_option("--exponent", o.exponent, "exponent of the law")->check(inRange(0.01, 100.0))->capture_default_str();
     command.add_option("--limiter", o.limiter, "on or off")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
     command.add_option("--steps-per-second", o.stepsPerSecond, "physics steps per second")
@@ -118,7 +119,7 @@ void noteGiven(const CLI::App& command, RenderOptions& o) {
 
 std::string checkSceneOptions(RenderOptions& o) {
     if (!parseSettings(o)) return "--set: expected NAME=VALUE";
-    if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected linear, log, log-outer or energy, found \"" + o.law + "\"";
+    if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected " + listed(panningLawNames, " or ") + ", found \"" + o.law + "\"";
     if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
     if (!parseSounds(o.sounds, o.recordings)) return std::string{soundExpectation};
     if (o.playsRecordings() && o.sounds.empty()) return "--method SV: expected a --sound for each material";

@@ -69,7 +69,7 @@ std::string count(std::size_t n, const char* what) { return std::to_string(n) + 
 std::string setWords(const StimulusSet& set) {
     if (const auto* patterns = std::get_if<PatternSet>(&set)) return "pulse patterns on " + count(static_cast<std::size_t>(patterns->enchanters), "enchanter");
     if (const auto* grid = std::get_if<GridSet>(&set))
-        return "phantoms on a grid of " + std::to_string(grid->columns) + " x " + std::to_string(grid->rows) + " (columns x rows), law " + std::string(panningLawNames[static_cast<std::size_t>(grid->law)]) + ", " +
+        return "phantoms on a grid of " + std::to_string(grid->columns) + " x " + std::to_string(grid->rows) + " (columns x rows), law " + std::string(nameOf(grid->law)) + ", " +
                numberText(grid->seconds) + " s";
     std::string words = "calls of physvib by";
     if (const auto* calls = std::get_if<CallSet>(&set))

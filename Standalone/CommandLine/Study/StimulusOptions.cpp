@@ -5,6 +5,7 @@
 #include "Core/Limits.h"
 #include "Core/SamplePeak.h"
 #include "Files/ActuatorFile.h"
+#include "Files/Text/NameList.h"
 #include "Files/Text/NumberText.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Render/InRange.h"
@@ -89,7 +90,7 @@ std::string makePhantom(const StimulusOptions& o, const LayoutDescription& layou
     FieldPlace place;
     PanningLaw law;
     if (auto refusal = findPlace(o, place); !refusal.empty()) return refusal;
-    if (!panningLawNamed(o.law, law)) return "--law: expected linear, log, log-outer or energy, found " + inQuotes(o.law);
+    if (!panningLawNamed(o.law, law)) return "--law: expected " + listed(panningLawNames, " or ") + ", found " + inQuotes(o.law);
     const PhantomPanner panner{layout.geometry, law, o.exponent, layout.geometry.extentWidthMetres, layout.geometry.extentHeightMetres};
     made.title = o.cell.empty() ? "phantom at " + o.at : "phantom " + o.cell + " of " + o.grid;
     double frequencyHz = 0.0;
@@ -118,7 +119,7 @@ void declarePlace(CLI::App& command, StimulusOptions& o) {
     command.add_option("--cell", o.cell, "row and column in the grid, from 1, row 1 above")->type_name("r,c");
     command.add_option("--points", o.points, "the grid's points: its outer ones on the corners, or the middles of cells")
         ->check(CLI::IsMember({"corners", "middles"}))->capture_default_str();
-    command.add_option("--law", o.law, "panning law: linear, log, log-outer, energy")->capture_default_str();
+    command.add_option("--law", o.law, "panning law: " + listed(panningLawNames))->capture_default_str();
     command.add_option("--exponent", o.exponent, "exponent of the law")->check(inRange(0.01, 100.0))->capture_default_str();
 }
 
@@ -143,7 +144,7 @@ void declareStimulus(CLI::App& command, StimulusOptions& o) {
     for (CLI::App* one : {pattern, phantom}) declareCarrier(*one, o);
     for (CLI::App* one : {phantom, wav}) declarePlace(*one, o);
     for (CLI::App* one : {pattern, phantom, wav}) {
-        one->add_option("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file")->capture_default_str();
+        one->add_option("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file")->capture_default_str();
         one->add_option("--level-g", o.levelG, "peak acceleration at gain 1, in g")->check(inRange(1e-6, 1000.0))->capture_default_str();
         one->add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter, 1 = its full scale")->type_name("FILE.wav")->check(writtenFile);
         one->add_option("--picture", o.picturePath, "what each enchanter plays")->type_name("FILE.png")->check(writtenFile);

@@ -31,7 +31,7 @@ void DeskClips::feel(const juce::File& file, const EnchanterPlace& atMetres, boo
 // On the reader's thread.
 Result<std::string> DeskClips::strike(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
     PlainMessage clip{"clip", {{"file", file.getFullPathName().toStdString()}, {"place", std::vector{atMetres.xMetres, atMetres.yMetres}}}};
-    if (isAlone) clip.values.push_back({"law", std::string{spreadNames[static_cast<std::size_t>(Spread::alone)]}});
+    if (isAlone) clip.values.push_back({"law", std::string{nameOf(Spread::alone)}});
     const auto unlessLent = [this](const std::string& path) { // it may have been lent while others were read
         return output_.isLent() ? Result<LoadedClip>{Failure{"a study is running"}} : loadWholeClip(path);
     };

@@ -91,7 +91,7 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     preset_.onChange = [this] { takePreset(); };
     law_.setTitle("Panning law");
     for (int id = 1; const auto name : panningLawNames) law_.addItem(juce::String{name.data()}, id++);
-    law_.onChange = [this] { desk_.change("Panning law", [this](Mix& mix) { mix.law = static_cast<PanningLaw>(law_.getSelectedItemIndex()); }); };
+    law_.onChange = [this] { desk_.change("Panning law", [this](Mix& mix) { mix.law = panningLaws[static_cast<std::size_t>(law_.getSelectedItemIndex())].law; }); };
     exponent_.setTitle("Exponent");
     exponent_.setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack); // asked for when the box is made
     exponent_.setSliderStyle(juce::Slider::LinearHorizontal);

@@ -81,7 +81,7 @@ void WorldPanel::takeMix() {
     shownEdits_ = desk_.worldEdits();
     view_.show(mix.layout, mix.panner());
     view_.setDisplayWidth(desk_.displayWidthMetres());
-    law_.setText(juce::String{panningLawNames[static_cast<std::size_t>(mix.law)].data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
+    law_.setText(juce::String{nameOf(mix.law).data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
     law_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     if (!drag_.isMouseButtonDown()) drag_.setValue(mix.dragNewtonSecondsPerScreenMetre, juce::dontSendNotification);
     dragName_.setText("drag " + drag_.getTextFromValue(drag_.getValue()), juce::dontSendNotification);

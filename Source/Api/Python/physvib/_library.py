@@ -77,7 +77,7 @@ def _load() -> ctypes.CDLL:
 library = _load()
 _handle, _time, _events, _samples = c_void_p, c_int64, c_void_p, c_void_p
 _signatures = {
-    "version": (c_char_p,), "error": (c_char_p,),
+    "version": (c_char_p,), "error": (c_char_p,), "law_name": (c_char_p, c_int),
     "renderer_settings_init": (c_int, POINTER(CRendererSettings), c_size_t), "renderer_status_init": (c_int, POINTER(CRendererStatus), c_size_t),
     "world_settings_init": (c_int, POINTER(CWorldSettings), c_size_t), "body_init": (c_int, POINTER(CBody), c_size_t), "contact_init": (c_int, POINTER(CContact), c_size_t),
     "layout_preset": (c_int, c_char_p, POINTER(CLayout)), "layout_load": (c_int, c_char_p, POINTER(CLayout)),

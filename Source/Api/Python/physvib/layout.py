@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ctypes
+import itertools
 import os
 from typing import Sequence
 
-from ._library import MAX_ENCHANTERS, CLayout, CRendererSettings, PhysVibError, call, encoded, filled
+from ._library import MAX_ENCHANTERS, CLayout, CRendererSettings, PhysVibError, call, encoded, filled, library
 
-LAWS = ("linear", "log", "log-outer", "energy")
+LAWS = tuple(name.decode() for name in itertools.takewhile(bool, map(library.physvib_law_name, itertools.count())))
 
 
 class Layout:
@@ -22,7 +23,7 @@ class Layout:
 
     @classmethod
     def preset(cls, name: str) -> Layout:
-        """"phone1" to "phone4", "ring1" to "ring4"."""
+        """By its name, "phone4": they stand in Docs/panning.md."""
         c = CLayout()
         call("layout_preset", name.encode(), ctypes.byref(c))
         return cls._of(c)

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Every panning law once: its name and its factor. Files, options, messages, bindings and the plug-in's parameter read this table;
+// Docs/panning.md is held against it.
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+namespace physvib {
+
+/// How a gain falls with the distance ratio u = d/D from an enchanter, u in [0, 1]. New ones go to the end: C programs number them.
+enum class PanningLaw {
+    linear,   ///< 1 - u (Eq. 4.2)
+    log,      ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear
+    logOuter, ///< log2(2 - u): the other reconstruction, stays above linear
+    energy    ///< sqrt(1 - u): squares sum to one wherever linear gains do
+};
+
+/// One law.
+struct PanningLawDescription {
+    PanningLaw law;                      ///< its number, which is its place in the table
+    std::string_view name;               ///< in files, options and states: never changes
+    double (*factor)(double u) noexcept; ///< from 1 at u = 0 down to 0 at u = 1
+};
+
+/// All of them.
+inline constexpr std::array panningLaws{
+    PanningLawDescription{PanningLaw::linear, "linear", [](double u) noexcept { return 1.0 - u; }},
+    PanningLawDescription{PanningLaw::log, "log", [](double u) noexcept { return 1.0 - std::log2(1.0 + u); }},
+    PanningLawDescription{PanningLaw::logOuter, "log-outer", [](double u) noexcept { return std::log2(2.0 - u); }},
+    PanningLawDescription{PanningLaw::energy, "energy", [](double u) noexcept { return std::sqrt(1.0 - u); }}};
+
+/// The law's row. Any thread.
+constexpr const PanningLawDescription& describe(PanningLaw law) noexcept { return panningLaws[static_cast<std::size_t>(law)]; }
+
+/// As files and options have it. Any thread.
+constexpr std::string_view nameOf(PanningLaw law) noexcept { return describe(law).name; }
+
+/// Names of the laws, in their order.
+inline constexpr auto panningLawNames = [] {
+    std::array<std::string_view, panningLaws.size()> names{};
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = panningLaws[i].name;
+    return names;
+}();
+
+static_assert([] {
+    for (std::size_t i = 0; i < panningLaws.size(); ++i)
+        if (static_cast<std::size_t>(panningLaws[i].law) != i) return false;
+    return true;
+}(), "each law at the place of its number");
+
+/// The law of that name; false if there is none. Any thread.
+constexpr bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept {
+    for (const auto& one : panningLaws) {
+        if (one.name != name) continue;
+        law = one.law;
+        return true;
+    }
+    return false;
+}
+
+} // namespace physvib

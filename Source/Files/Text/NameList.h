@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Names of a table as a person reads them, in help and in errors.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// "linear, log, energy", or with another word before the last: "linear, log or energy". Any thread.
+template <class Names>
+std::string listed(const Names& names, std::string_view last = ", ") {
+    std::string all;
+    for (std::size_t i = 0; i < std::size(names); ++i) {
+        if (i > 0) all.append(i + 1 < std::size(names) ? ", " : last);
+        all.append(names[i]);
+    }
+    return all;
+}
+
+/// Names that are numbered one after the other are one: "phone1..phone4, ring1..ring4". Any thread.
+inline std::string listedByNumber(std::span<const std::string_view> names, std::string_view to = "..", std::string_view last = ", ") {
+    const auto follows = [&](std::size_t i) {
+        const std::string_view a = names[i], b = names[i + 1];
+        return a.size() == b.size() && a.substr(0, a.size() - 1) == b.substr(0, b.size() - 1) && a.back() + 1 == b.back();
+    };
+    std::vector<std::string> runs;
+    for (std::size_t first = 0, end = 0; first < names.size(); first = ++end) {
+        while (end + 1 < names.size() && follows(end)) ++end;
+        runs.emplace_back(names[first]);
+        if (end > first) runs.back().append(to).append(names[end]);
+    }
+    return listed(runs, last);
+}
+
+} // namespace physvib
