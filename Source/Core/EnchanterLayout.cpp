@@ -7,30 +7,33 @@
 namespace physvib {
 namespace {
 
+struct Preset {
+    std::string_view name;
+    EnchanterPlace extent;
+    std::span<const EnchanterPlace> shares; // of the extent, per enchanter
+};
+
+constexpr std::array<EnchanterPlace, 1> centre{{{0.5, 0.5}}};
+constexpr std::array<EnchanterPlace, 2> sides{{{0.0, 0.5}, {1.0, 0.5}}};
+constexpr std::array<EnchanterPlace, 3> triangle{{{0.0, 1.0}, {1.0, 1.0}, {0.5, 0.0}}};
+constexpr std::array<EnchanterPlace, 4> corners{{{0.0, 1.0}, {1.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}};
+
 // The thesis gives no coordinates: enchanters on the back of a phone of about 138 x 69 mm, and fingers of two
 // hands that hold one in landscape grip.
-constexpr std::array<EnchanterPlace, 2> presetExtents{{{0.12, 0.06}, {0.16, 0.08}}};
-constexpr std::size_t largestPreset = 4;
+constexpr EnchanterPlace phone{0.12, 0.06}, ring{0.16, 0.08};
+constexpr std::array presets{Preset{"phone1", phone, centre}, Preset{"phone2", phone, sides}, Preset{"phone3", phone, triangle}, Preset{"phone4", phone, corners},
+                             Preset{"ring1", ring, centre},   Preset{"ring2", ring, sides},   Preset{"ring3", ring, triangle},   Preset{"ring4", ring, corners}};
+constexpr auto presetNames = [] {
+    std::array<std::string_view, presets.size()> names{};
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = presets[i].name;
+    return names;
+}();
 
-using Places = std::array<EnchanterPlace, largestPreset>;
-
-// Shares of the extent, for 1, 2, 3 and 4 enchanters.
-constexpr std::array<Places, largestPreset> presetPlaces{{
-    {{{0.5, 0.5}}},
-    {{{0.0, 0.5}, {1.0, 0.5}}},
-    {{{0.0, 1.0}, {1.0, 1.0}, {0.5, 0.0}}},
-    {{{0.0, 1.0}, {1.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}},
-}};
-static_assert(layoutPresetNames.size() == presetExtents.size() * largestPreset);
-
-EnchanterLayout makePreset(std::size_t index) noexcept {
-    const EnchanterPlace extent = presetExtents[index / largestPreset];
-    const std::size_t last = index % largestPreset;
-    EnchanterLayout layout{extent.xMetres, extent.yMetres, static_cast<int>(last + 1), {}};
-    for (std::size_t j = 0; j <= last; ++j) {
-        const EnchanterPlace share = presetPlaces[last][j];
-        layout.places[j] = {share.xMetres * extent.xMetres, share.yMetres * extent.yMetres};
-    }
+EnchanterLayout layoutOf(const Preset& preset) noexcept {
+    const EnchanterPlace extent = preset.extent;
+    EnchanterLayout layout{extent.xMetres, extent.yMetres, static_cast<int>(preset.shares.size()), {}};
+    for (std::size_t j = 0; j < preset.shares.size(); ++j)
+        layout.places[j] = {preset.shares[j].xMetres * extent.xMetres, preset.shares[j].yMetres * extent.yMetres};
     return layout;
 }
 
@@ -39,6 +42,8 @@ bool isPositive(double metres) noexcept {
 }
 
 } // namespace
+
+constinit const std::span<const std::string_view> layoutPresetNames{presetNames};
 
 bool isValid(const EnchanterLayout& layout) noexcept {
     if (layout.count < 1 || layout.count > limits::maxEnchanters) return false;
@@ -49,9 +54,9 @@ bool isValid(const EnchanterLayout& layout) noexcept {
 }
 
 bool layoutPreset(std::string_view name, EnchanterLayout& layout) noexcept {
-    for (std::size_t i = 0; i < layoutPresetNames.size(); ++i) {
-        if (layoutPresetNames[i] != name) continue;
-        layout = makePreset(i);
+    for (const Preset& preset : presets) {
+        if (preset.name != name) continue;
+        layout = layoutOf(preset);
         return true;
     }
     return false;

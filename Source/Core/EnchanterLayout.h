@@ -3,6 +3,7 @@
 #pragma once
 #include "Core/Limits.h"
 #include <array>
+#include <span>
 #include <string_view>
 
 namespace physvib {
@@ -24,9 +25,8 @@ struct EnchanterLayout {
 /// True if the layout can be panned over: count in range, extent positive, everything finite. Any thread.
 bool isValid(const EnchanterLayout& layout) noexcept;
 
-/// Names of the presets: phone1..phone4, ring1..ring4.
-inline constexpr std::array<std::string_view, 8> layoutPresetNames{"phone1", "phone2", "phone3", "phone4",
-                                                                   "ring1",  "ring2",  "ring3",  "ring4"};
+/// Names of the presets, in the order of their table in EnchanterLayout.cpp.
+extern const std::span<const std::string_view> layoutPresetNames;
 
 /// Fills `layout` with the preset of that name; false (and untouched) if there is none. Any thread.
 /// PHONE4 and RING4 follow the thesis: A upper left, B upper right, C lower left, D lower right, on the corners.
