@@ -23,10 +23,12 @@ endfunction()
 
 # line_for(OUT ITEM): the line of the project that holds ITEM, ready to be pasted.
 function(line_for out item)
-    if(item MATCHES "([^/]+)\\.cpp$")
-        string(MD5 id ${item}) # any six characters that no other entry has
-        string(SUBSTRING ${id} 0 6 id)
-        set(line "<FILE id=\"${id}\" name=\"${CMAKE_MATCH_1}.cpp\" compile=\"1\" resource=\"0\" file=\"${item}\"/>")
+    string(MD5 id ${item}) # any six characters that no other entry has
+    string(SUBSTRING ${id} 0 6 id)
+    if(item MATCHES "([^/]+\\.cpp)$")
+        set(line "<FILE id=\"${id}\" name=\"${CMAKE_MATCH_1}\" compile=\"1\" resource=\"0\" file=\"${item}\"/>")
+    elseif(item MATCHES "([^/]+\\.json)$")
+        set(line "<FILE id=\"${id}\" name=\"${CMAKE_MATCH_1}\" compile=\"0\" resource=\"1\" file=\"${item}\"/>")
     elseif(item MATCHES "^juce_")
         set(line "<MODULE id=\"${item}\" showAllCode=\"0\" useLocalCopy=\"0\" useGlobalPath=\"1\"/>")
     elseif(item MATCHES "^(JUCE_[A-Z0-9_]+)=([01])$")
@@ -64,17 +66,18 @@ collect(listed_sources "<FILE [^>]*compile=\"1\"[^>]*file=\"([^\"]+\\.cpp)\"" "$
 compare(sources listed_sources)
 
 # The built-in scenes, materials, actuators, protocols and words, in the order of their listing.
+include(${ROOT}/Source/Files/built-in.cmake)
 set(embedded "")
 foreach(kind Scenes Materials Actuators Protocols Words)
-    string(TOLOWER ${kind} list)
-    string(REGEX MATCH "set\\(${list} ([^)]*)\\)" ignored "${rooms}")
-    string(REPLACE " " ";" names "${CMAKE_MATCH_1}")
-    list(TRANSFORM names REPLACE "(.+)" "Source/Files/${kind}/\\1.json")
-    list(APPEND embedded ${names})
+    physvib_built_in(files ${kind})
+    list(TRANSFORM files REPLACE "^${ROOT}/" "")
+    list(APPEND embedded ${files})
 endforeach()
 collect(listed_embedded "<FILE [^>]*resource=\"1\"[^>]*file=\"([^\"]+)\"" "${jucer}")
 if(NOT embedded STREQUAL listed_embedded)
-    string(APPEND bad "\n  embed, in this order: ${embedded}")
+    set(rest ${embedded})
+    compare(rest listed_embedded)
+    string(APPEND bad "\n  in this order: ${embedded}")
 endif()
 
 string(REGEX MATCH "set\\(PHYSVIB_JUCE_MODULES([^)]*)\\)" ignored "${rooms}")
