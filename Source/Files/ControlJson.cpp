@@ -3,7 +3,7 @@
 #include "Files/ControlJson.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/LayoutJson.h"
-#include <cmath>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -11,7 +11,6 @@ namespace physvib {
 namespace {
 
 constexpr double leastExponent = 1e-3, mostExponent = 100.0;
-constexpr double largestGain = 1000.0, leastCeiling = 1e-6;
 
 int readChannel(const JsonField& field, int channels) {
     const int found = field.wholeNumber();
@@ -40,39 +39,20 @@ PhantomPanner readPanner(const JsonField& json, int channels) {
 }
 
 RenderControl readControl(const JsonField& json, int channels, std::string_view otherField) {
-    using Kind = RenderControl::Kind;
+    using Holds = ControlDescription::Holds;
     json.expectObject();
+    const ControlDescription& one = controlTable[json["control"].oneOf(controlNames)];
     RenderControl control;
-    control.kind = static_cast<Kind>(json["control"].oneOf(controlNames));
-    switch (control.kind) {
-    case Kind::panner:
-        expectFields(json, {"panning"}, otherField);
-        control.panner = readPanner(json["panning"], channels);
-        break;
-    case Kind::gain:
-        expectFields(json, {"channel", "value"}, otherField);
+    control.kind = one.kind;
+    if (one.holds == Holds::nothing) expectFields(json, {}, otherField);
+    else if (one.holds == Holds::panner) {
+        expectFields(json, {one.field}, otherField);
+        control.panner = readPanner(json[one.field], channels);
+    } else {
+        expectFields(json, {"channel", one.field}, otherField);
         control.channel = readChannel(json["channel"], channels);
-        control.value = static_cast<float>(json["value"].numberWithin(-largestGain, largestGain));
-        break;
-    case Kind::mute:
-        expectFields(json, {"channel", "on"}, otherField);
-        control.channel = readChannel(json["channel"], channels);
-        control.value = json["on"].truth() ? 1.0f : 0.0f;
-        break;
-    case Kind::delay:
-        expectFields(json, {"channel", "seconds"}, otherField);
-        control.channel = readChannel(json["channel"], channels);
-        control.value = static_cast<float>(json["seconds"].numberWithin(0.0, limits::maxChannelDelaySeconds));
-        break;
-    case Kind::ceiling:
-        expectFields(json, {"channel", "value"}, otherField);
-        control.channel = readChannel(json["channel"], channels);
-        control.value = static_cast<float>(json["value"].numberWithin(leastCeiling, 1.0));
-        break;
-    case Kind::recordings: // not among the names: a session's file lists them apart
-    case Kind::level: // nor these: no file knows them
-    case Kind::silence:
-    case Kind::stopAll: expectFields(json, {}, otherField);
+        if (one.holds == Holds::truth) control.value = json[one.field].truth() ? 1.0f : 0.0f;
+        else control.value = static_cast<float>(json[one.field].numberWithin(one.least, one.most));
     }
     return control;
 }
@@ -85,13 +65,13 @@ OrderedJson pannerJson(const PhantomPanner& panner) {
 }
 
 OrderedJson controlJson(const RenderControl& control) {
-    using Kind = RenderControl::Kind;
-    OrderedJson json{{"control", controlNames[static_cast<std::size_t>(control.kind)]}};
-    if (control.kind == Kind::panner) json["panning"] = pannerJson(control.panner);
-    if (control.kind != Kind::panner && control.kind != Kind::stopAll) json["channel"] = control.channel + 1;
-    if (control.kind == Kind::delay) json["seconds"] = static_cast<double>(control.value);
-    if (control.kind == Kind::gain || control.kind == Kind::ceiling) json["value"] = static_cast<double>(control.value);
-    if (control.kind == Kind::mute) json["on"] = control.value != 0.0f;
+    using Holds = ControlDescription::Holds;
+    const auto one = std::ranges::find(controlTable, control.kind, &ControlDescription::kind); // no other is asked for
+    OrderedJson json{{"control", one->name}};
+    if (one->holds == Holds::panner) json[one->field] = pannerJson(control.panner);
+    if (one->holds == Holds::number || one->holds == Holds::truth) json["channel"] = control.channel + 1;
+    if (one->holds == Holds::number) json[one->field] = static_cast<double>(control.value);
+    if (one->holds == Holds::truth) json[one->field] = control.value != 0.0f;
     return json;
 }
 

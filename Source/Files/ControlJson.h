@@ -4,12 +4,31 @@
 #include "Core/RenderControl.h"
 #include "Files/Json/JsonField.h"
 #include "Files/Json/JsonLines.h"
+#include "Files/Text/NameList.h"
 #include <array>
 #include <string_view>
 
 namespace physvib {
 
-inline constexpr std::array<std::string_view, 6> controlNames{"layout", "gain", "mute", "stop", "delay", "ceiling"}; // as Kind
+/// A control that files and lines know: its name, and its value's field and range.
+struct ControlDescription {
+    enum class Holds { panner, number, truth, nothing }; ///< numbers and truths are a channel's
+    std::string_view name;
+    RenderControl::Kind kind;
+    Holds holds;
+    std::string_view field{};
+    double least = 0.0, most = 0.0;
+};
+
+inline constexpr auto controlTable = std::to_array<ControlDescription>({
+    {"layout", RenderControl::Kind::panner, ControlDescription::Holds::panner, "panning"},
+    {"gain", RenderControl::Kind::gain, ControlDescription::Holds::number, "value", -1000.0, 1000.0},
+    {"mute", RenderControl::Kind::mute, ControlDescription::Holds::truth, "on"},
+    {"stop", RenderControl::Kind::stopAll, ControlDescription::Holds::nothing},
+    {"delay", RenderControl::Kind::delay, ControlDescription::Holds::number, "seconds", 0.0, limits::maxChannelDelaySeconds},
+    {"ceiling", RenderControl::Kind::ceiling, ControlDescription::Holds::number, "value", 1e-6, 1.0},
+});
+inline constexpr auto controlNames = namesOf(controlTable);
 
 /// Layout, law, exponent and field; at most `channels` enchanters. Throws JsonError.
 PhantomPanner readPanner(const JsonField& json, int channels);

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Names of a table as a person reads them, in help and in errors.
 #pragma once
+#include <array>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace physvib {
+
+/// Of a table whose rows have a name. Any thread.
+template <class Row, std::size_t size>
+constexpr std::array<std::string_view, size> namesOf(const std::array<Row, size>& rows) {
+    std::array<std::string_view, size> names{};
+    for (std::size_t i = 0; i < size; ++i) names[i] = rows[i].name;
+    return names;
+}
 
 /// "linear, log, energy", or with another word before the last: "linear, log or energy". Any thread.
 template <class Names>
