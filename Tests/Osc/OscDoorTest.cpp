@@ -112,7 +112,7 @@ TEST(OscDoors, EveryMessageOfTheTableHasAnAddress) {
         Open open;
         open.take(oscPacket("/physvib/" + std::string(message.name), {}));
         EXPECT_EQ(open.door.counts().fault.find("expected the name"), std::string::npos) << message.name;
-        EXPECT_EQ(open.answers.size(), message.isQuery ? 1U : 0U) << message.name;
+        EXPECT_EQ(open.answers.size(), message.isQuery() ? 1U : 0U) << message.name;
     }
 }
 

@@ -42,7 +42,7 @@ std::vector<CollisionEvent> strikesOfLine(std::string_view line) {
     const auto setup = quietSetup();
     const PlainMessage message = messageOf(line);
     const auto found = std::ranges::find(messageTable, message.name, &MessageDescription::name);
-    return strikesOf(static_cast<MessageKind>(found - messageTable.begin()), {message, *found, setup.panner}, setup.scene.materials, setup.shaping);
+    return std::get<MessageDescription::Strikes*>(found->act)({message, *found, setup.panner}, setup.scene.materials, setup.shaping);
 }
 
 std::string refusalOf(std::string_view line) {

@@ -3,6 +3,7 @@
 #include "Session/Messages/MessageRouter.h"
 #include "Core/ClipNumber.h"
 #include "Files/Disk/FileLimits.h"
+#include "Files/Text/NameList.h"
 #include "Files/Text/NumberText.h"
 #include "Session/Messages/MessageStrikes.h"
 #include "Session/Messages/MessageValues.h"
@@ -17,13 +18,10 @@ constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz; // of 
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
-std::string knownNames() {
-    std::string names;
-    for (const MessageDescription& one : messageTable) names.append(names.empty() ? "" : ", ").append(one.name);
-    return names;
-}
+} // namespace
 
-PlainMessage layoutAnswer(const PhantomPanner& panner) {
+PlainMessage layoutAnswer(const Session& session) {
+    const PhantomPanner panner = session.panner();
     const EnchanterLayout& layout = panner.layout();
     const double scaleX = panner.fieldWidthMetres() / layout.extentWidthMetres, scaleY = panner.fieldHeightMetres() / layout.extentHeightMetres;
     std::vector<double> places;
@@ -36,28 +34,45 @@ PlainMessage layoutAnswer(const PhantomPanner& panner) {
              {"enchanters_m", places}}};
 }
 
-} // namespace
+PlainMessage latencyAnswer(const Session& session) {
+    return {"latency", {{"play_out_s", session.playOutSeconds()}, {"direct_s", session.directSeconds()}, {"messages_s", session.playOutSeconds() - seconds(session.toldAheadNs())}}};
+}
+
+PlainMessage statusAnswer(const Session& session) {
+    const SessionSize size = session.size();
+    return {"status",
+            {{"session_s", seconds(session.presentNs())},
+             {"waiting", static_cast<double>(size.strikes)},
+             {"bodies", static_cast<double>(size.bodies)},
+             {"lost", static_cast<double>(session.drops())},
+             {"stalls_s", seconds(session.slippedNs())}}};
+}
 
 Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag* tag, const ClipSource& clips) {
     const auto description = std::ranges::find(messageTable, message.name, &MessageDescription::name);
-    if (description == messageTable.end()) return Failure{inQuotes(message.name) + ": expected one of " + knownNames()};
-    const auto kind = static_cast<MessageKind>(description - messageTable.begin());
+    if (description == messageTable.end()) return Failure{inQuotes(message.name) + ": expected one of " + listed(namesOf(messageTable))};
     try {
         const PhantomPanner panner = session_.panner();
         const MessageValues values{message, *description, panner};
-        if (description->isQuery) return answer(kind);
+        if (const auto* const answer = std::get_if<MessageDescription::Answer*>(&description->act)) return (*answer)(session_);
         expectTime(values, tag);
         std::string note;
-        auto strikes = kind == MessageKind::clip ? clip(values, clips, panner, note) : strikesOf(kind, values, session_.state().scene->materials, session_.shaping());
+        auto strikes = strikesOf(*description, values, clips, panner, note);
         const std::lock_guard lock{mutex_};
         const std::int64_t time = timeOf(values, tag);
         const bool isNow = !values.has("at") && !values.has("in") && (tag == nullptr || tag->isLate);
-        if (kind == MessageKind::stop) stop(time);
+        if (std::holds_alternative<MessageDescription::Stop>(description->act)) stop(time);
         else strike(std::move(strikes), time, isNow);
         return note.empty() ? PlainMessage{} : PlainMessage{message.name, {{"note", note}}};
     } catch (const MessageError& error) {
         return Failure{message.name + ": " + error.what()};
     }
+}
+
+std::vector<CollisionEvent> MessageRouter::strikesOf(const MessageDescription& description, const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner, std::string& note) {
+    if (std::holds_alternative<MessageDescription::Clip>(description.act)) return clip(values, clips, panner, note);
+    const auto* const strikes = std::get_if<MessageDescription::Strikes*>(&description.act);
+    return strikes == nullptr ? std::vector<CollisionEvent>{} : (*strikes)(values, session_.state().scene->materials, session_.shaping());
 }
 
 // Before a file is read for it. What is left of the time is looked at again when it has been.
@@ -122,20 +137,6 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
 void MessageRouter::stop(std::int64_t at) {
     if (at == latestNs_) at = latestNs_ = at + frameNs;
     if (!session_.stopAt(at)) throw MessageError{"too many stops wait"};
-}
-
-PlainMessage MessageRouter::answer(MessageKind query) const {
-    if (query == MessageKind::layout) return layoutAnswer(session_.panner());
-    if (query == MessageKind::latency) return {"latency", {{"play_out_s", session_.playOutSeconds()},
-                                                               {"direct_s", session_.directSeconds()},
-                                                               {"messages_s", session_.playOutSeconds() - seconds(session_.toldAheadNs())}}};
-    const SessionSize size = session_.size();
-    return {"status",
-            {{"session_s", seconds(session_.presentNs())},
-             {"waiting", static_cast<double>(size.strikes)},
-             {"bodies", static_cast<double>(size.bodies)},
-             {"lost", static_cast<double>(session_.drops())},
-             {"stalls_s", seconds(session_.slippedNs())}}};
 }
 
 } // namespace physvib

@@ -33,12 +33,12 @@ public:
 
 private:
     void expectTime(const MessageValues& values, const MessageTag* tag);
+    std::vector<CollisionEvent> strikesOf(const MessageDescription& description, const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner, std::string& note);
     std::vector<CollisionEvent> clip(const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner, std::string& note);
     std::int64_t timeOf(const MessageValues& values, MessageTag* tag) const;
     std::int64_t aheadOrFail(const MessageValues& values, std::string_view name, std::int64_t at) const;
     void strike(std::vector<CollisionEvent> strikes, std::int64_t start, bool isNow);
     void stop(std::int64_t at);
-    PlainMessage answer(MessageKind query) const;
     std::int64_t nowNs() const;
 
     Session& session_;

@@ -40,7 +40,9 @@ void takeMaterial(CollisionEvent& strike, const MessageValues& values, const std
     strike.decayPerSecond = found->decayPerSecond;
 }
 
-std::vector<CollisionEvent> strikeOf(const MessageValues& values, const std::vector<Material>& materials, const EventShaping& shaping) {
+} // namespace
+
+std::vector<CollisionEvent> strikeStrikes(const MessageValues& values, const std::vector<Material>& materials, const EventShaping& shaping) {
     values.expectOneOf({"material", "frequency_hz"});
     CollisionEvent strike = toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread());
     strike.decayPerSecond = values.number("decay_per_s");
@@ -50,6 +52,12 @@ std::vector<CollisionEvent> strikeOf(const MessageValues& values, const std::vec
     if (isTooSlow(strike)) values.fail(values.has("material") ? "material" : "frequency_hz", tooSlowFault(strike));
     return {softlyEnded(strike, shaping)};
 }
+
+std::vector<CollisionEvent> phantomStrikes(const MessageValues& values, const std::vector<Material>&, const EventShaping& shaping) {
+    return {softlyEnded(toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread()), shaping)};
+}
+
+namespace {
 
 std::vector<CollisionEvent> pulses(const MessageValues& values, std::string_view name, const std::string& letters, double pulseSeconds, const EventShaping& shaping) {
     if (letters.empty() || letters.size() > messages::mostPulses) values.fail(name, "expected 1 to " + std::to_string(messages::mostPulses) + " letters, found " + std::to_string(letters.size()));
@@ -62,7 +70,9 @@ std::vector<CollisionEvent> pulses(const MessageValues& values, std::string_view
     return all;
 }
 
-std::vector<CollisionEvent> patternOf(const MessageValues& values, const EventShaping& shaping) {
+} // namespace
+
+std::vector<CollisionEvent> patternStrikes(const MessageValues& values, const std::vector<Material>&, const EventShaping& shaping) {
     values.expectOneOf({"pattern", "enchanters"});
     values.expectOneOf({"pattern", "pulse_s"});
     if (values.has("enchanters")) return pulses(values, "enchanters", values.word("enchanters"), values.number("pulse_s"), shaping);
@@ -71,6 +81,8 @@ std::vector<CollisionEvent> patternOf(const MessageValues& values, const EventSh
     if (!pattern) values.fail("pattern", "expected one like ABA-250 (one to three enchanters, then milliseconds), found " + inQuotes(label));
     return pulses(values, "pattern", label.substr(0, static_cast<std::size_t>(pattern->count)), pattern->pulseSeconds, shaping);
 }
+
+namespace {
 
 /// Places and when they are reached, from 0 on or later.
 struct Route {
@@ -156,13 +168,17 @@ std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Rout
     return strokes;
 }
 
-std::vector<CollisionEvent> pathOf(const MessageValues& values, const EventShaping& shaping) {
+} // namespace
+
+std::vector<CollisionEvent> pathStrikes(const MessageValues& values, const std::vector<Material>&, const EventShaping& shaping) {
     values.expectOneOf({"seconds", "speed_m_per_s", "times_s"});
     const Route route = values.has("times_s") ? timedRoute(values) : steadyRoute(values);
     const int strokes = values.wholeNumber("strokes");
     if (strokes == 1) values.fail("strokes", "expected 0, or 2 and more, found 1");
     return strokes == 0 ? movingTone(values, route, shaping) : strokesAlong(values, route, strokes, shaping);
 }
+
+namespace {
 
 EnchanterPlace placeOfChannel(std::size_t j, const MessageValues& values, const LoadedClip& clip, const PhantomPanner& panner) {
     if (values.has("place")) return values.place();
@@ -190,16 +206,6 @@ std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const Loade
         strike.course.spread = values.spread();
     }
     return strikes;
-}
-
-std::vector<CollisionEvent> strikesOf(MessageKind kind, const MessageValues& values, const std::vector<Material>& materials, const EventShaping& shaping) {
-    switch (kind) {
-    case MessageKind::strike: return strikeOf(values, materials, shaping);
-    case MessageKind::pattern: return patternOf(values, shaping);
-    case MessageKind::phantom: return {softlyEnded(toneOf(values, values.place(), 0.0, values.number("seconds"), values.spread()), shaping)};
-    case MessageKind::path: return pathOf(values, shaping);
-    default: return {};
-    }
 }
 
 } // namespace physvib

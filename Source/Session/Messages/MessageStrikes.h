@@ -18,10 +18,6 @@ constexpr double strokeOnsetsSeconds(double strokeSeconds) noexcept { return str
 /// How long each of `strokes` (2 or more) is, so that all take `seconds`; 0 or less: there is no time for so many. Any thread.
 constexpr double strokeSeconds(int strokes, double seconds) noexcept { return (seconds - strokeOnsetSeconds * (strokes - 1)) / (strokeOnsetShare * (strokes - 1) + 1.0); }
 
-/// The strikes of a message, in time order, from time 0 on; none of a stop or a query. `materials` are the scene's. What is cut ends
-/// at the zero crossing nearest to its end, of the frequency that `shaping` has played. Throws MessageError. Any thread but R.
-std::vector<CollisionEvent> strikesOf(MessageKind kind, const MessageValues& values, const std::vector<Material>& materials, const EventShaping& shaping);
-
 /// Of a `clip`: each channel from time 0 on, where it belongs, without the frequency under which the session keeps it. `panner` says
 /// where the enchanters are. Throws MessageError. Any thread but R.
 std::vector<CollisionEvent> clipStrikes(const MessageValues& values, const LoadedClip& clip, const PhantomPanner& panner);

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Every message that a session takes, in one table: doors (lines, OSC) read it, Docs/messages.md is held against it.
+// Every message that a session takes, in one table: inputs (lines, OSC) read it, Docs/messages.md is held against it.
 #pragma once
 #include "Core/Limits.h"
 #include <array>
 #include <span>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 namespace physvib {
 
-enum class MessageKind { strike, pattern, phantom, path, clip, stop, status, layout, latency };
+class MessageValues;
+class Session;
+struct CollisionEvent;
+struct EventShaping;
+struct Material;
+struct PlainMessage;
 
 struct MessageArgument {
     enum class Type {
@@ -26,9 +33,19 @@ struct MessageArgument {
 };
 
 struct MessageDescription {
+    /// What is struck, in time order, from time 0 on. What is cut ends at the zero crossing nearest to its end, of the frequency that the shaping has
+    /// played. `materials` are the scene's. Throws MessageError. Any thread but R. In MessageStrikes.cpp.
+    using Strikes = std::vector<CollisionEvent>(const MessageValues& values, const std::vector<Material>& materials, const EventShaping& shaping);
+    /// Of a query. Any thread but R. In MessageRouter.cpp.
+    using Answer = PlainMessage(const Session& session);
+    struct Clip {};
+    struct Stop {};
+
     std::string_view name, meaning;
     std::span<const MessageArgument> arguments; ///< without those that all but queries have
-    bool isQuery = false;
+    std::variant<Strikes*, Answer*, Clip, Stop> act; ///< what the router does with it
+
+    constexpr bool isQuery() const noexcept { return std::holds_alternative<Answer*>(act); }
 };
 
 namespace messages {
@@ -82,17 +99,19 @@ inline constexpr std::array clip{
 
 } // namespace messages
 
-/// As MessageKind.
-inline constexpr std::array<MessageDescription, 9> messageTable{{
-    {"strike", "a vibration that decays, or is cut", messages::strike},
-    {"pattern", "pulses, each on one enchanter alone", messages::pattern},
-    {"phantom", "a vibration that stays at a place", messages::phantom},
-    {"path", "a vibration that moves", messages::path},
-    {"clip", "a recording or a haptic file", messages::clip},
-    {"stop", "what sounds fades out within 10 ms; what was asked for before and has not begun is forgotten", {}},
-    {"status", "answers session time, strikes that wait, bodies, collisions lost, and time given up in stalls", {}, true},
-    {"layout", "answers the law, the field, and the enchanters' places in metres of the field", {}, true},
-    {"latency", "answers the play-out delay: how long after its time each vibration is felt", {}, true},
-}};
+MessageDescription::Strikes strikeStrikes, patternStrikes, phantomStrikes, pathStrikes;
+MessageDescription::Answer statusAnswer, layoutAnswer, latencyAnswer;
+
+inline constexpr auto messageTable = std::to_array<MessageDescription>({
+    {"strike", "a vibration that decays, or is cut", messages::strike, strikeStrikes},
+    {"pattern", "pulses, each on one enchanter alone", messages::pattern, patternStrikes},
+    {"phantom", "a vibration that stays at a place", messages::phantom, phantomStrikes},
+    {"path", "a vibration that moves", messages::path, pathStrikes},
+    {"clip", "a recording or a haptic file", messages::clip, MessageDescription::Clip{}},
+    {"stop", "what sounds fades out within 10 ms; what was asked for before and has not begun is forgotten", {}, MessageDescription::Stop{}},
+    {"status", "answers session time, strikes that wait, bodies, collisions lost, and time given up in stalls", {}, statusAnswer},
+    {"layout", "answers the law, the field, and the enchanters' places in metres of the field", {}, layoutAnswer},
+    {"latency", "answers the play-out delay: how long after its time each vibration is felt", {}, latencyAnswer},
+});
 
 } // namespace physvib

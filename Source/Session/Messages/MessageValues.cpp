@@ -37,7 +37,7 @@ const MessageArgument& MessageValues::argument(std::string_view name) const {
     for (const MessageArgument& own : description_.arguments)
         if (own.name == name) return own;
     for (const MessageArgument& common : messages::when)
-        if (common.name == name && !description_.isQuery) return common;
+        if (common.name == name && !description_.isQuery()) return common;
     throw MessageError{"has no " + inQuotes(name)};
 }
 
