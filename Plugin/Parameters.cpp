@@ -29,18 +29,19 @@ constexpr double silentDb = -60.0; // below it nobody feels anything: full scale
 
 using enum ParameterScale;
 constexpr std::array<ParameterRow, parameterCount> table{{
-    {"level", "Level", "dB", silentDb, 0.0, -12.0, linear, {}, 1, "Master level; the least is silence"},
-    {"law", "Panning law", "", 0, 3, 0, choice, lawNames, 1, "How a hit is spread over the enchanters"},
-    {"exponent", "Panning exponent", "", 0.25, 4.0, 1.0, log, {}, 1, "Exponent of the panning law"},
-    {"gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, {}, 1, "Gravity, times the scene's"},
-    {"tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, {}, 1, "How the device is held: gravity turns counter-clockwise"},
-    {"material", "Material", "", 0, 8, 0, choice, materialNames, 1, "Material of what is felt: the scene's own, or the n-th of its list"},
-    {"strike_level", "Strike level", "dB", silentDb, 12.0, -6.0, linear, {}, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
-    {"strike_x", "Strike shift x", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes to the right, in parts of the field's width"},
-    {"strike_y", "Strike shift y", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes upwards, in parts of the field's height"},
-    {"bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1, "Silence; the world goes on"},
-    {"beats", "Beats", "%", 0.0, 100.0, 0.0, linear, {}, 2, "How readily beats of the side chain strike; the least is never"},
+    {Parameter::level, "level", "Level", "dB", silentDb, 0.0, -12.0, linear, {}, 1, "Master level; the least is silence"},
+    {Parameter::law, "law", "Panning law", "", 0, 3, 0, choice, lawNames, 1, "How a hit is spread over the enchanters"},
+    {Parameter::exponent, "exponent", "Panning exponent", "", 0.25, 4.0, 1.0, log, {}, 1, "Exponent of the panning law"},
+    {Parameter::gravity, "gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, {}, 1, "Gravity, times the scene's"},
+    {Parameter::tilt, "tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, {}, 1, "How the device is held: gravity turns counter-clockwise"},
+    {Parameter::material, "material", "Material", "", 0, 8, 0, choice, materialNames, 1, "Material of what is felt: the scene's own, or the n-th of its list"},
+    {Parameter::strikeLevel, "strike_level", "Strike level", "dB", silentDb, 12.0, -6.0, linear, {}, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
+    {Parameter::strikeX, "strike_x", "Strike shift x", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes to the right, in parts of the field's width"},
+    {Parameter::strikeY, "strike_y", "Strike shift y", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes upwards, in parts of the field's height"},
+    {Parameter::bypass, "bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1, "Silence; the world goes on"},
+    {Parameter::beats, "beats", "Beats", "%", 0.0, 100.0, 0.0, linear, {}, 2, "How readily beats of the side chain strike; the least is never"},
 }};
+static_assert(std::ranges::all_of(table, [](const ParameterRow& row) { return &row == &table[static_cast<std::size_t>(row.parameter)]; }));
 
 constexpr std::array panningGroup{Parameter::law, Parameter::exponent};
 constexpr std::array worldGroup{Parameter::gravity, Parameter::tilt, Parameter::material};

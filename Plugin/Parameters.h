@@ -11,9 +11,9 @@
 
 namespace physvib {
 
-/// In the order in which hosts list them. New ones go to the end: hosts may number them.
-enum class Parameter { level, law, exponent, gravity, tilt, material, strikeLevel, strikeX, strikeY, bypass, beats };
-constexpr std::size_t parameterCount = 11;
+/// In the order in which hosts list them. New ones go to the end, before `count`: hosts may number them.
+enum class Parameter { level, law, exponent, gravity, tilt, material, strikeLevel, strikeX, strikeY, bypass, beats, count };
+constexpr auto parameterCount = static_cast<std::size_t>(Parameter::count);
 
 /// How a host's 0 to 1 runs over the range.
 enum class ParameterScale {
@@ -24,6 +24,7 @@ enum class ParameterScale {
 };
 
 struct ParameterRow {
+    Parameter parameter; ///< its number, which is its place in the table
     std::string_view id; ///< never changes: sessions of hosts hold on to it
     std::string_view name;
     std::string_view unit;
