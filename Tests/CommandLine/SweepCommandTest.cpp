@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Many renders as a user asks for them: one table, the same bytes whoever made it and how often it was cut off.
 #include "CommandLine/Calls.h"
+#include "Core/PanningLaws.h"
 #include "Files/EventsCsv.h"
 #include "Files/Text/CsvTable.h"
+#include "Files/Text/NameList.h"
 #include "Files/Text/NumberText.h"
 #include "TestPlaces.h"
 #include <algorithm>
@@ -240,7 +242,7 @@ TEST_F(SweepCommand, WrongCallsAndDesignsAreToldInOneLine) {
     refusesDesign(R"("scenes": ["nowhere"])", "bad.json: scenes[0]: no scene \"nowhere\"");
     refusesDesign(R"("scenes": ["drop", {"scene": "box-study", "variables": {"size": ["1"]}}])", "bad.json: scenes[1]: ");
     refusesDesign(R"("scenes": ["drop"], "layouts": ["phone4", "phone9"])", "bad.json: layouts: phone9: cannot be read");
-    refusesDesign(R"("scenes": ["drop"], "laws": ["steep"])", "bad.json: laws: --law: expected linear, log, log-outer or energy, found \"steep\"");
+    refusesDesign(R"("scenes": ["drop"], "laws": ["steep"])", "bad.json: laws: --law: expected " + listed(panningLawNames, " or ") + ", found \"steep\"");
     refusesDesign(R"("scenes": ["drop"], "options": {"rate": 7})", "bad.json: options.rate: --rate: expected 5000 to 192000 Hz, found \"7\"");
     refusesDesign(R"("scenes": ["drop"], "options": {"frobnicate": 7})", "bad.json: options.frobnicate: ");
     refusesDesign(R"("scenes": ["drop"], "options": {"help": 1})", "bad.json: options.help: expected words that say what is rendered, found a call for help");

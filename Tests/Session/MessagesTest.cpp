@@ -4,6 +4,7 @@
 #include "Files/SessionFile.h"
 #include "Files/SessionJournalText.h"
 #include "Files/Text/InputLine.h"
+#include "Files/Text/NameList.h"
 #include "Session/Messages/MessageRouter.h"
 #include "Session/Messages/MessageStrikes.h"
 #include "Session/SessionRender.h"
@@ -159,7 +160,7 @@ TEST(Messages, StrokesHaveTactileBrushsTiming) {
 
 TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
     const std::map<std::string, std::string> refusals{
-        {R"({"message": "knock"})", "\"knock\": expected one of strike, pattern, phantom, path, clip, stop, status, layout, latency"},
+        {R"({"message": "knock"})", "\"knock\": expected one of " + listed(namesOf(messageTable))},
         {R"({"message": "strike", "material": "cheese"})", "strike: material: expected a material of the scene that vibrates, found \"cheese\""},
         {R"({"message": "strike"})", "strike: material: expected a material, or frequency_hz"},
         {R"({"message": "strike", "frequency_hz": 100})", "strike: seconds: expected a length, or a decay: it would not end"},
@@ -171,7 +172,7 @@ TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
         {R"({"message": "phantom", "levle": 3})", "phantom: has no \"levle\""},
         {R"({"message": "phantom", "place": "Q"})", "phantom: place: expected letters from A to D, found \"Q\""},
         {R"({"message": "phantom", "place": [1, 2, 3]})", "phantom: place: expected x and y in metres, or an enchanter's letter"},
-        {R"({"message": "phantom", "law": "flat"})", "phantom: law: expected one of layout, linear, log, log-outer, energy, equal, alone, found \"flat\""},
+        {R"({"message": "phantom", "law": "flat"})", "phantom: law: expected one of " + listed(spreadNames) + ", found \"flat\""},
         {R"({"message": "pattern", "pattern": "AB"})", "pattern: pattern: expected one like ABA-250 (one to three enchanters, then milliseconds), found \"AB\""},
         {R"({"message": "path", "places": "A"})", "path: places: expected 2 to 64 places, found 1"},
         {R"({"message": "path", "places": "AA"})", "path: places: expected places that are not all the same"},
