@@ -11,12 +11,6 @@
 
 namespace physvib {
 
-LayoutDescription presetLayout(std::string_view name) {
-    EnchanterLayout geometry;
-    layoutPreset(name, geometry);
-    return describeLayout(std::string{name}, geometry);
-}
-
 PluginState newPluginState() {
     PluginState state;
     state.scene = builtInScenes().front();
@@ -30,12 +24,7 @@ void fitToLayout(PluginState& state) {
 }
 
 void takePreset(PluginState& state, std::string_view name) {
-    auto layout = presetLayout(name);
-    for (std::size_t j = 0; j < std::min(layout.enchanters.size(), state.layout.enchanters.size()); ++j) {
-        layout.enchanters[j].actuator = state.layout.enchanters[j].actuator;
-        layout.enchanters[j].fullScaleG = state.layout.enchanters[j].fullScaleG;
-    }
-    state.layout = std::move(layout);
+    state.layout = presetLayout(name, state.layout.enchanters);
     fitToLayout(state);
 }
 

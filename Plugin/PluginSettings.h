@@ -9,9 +9,6 @@
 
 namespace physvib {
 
-/// A preset's layout with its name. M only.
-LayoutDescription presetLayout(std::string_view name);
-
 /// What a new instance plays: "shake the box" on four enchanters, running free. M only.
 PluginState newPluginState();
 

@@ -8,6 +8,7 @@
 #include "Files/LayoutJson.h"
 #include "Files/Text/NumberText.h"
 #include "Files/Json/StrictJson.h"
+#include <algorithm>
 
 namespace physvib {
 namespace {
@@ -103,6 +104,22 @@ LayoutDescription describeLayout(std::string name, const EnchanterLayout& geomet
     layout.enchanters.resize(static_cast<std::size_t>(geometry.count));
     fillLabels(layout.enchanters);
     return layout;
+}
+
+LayoutDescription presetLayout(std::string_view name, const std::vector<EnchanterDescription>& before) {
+    EnchanterLayout geometry;
+    layoutPreset(name, geometry);
+    LayoutDescription layout = describeLayout(std::string{name}, geometry);
+    for (std::size_t j = 0; j < std::min(layout.enchanters.size(), before.size()); ++j) {
+        layout.enchanters[j].actuator = before[j].actuator;
+        layout.enchanters[j].fullScaleG = before[j].fullScaleG;
+    }
+    return layout;
+}
+
+Result<LayoutDescription> findLayout(const std::string& nameOrPath) {
+    EnchanterLayout preset;
+    return layoutPreset(nameOrPath, preset) ? describeLayout(nameOrPath, preset) : loadLayout(nameOrPath);
 }
 
 Result<LayoutDescription> readLayout(std::string_view text, std::string_view name) {

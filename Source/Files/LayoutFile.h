@@ -28,6 +28,12 @@ struct LayoutDescription {
 /// A layout without a file, e.g. a preset: labels A, B, C..., everything else by default. Any thread.
 LayoutDescription describeLayout(std::string name, const EnchanterLayout& geometry);
 
+/// The preset of that name, which there is; its enchanters keep what drove those of `before`. Any thread.
+LayoutDescription presetLayout(std::string_view name, const std::vector<EnchanterDescription>& before = {});
+
+/// A preset by its name, else the layout of the file. M only.
+Result<LayoutDescription> findLayout(const std::string& nameOrPath);
+
 /// The layout that `text` describes; or, of the first thing that is wrong, one line
 /// `name: enchanters[3].x_m: expected a number, found a string`. Required: extent_m (both > 0), enchanters (1
 /// to limits::maxEnchanters), and of each x_m and y_m within the extent. A missing label becomes the first of

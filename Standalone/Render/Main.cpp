@@ -80,11 +80,6 @@ Result<Source> sourceOf(const Options& o) {
     return source;
 }
 
-Result<LayoutDescription> layoutOf(const std::string& name) {
-    EnchanterLayout preset;
-    return layoutPreset(name, preset) ? describeLayout(name, preset) : loadLayout(name);
-}
-
 RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, const Source& source) {
     const bool hasField = source.widthMetres > 0.0;
     RendererSettings settings{.sampleRateHz = o.sampleRateHz,
@@ -159,7 +154,7 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
 
 /// Renders and writes: empty, or one line.
 std::string render(const Options& o) {
-    const auto layout = layoutOf(o.layout);
+    const auto layout = findLayout(o.layout);
     if (!layout) return layout.error;
     if (!o.wavPath.empty() && !fitsWav(layout.value.geometry.count, o.frames()))
         return "--seconds: too long; a WAV file holds at most 4 GB of samples";

@@ -13,14 +13,11 @@ constexpr double leastStudyFullScaleG = 1.122018454301963 * RenderingMethod::fix
 /// A preset, or the layout file at that path. study1 is phone1 on an enchanter of 2 g: an assumption, to be replaced by a layout of what is there.
 inline Result<LayoutDescription> layoutNamed(const std::string& name) {
     constexpr double studyFullScaleG = 2.0;
-    EnchanterLayout preset;
-    if (name == "study1" && layoutPreset("phone1", preset)) {
-        LayoutDescription layout = describeLayout(name, preset);
-        for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = studyFullScaleG;
-        return layout;
-    }
-    if (layoutPreset(name, preset)) return describeLayout(name, preset);
-    return loadLayout(name);
+    if (name != "study1") return findLayout(name);
+    LayoutDescription layout = presetLayout("phone1");
+    layout.name = name;
+    for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = studyFullScaleG;
+    return layout;
 }
 
 } // namespace physvib

@@ -16,9 +16,7 @@ constexpr double newStripDb = -12.0; // hands are attached
 Mix shakeTheBox() {
     Mix mix;
     mix.scene = std::make_shared<const Scene>(*findBuiltInScene("shake-the-box"));
-    EnchanterLayout layout;
-    layoutPreset("phone4", layout);
-    mix.layout = describeLayout("phone4", layout);
+    mix.layout = presetLayout("phone4");
     mix.resizeStrips();
     return mix;
 }

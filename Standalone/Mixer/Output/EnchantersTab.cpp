@@ -11,10 +11,7 @@ constexpr int rowPixels = 34;
 
 // Whoever named it what; -1: a layout of its own.
 int presetOf(const EnchanterLayout& layout) {
-    const auto isThat = [&layout](std::string_view name) {
-        EnchanterLayout preset;
-        return layoutPreset(name, preset) && isSame(preset, layout);
-    };
+    const auto isThat = [&layout](std::string_view name) { return isSame(presetLayout(name).geometry, layout); };
     const auto found = std::ranges::find_if(layoutPresetNames, isThat);
     return found == layoutPresetNames.end() ? -1 : static_cast<int>(found - layoutPresetNames.begin());
 }
@@ -165,14 +162,7 @@ void EnchantersTab::takePreset() {
     if (index < 0) return;
     const auto name = layoutPresetNames[static_cast<std::size_t>(index)];
     desk_.change("Preset " + juce::String{name.data()}.toUpperCase(), [name](Mix& mix) {
-        EnchanterLayout layout;
-        layoutPreset(name, layout);
-        auto described = describeLayout(std::string{name}, layout);
-        for (std::size_t j = 0; j < std::min(described.enchanters.size(), mix.layout.enchanters.size()); ++j) {
-            described.enchanters[j].actuator = mix.layout.enchanters[j].actuator;
-            described.enchanters[j].fullScaleG = mix.layout.enchanters[j].fullScaleG;
-        }
-        mix.layout = std::move(described);
+        mix.layout = presetLayout(name, mix.layout.enchanters);
         mix.resizeStrips();
     });
 }
