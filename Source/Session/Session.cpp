@@ -53,7 +53,6 @@ Session::Session(const SessionSetup& setup)
     , renderer_{std::make_unique<HapticRenderer>()}
     , heard_{setup.contactSound ? std::make_unique<HeardContacts>(*setup.contactSound, setup.ears, setup.panner) : nullptr}
     , marks_{setup.marks ? std::make_unique<OnsetMarks>(*setup.marks) : nullptr}
-    , told_{setup.boardSeconds > 0.0 ? std::make_unique<ToldEvents>() : nullptr}
     , world_{setup.run(), setup.shaping, setup.log != LogUse::none} {
     made_.reserve(1024); // of a step; more are rare
     std::ranges::copy(setup.ceilings, ceilings_.begin());
@@ -103,7 +102,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
 
 ClockLaw Session::lawAt(int sampleRateHz, int maxBlockFrames) const {
     return {sampleRateHz, maxBlockFrames, setup_.stepsPerSecond, setup_.longestGapSeconds, HapticRenderer::latencyFramesAt(sampleRateHz),
-            setup_.boardSeconds};
+            sinks_.latencySeconds()};
 }
 
 void Session::resume(int sampleRateHz, int maxBlockFrames) {
@@ -169,8 +168,7 @@ void Session::takeUp() {
 
 // Queues what has been made; true if nothing is left. The world mutex is held.
 bool Session::handOver() {
-    for (; handed_ < made_.size() && queue_.push(made_[handed_]); ++handed_)
-        if (told_ && !isClip(made_[handed_].frequencyHz)) told_->events.push(made_[handed_]); // a full queue counts what nobody takes
+    for (; handed_ < made_.size() && queue_.push(made_[handed_]); ++handed_) sinks_.made(made_[handed_]);
     if (handed_ < made_.size()) return false;
     made_.clear();
     handed_ = 0;

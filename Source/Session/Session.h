@@ -12,7 +12,7 @@
 #include "Session/RecordingSets.h"
 #include "Session/SessionTime.h"
 #include "Session/SessionWorld.h"
-#include "Session/ToldEvents.h"
+#include "Session/SinkSet.h"
 #include "Session/WaitingStrikes.h"
 #include "Session/WantedTake.h"
 #include "Session/WorldPace.h"
@@ -133,9 +133,9 @@ public:
     /// What has been played, in the renderer's frames (session frame - L). One reader.
     HapticRenderer::PlayedQueue& played() noexcept { return renderer_->played(); }
 
-    /// What the world makes and what is posted, once more: for the one reader of another output. Null unless the setup
-    /// has a board. What is born in the render call is not told.
-    ToldEvents* told() noexcept { return told_.get(); }
+    /// What is played beside the device: L covers the latency of those that are there when it is set.
+    SinkSet& sinks() noexcept { return sinks_; }
+    const SinkSet& sinks() const noexcept { return sinks_; }
 
     /// Time that was given up after stalls. Any thread.
     std::int64_t slippedNs() const noexcept { return slippedNs_.load(std::memory_order_relaxed); }
@@ -187,7 +187,7 @@ private:
     const std::unique_ptr<OnsetMarks> marks_;
     EventQueue<CollisionEvent, 4096> queue_; // from whoever holds the world, who keeps what finds no room
     EventQueue<RenderControl, 256> controls_;
-    const std::unique_ptr<ToldEvents> told_;
+    SinkSet sinks_;
     std::atomic<std::int64_t> steppedNs_{0}; // session time of the world up to which all is in the queue
     std::atomic<std::int64_t> slippedNs_{0};
     std::atomic<bool> offline_{false}, isDriven_{false}; // the latter: somebody has begun to step the world

@@ -36,7 +36,7 @@ std::int64_t Session::postNow(RenderControl control) {
     control.timeNs = std::max(control.timeNs, lastControlNs_); // a stop ahead may have been told before
     if (!controls_.push(control)) return -1;
     lastControlNs_ = control.timeNs;
-    if (told_) told_->controls.push(control);
+    sinks_.posted(control);
     if (control.kind == RenderControl::Kind::ceiling && control.channel >= 0 && control.channel < setup_.channels) {
         auto& most = ceilings_[static_cast<std::size_t>(control.channel)];
         most = std::max(most.load(), control.value);

@@ -35,7 +35,7 @@ protected:
             EXPECT_EQ(session.act(TiltAction{0.001 * (inputs % 1000)}), "");
             session.render(block.at.data(), 480, RenderMode::realtime);
             session.advance();
-            for (PlayedEvent e; session.played().pop(e); ++events) journal.take(e);
+            for (PlayedEvent e; session.played().pop(e); ++events) journal.played(e, session.sampleRateHz());
         }
     }
     std::size_t rows() const {

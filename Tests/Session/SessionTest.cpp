@@ -94,27 +94,45 @@ TEST(Session, ADriverThatShallEndIsHeardAfterEachStep) {
     EXPECT_EQ(session.advance(), 39) << "the rest, if it goes on after all";
 }
 
-TEST(Session, ABoardBesideItIsToldTheSameEventsAndLCoversIt) {
-    auto s = shakeTheBoxSetup(0.02);
+/// Keeps what it is given.
+struct Keeper final : Sink {
+    explicit Keeper(double latencySeconds) : latencySeconds_{latencySeconds} {}
+    double latencySeconds() const noexcept override { return latencySeconds_; }
+    void made(const CollisionEvent& event) noexcept override { events.push_back(event); }
+    void posted(const RenderControl& control) noexcept override { controls.push_back(control); }
+    std::vector<CollisionEvent> events;
+    std::vector<RenderControl> controls;
+
+private:
+    const double latencySeconds_;
+};
+
+TEST(Session, ASinkBesideItGetsTheSameEventsAndLCoversIt) {
+    const auto s = shakeTheBoxSetup(0.02);
     Session alone{s};
     alone.prepare(rate, 512);
-    EXPECT_EQ(alone.told(), nullptr);
-    s.boardSeconds = 0.030;
+    Keeper sink{0.030}, sooner{0.010};
     Session session{s};
-    std::vector<CollisionEvent> played, told;
+    session.sinks().attach(sink);
+    session.sinks().attach(sooner);
+    std::vector<CollisionEvent> played;
     const auto signal = playLive(session, 5 * rate, 512, 0.02, 9, played);
     EXPECT_EQ(session.playOutFrames() - alone.playOutFrames(), 0.030 * rate - HapticRenderer::latencyFramesAt(rate));
     EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 5 * rate));
-    for (CollisionEvent e; session.told()->events.pop(e);) told.push_back(e);
+    auto& told = sink.events;
+    EXPECT_TRUE(sooner.events == told);
     ASSERT_GT(played.size(), 50u);
     ASSERT_GE(told.size(), played.size()) << "those of the last L are not played yet";
     told.resize(played.size());
     EXPECT_TRUE(told == played);
     const auto at = session.post({.kind = RenderControl::Kind::mute, .channel = 2, .value = 1.0f});
-    RenderControl control;
-    ASSERT_TRUE(session.told()->controls.pop(control));
-    EXPECT_EQ(control.timeNs, at);
-    EXPECT_EQ(control.channel, 2);
+    ASSERT_EQ(sink.controls.size(), 1u);
+    EXPECT_EQ(sink.controls[0].timeNs, at);
+    EXPECT_EQ(sink.controls[0].channel, 2);
+    session.sinks().detach(sink);
+    session.post({.kind = RenderControl::Kind::mute, .channel = 2, .value = 0.0f});
+    EXPECT_EQ(sink.controls.size(), 1u);
+    EXPECT_EQ(sooner.controls.size(), 2u);
 }
 
 TEST(Session, AThousandStepsPerSecondAndSmallBlocksStayBelowSixMilliseconds) {

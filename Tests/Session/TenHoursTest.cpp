@@ -29,7 +29,7 @@ struct Monday {
     void step() {
         session.render(block.at.data(), 480, RenderMode::realtime);
         session.advance();
-        for (PlayedEvent e; session.played().pop(e);) journal.take(e);
+        for (PlayedEvent e; session.played().pop(e);) journal.played(e, session.sampleRateHz());
     }
     const SessionSetup setup = streamed();
     Session session;

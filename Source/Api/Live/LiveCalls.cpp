@@ -128,10 +128,10 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
         told.played = static_cast<physvib_int64>(now.render.played);
         told.late = static_cast<physvib_int64>(now.render.late);
         told.rejected = static_cast<physvib_int64>(now.render.rejected);
-        if (now.board) {
-            told.board = now.board->state == BoardLinkStatus::State::ready ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;
-            told.board_sent = static_cast<physvib_int64>(now.board->sent);
-            told.board_lost = static_cast<physvib_int64>(now.board->thinned + now.board->refused + now.untold);
+        for (const SinkState& sink : now.sinks) { // more than one are told as one
+            if (told.board != PHYSVIB_BOARD_SOUGHT) told.board = sink.isReady ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;
+            told.board_sent += static_cast<physvib_int64>(sink.sent);
+            told.board_lost += static_cast<physvib_int64>(sink.lost);
         }
         const std::size_t length = std::min(now.trouble.size(), sizeof told.trouble - 1);
         std::copy_n(now.trouble.data(), length, told.trouble);

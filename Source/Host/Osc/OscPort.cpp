@@ -28,9 +28,11 @@ OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& m
     if (in_.isOpen()) address_ = settings.address + ":" + std::to_string(in_.port());
     if (in_.isOpen()) reader_ = std::thread{[this] { read(); }};
     thread_ = std::thread{[this] { run(); }};
+    if (out_.isOpen()) session_.sinks().attach(*this);
 }
 
 OscPort::~OscPort() {
+    session_.sinks().detach(*this);
     stop_ = true;
     if (reader_.joinable()) reader_.join();
     if (thread_.joinable()) thread_.join();
@@ -67,7 +69,7 @@ void OscPort::run() {
 void OscPort::follow() {
     if (const std::int64_t ahead = physvib::unixAheadNs(); std::abs(ahead - unixAheadNs_) > clockSlackNs) unixAheadNs_ = ahead;
     const std::lock_guard lock{mutex_};
-    clock_.follow(device_.felt(FeltReader::messages), unixAheadNs_);
+    clock_.follow(device_.felt(), unixAheadNs_);
 }
 
 void OscPort::receive() {
@@ -136,7 +138,7 @@ void OscPort::tellStatus() {
     count(out_.send(oscBundle(std::string(oscAnswerPrefix) + status.name, status, tagOf(clock_.presentUnixNs(present)))));
 }
 
-void OscPort::tell(const PlayedEvent& played, int sampleRateHz) {
+void OscPort::played(const PlayedEvent& played, int sampleRateHz) {
     if (!out_.isOpen() || sampleRateHz == 0) return;
     const CollisionEvent& e = played.event;
     const std::int64_t timeNs = played.isLate ? played.frame * 1'000'000'000 / sampleRateHz : e.timeNs;

@@ -23,7 +23,7 @@ Mix shakeTheBox() {
     return mix;
 }
 
-SessionSetup setupOf(const Mix& mix, bool hasBoard) {
+SessionSetup setupOf(const Mix& mix) {
     SessionSetup setup;
     setup.scene = *mix.scene;
     setup.seed = mix.seed;
@@ -34,7 +34,6 @@ SessionSetup setupOf(const Mix& mix, bool hasBoard) {
     setup.contactSound.emplace();
     setup.ears = 2;
     setup.marks = MarkedOnsets::all;
-    if (hasBoard) setup.boardSeconds = DeskBoard::leadSeconds;
     return setup;
 }
 
@@ -72,24 +71,27 @@ private:
 Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     : types_{std::move(types)}
     , mix_{std::move(mix)}
-    , session_{setupOf(mix_, !device.board.empty())}
+    , session_{setupOf(mix_)}
     , output_{session_, types_}
     , recording_{session_, output_, mix_, [this] { sendChangeMessage(); }}
     , undo_{1000, 30}
     , sceneNow_{*mix_.scene}
     , told_{mix_.panner()}
     , clips_{session_, output_, [this](const Result<std::string>& note) { takeFelt(note); }} {
-    saved_.run = setupOf(mix_, false).run();
+    saved_.run = setupOf(mix_).run();
     saved_.panner = mix_.panner();
     mostEnchanters_ = mix_.count();
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
-    output_.listen(&signals_.tap());
+    session_.sinks().attach(signals_.tap());
+    if (!device.board.empty()) {
+        board_ = std::make_unique<DeskBoard>(device.board, mix_.panner());
+        session_.sinks().attach(board_->sink());
+    }
     open(device);
     told_.tell(session_, mix_);
     edits_ = 0;
-    if (!device.board.empty())
-        board_ = std::make_unique<DeskBoard>(device.board, session_, output_, mix_.panner());
+    session_.sinks().follow(&output_);
     driver_ = std::make_unique<ThreadDriver>(session_, stepsPerSecond);
 }
 
@@ -98,7 +100,7 @@ Desk::~Desk() {
     recording_.keep(); // before what may hang
     osc_.reset();
     driver_.reset();
-    board_.reset();
+    session_.sinks().follow(nullptr);
     output_.close();
 }
 

@@ -105,7 +105,9 @@ public:
     bool isSilent() const noexcept { return isSilent_; } ///< as it is shown: what is pressed then means that
     double playOutSeconds() const noexcept;
 
-    /// What the four-channel board says, if one is wanted. It plays the first four enchanters.
+    /// What plays beside the device, as far as it says so.
+    std::vector<SinkState> sinks() const { return session_.sinks().states(); }
+    /// What the four-channel board says, if one is wanted.
     std::optional<BoardLinkStatus> board() const { return board_ ? std::optional{board_->status()} : std::nullopt; }
     /// The choice asks for a board, or for none: L is another then, so the session has to begin anew.
     std::function<void(const DeviceChoice&)> onBoardWanted;
@@ -162,12 +164,12 @@ private:
 
     AudioDeviceTypes types_;
     Mix mix_;
+    std::unique_ptr<DeskBoard> board_;
     Session session_;
     DeskSignals signals_;
     AudioOutput output_;
     DeskExposure exposure_{output_};
     DeskRecording recording_;
-    std::unique_ptr<DeskBoard> board_;
     std::unique_ptr<SimulationDriver> driver_;
     juce::UndoManager undo_;
     Scene sceneNow_;

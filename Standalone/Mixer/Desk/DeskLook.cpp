@@ -27,7 +27,7 @@ DeskMoment Desk::look() {
 
 void Desk::takePlayed() {
     for (PlayedEvent played; session_.played().pop(played);) {
-        if (osc_) osc_->tell(played);
+        session_.sinks().played(played, output_.sampleRateHz());
         hits_.push_back(played.event);
         recent_.add(played.event);
         recording_.take(played);

@@ -185,18 +185,14 @@ void OutputTab::useBoard(const std::string& port) {
     if (choice.board != desk_.device().board && desk_.onBoardWanted) desk_.onBoardWanted(choice);
 }
 
-juce::String OutputTab::boardState(Shade& state) const {
-    using State = BoardLinkStatus::State;
-    state = Shade::muted;
-    const auto status = desk_.board();
-    if (!status) return "none";
-    const auto& s = *status;
-    state = s.state == State::ready ? Shade::text : Shade::now;
-    if (s.state == State::ready)
-        return utf8(s.port) + ": ready, needs " + number(s.playOutMs, 0) + " ms, " + juce::String{static_cast<juce::int64>(s.sent)} + " sent, " +
-               juce::String{static_cast<juce::int64>(s.thinned)} + " thinned" + (desk_.mix().count() > limits::board::channels ? "; the first 4 enchanters" : "");
-    if (!s.trouble.empty()) return utf8(s.trouble);
-    return s.state == State::searching ? "looking for a board" : utf8(s.port) + ": connecting";
+std::vector<Fact> OutputTab::sinkFacts() const {
+    std::vector<Fact> facts;
+    for (const SinkState& sink : desk_.sinks()) {
+        const bool isPart = sink.isReady && sink.channels > 0 && desk_.mix().count() > sink.channels;
+        const auto rest = isPart ? "; the first " + juce::String{sink.channels} + " enchanters" : juce::String{};
+        facts.push_back({titleOf(sink.name), utf8(sink.where) + rest, sink.isReady ? Shade::text : Shade::now});
+    }
+    return facts.empty() ? std::vector<Fact>{{"Board", "none", Shade::muted}} : facts;
 }
 
 void OutputTab::takeMix() {
@@ -226,12 +222,10 @@ void OutputTab::refresh(const DeskMoment& moment) {
     int connected = 0;
     for (const Strip& strip : desk_.mix().strips) connected += strip.output >= 0 && strip.output < desk_.outputs() ? 1 : 0;
     const int all = desk_.mix().count();
-    Shade boardShade = Shade::muted;
-    const auto board = boardState(boardShade);
     Shade oscShade = Shade::muted;
     const auto osc = oscState(oscShade);
     const double slipped = 1e-6 * static_cast<double>(desk_.session().slippedNs());
-    facts_.set({{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
+    std::vector<Fact> facts{{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
                !moment.device.isRunning ? Shade::limit : isNone ? Shade::now : Shade::text},
               {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" + number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
               {"Felt", number(1e3 * desk_.playOutSeconds(), 1) + " ms after the contact, and the device's own " + number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
@@ -240,9 +234,10 @@ void OutputTab::refresh(const DeskMoment& moment) {
               {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " + number(100.0 * moment.device.worstLoad, 1) + " % at most"},
               {"Late", juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls", r.late > 0 ? Shade::now : Shade::text},
               {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}},
-              {"Opened again", juce::String{moment.device.losses} + " times"},
-              {"Board", board, boardShade},
-              {"Messages", osc, oscShade}});
+              {"Opened again", juce::String{moment.device.losses} + " times"}};
+    std::ranges::move(sinkFacts(), std::back_inserter(facts));
+    facts.push_back({"Messages", osc, oscShade});
+    facts_.set(std::move(facts));
 }
 
 void OutputTab::resized() {

@@ -34,17 +34,6 @@ Fact exposureFact(double daily) {
     return {"Exposure", words, daily >= exposureLimitValue ? Shade::limit : daily >= exposureActionValue ? Shade::now : Shade::text};
 }
 
-void addBoard(std::vector<Fact>& facts, const std::optional<BoardLinkStatus>& board) {
-    using State = BoardLinkStatus::State;
-    if (!board) return facts.push_back({"Board", "none", Shade::muted});
-    const auto& t = board->telemetry;
-    if (board->state != State::ready) return facts.push_back({"Board", board->trouble.empty() ? juce::String{"looking for it"} : utf8(board->trouble), Shade::now});
-    facts.push_back({"Board", "ready, its clock " + number(board->driftPpm, 0) + " ppm off"});
-    facts.push_back({"Link", count(board->sent) + " sent, " + count(board->thinned) + " thinned, " + count(board->refused) + " refused", noneIsGood(board->thinned + board->refused)});
-    if (board->legs > 0) facts.push_back({"What moves", count(board->legs) + " legs sent, " + count(board->coarseLegs) + " of them coarse", noneIsGood(board->coarseLegs)});
-    facts.push_back({"On board", count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost", noneIsGood(t.late + t.dropped + t.lost)});
-}
-
 } // namespace
 
 std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, float medianLoad) {
@@ -69,7 +58,10 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
         {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}, moment.device.deviceXruns > 0 ? Shade::now : Shade::text},
         {"Not told", count(r.untold) + " hits, " + count(desk.scopeFramesLost()) + " frames", noneIsGood(r.untold)},
         {"Not finite", count(r.nonFinite) + " samples", noneIsGood(r.nonFinite)}};
-    addBoard(facts, desk.board());
+    const auto sinks = desk.sinks();
+    if (sinks.empty()) facts.push_back({"Board", "none", Shade::muted});
+    for (const SinkState& sink : sinks)
+        for (const auto& [name, value, isWrong] : sink.facts) facts.push_back({utf8(name), utf8(value), isWrong ? Shade::now : Shade::text});
     return facts;
 }
 

@@ -126,10 +126,11 @@ void TopBar::refresh(const DeskMoment& moment) {
     const auto& r = moment.session.render;
     const auto lost = desk_.session().drops() + r.untold;
     load_.set("Load " + number(100.0 * moment.device.load, 1) + " %", dotted({count(r.late, "late"), count(lost, "dropped")}), r.late + lost > 0 ? Shade::now : Shade::text);
-    const auto board = desk_.board();
-    const bool isBoardReady = board && board->state == BoardLinkStatus::State::ready;
-    board_.set(!board ? "Board: none" : isBoardReady ? "Board: ready" : "Board: not there", count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
-               !board ? Shade::muted : isBoardReady ? Shade::accent : Shade::limit);
+    const auto sinks = desk_.sinks();
+    const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
+    const auto sink = sinks.empty() ? juce::String{"Board"} : titleOf(sinks.front().name);
+    board_.set(sink + (sinks.empty() ? ": none" : areReady ? ": ready" : ": not there"), count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
+               sinks.empty() ? Shade::muted : areReady ? Shade::accent : Shade::limit);
 }
 
 void TopBar::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::panel)); }
