@@ -22,7 +22,7 @@ namespace physvib {
 /// Works on L while it follows a device.
 class BoardOutput final : public Sink, private BoardSource {
 public:
-    /// The board at `port`, or the first that answers (empty); `panner`: the session's, of at most four. It has to know what it plays
+    /// The board at `port`, or anyBoard; `panner`: the session's, of at most four. It has to know what it plays
     /// `latencySeconds` before, or as long as the link says when it is ready. M.
     BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds = 0.0);
     ~BoardOutput() override { follow(nullptr); }

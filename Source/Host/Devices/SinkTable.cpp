@@ -20,7 +20,7 @@ struct SinkKind {
 const std::array sinkKinds{
     SinkKind{"BOARD", limits::board::channels, "board: expected at most four enchanters",
              [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
-                 return std::make_unique<BoardOutput>(where == "auto" ? "" : where, panner);
+                 return std::make_unique<BoardOutput>(where, panner);
              }},
 };
 

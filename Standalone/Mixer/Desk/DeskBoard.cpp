@@ -12,7 +12,7 @@ constexpr double patienceMs = 3000.0; // greeting and clock take half a second
 
 DeskBoard::DeskBoard(const std::string& port, const PhantomPanner& panner)
     : port_{port}
-    , output_{port == anyBoard ? std::string{} : port, panner, leadSeconds}
+    , output_{port, panner, leadSeconds}
     , wantedAtMs_{nowMs()} {}
 
 // Without a port of its own the link tries one after the other: what it says of each would only flicker.
