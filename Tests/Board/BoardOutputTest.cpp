@@ -80,7 +80,7 @@ protected:
     void rest() const { std::this_thread::sleep_for(std::chrono::milliseconds(300)); }
     void push(int times) {
         for (int i = 0; i < times; ++i, ++pushes) {
-            EXPECT_EQ(session.act(test::pushOfBall(pushes)), "");
+            EXPECT_EQ(session.take({test::pushOfBall(pushes)}).error, "");
             std::this_thread::sleep_for(std::chrono::milliseconds(170 + 13 * (i % 5)));
         }
         rest();
@@ -117,7 +117,7 @@ TEST_F(BoardOutputTest, ADeviceAndABoardAreFeltAtTheSameMoment) {
         sum += apart;
     }
     const auto t = output.status().telemetry;
-    std::cout << felt.size() << " hits, L " << 1e3 * static_cast<double>(session.playOutFrames()) / interface.rate << " ms: the board " << sum / 30
+    std::cout << felt.size() << " hits, L " << 1e3 * static_cast<double>(session.timeline().playOutFrames()) / interface.rate << " ms: the board " << sum / 30
               << " ms after the device on average, at most " << worst << " ms apart\n";
     EXPECT_LT(worst, 2.0);
     EXPECT_EQ(t.late + t.dropped + t.lost, 0u);
@@ -127,7 +127,7 @@ TEST_F(BoardOutputTest, ADeviceAndABoardAreFeltAtTheSameMoment) {
 
 TEST_F(BoardOutputTest, SilenceAndMutesHoldForBoth) {
     const auto muteAll = [this](float value) {
-        for (int j = 0; j < 4; ++j) EXPECT_GE(session.post({.kind = RenderControl::Kind::mute, .channel = j, .value = value, .panner = {}}), 0);
+        for (int j = 0; j < 4; ++j) EXPECT_TRUE(session.take({RenderControl{.kind = RenderControl::Kind::mute, .channel = j, .value = value, .panner = {}}}));
         rest();
     };
     const auto expectHits = [this](std::size_t count) {

@@ -193,10 +193,10 @@ BoardLinkStatus playPath(FakeBoard& board) {
     second.x = 4.0;
     second.durationNs = 600 * ms;
     second.course = {4.0, 0.0, second.durationNs, first.durationNs, Spread::equal};
-    EXPECT_TRUE(session.play(std::array{first, second}));
+    EXPECT_TRUE(session.take({Strikes{std::array{first, second}}}));
     EXPECT_TRUE(test::comesTrue([&] {
         goOn();
-        return session.presentNs() > 2'000 * ms;
+        return session.timeline().presentNs() > 2'000 * ms;
     }));
     const auto now = onBoard.status();
     EXPECT_EQ(board.legs().size(), now.legs);

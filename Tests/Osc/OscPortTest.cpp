@@ -98,7 +98,7 @@ TEST(OscPorts, WhatIsSentIsCounted) {
     EXPECT_EQ(counts.bad, each);
     EXPECT_EQ(counts.lost, 0U);
     EXPECT_TRUE(counts.fault.starts_with("127.0.0.1:")) << counts.fault;
-    EXPECT_EQ(played.session.size().strikes, 0U) << "they were for now";
+    EXPECT_EQ(played.session.world().size().strikes, 0U) << "they were for now";
 }
 
 /// Whoever does what messages say is held up at the first of them until `goesOn`.

@@ -74,9 +74,9 @@ std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanter
 
 // Unlike an enchanter without an output, which is felt as missing, noise that is missing would go unnoticed.
 std::string AudioOutput::listeningFault() const {
-    if (!settings_.listening.contacts.empty() && played_.own().heardChannels() == 0)
+    if (!settings_.listening.contacts.empty() && played_.own().rendered().heard() == 0)
         return "expected a session that makes contact sounds, found none";
-    if (!settings_.listening.marks.empty() && !played_.own().marks())
+    if (!settings_.listening.marks.empty() && !played_.own().rendered().marks())
         return "expected a session that marks its onsets, found none";
     return keeper_.device() ? wish().fault(*keeper_.device()) : std::string{};
 }
@@ -189,7 +189,7 @@ void AudioOutput::audioDeviceIOCallbackWithContext(const float* const* in, int i
                                                    int outputs, int frames,
                                                    const juce::AudioIODeviceCallbackContext&) {
     if (inputTap_ != nullptr && inputs > 0 && frames > 0 && running_.load(std::memory_order_relaxed))
-        inputTap_->take(in, inputs, frames, played_.now().nextNs(0), sampleRateHz());
+        inputTap_->take(in, inputs, frames, played_.now().timeline().nextNs(0), sampleRateHz());
     renderBlock(out, outputs, frames);
 }
 
@@ -210,7 +210,7 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     heard_.begin(rests, frames);
     for (int done = 0; done < frames; done += blockFrames())
         renderPart(session, out, outputs, done, std::min(blockFrames(), frames - done));
-    if (session.nextFeltNs() != felt.sessionNs)
+    if (session.timeline().nextFeltNs() != felt.sessionNs)
         tell(felt); // else nobody steps the world: session time stands still
     load_.take(start, frames, sampleRateHz());
 }
@@ -222,11 +222,11 @@ void AudioOutput::renderPart(Session& session, float* const* out, int outputs, i
     heard_.render(session, samples, out, outputs, first, frames);
     for (int j = session.channels(); j < played_.own().channels(); ++j)
         juce::FloatVectorOperations::clear(samples[j], frames);
-    played_.own().sinks().rendered({samples, frames, session.framesRendered() - frames, sampleRateHz()});
+    played_.own().sinks().rendered({samples, frames, session.timeline().framesRendered() - frames, sampleRateHz()});
     motors_.apply(samples, frames);
     for (int j = 0; j < session.channels(); ++j) { // the limiter, if on, leaves nothing to cut
         float* at = samples[j];
-        juce::FloatVectorOperations::clip(at, at, -session.ceiling(j), session.ceiling(j), frames);
+        juce::FloatVectorOperations::clip(at, at, -session.rendered().ceiling(j), session.rendered().ceiling(j), frames);
     }
     master_.apply(samples, session.channels(), frames);
     for (int j = 0; j < session.channels(); ++j) {

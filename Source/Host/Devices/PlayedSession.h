@@ -32,15 +32,15 @@ public:
         rate_ = sampleRateHz;
         block_ = maxBlockFrames;
         latencyNs_ = std::int64_t{1'000'000'000} * latencyFrames / rate_;
-        samples_.assign(static_cast<std::size_t>(own_.outputs()), std::vector<float>(static_cast<std::size_t>(block_)));
+        samples_.assign(static_cast<std::size_t>(own_.rendered().count()), std::vector<float>(static_cast<std::size_t>(block_)));
         at_.clear();
         for (auto& channel : samples_) at_.push_back(channel.data());
     }
 
     /// Of the next block, asked for at `steadyNs`. R.
     FeltMoment nextFelt(std::int64_t steadyNs) const noexcept {
-        const std::int64_t felt = now().nextFeltNs();
-        return {felt, steadyNs + latencyNs_, now().nextNs(0) - felt + latencyNs_, rate_};
+        const std::int64_t felt = now().timeline().nextFeltNs();
+        return {felt, steadyNs + latencyNs_, now().timeline().nextNs(0) - felt + latencyNs_, rate_};
     }
 
     /// Another from the next block on; null: the own one goes on. A device has run. M.

@@ -133,7 +133,7 @@ void OscPort::tellStatus() {
     const std::int64_t now = steadyNs();
     if (now < nextStatusNs_ || !clock_.isReady()) return;
     nextStatusNs_ = now + statusEveryNs;
-    const std::int64_t present = session_.presentNs();
+    const std::int64_t present = session_.timeline().presentNs();
     const PlainMessage status = door_.status();
     count(out_.send(oscBundle(std::string(oscAnswerPrefix) + status.name, status, tagOf(clock_.presentUnixNs(present)))));
 }

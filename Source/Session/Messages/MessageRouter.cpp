@@ -48,7 +48,7 @@ Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag
         if (description->isQuery) return answer(kind);
         expectTime(values, tag);
         std::string note;
-        auto strikes = kind == MessageKind::clip ? clip(values, clips, panner, note) : strikesOf(kind, values, session_.state().scene->materials, session_.shaping());
+        auto strikes = kind == MessageKind::clip ? clip(values, clips, panner, note) : strikesOf(kind, values, session_.world().state().scene->materials, session_.shaping());
         const std::lock_guard lock{mutex_};
         const std::int64_t time = timeOf(values, tag);
         const bool isNow = !values.has("at") && !values.has("in") && (tag == nullptr || tag->isLate);
@@ -67,7 +67,7 @@ void MessageRouter::expectTime(const MessageValues& values, const MessageTag* ta
     timeOf(values, tag == nullptr ? nullptr : &tried);
 }
 
-std::int64_t MessageRouter::nowNs() const { return std::max({std::int64_t{0}, session_.presentNs() - session_.toldAheadNs(), latestNs_}); }
+std::int64_t MessageRouter::nowNs() const { return std::max({std::int64_t{0}, session_.timeline().presentNs() - session_.timeline().toldAheadNs(), latestNs_}); }
 
 // Session times that are over are refused: what is rendered again would not be what was felt. Who sends tags cannot know: such
 // a message is late, and done at once.
@@ -76,7 +76,7 @@ std::int64_t MessageRouter::timeOf(const MessageValues& values, MessageTag* tag)
     if (tag != nullptr) {
         for (const char* own : {"at", "in"})
             if (values.has(own)) values.fail(own, "expected either this or a time tag");
-        tag->isLate = tag->sessionNs < session_.presentNs();
+        tag->isLate = tag->sessionNs < session_.timeline().presentNs();
         return tag->isLate ? nowNs() : aheadOrFail(values, "time tag", tag->sessionNs);
     }
     if (values.has("in")) return nowNs() + std::llround(values.number("in") * 1e9);
@@ -84,14 +84,14 @@ std::int64_t MessageRouter::timeOf(const MessageValues& values, MessageTag* tag)
         if (values.word("at") != "now") values.fail("at", "expected a session time, or now");
         return nowNs();
     }
-    const std::int64_t at = std::llround(values.number("at") * 1e9), present = session_.presentNs();
+    const std::int64_t at = std::llround(values.number("at") * 1e9), present = session_.timeline().presentNs();
     if (at < present) values.fail("at", "expected a session time that is not over: it is " + fixedNumber(seconds(present), 3) + " s, found " + numberText(seconds(at)) + " s");
     return aheadOrFail(values, "at", at);
 }
 
 std::int64_t MessageRouter::aheadOrFail(const MessageValues& values, std::string_view name, std::int64_t at) const {
-    if (at > session_.presentNs() + std::llround(messages::mostAheadSeconds * 1e9)) values.fail(name, "expected at most " + plainNumber(messages::mostAheadSeconds) + " s from now");
-    return std::max<std::int64_t>(0, at - session_.toldAheadNs());
+    if (at > session_.timeline().presentNs() + std::llround(messages::mostAheadSeconds * 1e9)) values.fail(name, "expected at most " + plainNumber(messages::mostAheadSeconds) + " s from now");
+    return std::max<std::int64_t>(0, at - session_.timeline().toldAheadNs());
 }
 
 void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t start, bool isNow) {
@@ -101,7 +101,7 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
         strike.timeNs += start;
         if (sceneGain > 0.0 && !isClip(strike.frequencyHz)) strike.amplitude /= sceneGain; // a level is of full scale, in every scene
     }
-    if (!session_.schedule(strikes)) throw MessageError{"too many strikes wait: at most " + std::to_string(WaitingStrikes::most)};
+    if (auto taken = session_.take({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
 }
 
 // Kept before it is struck: a strike finds its samples. Reading and keeping takes long; no other door waits for it.
@@ -121,21 +121,21 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
 // Of two messages of one moment, the second acts on the first.
 void MessageRouter::stop(std::int64_t at) {
     if (at == latestNs_) at = latestNs_ = at + frameNs;
-    if (!session_.stopAt(at)) throw MessageError{"too many stops wait"};
+    if (auto taken = session_.take({Stop{}, at}); !taken) throw MessageError{taken.error};
 }
 
 PlainMessage MessageRouter::answer(MessageKind query) const {
     if (query == MessageKind::layout) return layoutAnswer(session_.panner());
-    if (query == MessageKind::latency) return {"latency", {{"play_out_s", session_.playOutSeconds()},
-                                                               {"direct_s", session_.directSeconds()},
-                                                               {"messages_s", session_.playOutSeconds() - seconds(session_.toldAheadNs())}}};
-    const SessionSize size = session_.size();
+    if (query == MessageKind::latency) return {"latency", {{"play_out_s", session_.timeline().playOutSeconds()},
+                                                               {"direct_s", session_.timeline().directSeconds()},
+                                                               {"messages_s", session_.timeline().playOutSeconds() - seconds(session_.timeline().toldAheadNs())}}};
+    const SessionSize size = session_.world().size();
     return {"status",
-            {{"session_s", seconds(session_.presentNs())},
+            {{"session_s", seconds(session_.timeline().presentNs())},
              {"waiting", static_cast<double>(size.strikes)},
              {"bodies", static_cast<double>(size.bodies)},
-             {"lost", static_cast<double>(session_.drops())},
-             {"stalls_s", seconds(session_.slippedNs())}}};
+             {"lost", static_cast<double>(session_.world().drops())},
+             {"stalls_s", seconds(session_.world().slippedNs())}}};
 }
 
 } // namespace physvib

@@ -86,9 +86,9 @@ private:
                       "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  "
                       "%llu dropped   ",
                       static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
-                      static_cast<double>(session_.playOutFrames()) / rate, static_cast<double>(margin) / rate,
+                      static_cast<double>(session_.timeline().playOutFrames()) / rate, static_cast<double>(margin) / rate,
                       status.render.liveModes, static_cast<unsigned long long>(status.render.late),
-                      static_cast<unsigned long long>(session_.drops() + status.render.untold));
+                      static_cast<unsigned long long>(session_.world().drops() + status.render.untold));
         std::cerr << words << std::flush;
     }
 
@@ -121,17 +121,17 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
     const AudioOutputStatus o = output.status();
     const double framesPerMs = output.sampleRateHz() / 1e3;
     std::cout << std::fixed << std::setprecision(1) << "felt "
-              << static_cast<double>(session.playOutFrames()) / framesPerMs << " ms after the contact; "
-              << played << " collisions played, " << r.late << " late, " << session.drops() + r.untold
-              << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.slippedNs()) * 1e-6
+              << static_cast<double>(session.timeline().playOutFrames()) / framesPerMs << " ms after the contact; "
+              << played << " collisions played, " << r.late << " late, " << session.world().drops() + r.untold
+              << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.world().slippedNs()) * 1e-6
               << " ms of stalls; ";
     if (status.leastMarginFrames != noMargin)
         std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs
                   << " ms; ";
     std::cout << "worst load " << 100 * o.worstLoad << " %, " << o.deviceXruns << " xruns of the device\n";
-    if (session.toldAheadNs() > 0)
-        std::cout << "messages were felt " << 1e3 * session.directSeconds() << " ms after they came\n";
-    if (session.marks()) std::cout << "marked: " << markWords(*session.marks()) << '\n';
+    if (session.timeline().toldAheadNs() > 0)
+        std::cout << "messages were felt " << 1e3 * session.timeline().directSeconds() << " ms after they came\n";
+    if (session.rendered().marks()) std::cout << "marked: " << markWords(*session.rendered().marks()) << '\n';
     if (o.losses > 0)
         std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
 }
@@ -176,7 +176,7 @@ std::string playLive(LivePlay wanted) {
     if (!wanted.recordPath.empty()) {
         recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
         if (!recording->error().empty()) return recording->error();
-        recording->tellBeginning(session.playOutFrames());
+        recording->tellBeginning(session.timeline().playOutFrames());
         session.sinks().attach(*recording);
     }
     if (!wanted.savePath.empty()) {

@@ -80,7 +80,7 @@ juce::String DeskRecording::close() {
                                 {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
     session_.sinks().detach(recording_->recorder());
     for (PlayedEvent played; session_.played().pop(played);) recording_->take(played);
-    const auto error = utf8(recording_->finish(session_.playOutFrames(), provenance));
+    const auto error = utf8(recording_->finish(session_.timeline().playOutFrames(), provenance));
     recording_.reset();
     return error;
 }

@@ -45,10 +45,10 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
     std::vector<Fact> facts{
         {"Played", count(r.played) + " hits, " + juce::String{r.pending} + " waiting"},
         {"Late", count(r.late) + " hits", noneIsGood(r.late)},
-        {"Dropped", count(session.drops()) + " hits in a step", noneIsGood(session.drops())},
+        {"Dropped", count(session.world().drops()) + " hits in a step", noneIsGood(session.world().drops())},
         {"Refused", count(moment.session.refused) + " without room, " + count(r.rejected) + " unplayable", noneIsGood(refused)},
         marginFact(moment, output.sampleRateHz()),
-        {"Stalls", number(1e-6 * static_cast<double>(session.slippedNs()), 0) + " ms of the world"},
+        {"Stalls", number(1e-6 * static_cast<double>(session.world().slippedNs()), 0) + " ms of the world"},
         {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early", noneIsGood(r.stolen)},
         {"Limiter", number(reduction, 1) + " dB", reduction < -0.05 ? Shade::limit : Shade::text},
         exposureFact(moment.dailyExposure),
@@ -56,9 +56,9 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
         {"Render call", "median " + percent(medianLoad) + ", worst " + percent(moment.device.worstLoad), moment.device.worstLoad > 1.0f ? Shade::now : Shade::text},
         {"Blocks", count(moment.device.blocks) + " of " + juce::String{output.blockFrames()} + " frames"},
         {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}, moment.device.deviceXruns > 0 ? Shade::now : Shade::text},
-        {"Not told", count(r.untold) + " hits, " + count(desk.scopeFramesLost()) + " frames", noneIsGood(r.untold)},
+        {"Not told", count(r.untold) + " hits, " + count(desk.signals().framesLost()) + " frames", noneIsGood(r.untold)},
         {"Not finite", count(r.nonFinite) + " samples", noneIsGood(r.nonFinite)}};
-    const auto sinks = desk.sinks();
+    const auto sinks = desk.session().sinks().states();
     if (sinks.empty()) facts.push_back({"Board", "none", Shade::muted});
     for (const SinkState& sink : sinks)
         for (const auto& [name, value, isWrong] : sink.facts) facts.push_back({utf8(name), utf8(value), isWrong ? Shade::now : Shade::text});
