@@ -101,9 +101,9 @@ void PluginProcessor::send(std::initializer_list<Parameter> those, Send what) no
 // Within frames first to end of this block, as its pace allows; else later.
 template <class Make>
 bool PluginProcessor::sendAt(Session& session, ControlPace& pace, int first, int end, Make make) noexcept {
-    const std::int64_t now = session.framesRendered(), at = pace.nextFrom(now + first);
-    if (at >= now + end || !session.control(make(), static_cast<int>(at - now))) return false;
-    pace.wentAt(at, session.playOutFrames());
+    const std::int64_t now = session.timeline().framesRendered(), at = pace.nextFrom(now + first);
+    if (at >= now + end || !session.callback().control(make(), static_cast<int>(at - now))) return false;
+    pace.wentAt(at, session.timeline().playOutFrames());
     return true;
 }
 
@@ -125,7 +125,7 @@ void PluginProcessor::sendControls(int frame) noexcept {
     send({Parameter::gravity, Parameter::tilt}, [&] {
         RenderInput input;
         input.hold = {value(Parameter::gravity), juce::degreesToRadians(value(Parameter::tilt))};
-        return session->perform(input, frame);
+        return session->callback().perform(input, frame);
     });
     send({Parameter::material}, [&] { return sendMaterial(*session, frame); });
 }
@@ -141,12 +141,12 @@ RenderControl PluginProcessor::pannerControl() const noexcept {
 bool PluginProcessor::sendMaterial(Session& session, int frame) noexcept {
     RenderInput input;
     input.group = takes_.settings().midi.groupOfMaterial(juce::roundToInt(value(Parameter::material)));
-    return input.group < 0 || session.perform(input, frame);
+    return input.group < 0 || session.callback().perform(input, frame);
 }
 
 void PluginProcessor::stopAll(int frame) noexcept {
     Session* const session = takes_.session();
-    owesStop_ = session && !session->control(controlOf(RenderControl::Kind::stopAll), frame);
+    owesStop_ = session && !session->callback().control(controlOf(RenderControl::Kind::stopAll), frame);
 }
 
 void PluginProcessor::silence(int frame) noexcept { owesSilence_ = !takes_.silence(frame); }
@@ -165,7 +165,7 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
     const auto& midi = takes_.settings().midi;
     if (RenderInput input; (input.group = midi.groupOf(note)) >= 0) {
         input.scale = velocity / 127.0;
-        session->perform(input, frame);
+        session->callback().perform(input, frame);
         return;
     }
     CollisionEvent event = midi.strikeOf(note);
@@ -174,7 +174,7 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
     event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * velocity / 127.0;
     event.x = shifted(event.x, value(Parameter::strikeX) * 0.01 + bend_[static_cast<std::size_t>(channel)], midi.fieldWidthMetres());
     event.y = shifted(event.y, value(Parameter::strikeY) * 0.01 + slide_[static_cast<std::size_t>(channel)], midi.fieldHeightMetres());
-    session->strike(event, frame);
+    session->callback().strike(event, frame);
 }
 
 // Frames `from` to `to` of the part of the block that begins at `first`. The side chain's channels are the buffer's first ones, until what is
@@ -191,12 +191,12 @@ void PluginProcessor::hear(const juce::AudioBuffer<float>& buffer, int first, in
 // At the onset's own time, which is past: L is longer than the beat took to be known. Where strikes are direct, as soon as it is sure to be known.
 void PluginProcessor::strikeBeat(Session& session, const BandOnset& onset, int frame) noexcept {
     const auto& settings = takes_.settings();
-    const int felt = session.isBornDirect() ? frame + beats_.delayFrames() : frame;
+    const int felt = session.timeline().isBornDirect() ? frame + beats_.delayFrames() : frame;
     BeatVoices voices;
     voices.enchanters = usualBeatEnchanters(settings.layout.count);
     voices.level = gainOfLevel(value(Parameter::strikeLevel));
     physvib::strikeBeat(onset, 0, voices, settings.layout, settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres(),
-                        [&](const CollisionEvent& event) { session.strike(event, felt); });
+                        [&](const CollisionEvent& event) { session.callback().strike(event, felt); });
 }
 
 void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {

@@ -28,11 +28,11 @@ void Take::rewind(std::int64_t leadFrames) {
 }
 
 bool Take::tell(std::span<const Strip> strips) {
-    return tellStrips(told_, strips, [this](const RenderControl& control) { return session.post(control) >= 0; });
+    return tellStrips(told_, strips, [this](const RenderControl& control) { return session.take({control}).error.empty(); });
 }
 
 void Take::end() noexcept {
-    if (owed_ < 0) owed_ = session.bornLatencyFrames();
+    if (owed_ < 0) owed_ = session.timeline().bornLatencyFrames();
 }
 
 void Take::render(int frames, std::int64_t leadFrames, RenderMode mode) noexcept {

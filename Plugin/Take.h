@@ -35,7 +35,7 @@ public:
     std::uint64_t generation() const noexcept { return order_->generation; }
 
     /// Frames that L covers at once. R.
-    std::int64_t leadFrames() const noexcept { return leadFrames_ + session.framesGrown(); }
+    std::int64_t leadFrames() const noexcept { return leadFrames_ + session.timeline().framesGrown(); }
 
     /// The next frames of every channel of the session, at most a block. While L covers less than `leadFrames`, it grows: the
     /// session goes on and nothing of it is played; what was to be felt comes so much later. R.

@@ -80,8 +80,8 @@ void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Tak
     if (!take) return;
     take->tell(strips_);
     ticksPerSecond_ = TakePace::ticksPerSecond(order_->setup.stepsPerSecond);
-    playOutFrames_ = take->session.playOutFrames();
-    directFrames_ = order_->setup.direct == Direct::born ? take->session.bornLatencyFrames() : 0;
+    playOutFrames_ = take->session.timeline().playOutFrames();
+    directFrames_ = order_->setup.direct == Direct::born ? take->session.timeline().bornLatencyFrames() : 0;
     takes_.push_back(std::move(take));
     Take* const unused = spare_.exchange(takes_.back().get(), std::memory_order_acq_rel);
     if (unused) unused->isEnded = true;
@@ -278,7 +278,7 @@ std::int64_t Takes::poses(std::vector<BodyPose>& now) {
     for (const auto& take : takes_)
         if (!take->isEnded && take->number > 0 && (!newest || take->number > newest->number)) newest = take.get();
     now.clear();
-    return newest ? newest->session.readPoses(now) : 0;
+    return newest ? newest->session.world().readPoses(now) : 0;
 }
 
 } // namespace physvib

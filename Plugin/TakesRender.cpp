@@ -43,7 +43,7 @@ bool Takes::begin(RenderMode mode) noexcept {
     hasNext_ = false;
     playing_->session.startLater(leadFrames_ - playing_->leadFrames()); // what the host asked for meanwhile
     playing_->number = ++started_;
-    playOutFrames_ = playing_->session.playOutFrames();
+    playOutFrames_ = playing_->session.timeline().playOutFrames();
     return true;
 }
 
@@ -51,14 +51,14 @@ void Takes::stop() noexcept {
     startWanted_ = false;
     if (!playing_ || endingCount_ == ending_.size()) return;
     lateBefore_ += playing_->session.status().render.late;
-    slippedBefore_ += playing_->session.slippedNs();
+    slippedBefore_ += playing_->session.world().slippedNs();
     playing_->end();
     ending_[endingCount_++] = std::exchange(playing_, nullptr);
 }
 
 bool Takes::silence(int frame) noexcept {
     bool all = true;
-    forEachSounding([&](Take& take) { all = take.session.silence(frame) && all; });
+    forEachSounding([&](Take& take) { all = take.session.callback().silence(frame) && all; });
     return all;
 }
 
@@ -112,7 +112,7 @@ void Takes::coverBurst(int frames) noexcept {
 
 void Takes::tell() noexcept {
     const auto& now = playing_->session.status();
-    status_.write({now, playing_->number, lateBefore_ + now.render.late, slippedBefore_ + playing_->session.slippedNs(), delayedBlocks_,
+    status_.write({now, playing_->number, lateBefore_ + now.render.late, slippedBefore_ + playing_->session.world().slippedNs(), delayedBlocks_,
                    leadFrames_ - blockFrames_, waitedFrames_});
 }
 

@@ -15,15 +15,15 @@ struct ClockLaw {
     int stepsPerSecond = 100; ///< of the world
     double longestGapSeconds = 0.0;    ///< between two calls of the driver that are still in time
     int limiterFrames = 0;             ///< the renderer's own latency, part of L
-    double boardSeconds = 0.0;         ///< how long before it is felt a board beside the renderer has to know an event
+    double sinkSeconds = 0.0;          ///< how long before it is felt a sink beside the renderer has to know an event, at most
 
     /// L in frames: a block (which is rendered at its beginning) + the longest gap + two steps (the one that may not
-    /// have begun, and the one that events wait to be sorted) + the limiter or the board, whichever takes longer.
+    /// have begun, and the one that events wait to be sorted) + the limiter or the sinks, whichever takes longer.
     std::int64_t playOutFrames() const noexcept {
         const double seconds = longestGapSeconds + 2.0 / stepsPerSecond;
-        return blockFrames + framesUp(seconds) + std::max<std::int64_t>(limiterFrames, framesUp(boardSeconds));
+        return blockFrames + framesUp(seconds) + std::max<std::int64_t>(limiterFrames, framesUp(sinkSeconds));
     }
-    /// The same of what needs neither world nor board: the block in which it comes, and the limiter.
+    /// The same of what needs neither world nor sink: the block in which it comes, and the limiter.
     std::int64_t directFrames() const noexcept { return blockFrames + limiterFrames; }
     /// How far behind session time the world may be so that whatever it makes until it has caught up comes in time, even
     /// at the very end of a block: the longest gap and the step that may not have begun.

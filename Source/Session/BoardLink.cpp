@@ -48,7 +48,7 @@ std::int64_t BoardLink::nowNs() noexcept {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-BoardLink::BoardLink(std::string port) : wanted_{std::move(port)}, thread_{[this] { run(); }} {}
+BoardLink::BoardLink(std::string port) : wanted_{port == anyBoard ? std::string{} : std::move(port)}, thread_{[this] { run(); }} {}
 
 BoardLink::~BoardLink() {
     stop_ = true;

@@ -21,6 +21,9 @@
 
 namespace physvib {
 
+/// As a port: the first on which a board answers.
+inline constexpr const char* anyBoard = "auto";
+
 /// A moment of the link, for people.
 struct BoardLinkStatus {
     enum class State { searching, greeting, synchronising, ready };
@@ -48,7 +51,7 @@ class BoardLink {
 public:
     static constexpr std::int64_t sendAheadMs = 80; // the board holds 64 strikes, the line brings 58 in this time
 
-    /// `port`: a path, or empty: the first serial port on which a board answers. M.
+    /// `port`: a path, or anyBoard. M.
     explicit BoardLink(std::string port);
     ~BoardLink();
     BoardLink(const BoardLink&) = delete;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From session time and a panner to onsets and four amplitudes.
 #include "Session/BoardOutput.h"
+#include "Core/ClipNumber.h"
+#include "Session/BoardWords.h"
 #include <algorithm>
 
 namespace physvib {
@@ -12,26 +14,48 @@ constexpr std::int64_t spareNs = 2'000'000;     // with less to spare a leg is l
 
 } // namespace
 
-BoardOutput::BoardOutput(Session& session, FeltOutput& device, BoardLink& link, const PhantomPanner& panner)
-    : session_{session}
-    , told_{*session.told()}
-    , device_{device}
-    , link_{link}
-    , panner_{panner} {
+BoardOutput::BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds)
+    : link_{std::move(port)}
+    , latencySeconds_{latencySeconds}
+    , panner_{panner} {}
+
+std::string BoardOutput::awaitReady(const std::function<bool()>& goesOn) {
+    std::string fault = link_.awaitReady(goesOn);
+    const auto now = link_.status();
+    latencySeconds_ = std::max(latencySeconds_, now.playOutMs * 1e-3);
+    before_ = now.telemetry;
+    return fault;
+}
+
+void BoardOutput::follow(FeltOutput* device) {
+    if (device == device_) return;
+    link_.follow(nullptr);
+    device_ = device;
+    if (device == nullptr) return link_.stopAll();
     setGains();
     link_.follow(this);
 }
 
-BoardOutput::~BoardOutput() {
-    link_.follow(nullptr);
-    link_.stopAll();
+void BoardOutput::made(const CollisionEvent& event) noexcept {
+    if (!isClip(event.frequencyHz)) events_.push(event); // the board has no recordings; a full queue counts what nobody takes
 }
 
+SinkState BoardOutput::state() const {
+    SinkState state = sinkStateOf(link_.status());
+    state.lost += untold();
+    return state;
+}
+
+std::string BoardOutput::summary(const std::function<bool()>& goesOn) const { return boardSummary(link_, before_, goesOn); }
+
 void BoardOutput::feed() {
-    if (const FeltMoment felt = device_.felt(FeltReader::board); felt.steadyNs != 0) clock_.add(felt);
+    if (const FeltMoment felt = device_->felt(); felt.steadyNs != 0) {
+        clock_.add(felt);
+        rateHz_ = felt.sampleRateHz;
+    }
     if (clock_.isReady()) {
         takeControls();
-        for (CollisionEvent event; told_.events.pop(event);) {
+        for (CollisionEvent event; events_.pop(event);) {
             if (event.course.travelNs > 0 && isPlayable(event)) move(event);
             else strike(event);
         }
@@ -43,7 +67,7 @@ void BoardOutput::feed() {
 
 // A layout waits for the first event of its time, the others for the moment at which they are felt.
 void BoardOutput::takeControls() {
-    for (RenderControl control; told_.controls.pop(control);)
+    for (RenderControl control; controls_.pop(control);)
         (control.kind == RenderControl::Kind::panner ? layouts_ : others_).push_back(control);
     const std::int64_t now = BoardLink::nowNs();
     const auto waits = std::find_if(others_.begin(), others_.end(), [&](const auto& c) { return clock_.steadyAt(c.timeNs) > now; });
@@ -74,7 +98,7 @@ void BoardOutput::takeSteps() {
 void BoardOutput::move(const CollisionEvent& event) {
     const auto atOnce = std::count_if(paths_.begin(), paths_.end(), [&](const BoardPath& path) { return path.endNs() > event.timeNs; });
     const bool hasLegs = link_.playsLegs() && atOnce < mostPaths && 2 * event.frequencyHz < limits::board::sampleRateHz;
-    if (hasLegs) paths_.emplace_back(event, session_.sampleRateHz());
+    if (hasLegs) paths_.emplace_back(event, rateHz_);
     else steps_.emplace_back(event);
 }
 
@@ -108,7 +132,7 @@ void BoardOutput::sendLeg(BoardPath& path) {
 void BoardOutput::setGains() {
     std::array<double, limits::board::channels> wanted{};
     for (std::size_t j = 0; j < wanted.size(); ++j)
-        if (!device_.isSilent() && !muted_[j]) wanted[j] = device_.level() * gains_[j];
+        if (!device_->isSilent() && !muted_[j]) wanted[j] = device_->level() * gains_[j];
     if (wanted == sent_) return;
     sent_ = wanted;
     link_.setGains(wanted);

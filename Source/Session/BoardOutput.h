@@ -5,10 +5,12 @@
 // is. Both play the same events from the same panner; the device's master level and silence are the board's as well.
 // Controls act when they are felt on the device, but for strikes on their way to the board: a stop forgets those.
 #pragma once
+#include "Core/EventQueue.h"
+#include "Core/PhantomPanner.h"
 #include "Session/BoardLink.h"
 #include "Session/FeltClock.h"
 #include "Session/FeltOutput.h"
-#include "Session/Session.h"
+#include "Session/Sink.h"
 #include "Wire/BoardPath.h"
 #include "Wire/BoardSteps.h"
 #include <array>
@@ -17,17 +19,26 @@
 
 namespace physvib {
 
-/// Works on L while it lives.
-class BoardOutput final : private BoardSource {
+/// Works on L while it follows a device.
+class BoardOutput final : public Sink, private BoardSource {
 public:
-    /// All outlive it; the setup of `session` has its boardSeconds, its channels and this panner (of at most four). M.
-    BoardOutput(Session& session, FeltOutput& device, BoardLink& link, const PhantomPanner& panner);
+    /// The board at `port`, or anyBoard; `panner`: the session's, of at most four. It has to know what it plays
+    /// `latencySeconds` before, or as long as the link says when it is ready. M.
+    BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds = 0.0);
+    ~BoardOutput() override { follow(nullptr); }
 
-    /// What plays on the board stops. M.
-    ~BoardOutput() override;
+    std::string awaitReady(const std::function<bool()>& goesOn) override;
+    double latencySeconds() const noexcept override { return latencySeconds_; }
+    void follow(FeltOutput* device) override;
+    void made(const CollisionEvent& event) noexcept override;
+    void posted(const RenderControl& control) noexcept override { controls_.push(control); }
+    SinkState state() const override;
+    std::string summary(const std::function<bool()>& goesOn) const override;
 
     /// Collisions that the queue to the link had no room for. Any thread.
-    std::uint64_t untold() const noexcept { return told_.events.overflows() + told_.controls.overflows(); }
+    std::uint64_t untold() const noexcept { return events_.overflows() + controls_.overflows(); }
+    /// Any thread.
+    BoardLinkStatus status() const { return link_.status(); }
 
 private:
     void feed() override;
@@ -44,12 +55,15 @@ private:
 
     static constexpr std::ptrdiff_t mostPaths = limits::board::maxLegs / 2; // of each, the leg that sounds and the next
 
-    Session& session_;
-    ToldEvents& told_;
-    FeltOutput& device_;
-    BoardLink& link_;
+    BoardLink link_;
+    double latencySeconds_;
+    wire::Telemetry before_;                   // when it became ready: a board counts on from call to call
+    EventQueue<CollisionEvent, 1024> events_;  // in session time, as the renderer gets them; L reads
+    EventQueue<RenderControl, 256> controls_;
+    FeltOutput* device_ = nullptr;             // M, while L is not in feed()
 
     // L
+    int rateHz_ = 0; // of the session
     FeltClock clock_;
     PhantomPanner panner_;
     std::vector<RenderControl> layouts_, others_; // that wait for their time

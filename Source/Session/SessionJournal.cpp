@@ -29,9 +29,11 @@ SessionJournal::SessionJournal(std::filesystem::path path, Session& session, con
     if (!error_.empty()) return;
     write({});
     thread_ = std::thread{[this] { run(); }};
+    session_.sinks().attach(*this);
 }
 
 SessionJournal::~SessionJournal() {
+    session_.sinks().detach(*this);
     if (thread_.joinable()) end(session_.status().sessionNs);
 }
 
@@ -52,7 +54,7 @@ void SessionJournal::begin(const Provenance& provenance) {
         if (error_.empty()) error_ = error;
 }
 
-void SessionJournal::take(const PlayedEvent& played) {
+void SessionJournal::played(const PlayedEvent& played, int) {
     const std::lock_guard lock{mutex_};
     played_.push_back(played.event);
 }

@@ -21,18 +21,18 @@
 namespace physvib {
 
 /// All methods: M only.
-class SessionJournal {
+class SessionJournal final : public Sink {
 public:
     /// Saves `session`, which outlives this object and has its log read by nobody else, as `path` (.json), and the events played
     /// beside it as .events.csv. `setup` is what the session was made with, `provenance` stands in the list of events.
     SessionJournal(std::filesystem::path path, Session& session, const SessionSetup& setup, const Provenance& provenance);
-    ~SessionJournal();
+    ~SessionJournal() override;
 
     /// Empty, or why one of the files cannot be made; then neither has been touched.
     const std::string& error() const noexcept { return error_; }
 
-    /// An event that was played.
-    void take(const PlayedEvent& played);
+    void played(const PlayedEvent& played, int sampleRateHz) override;
+    SinkState state() const override { return {.name = "session file", .isReady = true, .trouble = news()}; }
 
     /// Empty, or one line: what keeps a file from growing now, or that it grows no more; the last one stands until there is
     /// another.

@@ -60,7 +60,6 @@ struct SessionSetup {
     Direct direct = Direct::no;
     std::optional<MarkedOnsets> marks{}; ///< pulses at onsets, on the last channel; nullopt: not made
     double longestGapSeconds = messageTimerGapSeconds;
-    double boardSeconds = 0.0; ///< of ClockLaw; above 0 the session tells what it makes (Session::told) for a BoardOutput
     std::vector<std::vector<Action>> groups; ///< what notes do; valid inputs of the scene
     LogUse log = LogUse::document;
 

@@ -15,7 +15,6 @@
 namespace physvib {
 namespace {
 
-using State = BoardLinkStatus::State;
 constexpr std::int64_t ms = 1'000'000;
 
 /// Plays on a fake interface in real time and notes when its hands begin to feel something. Its crystal is 200 ppm fast; it
@@ -67,16 +66,13 @@ private:
 /// A ball between walls, felt on a fake device and the virtual board.
 class BoardOutputTest : public testing::Test {
 protected:
-    SessionSetup wallsBesideABoard() const {
-        EXPECT_TRUE(test::comesTrue([this] { return link.status().state == State::ready && link.status().playOutMs > 0; }));
-        auto walls = test::setupOfWalls();
-        walls.boardSeconds = link.status().playOutMs * 1e-3 + 0.06; // more, as programs beside this one may hold it up
-        return walls;
-    }
     void SetUp() override {
+        ASSERT_EQ(output.awaitReady([] { return true; }), "");
+        ASSERT_LT(output.status().playOutMs, 1e3 * latency - 50);
+        session.sinks().attach(output);
         interface.block = 512; // which it is felt late by: 10.7 ms
         ASSERT_EQ(device.open({"hands", {}, 0, 0, 0.5f}), "");
-        output.emplace(session, device, link, setup.panner);
+        together.emplace(session.sinks(), device);
         hands.emplace(interface);
         driver.emplace(session, setup.stepsPerSecond);
         rest();
@@ -84,7 +80,7 @@ protected:
     void rest() const { std::this_thread::sleep_for(std::chrono::milliseconds(300)); }
     void push(int times) {
         for (int i = 0; i < times; ++i, ++pushes) {
-            EXPECT_EQ(session.act(test::pushOfBall(pushes)), "");
+            EXPECT_EQ(session.take({test::pushOfBall(pushes)}).error, "");
             std::this_thread::sleep_for(std::chrono::milliseconds(170 + 13 * (i % 5)));
         }
         rest();
@@ -96,13 +92,14 @@ protected:
         return onsets;
     }
 
+    static constexpr double latency = 0.12; // more than it needs, as programs beside this one may hold it up
     test::VirtualBoard board;
-    BoardLink link{board.port()};
-    SessionSetup setup = wallsBesideABoard();
+    SessionSetup setup = test::setupOfWalls();
+    BoardOutput output{board.port(), setup.panner, latency};
     Session session{setup};
     test::FakeInterface interface;
     AudioOutput device{session, test::fakeTypes({&interface})};
-    std::optional<BoardOutput> output;
+    std::optional<Following> together;
     std::optional<Hands> hands;
     std::optional<ThreadDriver> driver;
     int pushes = 0;
@@ -119,18 +116,18 @@ TEST_F(BoardOutputTest, ADeviceAndABoardAreFeltAtTheSameMoment) {
         worst = std::max(worst, std::abs(apart));
         sum += apart;
     }
-    const auto t = link.status().telemetry;
-    std::cout << felt.size() << " hits, L " << 1e3 * static_cast<double>(session.playOutFrames()) / interface.rate << " ms: the board " << sum / 30
+    const auto t = output.status().telemetry;
+    std::cout << felt.size() << " hits, L " << 1e3 * static_cast<double>(session.timeline().playOutFrames()) / interface.rate << " ms: the board " << sum / 30
               << " ms after the device on average, at most " << worst << " ms apart\n";
     EXPECT_LT(worst, 2.0);
     EXPECT_EQ(t.late + t.dropped + t.lost, 0u);
     EXPECT_EQ(session.status().render.late, 0u);
-    EXPECT_EQ(output->untold(), 0u);
+    EXPECT_EQ(output.untold(), 0u);
 }
 
 TEST_F(BoardOutputTest, SilenceAndMutesHoldForBoth) {
     const auto muteAll = [this](float value) {
-        for (int j = 0; j < 4; ++j) EXPECT_GE(session.post({.kind = RenderControl::Kind::mute, .channel = j, .value = value, .panner = {}}), 0);
+        for (int j = 0; j < 4; ++j) EXPECT_TRUE(session.take({RenderControl{.kind = RenderControl::Kind::mute, .channel = j, .value = value, .panner = {}}}));
         rest();
     };
     const auto expectHits = [this](std::size_t count) {

@@ -143,16 +143,16 @@ TEST(BoardLinkWithAFakeBoard, NeitherAWrongAnswerNorACounterThatIsOverMovesItsCl
 
 TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
     FakeBoard board{ours(), 0};
-    BoardLink link{board.port()};
     SessionSetup setup = test::setupOfWalls();
     setup.channels = 4;
-    setup.boardSeconds = 0.05;
+    BoardOutput onBoard{board.port(), setup.panner, 0.05};
     Session session{setup};
+    session.sinks().attach(onBoard);
     std::atomic<bool> interrupt{false};
     test::FakeInterface hands;
     AudioOutput output{session, test::fakeTypes({&hands}), &interrupt};
     output.setLevel(0.5f);
-    BoardOutput onBoard{session, output, link, setup.panner};
+    const Following together{session.sinks(), output};
     const int half = limits::board::amplitudeUnit / 2;
     EXPECT_TRUE(test::comesTrue([&] { return board.gain() == half; }));
     output.setSilent(true);
@@ -164,17 +164,18 @@ TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
 }
 
 /// From A to B to D in a second, on a session beside a fake device, until the board has been told to its end.
-void playPath(FakeBoard& board, BoardLink& link) {
-    ASSERT_TRUE(test::comesTrue([&] { return link.status().state == BoardLinkStatus::State::ready; }));
+BoardLinkStatus playPath(FakeBoard& board) {
     SessionSetup setup = test::setupOfWalls();
     setup.channels = 4;
-    setup.boardSeconds = 0.3; // other programs may hold this one up
+    BoardOutput onBoard{board.port(), setup.panner, 0.3}; // other programs may hold this one up
+    EXPECT_TRUE(test::comesTrue([&] { return onBoard.state().isReady; }));
     Session session{setup};
+    session.sinks().attach(onBoard);
     test::FakeInterface hands;
     hands.block = 480;
     AudioOutput output{session, test::fakeTypes({&hands})};
-    ASSERT_EQ(output.open({"hands", {}, 0, 0, 0.5f}), "");
-    BoardOutput onBoard{session, output, link, setup.panner};
+    EXPECT_EQ(output.open({"hands", {}, 0, 0, 0.5f}), "");
+    const Following together{session.sinks(), output};
     auto due = std::chrono::steady_clock::now(); // a device that keeps time, whatever else runs here
     const auto goOn = [&] {
         hands.play(hands.block);
@@ -192,26 +193,26 @@ void playPath(FakeBoard& board, BoardLink& link) {
     second.x = 4.0;
     second.durationNs = 600 * ms;
     second.course = {4.0, 0.0, second.durationNs, first.durationNs, Spread::equal};
-    ASSERT_TRUE(session.play(std::array{first, second}));
+    EXPECT_TRUE(session.take({Strikes{std::array{first, second}}}));
     EXPECT_TRUE(test::comesTrue([&] {
         goOn();
-        return session.presentNs() > 2'000 * ms;
+        return session.timeline().presentNs() > 2'000 * ms;
     }));
-    const auto now = link.status();
+    const auto now = onBoard.status();
     EXPECT_EQ(board.legs().size(), now.legs);
     EXPECT_EQ(board.strikes().size(), now.sent);
+    return now;
 }
 
 TEST(BoardLinkWithAFakeBoard, WhatMovesIsOneRowOfLegs) {
     FakeBoard board{ours(), 0};
-    BoardLink link{board.port()};
-    playPath(board, link);
+    const auto link = playPath(board);
     const auto legs = board.legs();
     EXPECT_TRUE(board.strikes().empty());
-    ASSERT_GE(legs.size() + link.status().refused, 24u);
+    ASSERT_GE(legs.size() + link.refused, 24u);
     for (std::size_t i = 1; i < legs.size(); ++i) {
         const BoardLeg &before = legs[i - 1], &leg = legs[i];
-        if (link.status().refused > 0) break; // other programs held this one up
+        if (link.refused > 0) break; // other programs held this one up
         EXPECT_EQ(leg.frame, before.frame + before.frames) << i;
         const auto phase = static_cast<std::uint16_t>(before.phase16 + (static_cast<std::uint64_t>(before.turn) * before.frames >> 16));
         EXPECT_LE(std::abs(static_cast<std::int16_t>(leg.phase16 - phase)), 2) << i << " goes on in the phase of the one before";
@@ -222,10 +223,9 @@ TEST(BoardLinkWithAFakeBoard, OnAnOlderBoardWhatMovesIsStillBursts) {
     auto reply = ours();
     reply.version = 1;
     FakeBoard board{reply, 0};
-    BoardLink link{board.port()};
-    playPath(board, link);
+    const auto link = playPath(board);
     EXPECT_TRUE(board.legs().empty());
-    ASSERT_GE(board.strikes().size() + link.status().refused + link.status().thinned, 17u);
+    ASSERT_GE(board.strikes().size() + link.refused + link.thinned, 17u);
     for (const auto& strike : board.strikes()) EXPECT_LE(strike.event.durationMs, 60);
 }
 

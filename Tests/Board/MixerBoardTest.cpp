@@ -21,7 +21,7 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     const auto boardText = [&] { return find(window.view(), "Board state")->getDescription(); };
-    const auto state = [&] { return window.desk().board() ? window.desk().board()->state : State::searching; };
+    const auto state = [&] { return window.desk().device().board() ? window.desk().device().board()->state : State::searching; };
     EXPECT_TRUE(runUntil([&] { return boardText().contains("Board: none"); }));
     window.view().tabs().choose("Output");
     auto* ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Board"));
@@ -34,7 +34,7 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     buttonOf(*asked, "Connect")->triggerClick();
 
     ASSERT_TRUE(runUntil([&] { return state() == State::ready; }));
-    ASSERT_TRUE(runUntil([&] { return window.desk().board()->sent > 5 && board.last("sound") > 0; }));
+    ASSERT_TRUE(runUntil([&] { return window.desk().device().board()->sent > 5 && board.last("sound") > 0; }));
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
     ASSERT_TRUE(runUntil([&] { return window.desk().trouble().isEmpty(); })) << window.desk().trouble();
 
@@ -49,10 +49,10 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
 
     board.start();
     ASSERT_TRUE(runUntil([&] { return state() == State::ready; }));
-    const auto sent = window.desk().board()->sent;
-    ASSERT_TRUE(runUntil([&] { return window.desk().board()->sent > sent + 3 && window.desk().trouble().isEmpty(); })) << window.desk().trouble();
+    const auto sent = window.desk().device().board()->sent;
+    ASSERT_TRUE(runUntil([&] { return window.desk().device().board()->sent > sent + 3 && window.desk().trouble().isEmpty(); })) << window.desk().trouble();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
-    EXPECT_EQ(window.desk().board()->connections, 2u);
+    EXPECT_EQ(window.desk().device().board()->connections, 2u);
 }
 
 TEST(MixerBoard, ThatDoesNotAnswerIsTold) {

@@ -11,7 +11,7 @@ using namespace physvib;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const std::unique_ptr<Session> session = fuzz::makeSession();
     static std::array<std::array<float, 256>, 4> samples;
-    const auto read = readInputLine(fuzz::asText(data, size), session->state().scene->materials, 4);
+    const auto read = readInputLine(fuzz::asText(data, size), session->world().state().scene->materials, 4);
     const auto* message = std::get_if<PlainMessage>(&read.value);
     if (message == nullptr) return 0;
     session->prepare(8000, 256);
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto answer = router.take(*message, nullptr, fuzz::anyClip);
     fuzz::demand(answer.error.size() < 600, "too long a message", answer.error);
     for (const char c : answer.error) fuzz::demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", answer.error);
-    fuzz::demand(answer || session->size().strikes == 0, "refused, and half done", answer.error);
+    fuzz::demand(answer || session->world().size().strikes == 0, "refused, and half done", answer.error);
     for (int block = 0; block < 4; ++block) {
         std::array<float*, 4> out{};
         for (std::size_t j = 0; j < out.size(); ++j) out[j] = samples[j].data();

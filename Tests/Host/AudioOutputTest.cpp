@@ -60,7 +60,7 @@ struct Rig {
         ASSERT_GT(log.size(), 10u);
         session.readLog(made);
         EXPECT_TRUE(log == runTakes(made.takes, setup.run(), log.back().timeNs + 1).events);
-        EXPECT_EQ(session.status().render.untold + session.status().render.rejected + session.drops(), 0u);
+        EXPECT_EQ(session.status().render.untold + session.status().render.rejected + session.world().drops(), 0u);
     }
 
     FakeInterface interface, speakers;
@@ -89,7 +89,7 @@ TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt)
     EXPECT_FALSE(rig.output.lend(&lent)) << "no device has run yet";
     ASSERT_EQ(rig.open(), "");
     rig.play(1.5, 64);
-    const auto before = rig.session.framesRendered();
+    const auto before = rig.session.timeline().framesRendered();
     ASSERT_TRUE(rig.output.lend(&lent));
     alone.prepare(48000, 64);
     std::vector<std::vector<float>> wanted(static_cast<std::size_t>(setup.channels), std::vector<float>(64));
@@ -106,10 +106,10 @@ TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt)
         for (const auto& channel : played) most = std::max(most, loudest(channel));
     }
     EXPECT_GT(most, 0.01f);
-    EXPECT_EQ(rig.session.framesRendered(), before) << "it stands still";
+    EXPECT_EQ(rig.session.timeline().framesRendered(), before) << "it stands still";
     ASSERT_TRUE(rig.output.lend(nullptr));
     rig.play(1.5, 64);
-    EXPECT_GT(rig.session.framesRendered(), before);
+    EXPECT_GT(rig.session.timeline().framesRendered(), before);
     rig.expectTheLogIsWhole();
 }
 
@@ -177,7 +177,7 @@ TEST(AudioOutput, WhatRingsFadesBeforeADeviceIsClosedAndOneThatIsGoneIsNotWaited
     tone.frequencyHz = 50;
     tone.durationNs = 60'000'000'000;
     tone.amplitude = 0.5;
-    ASSERT_TRUE(rig.session.play({&tone, 1}));
+    ASSERT_TRUE(rig.session.take({Strikes{{&tone, 1}}}));
     EXPECT_GT(loudest(rig.play(1.0, 64)[corner]), 0.01f);
     std::vector<float> heard;
     std::atomic<bool> stop{false};
@@ -245,14 +245,14 @@ TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
             rig.interface.block = block;
             ASSERT_EQ(rig.output.status().blocks == 0 ? rig.open() : rig.output.maintain(), "");
             EXPECT_EQ(rig.output.sampleRateHz(), static_cast<int>(rate));
-            EXPECT_GE(rig.session.post({.kind = RenderControl::Kind::panner, .panner = pannerOn(layout, setup.scene)}), 0);
+            EXPECT_TRUE(rig.session.take({RenderControl{.kind = RenderControl::Kind::panner, .panner = pannerOn(layout, setup.scene)}}));
             const auto out = rig.play(4.0, block);
             for (std::size_t k = 0; k < hands; ++k) most[k] = std::max(most[k], loudest(out[k]));
         }
         for (std::size_t k = 0; k < hands; ++k) EXPECT_LE(most[k], setup.ceilings[k]) << k;
         for (std::size_t k = 0; k < 4; ++k) EXPECT_GT(most[k], 0.9f * setup.ceilings[k]) << "loud enough for a test";
         for (std::size_t k = 4; k < hands; ++k) EXPECT_GT(most[k], 0.01f) << "played at all";
-        EXPECT_LT(rig.session.slippedNs(), 50'000'000) << "a longer block is no stall; a change that makes L shorter is one";
+        EXPECT_LT(rig.session.world().slippedNs(), 50'000'000) << "a longer block is no stall; a change that makes L shorter is one";
         EXPECT_LT(rig.session.status().render.late, 10u) << "the same";
         rig.expectTheLogIsWhole();
     }
@@ -287,10 +287,10 @@ TEST(AudioOutput, WithTheLimiterNothingIsLeftToClip) {
 TEST(AudioOutput, BlocksNeverAnnouncedAreCutInPartsAndThenCoveredByL) {
     Rig rig;
     ASSERT_EQ(rig.open(), "");
-    const auto L = rig.session.playOutFrames();
+    const auto L = rig.session.timeline().playOutFrames();
     EXPECT_NE(rig.play(0.1, 20'000), std::vector<std::vector<float>>{});
     EXPECT_EQ(rig.output.maintain(), "");
-    EXPECT_EQ(rig.session.playOutFrames(), L + limits::maxBlockFrames - 64);
+    EXPECT_EQ(rig.session.timeline().playOutFrames(), L + limits::maxBlockFrames - 64);
     rig.play(10.0, 8192);
     EXPECT_EQ(rig.output.maintain(), "");
     EXPECT_EQ(rig.session.status().render.late, 0u);

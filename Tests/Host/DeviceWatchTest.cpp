@@ -50,7 +50,7 @@ TEST(DeviceWatch, ADeviceThatWasOpenedAgainHasItsTwoSeconds) {
     Looks look;
     look.after(0s, 1);
     for (int i = 0; i < 3; ++i) look.after(1s, 0);
-    look.watch.begin(look.now);
+    look.watch.lose(look.now);
     EXPECT_FALSE(look.after(1s, 0));
     EXPECT_FALSE(look.after(1s, 0));
     EXPECT_TRUE(look.after(1s, 0));

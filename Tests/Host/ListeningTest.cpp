@@ -135,21 +135,21 @@ TEST(Listening, ARecordingIsHeardWhereThereIsOneFromTheFrameOfTheEnchantersOnset
     setup.contactSound = std::vector<ContactRecording>{{349.0, 48000, std::vector<float>(480, 1.0f)}};
     Rig rig{setup};
     ASSERT_EQ(rig.open(contactsOn({4}, -20.0)), "");
-    rig.session.setSlowness(0);
+    rig.session.world().setSlowness(0);
     rig.play(0.5);
     CollisionEvent hit;
     hit.frequencyHz = 349.0;
     hit.decayPerSecond = 50.0;
     hit.amplitude = 0.5;
     hit.timeNs = 123'456'789;
-    ASSERT_TRUE(rig.session.play(std::array{hit}));
+    ASSERT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
     auto out = rig.play(1.0);
     ASSERT_LT(onsetOf(out[2]), out[2].size()) << "lower left: enchanter C";
     EXPECT_EQ(onsetOf(out[felt]), onsetOf(out[2]));
     EXPECT_NEAR(peakOf(out[felt]), 0.05f, 1e-6f);
     EXPECT_EQ(out[felt][onsetOf(out[felt]) + 479], out[felt][onsetOf(out[felt])]) << "the recording, not a sine";
     hit.frequencyHz = 80.0;
-    ASSERT_TRUE(rig.session.play(std::array{hit}));
+    ASSERT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
     out = rig.play(1.0);
     EXPECT_EQ(onsetOf(out[felt]), onsetOf(out[2])) << "without a recording: the mode";
     for (std::size_t n = 0; n < out[2].size(); ++n) ASSERT_NEAR(out[felt][n], 0.1f * out[2][n], 1e-6f) << n;
@@ -158,15 +158,15 @@ TEST(Listening, ARecordingIsHeardWhereThereIsOneFromTheFrameOfTheEnchantersOnset
 TEST(Listening, StopsWithWhatIsFelt) {
     Rig rig{setupOn("phone1", true)};
     ASSERT_EQ(rig.open(contactsOn({3}, 0.0)), "");
-    rig.session.setSlowness(0);
+    rig.session.world().setSlowness(0);
     rig.play(0.2);
     CollisionEvent tone;
     tone.frequencyHz = 200.0;
     tone.amplitude = 0.5;
     tone.durationNs = 5'000'000'000;
-    ASSERT_TRUE(rig.session.play(std::array{tone}));
+    ASSERT_TRUE(rig.session.take({Strikes{std::array{tone}}}));
     rig.play(1.0);
-    ASSERT_GE(rig.session.post({0, RenderControl::Kind::stopAll, 0, 0.0f, {}}), 0);
+    ASSERT_TRUE(rig.session.take({RenderControl{0, RenderControl::Kind::stopAll, 0, 0.0f, {}}}));
     rig.play(0.5);
     EXPECT_LT(peakOf(rig.play(0.5)[1]), 1e-6f);
 }
@@ -214,7 +214,7 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
     setup.ears = 2;
     Rig rig{setup};
     ASSERT_EQ(rig.open(contactsOn({4, 5}, 0.0)), "");
-    rig.session.setSlowness(0);
+    rig.session.world().setSlowness(0);
     rig.play(0.2);
     const auto heardAt = [&](double x) {
         CollisionEvent hit;
@@ -222,7 +222,7 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
         hit.decayPerSecond = 50.0;
         hit.amplitude = 0.5;
         hit.x = x;
-        EXPECT_TRUE(rig.session.play(std::array{hit}));
+        EXPECT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
         const auto out = rig.play(1.0);
         return std::pair{peakOf(out[felt]), peakOf(out[felt + 1])};
     };
@@ -234,7 +234,7 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
     EXPECT_NEAR(left, leftOnly * std::sqrt(0.5f), 1e-4f);
     EXPECT_NEAR(left, right, 1e-6f);
     PhantomPanner wider{setup.panner.layout(), PanningLaw::linear, 1, 2.0 * width, setup.scene.fieldHeightMetres};
-    ASSERT_GE(rig.session.post({0, RenderControl::Kind::panner, 0, 0.0f, wider}), 0);
+    ASSERT_TRUE(rig.session.take({RenderControl{0, RenderControl::Kind::panner, 0, 0.0f, wider}}));
     rig.play(0.2);
     const auto [leftOfWider, rightOfWider] = heardAt(width);
     EXPECT_NEAR(leftOfWider, rightOfWider, 1e-4f) << "in the middle of the new field";
@@ -260,12 +260,12 @@ TEST(Listening, MarksStandAtTheOnsetsOnTheirOutputAndNeitherLevelNorCeilingMoves
     ASSERT_EQ(rig.open(all), "");
     ASSERT_EQ(quiet.open(marksOn({5})), "");
     quiet.output.setLevel(0.0f);
-    quiet.session.post({0, RenderControl::Kind::mute, 0, 1.0f, {}});
+    quiet.session.take({RenderControl{0, RenderControl::Kind::mute, 0, 1.0f, {}}});
     const auto out = rig.play(6.0), muted = quiet.play(6.0);
     ASSERT_EQ(out.size(), 3u);
     EXPECT_EQ(out[2], muted[1]);
     EXPECT_EQ(peakOf(muted[0]), 0.0f);
-    EXPECT_GT(rig.session.marks()->made(), 5u);
+    EXPECT_GT(rig.session.rendered().marks()->made(), 5u);
     std::size_t edge = 0;
     while (out[2][edge] == 0.0f) ++edge;
     EXPECT_EQ(out[2][edge], 1.0f);
@@ -275,15 +275,15 @@ TEST(Listening, MarksStandAtTheOnsetsOnTheirOutputAndNeitherLevelNorCeilingMoves
 TEST(Listening, WhatIsSilencedIsNotMarkedAndNoPulseBeginsInItsMiddle) {
     Rig rig{marked()};
     ASSERT_EQ(rig.open(marksOn({2})), "");
-    rig.session.setSlowness(0);
+    rig.session.world().setSlowness(0);
     rig.play(0.2);
     CollisionEvent hit;
     hit.frequencyHz = 205.0;
     hit.decayPerSecond = 50.0;
     hit.amplitude = 0.5;
     const auto marksAfter = [&](bool isSilentAtFirst) {
-        EXPECT_TRUE(rig.session.play(std::array{hit}));
-        const auto blocks = static_cast<int>(rig.session.playOutFrames() / blockFrames); // the pulse of 96 frames begins in the last of these
+        EXPECT_TRUE(rig.session.take({Strikes{std::array{hit}}}));
+        const auto blocks = static_cast<int>(rig.session.timeline().playOutFrames() / blockFrames); // the pulse of 96 frames begins in the last of these
         float most = 0.0f;
         for (int b = 0; b < blocks + 20; ++b) {
             rig.output.setSilent(isSilentAtFirst && b <= blocks);

@@ -99,7 +99,7 @@ TEST_F(Recordings, WhatHasNoneIsRejectedAndWhereThereAreNoneItPlaysItsMode) {
         Session session{setup};
         const auto isRejected = [&] {
             const auto before = session.status().render.rejected;
-            EXPECT_TRUE(session.play({&strike, 1}));
+            EXPECT_TRUE(session.take({Strikes{{&strike, 1}}}));
             Block block;
             for (int i = 0; i < 40; ++i) session.advance(), session.render(block.at.data(), 256, RenderMode::realtime);
             EXPECT_EQ(drain(session).size(), session.status().render.rejected == before ? 1u : 0u);
@@ -109,7 +109,7 @@ TEST_F(Recordings, WhatHasNoneIsRejectedAndWhereThereAreNoneItPlaysItsMode) {
         EXPECT_EQ(isRejected(), hasOther);
         session.resume(hostRate, 256);
         EXPECT_EQ(isRejected(), hasOther);
-        EXPECT_GE(session.useRecordings(hasOther ? none : other), 0);
+        EXPECT_TRUE(session.take({PlayedRecordings{hasOther ? none : other}}));
         EXPECT_EQ(isRejected(), !hasOther);
     }
 }
@@ -120,8 +120,8 @@ Interleaved playExchanging(Session& session, const std::vector<ContactRecording>
     Interleaved signal;
     session.prepare(hostRate, 256);
     for (std::int64_t done = 0; done < frames; done += 250) {
-        if (done == frames / 4) { EXPECT_GE(session.useRecordings(others), 0); }
-        if (done == frames * 3 / 4) { EXPECT_GE(session.useRecordings({}), 0); }
+        if (done == frames / 4) { EXPECT_TRUE(session.take({PlayedRecordings{others}})); }
+        if (done == frames * 3 / 4) { EXPECT_TRUE(session.take({PlayedRecordings{{}}})); }
         session.advance();
         session.render(block.at.data(), 250, RenderMode::realtime);
         append(signal, block.at.data(), 250);
@@ -161,14 +161,14 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
     ASSERT_TRUE(saved) << saved.error;
     ASSERT_EQ(saved.value.log.recordings.size(), 3u);
     const std::string wav = (folder / "again.wav").string();
-    const std::int64_t rendered = frames - session.playOutFrames();
+    const std::int64_t rendered = frames - session.timeline().playOutFrames();
     ASSERT_EQ(renderSessionWav(saved.value, {hostRate, static_cast<double>(rendered) / hostRate, [](double) { return true; }}, wav, ""), "");
     const auto again = readRecording(wav);
     ASSERT_TRUE(again) << again.error;
     float loudest = 0.0f;
     for (std::int64_t n = 0; n < rendered; ++n)
         for (std::size_t j = 0; j < hostChannels; ++j) {
-            const float now = felt[static_cast<std::size_t>((n + session.playOutFrames()) * hostChannels) + j];
+            const float now = felt[static_cast<std::size_t>((n + session.timeline().playOutFrames()) * hostChannels) + j];
             loudest = std::max(loudest, std::abs(now));
             ASSERT_EQ(again.value.channels[j][static_cast<std::size_t>(n)], now) << "frame " << n << " of channel " << j;
         }

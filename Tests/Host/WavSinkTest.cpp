@@ -148,8 +148,8 @@ TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {
     EXPECT_FALSE(recorder.beginsSeconds());
     const std::vector<float> block(480, 0.5f);
     const float* const channels[] = {block.data()};
-    recorder.take(channels, 480, 960);
-    recorder.take(channels, 480, 1440);
+    recorder.rendered({channels, 480, 960, rateHz});
+    recorder.rendered({channels, 480, 1440, rateHz});
     ASSERT_EQ(recorder.finish(), "");
     EXPECT_EQ(recorder.beginsSeconds(), -0.03);
     const auto bytes = bytesOf(path);

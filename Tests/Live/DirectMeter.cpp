@@ -26,10 +26,10 @@ std::vector<Asked> ask(Session& session, int times) {
     std::vector<Asked> all;
     for (int i = 0; i < times; ++i) {
         std::this_thread::sleep_for(std::chrono::microseconds{50'000 + random() % 40'000});
-        const std::int64_t before = session.framesRendered();
+        const std::int64_t before = session.timeline().framesRendered();
         const auto told = router.take({"strike", {{"frequency_hz", 205.0}, {"decay_per_s", 120.0}, {"place", std::string{"A"}}}});
         if (!told) std::puts(told.error.c_str());
-        all.push_back({before, session.framesRendered()});
+        all.push_back({before, session.timeline().framesRendered()});
     }
     return all;
 }
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
     const auto& struck = saved.log.strikes;
     if (!result.isAligned || static_cast<int>(struck.size()) != messages) return std::printf("%zu strikes of %d messages, or they are not what was recorded\n", struck.size(), messages), 1;
-    const std::int64_t measured = client.firstFrame + result.offset, direct = std::llround(session.directSeconds() * client.rate);
+    const std::int64_t measured = client.firstFrame + result.offset, direct = std::llround(session.timeline().directSeconds() * client.rate);
     int exact = 0;
     for (int i = 0; i < messages; ++i) {
         const auto heard = FrameClock{client.rate}.at(struck[static_cast<std::size_t>(i)].timeNs).frame + measured;
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
         exact += heard >= before + direct && heard <= after + direct ? 1 : 0;
     }
     const auto ms = [&](std::int64_t frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
-    std::printf("%d messages, blocks of %d: L %.2f ms, direct %.2f ms; heard that long after they came: %d; %llu late\n", messages, client.block, ms(session.playOutFrames()), ms(direct), exact,
+    std::printf("%d messages, blocks of %d: L %.2f ms, direct %.2f ms; heard that long after they came: %d; %llu late\n", messages, client.block, ms(session.timeline().playOutFrames()), ms(direct), exact,
                 static_cast<unsigned long long>(session.status().render.late));
     return exact == messages ? 0 : 1;
 }

@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
     if (!result.isAligned) return std::puts("the recording is not the render"), 1;
     const auto ms = [&](std::int64_t frames) { return 1e3 * static_cast<double>(frames) / client.rate; };
-    const std::int64_t measured = client.firstFrame + result.offset, law = session.playOutFrames();
+    const std::int64_t measured = client.firstFrame + result.offset, law = session.timeline().playOutFrames();
     std::printf("| `%s` | %d | %lld (%.1f ms) | %lld (%.1f ms) | %d (%.1f ms) | %.1f ms | %llu of %llu |\n", driverName.c_str(), client.block, static_cast<long long>(law),
                 ms(law), static_cast<long long>(measured), ms(measured), client.playbackLatencyFrames(), ms(client.playbackLatencyFrames()),
                 ms(measured + client.playbackLatencyFrames()), static_cast<unsigned long long>(session.status().render.late),

@@ -20,7 +20,7 @@ std::vector<std::int64_t> push(Session& session, const test::MeterClient& client
     for (int i = 0; i < times; ++i) {
         std::this_thread::sleep_for(std::chrono::microseconds{80'000 + random() % 40'000});
         frames.push_back(client.sessionFrame);
-        if (const auto fault = session.act(test::pushOfBall(i)); !fault.empty()) std::puts(fault.c_str());
+        if (const auto fault = session.take({test::pushOfBall(i)}).error; !fault.empty()) std::puts(fault.c_str());
     }
     return frames;
 }
@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
     const auto result = test::RecordingRuns{client.recording, render, client.block}.compare();
     const bool isWhole = result.isAligned && static_cast<int>(made.events.size()) == pushes;
     if (!isWhole) return std::printf("%zu hits after %d pushes, or they are not what was recorded\n", made.events.size(), pushes), 1;
-    const std::int64_t law = session.playOutFrames(), measured = client.firstFrame + result.offset;
+    const std::int64_t law = session.timeline().playOutFrames(), measured = client.firstFrame + result.offset;
     std::int64_t sum = 0, most = 0;
     for (int i = 0; i < pushes; ++i) {
         const auto heard = FrameClock{client.rate}.at(made.events[static_cast<std::size_t>(i)].timeNs).frame + measured;

@@ -60,15 +60,15 @@ TEST_F(DeskClipsTest, InTheFieldAClipIsFeltAtThatPlace) {
     const auto edits = desk.edits();
     drop(field, knocks, field.placeOfShare({0.3, 0.6}));
     const auto clip = felt();
-    EXPECT_NEAR(clip.x, 0.3 * desk.sceneNow().fieldWidthMetres, 0.02);
-    EXPECT_NEAR(clip.y, 0.6 * desk.sceneNow().fieldHeightMetres, 0.02);
+    EXPECT_NEAR(clip.x, 0.3 * desk.world().scene().fieldWidthMetres, 0.02);
+    EXPECT_NEAR(clip.y, 0.6 * desk.world().scene().fieldHeightMetres, 0.02);
     EXPECT_EQ(clip.course.spread, Spread::layout);
     EXPECT_TRUE(runUntil([&] { return desk.edits() > edits; })) << "the document has to be saved";
     EXPECT_EQ(desk.trouble(), "");
 }
 
 TEST_F(DeskClipsTest, OnABadgeOrAStripItIsFeltOnThatEnchanterAlone) {
-    const double width = desk.sceneNow().fieldWidthMetres, height = desk.sceneNow().fieldHeightMetres;
+    const double width = desk.world().scene().fieldWidthMetres, height = desk.world().scene().fieldHeightMetres;
     drop(field, knocks, field.placeOfEnchanter(1) + juce::Point<float>{5.0f, 5.0f});
     const auto onB = felt();
     EXPECT_EQ(onB.course.spread, Spread::alone);
@@ -93,7 +93,7 @@ TEST_F(DeskClipsTest, RefusalsAreOneLine) {
         EXPECT_FALSE(target->isInterestedInFileDrag({"session.json"})) << "documents are the window's";
     EXPECT_TRUE(desk.saved().log.clips.empty());
     SessionSetup setup;
-    setup.scene = desk.sceneNow();
+    setup.scene = desk.world().scene();
     setup.panner = desk.mix().panner();
     Session study{setup};
     ASSERT_TRUE(desk.output().lend(&study));

@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 
 void send(Desk& desk, const std::string& address, std::vector<NamedValue> values) {
-    auto socket = OscSocket::connected(desk.osc()->address);
+    auto socket = OscSocket::connected(desk.inputs().status()->address);
     ASSERT_EQ(socket.error, "");
     EXPECT_TRUE(socket.value.send(oscPacket(address, {"", std::move(values)})));
 }
@@ -23,14 +23,14 @@ const Fact& messagesOf(OutputTab& tab, Desk& desk) {
 
 TEST(DeskOsc, ListensToNobodyUnlessTold) {
     Desk desk{onlyNoDevice(), noDevice};
-    EXPECT_EQ(desk.oscChoice().use, OscUse::off);
-    EXPECT_FALSE(desk.osc().has_value());
+    EXPECT_EQ(desk.inputs().choice().use, OscUse::off);
+    EXPECT_FALSE(desk.inputs().status().has_value());
     OutputTab tab{desk};
     EXPECT_EQ(messagesOf(tab, desk).value, "none");
-    EXPECT_EQ(desk.useOsc({OscUse::thisComputer}), "");
-    EXPECT_TRUE(desk.osc()->address.starts_with("127.0.0.1:"));
-    EXPECT_EQ(desk.useOsc({OscUse::off}), "");
-    EXPECT_FALSE(desk.osc().has_value());
+    EXPECT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
+    EXPECT_TRUE(desk.inputs().status()->address.starts_with("127.0.0.1:"));
+    EXPECT_EQ(desk.inputs().use({OscUse::off}), "");
+    EXPECT_FALSE(desk.inputs().status().has_value());
 }
 
 TEST(DeskOsc, IsSwitchedInTheOutputTab) {
@@ -39,20 +39,20 @@ TEST(DeskOsc, IsSwitchedInTheOutputTab) {
     auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "OSC"));
     EXPECT_EQ(box.getText(), "from nobody");
     box.setSelectedItemIndex(1, juce::sendNotificationSync);
-    EXPECT_EQ(desk.oscChoice().use, OscUse::thisComputer);
+    EXPECT_EQ(desk.inputs().choice().use, OscUse::thisComputer);
     send(desk, "/physvib/strike", {{"frequency_hz", 200.0}, {"decay_per_s", 30.0}});
     send(desk, "/physvib/strike", {{"level", 2.0}});
-    ASSERT_TRUE(runUntil([&] { return desk.osc()->counts.messages == 2; }));
+    ASSERT_TRUE(runUntil([&] { return desk.inputs().status()->counts.messages == 2; }));
     const Fact& told = messagesOf(tab, desk);
-    EXPECT_TRUE(told.value.startsWith(utf8(desk.osc()->address) + ": 1 good, 1 bad, 0 late; 127.0.0.1:")) << told.value;
+    EXPECT_TRUE(told.value.startsWith(utf8(desk.inputs().status()->address) + ": 1 good, 1 bad, 0 late; 127.0.0.1:")) << told.value;
     EXPECT_EQ(told.shade, Shade::now);
     box.setSelectedItemIndex(0, juce::sendNotificationSync);
-    EXPECT_EQ(desk.oscChoice().use, OscUse::off);
+    EXPECT_EQ(desk.inputs().choice().use, OscUse::off);
 }
 
 TEST(DeskOsc, WhatStrikesIsFeltAndSaved) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    ASSERT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
     desk.look();
     const auto edits = desk.edits();
     send(desk, "/physvib/strike", {{"frequency_hz", 123.0}, {"decay_per_s", 30.0}});
@@ -63,7 +63,7 @@ TEST(DeskOsc, WhatStrikesIsFeltAndSaved) {
 
 TEST(DeskOsc, StripsAndSilenceAreMovedAtTheDesk) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    ASSERT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
     send(desk, "/physvib/gain", {{"channel", 2.0}, {"value", 0.5}});
     send(desk, "/physvib/mute", {{"channel", 1.0}, {"on", 1.0}});
     send(desk, "/physvib/silence", {{"on", 1.0}});
@@ -75,39 +75,39 @@ TEST(DeskOsc, StripsAndSilenceAreMovedAtTheDesk) {
     EXPECT_EQ(desk.mix().strips[1].gainDb, 0.0);
     send(desk, "/physvib/delay", {{"channel", 1.0}, {"seconds", 0.01}});
     send(desk, "/physvib/mute", {{"channel", 9.0}, {"on", 1.0}});
-    EXPECT_TRUE(runUntil([&] { return desk.osc()->counts.refused == 3; }));
+    EXPECT_TRUE(runUntil([&] { return desk.inputs().status()->counts.refused == 3; }));
 }
 
 // The window's thread does nothing here: what is for it waits, and is refused at last.
 TEST(DeskOsc, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    ASSERT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
     const auto comes = [&](auto isTrue) {
         for (int k = 0; k < 6000 && !isTrue(); ++k)
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
         return isTrue();
     };
-    auto socket = OscSocket::connected(desk.osc()->address);
+    auto socket = OscSocket::connected(desk.inputs().status()->address);
     const auto mute = oscPacket("/physvib/mute", {"", {{"channel", 1.0}, {"on", 1.0}}});
     for (std::uint64_t k = 0; k < 1200; k += 100) { // the system's buffer is small
         for (int one = 0; one < 100; ++one) socket.value.send(mute);
-        ASSERT_TRUE(comes([&] { return desk.osc()->counts.messages == k + 100; }));
+        ASSERT_TRUE(comes([&] { return desk.inputs().status()->counts.messages == k + 100; }));
     }
-    ASSERT_EQ(desk.osc()->counts.refused, 200U);
-    EXPECT_EQ(desk.osc()->counts.fault.substr(desk.osc()->counts.fault.find(": ") + 2),
+    ASSERT_EQ(desk.inputs().status()->counts.refused, 200U);
+    EXPECT_EQ(desk.inputs().status()->counts.fault.substr(desk.inputs().status()->counts.fault.find(": ") + 2),
               "too many inputs at once");
     EXPECT_TRUE(socket.value.send(oscPacket("/physvib/silence", {"", {{"on", 1.0}}})));
     EXPECT_TRUE(comes([&] { return desk.output().isSilent(); }));
-    ASSERT_TRUE(comes([&] { return desk.osc()->counts.messages == 1201; }));
-    EXPECT_EQ(desk.osc()->counts.refused, 200U) << "silence is never refused for want of room";
+    ASSERT_TRUE(comes([&] { return desk.inputs().status()->counts.messages == 1201; }));
+    EXPECT_EQ(desk.inputs().status()->counts.refused, 200U) << "silence is never refused for want of room";
     EXPECT_FALSE(desk.isSilent()) << "not yet shown";
     EXPECT_TRUE(runUntil([&] { return desk.look(), desk.isSilent(); }));
 }
 
 TEST(DeskOsc, WhatTheDeskRefusesIsToldToItsSender) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
-    auto socket = OscSocket::connected(desk.osc()->address);
+    ASSERT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
+    auto socket = OscSocket::connected(desk.inputs().status()->address);
     using namespace std::string_literals;
     ASSERT_TRUE(socket.value.send(oscPacket("/physvib/impulse", {"", {{"body", "nobody"s}, {"impulse_ns", std::vector{0.0, 1.0}}}})));
     ASSERT_TRUE(runUntil([&] { return socket.value.wait(0); }));
@@ -119,18 +119,18 @@ TEST(DeskOsc, WhatTheDeskRefusesIsToldToItsSender) {
 
 TEST(DeskOsc, WhatAPersonSilencedIsLiftedAtTheMachineAlone) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    ASSERT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
     const auto taken = [&](std::uint64_t messages) {
         return runUntil([&] {
-            return desk.osc()->counts.messages == messages && desk.osc()->counts.refused == messages - 1;
+            return desk.inputs().status()->counts.messages == messages && desk.inputs().status()->counts.refused == messages - 1;
         });
     };
     desk.setSilent(true);
     send(desk, "/physvib/silence", {{"on", 1.0}});
-    ASSERT_TRUE(runUntil([&] { return desk.osc()->counts.messages == 1; }));
+    ASSERT_TRUE(runUntil([&] { return desk.inputs().status()->counts.messages == 1; }));
     send(desk, "/physvib/silence", {{"on", 0.0}});
     EXPECT_TRUE(taken(2)) << "that it did not help is said";
-    EXPECT_EQ(desk.osc()->counts.fault, "silence: still asked for at the machine");
+    EXPECT_EQ(desk.inputs().status()->counts.fault, "silence: still asked for at the machine");
     EXPECT_TRUE(desk.isSilent());
     EXPECT_TRUE(desk.output().isSilent());
     desk.setSilent(false);
@@ -144,8 +144,8 @@ TEST(DeskOsc, WhatAPersonSilencedIsLiftedAtTheMachineAlone) {
 
 TEST(DeskOsc, APhoneTiltsTheWorld) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
-    auto socket = OscSocket::connected(desk.osc()->address);
+    ASSERT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
+    auto socket = OscSocket::connected(desk.inputs().status()->address);
     using namespace std::string_literals;
     const auto upsideDown = "/accelerometer\0\0,fff\0\0\0\0\0\0\0\0\xc1\x1c\xf5\xc3\0\0\0\0"s; // y: -9.81
     EXPECT_TRUE(socket.value.send({upsideDown.data(), upsideDown.size()}));
@@ -156,7 +156,7 @@ TEST(DeskOsc, APhoneTiltsTheWorld) {
             return gravity != nullptr && gravity->metresPerSecond2.y > 9.8;
         });
     }));
-    EXPECT_EQ(desk.osc()->counts.fault, "");
+    EXPECT_EQ(desk.inputs().status()->counts.fault, "");
 }
 
 TEST(DeskOsc, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
@@ -168,7 +168,7 @@ TEST(DeskOsc, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
     EXPECT_EQ(box.getText(), "nobody");
     tab.tellHits("127.0.0.1:" + juce::String{receiver.value.port()});
     EXPECT_EQ(desk.trouble(), "");
-    EXPECT_EQ(desk.oscChoice().use, OscUse::off) << "to tell is not to listen";
+    EXPECT_EQ(desk.inputs().choice().use, OscUse::off) << "to tell is not to listen";
     std::vector<OscMessage> told;
     const auto hasTold = [&](const std::string& address) {
         while (const auto packet = receiver.value.receive())
@@ -185,20 +185,20 @@ TEST(DeskOsc, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
     EXPECT_TRUE(std::ranges::any_of(desk.look().hits, [hz](const CollisionEvent& e) { return static_cast<float>(e.frequencyHz) == hz; })) << "what was told is still shown";
     EXPECT_TRUE(messagesOf(tab, desk).value.startsWith("to 127.0.0.1:")) << messagesOf(tab, desk).value;
     box.setSelectedItemIndex(0, juce::sendNotificationSync);
-    EXPECT_FALSE(desk.osc().has_value());
+    EXPECT_FALSE(desk.inputs().status().has_value());
     box.setSelectedItemIndex(1, juce::sendNotificationSync);
-    EXPECT_EQ(desk.oscChoice().receiver, "127.0.0.1:" + std::to_string(receiver.value.port())) << "it stays in the list";
+    EXPECT_EQ(desk.inputs().choice().receiver, "127.0.0.1:" + std::to_string(receiver.value.port())) << "it stays in the list";
 }
 
 TEST(DeskOsc, AWrongReceiverIsRefusedAndAllIsAsBefore) {
     Desk desk{onlyNoDevice(), noDevice};
-    ASSERT_EQ(desk.useOsc({OscUse::thisComputer}), "");
+    ASSERT_EQ(desk.inputs().use({OscUse::thisComputer}), "");
     OutputTab tab{desk};
     auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "Hits by OSC"));
     tab.tellHits("my laptop");
     EXPECT_EQ(desk.trouble(), "Hits by OSC: expected HOST:PORT, found \"my laptop\"");
     EXPECT_EQ(box.getText(), "nobody");
-    EXPECT_EQ(desk.oscChoice(), OscChoice{OscUse::thisComputer});
+    EXPECT_EQ(desk.inputs().choice(), OscChoice{OscUse::thisComputer});
     send(desk, "/physvib/silence", {{"on", 1.0}});
     EXPECT_TRUE(runUntil([&] { return desk.isSilent(); }));
 }
@@ -208,8 +208,8 @@ TEST(DeskOsc, APhoneMayBeHeldOnItsSide) {
     OutputTab tab{desk};
     dynamic_cast<juce::ComboBox&>(*find(tab, "OSC")).setSelectedItemIndex(1, juce::sendNotificationSync);
     dynamic_cast<juce::ComboBox&>(*find(tab, "Phone")).setSelectedItemIndex(1, juce::sendNotificationSync);
-    EXPECT_EQ(desk.oscChoice(), (OscChoice{OscUse::thisComputer, {}, 90.0}));
-    auto socket = OscSocket::connected(desk.osc()->address);
+    EXPECT_EQ(desk.inputs().choice(), (OscChoice{OscUse::thisComputer, {}, 90.0}));
+    auto socket = OscSocket::connected(desk.inputs().status()->address);
     using namespace std::string_literals;
     const auto topToTheLeft = "/accelerometer\0\0,fff\0\0\0\0\x41\x1c\xf5\xc3\0\0\0\0\0\0\0\0"s; // x: 9.81
     EXPECT_TRUE(socket.value.send({topToTheLeft.data(), topToTheLeft.size()}));

@@ -50,7 +50,7 @@ TEST(Desk, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
     Desk desk{onlyNoDevice(), noDevice};
     desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
     desk.change("Ceiling of A", [](Mix& mix) { mix.strips[0].ceilingDb = -30.0; });
-    for (int k = 0; k < 4; ++k) desk.testPulse(0); // 2 of full scale together
+    for (int k = 0; k < 4; ++k) desk.strikes().testPulse(0); // 2 of full scale together
     float highest = 0.0f;
     ASSERT_TRUE(runUntil([&] {
         highest = std::max(highest, desk.look().holds[0]);
@@ -87,19 +87,19 @@ TEST(Desk, BodiesComeGoAndChangeAndAllOfItCanBeUndone) {
     ball.name = "?";
     ball.positionMetres = {3.0, 2.0};
     ball.fixtures.push_back({CircleShape{0.15}, {}, 0.0, 0, false, Voice::own});
-    EXPECT_EQ(desk.editWorld("Add", SpawnAction{ball, {}}), "");
-    ASSERT_EQ(desk.sceneNow().inputs.size(), 1u);
-    const auto added = std::get<SpawnAction>(desk.sceneNow().inputs[0].action).body.name;
-    EXPECT_EQ(desk.editWorld("Material", MaterialAction{added, everyFixture, 2}), "");
-    EXPECT_EQ(std::get<SpawnAction>(desk.sceneNow().inputs[0].action).body.fixtures[0].material, 2);
+    EXPECT_EQ(desk.world().edit("Add", SpawnAction{ball, {}}), "");
+    ASSERT_EQ(desk.world().scene().inputs.size(), 1u);
+    const auto added = std::get<SpawnAction>(desk.world().scene().inputs[0].action).body.name;
+    EXPECT_EQ(desk.world().edit("Material", MaterialAction{added, everyFixture, 2}), "");
+    EXPECT_EQ(std::get<SpawnAction>(desk.world().scene().inputs[0].action).body.fixtures[0].material, 2);
     desk.undoManager().undo();
-    EXPECT_EQ(std::get<SpawnAction>(desk.sceneNow().inputs[0].action).body.fixtures[0].material, 0);
+    EXPECT_EQ(std::get<SpawnAction>(desk.world().scene().inputs[0].action).body.fixtures[0].material, 0);
     desk.undoManager().undo();
     ASSERT_TRUE(runUntil([&] {
         const auto moment = desk.look();
         return !moment.poses.empty() && !moment.poses.back().isPresent;
     }));
-    EXPECT_NE(desk.editWorld("Material", MaterialAction{"floor", everyFixture, 99}), "") << "what cannot be is told, not done";
+    EXPECT_NE(desk.world().edit("Material", MaterialAction{"floor", everyFixture, 99}), "") << "what cannot be is told, not done";
     EXPECT_FALSE(desk.undoManager().canUndo());
 }
 
@@ -172,23 +172,23 @@ TEST(Desk, TheMonitorIsHeardWhereNoEnchanterIsAndGivesWayToOne) {
     FakeInterface hands;
     Desk desk{fakeTypes({&hands}), {.name = "Fake:hands", .monitor = {2, 3}, .marker = 1}};
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble() << ": an enchanter is there, and is felt";
-    EXPECT_TRUE(desk.listening().contacts.empty());
-    EXPECT_TRUE(desk.listening().marks.empty());
-    EXPECT_EQ(desk.monitor({4, 3}, -20.0), "output 4 is an enchanter's; expected another one to listen to");
-    EXPECT_EQ(desk.mark(2), "output 3 is an enchanter's; expected another one for marks");
-    ASSERT_EQ(desk.monitor({4, 5}, -10.0), "");
-    EXPECT_EQ(desk.mark(5), "output 6 is listened to; expected another one for marks");
+    EXPECT_TRUE(desk.device().listening().settings().contacts.empty());
+    EXPECT_TRUE(desk.device().listening().settings().marks.empty());
+    EXPECT_EQ(desk.device().listening().monitor({4, 3}, -20.0), "output 4 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(desk.device().listening().mark(2), "output 3 is an enchanter's; expected another one for marks");
+    ASSERT_EQ(desk.device().listening().monitor({4, 5}, -10.0), "");
+    EXPECT_EQ(desk.device().listening().mark(5), "output 6 is listened to; expected another one for marks");
     desk.change("Output", [](Mix& mix) { mix.strips[1].output = 6; });
-    EXPECT_EQ(desk.listening().marks, std::vector{1}) << "it was wanted there, and may be now";
+    EXPECT_EQ(desk.device().listening().settings().marks, std::vector{1}) << "it was wanted there, and may be now";
 }
 
 TEST(Desk, TheMonitorIsChosenHeardSavedWithTheDeviceAndUndoneForHands) {
     FakeInterface hands;
     Desk desk{fakeTypes({&hands}), {"Fake:hands", 0, 0}};
-    ASSERT_EQ(desk.monitor({4, 5}, 0.0), "");
-    ASSERT_EQ(desk.mark(7), "");
-    EXPECT_EQ(desk.device().monitor, (std::vector{4, 5}));
-    EXPECT_EQ(desk.device().marker, 7);
+    ASSERT_EQ(desk.device().listening().monitor({4, 5}, 0.0), "");
+    ASSERT_EQ(desk.device().listening().mark(7), "");
+    EXPECT_EQ(desk.device().choice().monitor, (std::vector{4, 5}));
+    EXPECT_EQ(desk.device().choice().marker, 7);
     float heard = 0.0f, marked = 0.0f;
     EXPECT_TRUE(runUntil([&] {
         desk.look();
@@ -199,23 +199,23 @@ TEST(Desk, TheMonitorIsChosenHeardSavedWithTheDeviceAndUndoneForHands) {
     }));
     desk.change("Output", [](Mix& mix) { mix.strips[0].output = 5; });
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble();
-    EXPECT_TRUE(desk.listening().contacts.empty()) << "hands first";
-    EXPECT_EQ(desk.listening().marks, std::vector{7});
+    EXPECT_TRUE(desk.device().listening().settings().contacts.empty()) << "hands first";
+    EXPECT_EQ(desk.device().listening().settings().marks, std::vector{7});
     desk.undoManager().undo();
-    EXPECT_EQ(desk.listening().contacts, (std::vector{4, 5}));
+    EXPECT_EQ(desk.device().listening().settings().contacts, (std::vector{4, 5}));
     ListeningSettings noise;
     noise.noise = {4, 5};
-    ASSERT_EQ(desk.hear(noise), "");
-    EXPECT_TRUE(desk.listening().contacts.empty()) << "a study's ears are told nothing";
-    EXPECT_EQ(desk.listening().marks, std::vector{7});
-    desk.endStudy();
-    EXPECT_EQ(desk.listening().contacts, (std::vector{4, 5}));
+    ASSERT_EQ(desk.device().listening().hear(noise), "");
+    EXPECT_TRUE(desk.device().listening().settings().contacts.empty()) << "a study's ears are told nothing";
+    EXPECT_EQ(desk.device().listening().settings().marks, std::vector{7});
+    desk.device().listening().endStudy();
+    EXPECT_EQ(desk.device().listening().settings().contacts, (std::vector{4, 5}));
     hands.outputs = 4; // another interface of the same name
     hands.unplug(true);
     EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().contains("no such device"); }));
     hands.isPlugged = true;
     EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble().isEmpty(); })) << desk.trouble();
-    EXPECT_TRUE(desk.listening().contacts.empty());
+    EXPECT_TRUE(desk.device().listening().settings().contacts.empty());
     EXPECT_TRUE(desk.look().device.isRunning) << "what cannot be heard does not keep hands from feeling";
 }
 
@@ -223,14 +223,14 @@ TEST(Desk, OnTwoOutputsOneListensInsteadOfFeeling) {
     FakeInterface speakers;
     speakers.outputs = 2;
     Desk desk{fakeTypes({&speakers}), {"Fake:hands", 0, 0}};
-    EXPECT_EQ(desk.monitor({0, 1}, -20.0), "output 1 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(desk.device().listening().monitor({0, 1}, -20.0), "output 1 is an enchanter's; expected another one to listen to");
     ASSERT_EQ(desk.monitorInstead({0, 1}, -20.0), "");
     EXPECT_EQ(desk.mix().strips[0].output, -1);
     EXPECT_EQ(desk.mix().strips[1].output, -1);
-    EXPECT_EQ(desk.listening().contacts, (std::vector{0, 1}));
+    EXPECT_EQ(desk.device().listening().settings().contacts, (std::vector{0, 1}));
     desk.undoManager().undo();
     EXPECT_EQ(desk.mix().strips[1].output, 1);
-    EXPECT_TRUE(desk.listening().contacts.empty()) << "never where an enchanter is";
+    EXPECT_TRUE(desk.device().listening().settings().contacts.empty()) << "never where an enchanter is";
 }
 
 TEST(Desk, WhatFindsNoRoomInTheSessionIsToldWhenThereIsRoom) {

@@ -28,8 +28,8 @@ protected:
     EventsTabTest() { view.scope().choose("Events"); }
 
     void strike(double shareX, double shareY) {
-        const auto sounds = std::ranges::find_if(desk.sceneNow().materials, [](const Material& m) { return m.frequencyHz > 0.0; });
-        ASSERT_EQ(desk.audition(static_cast<int>(sounds - desk.sceneNow().materials.begin()), shareX, shareY), "");
+        const auto sounds = std::ranges::find_if(desk.world().scene().materials, [](const Material& m) { return m.frequencyHz > 0.0; });
+        ASSERT_EQ(desk.strikes().audition(static_cast<int>(sounds - desk.world().scene().materials.begin()), shareX, shareY), "");
     }
     /// One after the other, so that each is later than the one before.
     void strikeInTurn(std::initializer_list<juce::Point<double>> shares) {

@@ -33,7 +33,7 @@ struct Materials : testing::Test {
         opened.choose(wood);
         return opened;
     }
-    const Material& now() const { return desk.sceneNow().materials[wood]; }
+    const Material& now() const { return desk.world().scene().materials[wood]; }
     juce::Slider& slider(const juce::String& title) { return dynamic_cast<juce::Slider&>(*find(tab, title)); }
     const std::vector<LiveInput>& inputs() { return desk.saved().log.takes.back().inputs; }
     /// Whether such a hit has been played, whoever has looked: the view does by itself, and what one look shows the next does not.
@@ -72,7 +72,7 @@ TEST_F(Materials, SurfacesAreMadeRoughAndTakenBack) {
     dynamic_cast<juce::ComboBox&>(*find(tab, "Pattern")).setSelectedItemIndex(1, juce::sendNotificationSync);
     ASSERT_EQ(inputs().size(), 4u);
     EXPECT_EQ(inputs()[3].action, (Action{TextureAction{0, 0.004, 2.5, GrainPattern::regular, 0.75}}));
-    EXPECT_EQ(desk.sceneNow().materials[0].texture().pattern, GrainPattern::regular);
+    EXPECT_EQ(desk.world().scene().materials[0].texture().pattern, GrainPattern::regular);
     tab.choose(wood);
     EXPECT_EQ(slider("Grain").getValue(), 0.0) << "of another";
     tab.choose(0);
@@ -83,16 +83,16 @@ TEST_F(Materials, SurfacesAreMadeRoughAndTakenBack) {
     EXPECT_DOUBLE_EQ(slider("Grain").getValueFromText("1.5 m"), 1.5);
     EXPECT_EQ(slider("Grain").getTextFromValue(0.0), "smooth");
     desk.restart(desk.mix().seed);
-    EXPECT_EQ(desk.sceneNow().materials[0].roughness, 2.5) << "start anew keeps it";
+    EXPECT_EQ(desk.world().scene().materials[0].roughness, 2.5) << "start anew keeps it";
     for (int k = 0; k < 4; ++k) desk.undoManager().undo();
-    EXPECT_EQ(desk.sceneNow().materials[0].texture().grainMetres, 0.0);
-    EXPECT_EQ(desk.sceneNow().materials[0].texture().rolling, 0.2);
-    EXPECT_EQ(desk.editWorld("Grain", TextureAction{0, 11.0}), "grain_m: expected 0 to 10, found 11");
-    EXPECT_EQ(desk.editWorld("Grain", TextureAction{99, 0.1}), "material: expected one of the 6 materials of the scene");
+    EXPECT_EQ(desk.world().scene().materials[0].texture().grainMetres, 0.0);
+    EXPECT_EQ(desk.world().scene().materials[0].texture().rolling, 0.2);
+    EXPECT_EQ(desk.world().edit("Grain", TextureAction{0, 11.0}), "grain_m: expected 0 to 10, found 11");
+    EXPECT_EQ(desk.world().edit("Grain", TextureAction{99, 0.1}), "material: expected one of the 6 materials of the scene");
 }
 
 TEST_F(Materials, ASurfaceThatIsTurnedIsOneThingToUndo) {
-    for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.editWorld("Grain", TextureAction{wood, 0.001 * k}, k > 1), "");
+    for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.world().edit("Grain", TextureAction{wood, 0.001 * k}, k > 1), "");
     EXPECT_EQ(now().grainMetres, 0.02);
     desk.undoManager().undo();
     EXPECT_EQ(now().grainMetres, 0.0);
@@ -100,7 +100,7 @@ TEST_F(Materials, ASurfaceThatIsTurnedIsOneThingToUndo) {
 }
 
 TEST_F(Materials, ASliderThatIsHeldIsOneThingToUndo) {
-    for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.editWorld("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
+    for (int k = 1; k <= 20; ++k) EXPECT_EQ(desk.world().edit("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
     EXPECT_EQ(now().frequencyHz, 120.0);
     desk.undoManager().undo();
     EXPECT_EQ(inputs().size(), 21u) << "one more, not the twenty in turn";
@@ -111,7 +111,7 @@ TEST_F(Materials, ASliderThatIsHeldIsOneThingToUndo) {
 }
 
 TEST_F(Materials, StayWhenTheSceneStartsAnewAndGoWithAnother) {
-    EXPECT_EQ(desk.editWorld("Frequency", SoundAction{wood, 205.0, 30.0}), "");
+    EXPECT_EQ(desk.world().edit("Frequency", SoundAction{wood, 205.0, 30.0}), "");
     desk.restart(desk.mix().seed);
     EXPECT_EQ(now().frequencyHz, 205.0);
     desk.restart(7);
@@ -151,7 +151,7 @@ TEST_F(Materials, ARecordingThatIsDroppedOnARowIsOfThatMaterial) {
     auto& list = dynamic_cast<juce::ListBox&>(*find(tab, "List of materials"));
     tab.filesDropped({folder("knock.wav").getFullPathName()}, 20, list.getY() + list.getRowHeight() / 2);
     tab.finishMeasuring();
-    EXPECT_NEAR(desk.sceneNow().materials[3].frequencyHz, 352.0, 0.5) << "concrete, the first that sounds";
+    EXPECT_NEAR(desk.world().scene().materials[3].frequencyHz, 352.0, 0.5) << "concrete, the first that sounds";
     EXPECT_EQ(now().frequencyHz, 349.0);
 }
 
@@ -228,16 +228,16 @@ TEST_F(Materials, AnAuditionIsAHitOfTheMaterialAtTheSpot) {
     EXPECT_EQ(strikes[0].frequencyHz, 349.0);
     EXPECT_EQ(strikes[0].decayPerSecond, 106.99);
     EXPECT_LE(strikes[0].amplitude, 0.5) << "hands are attached";
-    EXPECT_EQ(strikes[0].x, 0.25 * desk.sceneNow().fieldWidthMetres);
-    EXPECT_EQ(strikes[0].y, 0.75 * desk.sceneNow().fieldHeightMetres);
+    EXPECT_EQ(strikes[0].x, 0.25 * desk.world().scene().fieldWidthMetres);
+    EXPECT_EQ(strikes[0].y, 0.75 * desk.world().scene().fieldHeightMetres);
     EXPECT_TRUE(runUntil([&] { return isPlayed([&](const CollisionEvent& e) { return e.frequencyHz == 349.0 && e.x == strikes[0].x; }); }));
     slider("Spot from the left").setValue(100.0, juce::sendNotificationSync);
     dynamic_cast<juce::Button&>(*find(tab, "Feel the material at the spot")).onClick();
-    EXPECT_EQ(desk.saved().log.strikes.back().x, desk.sceneNow().fieldWidthMetres);
+    EXPECT_EQ(desk.saved().log.strikes.back().x, desk.world().scene().fieldWidthMetres);
     tab.choose(0);
     EXPECT_FALSE(find(tab, "Feel the material at the spot")->isEnabled());
-    EXPECT_NE(desk.audition(0, 0.5, 0.5), "") << "rubber is silent there";
-    EXPECT_NE(desk.audition(99, 0.5, 0.5), "");
+    EXPECT_NE(desk.strikes().audition(0, 0.5, 0.5), "") << "rubber is silent there";
+    EXPECT_NE(desk.strikes().audition(99, 0.5, 0.5), "");
 }
 
 TEST_F(Materials, AClickInTheWorldFeelsItThereWhileTheTabIsShown) {
@@ -251,8 +251,8 @@ TEST_F(Materials, AClickInTheWorldFeelsItThereWhileTheTabIsShown) {
 
 TEST_F(Materials, ASavedSessionHasThemAndRendersTheSameBytes) {
     ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 300'000'000; }));
-    EXPECT_EQ(desk.editWorld("Sound", SoundAction{wood, 205.0, 30.0}), "");
-    EXPECT_EQ(desk.editWorld("Grain", TextureAction{wood, 0.01}), "");
+    EXPECT_EQ(desk.world().edit("Sound", SoundAction{wood, 205.0, 30.0}), "");
+    EXPECT_EQ(desk.world().edit("Grain", TextureAction{wood, 0.01}), "");
     tab.feelAt({0.25, 0.75});
     ASSERT_TRUE(runUntil([&] { return desk.look().session.sessionNs > 1'500'000'000; }));
     const auto& saved = desk.saved();

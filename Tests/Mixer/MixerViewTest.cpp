@@ -139,7 +139,7 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     press("Silence");
     EXPECT_FALSE(desk.isSilent());
     press("Pause the world (Space)");
-    EXPECT_EQ(desk.slowness(), 0);
+    EXPECT_EQ(desk.session().world().slowness(), 0);
     press("Attach an enchanter");
     EXPECT_EQ(desk.mix().count(), 5);
     EXPECT_NE(find(view, "Gain of E"), nullptr);

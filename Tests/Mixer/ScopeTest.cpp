@@ -52,7 +52,7 @@ TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
     auto& spectrum = dynamic_cast<SpectrumView&>(*find(view, "Spectra"));
     const auto isQuiet = [&](int channel) { return highestOf(spectrum.shown(channel)) == FrequencyAxis::floorDb; };
     ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().session.render.pending == 0 && isQuiet(0) && isQuiet(2); })) << "what was struck before";
-    desk.testPulse(2);
+    desk.strikes().testPulse(2);
     double seenHz = 0.0;
     float highest = FrequencyAxis::floorDb;
     ASSERT_TRUE(runUntil([&] {

@@ -38,7 +38,7 @@ struct Open {
     /// Half a second at 48 kHz, told to the clock as if the session had begun at 1 s of the steady clock, which is the system's.
     void play(int blocks = 47) {
         for (int k = 0; k < blocks; ++k) {
-            clock.follow({session.presentNs() - 1, 1'000'000'000 + session.presentNs(), 1}, 0);
+            clock.follow({session.timeline().presentNs() - 1, 1'000'000'000 + session.timeline().presentNs(), 1}, 0);
             session.advance();
             session.render(block.at.data(), 512, RenderMode::realtime);
             append(signal, block.at.data(), 512);
@@ -57,7 +57,7 @@ struct Open {
 TEST(OscDoors, ATagIsTheSessionTimeToTheNanosecond) {
     Open open;
     open.play();
-    const std::int64_t wanted = open.session.presentNs() + 123'456'789;
+    const std::int64_t wanted = open.session.timeline().presentNs() + 123'456'789;
     open.strike(0.5, tagOf(1'000'000'000 + wanted));
     open.play();
     const auto struck = open.struck();
@@ -72,10 +72,10 @@ TEST(OscDoors, ATagIsFeltToTheFrameInADirectSessionAsWell) {
     for (const Direct direct : {Direct::no, Direct::told}) {
         Open open{direct};
         open.play();
-        const std::int64_t now = open.session.framesRendered();
+        const std::int64_t now = open.session.timeline().framesRendered();
         open.strike(0.5, tagOf(1'000'000'000 + (now * 2 + 10'001) * 500'000'000 / hostRate)); // 5,000 frames and a half from now
         open.play();
-        const auto delay = direct == Direct::no ? open.session.playOutFrames() : 512 + HapticRenderer::latencyFramesAt(hostRate);
+        const auto delay = direct == Direct::no ? open.session.timeline().playOutFrames() : 512 + HapticRenderer::latencyFramesAt(hostRate);
         const auto first = std::find_if(open.signal.begin(), open.signal.end(), [](float sample) { return std::abs(sample) > 1e-5f; });
         EXPECT_EQ((first - open.signal.begin()) / hostChannels, now + 5001 + delay);
         EXPECT_EQ(open.door.counts().late + open.door.counts().refused, 0U);
@@ -85,7 +85,7 @@ TEST(OscDoors, ATagIsFeltToTheFrameInADirectSessionAsWell) {
 TEST(OscDoors, LateOnesAreCountedAndFeltAtOnce) {
     Open open;
     open.play();
-    const std::int64_t now = open.session.presentNs();
+    const std::int64_t now = open.session.timeline().presentNs();
     open.strike(0.5, tagOf(1'000'000'000 + now - 1'000'000));
     open.strike(0.5, oscNow);
     const auto struck = open.struck();
@@ -102,7 +102,7 @@ TEST(OscDoors, ATagAndATimeOfItsOwnAreTwo) {
     open.strike(0.5, tagOf(1'000'000'000 + std::int64_t{100'000} * 1'000'000'000));
     EXPECT_EQ(open.door.counts().refused, 2U);
     EXPECT_EQ(open.door.counts().fault, "strike: time tag: expected at most 86400 s from now");
-    EXPECT_EQ(open.session.size().strikes, 0U);
+    EXPECT_EQ(open.session.world().size().strikes, 0U);
     EXPECT_TRUE(open.struck().empty());
 }
 
@@ -127,7 +127,7 @@ TEST(OscDoors, QueriesAreAnswered) {
     EXPECT_EQ(std::get<std::string>(layout.values.at(1)), "linear");
     const auto plain = plainOf("status", status.values);
     EXPECT_EQ(plain.value.values.front().name, "session_s");
-    EXPECT_NEAR(std::get<double>(plain.value.values.front().value), 1e-9 * static_cast<double>(open.session.presentNs()), 1e-6);
+    EXPECT_NEAR(std::get<double>(plain.value.values.front().value), 1e-9 * static_cast<double>(open.session.timeline().presentNs()), 1e-6);
     EXPECT_EQ(plain.value.values.at(5), (NamedValue{"osc_packets", 2.0}));
     open.take(open.answers[0]); // to itself
     EXPECT_EQ(open.answers.size(), 2U) << "an answer is never answered";

@@ -16,9 +16,7 @@ using namespace test;
 
 /// A device whose blocks are asked for by the test.
 struct FakeOutput final : FeltOutput {
-    FeltMoment felt(FeltReader) noexcept override { return now; }
-    float level() const noexcept override { return 1.0f; }
-    FeltMoment now{1'000'000'000, 1'000'000'000, 50'000'000};
+    FakeOutput() { tell({1'000'000'000, 1'000'000'000, 50'000'000}); }
 };
 
 struct Played {
@@ -100,7 +98,7 @@ TEST(OscPorts, WhatIsSentIsCounted) {
     EXPECT_EQ(counts.bad, each);
     EXPECT_EQ(counts.lost, 0U);
     EXPECT_TRUE(counts.fault.starts_with("127.0.0.1:")) << counts.fault;
-    EXPECT_EQ(played.session.size().strikes, 0U) << "they were for now";
+    EXPECT_EQ(played.session.world().size().strikes, 0U) << "they were for now";
 }
 
 /// Whoever does what messages say is held up at the first of them until `goesOn`.
@@ -241,7 +239,7 @@ TEST(OscPorts, HitsLeaveWithTheTimeAtWhichTheyAreFelt) {
     hit.frequencyHz = 250.0;
     hit.amplitude = 0.5;
     hit.x = 1.5;
-    port->tell({hit, 0, false}, hostRate);
+    port->played({hit, 0, false}, hostRate);
     const OscMessage told = next();
     EXPECT_EQ(told.address, oscHitAddress);
     EXPECT_LT(std::abs(unixNsOf(told.tag) - unixAheadNs() - 2'500'000'000), 1'000'000) << "session time is the steady clock's there";

@@ -47,22 +47,22 @@ bool strikeClip(Session& session, test::Random& random) {
     strike.frequencyHz = clipFrequencyHz(session.keepClip({&clip, 1}).value());
     strike.amplitude = 1.0;
     strike.durationNs = 100'000'000;
-    strike.timeNs = session.presentNs();
-    return session.schedule({&strike, 1});
+    strike.timeNs = session.timeline().presentNs();
+    return bool{session.take({Strikes{{&strike, 1}, true}, 0})};
 }
 
 // Layouts, gains, mutes and stops; now and then an input, a strike that moves, a clip, another scene, or the same one from its start.
 bool edit(Session& session, test::Random& random) {
     const int kind = random.below(200);
-    if (kind < 4) return session.act(TiltAction{random.uniform(-3, 3)}).empty();
-    if (kind == 4) session.restart(random.below(64));
-    if (kind >= 6 && kind < 16) return session.schedule(std::array{randomPath(random, session.presentNs() + random.below(1'000'000))});
+    if (kind < 4) return session.take({TiltAction{random.uniform(-3, 3)}}).error.empty();
+    if (kind == 4) session.world().restart(random.below(64));
+    if (kind >= 6 && kind < 16) return bool{session.take({Strikes{std::array{randomPath(random, session.timeline().presentNs() + random.below(1'000'000))}, true}, 0})};
     if (kind == 5) {
         const char* const scenes[] = {"shake-the-box", "fruit-basket", "drop"};
-        session.setState({std::make_shared<const Scene>(*findBuiltInScene(scenes[random.below(3)])), 1});
+        session.world().setState({std::make_shared<const Scene>(*findBuiltInScene(scenes[random.below(3)])), 1});
     }
     if (kind == 16) return strikeClip(session, random);
-    return kind < 6 || session.post(randomEdit(random)) >= 0;
+    return kind < 6 || session.take({randomEdit(random)}).error.empty();
 }
 
 TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {

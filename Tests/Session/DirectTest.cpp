@@ -57,14 +57,14 @@ TEST(Direct, AMessageIsFeltABlockAndTheLimiterLaterWhateverTheBlock) {
     for (const int block : {16, 64, 480, 2048}) {
         Host host{stillSetup(Direct::told), block};
         host.play(hostRate / block + 1);
-        const std::int64_t at = host.session.framesRendered();
+        const std::int64_t at = host.session.timeline().framesRendered();
         ASSERT_EQ(host.router.take(lineMessage(knock)).error, "");
         host.play(4000 / block + 4);
         EXPECT_EQ(host.onsetFrom(0), at + block + limiterFrames() + 1) << block << ": a sine begins with 0";
         EXPECT_EQ(host.session.status().render.late, 0u);
         const auto answer = host.router.take(lineMessage(R"({"message": "latency"})")).value;
         const double direct = static_cast<double>(block + limiterFrames()) / hostRate;
-        EXPECT_NEAR(std::get<double>(answer.values.at(0).value), static_cast<double>(host.session.playOutFrames()) / hostRate, 1e-12);
+        EXPECT_NEAR(std::get<double>(answer.values.at(0).value), static_cast<double>(host.session.timeline().playOutFrames()) / hostRate, 1e-12);
         EXPECT_NEAR(std::get<double>(answer.values.at(1).value), direct, 1e-12);
         EXPECT_NEAR(std::get<double>(answer.values.at(2).value), direct, 1e-8);
     }
@@ -75,7 +75,7 @@ TEST(Direct, OneThatIsNotDirectIsFeltThePlayOutDelayLaterAndSaysSo) {
     host.play(750);
     ASSERT_EQ(host.router.take(lineMessage(knock)).error, "");
     host.play(100);
-    EXPECT_EQ(host.onsetFrom(0), 750 * 64 + host.session.playOutFrames() + 1);
+    EXPECT_EQ(host.onsetFrom(0), 750 * 64 + host.session.timeline().playOutFrames() + 1);
     const auto answer = host.router.take(lineMessage(R"({"message": "latency"})")).value;
     EXPECT_EQ(std::get<double>(answer.values.at(2).value), std::get<double>(answer.values.at(0).value));
 }
@@ -88,11 +88,11 @@ TEST(Direct, WhatIsAskedForLaterIsInTimeAsWell) {
     host.play(1000);
     EXPECT_EQ(host.onsetFrom(0), 750 * 64 + 12000 + 64 + limiterFrames() + 1);
     EXPECT_EQ(host.session.status().render.late, 0u);
-    EXPECT_EQ(host.session.size().strikes, 0u);
+    EXPECT_EQ(host.session.world().size().strikes, 0u);
     host.play(200);
     const auto events = drain(host.session);
     ASSERT_EQ(events.size(), 2u);
-    EXPECT_NEAR(static_cast<double>(events[1].timeNs) * 1e-9, 2.0 - static_cast<double>(host.session.toldAheadNs()) * 1e-9, 1e-9);
+    EXPECT_NEAR(static_cast<double>(events[1].timeNs) * 1e-9, 2.0 - static_cast<double>(host.session.timeline().toldAheadNs()) * 1e-9, 1e-9);
 }
 
 TEST(Direct, AStopActsOnWhatWasStruckBeforeAndNotOnWhatFollows) {
@@ -100,7 +100,7 @@ TEST(Direct, AStopActsOnWhatWasStruckBeforeAndNotOnWhatFollows) {
     host.play(750);
     ASSERT_EQ(host.router.take(lineMessage(R"({"message": "phantom", "seconds": 3})")).error, "");
     host.play(300);
-    const std::int64_t at = host.session.framesRendered();
+    const std::int64_t at = host.session.timeline().framesRendered();
     ASSERT_EQ(host.router.take(lineMessage(R"({"message": "stop"})")).error, "");
     host.play(200);
     const std::int64_t faded = at + 64 + limiterFrames() + hostRate / 100 + 64;
@@ -123,14 +123,14 @@ TEST(Direct, CollisionsKeepThePlayOutDelayAndWhatIsSavedIsWhatWasFelt) {
             if (!strikes) continue;
             EXPECT_EQ(host.router.take(lineMessage(knock)).error, "");
             EXPECT_EQ(host.router.take(lineMessage(R"({"message": "path", "places": "AD", "seconds": 0.3, "in": 0.01})")).error, "");
-            if (k == 4) EXPECT_GE(host.session.post({0, RenderControl::Kind::gain, 1, 0.5f, {}}), 0);
+            if (k == 4) EXPECT_TRUE(host.session.take({RenderControl{0, RenderControl::Kind::gain, 1, 0.5f, {}}}));
             if (k == 5) EXPECT_EQ(host.router.take(lineMessage(R"({"message": "stop", "in": 0.2})")).error, "");
         }
         host.play(200);
         EXPECT_EQ(host.session.status().render.late, 0u);
         SavedSession saved{wallBefore(direct).run(), wallBefore(direct).panner, hostChannels, true, RendererSettings::fullScale(), 0, {}, {}, {}, {}};
         saved.lengthNs = host.session.readLog(saved.log);
-        const auto L = static_cast<std::size_t>(host.session.playOutFrames());
+        const auto L = static_cast<std::size_t>(host.session.timeline().playOutFrames());
         Interleaved again;
         EXPECT_TRUE(renderSession(saved, {}, {hostRate, 2.5, [](double) { return true; }}, [&](const float* const* at, int n) {
             append(again, at, n);
@@ -157,10 +157,10 @@ TEST(Direct, WhatIsBornInTheRenderCallIsFeltTheLimiterLaterFromTheFirstFrameOn) 
             strike.frequencyHz = 205.0;
             strike.decayPerSecond = 80.0;
             strike.amplitude = 0.5;
-            ASSERT_TRUE(host.session.strike(strike, frame));
+            ASSERT_TRUE(host.session.callback().strike(strike, frame));
             host.play(20, mode);
             EXPECT_EQ(host.onsetFrom(0), frame + limiterFrames() + 1);
-            EXPECT_EQ(host.session.bornLatencyFrames(), limiterFrames());
+            EXPECT_EQ(host.session.timeline().bornLatencyFrames(), limiterFrames());
             EXPECT_EQ(host.session.status().render.late, 0u);
         }
 }
@@ -189,14 +189,14 @@ TEST(Direct, ASilenceOfABornSessionLetsWhatIsStruckBehindItBeFelt) {
     strike.frequencyHz = 205.0;
     strike.durationNs = 1'000'000'000;
     strike.amplitude = 0.5;
-    ASSERT_TRUE(host.session.strike(strike, 0));
+    ASSERT_TRUE(host.session.callback().strike(strike, 0));
     host.play(100);
-    ASSERT_TRUE(host.session.strike(strike, 5));
-    ASSERT_TRUE(host.session.silence(10));
+    ASSERT_TRUE(host.session.callback().strike(strike, 5));
+    ASSERT_TRUE(host.session.callback().silence(10));
     host.play(50);
     EXPECT_EQ(host.onsetFrom(6400 + 64 + hostRate / 100 + limiterFrames(), 1e-3f), -1);
-    ASSERT_TRUE(host.session.silence(10));
-    ASSERT_TRUE(host.session.strike(strike, 20));
+    ASSERT_TRUE(host.session.callback().silence(10));
+    ASSERT_TRUE(host.session.callback().strike(strike, 20));
     host.play(20);
     EXPECT_EQ(host.onsetFrom(6400 + 50 * 64), 6400 + 50 * 64 + 20 + limiterFrames() + 1);
 }

@@ -287,7 +287,7 @@ TEST(Messages, WhatWasFeltIsRenderedAgainToTheBit) {
     const auto read = readSession(text, "session.json");
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(sessionJson(read.value), text);
-    const auto again = renderedAgain(read.value, session.playOutFrames(), 3.0);
+    const auto again = renderedAgain(read.value, session.timeline().playOutFrames(), 3.0);
     ASSERT_EQ(again.size(), felt.signal.size());
     const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
     EXPECT_TRUE(differs.first == again.end()) << "at frame " << (differs.first - again.begin()) / hostChannels;
@@ -376,7 +376,7 @@ TEST(Messages, NobodyWaitsForAClipThatIsReadAndBroughtToTheSessionsRate) {
     session.prepare(hostRate, 512);
     MessageRouter router{session};
     ContactRecording minute{0.0, 44'100, std::vector<float>(300'000, 0.1f), {.path = "minute", .hash = "0123456789abcdef"}};
-    EXPECT_TRUE(othersAskDuring([&] { EXPECT_EQ(session.keepClip({&minute, 1}), 0); }, [&] { session.presentNs(); }));
+    EXPECT_TRUE(othersAskDuring([&] { EXPECT_EQ(session.keepClip({&minute, 1}), 0); }, [&] { session.timeline().presentNs(); }));
     std::future<std::string> other;
     const ClipSource slow = [&](const std::string&) {
         other = std::async(std::launch::async, [&] { return router.take(messageOf(R"({"message": "phantom", "in": 2})")).error; });
@@ -457,7 +457,7 @@ TEST(Messages, TheJournalHoldsThem) {
     text += lines.take(felt.log, 3'000'000'000);
     const auto read = readSession(text, "journal");
     ASSERT_EQ(read.error, "");
-    const auto again = renderedAgain(read.value, session.playOutFrames(), 3.0);
+    const auto again = renderedAgain(read.value, session.timeline().playOutFrames(), 3.0);
     EXPECT_TRUE(again == felt.signal);
 }
 
@@ -472,7 +472,7 @@ TEST(Messages, AStopForgetsWhatHasNotBegun) {
     std::vector<double> hz;
     for (const auto& event : felt.events) hz.push_back(event.frequencyHz);
     EXPECT_EQ(hz, (std::vector<double>{205, 205, 205, 400})) << "the fourth pulse and the phantom of 300 Hz were asked for before the stop";
-    EXPECT_EQ(session.size().strikes, 0u);
+    EXPECT_EQ(session.world().size().strikes, 0u);
 }
 
 TEST(Messages, OfOneMomentTheSecondActsOnTheFirst) {
@@ -500,7 +500,7 @@ TEST(Messages, QueriesAnswer) {
     EXPECT_EQ(router.take(messageOf(R"({"message": "phantom", "in": 2})")).error, "");
     EXPECT_EQ(answerLine(router.take({"status", {}}).value), R"({ "answer": "status", "session_s": 0.5, "waiting": 1, "bodies": 0, "lost": 0, "stalls_s": 0 })");
     const auto latency = router.take({"latency", {}}).value;
-    EXPECT_EQ(std::get<double>(latency.values.at(0).value), static_cast<double>(session.playOutFrames()) / hostRate);
+    EXPECT_EQ(std::get<double>(latency.values.at(0).value), static_cast<double>(session.timeline().playOutFrames()) / hostRate);
     const auto layout = router.take({"layout", {}}).value;
     EXPECT_EQ(std::get<std::string>(layout.values.at(0).value), "linear");
     EXPECT_EQ(std::get<std::vector<double>>(layout.values.at(3).value), (std::vector<double>{0, setup.scene.fieldHeightMetres, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres, 0, 0, setup.scene.fieldWidthMetres, 0}));

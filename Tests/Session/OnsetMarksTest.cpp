@@ -90,7 +90,7 @@ SessionSetup quietSetup() {
 std::array<std::vector<float>, 2> playedLive(const std::vector<CollisionEvent>& strikes, int block, int rate) {
     Session session{quietSetup()};
     session.prepare(rate, block);
-    EXPECT_TRUE(session.playAt(strikes));
+    EXPECT_TRUE(session.take({Strikes{strikes}, 0}));
     std::array<std::vector<float>, 2> all;
     for (auto& x : all) x.resize(static_cast<std::size_t>(rate / block * block));
     for (int done = 0; done + block <= rate; done += block) {
@@ -98,7 +98,7 @@ std::array<std::vector<float>, 2> playedLive(const std::vector<CollisionEvent>& 
         float* const at[] = {all[0].data() + done, all[1].data() + done};
         session.render(at, block, RenderMode::realtime);
     }
-    for (auto& x : all) x.erase(x.begin(), x.begin() + session.playOutFrames());
+    for (auto& x : all) x.erase(x.begin(), x.begin() + session.timeline().playOutFrames());
     return all;
 }
 

@@ -94,20 +94,20 @@ TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
     EnchanterLayout five = setup.panner.layout();
     five.places[static_cast<std::size_t>(five.count++)] = {0.5 * five.extentWidthMetres, 0.5 * five.extentHeightMetres};
     const PhantomPanner wider{five, PanningLaw::energy, 1.3, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
-    const Script script{{0.5, [](Session& s) { s.post(controlOf(Kind::gain, 0, -0.5f)); }},
-                        {0.7, [](Session& s) { s.post(controlOf(Kind::delay, 1, 0.013f)); }},
-                        {0.9, [](Session& s) { s.post(controlOf(Kind::ceiling, 2, 0.05f)); }},
-                        {1.0, [](Session& s) { s.setSlowness(0); }},
-                        {1.2, [](Session& s) { s.stepOnce(); }},
-                        {1.4, [](Session& s) { s.stepOnce(); s.stepOnce(); }},
-                        {1.6, [](Session& s) { s.setSlowness(4); }},
-                        {2.5, [](Session& s) { s.setSlowness(1); }},
-                        {2.7, [&](Session& s) { s.post({0, Kind::panner, 0, 0.0f, wider}); }},
-                        {3.0, [](Session& s) { const std::array strikes{pulse(0.2), pulse(0.0)}; EXPECT_TRUE(s.play(strikes)); }},
-                        {3.2, [](Session& s) { s.post(controlOf(Kind::delay, 1, 0.0f)); }},
-                        {3.4, [](Session& s) { s.post(controlOf(Kind::mute, 3, 1.0f)); s.setSlowness(2); }},
-                        {4.0, [](Session& s) { s.restart(); }},
-                        {4.5, [](Session& s) { s.setSlowness(1); }}};
+    const Script script{{0.5, [](Session& s) { s.take({controlOf(Kind::gain, 0, -0.5f)}); }},
+                        {0.7, [](Session& s) { s.take({controlOf(Kind::delay, 1, 0.013f)}); }},
+                        {0.9, [](Session& s) { s.take({controlOf(Kind::ceiling, 2, 0.05f)}); }},
+                        {1.0, [](Session& s) { s.world().setSlowness(0); }},
+                        {1.2, [](Session& s) { s.world().stepOnce(); }},
+                        {1.4, [](Session& s) { s.world().stepOnce(); s.world().stepOnce(); }},
+                        {1.6, [](Session& s) { s.world().setSlowness(4); }},
+                        {2.5, [](Session& s) { s.world().setSlowness(1); }},
+                        {2.7, [&](Session& s) { s.take({RenderControl{0, Kind::panner, 0, 0.0f, wider}}); }},
+                        {3.0, [](Session& s) { const std::array strikes{pulse(0.2), pulse(0.0)}; EXPECT_TRUE(s.take({Strikes{strikes}})); }},
+                        {3.2, [](Session& s) { s.take({controlOf(Kind::delay, 1, 0.0f)}); }},
+                        {3.4, [](Session& s) { s.take({controlOf(Kind::mute, 3, 1.0f)}); s.world().setSlowness(2); }},
+                        {4.0, [](Session& s) { s.world().restart(); }},
+                        {4.5, [](Session& s) { s.world().setSlowness(1); }}};
     const auto live = play(session, 6.0, script);
     EXPECT_EQ(session.status().render.late, 0u);
     const auto saved = savedOf(session, setup, 5);
@@ -115,14 +115,14 @@ TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
     EXPECT_EQ(saved.log.strikes.size(), 2u);
     EXPECT_LT(saved.log.takes[0].stalls.size(), 12u) << "slow motion is one entry, however long it lasts";
     EXPECT_GT(energyOf(live[4], 2.8, 5.9), 0.0);
-    EXPECT_EQ(differences(live, saved, session.playOutFrames()), 0);
+    EXPECT_EQ(differences(live, saved, session.timeline().playOutFrames()), 0);
 }
 
 TEST(SessionDesk, AWorldThatStandsStillMakesNoHitsAndTellsThemAllLater) {
     const auto setup = deskSetup();
     Session one{setup}, other{setup};
     const auto live = play(one, 6.0, {});
-    const auto paused = play(other, 9.0, {{2.0, [](Session& s) { s.setSlowness(0); }}, {5.0, [](Session& s) { s.setSlowness(1); }}});
+    const auto paused = play(other, 9.0, {{2.0, [](Session& s) { s.world().setSlowness(0); }}, {5.0, [](Session& s) { s.world().setSlowness(1); }}});
     EXPECT_EQ(energyOf(paused[2], 4.5, 5.0), 0.0);
     SessionLog log;
     other.readLog(log);
@@ -138,13 +138,13 @@ TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
     setup.scene.fieldWidthMetres = 6.4;
     setup.scene.fieldHeightMetres = 3.6;
     Session session{setup};
-    const auto live = play(session, 1.0, {{0.3, [](Session& s) { const std::array strikes{pulse(0.0)}; s.play(strikes); }}}, 480);
+    const auto live = play(session, 1.0, {{0.3, [](Session& s) { const std::array strikes{pulse(0.0)}; s.take({Strikes{strikes}}); }}}, 480);
     const auto& c = live[2]; // (0, 0) is its corner
     const auto first = std::ranges::find_if(c, [](float x) { return std::abs(x) > 0.001f; }) - c.begin();
-    EXPECT_NEAR(static_cast<double>(first - session.playOutFrames()) / rate, 0.3, 0.011); // a block
+    EXPECT_NEAR(static_cast<double>(first - session.timeline().playOutFrames()) / rate, 0.3, 0.011); // a block
     EXPECT_EQ(energyOf(live[1], 0.0, 1.0), 0.0);
     const std::array bad{pulse(0.0), CollisionEvent{}};
-    EXPECT_FALSE(session.play(bad)) << "one that cannot be played, and none is";
+    EXPECT_FALSE(session.take({Strikes{bad}})) << "one that cannot be played, and none is";
 }
 
 TEST(SessionDesk, AStrikeOfATimeOfItsOwnIsFeltLAfterItWheneverItWasTold) {
@@ -154,10 +154,10 @@ TEST(SessionDesk, AStrikeOfATimeOfItsOwnIsFeltLAfterItWheneverItWasTold) {
     setup.scene.fieldWidthMetres = setup.scene.fieldHeightMetres = 1.0;
     const auto told = [&](double seconds) {
         Session session{setup};
-        auto live = play(session, 1.0, {{seconds, [](Session& s) { const std::array strikes{pulse(0.3)}; EXPECT_TRUE(s.playAt(strikes)); }}}, 480);
+        auto live = play(session, 1.0, {{seconds, [](Session& s) { const std::array strikes{pulse(0.3)}; EXPECT_TRUE(s.take({Strikes{strikes}, 0})); }}}, 480);
         EXPECT_EQ(session.status().render.late, 0u);
-        EXPECT_EQ(session.presentNs(), 1'000'000'000);
-        return std::pair{std::move(live), session.playOutFrames()};
+        EXPECT_EQ(session.timeline().presentNs(), 1'000'000'000);
+        return std::pair{std::move(live), session.timeline().playOutFrames()};
     };
     const auto [early, delay] = told(0.05);
     EXPECT_EQ(early, told(0.295).first);

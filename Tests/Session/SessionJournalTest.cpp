@@ -32,10 +32,10 @@ protected:
     void play(Session& session, SessionJournal& journal, int blocks) {
         session.advance();
         for (int i = 0; i < blocks; ++i, ++inputs) {
-            EXPECT_EQ(session.act(TiltAction{0.001 * (inputs % 1000)}), "");
+            EXPECT_EQ(session.take({TiltAction{0.001 * (inputs % 1000)}}).error, "");
             session.render(block.at.data(), 480, RenderMode::realtime);
             session.advance();
-            for (PlayedEvent e; session.played().pop(e); ++events) journal.take(e);
+            for (PlayedEvent e; session.played().pop(e); ++events) journal.played(e, session.timeline().sampleRateHz());
         }
     }
     std::size_t rows() const {

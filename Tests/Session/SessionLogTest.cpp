@@ -72,11 +72,11 @@ Felt playEdited(Session& session, const SessionSetup& setup, std::int64_t frames
             session.advance();
             sinceTick = 0;
         }
-        if (random.below(60) == 0) felt.refused += session.act(anyInput(random, stones)).empty() ? 0 : 1;
-        if (random.below(90) == 0) session.post(anyControl(random));
-        if (random.below(2000) == 0) session.restart(random.below(size));
-        if (random.below(2000) == 0) session.setState({std::make_shared<const Scene>(*findBuiltInScene("fruit-basket")), 4});
-        if (random.below(1500) == 0) session.setState({std::make_shared<const Scene>(setup.scene), static_cast<std::uint32_t>(random.below(3))});
+        if (random.below(60) == 0) felt.refused += session.take({anyInput(random, stones)}).error.empty() ? 0 : 1;
+        if (random.below(90) == 0) session.take({anyControl(random)});
+        if (random.below(2000) == 0) session.world().restart(random.below(size));
+        if (random.below(2000) == 0) session.world().setState({std::make_shared<const Scene>(*findBuiltInScene("fruit-basket")), 4});
+        if (random.below(1500) == 0) session.world().setState({std::make_shared<const Scene>(setup.scene), static_cast<std::uint32_t>(random.below(3))});
         if (random.below(50) == 0) read(felt.log);
         session.render(block.at.data(), size, RenderMode::realtime);
         append(felt.signal, block.at.data(), size);
@@ -118,7 +118,7 @@ TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
     ASSERT_GT(felt.log.takes.size(), 3u);
     ASSERT_GT(felt.log.panners.size(), 10u);
     ASSERT_GT(felt.refused, 5);
-    ASSERT_GT(session.slippedNs(), 0);
+    ASSERT_GT(session.world().slippedNs(), 0);
     std::size_t inputs = 0;
     for (const auto& take : felt.log.takes) inputs += take.inputs.size();
     ASSERT_GT(inputs, 50u);
@@ -128,7 +128,7 @@ TEST(SessionLog, SavedAndReadAgainRendersToWhatWasFelt) {
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(sessionJson(read.value), text);
     EXPECT_EQ(session.status().render.late, 0u);
-    const auto again = renderedAgain(read.value, session.playOutFrames(), frames);
+    const auto again = renderedAgain(read.value, session.timeline().playOutFrames(), frames);
     ASSERT_EQ(again.size(), felt.signal.size());
     const auto differs = std::mismatch(again.begin(), again.end(), felt.signal.begin());
     EXPECT_TRUE(differs.first == again.end()) << "at frame " << (differs.first - again.begin()) / channels << " of " << frames;
@@ -143,7 +143,7 @@ TEST(SessionLog, AsLinesOfAJournalIsTheSameSession) {
     Session whole{setup}, told{setup};
     const Felt felt = playEdited(whole, setup, 40 * rate);
     ASSERT_GT(felt.log.takes.size(), 2u);
-    ASSERT_GT(whole.slippedNs(), 0);
+    ASSERT_GT(whole.world().slippedNs(), 0);
     JournalLines lines{saved(setup, {}, 0), {}};
     std::string text = lines.head();
     std::vector<std::size_t> ends;
@@ -182,12 +182,12 @@ TEST(SessionLog, AJournalEndsWhereAFileIsFullAndTheSessionPlaysOn) {
     for (int i = 0; i < 102; ++i) {
         session.render(block.at.data(), 480, RenderMode::realtime);
         session.advance();
-        for (int k = 0; k < 1000; ++k) ASSERT_EQ(session.act(TiltAction{0.0001 * k}), "");
+        for (int k = 0; k < 1000; ++k) ASSERT_EQ(session.take({TiltAction{0.0001 * k}}).error, "");
         text += lines.take(log, session.readLog(log));
     }
     EXPECT_EQ(lines.full(), "100000 inputs");
     EXPECT_NEAR(static_cast<double>(lines.toldNs()) * 1e-9, 1.0, 0.02);
-    EXPECT_LT(session.size().inputs, 3000u);
+    EXPECT_LT(session.world().size().inputs, 3000u);
     const auto read = readSession(text, "monday.json");
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(read.value.log.takes[0].inputs.size(), 100'000u);
@@ -223,12 +223,12 @@ TEST(SessionLog, StatesFromAThirdThreadDisturbNothing) {
     std::atomic<int> exchanges{0};
     std::thread third{[&] {
         while (!stop) { // what a host does when it saves
-            SessionState copy = session.state();
+            SessionState copy = session.world().state();
             copy.scene = std::make_shared<const Scene>(*copy.scene);
-            EXPECT_EQ(session.setState(copy), "");
+            EXPECT_EQ(session.world().setState(copy), "");
             ++exchanges;
             SessionState bad{std::make_shared<const Scene>(), 1};
-            EXPECT_NE(session.setState(bad), "");
+            EXPECT_NE(session.world().setState(bad), "");
         }
     }};
     Random random{5};
@@ -259,7 +259,7 @@ TEST(SessionLog, TakesOfOneSceneAreAlikeAndShareIt) {
     Block block;
     std::vector<CollisionEvent> played;
     for (int take = 0; take < 5; ++take) {
-        if (take > 0) session.restart();
+        if (take > 0) session.world().restart();
         for (int i = 0; i < 300; ++i) { // 3 s
             session.advance();
             session.render(block.at.data(), 480, RenderMode::realtime);
@@ -284,7 +284,8 @@ TEST(SessionLog, TakesOfOneSceneAreAlikeAndShareIt) {
 TEST(Session, ARefusedInputSaysWhyAndIsNotLogged) {
     Session session{shakeTheBoxSetup(0.02)};
     session.prepare(rate, 64);
-    EXPECT_EQ(session.act(RemoveAction{"nobody"}), "body: expected the name of a body, found \"nobody\"");
+    EXPECT_EQ(session.take({RemoveAction{"nobody"}}).error, "body: expected the name of a body, found \"nobody\"");
+    EXPECT_FALSE(session.take({TiltAction{0.1}, 1'000'000})) << "what waits for its time are strikes and stops";
     SessionLog log;
     session.readLog(log);
     EXPECT_TRUE(log.takes[0].inputs.empty());
@@ -296,7 +297,7 @@ TEST(Session, TellsByHowMuchTheTightestEventCameInTime) {
     playLive(session, 20 * rate, 64, 0.05, 3, played);
     const auto margin = session.status().leastMarginFrames;
     EXPECT_GE(margin, 0);
-    EXPECT_LT(margin, session.playOutFrames());
+    EXPECT_LT(margin, session.timeline().playOutFrames());
 }
 
 } // namespace

@@ -34,7 +34,7 @@ TEST(Session, LiveIsTheRenderedFileLLaterToTheBit) {
     EXPECT_EQ(session.status().render.late, 0u);
     EXPECT_EQ(session.status().render.untold, 0u);
     EXPECT_GT(played.size(), 300u);
-    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 20 * rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 20 * rate));
 }
 
 /// Ten balls slide at 1 m/s each over a floor with a grain every millimetre.
@@ -74,9 +74,9 @@ TEST(Session, TenThousandGrainsASecondAreTheRenderedFileToo) {
     std::vector<CollisionEvent> played;
     const auto signal = playLive(session, 4 * rate, 1024, 0.05, 3, played);
     EXPECT_EQ(session.status().render.late, 0u);
-    EXPECT_EQ(session.drops(), 0u);
+    EXPECT_EQ(session.world().drops(), 0u);
     EXPECT_GT(played.size(), 36'000u);
-    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 4 * rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 4 * rate));
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, 4'000'000'000).events;
     const auto list = readEventsCsv(eventsCsv(made, {}), "list");
     ASSERT_EQ(list.error, "");
@@ -94,38 +94,56 @@ TEST(Session, ADriverThatShallEndIsHeardAfterEachStep) {
     EXPECT_EQ(session.advance(), 39) << "the rest, if it goes on after all";
 }
 
-TEST(Session, ABoardBesideItIsToldTheSameEventsAndLCoversIt) {
-    auto s = shakeTheBoxSetup(0.02);
+/// Keeps what it is given.
+struct Keeper final : Sink {
+    explicit Keeper(double latencySeconds) : latencySeconds_{latencySeconds} {}
+    double latencySeconds() const noexcept override { return latencySeconds_; }
+    void made(const CollisionEvent& event) noexcept override { events.push_back(event); }
+    void posted(const RenderControl& control) noexcept override { controls.push_back(control); }
+    std::vector<CollisionEvent> events;
+    std::vector<RenderControl> controls;
+
+private:
+    const double latencySeconds_;
+};
+
+TEST(Session, ASinkBesideItGetsTheSameEventsAndLCoversIt) {
+    const auto s = shakeTheBoxSetup(0.02);
     Session alone{s};
     alone.prepare(rate, 512);
-    EXPECT_EQ(alone.told(), nullptr);
-    s.boardSeconds = 0.030;
+    Keeper sink{0.030}, sooner{0.010};
     Session session{s};
-    std::vector<CollisionEvent> played, told;
+    session.sinks().attach(sink);
+    session.sinks().attach(sooner);
+    std::vector<CollisionEvent> played;
     const auto signal = playLive(session, 5 * rate, 512, 0.02, 9, played);
-    EXPECT_EQ(session.playOutFrames() - alone.playOutFrames(), 0.030 * rate - HapticRenderer::latencyFramesAt(rate));
-    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 5 * rate));
-    for (CollisionEvent e; session.told()->events.pop(e);) told.push_back(e);
+    EXPECT_EQ(session.timeline().playOutFrames() - alone.timeline().playOutFrames(), 0.030 * rate - HapticRenderer::latencyFramesAt(rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 5 * rate));
+    auto& told = sink.events;
+    EXPECT_TRUE(sooner.events == told);
     ASSERT_GT(played.size(), 50u);
     ASSERT_GE(told.size(), played.size()) << "those of the last L are not played yet";
     told.resize(played.size());
     EXPECT_TRUE(told == played);
-    const auto at = session.post({.kind = RenderControl::Kind::mute, .channel = 2, .value = 1.0f});
-    RenderControl control;
-    ASSERT_TRUE(session.told()->controls.pop(control));
-    EXPECT_EQ(control.timeNs, at);
-    EXPECT_EQ(control.channel, 2);
+    const auto at = session.take({RenderControl{.kind = RenderControl::Kind::mute, .channel = 2, .value = 1.0f}}).value;
+    ASSERT_EQ(sink.controls.size(), 1u);
+    EXPECT_EQ(sink.controls[0].timeNs, at);
+    EXPECT_EQ(sink.controls[0].channel, 2);
+    session.sinks().detach(sink);
+    session.take({RenderControl{.kind = RenderControl::Kind::mute, .channel = 2, .value = 0.0f}});
+    EXPECT_EQ(sink.controls.size(), 1u);
+    EXPECT_EQ(sooner.controls.size(), 2u);
 }
 
 TEST(Session, AThousandStepsPerSecondAndSmallBlocksStayBelowSixMilliseconds) {
     const auto s = shakeTheBoxSetup(driverThreadGapSeconds, 1000);
     Session session{s};
     session.prepare(rate, 64);
-    EXPECT_LE(static_cast<double>(session.playOutFrames()) / rate, 0.006);
+    EXPECT_LE(static_cast<double>(session.timeline().playOutFrames()) / rate, 0.006);
     std::vector<CollisionEvent> played;
     const auto signal = playLive(session, 5 * rate, 40, driverThreadGapSeconds, 2, played);
     EXPECT_EQ(session.status().render.late, 0u);
-    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 5 * rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 5 * rate));
 }
 
 TEST(Session, ADriverThatIsSlowerThanPromisedMakesTheWorldWaitAndNoEventLate) {
@@ -133,7 +151,7 @@ TEST(Session, ADriverThatIsSlowerThanPromisedMakesTheWorldWaitAndNoEventLate) {
     std::vector<CollisionEvent> played;
     playLive(session, 20 * rate, 64, 0.05, 3, played);
     EXPECT_EQ(session.status().render.late, 0u);
-    EXPECT_GT(session.slippedNs(), 1'000'000'000);
+    EXPECT_GT(session.world().slippedNs(), 1'000'000'000);
     EXPECT_GT(played.size(), 100u);
 }
 
@@ -149,7 +167,7 @@ TEST(Session, OfflineBlocksPlayTheSameEventsAsLiveOnes) {
         append(signal, block.at.data(), size);
         done += size;
     }
-    EXPECT_TRUE(signal == rendered(s, session.playOutFrames(), 20 * rate));
+    EXPECT_TRUE(signal == rendered(s, session.timeline().playOutFrames(), 20 * rate));
 }
 
 TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
@@ -188,7 +206,7 @@ TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
     driver.join();
     session.render(block.at.data(), 8192, RenderMode::offline); // whatever is still under way
     for (const auto& e : drain(session)) played.push_back(e);
-    ASSERT_EQ(session.slippedNs(), 0);
+    ASSERT_EQ(session.world().slippedNs(), 0);
     std::stable_sort(played.begin(), played.end(), [](const auto& a, const auto& b) { return a.timeNs < b.timeNs; });
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, played.back().timeNs + 1);
     ASSERT_EQ(played.size(), made.events.size());
@@ -225,7 +243,7 @@ TEST(Session, ControlsThatComeWithAChangeOfRateNeverGoBackInTime) {
     std::vector<std::int64_t> times;
     std::thread hand{[&] {
         while (!stop)
-            if (const auto time = session.post({.kind = RenderControl::Kind::gain, .value = 0.5f}); time >= 0) times.push_back(time);
+            if (const auto time = session.take({RenderControl{.kind = RenderControl::Kind::gain, .value = 0.5f}}); time) times.push_back(time.value);
             else std::this_thread::yield();
     }};
     Block block;
@@ -250,7 +268,7 @@ TEST(Session, ARestartThatWaitsKeepsItsTimeAtAnotherRate) {
         session.render(block.at.data(), 480, RenderMode::realtime);
         session.advance();
     }
-    session.restart(240); // at 1.005 s
+    session.world().restart(240); // at 1.005 s
     session.resume(96000, 960);
     session.advance();
     SessionLog log;
@@ -272,12 +290,12 @@ TEST(Session, HoldsNoMoreBodiesAndInputsTheLongerItPlays) {
         SessionLog log;
         std::size_t mostBodies = 0, mostInputs = 0, notes = 0;
         for (int i = 0; i < 3000; ++i) { // half a minute
-            session.perform({.hold = {1.0, 0.001 * (i % 500)}}, i % 480);
-            if (i % 7 == 0 && session.perform({.group = 0}, 0)) ++notes;
+            session.callback().perform({.hold = {1.0, 0.001 * (i % 500)}}, i % 480);
+            if (i % 7 == 0 && session.callback().perform({.group = 0}, 0)) ++notes;
             session.render(block.at.data(), 480, RenderMode::offline);
             drain(session);
             if (i % 100 == 0) session.readLog(log);
-            const auto size = session.size();
+            const auto size = session.world().size();
             mostBodies = std::max(mostBodies, size.bodies);
             mostInputs = std::max(mostInputs, size.inputs);
         }
@@ -298,7 +316,7 @@ TEST(Session, AfterAStallTheWorldGoesOnWithoutASpiral) {
     session.advance();
     for (int i = 0; i < 500; ++i) session.render(block.at.data(), 480, RenderMode::realtime); // 5 s without a driver
     EXPECT_LE(session.advance(), 4);
-    EXPECT_NEAR(static_cast<double>(session.slippedNs()) * 1e-9, 4.97, 0.001);
+    EXPECT_NEAR(static_cast<double>(session.world().slippedNs()) * 1e-9, 4.97, 0.001);
     session.render(block.at.data(), 480, RenderMode::realtime);
     EXPECT_LE(session.advance(), 2) << "caught up";
     for (int i = 0; i < 500; ++i) {
@@ -322,11 +340,11 @@ TEST(Session, StrikesOfTheRenderCallAreFeltLLaterAtTheirFrame) {
         Block block;
         Interleaved signal;
         for (int done = 0; done < 44100; done += 512) {
-            if (done == 5120) session.strike({.frequencyHz = 11025, .decayPerSecond = 10, .amplitude = 0.5, .y = 3.6}, 77);
+            if (done == 5120) session.callback().strike({.frequencyHz = 11025, .decayPerSecond = 10, .amplitude = 0.5, .y = 3.6}, 77);
             session.render(block.at.data(), 512, mode);
             append(signal, block.at.data(), 512);
         }
-        const auto onset = static_cast<std::size_t>(5120 + 77 + session.playOutFrames());
+        const auto onset = static_cast<std::size_t>(5120 + 77 + session.timeline().playOutFrames());
         for (std::size_t n = 0; n <= onset; ++n) ASSERT_NEAR(signal[n * channels], 0.0f, 1e-3f) << n; // sin 0 at the onset
         EXPECT_NEAR(signal[(onset + 1) * channels], 0.5f, 1e-3f); // a quarter period later
         const auto played = drain(session);
@@ -342,9 +360,9 @@ TEST(Session, AControlOfTheRenderCallMutesTheWorldAtItsFrame) {
     Block block;
     for (int done = 0; done < 10 * rate; done += 480) {
         if (done == 5 * rate)
-            for (int j = 0; j < channels; ++j) session.control({.kind = RenderControl::Kind::mute, .channel = j, .value = 1.0f}, 0);
+            for (int j = 0; j < channels; ++j) session.callback().control({.kind = RenderControl::Kind::mute, .channel = j, .value = 1.0f}, 0);
         session.render(block.at.data(), 480, RenderMode::offline);
-        const std::int64_t silentFrom = 5 * rate + session.playOutFrames() + rate / 100;
+        const std::int64_t silentFrom = 5 * rate + session.timeline().playOutFrames() + rate / 100;
         const bool silent = std::all_of(block.at[0], block.at[0] + 480, [](float x) { return x == 0.0f; });
         if (done >= silentFrom) EXPECT_TRUE(silent) << done;
     }
@@ -358,7 +376,7 @@ TEST(Session, PosesAreThoseOfTheSceneAtTheirTime) {
     Block block;
     std::vector<BodyPose> poses;
     for (int i = 0; i < 150; ++i) session.render(block.at.data(), 480, RenderMode::offline);
-    const auto time = session.readPoses(poses);
+    const auto time = session.world().readPoses(poses);
     EXPECT_EQ(time, 1'500'000'000);
     const auto expected = posesAt(setup.scene, {setup.seed, setup.stepsPerSecond}, time);
     ASSERT_EQ(poses.size(), expected.size());

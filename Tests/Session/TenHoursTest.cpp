@@ -23,13 +23,13 @@ struct Monday {
         return setup;
     }
     void input(std::int64_t i) {
-        if (i % 50 == 0) ASSERT_EQ(session.act(TiltAction{0.001 * static_cast<double>(i % 1000)}), "");
-        if (i % 500 == 0) ASSERT_GE(session.post({.kind = RenderControl::Kind::gain, .channel = 1, .value = 0.5f}), 0);
+        if (i % 50 == 0) ASSERT_EQ(session.take({TiltAction{0.001 * static_cast<double>(i % 1000)}}).error, "");
+        if (i % 500 == 0) ASSERT_TRUE(session.take({RenderControl{.kind = RenderControl::Kind::gain, .channel = 1, .value = 0.5f}}));
     }
     void step() {
         session.render(block.at.data(), 480, RenderMode::realtime);
         session.advance();
-        for (PlayedEvent e; session.played().pop(e);) journal.take(e);
+        for (PlayedEvent e; session.played().pop(e);) journal.played(e, session.timeline().sampleRateHz());
     }
     const SessionSetup setup = streamed();
     Session session;

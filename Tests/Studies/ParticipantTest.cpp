@@ -423,7 +423,7 @@ TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
 TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
     p->desk.change("Mute", [](Mix& mix) { mix.strips[1].isMuted = true; });
     begin(R"({"name": "main", "task": "identify"})", R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
-    EXPECT_EQ(p->desk.slowness(), 0) << "the world stands still";
+    EXPECT_EQ(p->desk.session().world().slowness(), 0) << "the world stands still";
     passPage();
     p->key(juce::KeyPress::escapeKey);
     EXPECT_TRUE(p->desk.isSilent());
@@ -436,7 +436,7 @@ TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
     p->click("Next");
     p->click("Leave the study; what was answered is kept");
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
-    EXPECT_EQ(p->desk.slowness(), 1);
+    EXPECT_EQ(p->desk.session().world().slowness(), 1);
     EXPECT_EQ(column("response", "identify"), Texts{"1,1"});
 }
 
@@ -446,12 +446,12 @@ TEST_F(ByAParticipant, HearsPinkNoiseOnTheChosenOutputsForAsLongAsTheStudyGoesOn
     EXPECT_EQ(choices.front(), (std::vector<int>{4, 5})) << "four enchanters have the first outputs";
     p->tab().setNoise({6, 7}, -30.0);
     begin(R"({"name": "main", "task": "identify"})", R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)", R"(, "pink_noise": true, "pink_noise_db": -35)");
-    EXPECT_EQ(p->desk.listening().noise, (std::vector<int>{6, 7}));
-    EXPECT_EQ(p->desk.listening().noiseDb, -35.0) << "the protocol's level, as it was chosen later";
-    EXPECT_EQ(p->desk.hear({{3}, -40.0, {}, 0.0}), "output 4 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(p->desk.device().listening().settings().noise, (std::vector<int>{6, 7}));
+    EXPECT_EQ(p->desk.device().listening().settings().noiseDb, -35.0) << "the protocol's level, as it was chosen later";
+    EXPECT_EQ(p->desk.device().listening().hear({{3}, -40.0, {}, 0.0}), "output 4 is an enchanter's; expected another one to listen to");
     p->click("Leave the study; what was answered is kept");
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
-    EXPECT_TRUE(p->desk.listening().noise.empty());
+    EXPECT_TRUE(p->desk.device().listening().settings().noise.empty());
 }
 
 TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {

@@ -3,7 +3,6 @@
 #include "Api/Live/Live.h"
 #include "Host/Devices/NoDevice.h"
 #include "Host/Devices/SimulationDriver.h"
-#include "Session/BoardOutput.h"
 #include "Session/SessionJournal.h"
 #include <physvib/Version.h>
 #include <utility>
@@ -13,9 +12,8 @@ namespace physvib::api {
 // Empties what the session tells, keeps the device, ends the loop.
 class Live::Watch final : private juce::Timer {
 public:
-    Watch(Live& live, const BoardOutput* onBoard, SessionJournal* journal)
+    Watch(Live& live, SessionJournal* journal)
         : live_{live}
-        , onBoard_{onBoard}
         , journal_{journal} {
         timerCallback();
         startTimer(milliseconds);
@@ -31,29 +29,28 @@ private:
 
     void timerCallback() override {
         drain();
-        LiveStatus now{live_.output_->status(), live_.session_.status().render, live_.output_->sampleRateHz(), live_.output_->blockFrames(), {}, 0, {}};
-        if (onBoard_) now.board = live_.settings_.board->status(), now.untold = onBoard_->untold();
-        if (ticks_++ % (1000 / milliseconds) == 0) trouble_ = troubleOf(now);
+        LiveStatus now{live_.output_->status(), live_.session_.status().render, live_.output_->sampleRateHz(), live_.output_->blockFrames(), {}, {}};
+        for (const auto& sink : live_.settings_.sinks) now.sinks.push_back(sink->state());
+        if (ticks_++ % (1000 / milliseconds) == 0) trouble_ = troubleNow();
         now.trouble = trouble_;
         const std::lock_guard lock{live_.statusMutex_};
         live_.status_ = std::move(now);
         if (live_.isEnding_) juce::MessageManager::getInstance()->stopDispatchLoop();
     }
 
-    std::string troubleOf(const LiveStatus& now) {
+    std::string troubleNow() {
         std::string trouble = live_.output_->maintain();
-        if (trouble.empty() && now.board) trouble = now.board->trouble;
-        if (trouble.empty() && journal_) trouble = journal_->news();
+        for (const SinkState& sink : live_.session_.sinks().states())
+            if (trouble.empty()) trouble = sink.trouble;
         return trouble;
     }
 
     void drain() {
         for (PlayedEvent event; live_.session_.played().pop(event);)
-            if (journal_) journal_->take(event);
+            live_.session_.sinks().played(event, live_.output_->sampleRateHz());
     }
 
     Live& live_;
-    const BoardOutput* onBoard_;
     SessionJournal* journal_;
     int ticks_ = 0;
     std::string trouble_;
@@ -61,7 +58,9 @@ private:
 
 Live::Live(LiveSettings settings)
     : settings_{std::move(settings)}
-    , session_{settings_.setup} {}
+    , session_{settings_.setup} {
+    for (const auto& sink : settings_.sinks) session_.sinks().attach(*sink);
+}
 
 std::string Live::open() {
     std::promise<std::string> opened;
@@ -97,10 +96,9 @@ void Live::play(std::promise<std::string>& opened) {
     }
     const bool isOpen = error.empty();
     if (isOpen) {
-        std::optional<BoardOutput> onBoard;
-        if (settings_.board) onBoard.emplace(session_, *output_, *settings_.board, settings_.setup.panner);
+        const Following together{session_.sinks(), *output_};
         const ThreadDriver driver{session_, settings_.setup.stepsPerSecond};
-        const Watch watch{*this, onBoard ? &*onBoard : nullptr, journal ? &*journal : nullptr};
+        const Watch watch{*this, journal ? &*journal : nullptr};
         opened.set_value({});
         juce::MessageManager::getInstance()->runDispatchLoop();
     } else {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A session without a world of its own on a device, a board or both, with a message thread for it: what a program that has none is lent.
+// A session without a world of its own on a device and sinks beside it, with a message thread for it: what a program that has none is lent.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
-#include "Session/BoardLink.h"
+#include "Host/Devices/SinkTable.h"
 #include "Session/Session.h"
 #include <atomic>
 #include <future>
@@ -19,8 +19,7 @@ struct LiveStatus {
     AudioOutputStatus output;
     RenderStatus render;
     int rateHz = 0, blockFrames = 0;
-    std::optional<BoardLinkStatus> board;
-    std::uint64_t untold = 0; ///< to the board
+    std::vector<SinkState> sinks;
     std::string trouble;
 };
 
@@ -28,7 +27,7 @@ struct LiveStatus {
 struct LiveSettings {
     SessionSetup setup;
     AudioOutputSettings output;
-    std::unique_ptr<BoardLink> board{}; ///< ready, and setup.boardSeconds with it; null: none
+    Sinks sinks{};                      ///< ready
     std::string savePath{};             ///< of the session as a file, beside which a list of its events stands; empty: none
 };
 

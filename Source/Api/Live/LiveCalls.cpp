@@ -11,7 +11,7 @@ using namespace physvib::api;
 namespace {
 
 int post(Live& live, RenderControl control) {
-    return live.session().post(control) < 0 ? fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait") : PHYSVIB_OK;
+    return live.session().take({control}) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
 }
 
 int change(physvib_live name, RenderControl::Kind kind, int channel, double value) noexcept {
@@ -30,7 +30,7 @@ int strike(Live& live, std::span<const physvib_event> told, std::int64_t startNs
         if (startNs != 0) events.back().timeNs = std::max<std::int64_t>(0, events.back().timeNs + startNs); // before all began: late, at once
     }
     if (!std::ranges::all_of(events, [](const CollisionEvent& e) { return isPlayable(e); })) return nothingThere("event: expected 0 to 20000 Hz, a decay or a duration, below 5 Hz a decay of at least 1 per second, numbers, a time from 0 on");
-    return live.session().schedule(events) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");
+    return live.session().take({Strikes{events, true}, 0}) ? PHYSVIB_OK : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");
 }
 
 } // namespace
@@ -40,11 +40,11 @@ const char* physvib_live_error() { return lastError().data(); }
 int physvib_live_status_init(physvib_live_status* status, size_t size) { return begin(status, size, zeroed<physvib_live_status>()); }
 
 physvib_int64 physvib_live_now_ns(physvib_live name) {
-    return in(name, [](Live& live) -> physvib_int64 { return live.session().presentNs(); });
+    return in(name, [](Live& live) -> physvib_int64 { return live.session().timeline().presentNs(); });
 }
 
 physvib_int64 physvib_live_latency_ns(physvib_live name) {
-    return in(name, [](Live& live) -> physvib_int64 { return live.session().playOutFrames() * 1'000'000'000 / std::max(1, live.status().rateHz); });
+    return in(name, [](Live& live) -> physvib_int64 { return live.session().timeline().playOutFrames() * 1'000'000'000 / std::max(1, live.status().rateHz); });
 }
 
 int physvib_live_strike(physvib_live name, const physvib_event* events, physvib_int64 count) {
@@ -59,7 +59,7 @@ int physvib_live_align(physvib_live name, physvib_world world, physvib_int64* st
         if (startNs == nullptr) return nothingThere("start: expected a place for it, found NULL");
         const physvib_int64 timeNs = physvib_world_time_ns(world);
         if (timeNs < 0) return fail(static_cast<int>(timeNs), physvib_error());
-        const physvib_int64 wanted = live.session().presentNs() - timeNs;
+        const physvib_int64 wanted = live.session().timeline().presentNs() - timeNs;
         const auto gapNs = static_cast<physvib_int64>(live.longestGapSeconds() * 1.0e9);
         if (*startNs < wanted - gapNs || *startNs > wanted + gapNs) *startNs = wanted;
         return PHYSVIB_OK;
@@ -128,10 +128,10 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
         told.played = static_cast<physvib_int64>(now.render.played);
         told.late = static_cast<physvib_int64>(now.render.late);
         told.rejected = static_cast<physvib_int64>(now.render.rejected);
-        if (now.board) {
-            told.board = now.board->state == BoardLinkStatus::State::ready ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;
-            told.board_sent = static_cast<physvib_int64>(now.board->sent);
-            told.board_lost = static_cast<physvib_int64>(now.board->thinned + now.board->refused + now.untold);
+        for (const SinkState& sink : now.sinks) { // more than one are told as one
+            if (told.board != PHYSVIB_BOARD_SOUGHT) told.board = sink.isReady ? PHYSVIB_BOARD_PLAYS : PHYSVIB_BOARD_SOUGHT;
+            told.board_sent += static_cast<physvib_int64>(sink.sent);
+            told.board_lost += static_cast<physvib_int64>(sink.lost);
         }
         const std::size_t length = std::min(now.trouble.size(), sizeof told.trouble - 1);
         std::copy_n(now.trouble.data(), length, told.trouble);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A device or a board, from physvib_live_open to physvib_live_close.
+// A device and what is beside it, from physvib_live_open to physvib_live_close.
 #include "Api/Live/Lives.h"
-#include "Host/Devices/NoDevice.h"
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -58,19 +57,6 @@ SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& ren
     return setup;
 }
 
-/// "DEVICE", "BOARD:PORT" or "DEVICE+BOARD:PORT"; empty: none.
-struct Outputs {
-    std::string device, board;
-    explicit Outputs(std::string_view told) {
-        constexpr std::string_view mark = "BOARD:";
-        const auto at = told.starts_with(mark) ? 0 : told.rfind("+BOARD:");
-        device = told.substr(0, at);
-        if (at == told.npos) return;
-        board = told.substr(at + mark.size() + (at > 0 ? 1 : 0));
-        if (device.empty()) device = std::string{noDeviceType} + ":" + noDeviceName;
-    }
-};
-
 } // namespace
 
 int physvib_live_settings_init(physvib_live_settings* settings, size_t size) {
@@ -91,8 +77,8 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
         RendererSettings wanted;
         if (const auto fault = faultOf(taken); !fault.empty()) return nothingThere(fault);
         if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        const Outputs outputs{device};
-        if (!outputs.board.empty() && wanted.outputs() > limits::board::channels) return nothingThere("board: expected at most four enchanters");
+        const OutputNames outputs{device};
+        if (const auto fault = channelFault(outputs.sinks, wanted.outputs()); !fault.empty()) return nothingThere(fault);
 
         const std::lock_guard lock{openMutex()};
         if (openName != 0) return fail(PHYSVIB_ERROR_FULL, "live: expected the one that is open to be closed before");
@@ -102,11 +88,8 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
         all.output.blockFrames = taken.block_frames;
         all.output.level = gainOf(taken.level_db);
         all.output.enchanters = wanted.panner.channels();
-        if (!outputs.board.empty()) {
-            all.board = std::make_unique<BoardLink>(outputs.board == "auto" ? "" : outputs.board);
-            if (const auto fault = all.board->awaitReady([] { return true; }); !fault.empty()) return fail(PHYSVIB_ERROR_DEVICE, fault);
-            all.setup.boardSeconds = all.board->status().playOutMs * 1e-3;
-        }
+        const auto goesOn = [] { return true; };
+        if (const auto fault = openSinks(outputs.sinks, all.setup.panner, goesOn, all.sinks); !fault.empty()) return fail(PHYSVIB_ERROR_DEVICE, fault);
         auto live = std::make_unique<Live>(std::move(all));
         if (const std::string error = live->open(); !error.empty()) return fail(PHYSVIB_ERROR_DEVICE, error);
         openName = lives().add(std::move(live));

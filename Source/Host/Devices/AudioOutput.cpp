@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keeping and feeding a device.
 #include "Host/Devices/AudioOutput.h"
+#include "Host/Devices/InputTap.h"
 #include <algorithm>
 #include <thread>
 
@@ -21,9 +22,8 @@ constexpr int mostOutputs = 65'536;                                      // of a
 } // namespace
 
 AudioOutput::AudioOutput(Session& session, AudioDeviceTypes types, const std::atomic<bool>* isEnded)
-    : own_{session}
-    , played_{&session}
-    , isEnded_{isEnded}
+    : FeltOutput{isEnded}
+    , played_{session}
     , keeper_{std::move(types), isEnded} {}
 
 AudioOutput::~AudioOutput() {
@@ -32,7 +32,7 @@ AudioOutput::~AudioOutput() {
 
 std::string AudioOutput::open(const AudioOutputSettings& settings) {
     close();
-    if (auto error = map_.want(own_.channels(), settings.channelMap, settings.enchanters,
+    if (auto error = map_.want(played_.own().channels(), settings.channelMap, settings.enchanters,
                                settings.listening.outputs());
         !error.empty())
         return error;
@@ -52,7 +52,7 @@ std::string AudioOutput::hear(const ListeningSettings& listening) {
 
 std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanters,
                                const ListeningSettings& listening) {
-    if (auto error = map_.want(own_.channels(), channelMap, enchanters, listening.outputs()); !error.empty())
+    if (auto error = map_.want(played_.own().channels(), channelMap, enchanters, listening.outputs()); !error.empty())
         return error;
     const AudioOutputSettings before = settings_;
     settings_.channelMap = channelMap;
@@ -60,7 +60,7 @@ std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanter
     settings_.listening = listening;
     if (auto error = listeningFault(); !error.empty()) {
         settings_ = before;
-        map_.want(own_.channels(), before.channelMap, before.enchanters, before.listening.outputs());
+        map_.want(played_.own().channels(), before.channelMap, before.enchanters, before.listening.outputs());
         return error;
     }
     heard_.setLevels(listening);
@@ -74,9 +74,9 @@ std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanter
 
 // Unlike an enchanter without an output, which is felt as missing, noise that is missing would go unnoticed.
 std::string AudioOutput::listeningFault() const {
-    if (!settings_.listening.contacts.empty() && own_.heardChannels() == 0)
+    if (!settings_.listening.contacts.empty() && played_.own().rendered().heard() == 0)
         return "expected a session that makes contact sounds, found none";
-    if (!settings_.listening.marks.empty() && !own_.marks())
+    if (!settings_.listening.marks.empty() && !played_.own().rendered().marks())
         return "expected a session that marks its onsets, found none";
     return keeper_.device() ? wish().fault(*keeper_.device()) : std::string{};
 }
@@ -112,7 +112,7 @@ void AudioOutput::fadeOut() {
     ending_ = true;
     const auto blocks = status().blocks + 2; // one may have begun before
     const auto end =
-        Clock::now() + std::clamp(std::chrono::milliseconds{3000 * block_ / rate_}, leastFade, mostFade);
+        Clock::now() + std::clamp(std::chrono::milliseconds{3000 * blockFrames() / sampleRateHz()}, leastFade, mostFade);
     while (running_ && status().blocks < blocks && Clock::now() < end) std::this_thread::sleep_for(1ms);
 }
 
@@ -123,13 +123,8 @@ void AudioOutput::stop() {
 }
 
 bool AudioOutput::lend(Session* other) {
-    if (rate_ == 0) return false;
-    if (other != nullptr)
-        other->prepare(rate_, block_);
-    else if (played_.load() != &own_ && (lentRate_ != rate_ || lentBlock_ != block_))
-        own_.resume(rate_, block_);
-    if (played_.load() == &own_) lentRate_ = rate_, lentBlock_ = block_;
-    played_.store(other != nullptr ? other : &own_);
+    if (sampleRateHz() == 0) return false;
+    played_.lend(other);
     keeper_.awaitBlock();
     return true;
 }
@@ -146,11 +141,12 @@ std::string AudioOutput::maintain(Clock::time_point now) {
         if (keeper_.device()) keeper_.close();
         running_ = false;
         if (auto error = openDevice(reopening); !error.empty()) return error;
-        ++losses_;
-        watch_.begin(now);
+        watch_.lose(now);
     }
     const std::string changed = follow();
-    return changed.empty() ? unfelt() : changed;
+    if (!changed.empty() || map_.unfelt() == 0) return changed;
+    return settings_.device + ": " + std::to_string(map_.unfelt()) + " of " +
+           std::to_string(map_.enchanters()) + " enchanters have no output there";
 }
 
 // Some drivers say so; JUCE's ALSA thread just ends.
@@ -164,18 +160,12 @@ bool AudioOutput::hasGone(Clock::time_point now) {
 
 // A block that is longer than all so far has to be covered by L; another rate is another session's time.
 std::string AudioOutput::follow() {
-    const int rate = juce::roundToInt(keeper_.device()->getCurrentSampleRate()), before = rate_;
+    const int rate = juce::roundToInt(keeper_.device()->getCurrentSampleRate()), before = sampleRateHz();
     const bool isChanged = rate != before && rate > 0;
-    if (isChanged || std::min(largestBlock_.load(), limits::maxBlockFrames) > block_) keeper_.restart();
+    if (isChanged || std::min(largestBlock_.load(), limits::maxBlockFrames) > blockFrames()) keeper_.restart();
     return isChanged ? settings_.device + ": runs at " + std::to_string(rate) + " Hz now, at " +
                            std::to_string(before) + " Hz before"
                      : std::string{};
-}
-
-std::string AudioOutput::unfelt() const {
-    if (map_.unfelt() == 0) return {};
-    return settings_.device + ": " + std::to_string(map_.unfelt()) + " of " +
-           std::to_string(map_.enchanters()) + " enchanters have no output there";
 }
 
 void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
@@ -183,17 +173,8 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     const int block = std::min(std::max(device->getCurrentBufferSizeSamples(), largestBlock_.load()),
                                limits::maxBlockFrames);
     if (!isSampleRate(rate) || block < 1) return; // stays silent
-    Session& session = *played_.load();
-    if (rate_ == 0)
-        session.prepare(rate, block);
-    else if (rate != rate_ || block != block_)
-        session.resume(rate, block);
-    if (auto* recorder = recorder_.load(std::memory_order_relaxed);
-        recorder && recorder->sampleRateHz() != rate)
-        recorder_ = nullptr;
-    rate_ = rate;
-    latencyNs_ = std::int64_t{1'000'000'000} * device->getOutputLatencyInSamples() / rate;
-    prepareBuffers(block);
+    played_.begin(rate, block, device->getOutputLatencyInSamples());
+    inputTap_ = settings_.tap;
     exposure_.prepare(rate);
     motors_.prepare(settings_.onOff, rate, settings_.onOffThreshold);
     heard_.prepare(rate, block);
@@ -204,19 +185,11 @@ void AudioOutput::audioDeviceAboutToStart(juce::AudioIODevice* device) {
     running_ = true;
 }
 
-void AudioOutput::prepareBuffers(int block) {
-    block_ = block;
-    scratch_.assign(static_cast<std::size_t>(own_.outputs()),
-                    std::vector<float>(static_cast<std::size_t>(block)));
-    scratchAt_.clear();
-    for (auto& channel : scratch_) scratchAt_.push_back(channel.data());
-}
-
 void AudioOutput::audioDeviceIOCallbackWithContext(const float* const* in, int inputs, float* const* out,
                                                    int outputs, int frames,
                                                    const juce::AudioIODeviceCallbackContext&) {
     if (inputTap_ != nullptr && inputs > 0 && frames > 0 && running_.load(std::memory_order_relaxed))
-        inputTap_->take(in, inputs, frames, played_.load()->nextNs(0), rate_);
+        inputTap_->take(in, inputs, frames, played_.now().timeline().nextNs(0), sampleRateHz());
     renderBlock(out, outputs, frames);
 }
 
@@ -224,12 +197,9 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     for (int k = 0; k < outputs; ++k) juce::FloatVectorOperations::clear(out[k], frames);
     if (frames < 1 || !running_.load(std::memory_order_relaxed)) return;
     const auto start = juce::Time::getHighResolutionTicks();
-    Session& session = *played_.load();
-    FeltMoment felt{
-        session.nextFeltNs(),
-        std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count() +
-            latencyNs_};
-    felt.behindNs = session.nextNs(0) - felt.sessionNs + latencyNs_;
+    Session& session = played_.now();
+    const FeltMoment felt = played_.nextFelt(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count());
     if (frames > largestBlock_.load(std::memory_order_relaxed))
         largestBlock_.store(frames, std::memory_order_relaxed);
     const bool rests = isSilent() || ending_.load(std::memory_order_relaxed);
@@ -238,30 +208,29 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     else
         master_.moveTo(level());
     heard_.begin(rests, frames);
-    for (int done = 0; done < frames; done += block_)
-        renderPart(session, out, outputs, done, std::min(block_, frames - done));
-    if (session.nextFeltNs() != felt.sessionNs) // else nobody steps the world: session time stands still
-        for (auto& newest : felt_) newest.write(felt);
-    load_.take(start, frames, rate_);
+    for (int done = 0; done < frames; done += blockFrames())
+        renderPart(session, out, outputs, done, std::min(blockFrames(), frames - done));
+    if (session.timeline().nextFeltNs() != felt.sessionNs)
+        tell(felt); // else nobody steps the world: session time stands still
+    load_.take(start, frames, sampleRateHz());
 }
 
 void AudioOutput::renderPart(Session& session, float* const* out, int outputs, int first,
                              int frames) noexcept {
-    session.render(scratchAt_.data(), frames, RenderMode::realtime);
-    heard_.render(session, scratchAt_.data(), out, outputs, first, frames);
-    for (int j = session.channels(); j < own_.channels(); ++j)
-        juce::FloatVectorOperations::clear(scratchAt_[static_cast<std::size_t>(j)], frames);
-    if (auto* recorder = recorder_.load(std::memory_order_acquire))
-        recorder->take(scratchAt_.data(), frames, session.framesRendered() - frames);
-    if (tap_ != nullptr) tap_->take(scratchAt_.data(), frames);
-    motors_.apply(scratchAt_.data(), frames);
+    float* const* const samples = played_.samples();
+    session.render(samples, frames, RenderMode::realtime);
+    heard_.render(session, samples, out, outputs, first, frames);
+    for (int j = session.channels(); j < played_.own().channels(); ++j)
+        juce::FloatVectorOperations::clear(samples[j], frames);
+    played_.own().sinks().rendered({samples, frames, session.timeline().framesRendered() - frames, sampleRateHz()});
+    motors_.apply(samples, frames);
     for (int j = 0; j < session.channels(); ++j) { // the limiter, if on, leaves nothing to cut
-        float* at = scratchAt_[static_cast<std::size_t>(j)];
-        juce::FloatVectorOperations::clip(at, at, -session.ceiling(j), session.ceiling(j), frames);
+        float* at = samples[j];
+        juce::FloatVectorOperations::clip(at, at, -session.rendered().ceiling(j), session.rendered().ceiling(j), frames);
     }
-    master_.apply(scratchAt_.data(), session.channels(), frames);
+    master_.apply(samples, session.channels(), frames);
     for (int j = 0; j < session.channels(); ++j) {
-        float* at = scratchAt_[static_cast<std::size_t>(j)];
+        float* at = samples[j];
         const int k = map_.play(j, at, frames);
         if (k < 0 || k >= outputs) continue;
         juce::FloatVectorOperations::copy(out[k] + first, at, frames);
@@ -274,7 +243,7 @@ AudioOutputStatus AudioOutput::status() {
     const LoadMeter::Load load = load_.read();
     const bool isRunning = running_;
     return {load.blocks, load.last, load.worst, keeper_.device() ? keeper_.device()->getXRunCount() : -1,
-            isRunning,   losses_};
+            isRunning,   watch_.losses()};
 }
 
 int AudioOutput::deviceLatencyFrames() const {

@@ -7,18 +7,15 @@
 #pragma once
 #include "Core/Actuators/ExposureMeter.h"
 #include "Core/Actuators/GainRamp.h"
-#include "Core/Limits.h"
 #include "Core/Nonblocking.h"
 #include "Host/Devices/AudioOutputSettings.h"
 #include "Host/Devices/DeviceKeeper.h"
 #include "Host/Devices/DeviceWatch.h"
 #include "Host/Devices/HeardSignals.h"
-#include "Host/Devices/InputTap.h"
 #include "Host/Devices/LoadMeter.h"
 #include "Host/Devices/OnOffMotors.h"
-#include "Host/Recordings/PlayedRecorder.h"
+#include "Host/Devices/PlayedSession.h"
 #include "Session/FeltOutput.h"
-#include <array>
 #include <atomic>
 #include <string>
 #include <vector>
@@ -29,8 +26,7 @@ class AudioOutput final : public FeltOutput, private juce::AudioIODeviceCallback
 public:
     using Clock = DeviceWatch::Clock;
 
-    /// `session` outlives the output; `types` is where devices are looked for. `isEnded`, if there is one,
-    /// outlives it too: while it is true, nothing is felt. M.
+    /// `session` outlives the output; `types` is where devices are looked for. `isEnded` as FeltOutput's. M.
     explicit AudioOutput(Session& session, AudioDeviceTypes types = systemAudioDeviceTypes,
                          const std::atomic<bool>* isEnded = nullptr);
     ~AudioOutput() override;
@@ -64,47 +60,21 @@ public:
     /// all is well, else what is missing or was changed. M, about once a second.
     std::string maintain(Clock::time_point now = Clock::now());
 
-    bool isSilent() const noexcept override {
-        return FeltOutput::isSilent() || (isEnded_ && isEnded_->load(std::memory_order_relaxed));
-    }
-    float level() const noexcept override { return level_.load(std::memory_order_relaxed); }
-    void setLevel(float level) noexcept {
-        level_.store(level > 0.0f ? std::min(level, 1.0f) : 0.0f, std::memory_order_relaxed);
-    }
-
-    /// From now on `recorder` takes all that is played, until the output is closed, or comes back at another
-    /// rate: a file has one rate, so it ends there. Null ends it: R has let go of the old one when a further
-    /// block has come, or the output does not run. M.
-    void record(PlayedRecorder* recorder) noexcept { recorder_.store(recorder, std::memory_order_release); }
-    bool isRecording() const noexcept { return recorder_.load(std::memory_order_relaxed) != nullptr; }
-
-    /// `tap` takes all that is played until the output is closed; it outlives the output. M, before open().
-    void listen(SignalTap* tap) noexcept { tap_ = tap; }
-
-    /// `tap` takes the mean of the wanted inputs until the output is closed; it outlives the output. M,
-    /// before open().
-    void hearInputs(InputTap* tap) noexcept { inputTap_ = tap; }
-
     /// The device that is wanted, as type:name once it was found; empty: none. M.
     const std::string& device() const noexcept { return settings_.device; }
 
-    FeltMoment felt(FeltReader reader) noexcept override {
-        return felt_[static_cast<std::size_t>(reader)].read();
-    }
-
     /// What plays is a session that was lent. Any thread.
-    bool isLent() const noexcept { return played_.load() != &own_; }
+    bool isLent() const noexcept { return played_.isLent(); }
 
     /// What has left for the enchanters, behind the master level, the ceilings and the switch; of the
     /// session's channels. M.
     const ExposureSums& exposure() noexcept { return exposure_.read(); }
-    /// Peaks and plain sums start again. M.
-    std::uint32_t restartLevels() noexcept { return exposure_.restart(); }
+    std::uint32_t restartLevels() noexcept { return exposure_.restart(); } ///< peaks and plain sums. M
 
     /// M.
     AudioOutputStatus status();
-    int sampleRateHz() const noexcept { return rate_; }
-    int blockFrames() const noexcept { return block_; }
+    int sampleRateHz() const noexcept { return played_.sampleRateHz(); }
+    int blockFrames() const noexcept { return played_.blockFrames(); }
     int deviceLatencyFrames() const;
     int deviceOutputs() const; ///< that it offers; 0: there is none
 
@@ -122,35 +92,21 @@ private:
     void fadeOut();
     bool hasGone(Clock::time_point now);
     std::string follow();
-    std::string unfelt() const;
-    void prepareBuffers(int block);
     void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
     void renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept;
 
-    Session& own_;
-    std::atomic<Session*> played_; // sequentially consistent, as the keeper's calls: who has changed it sees
-                                   // whether R may still have the old one
-    const std::atomic<bool>* const isEnded_;
+    PlayedSession played_;
     AudioOutputSettings settings_;
     std::atomic<bool> running_{false}, ending_{false};
-    std::atomic<float> level_{0.0f};
     std::atomic<int> largestBlock_{0}; // that the device has asked for
-    std::atomic<PlayedRecorder*> recorder_{nullptr};
-    SignalTap* tap_ = nullptr;
-    InputTap* inputTap_ = nullptr;
     LoadMeter load_;
-    std::array<LatestValue<FeltMoment>, 2> felt_; // as FeltReader
 
     // M
-    int losses_ = 0, lentRate_ = 0, lentBlock_ = 0; // the latter: as they were when a session was lent
     DeviceWatch watch_;
 
     // R, set while the device is stopped
-    int rate_ = 0, block_ = 0;
-    std::int64_t latencyNs_ = 0; // of the device
+    InputTap* inputTap_ = nullptr;
     OutputMap map_;
-    std::vector<std::vector<float>> scratch_;
-    std::vector<float*> scratchAt_;
     GainRamp master_;
     HeardSignals heard_{map_};
     ExposureMeter exposure_;

@@ -9,6 +9,8 @@
 
 namespace physvib {
 
+class InputTap;
+
 /// Master level that a session starts at: a quarter of what the amplifier would give, since hands are attached.
 constexpr double safeStartDecibels = -12.0;
 constexpr float safeStartLevel = 0.25118864f; // the same as a gain
@@ -41,7 +43,8 @@ struct AudioOutputSettings {
     ListeningSettings listening{};
     std::vector<int> onOff{};    ///< enchanters, from 0, that are motors which are on or off (Core/Actuators/VibrationConverter.h)
     double onOffThreshold = 0.1; ///< from 0 to 1 full scale
-    std::vector<int> inputs{};   ///< of the device, from 0, whose mean InputTap hears; empty: none
+    std::vector<int> inputs{};   ///< of the device, from 0, whose mean `tap` takes; empty: none
+    InputTap* tap = nullptr;     ///< outlives the output
 };
 
 /// A moment of the output, for people.

@@ -26,10 +26,15 @@ public:
         return now - movedAt_ > patience;
     }
 
-    /// Another device, or the same one again.
-    void begin(Clock::time_point now) noexcept { movedAt_ = lookedAt_ = now; }
+    /// It had gone, and runs again, or another does.
+    void lose(Clock::time_point now) noexcept {
+        movedAt_ = lookedAt_ = now;
+        ++losses_;
+    }
+    int losses() const noexcept { return losses_; }
 
 private:
+    int losses_ = 0;
     std::uint64_t blocks_ = 0;
     Clock::time_point movedAt_, lookedAt_; // of the clock's beginning, before the first look
 };

@@ -52,12 +52,12 @@ void HeardSignals::render(const Session& session, float* const* signals, float* 
         noiseRamp_.apply(&noise, 1, frames);
         addTo(Heard::noise, &noise, 1, out, outputs, first, frames);
     }
-    if (session.heardChannels() > 0) {
+    if (session.rendered().heard() > 0) {
         float* const* const ears = signals + session.channels();
-        contactRamp_.apply(ears, session.heardChannels(), frames);
-        addTo(Heard::contacts, ears, session.heardChannels(), out, outputs, first, frames);
+        contactRamp_.apply(ears, session.rendered().heard(), frames);
+        addTo(Heard::contacts, ears, session.rendered().heard(), out, outputs, first, frames);
     }
-    if (session.marks()) renderMarks(signals[session.outputs() - 1], out, outputs, first, frames);
+    if (session.rendered().marks()) renderMarks(signals[session.rendered().count() - 1], out, outputs, first, frames);
 }
 
 // What is silenced is not felt, so it is not marked; what is left of a pulse when all comes back has its edge

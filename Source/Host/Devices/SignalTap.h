@@ -2,6 +2,7 @@
 // What a live session plays, on its way to meters, scopes and files: the render role fills a ring, another thread reads.
 #pragma once
 #include "Core/Nonblocking.h"
+#include "Session/Sink.h"
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace physvib {
 
-class SignalTap {
+class SignalTap final : public Sink {
 public:
     /// Room for `frames` of each channel until they are read. M.
     SignalTap(int channels, int frames)
@@ -22,6 +23,8 @@ public:
 
     /// Only the first `channels` are worth the copy from now on; the others keep what they have. Any thread.
     void hear(int channels) noexcept { heard_.store(std::clamp(channels, 0, this->channels()), std::memory_order_relaxed); }
+
+    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override { take(block.channels, block.frames); }
 
     /// R, wait-free. Frames that find no room are lost and counted.
     void take(const float* const* channels, int frames) noexcept PHYSVIB_NONBLOCKING {

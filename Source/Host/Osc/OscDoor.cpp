@@ -68,7 +68,7 @@ std::string OscDoor::act(const OscMessage& message, const OscClock& clock, std::
 }
 
 std::string OscDoor::actPlain(const PlainMessage& plain, std::vector<std::vector<char>>& answers) {
-    auto input = readPlainInput(plain, session_.state().scene->materials, session_.channels());
+    auto input = readPlainInput(plain, session_.world().state().scene->materials, session_.channels());
     if (!input) return input.error;
     auto* silence = std::get_if<SilenceControl>(&input.value);
     if (silence != nullptr) silence->number = silence->isOn ? ++silences_ : silences_;

@@ -28,9 +28,11 @@ OscPort::OscPort(const OscSettings& settings, Session& session, MessageRouter& m
     if (in_.isOpen()) address_ = settings.address + ":" + std::to_string(in_.port());
     if (in_.isOpen()) reader_ = std::thread{[this] { read(); }};
     thread_ = std::thread{[this] { run(); }};
+    if (out_.isOpen()) session_.sinks().attach(*this);
 }
 
 OscPort::~OscPort() {
+    session_.sinks().detach(*this);
     stop_ = true;
     if (reader_.joinable()) reader_.join();
     if (thread_.joinable()) thread_.join();
@@ -67,7 +69,7 @@ void OscPort::run() {
 void OscPort::follow() {
     if (const std::int64_t ahead = physvib::unixAheadNs(); std::abs(ahead - unixAheadNs_) > clockSlackNs) unixAheadNs_ = ahead;
     const std::lock_guard lock{mutex_};
-    clock_.follow(device_.felt(FeltReader::messages), unixAheadNs_);
+    clock_.follow(device_.felt(), unixAheadNs_);
 }
 
 void OscPort::receive() {
@@ -131,12 +133,12 @@ void OscPort::tellStatus() {
     const std::int64_t now = steadyNs();
     if (now < nextStatusNs_ || !clock_.isReady()) return;
     nextStatusNs_ = now + statusEveryNs;
-    const std::int64_t present = session_.presentNs();
+    const std::int64_t present = session_.timeline().presentNs();
     const PlainMessage status = door_.status();
     count(out_.send(oscBundle(std::string(oscAnswerPrefix) + status.name, status, tagOf(clock_.presentUnixNs(present)))));
 }
 
-void OscPort::tell(const PlayedEvent& played, int sampleRateHz) {
+void OscPort::played(const PlayedEvent& played, int sampleRateHz) {
     if (!out_.isOpen() || sampleRateHz == 0) return;
     const CollisionEvent& e = played.event;
     const std::int64_t timeNs = played.isLate ? played.frame * 1'000'000'000 / sampleRateHz : e.timeNs;

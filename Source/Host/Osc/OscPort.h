@@ -7,6 +7,7 @@
 #include "Host/Osc/OscSocket.h"
 #include "Session/FeltOutput.h"
 #include "Session/InputQueue.h"
+#include "Session/Sink.h"
 #include <atomic>
 #include <mutex>
 #include <optional>
@@ -33,13 +34,13 @@ struct OscStatus {
 
 /// One thread reads packets, and silences at once if one of them says so; another does what they say, in
 /// their order.
-class OscPort {
+class OscPort final : public Sink {
 public:
     static constexpr std::int64_t statusEveryNs = 1'000'000'000;
 
     /// All outlive it. See error(). M.
     OscPort(const OscSettings& settings, Session& session, MessageRouter& messages, FeltOutput& device, OscHooks hooks);
-    ~OscPort();
+    ~OscPort() override;
 
     /// Empty, or why it is not open: one line. Any thread.
     const std::string& error() const noexcept { return error_; }
@@ -48,8 +49,8 @@ public:
     int port() const noexcept { return in_.port(); }
     int bufferBytes() const { return in_.bufferBytes(); }
 
-    /// What was played, to the receiver. M.
-    void tell(const PlayedEvent& played, int sampleRateHz);
+    /// To the receiver. M.
+    void played(const PlayedEvent& played, int sampleRateHz) override;
 
     /// What a hook has taken could not be done after all: its sender is told. Any thread but R.
     void refuse(const OscOrigin& origin, const std::string& reason);

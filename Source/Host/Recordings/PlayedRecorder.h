@@ -10,8 +10,9 @@
 
 namespace physvib {
 
-/// Every channel of the session, or the first ones, in their own level (before the output's master gain).
-class PlayedRecorder {
+/// Every channel of the session, or the first ones, in their own level (before the output's master gain). A file has one rate, so it ends where
+/// another comes.
+class PlayedRecorder final : public Sink {
 public:
     /// Room for `seconds` until drain() is called. M.
     PlayedRecorder(const std::filesystem::path& path, int channels, int sampleRateHz, double seconds = 4.0)
@@ -24,11 +25,14 @@ public:
 
     int sampleRateHz() const noexcept { return sampleRateHz_; }
 
-    /// `sessionFrame`: that of the first one. R, wait-free. Frames that find no room are lost and counted.
-    void take(const float* const* channels, int frames, std::int64_t sessionFrame) noexcept PHYSVIB_NONBLOCKING {
-        if (firstFrame_.load(std::memory_order_relaxed) < 0) firstFrame_.store(sessionFrame, std::memory_order_relaxed);
-        tap_.take(channels, frames);
+    /// R, wait-free. Frames that find no room are lost and counted.
+    void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
+        if (block.sampleRateHz != sampleRateHz_) isWhole_.store(false, std::memory_order_relaxed);
+        if (!isWhole()) return;
+        if (firstFrame_.load(std::memory_order_relaxed) < 0) firstFrame_.store(block.sessionFrame, std::memory_order_relaxed);
+        tap_.take(block.channels, block.frames);
     }
+    bool isWhole() const noexcept { return isWhole_.load(std::memory_order_relaxed); } ///< no other rate has come. Any thread
 
     /// Says in the file at which session time it begins, by the session's play-out delay L; before the first drain(). M.
     void tellBeginning(std::int64_t playOutFrames) noexcept { playOutFrames_ = playOutFrames; }
@@ -53,6 +57,7 @@ private:
     WavSink wav_;
     SignalTap tap_;
     std::atomic<std::int64_t> firstFrame_{-1};
+    std::atomic<bool> isWhole_{true};
     std::optional<std::int64_t> playOutFrames_;
     std::int64_t written_ = 0;
 };

@@ -35,17 +35,19 @@ PlainMessage layoutAnswer(const Session& session) {
 }
 
 PlainMessage latencyAnswer(const Session& session) {
-    return {"latency", {{"play_out_s", session.playOutSeconds()}, {"direct_s", session.directSeconds()}, {"messages_s", session.playOutSeconds() - seconds(session.toldAheadNs())}}};
+    const Timeline& time = session.timeline();
+    return {"latency", {{"play_out_s", time.playOutSeconds()}, {"direct_s", time.directSeconds()}, {"messages_s", time.playOutSeconds() - seconds(time.toldAheadNs())}}};
 }
 
 PlainMessage statusAnswer(const Session& session) {
-    const SessionSize size = session.size();
+    const WorldRunner& world = session.world();
+    const SessionSize size = world.size();
     return {"status",
-            {{"session_s", seconds(session.presentNs())},
+            {{"session_s", seconds(session.timeline().presentNs())},
              {"waiting", static_cast<double>(size.strikes)},
              {"bodies", static_cast<double>(size.bodies)},
-             {"lost", static_cast<double>(session.drops())},
-             {"stalls_s", seconds(session.slippedNs())}}};
+             {"lost", static_cast<double>(world.drops())},
+             {"stalls_s", seconds(world.slippedNs())}}};
 }
 
 Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag* tag, const ClipSource& clips) {
@@ -72,7 +74,7 @@ Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag
 std::vector<CollisionEvent> MessageRouter::strikesOf(const MessageDescription& description, const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner, std::string& note) {
     if (std::holds_alternative<MessageDescription::Clip>(description.act)) return clip(values, clips, panner, note);
     const auto* const strikes = std::get_if<MessageDescription::Strikes*>(&description.act);
-    return strikes == nullptr ? std::vector<CollisionEvent>{} : (*strikes)(values, session_.state().scene->materials, session_.shaping());
+    return strikes == nullptr ? std::vector<CollisionEvent>{} : (*strikes)(values, session_.world().state().scene->materials, session_.shaping());
 }
 
 // Before a file is read for it. What is left of the time is looked at again when it has been.
@@ -82,7 +84,7 @@ void MessageRouter::expectTime(const MessageValues& values, const MessageTag* ta
     timeOf(values, tag == nullptr ? nullptr : &tried);
 }
 
-std::int64_t MessageRouter::nowNs() const { return std::max({std::int64_t{0}, session_.presentNs() - session_.toldAheadNs(), latestNs_}); }
+std::int64_t MessageRouter::nowNs() const { return std::max({std::int64_t{0}, session_.timeline().presentNs() - session_.timeline().toldAheadNs(), latestNs_}); }
 
 // Session times that are over are refused: what is rendered again would not be what was felt. Who sends tags cannot know: such
 // a message is late, and done at once.
@@ -91,7 +93,7 @@ std::int64_t MessageRouter::timeOf(const MessageValues& values, MessageTag* tag)
     if (tag != nullptr) {
         for (const char* own : {"at", "in"})
             if (values.has(own)) values.fail(own, "expected either this or a time tag");
-        tag->isLate = tag->sessionNs < session_.presentNs();
+        tag->isLate = tag->sessionNs < session_.timeline().presentNs();
         return tag->isLate ? nowNs() : aheadOrFail(values, "time tag", tag->sessionNs);
     }
     if (values.has("in")) return nowNs() + std::llround(values.number("in") * 1e9);
@@ -99,14 +101,14 @@ std::int64_t MessageRouter::timeOf(const MessageValues& values, MessageTag* tag)
         if (values.word("at") != "now") values.fail("at", "expected a session time, or now");
         return nowNs();
     }
-    const std::int64_t at = std::llround(values.number("at") * 1e9), present = session_.presentNs();
+    const std::int64_t at = std::llround(values.number("at") * 1e9), present = session_.timeline().presentNs();
     if (at < present) values.fail("at", "expected a session time that is not over: it is " + fixedNumber(seconds(present), 3) + " s, found " + numberText(seconds(at)) + " s");
     return aheadOrFail(values, "at", at);
 }
 
 std::int64_t MessageRouter::aheadOrFail(const MessageValues& values, std::string_view name, std::int64_t at) const {
-    if (at > session_.presentNs() + std::llround(messages::mostAheadSeconds * 1e9)) values.fail(name, "expected at most " + plainNumber(messages::mostAheadSeconds) + " s from now");
-    return std::max<std::int64_t>(0, at - session_.toldAheadNs());
+    if (at > session_.timeline().presentNs() + std::llround(messages::mostAheadSeconds * 1e9)) values.fail(name, "expected at most " + plainNumber(messages::mostAheadSeconds) + " s from now");
+    return std::max<std::int64_t>(0, at - session_.timeline().toldAheadNs());
 }
 
 void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t start, bool isNow) {
@@ -116,7 +118,7 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
         strike.timeNs += start;
         if (sceneGain > 0.0 && !isClip(strike.frequencyHz)) strike.amplitude /= sceneGain; // a level is of full scale, in every scene
     }
-    if (!session_.schedule(strikes)) throw MessageError{"too many strikes wait: at most " + std::to_string(WaitingStrikes::most)};
+    if (auto taken = session_.take({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
 }
 
 // Kept before it is struck: a strike finds its samples. Reading and keeping takes long; no other door waits for it.
@@ -136,7 +138,7 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
 // Of two messages of one moment, the second acts on the first.
 void MessageRouter::stop(std::int64_t at) {
     if (at == latestNs_) at = latestNs_ = at + frameNs;
-    if (!session_.stopAt(at)) throw MessageError{"too many stops wait"};
+    if (auto taken = session_.take({Stop{}, at}); !taken) throw MessageError{taken.error};
 }
 
 } // namespace physvib

@@ -132,7 +132,7 @@ int runBoard(const BoardOptions& o) {
     }
     heedInterrupts();
     sayWithoutWaiting();
-    BoardLink link{boardPort(o.port)};
+    BoardLink link{o.port};
     if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
     if (o.action == "info") return printBoardInfo(link.status()), exitDone;
     setLevel(link, o.action == "test" ? 0.0 : o.levelDb);
@@ -144,7 +144,7 @@ int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelD
     Simulation world(*job.scene, run.seed, run.stepsPerSecond, run.timing, run.location);
     heedInterrupts();
     sayWithoutWaiting();
-    BoardLink link{boardPort(port)};
+    BoardLink link{port};
     if (const auto trouble = connectBoard(link); !trouble.empty()) return leave(exitFailed, trouble);
     setLevel(link, levelDb);
     const auto before = link.status().telemetry;

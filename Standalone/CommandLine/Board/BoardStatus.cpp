@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A link's status as text.
 #include "CommandLine/Board/BoardStatus.h"
+#include "Session/BoardWords.h"
 #include <iomanip>
 #include <iostream>
 
@@ -22,12 +23,8 @@ void printBoardInfo(const BoardLinkStatus& s) {
 }
 
 std::string reportBoard(const BoardLink& link, const wire::Telemetry& before) {
-    waitFor([&, seen = link.status().telemetry.frame] { return link.status().telemetry.frame != seen; }, 1500);
+    std::cout << boardSummary(link, before, [] { return !interrupted; });
     const auto s = link.status();
-    if (s.legs > 0) std::cout << s.legs << " legs of what moves, " << s.coarseLegs << " of them longer than their law asks for, as the line was full\n";
-    std::cout << std::fixed << std::setprecision(1) << "felt " << s.playOutMs << " ms after the call; " << s.sent << " strikes sent, " << s.thinned << " thinned, " << s.refused
-              << " refused; the board played " << s.telemetry.played - before.played << ", " << s.telemetry.late - before.late << " late, " << s.telemetry.dropped - before.dropped
-              << " dropped, " << s.telemetry.lost << " lost\n";
     if (s.state == BoardLinkStatus::State::ready) return {};
     return s.trouble.empty() ? "the board is gone" : s.trouble;
 }

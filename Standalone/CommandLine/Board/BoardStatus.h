@@ -18,9 +18,6 @@ bool waitFor(Condition isTrue, int milliseconds) {
     return true;
 }
 
-/// The port of the option: a path, or "auto".
-inline std::string boardPort(const std::string& option) { return option == "auto" ? "" : option; }
-
 /// BoardLink::awaitReady, until the user interrupts.
 std::string connectBoard(const BoardLink& link);
 

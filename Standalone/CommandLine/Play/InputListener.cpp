@@ -72,7 +72,7 @@ void InputListener::run() {
 void InputListener::take(const Line& line) {
     ++lines_;
     if (line.isWhole && line.text.find_first_not_of(" \t\r") == std::string_view::npos) return;
-    InputLine read = line.isWhole ? readInputLine(line.text, session_.state().scene->materials, session_.channels())
+    InputLine read = line.isWhole ? readInputLine(line.text, session_.world().state().scene->materials, session_.channels())
                                   : InputLine{Failure{"expected a line of at most " + std::to_string(LineCutter::longest) + " bytes, left out"}};
     auto answer = read ? act(read.value, line) : Result<PlainMessage>{Failure{read.error}};
     if (!answer) complain(answer.error);
@@ -104,8 +104,8 @@ void InputListener::tellLeftOut() {
 }
 
 std::string actOn(const LineInput& input, Session& session, AudioOutput& output, SilenceHolder from) {
-    if (const auto* action = std::get_if<Action>(&input)) return session.act(*action);
-    if (const auto* control = std::get_if<RenderControl>(&input)) return session.post(*control) < 0 ? "too many controls at once" : "";
+    if (const auto* action = std::get_if<Action>(&input)) return session.take({*action}).error;
+    if (const auto* control = std::get_if<RenderControl>(&input)) return session.take({*control}).error;
     if (const auto* silence = std::get_if<SilenceControl>(&input))
         return takeSilence(output.silence(), *silence, from);
     return {};

@@ -56,7 +56,7 @@ void LiveBeats::strike(const BandOnset& onset) {
     std::vector<CollisionEvent> strikes;
     strikeBeat(onset, beginNs_ + nsOf(onset.frame, rateHz_), voices_, panner.layout(), panner.fieldWidthMetres(), panner.fieldHeightMetres(),
                [&](const CollisionEvent& e) { strikes.push_back(e); });
-    if (session_.playAt(strikes)) ++beats_;
+    if (session_.take({Strikes{strikes}, 0})) ++beats_;
 }
 
 } // namespace physvib

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Session, driver, device, board, recorder, journal and listener for the length of a call.
+// Session, driver, device, sinks, recorder, journal and listener for the length of a call.
 #include "CommandLine/Play/LivePlay.h"
-#include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Play/InputListener.h"
+#include "CommandLine/Play/Interrupt.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/OscReport.h"
 #include "CommandLine/Process.h"
@@ -14,7 +14,6 @@
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/PlayedRecorder.h"
-#include "Session/BoardOutput.h"
 #include "Session/SessionJournal.h"
 #include <cmath>
 #include <cstdio>
@@ -33,11 +32,10 @@ namespace {
 // the call.
 class Watch final : private juce::Timer {
 public:
-    Watch(Session& session, AudioOutput& output, const BoardLink* board, PlayedRecorder* recorder,
-          SessionJournal* journal, OscPort* osc, double seconds)
+    Watch(Session& session, AudioOutput& output, PlayedRecorder* recorder, SessionJournal* journal,
+          OscPort* osc, double seconds)
         : session_{session}
         , output_{output}
-        , board_{board}
         , recorder_{recorder}
         , journal_{journal}
         , osc_{osc}
@@ -64,16 +62,14 @@ private:
     }
 
     void drain() {
-        for (PlayedEvent e; session_.played().pop(e); ++played_) {
-            if (journal_) journal_->take(e);
-            if (osc_) osc_->tell(e, output_.sampleRateHz());
-        }
+        for (PlayedEvent e; session_.played().pop(e); ++played_)
+            session_.sinks().played(e, output_.sampleRateHz());
     }
 
     void everySecond(const SessionStatus& status) {
         std::string trouble = output_.maintain();
-        if (board_ && trouble.empty()) trouble = board_->status().trouble;
-        if (journal_ && trouble.empty()) trouble = journal_->news();
+        for (const SinkState& sink : session_.sinks().states())
+            if (trouble.empty()) trouble = sink.trouble;
         report(trouble);
         if (osc_) oscReport_.tellWrong(osc_->status().counts);
         tellUnread();
@@ -90,9 +86,9 @@ private:
                       "\r%.0f s  load %.1f %% (worst %.1f)  L %.1f ms  margin %.1f ms  %d modes  %llu late  "
                       "%llu dropped   ",
                       static_cast<double>(status.sessionNs) * 1e-9, 100.0 * o.load, 100.0 * o.worstLoad,
-                      static_cast<double>(session_.playOutFrames()) / rate, static_cast<double>(margin) / rate,
+                      static_cast<double>(session_.timeline().playOutFrames()) / rate, static_cast<double>(margin) / rate,
                       status.render.liveModes, static_cast<unsigned long long>(status.render.late),
-                      static_cast<unsigned long long>(session_.drops() + status.render.untold));
+                      static_cast<unsigned long long>(session_.world().drops() + status.render.untold));
         std::cerr << words << std::flush;
     }
 
@@ -109,7 +105,6 @@ private:
 
     Session& session_;
     AudioOutput& output_;
-    const BoardLink* board_;
     PlayedRecorder* recorder_;
     SessionJournal* journal_;
     OscPort* osc_;
@@ -126,19 +121,31 @@ void summarise(Session& session, AudioOutput& output, std::uint64_t played) {
     const AudioOutputStatus o = output.status();
     const double framesPerMs = output.sampleRateHz() / 1e3;
     std::cout << std::fixed << std::setprecision(1) << "felt "
-              << static_cast<double>(session.playOutFrames()) / framesPerMs << " ms after the contact; "
-              << played << " collisions played, " << r.late << " late, " << session.drops() + r.untold
-              << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.slippedNs()) * 1e-6
+              << static_cast<double>(session.timeline().playOutFrames()) / framesPerMs << " ms after the contact; "
+              << played << " collisions played, " << r.late << " late, " << session.world().drops() + r.untold
+              << " dropped, " << r.rejected << " refused; " << static_cast<double>(session.world().slippedNs()) * 1e-6
               << " ms of stalls; ";
     if (status.leastMarginFrames != noMargin)
         std::cout << "least margin " << static_cast<double>(status.leastMarginFrames) / framesPerMs
                   << " ms; ";
     std::cout << "worst load " << 100 * o.worstLoad << " %, " << o.deviceXruns << " xruns of the device\n";
-    if (session.toldAheadNs() > 0)
-        std::cout << "messages were felt " << 1e3 * session.directSeconds() << " ms after they came\n";
-    if (session.marks()) std::cout << "marked: " << markWords(*session.marks()) << '\n';
+    if (session.timeline().toldAheadNs() > 0)
+        std::cout << "messages were felt " << 1e3 * session.timeline().directSeconds() << " ms after they came\n";
+    if (session.rendered().marks()) std::cout << "marked: " << markWords(*session.rendered().marks()) << '\n';
     if (o.losses > 0)
         std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
+}
+
+/// What each has done, on stdout; empty, or what is wrong with the first that does not play.
+std::string summarise(const Sinks& sinks) {
+    std::string trouble;
+    for (const auto& sink : sinks) {
+        std::cout << sink->summary([] { return !interrupted; });
+        const SinkState state = sink->state();
+        if (trouble.empty() && !state.isReady)
+            trouble = state.trouble.empty() ? "the " + state.name + " is gone" : state.trouble;
+    }
+    return trouble;
 }
 
 std::unique_ptr<SimulationDriver> makeDriver(const LivePlay& wanted, Session& session) {
@@ -153,27 +160,24 @@ std::string playLive(LivePlay wanted) {
     const juce::ScopedJuceInitialiser_GUI juce; // the message loop
     heedInterrupts();
     sayWithoutWaiting();
-    std::optional<BoardLink> board;
-    if (!wanted.board.empty()) {
-        board.emplace(boardPort(wanted.board));
-        if (auto error = connectBoard(*board); !error.empty()) return error;
-        wanted.setup.boardSeconds = board->status().playOutMs * 1e-3;
-    }
-    const wire::Telemetry before = board ? board->status().telemetry : wire::Telemetry{};
+    Sinks sinks; // outlive the session
+    const auto goesOn = [] { return !interrupted; };
+    if (auto error = openSinks(wanted.sinks, wanted.setup.panner, goesOn, sinks); !error.empty()) return error;
     wanted.setup.log = wanted.savePath.empty() ? LogUse::none : LogUse::stream;
     Session session{wanted.setup};
+    for (const auto& sink : sinks) session.sinks().attach(*sink);
     std::optional<PlayedRecorder> recording; // outlives the output, whose callback fills it
     std::optional<SessionJournal> journal;
     std::optional<FilesFirst> files;
     const auto inputs = wanted.beats ? std::make_unique<InputTap>() : nullptr; // outlives the output as well
     AudioOutput output{session, audioDeviceTypesAndNone, &interrupted};
-    output.hearInputs(inputs.get());
+    wanted.output.tap = inputs.get();
     if (auto error = output.open(wanted.output); !error.empty()) return error;
     if (!wanted.recordPath.empty()) {
         recording.emplace(wanted.recordPath, wanted.setup.channels, output.sampleRateHz());
         if (!recording->error().empty()) return recording->error();
-        recording->tellBeginning(session.playOutFrames());
-        output.record(&*recording);
+        recording->tellBeginning(session.timeline().playOutFrames());
+        session.sinks().attach(*recording);
     }
     if (!wanted.savePath.empty()) {
         const Provenance provenance{PHYSVIB_VERSION,
@@ -186,8 +190,7 @@ std::string playLive(LivePlay wanted) {
     std::string saved, recorded; // each, whatever becomes of the other
     MessageRouter messages{session};
     {
-        std::optional<BoardOutput> onBoard;
-        if (board) onBoard.emplace(session, output, *board, wanted.setup.panner);
+        const Following together{session.sinks(), output};
         const auto driver = makeDriver(wanted, session);
         std::optional<LiveBeats> heard;
         if (wanted.beats) heard.emplace(session, *inputs, *wanted.beats, wanted.beatSensitivity);
@@ -208,7 +211,6 @@ std::string playLive(LivePlay wanted) {
         {
             Watch watch{session,
                         output,
-                        board ? &*board : nullptr,
                         recording ? &*recording : nullptr,
                         journal ? &*journal : nullptr,
                         osc ? &*osc : nullptr,
@@ -216,7 +218,7 @@ std::string playLive(LivePlay wanted) {
             juce::MessageManager::getInstance()->runDispatchLoop();
             played = watch.played();
         }
-        const bool isWhole = !recording || output.isRecording();
+        const bool isWhole = !recording || recording->isWhole();
         if (files) files->finish(); // before all that may hang
         output.stop();
         saved = journal ? journal->finish() : "", recorded = recording ? recording->finish() : "";
@@ -232,7 +234,7 @@ std::string playLive(LivePlay wanted) {
                   << " times\n";
     if (recording && recording->framesLost() > 0)
         std::cerr << "physvib: warning: frames missing in the recording: " << recording->framesLost() << '\n';
-    const std::string trouble = board ? reportBoard(*board, before) : "";
+    const std::string trouble = summarise(sinks);
     if (recording && recording->beginsSeconds())
         std::cout << wanted.recordPath << "  begins at session time "
                   << fixedNumber(*recording->beginsSeconds(), 6) << " s\n";

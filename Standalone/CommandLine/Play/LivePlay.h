@@ -2,6 +2,7 @@
 // A session live on a device until its time is over or the user interrupts, with all that goes along.
 #pragma once
 #include "Host/Devices/AudioOutput.h"
+#include "Host/Devices/SinkTable.h"
 #include "Host/Music/BeatStrikes.h"
 #include "Host/Osc/OscPort.h"
 #include "Session/Session.h"
@@ -13,7 +14,7 @@ namespace physvib {
 struct LivePlay {
     SessionSetup setup;
     AudioOutputSettings output;
-    std::string board;      ///< as of --board, to be felt together with the device; empty: none
+    std::vector<SinkName> sinks; ///< to be felt together with the device
     bool ownThread = false; ///< steps the world; else the message thread's timer
     double seconds = 10.0;
     std::string recordPath; ///< WAV; empty: none

@@ -84,12 +84,15 @@ void declarePlayOptions(CLI::App& command, PlayOptions& o) {
 }
 
 int runPlay(PlayOptions& o) {
+    OutputNames outputs{o.device};
+    o.device = outputs.device;
+    if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
     if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
     if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
     const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 && o.scene.perceivedLevel == "off";
-    if (!o.board.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
-    if (o.isDirect && !o.board.empty()) return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
+    if (!outputs.sinks.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
+    if (o.isDirect && !outputs.sinks.empty()) return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
     RenderJob job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.hasHands) job.scene = sceneForHands(std::move(*job.scene));
@@ -99,6 +102,7 @@ int runPlay(PlayOptions& o) {
     job.layout = std::move(layout.value);
     if (!o.board.empty() && job.channels() > limits::board::channels)
         return leave(exitUsage, "--board: the board has four channels, this layout " + std::to_string(job.channels()));
+    if (auto fault = channelFault(outputs.sinks, job.channels()); !fault.empty()) return leave(exitUsage, fault);
     if (auto fault = fixedLevelFault(job); !fault.empty()) return leave(exitFailed, fault);
     auto actuators = chooseActuators(o.scene, job.layout);
     if (!actuators) return leave(exitFailed, actuators.error);
@@ -135,7 +139,7 @@ int runPlay(PlayOptions& o) {
                                     o.ceilings + "\"");
     OscSettings osc = o.osc;
     osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
-    LivePlay wanted{setup, settings, o.board, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens, {}, o.beats.sensitivity, osc, o.clips};
+    LivePlay wanted{setup, settings, outputs.sinks, o.driver == "thread", o.scene.seconds, o.recordPath, o.savePath, o.listens, {}, o.beats.sensitivity, osc, o.clips};
     if (!settings.inputs.empty()) wanted.beats = voices.value;
     const std::string error = playLive(std::move(wanted));
     return error.empty() ? exitDone : leave(exitFailed, error);

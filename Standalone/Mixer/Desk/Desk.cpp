@@ -10,7 +10,6 @@ namespace physvib {
 namespace {
 
 constexpr int stepsPerSecond = 100;
-constexpr double maintainMs = 1000.0;
 constexpr double newStripDb = -12.0; // hands are attached
 
 Mix shakeTheBox() {
@@ -21,7 +20,7 @@ Mix shakeTheBox() {
     return mix;
 }
 
-SessionSetup setupOf(const Mix& mix, bool hasBoard) {
+SessionSetup setupOf(const Mix& mix) {
     SessionSetup setup;
     setup.scene = *mix.scene;
     setup.seed = mix.seed;
@@ -32,7 +31,6 @@ SessionSetup setupOf(const Mix& mix, bool hasBoard) {
     setup.contactSound.emplace();
     setup.ears = 2;
     setup.marks = MarkedOnsets::all;
-    if (hasBoard) setup.boardSeconds = DeskBoard::leadSeconds;
     return setup;
 }
 
@@ -40,11 +38,6 @@ SessionSetup setupOf(const Mix& mix, bool hasBoard) {
 
 Mix Desk::firstMix() {
     return shakeTheBox();
-}
-
-juce::String titleOf(const std::string& name) {
-    const auto words = juce::String::fromUTF8(name.c_str()).replaceCharacter('-', ' ');
-    return words.substring(0, 1).toUpperCase() + words.substring(1);
 }
 
 /// One thing to undo; edits of a held fader grow into one.
@@ -68,36 +61,34 @@ private:
 };
 
 Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
-    : types_{std::move(types)}
-    , mix_{std::move(mix)}
-    , session_{setupOf(mix_, !device.board.empty())}
-    , output_{session_, types_}
-    , recording_{session_, output_, mix_, [this] { sendChangeMessage(); }}
+    : mix_{std::move(mix)}
+    , session_{setupOf(mix_)}
+    , device_{session_, std::move(types), mix_, [this] { sendChangeMessage(); }}
+    , recording_{session_, output(), mix_, [this] { sendChangeMessage(); }}
     , undo_{1000, 30}
-    , sceneNow_{*mix_.scene}
+    , world_{session_, mix_, undo_, [this](bool isShown) { edited(isShown); }}
     , told_{mix_.panner()}
-    , clips_{session_, output_, [this](const Result<std::string>& note) { takeFelt(note); }} {
-    saved_.run = setupOf(mix_, false).run();
+    , strikes_{session_, output(), mix_, world_, [this] { edited(true); }, [this](const Result<std::string>& note) { takeFelt(note); }} {
+    saved_.run = setupOf(mix_).run();
     saved_.panner = mix_.panner();
     mostEnchanters_ = mix_.count();
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
-    output_.listen(&signals_.tap());
+    session_.sinks().attach(signals_.tap());
+    device_.connectBoard(device.board);
     open(device);
     told_.tell(session_, mix_);
     edits_ = 0;
-    if (!device.board.empty())
-        board_ = std::make_unique<DeskBoard>(device.board, session_, output_, mix_.panner());
+    session_.sinks().follow(&output());
     driver_ = std::make_unique<ThreadDriver>(session_, stepsPerSecond);
 }
 
 Desk::~Desk() {
-    output_.stop();
+    output().stop();
     recording_.keep(); // before what may hang
-    osc_.reset();
+    inputs_.close();
     driver_.reset();
-    board_.reset();
-    output_.close();
+    device_.close();
 }
 
 void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
@@ -109,26 +100,14 @@ void Desk::apply(const Mix& next) {
     const Mix before = std::exchange(mix_, next);
     ++edits_;
     mostEnchanters_ = std::max(mostEnchanters_, mix_.count());
-    if (mix_.scene != before.scene || mix_.seed != before.seed) takeScene(mix_.scene == before.scene);
+    if (mix_.scene != before.scene || mix_.seed != before.seed) beginWorld(mix_.scene == before.scene);
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
     told_.tell(session_, mix_);
-    if (outputMap() != std::vector<int>{} &&
-        (before.count() != mix_.count() ||
-         !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))) {
-        output_.hear(heard_ = ofStudy_.value_or(
-                         ListeningSettings{})); // hands first: an enchanter may come where somebody listens
-        if (const auto error = output_.assign(outputMap(), mix_.count()); !error.empty()) report(utf8(error));
-        hearWanted();
-    }
-    output_.setLevel(masterGain(mix_));
+    if (!mix_.strips.empty() && !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))
+        if (const auto error = device_.assign(); !error.empty()) report(utf8(error));
+    output().setLevel(masterGain(mix_));
     sendChangeMessage();
-}
-
-std::vector<int> Desk::outputMap() const {
-    std::vector<int> map;
-    for (const Strip& strip : mix_.strips) map.push_back(strip.output);
-    return map;
 }
 
 bool Desk::attach(double shareX, double shareY) {
@@ -176,128 +155,71 @@ const SavedSession& Desk::saved() {
     return saved_;
 }
 
-std::string Desk::open(const DeviceChoice& device) {
-    AudioOutputSettings settings{device.name,
-                                 outputMap(),
-                                 device.sampleRateHz,
-                                 device.blockFrames,
-                                 masterGain(mix_),
-                                 mix_.count(),
-                                 true,
-                                 heard_ = ofStudy_.value_or(ListeningSettings{})};
-    const auto error = output_.open(settings);
-    device_ = device;
-    hearWanted();
-    report(outputTrouble_ = deviceTrouble_ = utf8(error));
-    signals_.setRate(output_.sampleRateHz());
+std::string Desk::open(const DeviceChoice& choice) {
+    auto error = device_.open(choice);
+    report(deviceTrouble_ = utf8(error));
+    signals_.setRate(output().sampleRateHz());
     return error;
-}
-
-bool Desk::isFree(int output) const {
-    return output >= 0 && output < outputs() &&
-           std::ranges::find(mix_.strips, output, &Strip::output) == mix_.strips.end();
-}
-
-// What is only heard never keeps a device from being felt: where it cannot be, it is not asked for.
-ListeningSettings Desk::wantedListening() const {
-    ListeningSettings wanted = ofStudy_.value_or(ListeningSettings{});
-    if (!ofStudy_ && std::ranges::all_of(device_.monitor, [this](int output) { return isFree(output); }))
-        wanted.contacts = device_.monitor;
-    wanted.contactDb = device_.monitorDb;
-    const auto has = [&](const std::vector<int>& those) {
-        return std::ranges::find(those, device_.marker) != those.end();
-    };
-    if (isFree(device_.marker) && !has(wanted.noise) && !has(wanted.contacts))
-        wanted.marks = {device_.marker};
-    return wanted;
-}
-
-std::string Desk::hearWanted() {
-    const auto wanted = wantedListening();
-    if (wanted == heard_) return {};
-    auto error = output_.hear(wanted);
-    if (error.empty()) heard_ = wanted;
-    return error;
-}
-
-std::string Desk::hear(const ListeningSettings& ofStudy) {
-    const auto before = std::exchange(ofStudy_, ofStudy);
-    auto error = hearWanted();
-    if (!error.empty()) ofStudy_ = before;
-    return error;
-}
-
-void Desk::endStudy() {
-    ofStudy_.reset();
-    hearWanted();
-}
-
-std::string Desk::listen(const ListeningSettings& wanted, const DeviceChoice& choice) {
-    if (auto error = output_.hear(wanted); !error.empty()) return error;
-    heard_ = wanted;
-    device_ = choice;
-    sendChangeMessage();
-    return {};
-}
-
-std::string Desk::monitor(std::vector<int> outputs, double db) {
-    auto wanted = heard_;
-    auto choice = device_;
-    wanted.contacts = choice.monitor = std::move(outputs);
-    wanted.contactDb = choice.monitorDb = db;
-    return listen(wanted, choice);
-}
-
-std::string Desk::mark(int output) {
-    auto wanted = heard_;
-    auto choice = device_;
-    choice.marker = output;
-    wanted.marks = output < 0 ? std::vector<int>{} : std::vector{output};
-    return listen(wanted, choice);
 }
 
 std::string Desk::monitorInstead(std::vector<int> outputs, double db) {
     if (!std::ranges::all_of(outputs,
-                             [this](int output) { return output >= this->outputs() || isFree(output); }))
+                             [this](int output) { return output >= device_.outputs() || device_.listening().isFree(output); }))
         change("Listen instead of feeling", [&](Mix& mix) {
             for (Strip& strip : mix.strips)
                 if (std::ranges::find(outputs, strip.output) != outputs.end()) strip.output = -1;
         });
-    return monitor(std::move(outputs), db);
+    return device_.listening().monitor(std::move(outputs), db);
 }
 
 void Desk::watchOutput() {
     told_.tell(session_, mix_); // what found no room before
-    if (isSilent_ != output_.isSilent()) showSilence();
-    if (const double now = nowMs(); now - maintainedAtMs_ > maintainMs) {
-        maintainedAtMs_ = now;
-        hearWanted(); // the device may have gone, or may be back
-        deviceTrouble_ = utf8(output_.maintain());
-    }
-    const auto board = board_ ? board_->trouble() : juce::String{},
-               both = deviceTrouble_.isEmpty() || board.isEmpty() ? deviceTrouble_ + board
-                                                                  : deviceTrouble_ + "; " + board;
-    if (both != outputTrouble_) report(outputTrouble_ = both);
+    if (isSilent_ != output().isSilent()) showSilence();
+    device_.maintain();
+    if (const auto trouble = device_.trouble(); trouble != deviceTrouble_) report(deviceTrouble_ = trouble);
+}
+
+void Desk::restart(std::uint32_t seed) {
+    if (seed != mix_.seed) return change("Seed", [seed](Mix& mix) { mix.seed = seed; });
+    beginWorld(true);
+    edited();
+}
+
+void Desk::beginWorld(bool isSameScene) {
+    if (const auto fault = world_.begin(isSameScene); !fault.empty()) report(utf8(fault));
+}
+
+void Desk::setSlowness(int slowness) {
+    session_.world().setSlowness(slowness);
+    sendChangeMessage();
+}
+
+void Desk::edited(bool isShown) {
+    ++edits_;
+    if (isShown) sendChangeMessage(); // who rests looks again
+}
+
+void Desk::takeFelt(const Result<std::string>& note) {
+    if (!note) return report(utf8(note.error));
+    juce::StringArray news{utf8(note.value), device_.board() ? "The board plays no clips: it is felt on the device alone" : ""};
+    news.removeEmptyStrings();
+    if (!news.isEmpty()) tell(news.joinIntoString("; "));
+    edited();
 }
 
 void Desk::setSilent(bool silent) {
-    output_.setSilent(silent);
+    output().setSilent(silent);
     showSilence();
 }
 
 void Desk::showSilence() {
-    isSilent_ = output_.isSilent();
+    isSilent_ = output().isSilent();
     sendChangeMessage();
 }
 
 void Desk::setDisplayWidth(double metres) {
     displayWidthMetres_ = metres;
     sendChangeMessage();
-}
-
-double Desk::playOutSeconds() const noexcept {
-    return output_.sampleRateHz() > 0 ? static_cast<double>(session_.playOutFrames()) / output_.sampleRateHz()
-                                      : 0.0;
 }
 
 void Desk::report(const juce::String& trouble) {

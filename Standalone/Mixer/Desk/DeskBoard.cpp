@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A board that is late, gone or silent, in words.
 #include "Mixer/Desk/DeskBoard.h"
-#include "Mixer/Desk/DeskMoment.h"
 #include "Mixer/Desk/DeskWords.h"
 
 namespace physvib {
@@ -11,10 +10,9 @@ constexpr double patienceMs = 3000.0; // greeting and clock take half a second
 
 } // namespace
 
-DeskBoard::DeskBoard(const std::string& port, Session& session, AudioOutput& output, const PhantomPanner& panner)
+DeskBoard::DeskBoard(const std::string& port, const PhantomPanner& panner)
     : port_{port}
-    , link_{port == anyBoard ? std::string{} : port}
-    , output_{session, output, link_, panner}
+    , output_{port, panner, leadSeconds}
     , wantedAtMs_{nowMs()} {}
 
 // Without a port of its own the link tries one after the other: what it says of each would only flicker.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The four-channel board beside the desk's device, and what is wrong with it.
 #pragma once
-#include "Host/Devices/AudioOutput.h"
 #include "Session/BoardOutput.h"
+#include <juce_core/juce_core.h>
 #include <string>
 
 namespace physvib {
@@ -10,20 +10,20 @@ namespace physvib {
 /// Plays the first four enchanters while it lives. M only.
 class DeskBoard {
 public:
-    /// The session's boardSeconds: the link needs 20 to 40 ms; more than that is told as trouble.
+    /// The link needs 20 to 40 ms; more than that is told as trouble.
     static constexpr double leadSeconds = 0.05;
 
-    /// The board at `port`, or anyBoard; see BoardOutput for the others.
-    DeskBoard(const std::string& port, Session& session, AudioOutput& output, const PhantomPanner& panner);
+    /// The board at `port`, or anyBoard, for a session with that panner.
+    DeskBoard(const std::string& port, const PhantomPanner& panner);
 
-    BoardLinkStatus status() const { return link_.status(); }
+    Sink& sink() noexcept { return output_; }
+    BoardLinkStatus status() const { return output_.status(); }
 
     /// One line; empty while all is well, and before it had time to answer.
     juce::String trouble();
 
 private:
     std::string port_;
-    BoardLink link_;
     BoardOutput output_;
     double wantedAtMs_ = 0.0;
     bool wasReady_ = false;

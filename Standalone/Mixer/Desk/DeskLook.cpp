@@ -7,7 +7,7 @@ namespace physvib {
 DeskMoment Desk::look() {
     const float loudest = signals_.read(now_, mix_.count());
     now_.session = session_.status();
-    now_.device = output_.status();
+    now_.device = output().status();
     exposure_.update();
     now_.dailyExposure = exposure_.daily();
     takePlayed();
@@ -18,16 +18,16 @@ DeskMoment Desk::look() {
     now_.meters.enchanters = mix_.count();
     for (std::size_t j = 0; j < static_cast<std::size_t>(mix_.count()); ++j) now_.meters.isConnected[j] = mix_.strips[j].output >= 0;
     now_.masterPeak = isSilent_ ? 0.0f : loudest * masterGain(mix_);
-    now_.sessionNs = session_.readPoses(now_.poses);
-    now_.aheadNs = static_cast<std::int64_t>(1e9 * playOutSeconds());
+    now_.sessionNs = session_.world().readPoses(now_.poses);
+    now_.aheadNs = static_cast<std::int64_t>(1e9 * device_.playOutSeconds());
     watchOutput();
-    watchOsc();
+    if (inputs_.haveCome()) ++edits_; // what a message strikes stands in the session that is saved
     return now_;
 }
 
 void Desk::takePlayed() {
     for (PlayedEvent played; session_.played().pop(played);) {
-        if (osc_) osc_->tell(played);
+        session_.sinks().played(played, output().sampleRateHz());
         hits_.push_back(played.event);
         recent_.add(played.event);
         recording_.take(played);

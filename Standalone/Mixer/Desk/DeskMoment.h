@@ -36,7 +36,4 @@ struct DeviceChoice {
     int marker = -1;            ///< its output for marks, from 0; -1: none
 };
 
-/// The first board that answers.
-inline constexpr const char* anyBoard = "auto";
-
 } // namespace physvib

@@ -33,7 +33,6 @@ public:
     ~DeskOsc() override;
 
     const std::string& error() const noexcept { return port_->error(); }
-    void tell(const PlayedEvent& played) { port_->tell(played, output_.sampleRateHz()); }
     OscStatus status() const;
 
 private:

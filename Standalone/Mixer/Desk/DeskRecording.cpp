@@ -29,17 +29,21 @@ std::string DeskRecording::start(const juce::File& file) {
     recording_ = std::move(recording);
     file_ = file;
     isEnding_ = false;
-    output_.record(&recording_->recorder());
+    session_.sinks().attach(recording_->recorder());
     onChange_();
     return {};
 }
 
 void DeskRecording::stop() {
     if (!isRunning()) return;
-    output_.record(nullptr);
+    letGo();
+    onChange_();
+}
+
+void DeskRecording::letGo() {
+    session_.sinks().detach(recording_->recorder());
     isEnding_ = true;
     endsAfterBlock_ = output_.status().blocks + 1;
-    onChange_();
 }
 
 double DeskRecording::seconds() const noexcept {
@@ -56,24 +60,27 @@ void DeskRecording::take(const PlayedEvent& played) {
 void DeskRecording::look(const AudioOutputStatus& device) {
     if (!recording_) return;
     recording_->drain();
-    if (!isEnding_ && output_.isRecording()) return;
-    if (isEnding_ && device.isRunning && device.blocks <= endsAfterBlock_) return;
+    if (!isEnding_ && recording_->recorder().isWhole()) return;
+    if (!isEnding_) letGo();
+    if (device.isRunning && device.blocks <= endsAfterBlock_) return;
     from_ = recording_->recorder().firstFrame();
     const auto lost = recording_->recorder().framesLost();
+    const bool isWhole = recording_->recorder().isWhole();
     auto error = close();
     if (error.isEmpty() && lost > 0)
         error = "frames missing in the recording: " + juce::String{static_cast<juce::int64>(lost)};
-    if (error.isEmpty() && !isEnding_) error = "the recording ends where the device changed its rate";
+    if (error.isEmpty() && !isWhole) error = "the recording ends where the device changed its rate";
     if (onEnd) onEnd(file_, error);
     onChange_();
 }
 
-/// Both files in their places; empty, or one line with the reason.
+// R has let go, or does not run. Both files in their places; empty, or one line with the reason.
 juce::String DeskRecording::close() {
     const Provenance provenance{PHYSVIB_VERSION,
                                 {{"scene", mix_.scene->name}, {"seed", std::to_string(mix_.seed)}}};
+    session_.sinks().detach(recording_->recorder());
     for (PlayedEvent played; session_.played().pop(played);) recording_->take(played);
-    const auto error = utf8(recording_->finish(session_.playOutFrames(), provenance));
+    const auto error = utf8(recording_->finish(session_.timeline().playOutFrames(), provenance));
     recording_.reset();
     return error;
 }

@@ -37,6 +37,7 @@ public:
     void look(const AudioOutputStatus& device);
 
 private:
+    void letGo();
     juce::String close();
 
     Session& session_;

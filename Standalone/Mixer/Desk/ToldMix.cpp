@@ -14,13 +14,13 @@ bool isSame(const PhantomPanner& a, const PhantomPanner& b) {
 
 void ToldMix::tell(Session& session, const Mix& mix) {
     using Kind = RenderControl::Kind;
-    const auto post = [&session](Kind kind, const PhantomPanner& panner) { return session.post({0, kind, 0, 0.0f, panner}) >= 0; };
+    const auto post = [&session](Kind kind, const PhantomPanner& panner) { return session.take({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty(); };
     if (const auto panner = mix.panner(); !isSame(panner_, panner)) {
         if (panner.channels() < panner_.channels() && !post(Kind::stopAll, {})) return; // a channel may be another enchanter's now
         if (!post(Kind::panner, panner)) return;
         panner_ = panner;
     }
-    tellStrips(strips_, mix.strips, [&session](const RenderControl& control) { return session.post(control) >= 0; });
+    tellStrips(strips_, mix.strips, [&session](const RenderControl& control) { return session.take({control}).error.empty(); });
 }
 
 } // namespace physvib

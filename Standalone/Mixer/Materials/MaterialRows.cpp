@@ -14,7 +14,7 @@ constexpr double decibelsOfDecay = 60.0;
 
 juce::String MaterialsTab::Rows::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
-    const auto& m = tab_.desk_.sceneNow().materials[static_cast<std::size_t>(tab_.order_[static_cast<std::size_t>(row)])];
+    const auto& m = tab_.desk_.world().scene().materials[static_cast<std::size_t>(tab_.order_[static_cast<std::size_t>(row)])];
     return utf8(m.name) + (m.frequencyHz > 0.0 ? ", " + frequencyText(m.frequencyHz) + " hertz, decays by " + decayText(m.decayPerSecond) + " per second" : juce::String{", silent"});
 }
 
@@ -26,7 +26,7 @@ void MaterialsTab::Rows::listBoxItemClicked(int, const juce::MouseEvent& e) {
 void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
     if (row >= getNumRows()) return;
     const int index = tab_.order_[static_cast<std::size_t>(row)];
-    const auto& m = tab_.desk_.sceneNow().materials[static_cast<std::size_t>(index)];
+    const auto& m = tab_.desk_.world().scene().materials[static_cast<std::size_t>(index)];
     if (isSelected) {
         g.setColour(shade(tab_, Shade::accent).withAlpha(0.16f));
         g.fillRect(0, 0, width, height);

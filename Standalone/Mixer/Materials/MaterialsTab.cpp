@@ -104,7 +104,7 @@ void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title,
 
 const Material* MaterialsTab::chosen() const {
     const int index = chosenIndex();
-    return index < 0 ? nullptr : &desk_.sceneNow().materials[static_cast<std::size_t>(index)];
+    return index < 0 ? nullptr : &desk_.world().scene().materials[static_cast<std::size_t>(index)];
 }
 
 int MaterialsTab::chosenIndex() const {
@@ -122,7 +122,7 @@ const RecordedHit* MaterialsTab::recordingOf(int material) const {
 }
 
 void MaterialsTab::takeMix() {
-    const auto& materials = desk_.sceneNow().materials;
+    const auto& materials = desk_.world().scene().materials;
     if (scene_ != desk_.mix().scene) {
         scene_ = desk_.mix().scene;
         recordings_.clear();
@@ -163,14 +163,14 @@ void MaterialsTab::setSound(bool isFrequency, bool goesOn) {
     SoundAction sound{chosenIndex(), material->frequencyHz, material->decayPerSecond};
     (isFrequency ? sound.frequencyHz : sound.decayPerSecond) = isFrequency ? frequency_.getValue() : decay_.getValue();
     const auto name = (isFrequency ? "Frequency of " : "Decay of ") + utf8(material->name);
-    if (const auto fault = desk_.editWorld(name, sound, goesOn); !fault.empty()) desk_.report(utf8(fault));
+    if (const auto fault = desk_.world().edit(name, sound, goesOn); !fault.empty()) desk_.report(utf8(fault));
 }
 
 void MaterialsTab::setTexture(const Texture& texture, const juce::String& what, bool goesOn) {
     const auto* material = chosen();
     if (material == nullptr) return;
     const TextureAction surface{chosenIndex(), texture.grainMetres, texture.roughness, texture.pattern, texture.rolling};
-    if (const auto fault = desk_.editWorld(what + " of " + utf8(material->name), surface, goesOn); !fault.empty()) desk_.report(utf8(fault));
+    if (const auto fault = desk_.world().edit(what + " of " + utf8(material->name), surface, goesOn); !fault.empty()) desk_.report(utf8(fault));
 }
 
 void MaterialsTab::typeFrequency() {
@@ -182,7 +182,7 @@ void MaterialsTab::feelAt(FieldShare spot) {
     spot_ = spot;
     showSpot();
     if (chosenIndex() < 0) return;
-    if (const auto fault = desk_.audition(chosenIndex(), spot.x, spot.y); !fault.empty()) desk_.report(utf8(fault));
+    if (const auto fault = desk_.strikes().audition(chosenIndex(), spot.x, spot.y); !fault.empty()) desk_.report(utf8(fault));
 }
 
 void MaterialsTab::showSpot() {
@@ -235,8 +235,8 @@ void MaterialsTab::take(const Job& job, const Result<RecordedHit>& hit) {
     if (!hit) return desk_.report(utf8(hit.error));
     if (job.scene != desk_.mix().scene) return desk_.report(job.file.getFileName() + ": another scene is played now; drop it again");
     const auto& sound = hit.value.sound;
-    const auto name = utf8(desk_.sceneNow().materials[static_cast<std::size_t>(job.material)].name);
-    if (const auto fault = desk_.editWorld("Recording of " + name, SoundAction{job.material, sound.frequencyHz, sound.decayPerSecond}); !fault.empty())
+    const auto name = utf8(desk_.world().scene().materials[static_cast<std::size_t>(job.material)].name);
+    if (const auto fault = desk_.world().edit("Recording of " + name, SoundAction{job.material, sound.frequencyHz, sound.decayPerSecond}); !fault.empty())
         return desk_.report(job.file.getFileName() + ": " + utf8(fault));
     recordings_.insert_or_assign(job.material, hit.value);
     shown_.reset();

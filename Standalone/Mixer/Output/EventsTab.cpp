@@ -128,7 +128,7 @@ juce::String EventsTab::Rows::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
     const auto& contact = tab_.shown_[static_cast<std::size_t>(row)];
     const auto& hit = contact.event;
-    const auto& scene = tab_.desk_.sceneNow();
+    const auto& scene = tab_.desk_.world().scene();
     return nameOf(scene, contact) + " at " + timeText(hit.timeNs) + ", " + number(feltMost(tab_.desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
@@ -143,7 +143,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     }
     const Columns at{{width, height}};
     const auto most = feltMost(desk.mix(), hit);
-    const int material = materialOf(desk.sceneNow(), hit);
+    const int material = materialOf(desk.world().scene(), hit);
     g.setColour(material < 0 ? palette::other : palette::material(material));
     g.fillEllipse(at.dot.toFloat().withSizeKeepingCentre(10.0f, 10.0f).translated(-4.0f, 0.0f));
     const auto cell = [&](const juce::String& words, juce::Rectangle<int> area, Shade which, bool isNumber) {
@@ -152,7 +152,7 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     };
     g.setFont(juce::Font{text::small});
     cell(timeText(hit.timeNs), at.time, Shade::muted, false);
-    cell(nameOf(desk.sceneNow(), contact), at.name, Shade::text, false);
+    cell(nameOf(desk.world().scene(), contact), at.name, Shade::text, false);
     const bool isMode = !isClip(hit.frequencyHz);
     cell(isMode ? number(hit.frequencyHz, 1) : "clip", at.frequency, Shade::text, true);
     cell(isMode ? number(hit.decayPerSecond, 1) : "", at.decay, Shade::text, true);

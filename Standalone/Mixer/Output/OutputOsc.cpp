@@ -33,20 +33,20 @@ void OutputTab::prepareOsc() {
 }
 
 void OutputTab::listen() {
-    OscChoice choice = desk_.oscChoice();
+    OscChoice choice = desk_.inputs().choice();
     choice.use = static_cast<OscUse>(osc_.getSelectedItemIndex());
     if (const int hold = phone_.getSelectedItemIndex(); hold >= 0) choice.turnDegrees = phoneHolds[static_cast<std::size_t>(hold)].turnDegrees;
     useOsc(choice, "Messages by OSC: ");
 }
 
 void OutputTab::tellHits(const juce::String& receiver) {
-    OscChoice choice = desk_.oscChoice();
+    OscChoice choice = desk_.inputs().choice();
     choice.receiver = receiver.trim().toStdString();
     useOsc(choice, "Hits by OSC: ");
 }
 
 void OutputTab::useOsc(const OscChoice& choice, const juce::String& what) {
-    if (const auto error = desk_.useOsc(choice); !error.empty()) desk_.report(what + utf8(error));
+    if (const auto error = desk_.inputs().use(choice); !error.empty()) desk_.report(what + utf8(error));
     showOsc();
 }
 
@@ -59,7 +59,7 @@ void OutputTab::chooseReceiver() {
 
 // A receiver stays in the list, to be switched off and on.
 void OutputTab::showOsc() {
-    const OscChoice& choice = desk_.oscChoice();
+    const OscChoice& choice = desk_.inputs().choice();
     const auto known = choice.receiver.empty() ? hits_.getItemText(hits_.indexOfItemId(knownReceiverId)) : utf8(choice.receiver);
     osc_.setSelectedItemIndex(static_cast<int>(choice.use), juce::dontSendNotification);
     hits_.clear(juce::dontSendNotification);
@@ -72,7 +72,7 @@ void OutputTab::showOsc() {
 }
 
 juce::String OutputTab::oscState(Shade& state) const {
-    const auto osc = desk_.osc();
+    const auto osc = desk_.inputs().status();
     state = osc ? Shade::text : Shade::muted;
     if (!osc) return "none";
     const OscCounts& c = osc->counts;
@@ -80,7 +80,7 @@ juce::String OutputTab::oscState(Shade& state) const {
     if (c.wrong() + c.lost + c.late + osc->unsent > 0) state = Shade::now;
     juce::StringArray parts;
     if (!osc->address.empty()) parts.add(utf8(osc->address) + ": " + count(c.messages - c.refused) + " good, " + count(c.wrong()) + " bad, " + count(c.late) + " late" + (c.lost > 0 ? ", " + count(c.lost) + " lost" : juce::String{}));
-    if (!desk_.oscChoice().receiver.empty()) parts.add("to " + utf8(desk_.oscChoice().receiver) + ": " + count(osc->sent) + " sent" + (osc->unsent > 0 ? ", " + count(osc->unsent) + " not taken" : juce::String{}));
+    if (!desk_.inputs().choice().receiver.empty()) parts.add("to " + utf8(desk_.inputs().choice().receiver) + ": " + count(osc->sent) + " sent" + (osc->unsent > 0 ? ", " + count(osc->unsent) + " not taken" : juce::String{}));
     const auto words = parts.joinIntoString("; ");
     return c.fault.empty() ? words : words + "; " + utf8(c.fault);
 }

@@ -74,7 +74,7 @@ void OutputTab::visibilityChanged() {
 }
 
 void OutputTab::scan() {
-    found_ = listAudioDevices(desk_.deviceTypes());
+    found_ = listAudioDevices(desk_.device().types());
     listPorts();
     isScanned_ = true;
     takeMix();
@@ -82,7 +82,7 @@ void OutputTab::scan() {
 
 // The one that is wanted stands there even if it does not.
 void OutputTab::listPorts() {
-    const auto& wanted = desk_.device().board;
+    const auto& wanted = desk_.device().choice().board;
     ports_.clear();
     board_.clear(juce::dontSendNotification);
     board_.addItem("none", noBoardId);
@@ -100,7 +100,7 @@ void OutputTab::listPorts() {
 
 void OutputTab::open() {
     const int index = device_.getSelectedId() - 1;
-    DeviceChoice choice = desk_.device();
+    DeviceChoice choice = desk_.device().choice();
     if (index >= 0 && index < static_cast<int>(found_.size())) choice.name = found_[static_cast<std::size_t>(index)].type + ":" + found_[static_cast<std::size_t>(index)].name;
     choice.sampleRateHz = rate_.getSelectedId() > 1 ? rate_.getSelectedId() : 0;
     choice.blockFrames = block_.getSelectedId() > 1 ? block_.getSelectedId() : 0;
@@ -116,7 +116,7 @@ void OutputTab::connectBoard() {
 
 // Pairs as headphones have them; where enchanters are, it says whose place would be taken.
 void OutputTab::listHeard() {
-    const auto& choice = desk_.device();
+    const auto& choice = desk_.device().choice();
     const auto& mix = desk_.mix();
     const auto ownersOf = [&](int output) {
         juce::String owners;
@@ -128,9 +128,9 @@ void OutputTab::listHeard() {
     marks_.clear(juce::dontSendNotification);
     monitor_.addItem("nobody listens", noneId);
     marks_.addItem("none", noneId);
-    for (int k = 0; k < desk_.outputs(); ++k) {
+    for (int k = 0; k < desk_.device().outputs(); ++k) {
         if (ownersOf(k).isEmpty()) marks_.addItem("output " + juce::String{k + 1}, noneId + 1 + k);
-        if (k % 2 != 0 || k + 1 >= desk_.outputs()) continue;
+        if (k % 2 != 0 || k + 1 >= desk_.device().outputs()) continue;
         const auto owners = ownersOf(k) + ownersOf(k + 1);
         monitor_.addItem("outputs " + juce::String{k + 1} + " and " + juce::String{k + 2} + (owners.isEmpty() ? juce::String{} : ", instead of" + owners), noneId + 1 + k);
     }
@@ -142,22 +142,22 @@ void OutputTab::listHeard() {
 
 void OutputTab::chooseMonitor() {
     const int left = monitor_.getSelectedId() - noneId - 1;
-    const double db = monitorLevel_.getSelectedId() > 0 ? levelId - monitorLevel_.getSelectedId() : desk_.device().monitorDb;
-    const auto error = left < 0 ? desk_.monitor({}, db) : desk_.monitorInstead({left, left + 1}, db);
+    const double db = monitorLevel_.getSelectedId() > 0 ? levelId - monitorLevel_.getSelectedId() : desk_.device().choice().monitorDb;
+    const auto error = left < 0 ? desk_.device().listening().monitor({}, db) : desk_.monitorInstead({left, left + 1}, db);
     if (!error.empty()) desk_.report(utf8(error));
     listHeard();
 }
 
 void OutputTab::chooseMarks() {
-    if (const auto error = desk_.mark(marks_.getSelectedId() - noneId - 1); !error.empty()) desk_.report(utf8(error));
+    if (const auto error = desk_.device().listening().mark(marks_.getSelectedId() - noneId - 1); !error.empty()) desk_.report(utf8(error));
     listHeard();
 }
 
 juce::String OutputTab::heardWords() const {
-    const auto& heard = desk_.listening();
+    const auto& heard = desk_.device().listening().settings();
     juce::String words;
     if (heard.contacts.size() == 2) words << "left on " << heard.contacts[0] + 1 << ", right on " << heard.contacts[1] + 1;
-    else if (!desk_.device().monitor.empty()) words << "not there: an enchanter, or no output";
+    else if (!desk_.device().choice().monitor.empty()) words << "not there: an enchanter, or no output";
     else words << "by nobody";
     if (!heard.marks.empty()) words << "; onsets marked on " << heard.marks[0] + 1;
     return words;
@@ -165,7 +165,7 @@ juce::String OutputTab::heardWords() const {
 
 void OutputTab::askPort() {
     listPorts(); // shows what is still so
-    ask("Four-channel board", "Serial port", utf8(desk_.device().board), [this](const juce::String& port) { useBoard(port.toStdString()); });
+    ask("Four-channel board", "Serial port", utf8(desk_.device().choice().board), [this](const juce::String& port) { useBoard(port.toStdString()); });
 }
 
 void OutputTab::ask(const juce::String& title, const juce::String& what, const juce::String& now, std::function<void(const juce::String&)> use) {
@@ -180,27 +180,23 @@ void OutputTab::ask(const juce::String& title, const juce::String& what, const j
 }
 
 void OutputTab::useBoard(const std::string& port) {
-    DeviceChoice choice = desk_.device();
+    DeviceChoice choice = desk_.device().choice();
     choice.board = port;
-    if (choice.board != desk_.device().board && desk_.onBoardWanted) desk_.onBoardWanted(choice);
+    if (choice.board != desk_.device().choice().board && desk_.device().onBoardWanted) desk_.device().onBoardWanted(choice);
 }
 
-juce::String OutputTab::boardState(Shade& state) const {
-    using State = BoardLinkStatus::State;
-    state = Shade::muted;
-    const auto status = desk_.board();
-    if (!status) return "none";
-    const auto& s = *status;
-    state = s.state == State::ready ? Shade::text : Shade::now;
-    if (s.state == State::ready)
-        return utf8(s.port) + ": ready, needs " + number(s.playOutMs, 0) + " ms, " + juce::String{static_cast<juce::int64>(s.sent)} + " sent, " +
-               juce::String{static_cast<juce::int64>(s.thinned)} + " thinned" + (desk_.mix().count() > limits::board::channels ? "; the first 4 enchanters" : "");
-    if (!s.trouble.empty()) return utf8(s.trouble);
-    return s.state == State::searching ? "looking for a board" : utf8(s.port) + ": connecting";
+std::vector<Fact> OutputTab::sinkFacts() const {
+    std::vector<Fact> facts;
+    for (const SinkState& sink : desk_.session().sinks().states()) {
+        const bool isPart = sink.isReady && sink.channels > 0 && desk_.mix().count() > sink.channels;
+        const auto rest = isPart ? "; the first " + juce::String{sink.channels} + " enchanters" : juce::String{};
+        facts.push_back({titleOf(sink.name), utf8(sink.where) + rest, sink.isReady ? Shade::text : Shade::now});
+    }
+    return facts.empty() ? std::vector<Fact>{{"Board", "none", Shade::muted}} : facts;
 }
 
 void OutputTab::takeMix() {
-    const auto& choice = desk_.device();
+    const auto& choice = desk_.device().choice();
     device_.clear(juce::dontSendNotification);
     int chosen = 0;
     for (int id = 1; const auto& d : found_) {
@@ -224,25 +220,24 @@ void OutputTab::refresh(const DeskMoment& moment) {
     const bool isNone = juce::String{utf8(output.device())}.startsWith(noDeviceType);
     const auto& r = moment.session.render;
     int connected = 0;
-    for (const Strip& strip : desk_.mix().strips) connected += strip.output >= 0 && strip.output < desk_.outputs() ? 1 : 0;
+    for (const Strip& strip : desk_.mix().strips) connected += strip.output >= 0 && strip.output < desk_.device().outputs() ? 1 : 0;
     const int all = desk_.mix().count();
-    Shade boardShade = Shade::muted;
-    const auto board = boardState(boardShade);
     Shade oscShade = Shade::muted;
     const auto osc = oscState(oscShade);
-    const double slipped = 1e-6 * static_cast<double>(desk_.session().slippedNs());
-    facts_.set({{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
+    const double slipped = 1e-6 * static_cast<double>(desk_.session().world().slippedNs());
+    std::vector<Fact> facts{{"State", !moment.device.isRunning ? juce::String{"not running"} : isNone ? juce::String{"a clock without a device: nothing is felt"} : juce::String{"running"},
                !moment.device.isRunning ? Shade::limit : isNone ? Shade::now : Shade::text},
               {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" + number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
-              {"Felt", number(1e3 * desk_.playOutSeconds(), 1) + " ms after the contact, and the device's own " + number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
-              {"Heard", heardWords(), !desk_.device().monitor.empty() && desk_.listening().contacts.empty() ? Shade::now : Shade::text},
+              {"Felt", number(1e3 * desk_.device().playOutSeconds(), 1) + " ms after the contact, and the device's own " + number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
+              {"Heard", heardWords(), !desk_.device().choice().monitor.empty() && desk_.device().listening().settings().contacts.empty() ? Shade::now : Shade::text},
               {"Enchanters", juce::String{connected} + " of " + juce::String{all} + " have an output there", connected < all ? Shade::now : Shade::text},
               {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " + number(100.0 * moment.device.worstLoad, 1) + " % at most"},
               {"Late", juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls", r.late > 0 ? Shade::now : Shade::text},
               {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}},
-              {"Opened again", juce::String{moment.device.losses} + " times"},
-              {"Board", board, boardShade},
-              {"Messages", osc, oscShade}});
+              {"Opened again", juce::String{moment.device.losses} + " times"}};
+    std::ranges::move(sinkFacts(), std::back_inserter(facts));
+    facts.push_back({"Messages", osc, oscShade});
+    facts_.set(std::move(facts));
 }
 
 void OutputTab::resized() {

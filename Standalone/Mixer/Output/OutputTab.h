@@ -31,7 +31,7 @@ private:
     void useOsc(const OscChoice& choice, const juce::String& what);
     void showOsc();
     void ask(const juce::String& title, const juce::String& what, const juce::String& now, std::function<void(const juce::String&)> use);
-    juce::String boardState(Shade& shade) const;
+    std::vector<Fact> sinkFacts() const;
     juce::String oscState(Shade& shade) const;
     void listHeard();
     void chooseMonitor();

@@ -34,17 +34,6 @@ Fact exposureFact(double daily) {
     return {"Exposure", words, daily >= exposureLimitValue ? Shade::limit : daily >= exposureActionValue ? Shade::now : Shade::text};
 }
 
-void addBoard(std::vector<Fact>& facts, const std::optional<BoardLinkStatus>& board) {
-    using State = BoardLinkStatus::State;
-    if (!board) return facts.push_back({"Board", "none", Shade::muted});
-    const auto& t = board->telemetry;
-    if (board->state != State::ready) return facts.push_back({"Board", board->trouble.empty() ? juce::String{"looking for it"} : utf8(board->trouble), Shade::now});
-    facts.push_back({"Board", "ready, its clock " + number(board->driftPpm, 0) + " ppm off"});
-    facts.push_back({"Link", count(board->sent) + " sent, " + count(board->thinned) + " thinned, " + count(board->refused) + " refused", noneIsGood(board->thinned + board->refused)});
-    if (board->legs > 0) facts.push_back({"What moves", count(board->legs) + " legs sent, " + count(board->coarseLegs) + " of them coarse", noneIsGood(board->coarseLegs)});
-    facts.push_back({"On board", count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost", noneIsGood(t.late + t.dropped + t.lost)});
-}
-
 } // namespace
 
 std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, float medianLoad) {
@@ -56,10 +45,10 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
     std::vector<Fact> facts{
         {"Played", count(r.played) + " hits, " + juce::String{r.pending} + " waiting"},
         {"Late", count(r.late) + " hits", noneIsGood(r.late)},
-        {"Dropped", count(session.drops()) + " hits in a step", noneIsGood(session.drops())},
+        {"Dropped", count(session.world().drops()) + " hits in a step", noneIsGood(session.world().drops())},
         {"Refused", count(moment.session.refused) + " without room, " + count(r.rejected) + " unplayable", noneIsGood(refused)},
         marginFact(moment, output.sampleRateHz()),
-        {"Stalls", number(1e-6 * static_cast<double>(session.slippedNs()), 0) + " ms of the world"},
+        {"Stalls", number(1e-6 * static_cast<double>(session.world().slippedNs()), 0) + " ms of the world"},
         {"Modes", juce::String{r.liveModes} + " ringing, " + count(r.stolen) + " ended early", noneIsGood(r.stolen)},
         {"Limiter", number(reduction, 1) + " dB", reduction < -0.05 ? Shade::limit : Shade::text},
         exposureFact(moment.dailyExposure),
@@ -67,9 +56,12 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
         {"Render call", "median " + percent(medianLoad) + ", worst " + percent(moment.device.worstLoad), moment.device.worstLoad > 1.0f ? Shade::now : Shade::text},
         {"Blocks", count(moment.device.blocks) + " of " + juce::String{output.blockFrames()} + " frames"},
         {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}, moment.device.deviceXruns > 0 ? Shade::now : Shade::text},
-        {"Not told", count(r.untold) + " hits, " + count(desk.scopeFramesLost()) + " frames", noneIsGood(r.untold)},
+        {"Not told", count(r.untold) + " hits, " + count(desk.signals().framesLost()) + " frames", noneIsGood(r.untold)},
         {"Not finite", count(r.nonFinite) + " samples", noneIsGood(r.nonFinite)}};
-    addBoard(facts, desk.board());
+    const auto sinks = desk.session().sinks().states();
+    if (sinks.empty()) facts.push_back({"Board", "none", Shade::muted});
+    for (const SinkState& sink : sinks)
+        for (const auto& [name, value, isWrong] : sink.facts) facts.push_back({utf8(name), utf8(value), isWrong ? Shade::now : Shade::text});
     return facts;
 }
 

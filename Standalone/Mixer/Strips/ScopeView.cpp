@@ -24,7 +24,7 @@ ScopeView::ScopeView(Desk& desk)
 bool ScopeView::isQuiet() const {
     for (int j = 0; j < desk_.mix().count(); ++j)
         for (int i = 0; i < ScopeTrace::columns; i += 8) {
-            const auto range = desk_.scope().at(j, i);
+            const auto range = desk_.signals().scope().at(j, i);
             if (range.highest - range.lowest > 1e-5f) return false;
         }
     return true;
@@ -32,8 +32,8 @@ bool ScopeView::isQuiet() const {
 
 void ScopeView::refresh(const DeskMoment&) {
     spectrum_.refresh();
-    if (desk_.scope().columnsBegun() == shown_) return;
-    shown_ = desk_.scope().columnsBegun();
+    if (desk_.signals().scope().columnsBegun() == shown_) return;
+    shown_ = desk_.signals().scope().columnsBegun();
     const bool quiet = isQuiet();
     if (quiet && wasQuiet_) return; // a line stays a line
     wasQuiet_ = quiet;
@@ -48,7 +48,7 @@ void ScopeView::drawLane(juce::Graphics& g, juce::Rectangle<int> lane, int chann
     juce::RectangleList<float> columns;
     const int width = lane.getWidth() - 4;
     for (int x = 0; x < width; ++x) {
-        const auto range = desk_.scope().at(channel, x * (ScopeTrace::columns - 1) / std::max(1, width));
+        const auto range = desk_.signals().scope().at(channel, x * (ScopeTrace::columns - 1) / std::max(1, width));
         const float top = middle - reach * shownLevel(range.highest), bottom = middle - reach * shownLevel(range.lowest);
         columns.addWithoutMerging({static_cast<float>(lane.getX() + 2 + x), top - 0.5f, 1.0f, std::max(1.2f, bottom - top + 1.0f)});
     }

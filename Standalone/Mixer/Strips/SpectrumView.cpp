@@ -22,13 +22,13 @@ SpectrumView::SpectrumView(Desk& desk)
 
 void SpectrumView::refresh() {
     const double now = juce::Time::getMillisecondCounterHiRes();
-    if (now - lookedAtMs_ < 1000.0 / looksPerSecond || desk_.scope().columnsBegun() == seen_) return;
+    if (now - lookedAtMs_ < 1000.0 / looksPerSecond || desk_.signals().scope().columnsBegun() == seen_) return;
     const auto fall = static_cast<float>(meterFallDbPerSecond * std::min(1.0, 1e-3 * (now - lookedAtMs_)));
     lookedAtMs_ = now;
-    seen_ = desk_.scope().columnsBegun();
+    seen_ = desk_.signals().scope().columnsBegun();
     bool isOther = false;
     for (int j = 0; j < std::min(desk_.mix().count(), mostCurves); ++j) {
-        const auto levels = desk_.spectrum().levels(j);
+        const auto levels = desk_.signals().spectrum().levels(j);
         auto& shown = shown_[static_cast<std::size_t>(j)];
         for (std::size_t k = 0; k < shown.size(); ++k) {
             const float next = std::max({levels[k], shown[k] - fall, FrequencyAxis::floorDb});

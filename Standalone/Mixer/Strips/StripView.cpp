@@ -55,10 +55,10 @@ StripView::StripView(Desk& desk, int strip)
     output_.onChange = [this] { change("Output", [this](Strip& s) { s.output = output_.getSelectedId() - 2; }); };
     test_ = quietButton(juce::String::fromUTF8("Test \xe2\x96\xb8"), "Test pulse on " + label);
     test_->setTooltip("A pulse at the actuator's resonance (T)");
-    test_->onClick = [this] { desk_.testPulse(static_cast<int>(index_)); };
+    test_->onClick = [this] { desk_.strikes().testPulse(static_cast<int>(index_)); };
     sweep_.getProperties().set(quietProperty, true);
     sweep_.setTooltip("A sweep from 40 to 400 Hz (Shift+T)");
-    sweep_.onClick = [this] { desk_.testSweep(static_cast<int>(index_)); };
+    sweep_.onClick = [this] { desk_.strikes().testSweep(static_cast<int>(index_)); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{&meter_, &fader_, &ceiling_, &delay_, &level_, &most_, &output_, test_.get(), &sweep_}) addAndMakeVisible(c);
     takeMix();
 }
@@ -72,8 +72,8 @@ void StripView::change(const juce::String& name, Change change, bool goesOn) {
 void StripView::fillOutputs() {
     output_.clear(juce::dontSendNotification);
     output_.addItem("none", 1);
-    for (int k = 0; k < desk_.outputs(); ++k) output_.addItem("out " + juce::String{k + 1}, k + 2);
-    if (strip().output >= desk_.outputs()) output_.addItem("out " + juce::String{strip().output + 1} + " (not there)", strip().output + 2);
+    for (int k = 0; k < desk_.device().outputs(); ++k) output_.addItem("out " + juce::String{k + 1}, k + 2);
+    if (strip().output >= desk_.device().outputs()) output_.addItem("out " + juce::String{strip().output + 1} + " (not there)", strip().output + 2);
 }
 
 void StripView::takeMix() {
@@ -108,8 +108,8 @@ void StripView::refresh(const DeskMoment& moment) {
 }
 
 bool StripView::keyPressed(const juce::KeyPress& key) {
-    if (key == juce::KeyPress{'t'}) return desk_.testPulse(static_cast<int>(index_)), true;
-    if (key == juce::KeyPress{'t', juce::ModifierKeys::shiftModifier, 0}) return desk_.testSweep(static_cast<int>(index_)), true;
+    if (key == juce::KeyPress{'t'}) return desk_.strikes().testPulse(static_cast<int>(index_)), true;
+    if (key == juce::KeyPress{'t', juce::ModifierKeys::shiftModifier, 0}) return desk_.strikes().testSweep(static_cast<int>(index_)), true;
     return false;
 }
 
@@ -140,7 +140,7 @@ void StripView::setDropping(bool isDropping) {
 
 void StripView::filesDropped(const juce::StringArray& files, int, int) {
     setDropping(false);
-    desk_.feelOn(files, static_cast<int>(index_));
+    desk_.strikes().feelOn(files, static_cast<int>(index_));
 }
 
 void StripView::paintOverChildren(juce::Graphics& g) {

@@ -176,7 +176,7 @@ void StudiesTab::setFolder(const juce::File& folder) {
 std::vector<std::vector<int>> StudiesTab::noiseChoices() const {
     std::vector<int> free;
     const auto& strips = desk_.mix().strips;
-    for (int k = 0; k < desk_.outputs(); ++k)
+    for (int k = 0; k < desk_.device().outputs(); ++k)
         if (std::ranges::find(strips, k, &Strip::output) == strips.end()) free.push_back(k);
     std::vector<std::vector<int>> all;
     for (std::size_t i = 0; i + 1 < free.size(); ++i)
@@ -245,7 +245,7 @@ std::string StudiesTab::begin() {
     if (!typeface) return refuse("expected a font with the letters of " + words.value.name + ", found none; on Debian, fonts-nanum has Korean ones");
     auto study = std::make_unique<StudyRun>(pathOf(folder_.getText()), *protocol_, participant());
     if (!study->error().empty()) return refuse(study->error());
-    if (auto fault = desk_.hear(listening()); !fault.empty()) return refuse(fault);
+    if (auto fault = desk_.device().listening().hear(listening()); !fault.empty()) return refuse(fault);
     screen_ = std::make_unique<StudyScreen>(desk_, std::move(study), std::move(words.value), answersChoice_.getSelectedId() == answersElsewhereId);
     font_ = std::make_unique<StudyFont>(*typeface);
     screen_->onClose = [this] { end(); };
@@ -276,7 +276,7 @@ void StudiesTab::end() {
     screen_.reset();
     font_.reset();
     analysis_.reset();
-    desk_.endStudy();
+    desk_.device().listening().endStudy();
     for (auto& child : hidden_)
         if (child) child->setVisible(true);
     hidden_.clear();

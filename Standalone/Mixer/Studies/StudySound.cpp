@@ -16,7 +16,7 @@ constexpr const char* noControls = "The session took no more controls: expected 
 
 StudySound::StudySound(Desk& desk)
     : desk_{desk}
-    , slowness_{desk.slowness()} {
+    , slowness_{desk.session().world().slowness()} {
     desk_.setSlowness(0);
     post(Kind::stopAll, 0, 0.0f);
     for (int j = 0; j < desk_.mix().count(); ++j) post(Kind::mute, j, 0.0f);
@@ -41,11 +41,11 @@ void StudySound::post(Kind kind, int channel, float value, const PhantomPanner& 
     control.channel = channel;
     control.value = value;
     control.panner = panner;
-    if (desk_.session().post(control) < 0) desk_.report(noControls);
+    if (!desk_.session().take({control})) desk_.report(noControls);
 }
 
 void StudySound::useRecordings(const std::vector<ContactRecording>& recordings) {
-    if (desk_.session().useRecordings(recordings) < 0) desk_.report(noControls);
+    if (!desk_.session().take({PlayedRecordings{recordings}})) desk_.report(noControls);
 }
 
 Result<CallStimulus> StudySound::make(Desk& desk, const std::string& call, const std::string& folder) {
@@ -57,7 +57,7 @@ Result<CallStimulus> StudySound::make(Desk& desk, const std::string& call, const
 
 std::string StudySound::refusal(const Desk& desk, const CallStimulus& stimulus) {
     const int wanted = stimulus.layout.geometry.count, there = desk.mix().count();
-    if (!stimulus.recordings.empty() && desk.board()) return "--method SV: expected a mixer without the board, which plays no recordings";
+    if (!stimulus.recordings.empty() && desk.device().board()) return "--method SV: expected a mixer without the board, which plays no recordings";
     if (wanted <= there) return {};
     return stimulus.layout.name + ": expected " + std::to_string(wanted) + " enchanters in the mixer, found " + std::to_string(there);
 }
@@ -76,8 +76,8 @@ std::string StudySound::play(const CallStimulus& stimulus) {
     }
     auto strikes = stimulus.stimulus.events;
     for (auto& strike : strikes) strike.timeNs += leadNs;
-    if (!desk_.session().play(strikes)) return "expected strikes that can be played";
-    beganAtMs_ = nowMs() + 1e-6 * static_cast<double>(leadNs) + 1e3 * desk_.playOutSeconds();
+    if (auto taken = desk_.session().take({Strikes{strikes}}); !taken) return taken.error;
+    beganAtMs_ = nowMs() + 1e-6 * static_cast<double>(leadNs) + 1e3 * desk_.device().playOutSeconds();
     seconds_ = stimulus.stimulus.seconds;
     return {};
 }

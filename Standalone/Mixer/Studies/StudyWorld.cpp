@@ -15,7 +15,7 @@ constexpr std::int64_t fadeNs = 100'000'000; // longer than whatever rings takes
 
 std::string StudyWorld::refusal(const Desk& desk, const CallWorld& world) {
     const int wanted = world.layout.geometry.count, there = desk.mix().count();
-    if (desk.board()) return "a world: expected a mixer without the board, which follows one session only";
+    if (desk.device().board()) return "a world: expected a mixer without the board, which follows one session only";
     if (wanted <= there) return {};
     return world.layout.name + ": expected " + std::to_string(wanted) + " enchanters in the mixer, found " + std::to_string(there);
 }
@@ -52,31 +52,31 @@ void StudyWorld::tellStrips() {
     strips.resize(static_cast<std::size_t>(setup_.channels));
     for (Strip& strip : strips) strip.gainDb = 0.0, strip.isMuted = strip.isSolo = false;
     std::array<ToldStrip, limits::maxEnchanters> told{};
-    physvib::tellStrips(told, strips, [this](const RenderControl& control) { return session_->post(control) >= 0; });
+    physvib::tellStrips(told, strips, [this](const RenderControl& control) { return session_->take({control}).error.empty(); });
 }
 
 void StudyWorld::end() {
     if (!isMoving()) return;
     RenderControl stop;
     stop.kind = RenderControl::Kind::stopAll;
-    session_->setSlowness(0);
-    stoppedNs_ = session_->post(stop); // no room for it: the world goes on with the next look, to be ended later
+    session_->world().setSlowness(0);
+    if (const auto stopped = session_->take({stop})) stoppedNs_ = stopped.value; // no room for it: the world goes on with the next look, to be ended later
 }
 
-std::string StudyWorld::act(const Action& action) { return isMoving() ? session_->act(action) : std::string{}; }
+std::string StudyWorld::act(const Action& action) { return isMoving() ? session_->take({action}).error : std::string{}; }
 
 WorldMoment StudyWorld::look() {
     WorldMoment moment;
     if (!session_) return moment;
     for (PlayedEvent played; session_->played().pop(played);) journal_->take(played);
-    moment.sessionNs = session_->readPoses(moment.poses);
-    moment.aheadNs = session_->playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
+    moment.sessionNs = session_->world().readPoses(moment.poses);
+    moment.aheadNs = session_->timeline().playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
     const std::int64_t now = session_->status().sessionNs;
     if (isMoving()) {
-        session_->setSlowness(desk_.isSilent() ? 0 : 1); // what is not felt is not shown either
+        session_->world().setSlowness(desk_.isSilent() ? 0 : 1); // what is not felt is not shown either
         if (!desk_.isSilent()) feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();
-    } else if (session_->nextFeltNs() >= stoppedNs_ + fadeNs) { // L may have grown meanwhile
+    } else if (session_->timeline().nextFeltNs() >= stoppedNs_ + fadeNs) { // L may have grown meanwhile
         finish();
     }
     seenNs_ = now;

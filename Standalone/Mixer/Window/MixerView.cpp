@@ -92,7 +92,7 @@ void MixerView::refresh() {
 // Where the world stands still and nothing is felt, there is little to look at.
 void MixerView::keepPace() {
     const auto& peaks = latest_.meters.peaks;
-    const bool isAtRest = desk_.slowness() == 0 && latest_.hits.empty() && std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
+    const bool isAtRest = desk_.session().world().slowness() == 0 && latest_.hits.empty() && std::ranges::all_of(peaks, [](float p) { return p == 0.0f; });
     restedLooks_ = isAtRest ? restedLooks_ + 1 : 0;
     const int wanted = 1000 / (restedLooks_ > 2 * framesPerSecond ? restFramesPerSecond : framesPerSecond);
     if (isTimerRunning() && getTimerInterval() != wanted) startTimer(wanted);
@@ -129,7 +129,7 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
     setHint(false);
     if (key == KeyPress::escapeKey) return bar_.toggleSilence(), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
-    if (key == KeyPress{'.'}) return desk_.stepOnce(), true;
+    if (key == KeyPress{'.'}) return desk_.session().world().stepOnce(), true;
     if (key == KeyPress{'z', juce::ModifierKeys::commandModifier, 0}) return desk_.undoManager().undo(), true;
     if (key == KeyPress{'z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier, 0} || key == KeyPress{'y', juce::ModifierKeys::commandModifier, 0})
         return desk_.undoManager().redo(), true;

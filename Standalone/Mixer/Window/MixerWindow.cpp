@@ -74,7 +74,7 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
     savedEdits_ = desk_->edits();
     view_->topBar().onMenu = [this](juce::Component& from) { showMenu(from); };
     view_->topBar().onRecord = [this] { record(); };
-    desk_->onBoardWanted = [safe = juce::Component::SafePointer<MixerWindow>{this}](const DeviceChoice& choice) {
+    desk_->device().onBoardWanted = [safe = juce::Component::SafePointer<MixerWindow>{this}](const DeviceChoice& choice) {
         juce::MessageManager::callAsync([safe, choice] { // the tab that asked goes with its desk
             if (safe != nullptr) safe->useBoard(choice);
         });
@@ -87,9 +87,9 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
         else say(file.getFileName() + ": " + error);
     };
     OscChoice osc{oscUseNamed(files_.settings().getValue("osc")), files_.settings().getValue("osc-to").toStdString(), files_.settings().getDoubleValue("osc-turn")};
-    if (const auto error = desk_->useOsc(osc); !error.empty()) {
+    if (const auto error = desk_->inputs().use(osc); !error.empty()) {
         osc.receiver.clear(); // a name that is not known today
-        desk_->useOsc(osc);
+        desk_->inputs().use(osc);
         desk_->report("OSC: " + utf8(error));
     }
     desk_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
@@ -115,14 +115,14 @@ void MixerWindow::nameWindow() {
 
 void MixerWindow::timerCallback() {
     nameWindow();
-    device_ = desk_->device();
+    device_ = desk_->device().choice();
     auto& settings = files_.settings();
     settings.setValue("device", utf8(device_.name));
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
-    settings.setValue("osc", oscUseNames[static_cast<std::size_t>(desk_->oscChoice().use)]);
-    settings.setValue("osc-to", utf8(desk_->oscChoice().receiver));
-    settings.setValue("osc-turn", desk_->oscChoice().turnDegrees);
+    settings.setValue("osc", oscUseNames[static_cast<std::size_t>(desk_->inputs().choice().use)]);
+    settings.setValue("osc-to", utf8(desk_->inputs().choice().receiver));
+    settings.setValue("osc-turn", desk_->inputs().choice().turnDegrees);
     for (const std::size_t ear : {0u, 1u}) settings.setValue(ear == 0 ? "monitor-left" : "monitor-right", device_.monitor.size() > ear ? device_.monitor[ear] + 1 : 0);
     settings.setValue("monitor-db", device_.monitorDb);
     settings.setValue("marker", device_.marker + 1);
@@ -142,7 +142,7 @@ Mix MixerWindow::firstMix() const {
 // Once, to whoever may have headphones where others have actuators.
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
-    if (settings.getBoolValue("monitor-offered") || desk_->outputs() != 2 || !device_.board.empty() || !device_.monitor.empty()) return;
+    if (settings.getBoolValue("monitor-offered") || desk_->device().outputs() != 2 || !device_.board.empty() || !device_.monitor.empty()) return;
     settings.setValue("monitor-offered", true);
     desk_->tell("This device has two outputs. With headphones there, what is felt can be heard: choose Monitor under Output");
 }

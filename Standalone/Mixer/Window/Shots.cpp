@@ -45,7 +45,7 @@ void showScene(Desk& desk, const char* name) {
 void showSurface(Desk& desk, MixerView& view, const std::string& material) {
     desk.dispatchPendingMessages();
     view.tabs().choose("Materials");
-    const auto& materials = desk.sceneNow().materials;
+    const auto& materials = desk.world().scene().materials;
     if (auto* tab = dynamic_cast<MaterialsTab*>(view.tabs().find("Materials")))
         tab->choose(static_cast<int>(std::ranges::find(materials, material, &Material::name) - materials.begin()));
 }
@@ -80,7 +80,7 @@ std::vector<State> mixerStates() {
         {"marbles", 1440, 900, 4.0, [](Desk& d, MixerView& v) { showScene(d, "marbles"), v.scope().choose("Events"); }},
         {"drawing", 1440, 900, 7.2, [](Desk& d, MixerView& v) { showScene(d, "drawing"), showSurface(d, v, "cloth"); }},
         {"telemetry", 1440, 900, 3.0, [](Desk&, MixerView& v) { v.scope().choose("Telemetry"); }},
-        {"output", 1440, 900, 3.0, [](Desk& d, MixerView& v) { d.monitor({4, 5}, safeContactDb), d.mark(7), v.tabs().choose("Output"); }},
+        {"output", 1440, 900, 3.0, [](Desk& d, MixerView& v) { d.device().listening().monitor({4, 5}, safeContactDb), d.device().listening().mark(7), v.tabs().choose("Output"); }},
         {"board", 1440, 900, 4.5, [](Desk&, MixerView& v) { v.tabs().choose("Output"); }, "/dev/ttyACM0"},
         {"small", MixerView::leastWidth, MixerView::leastHeight, 3.0, [](Desk&, MixerView&) {}},
         {"light", 1440, 900, 4.0, [](Desk&, MixerView& v) { v.setGround(Ground::light); }},

@@ -39,11 +39,11 @@ TopBar::TopBar(Desk& desk)
     scene_.onChange = [this] { chooseScene(); };
     pause_.onClick = [this] { togglePause(); };
     pause_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::enchanter(0).getARGB()));
-    step_.onClick = [this] { desk_.stepOnce(); };
+    step_.onClick = [this] { desk_.session().world().stepOnce(); };
     slow_.setTitle("Slow motion");
     slow_.setTooltip("Slow motion: each press halves the speed of the world");
     slow_.onClick = [this] {
-        const auto at = std::ranges::find(paces, std::max(1, desk_.slowness()));
+        const auto at = std::ranges::find(paces, std::max(1, desk_.session().world().slowness()));
         desk_.setSlowness(at + 1 < paces.end() ? at[1] : 1);
     };
     restart_.onClick = [this] { desk_.restart(desk_.mix().seed); };
@@ -75,7 +75,7 @@ TopBar::TopBar(Desk& desk)
     takeMix();
 }
 
-void TopBar::togglePause() { desk_.setSlowness(desk_.slowness() == 0 ? 1 : 0); }
+void TopBar::togglePause() { desk_.setSlowness(desk_.session().world().slowness() == 0 ? 1 : 0); }
 void TopBar::toggleSilence() { desk_.setSilent(!desk_.isSilent()); }
 
 void TopBar::chooseScene() {
@@ -94,7 +94,7 @@ void TopBar::takeMix() {
     const auto& mix = desk_.mix();
     scene_.setText(titleOf(mix.scene->name), juce::dontSendNotification);
     seed_.setText(juce::String{static_cast<juce::int64>(mix.seed)}, juce::dontSendNotification);
-    const int slowness = desk_.slowness();
+    const int slowness = desk_.session().world().slowness();
     pause_.setSign(slowness == 0 ? Sign::play : Sign::pause, slowness == 0 ? "Let the world go on (Space)" : "Pause the world (Space)");
     pause_.setToggleState(slowness == 0, juce::dontSendNotification);
     step_.setEnabled(slowness == 0);
@@ -121,15 +121,16 @@ void TopBar::refresh(const DeskMoment& moment) {
     if (!moment.device.isRunning) device_.set("No sound", desk_.trouble(), Shade::limit);
     else
         device_.set(dotted({isNone ? juce::String{"No device"} : name, numbers, juce::String{output.blockFrames()}}),
-                    "felt " + number(1e3 * desk_.playOutSeconds(), 0) + " ms after the contact", isNone ? Shade::now : Shade::text);
+                    "felt " + number(1e3 * desk_.device().playOutSeconds(), 0) + " ms after the contact", isNone ? Shade::now : Shade::text);
     device_.setTooltip(name);
     const auto& r = moment.session.render;
-    const auto lost = desk_.session().drops() + r.untold;
+    const auto lost = desk_.session().world().drops() + r.untold;
     load_.set("Load " + number(100.0 * moment.device.load, 1) + " %", dotted({count(r.late, "late"), count(lost, "dropped")}), r.late + lost > 0 ? Shade::now : Shade::text);
-    const auto board = desk_.board();
-    const bool isBoardReady = board && board->state == BoardLinkStatus::State::ready;
-    board_.set(!board ? "Board: none" : isBoardReady ? "Board: ready" : "Board: not there", count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
-               !board ? Shade::muted : isBoardReady ? Shade::accent : Shade::limit);
+    const auto sinks = desk_.session().sinks().states();
+    const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
+    const auto sink = sinks.empty() ? juce::String{"Board"} : titleOf(sinks.front().name);
+    board_.set(sink + (sinks.empty() ? ": none" : areReady ? ": ready" : ": not there"), count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
+               sinks.empty() ? Shade::muted : areReady ? Shade::accent : Shade::limit);
 }
 
 void TopBar::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::panel)); }

@@ -31,8 +31,8 @@ WorldPanel::WorldPanel(Desk& desk)
     view_.onDetach = [this](int enchanter) { desk_.detach(enchanter); };
     view_.takesFiles = isClipDrag;
     view_.onFiles = [this](const juce::StringArray& files, int enchanter, FieldShare at) {
-        if (enchanter >= 0) desk_.feelOn(files, enchanter);
-        else desk_.feelAt(files, at.x, at.y);
+        if (enchanter >= 0) desk_.strikes().feelOn(files, enchanter);
+        else desk_.strikes().feelAt(files, at.x, at.y);
     };
     view_.onMove = [this](int enchanter, FieldShare to) {
         desk_.change("Move " + utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label), [&](Mix& mix) {
@@ -50,7 +50,7 @@ WorldPanel::WorldPanel(Desk& desk)
     law_.setJustificationType(juce::Justification::centredRight);
     tilt_.onValueChange = [this] {
         if (player_ && player_->moves()) play(player_->tilt(tilt_.angleRadians()));
-        else desk_.act(TiltAction{tilt_.angleRadians()});
+        else desk_.world().act(TiltAction{tilt_.angleRadians()});
     };
     drag_.setTitle("Drag strength");
     drag_.setSliderStyle(juce::Slider::RotaryHorizontalVerticalDrag);
@@ -69,16 +69,16 @@ WorldPanel::WorldPanel(Desk& desk)
 
 void WorldPanel::takeMix() {
     const auto& mix = desk_.mix();
-    const auto& scene = desk_.sceneNow();
+    const auto& scene = desk_.world().scene();
     if (shown_ != mix.scene) {
         player_.emplace(scene);
         first_.clear();
         if (!player_->isThere()) player_.reset();
         tiltName_.setText(player_ ? "arrows play" : "gravity", juce::dontSendNotification);
     }
-    if (shown_ != mix.scene || shownEdits_ != desk_.worldEdits()) view_.show(scene);
+    if (shown_ != mix.scene || shownEdits_ != desk_.world().edits()) view_.show(scene);
     shown_ = mix.scene;
-    shownEdits_ = desk_.worldEdits();
+    shownEdits_ = desk_.world().edits();
     view_.show(mix.layout, mix.panner());
     view_.setDisplayWidth(desk_.displayWidthMetres());
     law_.setText(juce::String{nameOf(mix.law).data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
@@ -106,7 +106,7 @@ void WorldPanel::play(const std::vector<Action>& actions) {
         return;
     }
     for (const Action& action : actions)
-        if (const auto fault = desk_.act(action); !fault.empty()) desk_.report(utf8(fault));
+        if (const auto fault = desk_.world().act(action); !fault.empty()) desk_.report(utf8(fault));
 }
 
 bool WorldPanel::keyPressed(const juce::KeyPress& key) {
@@ -126,7 +126,7 @@ bool WorldPanel::keyStateChanged(bool isDown) {
 
 void WorldPanel::mouseDrag(const juce::MouseEvent& e) {
     const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x;
-    if (player_ && player_->moves() && e.eventComponent == &view_ && !view_.isHolding()) pointed_ = desk_.sceneNow().fieldWidthMetres * static_cast<double>((e.position.x - left) / (right - left));
+    if (player_ && player_->moves() && e.eventComponent == &view_ && !view_.isHolding()) pointed_ = desk_.world().scene().fieldWidthMetres * static_cast<double>((e.position.x - left) / (right - left));
 }
 
 void WorldPanel::mouseUp(const juce::MouseEvent&) {
@@ -135,7 +135,7 @@ void WorldPanel::mouseUp(const juce::MouseEvent&) {
 
 std::optional<double> WorldPanel::playersPlace() {
     const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x, at = view_.placeOfBody(player_->body()).x;
-    return at < -1e3f ? std::nullopt : std::optional{desk_.sceneNow().fieldWidthMetres * static_cast<double>((at - left) / (right - left))};
+    return at < -1e3f ? std::nullopt : std::optional{desk_.world().scene().fieldWidthMetres * static_cast<double>((at - left) / (right - left))};
 }
 
 void WorldPanel::lookAfterPlayer() {
@@ -145,12 +145,12 @@ void WorldPanel::lookAfterPlayer() {
     const auto place = playersPlace();
     if (!place) return;
     if (pointed_) play(player_->moveTowards(*pointed_, *place));
-    for (const Action& action : player_->keepInside(*place)) desk_.act(action);
+    for (const Action& action : player_->keepInside(*place)) desk_.world().act(action);
 }
 
 void WorldPanel::pull(const std::string& body, Vector screenMetres, Vector point) {
     const double push = desk_.mix().dragNewtonSecondsPerScreenMetre;
-    const auto fault = desk_.act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point});
+    const auto fault = desk_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point});
     if (!fault.empty()) desk_.report(utf8(fault));
 }
 
@@ -161,17 +161,17 @@ void WorldPanel::hold(const std::string& body, Vector point, Vector to) {
 
 void WorldPanel::letGo(const std::string& body) {
     hand_.reset();
-    if (const auto fault = desk_.act(GripAction{body, {}, {}}); !fault.empty()) desk_.report(utf8(fault));
+    if (const auto fault = desk_.world().act(GripAction{body, {}, {}}); !fault.empty()) desk_.report(utf8(fault));
 }
 
 void WorldPanel::moveHand() {
     if (!hand_ || nowMs() - handAtMs_ < handMs) return;
     handAtMs_ = nowMs();
-    if (const auto fault = desk_.act(*std::exchange(hand_, {})); !fault.empty()) desk_.report(utf8(fault));
+    if (const auto fault = desk_.world().act(*std::exchange(hand_, {})); !fault.empty()) desk_.report(utf8(fault));
 }
 
 juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
-    const auto& scene = desk_.sceneNow();
+    const auto& scene = desk_.world().scene();
     if (isClip(hit.frequencyHz)) return materialName(scene, hit) + dot + placeText(scene, hit);
     return materialName(scene, hit) + dot + number(hit.frequencyHz, 0) + " Hz" + dot + juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s" + dot +
            number(feltMost(desk_.mix(), hit).levelG, 2) + " g " + placeText(scene, hit);
@@ -192,7 +192,7 @@ void WorldPanel::refresh(const DeskMoment& moment) {
 
 void WorldPanel::showMenu(const std::string& body, FieldShare at) {
     juce::PopupMenu menu, balls, boxes, materials;
-    const auto& scene = desk_.sceneNow();
+    const auto& scene = desk_.world().scene();
     for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
         const auto name = utf8(scene.materials[static_cast<std::size_t>(i)].name);
         balls.addItem(name, [this, at, i] { addBody(at, i, false); });
@@ -212,7 +212,7 @@ void WorldPanel::showMenu(const std::string& body, FieldShare at) {
 }
 
 void WorldPanel::addBody(FieldShare at, int material, bool isBox) {
-    const auto& scene = desk_.sceneNow();
+    const auto& scene = desk_.world().scene();
     const double size = 0.06 * scene.fieldHeightMetres;
     BodyDescription body;
     body.positionMetres = {at.x * scene.fieldWidthMetres, at.y * scene.fieldHeightMetres};
@@ -225,7 +225,7 @@ void WorldPanel::addBody(FieldShare at, int material, bool isBox) {
 }
 
 void WorldPanel::edit(const juce::String& name, const Action& action) {
-    if (const auto fault = desk_.editWorld(name, action); !fault.empty()) desk_.report(utf8(fault));
+    if (const auto fault = desk_.world().edit(name, action); !fault.empty()) desk_.report(utf8(fault));
 }
 
 void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }

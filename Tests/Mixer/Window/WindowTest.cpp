@@ -117,16 +117,16 @@ TEST(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
     speakers.outputs = 2;
     {
         MixerWindow window{fakeTypes({&speakers}), "Fake:hands", folder("hands.json"), folder("config")};
-        EXPECT_TRUE(window.desk().device().monitor.empty());
+        EXPECT_TRUE(window.desk().device().choice().monitor.empty());
         ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains("headphones"); })) << window.desk().trouble();
         ASSERT_EQ(window.desk().monitorInstead({0, 1}, -30.0), "");
         window.save(); // or the next one would ask for it
         runFor(0.7); // the settings are written twice a second
     }
     MixerWindow again{fakeTypes({&speakers}), "", {}, folder("config")};
-    EXPECT_EQ(again.desk().device().monitor, (std::vector{0, 1}));
-    EXPECT_EQ(again.desk().device().monitorDb, -30.0);
-    EXPECT_EQ(again.desk().listening().contacts, (std::vector{0, 1})) << "a new session's enchanters leave them alone";
+    EXPECT_EQ(again.desk().device().choice().monitor, (std::vector{0, 1}));
+    EXPECT_EQ(again.desk().device().choice().monitorDb, -30.0);
+    EXPECT_EQ(again.desk().device().listening().settings().contacts, (std::vector{0, 1})) << "a new session's enchanters leave them alone";
     runFor(0.7);
     EXPECT_FALSE(again.desk().trouble().contains("headphones")) << again.desk().trouble();
 }
@@ -145,7 +145,7 @@ TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
     hand.drag(hand.placeOf(view, ball + juce::Point<float>{5.0f, 0.0f}), hand.placeOf(view, to), juce::ModifierKeys::shiftModifier);
     const auto inputs = window.desk().saved().log.takes.back().inputs;
     ASSERT_GE(inputs.size(), 3u);
-    const Scene& scene = window.desk().sceneNow();
+    const Scene& scene = window.desk().world().scene();
     const auto left = view.placeOfShare({0.0, 0.0}), right = view.placeOfShare({1.0, 1.0});
     for (std::size_t i = 0; i + 1 < inputs.size(); ++i) {
         const auto& grip = std::get<GripAction>(inputs[i].action);
@@ -220,7 +220,7 @@ TEST(Window, APersonsWayThroughTheMixer) {
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
         wav = window.lastRecording();
         from = window.desk().recording().from();
-        playOut = window.desk().session().playOutFrames();
+        playOut = window.desk().session().timeline().playOutFrames();
         EXPECT_EQ(window.desk().look().session.render.late, 0u);
         hand.key('s', juce::ModifierKeys::commandModifier);
         EXPECT_FALSE(window.isChanged());
@@ -331,7 +331,7 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     const juce::ComponentPeer::DragInfo drop{{folder("knock.wav").getFullPathName()}, {}, hand.middleOf(plot).toInt()};
     EXPECT_TRUE(window.getPeer()->handleDragMove(drop));
     window.getPeer()->handleDragDrop(drop);
-    const auto& concrete = window.desk().sceneNow().materials[3]; // the first that sounds is chosen
+    const auto& concrete = window.desk().world().scene().materials[3]; // the first that sounds is chosen
     ASSERT_TRUE(runUntil([&] { return concrete.frequencyHz != 80.0; })) << window.desk().trouble();
     EXPECT_NEAR(concrete.frequencyHz, 352.0, 0.5);
     EXPECT_NEAR(concrete.decayPerSecond, 98.0, 2.0);
@@ -345,9 +345,9 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     const auto& strikes = window.desk().saved().log.strikes;
     ASSERT_EQ(strikes.size(), 3u);
     EXPECT_EQ(strikes[0].frequencyHz, concrete.frequencyHz);
-    EXPECT_NEAR(strikes[0].x / window.desk().sceneNow().fieldWidthMetres, 0.25, 0.01);
-    EXPECT_NEAR(strikes[0].y / window.desk().sceneNow().fieldHeightMetres, 0.75, 0.01);
-    EXPECT_NEAR(strikes[1].x / window.desk().sceneNow().fieldWidthMetres, 0.75, 0.01) << "a long press is a click";
+    EXPECT_NEAR(strikes[0].x / window.desk().world().scene().fieldWidthMetres, 0.25, 0.01);
+    EXPECT_NEAR(strikes[0].y / window.desk().world().scene().fieldHeightMetres, 0.75, 0.01);
+    EXPECT_NEAR(strikes[1].x / window.desk().world().scene().fieldWidthMetres, 0.75, 0.01) << "a long press is a click";
     EXPECT_EQ(strikes[2].x, strikes[1].x);
     hand.key('z', juce::ModifierKeys::commandModifier);
     EXPECT_EQ(concrete.frequencyHz, 80.0);

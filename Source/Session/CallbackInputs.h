@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What is born in the render call itself (MIDI, automation), on its way to the renderer and to the world.
+// What comes in the render call itself (MIDI, automation), on its way to the renderer and to the world.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/RenderControl.h"
-#include "Session/SessionTime.h"
+#include "Session/Timeline.h"
 #include "Session/SessionWorld.h"
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace physvib {
 
 /// Part of a session.
-class OwnBirths {
+class CallbackInputs {
 public:
     /// Each `frame` frames into the block that is rendered next: it is felt L later like everything else, or the renderer's latency later where
     /// the session is direct, at an exact frame.
@@ -26,31 +26,32 @@ public:
     /// others. R, wait-free.
     bool silence(int frame) noexcept;
 
-protected:
+private:
+    friend class Session;
+    friend class WorldRunner;
+
     /// `time` outlives it; of `setup`, what strikes are shaped by and the groups of inputs.
-    OwnBirths(const SessionTime& time, const SessionSetup& setup)
+    CallbackInputs(const Timeline& time, const SessionSetup& setup)
         : time_{time}
         , shaping_{setup.shaping}
         , groups_{setup.groups} {}
-    ~OwnBirths() = default;
 
     /// Nothing was born, nothing spawned. M, while nobody renders, under the world mutex.
-    void forgetBirths() noexcept;
+    void forget() noexcept;
 
     /// The next for the renderer; false: none. R, wait-free.
     bool popStrike(CollisionEvent& strike) noexcept { return strikes_.pop(strike); }
-    bool popOwnControl(RenderControl& control) noexcept { return controls_.pop(control); }
+    bool popControl(RenderControl& control) noexcept { return controls_.pop(control); }
 
     /// What R asks of the world, which is told to it. Whoever holds the world.
-    void takeOwnInputs(SessionWorld& world);
+    void handTo(SessionWorld& world);
 
     /// All that found no room. Any thread, wait-free.
     std::uint64_t refused() const noexcept { return strikes_.overflows() + controls_.overflows() + inputs_.overflows(); }
 
-private:
     void addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action);
 
-    const SessionTime& time_;
+    const Timeline& time_;
     const EventShaping shaping_;
     const std::vector<std::vector<Action>> groups_;
     EventQueue<CollisionEvent, 1024> strikes_; // both ends are R: a dense chord in a block of 8192 frames

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Stamped with session time where they are born; what is for the world waits for whoever steps it.
-#include "Session/OwnBirths.h"
+#include "Session/CallbackInputs.h"
 #include <utility>
 #include <variant>
 
 namespace physvib {
 
-bool OwnBirths::strike(CollisionEvent event, int frame) noexcept {
+bool CallbackInputs::strike(CollisionEvent event, int frame) noexcept {
     event = shaping_(event);
     event.timeNs = time_.nextBornNs(frame);
     return strikes_.push(event);
 }
 
-bool OwnBirths::control(RenderControl control, int frame) noexcept {
+bool CallbackInputs::control(RenderControl control, int frame) noexcept {
     control.timeNs = time_.nextBornNs(frame);
     return controls_.push(control);
 }
 
-bool OwnBirths::silence(int frame) noexcept {
+bool CallbackInputs::silence(int frame) noexcept {
     RenderControl control;
     control.kind = RenderControl::Kind::silence;
     control.timeNs = time_.nextRenderedNs(frame); // which leaves us now
@@ -26,12 +26,12 @@ bool OwnBirths::silence(int frame) noexcept {
     return controls_.push(control);
 }
 
-bool OwnBirths::perform(RenderInput input, int frame) noexcept {
+bool CallbackInputs::perform(RenderInput input, int frame) noexcept {
     input.timeNs = time_.nextNs(frame);
     return inputs_.push(input);
 }
 
-void OwnBirths::forgetBirths() noexcept {
+void CallbackInputs::forget() noexcept {
     for (CollisionEvent unplayed; strikes_.pop(unplayed);) {}
     for (RenderControl undone; controls_.pop(undone);) {}
     for (RenderInput undone; inputs_.pop(undone);) {}
@@ -39,7 +39,7 @@ void OwnBirths::forgetBirths() noexcept {
     names_.fill({});
 }
 
-void OwnBirths::takeOwnInputs(SessionWorld& world) {
+void CallbackInputs::handTo(SessionWorld& world) {
     for (RenderInput input; inputs_.pop(input);) {
         if (input.group == RenderInput::device) world.addInput(input.timeNs, input.hold);
         if (input.group < 0 || input.group >= static_cast<int>(groups_.size())) continue;
@@ -57,7 +57,7 @@ void OwnBirths::takeOwnInputs(SessionWorld& world) {
 }
 
 // Each is a body of its own; the oldest makes room.
-void OwnBirths::addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action) {
+void CallbackInputs::addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action) {
     std::string& name = names_[spawns_ % names_.size()];
     if (!name.empty()) world.addInput(timeNs, RemoveAction{name});
     name = action.body.name += " #" + std::to_string(++spawns_);

@@ -6,13 +6,42 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 
 namespace physvib {
 
-/// Part of a session, which begins and ends it. R tells it; the law behind L changes while nobody renders, under both of the
-/// session's mutexes.
-class SessionTime {
+/// Part of a session, which begins and ends it. R tells it; the law behind L changes while nobody renders, under the mutexes of all parts.
+class Timeline {
 public:
+    /// Session time. Any thread but R.
+    std::int64_t presentNs() const {
+        const std::lock_guard lock{mutex_};
+        return nowNs();
+    }
+
+    /// L. Any thread but R.
+    double playOutSeconds() const {
+        const std::lock_guard lock{mutex_};
+        return static_cast<double>(playOutFrames()) / law_.sampleRateHz;
+    }
+
+    /// Of what is rendered. Any thread but R.
+    int sampleRateHz() const {
+        const std::lock_guard lock{mutex_};
+        return law_.sampleRateHz;
+    }
+
+    /// How long after its time what is told is felt where a session is direct, and by how much of session time such a one lets it stand ahead:
+    /// L is their sum, the latter 0 if it is not direct. Any thread but R.
+    double directSeconds() const {
+        const std::lock_guard lock{mutex_};
+        return static_cast<double>(law_.directFrames()) / law_.sampleRateHz;
+    }
+    std::int64_t toldAheadNs() const {
+        const std::lock_guard lock{mutex_};
+        return leadNs();
+    }
+
     /// L. Any thread after prepare.
     std::int64_t playOutFrames() const noexcept { return playOutFrames_.load(std::memory_order_relaxed); }
 
@@ -22,12 +51,6 @@ public:
 
     /// By how much L has grown since prepare. Any thread.
     std::int64_t framesGrown() const noexcept { return grownFrames_.load(std::memory_order_acquire); }
-
-    /// L is that much longer from the start. R or M, after prepare and before the first block.
-    void lengthen(std::int64_t frames) noexcept {
-        playOutFrames_.fetch_add(frames, std::memory_order_relaxed);
-        grownFrames_.fetch_add(frames, std::memory_order_release);
-    }
 
     /// Session time in frames, with the block that is being rendered. Any thread.
     std::int64_t framesRendered() const noexcept { return sessionFrames_.load(std::memory_order_relaxed); }
@@ -44,21 +67,30 @@ public:
     /// The session time that is rendered first in the next block, to be felt when that leaves the device. R.
     std::int64_t nextFeltNs() const noexcept { return sessionNs(framesRendered() - playOutFrames()); }
 
-protected:
-    ~SessionTime() = default;
+private:
+    friend class Session;
+    friend class Scheduler;
+    friend class WorldRunner;
 
-    /// L is the law's, nothing has been added to it. M, while nobody renders.
-    void setLaw(const ClockLaw& law, bool isToldDirect, bool isBornDirect) noexcept {
+    /// It is session time `frames` at the law's rate; L is the law's, nothing has been added to it. M, while nobody renders.
+    void set(const ClockLaw& law, bool isToldDirect, bool isBornDirect, std::int64_t frames) {
+        const std::lock_guard lock{mutex_};
         law_ = law;
         isToldDirect_ = isToldDirect;
         isBornDirect_ = isBornDirect;
         playOutFrames_ = law_.playOutFrames();
         grownFrames_ = 0;
+        sessionFrames_ = frames;
     }
     const ClockLaw& law() const noexcept { return law_; }
 
-    /// It is session time `frames` at the law's rate. M, while nobody renders.
-    void setFrames(std::int64_t frames) noexcept { sessionFrames_ = frames; }
+    void setFrames(std::int64_t frames) noexcept { sessionFrames_ = frames; } ///< as set()
+
+    /// L is that much longer from the start. R or M, after prepare and before the first block.
+    void lengthen(std::int64_t frames) noexcept {
+        playOutFrames_.fetch_add(frames, std::memory_order_relaxed);
+        grownFrames_.fetch_add(frames, std::memory_order_release);
+    }
 
     /// A block begins; session time before it. R, wait-free.
     std::int64_t tellFrames(int frames) noexcept {
@@ -93,7 +125,7 @@ protected:
     /// How far behind session time a driver that is in time sees the world at most, with what L has grown by.
     std::int64_t longestLagNs() const noexcept { return law_.longestLagNs() + sessionNs(framesGrown()); }
 
-private:
+    mutable std::mutex mutex_; // taken last; guards the law against those who hold no other
     ClockLaw law_;
     bool isToldDirect_ = false, isBornDirect_ = false;
     std::atomic<std::int64_t> playOutFrames_{0}, grownFrames_{0}; // L, and what of it R has added to the law's

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The one way of all inputs from outside: checked, given a time, logged, and handed to the world or to the renderer.
+#pragma once
+#include "Core/EventQueue.h"
+#include "Files/Result.h"
+#include "Files/SessionLog.h"
+#include "Physics/InputCheck.h"
+#include "Session/Input.h"
+#include "Session/RecordingSets.h"
+#include "Session/RenderedChannels.h"
+#include "Session/WorldRunner.h"
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+namespace physvib {
+
+/// Part of a session, which describes what these do. Its mutex is taken before the world's.
+class Scheduler {
+public:
+    /// All outlive it.
+    Scheduler(const SessionSetup& setup, const Timeline& time, WorldRunner& world, RenderedChannels& channels, SinkSet& sinks);
+
+    Result<std::int64_t> take(Input input);
+    std::optional<int> keepClip(std::span<const ContactRecording> channels);
+    PhantomPanner panner() const;
+    std::int64_t readLog(SessionLog& log);
+
+    /// Stops whose time has come are told to the renderer. Any thread but R in a realtime block.
+    void takeDueStops();
+
+    /// The next control for the renderer; false: none. R, wait-free.
+    bool pop(RenderControl& control) noexcept { return controls_.pop(control); }
+
+private:
+    friend class Session;
+    static constexpr std::int64_t never = INT64_MAX;
+    static constexpr std::size_t mostStops = 256;
+
+    // The mutex is held.
+    void prepare();
+    RecordedContacts contactsAt(int sampleRateHz) { return recordings_.at(sampleRateHz, played_); }
+    Result<std::int64_t> take(Action& action, std::int64_t timeNs);
+    Result<std::int64_t> take(RenderControl& control, std::int64_t timeNs);
+    Result<std::int64_t> take(PlayedRecordings& recordings, std::int64_t timeNs);
+    Result<std::int64_t> take(const Strikes& strikes, std::int64_t timeNs);
+    Result<std::int64_t> take(const Stop&, std::int64_t timeNs);
+    std::int64_t toldNs() const noexcept { return std::max<std::int64_t>(0, time_.nowNs() - time_.leadNs()); }
+    bool post(RenderControl& control);
+    void postDueStops(std::int64_t untilNs);
+    bool hasRoomFor(std::span<const ClipSound> channels) const;
+    int logClip(std::span<const ContactRecording> channels);
+
+    const SessionSetup& setup_;
+    const bool isLogged_;
+    const Timeline& time_;
+    WorldRunner& world_;
+    RenderedChannels& channels_;
+    SinkSet& sinks_;
+    EventQueue<RenderControl, 256> controls_;
+    std::atomic<std::int64_t> nextStopNs_{never}; // the first of stops_; to be read without the mutex
+
+    mutable std::mutex mutex_; // guards what follows, and the producer's side of controls_
+    std::optional<InputCheck> check_;
+    std::size_t checkedTake_ = 0;
+    RecordingSets recordings_;
+    std::vector<ContactRecording> played_; // of these
+    std::vector<ClipFile> clips_;          // as they are in recordings_
+    SessionLog log_;                       // without takes, of what has not been read
+    PhantomPanner panner_;
+    std::int64_t lastControlNs_ = 0;
+    std::vector<std::int64_t> stops_; // ahead, in time order
+};
+
+} // namespace physvib

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What a device tells whoever follows it.
+#include "Session/FeltOutput.h"
+#include <gtest/gtest.h>
+#include <thread>
+#include <vector>
+
+namespace physvib {
+namespace {
+
+struct Device final : FeltOutput {
+    using FeltOutput::FeltOutput;
+    using FeltOutput::tell;
+};
+
+TEST(FeltOutput, EachOfSeveralReadersSeesMomentsWholeAndInTheirOrder) {
+    constexpr int moments = 20'000;
+    Device device;
+    std::vector<std::thread> readers;
+    for (int i = 0; i < 3; ++i)
+        readers.emplace_back([&device] {
+            for (std::int64_t last = 0; last < moments;) {
+                const FeltMoment now = device.felt();
+                ASSERT_GE(now.sessionNs, last);
+                ASSERT_EQ(now.steadyNs, now.sessionNs);
+                ASSERT_EQ(now.behindNs, now.sessionNs);
+                ASSERT_EQ(now.sampleRateHz, now.sessionNs);
+                last = now.sessionNs;
+            }
+        });
+    for (int n = 1; n <= moments; ++n) device.tell({n, n, n, n});
+    for (std::thread& reader : readers) reader.join();
+}
+
+TEST(FeltOutput, IsSilentWhileSomebodyAsksForItOrTheProgramEnds) {
+    std::atomic<bool> isEnded{false};
+    Device device{&isEnded};
+    EXPECT_FALSE(device.isSilent());
+    device.silence().ask(SilenceHolder::osc);
+    EXPECT_TRUE(device.isSilent());
+    device.setSilent(false);
+    EXPECT_FALSE(device.isSilent());
+    isEnded = true;
+    EXPECT_TRUE(device.isSilent());
+}
+
+} // namespace
+} // namespace physvib
