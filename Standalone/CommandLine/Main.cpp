@@ -10,7 +10,6 @@
 #include "CommandLine/Music/BeatsCommand.h"
 #include "CommandLine/Play/PlayCommand.h"
 #include "CommandLine/Process.h"
-#include "CommandLine/Reference/Reference.h"
 #include "CommandLine/Render/ActuatorChoice.h"
 #include "CommandLine/Render/ExportCommand.h"
 #include "CommandLine/Render/RenderCommand.h"
@@ -22,7 +21,8 @@
 #include "CommandLine/Sweep/SweepCommand.h"
 #include "Files/SceneCatalogue.h"
 #include "Host/Devices/DeviceThread.h"
-#include <CLI/CLI.hpp>
+#include "Options/Parser.h"
+#include "Options/Reference.h"
 #include <exception>
 #include <iostream>
 
@@ -42,94 +42,88 @@ int listScenes() {
     return exitDone;
 }
 
-int writeOwnReference(const CLI::App& app, const char* folder) {
-    const std::string error = writeReference(listedCommand(app, "physvib"), folder);
+int writeOwnReference(const OptionTable& app, const char* folder) {
+    const std::string error = writeReference(app, folder);
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 
 int run(int argc, char** argv) {
-    CLI::App app{"PhysVib: collisions one can feel, on every enchanter you attach."};
-    app.set_version_flag("--version", "physvib " PHYSVIB_VERSION);
-    app.require_subcommand(1);
+    OptionTable app{"physvib", "PhysVib: collisions one can feel, on every enchanter you attach."};
+    app.addVersion("physvib " PHYSVIB_VERSION);
     RenderOptions options;
-    CLI::App* scenes = app.add_subcommand("scenes", "list the built-in scenes");
-    CLI::App* render = app.add_subcommand("render", "render a scene, an event list or a clip to files");
-    declareRenderOptions(*render, options);
+    app.addCommand("scenes", "list the built-in scenes");
+    OptionTable& render = app.addCommand("render", "render a scene, an event list or a clip to files");
+    declareRenderOptions(render, options);
     SweepOptions sweepOptions;
-    CLI::App* sweep = app.add_subcommand(
+    OptionTable& sweep = app.addCommand(
         "sweep", "many renders of a design as a table of numbers, on all processors or a cluster");
-    declareSweep(*sweep, sweepOptions);
+    declareSweep(sweep, sweepOptions);
     ExportOptions exportOptions;
-    CLI::App* exported =
-        app.add_subcommand("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others");
-    declareExport(*exported, exportOptions);
+    OptionTable& exported =         app.addCommand("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others");
+    declareExport(exported, exportOptions);
     BeatsOptions beatsOptions;
-    CLI::App* beats =
-        app.add_subcommand("beats", "music as strikes on enchanters, or what of it they can render");
-    declareBeats(*beats, beatsOptions);
+    OptionTable& beats =         app.addCommand("beats", "music as strikes on enchanters, or what of it they can render");
+    declareBeats(beats, beatsOptions);
     PlayOptions playOptions;
-    CLI::App* play = app.add_subcommand("play", "play a scene live on an audio device");
-    declarePlayOptions(*play, playOptions);
+    OptionTable& play = app.addCommand("play", "play a scene live on an audio device");
+    declarePlayOptions(play, playOptions);
     AnalyseOptions analyseOptions;
-    CLI::App* analyse = app.add_subcommand("analyse", "what the trials of a study say");
-    declareAnalyse(*analyse, analyseOptions);
+    OptionTable& analyse = app.addCommand("analyse", "what the trials of a study say");
+    declareAnalyse(analyse, analyseOptions);
     ReportOptions reportOptions;
-    CLI::App* report = app.add_subcommand("report", "trial files as a page with pictures, tests and tables");
-    declareReport(*report, reportOptions);
+    OptionTable& report = app.addCommand("report", "trial files as a page with pictures, tests and tables");
+    declareReport(report, reportOptions);
     StimulusOptions stimulusOptions;
-    CLI::App* stimulus = app.add_subcommand("stimulus", "a single stimulus of a study");
-    declareStimulus(*stimulus, stimulusOptions);
+    OptionTable& stimulus = app.addCommand("stimulus", "a single stimulus of a study");
+    declareStimulus(stimulus, stimulusOptions);
     BoardOptions boardOptions;
-    CLI::App* board = app.add_subcommand("board", "the four-channel board: info, play an event list, test");
-    declareBoardOptions(*board, boardOptions);
+    OptionTable& board = app.addCommand("board", "the four-channel board: info, play an event list, test");
+    declareBoardOptions(board, boardOptions);
     StudyOptions studyOptions;
-    CLI::App* study = app.add_subcommand("study", "whole studies, from a protocol");
-    declareStudy(*study, studyOptions);
+    OptionTable& study = app.addCommand("study", "whole studies, from a protocol");
+    declareStudy(study, studyOptions);
     MaterialOptions materialOptions;
-    CLI::App* material = app.add_subcommand("material", "frequency and decay of a recorded contact");
-    declareMaterial(*material, materialOptions);
+    OptionTable& material = app.addCommand("material", "frequency and decay of a recorded contact");
+    declareMaterial(material, materialOptions);
     AttenuationOptions attenuationOptions;
-    CLI::App* attenuation = app.add_subcommand(
+    OptionTable& attenuation = app.addCommand(
         "attenuation",
         "what an isolation layer holds back, from two recordings or a folder of conditions (thesis 3.1.1)");
-    declareAttenuation(*attenuation, attenuationOptions);
+    declareAttenuation(attenuation, attenuationOptions);
     CouplingOptions couplingOptions;
-    CLI::App* coupling = app.add_subcommand(
+    OptionTable& coupling = app.addCommand(
         "coupling", "what enchanters make of each other's vibration, from recordings, for render --coupling");
-    declareCoupling(*coupling, couplingOptions);
-    CLI::App* actuators =
-        app.add_subcommand("actuators", "list the built-in actuator profiles; what is not known is empty");
-    CLI::App* devices = app.add_subcommand("devices", "list the audio devices");
+    declareCoupling(coupling, couplingOptions);
+    app.addCommand("actuators", "list the built-in actuator profiles; what is not known is empty");
+    app.addCommand("devices", "list the audio devices");
     CalibrateOptions calibrateOptions;
-    CLI::App* calibrate = app.add_subcommand("calibrate", "measure an actuator and write its profile");
-    declareCalibrate(*calibrate, calibrateOptions);
+    OptionTable& calibrate = app.addCommand("calibrate", "measure an actuator and write its profile");
+    declareCalibrate(calibrate, calibrateOptions);
     if (argc == 3 && std::string_view{argv[1]} == referenceWord) return writeOwnReference(app, argv[2]);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
-        const auto unknown = app.remaining();
-        const std::string reason = unknown.empty() ? error.what() : "unknown: " + unknown.front();
-        return leave(exitUsage, reason + " (see physvib --help)");
+    const ParsedWords parsed = parseArguments(app, argc, argv);
+    if (!parsed.help.empty()) {
+        std::cout << parsed.help;
+        return exitDone;
     }
+    if (!parsed.fault.empty()) return leave(exitUsage, parsed.reason() + " (see physvib --help)");
     if (const std::string clash = clashOfCall(app); !clash.empty()) return leave(exitUsage, clash);
-    if (scenes->parsed()) return listScenes();
-    if (actuators->parsed()) return listActuators();
-    if (devices->parsed()) return runDevices();
-    if (analyse->parsed()) return runAnalyse(*analyse, analyseOptions);
-    if (report->parsed()) return runReport(reportOptions);
-    if (stimulus->parsed()) return runStimulus(*stimulus, stimulusOptions);
-    if (study->parsed()) return runStudy(*study, studyOptions);
-    if (material->parsed()) return runMaterial(materialOptions);
-    if (beats->parsed()) return runBeats(beatsOptions);
-    if (play->parsed()) return runPlay(playOptions);
-    if (sweep->parsed()) return runSweep(sweepOptions);
-    if (exported->parsed()) return runExport(*exported, exportOptions);
-    if (board->parsed()) return runBoard(boardOptions);
-    if (attenuation->parsed()) return runAttenuation(attenuationOptions);
-    if (coupling->parsed()) return runCoupling(couplingOptions);
-    if (calibrate->parsed()) return runCalibrate(calibrateOptions);
-    noteGiven(*render, options);
+    if (app.isCalled("scenes")) return listScenes();
+    if (app.isCalled("actuators")) return listActuators();
+    if (app.isCalled("devices")) return runDevices();
+    if (app.isCalled("analyse")) return runAnalyse(analyse, analyseOptions);
+    if (app.isCalled("report")) return runReport(reportOptions);
+    if (app.isCalled("stimulus")) return runStimulus(stimulus, stimulusOptions);
+    if (app.isCalled("study")) return runStudy(study, studyOptions);
+    if (app.isCalled("material")) return runMaterial(materialOptions);
+    if (app.isCalled("beats")) return runBeats(beatsOptions);
+    if (app.isCalled("play")) return runPlay(playOptions);
+    if (app.isCalled("sweep")) return runSweep(sweepOptions);
+    if (app.isCalled("export")) return runExport(exported, exportOptions);
+    if (app.isCalled("board")) return runBoard(boardOptions);
+    if (app.isCalled("attenuation")) return runAttenuation(attenuationOptions);
+    if (app.isCalled("coupling")) return runCoupling(couplingOptions);
+    if (app.isCalled("calibrate")) return runCalibrate(calibrateOptions);
+    noteGiven(render, options);
     const std::string refusal = checkRenderOptions(options);
     return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);
 }

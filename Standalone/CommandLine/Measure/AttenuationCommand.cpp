@@ -4,12 +4,11 @@
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
-#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/Text/NumberText.h"
+#include "Options/OptionTable.h"
 #include "Pictures/StudyPictures.h"
 #include "Study/Coupling.h"
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 namespace physvib {
@@ -87,11 +86,11 @@ int runFolder(const AttenuationOptions& o) {
 
 } // namespace
 
-void declareAttenuation(CLI::App& command, AttenuationOptions& o) {
-    command.add_option("isolated", o.isolatedPath, "recorded behind the layer, a channel per axis; or a folder of conditions with " + std::string(RecordingList::fileName))->type_name("ISOLATED.wav|FOLDER")->required();
-    command.add_option("reference", o.referencePath, "the same drive recorded without it")->type_name("REFERENCE.wav");
-    command.add_option("--export", o.exportPath, "of a folder: a row per repetition")->type_name("FILE.csv")->check(writtenFile);
-    command.add_option("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer")->type_name("FILE.png")->check(writtenFile);
+void declareAttenuation(OptionTable& command, AttenuationOptions& o) {
+    command.add("isolated", o.isolatedPath, "recorded behind the layer, a channel per axis; or a folder of conditions with " + std::string(RecordingList::fileName)).as("ISOLATED.wav|FOLDER").required();
+    command.add("reference", o.referencePath, "the same drive recorded without it").as("REFERENCE.wav");
+    command.add("--export", o.exportPath, "of a folder: a row per repetition").written("FILE.csv");
+    command.add("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer").written("FILE.png");
 }
 
 int runAttenuation(const AttenuationOptions& o) {

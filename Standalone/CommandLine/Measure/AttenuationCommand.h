@@ -3,11 +3,9 @@
 #pragma once
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 /// As given on the command line: one channel per axis of the accelerometer.
 struct AttenuationOptions {
@@ -15,7 +13,7 @@ struct AttenuationOptions {
     std::string exportPath, picturePath;     ///< of a folder; empty: not wanted
 };
 
-void declareAttenuation(CLI::App& command, AttenuationOptions& options);
+void declareAttenuation(OptionTable& command, AttenuationOptions& options);
 
 /// A line of CSV per axis and one for all, or one per condition, on stdout; the code to leave with.
 int runAttenuation(const AttenuationOptions& options);

@@ -3,11 +3,9 @@
 #pragma once
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 /// As given on the command line.
 struct CalibrateOptions {
@@ -25,7 +23,7 @@ struct CalibrateOptions {
     double driveVolts = 0.0;              ///< at a played sample of 1; 0: not known
 };
 
-void declareCalibrate(CLI::App& command, CalibrateOptions& options);
+void declareCalibrate(OptionTable& command, CalibrateOptions& options);
 
 /// Writes the profile, with a line on how sure it is on stdout, or tells the latency of a loop; the code to leave with.
 int runCalibrate(const CalibrateOptions& options);

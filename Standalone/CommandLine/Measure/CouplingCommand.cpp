@@ -5,11 +5,10 @@
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
 #include "CommandLine/Render/LayoutNamed.h"
-#include "CommandLine/Study/CallFiles.h"
 #include "Files/CouplingFile.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Text/NumberText.h"
-#include <CLI/CLI.hpp>
+#include "Options/OptionTable.h"
 #include <map>
 
 namespace physvib {
@@ -73,10 +72,10 @@ Result<MeasuredCoupling> couplingIn(const std::string& folder, const LayoutDescr
 
 } // namespace
 
-void declareCoupling(CLI::App& command, CouplingOptions& o) {
-    command.add_option("folder", o.folder, "recordings, a channel per enchanter's accelerometer, and " + std::string(RecordingList::fileName) + ": file,driven,frequency_hz")->type_name("FOLDER")->required();
-    command.add_option("--layout", o.layout, "whose enchanters they are: labels and full scales")->required();
-    command.add_option("--out", o.outPath, "the coupling, for render --coupling")->type_name("FILE.json")->required()->check(writtenFile);
+void declareCoupling(OptionTable& command, CouplingOptions& o) {
+    command.add("folder", o.folder, "recordings, a channel per enchanter's accelerometer, and " + std::string(RecordingList::fileName) + ": file,driven,frequency_hz").as("FOLDER").required();
+    command.add("--layout", o.layout, "whose enchanters they are: labels and full scales").required();
+    command.add("--out", o.outPath, "the coupling, for render --coupling").written("FILE.json").required();
 }
 
 int runCoupling(const CouplingOptions& o) {

@@ -3,18 +3,16 @@
 #pragma once
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 /// As given on the command line.
 struct CouplingOptions {
     std::string folder, layout, outPath;
 };
 
-void declareCoupling(CLI::App& command, CouplingOptions& options);
+void declareCoupling(OptionTable& command, CouplingOptions& options);
 
 /// Writes the file; the code to leave with.
 int runCoupling(const CouplingOptions& options);

@@ -9,8 +9,7 @@
 #include "Measure/LoudestChannel.h"
 #include "Measure/MaterialExtractor.h"
 #include "Host/Recordings/ReadRecording.h"
-#include "Render/InRange.h"
-#include <CLI/CLI.hpp>
+#include "Options/OptionTable.h"
 #include <cmath>
 
 namespace physvib {
@@ -39,15 +38,15 @@ std::string howSure(const ContactSound& s) {
 
 } // namespace
 
-void declareMaterial(CLI::App& command, MaterialOptions& o) {
-    command.add_option("recording", o.path, "one contact; of several, the strongest is taken")->type_name("FILE.wav");
-    command.add_option("--band", o.band, "Hz within which the frequency is looked for")->type_name("LO-HI")->capture_default_str();
-    command.add_option("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks")->check(CLI::IsMember({"fit", "two-peaks"}))->capture_default_str();
-    command.add_option("--texture", o.texturePath, "a scrape at a steady speed, or an autoregressive texture: grains instead of one contact")->type_name("FILE.wav|FILE.xml");
-    command.add_option("--speed", o.speedMetresPerSecond, "m/s at which it was scraped")->type_name("V")->check(inRange(0.001, 100.0));
-    command.add_option("--load", o.loadNewtons, "N that pressed")->type_name("N")->check(inRange(0.001, 1000.0))->capture_default_str();
-    command.add_option("--mass", o.massKg, "kg of what vibrated")->type_name("KG")->check(inRange(0.0001, 10000.0))->capture_default_str();
-    command.add_flag("--list", o.lists, "the built-in materials that sound, and where their numbers are from");
+void declareMaterial(OptionTable& command, MaterialOptions& o) {
+    command.add("recording", o.path, "one contact; of several, the strongest is taken").as("FILE.wav");
+    command.add("--band", o.band, "Hz within which the frequency is looked for").as("LO-HI");
+    command.add("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks").oneOf({"fit", "two-peaks"});
+    command.add("--texture", o.texturePath, "a scrape at a steady speed, or an autoregressive texture: grains instead of one contact").as("FILE.wav|FILE.xml");
+    command.add("--speed", o.speedMetresPerSecond, "m/s at which it was scraped").as("V").in(0.001, 100.0);
+    command.add("--load", o.loadNewtons, "N that pressed").as("N").in(0.001, 1000.0);
+    command.add("--mass", o.massKg, "kg of what vibrated").as("KG").in(0.0001, 10000.0);
+    command.add("--list", o.lists, "the built-in materials that sound, and where their numbers are from");
 }
 
 int runMaterial(const MaterialOptions& o) {

@@ -4,11 +4,9 @@
 #include <optional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 /// As given on the command line.
 struct MaterialOptions {
@@ -21,7 +19,7 @@ struct MaterialOptions {
     double loadNewtons = 1.0, massKg = 1.0;
 };
 
-void declareMaterial(CLI::App& command, MaterialOptions& options);
+void declareMaterial(OptionTable& command, MaterialOptions& options);
 
 /// Of a recording two lines of CSV on stdout, one line (of a model two) on how sure they are on stderr; the code to leave with.
 int runMaterial(const MaterialOptions& options);

@@ -4,14 +4,13 @@
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Render/LayoutNamed.h"
-#include "CommandLine/Study/CallFiles.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
 #include "Host/Music/BandPass.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Host/Recordings/WavSink.h"
+#include "Options/OptionTable.h"
 #include "Session/OfflineRender.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -182,14 +181,14 @@ int runThrough(const BeatsOptions& o, const LayoutDescription& layout) {
 
 } // namespace
 
-void declareBeats(CLI::App& command, BeatsOptions& o) {
-    command.add_option("music", o.music, "WAV, FLAC or Ogg Vorbis, of up to a day")->required()->type_name("MUSIC.wav");
-    command.add_option("--out", o.eventsPath, "its beats as an event list")->type_name("EVENTS.csv")->check(writtenFile);
-    command.add_option("--render", o.wavPath, "what is felt, a channel per enchanter, as long as the music and at its rate")->type_name("FILE.wav")->check(writtenFile);
-    command.add_flag("--through", o.isThrough, "not its beats but the music itself, between the slopes of --band");
-    command.add_option("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told")->type_name("LO-HI");
-    command.add_option("--enchanters", o.enchanters, "who feels it, with --through: all unless told")->type_name("AC");
-    command.add_option("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file")->capture_default_str();
+void declareBeats(OptionTable& command, BeatsOptions& o) {
+    command.add("music", o.music, "WAV, FLAC or Ogg Vorbis, of up to a day").required().as("MUSIC.wav");
+    command.add("--out", o.eventsPath, "its beats as an event list").written("EVENTS.csv");
+    command.add("--render", o.wavPath, "what is felt, a channel per enchanter, as long as the music and at its rate").written("FILE.wav");
+    command.add("--through", o.isThrough, "not its beats but the music itself, between the slopes of --band");
+    command.add("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told").as("LO-HI");
+    command.add("--enchanters", o.enchanters, "who feels it, with --through: all unless told").as("AC");
+    command.add("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file");
     declareBeatOptions(command, o.beats);
 }
 

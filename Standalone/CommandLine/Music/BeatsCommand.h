@@ -16,7 +16,7 @@ struct BeatsOptions {
     BeatOptions beats;
 };
 
-void declareBeats(CLI::App& command, BeatsOptions& options);
+void declareBeats(OptionTable& command, BeatsOptions& options);
 
 /// An exit code.
 int runBeats(const BeatsOptions& options);

@@ -33,7 +33,7 @@ struct PlayOptions {
     int blockFrames = 0;            ///< 0: as the device stands
 };
 
-void declarePlayOptions(CLI::App& command, PlayOptions& options);
+void declarePlayOptions(OptionTable& command, PlayOptions& options);
 
 /// Plays until the time is over or the user interrupts; an exit code.
 int runPlay(PlayOptions& options);

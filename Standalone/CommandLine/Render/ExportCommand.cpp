@@ -3,11 +3,9 @@
 #include "CommandLine/Render/ExportCommand.h"
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
-#include "CommandLine/Study/CallFiles.h"
 #include "Files/Disk/FileClash.h"
 #include "Host/Recordings/HitExport.h"
-#include "Render/InRange.h"
-#include <CLI/CLI.hpp>
+#include "Options/OptionTable.h"
 #include <algorithm>
 #include <filesystem>
 
@@ -64,13 +62,13 @@ std::string takeEvents(RenderJob& job, std::vector<std::string>& warnings) {
 
 } // namespace
 
-void declareExport(CLI::App& command, ExportOptions& o) {
+void declareExport(OptionTable& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
-    command.add_option("--to", o.to, "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)")->required()->type_name("FILE")->check(writtenFile);
-    command.add_option("--error", o.error, "how far lines may be from each hit's exponential, of its strength")->check(inRange(leastError, mostError))->capture_default_str();
+    command.add("--to", o.to, "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)").required().written("FILE");
+    command.add("--error", o.error, "how far lines may be from each hit's exponential, of its strength").in(leastError, mostError);
 }
 
-int runExport(const CLI::App& command, ExportOptions& options) {
+int runExport(const OptionTable& command, ExportOptions& options) {
     RenderOptions& o = options.input;
     noteGiven(command, o);
     if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);

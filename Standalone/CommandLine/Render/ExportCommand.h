@@ -13,9 +13,9 @@ struct ExportOptions {
 };
 
 /// Declares all options of `export`.
-void declareExport(CLI::App& command, ExportOptions& options);
+void declareExport(OptionTable& command, ExportOptions& options);
 
 /// All files appear, or none; a line per file, and one per thing that the format cannot carry. An exit code.
-int runExport(const CLI::App& command, ExportOptions& options);
+int runExport(const OptionTable& command, ExportOptions& options);
 
 } // namespace physvib

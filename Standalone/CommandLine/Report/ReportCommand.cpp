@@ -7,7 +7,7 @@
 #include "CommandLine/Study/StudyRun.h"
 #include "Files/BidsDataset.h"
 #include "Files/Disk/FileClash.h"
-#include <CLI/CLI.hpp>
+#include "Options/OptionTable.h"
 
 namespace physvib {
 namespace {
@@ -79,11 +79,11 @@ int reportThesis(const ReportOptions& o) {
 
 } // namespace
 
-void declareReport(CLI::App& command, ReportOptions& o) {
-    command.add_option("files", o.sources.files, "the trial files of one study; or `thesis`: what the thesis prints beside what follows from it, and its studies rehearsed")->required()->type_name("TRIALS.csv...|thesis");
-    command.add_option("--out", o.folder, "the folder: index.html, tables, report.R")->required()->type_name("FOLDER");
-    command.add_option("--protocol", o.protocol, "the study's protocol, if it is no built-in one")->type_name("PROTOCOL.json");
-    command.add_flag("--bids", o.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
+void declareReport(OptionTable& command, ReportOptions& o) {
+    command.add("files", o.sources.files, "the trial files of one study; or `thesis`: what the thesis prints beside what follows from it, and its studies rehearsed").required().as("TRIALS.csv...|thesis");
+    command.add("--out", o.folder, "the folder: index.html, tables, report.R").required().as("FOLDER");
+    command.add("--protocol", o.protocol, "the study's protocol, if it is no built-in one").as("PROTOCOL.json");
+    command.add("--bids", o.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
     declareColumns(command, o.sources);
 }
 

@@ -5,11 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 /// As given on the command line.
 struct ReportOptions {
@@ -18,7 +16,7 @@ struct ReportOptions {
     bool wantsBids = false;
 };
 
-void declareReport(CLI::App& command, ReportOptions& options);
+void declareReport(OptionTable& command, ReportOptions& options);
 
 /// Does what `command` has parsed; the code to leave with.
 int runReport(const ReportOptions& options);

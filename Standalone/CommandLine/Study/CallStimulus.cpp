@@ -5,7 +5,7 @@
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StimulusOptions.h"
 #include "Files/ProtocolFile.h"
-#include <CLI/CLI.hpp>
+#include "Options/Parser.h"
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -47,7 +47,7 @@ Result<CallWorld> asWorld(RenderOptions& o) {
     return CallWorld{sessionSetup(job), job.layout, job.seconds()};
 }
 
-Result<CallStimulus> ofStimulus(const CLI::App& command, const StimulusOptions& o, int sampleRateHz) {
+Result<CallStimulus> ofStimulus(const OptionTable& command, const StimulusOptions& o, int sampleRateHz) {
     const auto layout = layoutNamed(o.layout);
     if (!layout) return Failure{layout.error};
     MadeStimulus made = makeStimulus(command, o, layout.value);
@@ -63,16 +63,11 @@ Result<CallStimulus> ofStimulus(const CLI::App& command, const StimulusOptions& 
 /// A call in its parts; `error` if its words are none.
 struct ParsedCall {
     explicit ParsedCall(const std::string& call) {
-        declareRenderOptions(*render, renderOptions);
-        declareStimulus(*stimulus, stimulusOptions);
-        words.require_subcommand(1);
+        declareRenderOptions(render, renderOptions);
+        declareStimulus(stimulus, stimulusOptions);
         if (auto fault = writtenWordFault(call); !fault.empty()) error = call + ": " + fault;
         if (!error.empty()) return;
-        try {
-            words.parse(call, false);
-        } catch (const CLI::ParseError& fault) {
-            error = call + ": " + fault.what();
-        }
+        if (const auto parsed = parseText(words, call); !parsed.fault.empty()) error = call + ": " + parsed.fault;
     }
     ParsedCall(const std::string& call, const std::string& folder)
         : ParsedCall{call} {
@@ -86,11 +81,11 @@ struct ParsedCall {
         for (std::string& sound : renderOptions.sounds)
             if (const auto equals = sound.find('='); equals != std::string::npos) sound = sound.substr(0, equals + 1) + besideProtocol(folder, sound.substr(equals + 1));
     }
-    CLI::App words;
+    OptionTable words{"physvib", {}};
     RenderOptions renderOptions;
     StimulusOptions stimulusOptions;
-    CLI::App* const render = words.add_subcommand("render");
-    CLI::App* const stimulus = words.add_subcommand("stimulus");
+    OptionTable& render = words.addCommand("render", {});
+    OptionTable& stimulus = words.addCommand("stimulus", {});
     std::string error;
 };
 
@@ -102,7 +97,7 @@ std::string studyLevelFault(const std::string& call, const std::string& folder) 
     ParsedCall parsed{call, folder};
     RenderOptions& o = parsed.renderOptions;
     if (!parsed.error.empty()) return parsed.error;
-    if (!parsed.words.got_subcommand(parsed.render) || !checkSceneOptions(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
+    if (!parsed.words.isCalled("render") || !checkSceneOptions(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
     const auto layout = layoutNamed(o.layout);
     if (!layout) return layout.error;
     const double leastG = leastStudyFullScaleG * std::pow(10.0, o.levelDb / 20.0);
@@ -116,7 +111,7 @@ std::string studyLevelFault(const std::string& call, const std::string& folder) 
 Result<CallStimulus> stimulusOfCall(const std::string& call, int sampleRateHz, const std::string& folder) {
     ParsedCall parsed{call, folder};
     if (!parsed.error.empty()) return Failure{parsed.error};
-    auto made = parsed.words.got_subcommand(parsed.render) ? ofScene(parsed.renderOptions) : ofStimulus(*parsed.stimulus, parsed.stimulusOptions, sampleRateHz);
+    auto made = parsed.words.isCalled("render") ? ofScene(parsed.renderOptions) : ofStimulus(parsed.stimulus, parsed.stimulusOptions, sampleRateHz);
     if (!made) return Failure{call + ": " + made.error};
     return made;
 }

@@ -7,7 +7,7 @@
 #include "Pictures/RenderPicture.h"
 #include "Session/StimulusRender.h"
 #include "Host/Recordings/WavSink.h"
-#include <CLI/CLI.hpp>
+#include "Options/OptionTable.h"
 #include <optional>
 
 namespace physvib {
@@ -70,8 +70,8 @@ int list(const StimulusOptions& o) {
 
 } // namespace
 
-int runStimulus(const CLI::App& command, const StimulusOptions& o) {
-    if (command.got_subcommand("list")) return list(o);
+int runStimulus(const OptionTable& command, const StimulusOptions& o) {
+    if (command.isCalled("list")) return list(o);
     const auto layout = layoutNamed(o.layout);
     if (!layout) return leave(exitFailed, layout.error);
     MadeStimulus made = makeStimulus(command, o, layout.value);

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib stimulus`, from words to a stimulus.
-#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StimulusOptions.h"
 #include "Core/Limits.h"
 #include "Core/SamplePeak.h"
 #include "Files/ActuatorFile.h"
 #include "Files/Text/NumberText.h"
 #include "Host/Recordings/ReadRecording.h"
-#include "Render/InRange.h"
+#include "Options/OptionTable.h"
 #include "Study/PercentCounts.h"
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -112,47 +110,46 @@ std::string makePhantom(const StimulusOptions& o, const LayoutDescription& layou
     return {};
 }
 
-void declarePlace(CLI::App& command, StimulusOptions& o) {
-    command.add_option("--at", o.at, "place on the field: right and down, from 0 to 1")->type_name("X,Y");
-    command.add_option("--grid", o.grid, "columns and rows of a grid, e.g. 7x5")->type_name("CxR");
-    command.add_option("--cell", o.cell, "row and column in the grid, from 1, row 1 above")->type_name("r,c");
-    command.add_option("--points", o.points, "the grid's points: its outer ones on the corners, or the middles of cells")
-        ->check(CLI::IsMember({"corners", "middles"}))->capture_default_str();
-    command.add_option("--law", o.law, "panning law: linear, log, log-outer, energy")->capture_default_str();
-    command.add_option("--exponent", o.exponent, "exponent of the law")->check(inRange(0.01, 100.0))->capture_default_str();
+void declarePlace(OptionTable& command, StimulusOptions& o) {
+    command.add("--at", o.at, "place on the field: right and down, from 0 to 1").as("X,Y");
+    command.add("--grid", o.grid, "columns and rows of a grid, e.g. 7x5").as("CxR");
+    command.add("--cell", o.cell, "row and column in the grid, from 1, row 1 above").as("r,c");
+    command.add("--points", o.points, "the grid's points: its outer ones on the corners, or the middles of cells").oneOf({"corners", "middles"});
+    command.add("--law", o.law, "panning law: linear, log, log-outer, energy");
+    command.add("--exponent", o.exponent, "exponent of the law").in(0.01, 100.0);
 }
 
-void declareCarrier(CLI::App& command, StimulusOptions& o) {
-    command.add_option("--frequency", o.frequency, "Hz, or resonance: that of the layout's actuators")->capture_default_str();
-    command.add_option("--rate", o.sampleRateHz, "sample rate")->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz))->capture_default_str();
+void declareCarrier(OptionTable& command, StimulusOptions& o) {
+    command.add("--frequency", o.frequency, "Hz, or resonance: that of the layout's actuators");
+    command.add("--rate", o.sampleRateHz, "sample rate").in(limits::minSampleRateHz, limits::maxSampleRateHz);
 }
 
 } // namespace
 
-void declareStimulus(CLI::App& command, StimulusOptions& o) {
-    command.require_subcommand(1);
-    CLI::App* const pattern = command.add_subcommand("pattern", "a spatiotemporal pattern of pulses");
-    CLI::App* const phantom = command.add_subcommand("phantom", "a stationary phantom between the enchanters");
-    CLI::App* const wav = command.add_subcommand("wav", "a recording or a haptic file as a phantom, at its own rate")->alias("clip");
-    CLI::App* const all = command.add_subcommand("list", "the labels of all patterns, one per line");
-    pattern->add_option("pattern", o.pattern, "enchanters in the order of the pulses, and a pulse's ms")->required()->type_name("ABA-250");
-    pattern->add_option("--gap", o.gapSeconds, "silence between pulses, s")->check(inRange(0.0, 10.0))->capture_default_str();
-    wav->add_option("recording", o.recording, "one channel")->required()->type_name("FILE.wav");
-    phantom->add_option("--seconds", o.seconds, "length")->check(inRange(0.001, 600.0))->capture_default_str();
-    all->add_option("--enchanters", o.enchanters, "how many")->check(inRange(1, 26))->capture_default_str();
-    for (CLI::App* one : {pattern, phantom}) declareCarrier(*one, o);
-    for (CLI::App* one : {phantom, wav}) declarePlace(*one, o);
-    for (CLI::App* one : {pattern, phantom, wav}) {
-        one->add_option("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file")->capture_default_str();
-        one->add_option("--level-g", o.levelG, "peak acceleration at gain 1, in g")->check(inRange(1e-6, 1000.0))->capture_default_str();
-        one->add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter, 1 = its full scale")->type_name("FILE.wav")->check(writtenFile);
-        one->add_option("--picture", o.picturePath, "what each enchanter plays")->type_name("FILE.png")->check(writtenFile);
+void declareStimulus(OptionTable& command, StimulusOptions& o) {
+    OptionTable& pattern = command.addCommand("pattern", "a spatiotemporal pattern of pulses");
+    OptionTable& phantom = command.addCommand("phantom", "a stationary phantom between the enchanters");
+    OptionTable& wav = command.addCommand("wav", "a recording or a haptic file as a phantom, at its own rate");
+    wav.alias = "clip";
+    OptionTable& all = command.addCommand("list", "the labels of all patterns, one per line");
+    pattern.add("pattern", o.pattern, "enchanters in the order of the pulses, and a pulse's ms").required().as("ABA-250");
+    pattern.add("--gap", o.gapSeconds, "silence between pulses, s").in(0.0, 10.0);
+    wav.add("recording", o.recording, "one channel").required().as("FILE.wav");
+    phantom.add("--seconds", o.seconds, "length").in(0.001, 600.0);
+    all.add("--enchanters", o.enchanters, "how many").in(1, 26);
+    for (OptionTable* const one : {&pattern, &phantom}) declareCarrier(*one, o);
+    for (OptionTable* const one : {&phantom, &wav}) declarePlace(*one, o);
+    for (OptionTable* const one : {&pattern, &phantom, &wav}) {
+        one->add("--layout", o.layout, "phone1..phone4, ring1..ring4, study1 or a layout file");
+        one->add("--level-g", o.levelG, "peak acceleration at gain 1, in g").in(1e-6, 1000.0);
+        one->add("--out", o.wavPath, "32-bit float WAV, one channel per enchanter, 1 = its full scale").written("FILE.wav");
+        one->add("--picture", o.picturePath, "what each enchanter plays").written("FILE.png");
     }
 }
 
-MadeStimulus makeStimulus(const CLI::App& command, const StimulusOptions& o, const LayoutDescription& layout) {
+MadeStimulus makeStimulus(const OptionTable& command, const StimulusOptions& o, const LayoutDescription& layout) {
     MadeStimulus made;
-    made.usage = command.got_subcommand("pattern") ? makePattern(o, layout, made) : makePhantom(o, layout, made);
+    made.usage = command.isCalled("pattern") ? makePattern(o, layout, made) : makePhantom(o, layout, made);
     return made;
 }
 

@@ -4,11 +4,9 @@
 #include "Session/StimulusRender.h"
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 /// As given on the command line.
 struct StimulusOptions {
@@ -35,9 +33,9 @@ struct MadeStimulus {
 };
 
 /// Declares pattern, phantom, wav and list as subcommands of `command`.
-void declareStimulus(CLI::App& command, StimulusOptions& options);
+void declareStimulus(OptionTable& command, StimulusOptions& options);
 
 /// What `command` has parsed (not list), on that layout; recordings as samples, all else as events. M only.
-MadeStimulus makeStimulus(const CLI::App& command, const StimulusOptions& options, const LayoutDescription& layout);
+MadeStimulus makeStimulus(const OptionTable& command, const StimulusOptions& options, const LayoutDescription& layout);
 
 } // namespace physvib

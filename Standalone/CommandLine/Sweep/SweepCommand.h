@@ -4,11 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 struct SweepOptions {
     std::string design, folder;
@@ -20,7 +18,7 @@ struct SweepOptions {
 };
 
 /// Declares all options of `sweep`.
-void declareSweep(CLI::App& command, SweepOptions& options);
+void declareSweep(OptionTable& command, SweepOptions& options);
 
 /// What is done stays done, whatever ends the program. An exit code.
 int runSweep(const SweepOptions& options);
