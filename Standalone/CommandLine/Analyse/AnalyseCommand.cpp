@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options of the analyses, and which of them was asked for.
 #include "CommandLine/Analyse/AnalyseCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Analyse/AnalyseFits.h"
 #include "CommandLine/Analyse/AnalyseGrids.h"
 #include "CommandLine/Analyse/AnalyseLabels.h"
@@ -8,7 +9,6 @@
 #include "CommandLine/Analyse/AnalyseVotes.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/TrialColumns.h"
-#include "Options/OptionTable.h"
 #include <algorithm>
 #include <set>
 #include <span>
@@ -147,5 +147,7 @@ int runAnalyse(const OptionTable& command, AnalyseOptions& o) {
     if (!report.error.empty()) return leave(exitFailed, report.error);
     return writeStudyFiles({{o.exportPath, report.table}, {o.countsPath, report.counts}, {o.participantsPath, report.participants}, {o.picturePath, report.picture}});
 }
+
+Command analyseCommand() { return commandOf("analyse", "what the trials of a study say", declareAnalyse, runAnalyse); }
 
 } // namespace physvib

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A board link for the length of a call.
 #include "CommandLine/Board/BoardCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/StandardStreams.h"
 #include "CommandLine/Render/RenderJob.h"
 #include "Files/EventsCsv.h"
-#include "Options/OptionTable.h"
 #include "Physics/Simulation.h"
 #include "Wire/SelfTest.h"
 #include <iomanip>
@@ -156,5 +156,7 @@ int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelD
               << " ms of stalls\n";
     return finish(link, before);
 }
+
+Command boardCommand() { return commandOf("board", "the four-channel board: info, play an event list, test", declareBoardOptions, runBoard); }
 
 } // namespace physvib

@@ -1,21 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a device or two files to a profile in its place.
-#include "CommandLine/Measure/CalibrateCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
-#include "CommandLine/ExitCode.h"
 #include "Files/ActuatorFile.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Text/NumberText.h"
-#include "Measure/ActuatorMeasurement.h"
 #include "Host/Devices/AudioOutput.h"
-#include "Host/Recordings/ReadRecording.h"
 #include "Host/Devices/SweepRecorder.h"
+#include "Host/Recordings/ReadRecording.h"
 #include "Host/Recordings/WavSink.h"
-#include "Options/OptionTable.h"
+#include "Measure/ActuatorMeasurement.h"
 #include <cmath>
+#include <string>
 
 namespace physvib {
 namespace {
+
+/// As given on the command line.
+struct CalibrateOptions {
+    std::string device;
+    int channel = 1, input = 1;           ///< from 1
+    int sampleRateHz = 0;                 ///< 0: as the device stands
+    std::string playedPath, recordedPath; ///< WAV pair, instead of a device
+    std::string sweepPath;                ///< write the sweep and nothing else
+    std::string profilePath;              ///< to write
+    bool isLoopback = false;              ///< a cable instead of an actuator: its latency, no profile
+    std::string name = "calibrated";
+    std::string band;                     ///< "LO-HI" to declare; empty: within 10 dB of the peak
+    double levelDb = -12.0, seconds = 5.0;
+    double gPerUnit = 0.0;                ///< acceleration of a recorded sample of 1; 0: not known
+    double driveVolts = 0.0;              ///< at a played sample of 1; 0: not known
+};
 
 constexpr double bandDecibels = 10.0; // what a profile declares unless told: the equaliser then costs that much level
 
@@ -99,8 +114,6 @@ std::string fault(const CalibrateOptions& o) {
     return o.band.empty() || parseBand(o.band) ? std::string{} : "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band);
 }
 
-} // namespace
-
 void declareCalibrate(OptionTable& command, CalibrateOptions& o) {
     command.add("--device", o.device, "device that plays and records (see physvib devices)");
     command.add("--channel", o.channel, "output of the enchanter, from 1").in(1, 256);
@@ -138,5 +151,9 @@ int runCalibrate(const CalibrateOptions& o) {
               << fixedNumber(1e3 * m.delaySeconds, 2) << " ms; " << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
     return exitDone;
 }
+
+} // namespace
+
+Command calibrateCommand() { return commandOf("calibrate", "measure an actuator and write its profile", declareCalibrate, runCalibrate); }
 
 } // namespace physvib

@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a file to two numbers, and how far they can be trusted.
-#include "CommandLine/Measure/MaterialCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Measure/TextureText.h"
-#include "CommandLine/ExitCode.h"
 #include "Files/MaterialTable.h"
 #include "Files/Text/NumberText.h"
+#include "Host/Recordings/ReadRecording.h"
 #include "Measure/LoudestChannel.h"
 #include "Measure/MaterialExtractor.h"
-#include "Host/Recordings/ReadRecording.h"
-#include "Options/OptionTable.h"
 #include <cmath>
+#include <optional>
+#include <string>
 
 namespace physvib {
 namespace {
+
+/// As given on the command line.
+struct MaterialOptions {
+    std::string path;
+    std::string band = "20-1000"; ///< "LO-HI" in Hz
+    std::string rule = "fit";     ///< or "two-peaks"
+    bool lists = false;           ///< the built-in library, instead
+    std::string texturePath;      ///< a scrape, or a toolkit's models of some, instead
+    std::optional<double> speedMetresPerSecond;
+    double loadNewtons = 1.0, massKg = 1.0;
+};
 
 int listMaterials() {
     const MaterialTable& table = builtInMaterials();
@@ -35,8 +46,6 @@ std::string howSure(const ContactSound& s) {
     return words + "; " + std::to_string(s.partials) + (s.partials == 1 ? " partial" : " partials") + " in " + fixedNumber(s.lengthSeconds, 3) + " s from " +
            fixedNumber(s.beginSeconds, 4) + " s; confidence " + (s.isConfident() ? "high" : "low");
 }
-
-} // namespace
 
 void declareMaterial(OptionTable& command, MaterialOptions& o) {
     command.add("recording", o.path, "one contact; of several, the strongest is taken").as("FILE.wav");
@@ -66,5 +75,9 @@ int runMaterial(const MaterialOptions& o) {
     std::cerr << "physvib: " << howSure(sound.value) << '\n';
     return exitDone;
 }
+
+} // namespace
+
+Command materialCommand() { return commandOf("material", "frequency and decay of a recorded contact", declareMaterial, runMaterial); }
 
 } // namespace physvib

@@ -1,24 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Block by block from a file of music to strikes, or to what is left of it between two slopes; files appear at the end, or not at all.
-#include "CommandLine/Music/BeatsCommand.h"
-#include "CommandLine/ExitCode.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
+#include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Render/LayoutNamed.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
 #include "Host/Music/BandPass.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Host/Recordings/WavSink.h"
-#include "Options/OptionTable.h"
 #include "Session/OfflineRender.h"
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace physvib {
 namespace {
+
+struct BeatsOptions {
+    std::string music;
+    std::string eventsPath, wavPath; ///< empty: not wanted
+    bool isThrough = false;          ///< the WAV holds the music itself, low-passed
+    std::string band;                ///< of that, in Hz; empty: the usual one
+    std::string enchanters;          ///< of that; empty: all
+    std::string layout = "phone4";
+    BeatOptions beats;
+};
 
 std::string rateFault(int rateHz) {
     if (isSampleRate(rateHz)) return {};
@@ -179,8 +189,6 @@ int runThrough(const BeatsOptions& o, const LayoutDescription& layout) {
     return exitDone;
 }
 
-} // namespace
-
 void declareBeats(OptionTable& command, BeatsOptions& o) {
     command.add("music", o.music, "WAV, FLAC or Ogg Vorbis, of up to a day").required().as("MUSIC.wav");
     command.add("--out", o.eventsPath, "its beats as an event list").written("EVENTS.csv");
@@ -199,5 +207,9 @@ int runBeats(const BeatsOptions& o) {
     if (!layout) return leave(exitFailed, layout.error);
     return o.isThrough ? runThrough(o, layout.value) : runStrikes(o, layout.value);
 }
+
+} // namespace
+
+Command beatsCommand() { return commandOf("beats", "music as strikes on enchanters, or what of it they can render", declareBeats, runBeats); }
 
 } // namespace physvib

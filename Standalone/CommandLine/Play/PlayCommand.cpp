@@ -1,22 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib play`, from words to a session's setup.
-#include "CommandLine/Play/PlayCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Board/BoardCommand.h"
+#include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
-#include "CommandLine/Study/NumberList.h"
 #include "CommandLine/Render/JobSession.h"
+#include "CommandLine/Render/RenderOptions.h"
+#include "CommandLine/Study/NumberList.h"
 #include "Files/Disk/FileClash.h"
-#include "Physics/Scenes/SceneEdits.h"
 #include "Host/Devices/AudioOutput.h"
-#include "Options/OptionTable.h"
+#include "Host/Osc/OscPort.h"
+#include "Physics/Scenes/SceneEdits.h"
 #include "Session/SerialLine.h"
 #include <algorithm>
 #include <numbers>
+#include <string>
 
 namespace physvib {
-
 namespace {
+
+/// The scene options, and where to play.
+struct PlayOptions {
+    RenderOptions scene;
+    std::string device;
+    std::string board;              ///< serial port of a four-channel board, alone or beside a device
+    std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
+    std::string onOff;              ///< enchanters from 1 that are motors, on or off; empty: none
+    double threshold = OnOffSteps::thesisThreshold; ///< of these, in full scale
+    std::string noise;              ///< as map: outputs that play pink noise; empty: none
+    double noiseDb = PinkNoise::safeDb;   ///< its root mean square, of full scale
+    std::string driver = "message"; ///< or "thread"
+    std::string recordPath;         ///< WAV of what was played; empty: not wanted
+    std::string savePath;           ///< the session as JSON; empty: not wanted
+    bool listens = false, hasHands = false, isDirect = false; ///< to standard input
+    std::string clips = ".";        ///< folder of its messages' clips, and of OSC's
+    std::string beatInputs;         ///< as map: of the device, whose beats are struck; empty: none
+    BeatOptions beats;
+    OscSettings osc;
+    double oscTurnDegrees = 0.0;    ///< by which a phone is held counter-clockwise of upright
+    double levelDb = safeStartDecibels; ///< master level
+    std::string ceilings = "0";     ///< dB of full scale: one for all enchanters, or one each
+    int blockFrames = 0;            ///< 0: as the device stands
+};
 
 /// "1,2,3" to {0, 1, 2}; empty means an empty map. False if it is anything else.
 bool parseMap(const std::string& text, std::vector<int>& map) {
@@ -48,8 +74,6 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     if (!o.beatInputs.empty()) setup.longestGapSeconds = std::max(setup.longestGapSeconds, LiveBeats::knownAfterSeconds - 2.0 / setup.stepsPerSecond);
     return setup;
 }
-
-} // namespace
 
 void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     declareSceneOptions(command, o.scene);
@@ -138,11 +162,8 @@ int runPlay(PlayOptions& o) {
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 
-int runDevices() {
-    const juce::ScopedJuceInitialiser_GUI juce;
-    for (const auto& device : listAudioDevices()) std::cout << device.type << ':' << device.name << "  " << device.channels << " outputs\n";
-    for (const auto& port : listSerialPorts()) std::cout << port.path << "  " << port.description << '\n';
-    return exitDone;
-}
+} // namespace
+
+Command playCommand() { return commandOf("play", "play a scene live on an audio device", declarePlayOptions, runPlay); }
 
 } // namespace physvib

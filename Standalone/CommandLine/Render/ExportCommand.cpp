@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Events by the door of `render`, panned and drawn as curves, then as bytes.
-#include "CommandLine/Render/ExportCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
+#include "CommandLine/Render/RenderOptions.h"
 #include "Files/Disk/FileClash.h"
 #include "Host/Recordings/HitExport.h"
-#include "Options/OptionTable.h"
 #include <algorithm>
 #include <filesystem>
+#include <string>
 
 namespace physvib {
 namespace {
+
+struct ExportOptions {
+    RenderOptions input; ///< what is exported, and how it is spread
+    std::string to;      ///< path; its ending says the format
+    double error = 0.004;
+};
 
 constexpr double leastError = 1e-5, mostError = 0.1;
 
@@ -60,8 +67,6 @@ std::string takeEvents(RenderJob& job, std::vector<std::string>& warnings) {
     return {};
 }
 
-} // namespace
-
 void declareExport(OptionTable& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
     command.add("--to", o.to, "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)").required().written("FILE");
@@ -97,5 +102,9 @@ int runExport(const OptionTable& command, ExportOptions& options) {
     tellLosses(job, parts, *format, usual.value);
     return exitDone;
 }
+
+} // namespace
+
+Command exportCommand() { return commandOf("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others", declareExport, runExport); }
 
 } // namespace physvib

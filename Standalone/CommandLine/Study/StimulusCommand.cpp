@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a stimulus to a WAV file and a picture.
 #include "CommandLine/Study/StimulusCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Render/LayoutNamed.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"
 #include "Pictures/RenderPicture.h"
 #include "Session/StimulusRender.h"
 #include "Host/Recordings/WavSink.h"
-#include "Options/OptionTable.h"
 #include <optional>
 
 namespace physvib {
@@ -85,5 +85,7 @@ int runStimulus(const OptionTable& command, const StimulusOptions& o) {
     }
     return made.error.empty() ? write(made, o, layout.value) : leave(exitFailed, made.error);
 }
+
+Command stimulusCommand() { return commandOf("stimulus", "a single stimulus of a study", declareStimulus, runStimulus); }
 
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every participant, one after the other, answered by the observer.
 #include "CommandLine/Study/StudyCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Process.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "CommandLine/Study/StudyOutput.h"
@@ -9,7 +10,6 @@
 #include "Files/ProtocolFile.h"
 #include "Files/StudyCsv.h"
 #include "Host/Recordings/LoadContact.h"
-#include "Options/OptionTable.h"
 #include "Study/SimulatedObserver.h"
 #include <chrono>
 #include <thread>
@@ -129,5 +129,7 @@ int runStudy(const OptionTable& command, const StudyOptions& o) {
     std::cout << protocolJson(protocol.value);
     return exitDone;
 }
+
+Command studyCommand() { return commandOf("study", "whole studies, from a protocol", declareStudy, runStudy); }
 
 } // namespace physvib

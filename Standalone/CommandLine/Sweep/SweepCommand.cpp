@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Design, plan, tasks, index.
-#include "CommandLine/Sweep/SweepCommand.h"
-#include "CommandLine/ExitCode.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Sweep/SweepIndex.h"
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/Sweep/SweepSlurm.h"
@@ -9,13 +8,23 @@
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/Text/NumberText.h"
-#include "Options/OptionTable.h"
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace physvib {
 namespace {
+
+struct SweepOptions {
+    std::string design, folder;
+    int jobs = 0; ///< 0: as many as there are processors for this program
+    bool keepsWavs = false, keepsEvents = false;
+    bool plans = false, gathers = false, submits = false; ///< instead of rendering here
+    std::string part;                                     ///< "K/N"
+    std::vector<std::string> slurmWords;
+};
 
 constexpr int mostJobs = 1024;
 
@@ -77,8 +86,6 @@ int render(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& pa
     return gather(plan, folder, ", " + std::to_string(tally.rendered) + " rendered now");
 }
 
-} // namespace
-
 void declareSweep(OptionTable& command, SweepOptions& o) {
     command.add("design", o.design, "which renders: scenes, variables, seeds, layouts, laws, methods, options").required().as("DESIGN.json");
     command.add("--out", o.folder, "the folder: index.csv, a row per task; tasks, a file for each that is done. The same call goes on where it was cut off").as("FOLDER");
@@ -110,5 +117,9 @@ int runSweep(const SweepOptions& o) {
     if (auto fault = folder.prepare(text.value); !fault.empty()) return leave(exitFailed, fault);
     return o.submits ? submit(plan.value, folder, o) : render(plan.value, folder, *part, o);
 }
+
+} // namespace
+
+Command sweepCommand() { return commandOf("sweep", "many renders of a design as a table of numbers, on all processors or a cluster", declareSweep, runSweep); }
 
 } // namespace physvib
