@@ -6,7 +6,6 @@
 
 namespace physvib {
 
-inline constexpr std::array<std::string_view, 7> taskNames{"explore", "identify", "locate", "choose", "rate", "adjust", "estimate"};
 inline constexpr std::array<std::string_view, 3> trialOrderNames{"given", "random", "blocks"};
 inline constexpr std::array<std::string_view, 3> conditionOrderNames{"given", "random", "latin-square"};
 inline constexpr std::array<std::string_view, 4> stimulusSetNames{"patterns", "grid", "calls", "world"};
@@ -161,7 +160,7 @@ struct FieldsOf<SessionPlan> {
         using S = SessionPlan;
         v.field("name", &S::name, anyText, Need::required);
         v.field("training", &S::isTraining, {}, Need::optional);
-        v.choice("task", &S::task, taskNames);
+        v.choice("task", &S::task, studyTaskNames);
         v.field("question", &S::question, anyText, Need::optional);
         v.choice("order", &S::order, trialOrderNames);
         v.field("repetitions", &S::repetitions, Bounds{1.0, 1000.0}, Need::optional);

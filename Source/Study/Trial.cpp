@@ -61,7 +61,7 @@ std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& tr
 
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record) {
     const SessionPlan& session = protocol.sessions[record.trial.session];
-    if (record.trial.task == StudyTask::identify) return record.answer.response == record.trial.stimulus;
+    if (session.answer() == AnswerKind::label) return record.answer.response == record.trial.stimulus;
     if (const std::string* const adapted = session.adaptedAlternative()) return record.answer.response == *adapted;
     return std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include "CommandLine/Analyse/AnalyseVotes.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/TrialColumns.h"
+#include "Study/StudyTasks.h"
 #include <algorithm>
 #include <set>
 #include <span>
@@ -31,6 +32,9 @@ constexpr Analysis analyses[] = {
     {"levels", "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
     {"icons", "stimulus,response per trial: the patterns that are confused least", analyseIcons},
 };
+
+static_assert(std::ranges::all_of(studyTasks, [](const auto& task) { return task.analysis.empty() || std::ranges::find(analyses, task.analysis, &Analysis::name) != std::end(analyses); }),
+              "every task's analysis is one of these");
 
 constexpr Analysis testsOverParticipants[] = {
     {"anova", "analysis of variance with repeated measures", analyseAnova},
@@ -105,14 +109,12 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
     if (const auto task = table.column(trialColumns::task)) {
         const auto phase = table.column(trialColumns::phase), correct = table.column("correct");
         for (const CsvRow& row : table.rows) {
-            const std::string& did = row.cells[*task];
+            const StudyTaskDescription* const did = studyTaskNamed(row.cells[*task]);
+            if (did == nullptr) continue;
             const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
-            if (did == "adjust" || did == "estimate" || (did == "choose" && correct && !row.cells[*correct].empty())) found.insert("levels");
-            else if (isTraining) continue;
-            else if (did == "identify") found.insert("confusion");
-            else if (did == "locate") found.insert("resolution");
-            else if (did == "choose") found.insert("choices");
-            else if (did == "rate") found.insert("ratings");
+            const bool isAdapted = did->answer == AnswerKind::choice && correct && !row.cells[*correct].empty();
+            if (isAdapted || did->analysis == "levels") found.insert("levels"); // of trainings, too
+            else if (!isTraining) found.emplace(did->analysis);
         }
     } else {
         if (has("stimulus") && has("response")) found.insert("confusion");

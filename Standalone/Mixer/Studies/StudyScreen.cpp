@@ -19,7 +19,7 @@ TrialRecord firstRecord(const Protocol& protocol, std::size_t condition, std::si
         record.trial.parts.push_back(a.name);
         record.trial.partLevelsDb.push_back(a.levelDb);
     }
-    if (s.task == StudyTask::rate) record.trial.parts = s.objects;
+    if (!s.objects.empty()) record.trial.parts = s.objects;
     return record;
 }
 

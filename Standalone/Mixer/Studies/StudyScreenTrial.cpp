@@ -5,7 +5,7 @@
 
 namespace physvib {
 
-bool StudyScreen::isExploring() const { return experiment().trial().task == StudyTask::explore; }
+bool StudyScreen::isExploring() const { return experiment().session().answer() == AnswerKind::wish; }
 
 bool StudyScreen::canAnswer() const { return progress_->canAnswer() && !isFeeling(); }
 
