@@ -85,7 +85,7 @@ std::string callsFault(const Protocol& p, const ConditionPlan& c, const CallSet&
     if (!std::ranges::all_of(namedPartsOf(p, calls), isPlain)) return "call: expected alternatives and objects without braces";
     return firstCallFault(p, c, [&p](const std::string& call) -> std::string {
         if (std::string fault = callFault(call); !fault.empty()) return "call: " + fault;
-        const auto bytes = call.size() + soundWords(p, call).size();
+        const auto bytes = withSounds(p, call).size();
         return bytes <= mostCallBytes ? std::string{} : "call: expected at most " + std::to_string(mostCallBytes) + " bytes with its recordings, found " + std::to_string(bytes);
     });
 }

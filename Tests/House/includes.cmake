@@ -11,6 +11,7 @@ set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Files/(Result|Text/NumberTex
 set(Api_may "Api/C/|Files/|Contacts/|Core/")
 set(Api/Live_may "Api/|Host/|Session/|Files/|Core/|juce_")
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
+set(Jobs_may "Jobs/|Session/|Study/|Physics/|Files/|Formats/|Measure/|Contacts/|Core/")
 set(Standalone/Web_may "PageWorld\\.h|Files/|Physics/|Contacts/|Core/")
 set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Session/OfflineRender\\.h|Files/|Physics/|Contacts/|Core/")
 set(Standalone/Options_may "Options/|Files/")
@@ -22,7 +23,7 @@ set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Study Contacts Physics Files Formats Measure Pictures Api Api/Live Session Host Host/Osc Plugin Standalone/Options Standalone/Render Standalone/Web)
+foreach(room Core Wire Study Contacts Physics Files Formats Measure Pictures Api Api/Live Session Jobs Host Host/Osc Plugin Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # a room of its own, under another licence
         list(FILTER files EXCLUDE REGEX "/Api/Live/")

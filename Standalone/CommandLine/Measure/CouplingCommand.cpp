@@ -3,7 +3,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
-#include "CommandLine/Render/LayoutNamed.h"
+#include "Jobs/LayoutNamed.h"
 #include "Files/CouplingFile.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Text/NumberText.h"

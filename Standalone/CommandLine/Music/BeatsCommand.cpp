@@ -3,7 +3,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Music/BeatOptions.h"
-#include "CommandLine/Render/LayoutNamed.h"
+#include "Jobs/LayoutNamed.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
 #include "Host/Music/BandPass.h"

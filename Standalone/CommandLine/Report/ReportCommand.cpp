@@ -5,7 +5,7 @@
 #include "CommandLine/Report/StudyReport.h"
 #include "CommandLine/Report/ThesisReport.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "CommandLine/Study/StudyRun.h"
+#include "Studies/StudyCalls.h"
 #include "Files/BidsDataset.h"
 #include "Files/Disk/FileClash.h"
 #include <string>

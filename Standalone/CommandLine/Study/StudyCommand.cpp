@@ -5,11 +5,12 @@
 #include "CommandLine/Process.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "CommandLine/Study/StudyRun.h"
 #include "Files/LevelsFile.h"
 #include "Files/ProtocolFile.h"
 #include "Files/StudyCsv.h"
 #include "Host/Recordings/LoadContact.h"
+#include "Jobs/StudyRun.h"
+#include "Studies/StudyCalls.h"
 #include "Study/SimulatedObserver.h"
 #include <chrono>
 #include <thread>
@@ -34,15 +35,16 @@ void showProgress(const Participant& participant, int trials) {
 }
 
 /// One participant from the first trial without an answer to the last; the reason if it fails.
-std::string runParticipant(const Protocol& protocol, const Participant& participant, const ObserverSettings& settings, const StudyOptions& o) {
-    StudyRun study{o.folder, protocol, participant};
+std::string runParticipant(const StudyRun& run, const ObserverSettings& settings, double paceSeconds) {
+    if (auto fault = faultOf(run); !fault.empty()) return fault;
+    StudyInProgress study{run};
     if (!study.error().empty()) return study.error();
     const Experiment& experiment = study.experiment();
-    const SimulatedObserver observer{settings, protocol, participant};
+    const SimulatedObserver observer{settings, run.protocol, run.participant};
     while (!experiment.isDone()) {
-        if (o.paceSeconds > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(o.paceSeconds));
+        if (paceSeconds > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(paceSeconds));
         if (!study.take(observer.answer(experiment))) return study.error();
-        showProgress(participant, experiment.trialsTaken());
+        showProgress(run.participant, experiment.trialsTaken());
     }
     const int before = study.trialsBefore();
     std::cout << study.path().string() << "  " << experiment.trialsTaken() << " trials" << (before > 0 ? ", " + std::to_string(before) + " of them there before" : std::string{}) << '\n';
@@ -77,8 +79,8 @@ int run(const StudyOptions& o) {
     std::filesystem::create_directories(o.folder, fault);
     if (fault) return leave(exitFailed, o.folder + ": cannot be made: " + fault.message());
     for (int number = o.number; number < o.number + o.participants; ++number) {
-        const Participant participant{codeOf(o, number), number, o.observer};
-        if (auto error = runParticipant(protocol.value, participant, *settings, o); !error.empty()) return leave(exitFailed, error);
+        const StudyRun one{protocol.value, {codeOf(o, number), number, o.observer}, o.folder};
+        if (auto error = runParticipant(one, *settings, o.paceSeconds); !error.empty()) return leave(exitFailed, error);
     }
     tellIfSimulated(true);
     return exitDone;
