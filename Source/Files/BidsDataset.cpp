@@ -4,6 +4,7 @@
 #include "Files/Json/JsonLines.h"
 #include "Files/Text/CleanText.h"
 #include "Files/TrialColumns.h"
+#include "Study/StudyTasks.h"
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -36,7 +37,7 @@ constexpr ColumnMeaning meanings[] = {
     {"session", "session", "Session of the protocol", ""},
     {"phase", "phase", "training (left out of analyses) or main", ""},
     {"trial", "trial", "Number of the trial in its condition and session, from 1", ""},
-    {"task", "task", "What the participant did: explore, identify, locate, choose, rate, adjust or estimate", ""},
+    {"task", "task", "What the participant did: ", ""},
     {"stimulus", "stimulus", "Label of what was felt", ""},
     {"parts", "parts", "What was felt one by one, in that order, between vertical bars", ""},
     {"response", "response", "Label that was answered", ""},
@@ -57,6 +58,13 @@ constexpr ColumnMeaning meanings[] = {
     {"render", "render", "Call of physvib that renders the stimulus again", ""},
 };
 
+/// "explore, identify or locate".
+std::string taskList() {
+    std::string list;
+    for (const auto name : studyTaskNames) list.append(list.empty() ? "" : name == studyTaskNames.back() ? " or " : ", ").append(name);
+    return list;
+}
+
 const ColumnMeaning* meaningOf(const std::string& column) {
     const auto found = std::ranges::find(meanings, column, &ColumnMeaning::ours);
     return found == std::end(meanings) ? nullptr : found;
@@ -73,7 +81,7 @@ std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsW
         if (c == participant) continue;
         const auto* const known = meaningOf(trials.columns[c]);
         OrderedJson& own = json[bidsName(trials.columns[c])];
-        own["Description"] = known ? std::string{known->description} : "Column " + cellOf(trials.columns[c]) + " of the trial file: a rating scale from 0 to 100, or a column of another program";
+        own["Description"] = known ? std::string{known->description} + (known->ours == trialColumns::task ? taskList() : "") : "Column " + cellOf(trials.columns[c]) + " of the trial file: a rating scale from 0 to 100, or a column of another program";
         if (known && !known->units.empty()) own["Units"] = known->units;
     }
     return jsonLines(json);

@@ -3,16 +3,18 @@
 #pragma once
 #include "Physics/Scenes/SceneFields.h"
 #include "Study/Protocol.h"
+#include "Study/StimulusJob.h"
 
 namespace physvib {
 
-inline constexpr std::array<std::string_view, 7> taskNames{"explore", "identify", "locate", "choose", "rate", "adjust", "estimate"};
 inline constexpr std::array<std::string_view, 3> trialOrderNames{"given", "random", "blocks"};
 inline constexpr std::array<std::string_view, 3> conditionOrderNames{"given", "random", "latin-square"};
 inline constexpr std::array<std::string_view, 4> stimulusSetNames{"patterns", "grid", "calls", "world"};
 inline constexpr std::array<std::string_view, 2> gridPointNames{"corners", "middles"};
 
 namespace studyBounds {
+/// Of a field that becomes part of a stimulus.
+constexpr Bounds of(const StimulusRange& range) { return {range.least, range.most}; }
 inline constexpr Bounds levelDb = within(limits::maxLevelDb);
 inline constexpr Bounds rest = upTo(86400.0);         // a day
 inline constexpr Bounds count = upTo(100000.0);       // trials of a week
@@ -26,7 +28,7 @@ struct FieldsOf<PatternSet> {
     static void visit(V& v) {
         v.field("enchanters", &PatternSet::enchanters, Bounds{1.0, 26.0}, Need::required);
         v.field("pulse_s", &PatternSet::pulseSeconds, Bounds{0.001, 10.0, 1, 8}, Need::optional);
-        v.field("gap_s", &PatternSet::gapSeconds, upTo(10.0), Need::optional);
+        v.field("gap_s", &PatternSet::gapSeconds, studyBounds::of(stimulusRanges::gapSeconds), Need::optional);
     }
 };
 
@@ -38,8 +40,8 @@ struct FieldsOf<GridSet> {
         v.field("rows", &GridSet::rows, studyBounds::lines, Need::required);
         v.choice("points", &GridSet::points, gridPointNames);
         v.choice("law", &GridSet::law, panningLawNames);
-        v.field("exponent", &GridSet::exponent, Bounds{0.01, 100.0}, Need::optional);
-        v.field("seconds", &GridSet::seconds, Bounds{0.001, 600.0}, Need::optional);
+        v.field("exponent", &GridSet::exponent, studyBounds::of(stimulusRanges::exponent), Need::optional);
+        v.field("seconds", &GridSet::seconds, studyBounds::of(stimulusRanges::seconds), Need::optional);
     }
 };
 
@@ -88,9 +90,9 @@ struct FieldsOf<ConditionPlan> {
         v.field("name", &C::name, anyText, Need::required);
         v.field("group", &C::group, anyText, Need::optional);
         v.field("layout", &C::layout, anyText, Need::optional);
-        v.field("frequency_hz", &C::frequencyHz, Bounds{limits::slowestToneHz, limits::maxFrequencyHz}, Need::optional);
+        v.field("frequency_hz", &C::frequencyHz, studyBounds::of(stimulusRanges::frequencyHz), Need::optional);
         v.field("at_resonance", &C::isAtResonance, {}, Need::optional);
-        v.field("level_g", &C::levelG, Bounds{1e-6, 1000.0}, Need::optional);
+        v.field("level_g", &C::levelG, studyBounds::of(stimulusRanges::levelG), Need::optional);
         v.field("observer_blur", &C::observerBlur, Bounds{0.001, 1.0}, Need::optional);
         v.variant("stimuli", &C::stimuli, stimulusSetNames);
     }
@@ -161,7 +163,7 @@ struct FieldsOf<SessionPlan> {
         using S = SessionPlan;
         v.field("name", &S::name, anyText, Need::required);
         v.field("training", &S::isTraining, {}, Need::optional);
-        v.choice("task", &S::task, taskNames);
+        v.choice("task", &S::task, studyTaskNames);
         v.field("question", &S::question, anyText, Need::optional);
         v.choice("order", &S::order, trialOrderNames);
         v.field("repetitions", &S::repetitions, Bounds{1.0, 1000.0}, Need::optional);

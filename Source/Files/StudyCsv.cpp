@@ -69,7 +69,7 @@ std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTr
     const auto condition = rows.optional("condition"), participant = rows.optional("participant");
     data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0, missing = 0, firstMissing = 0;
-    rows.each("identify", [&](const CsvRow& row) {
+    rows.each(AnswerKind::label, [&](const CsvRow& row) {
         ++taken;
         if (row.cells[response].empty() && !rows.text(row, stimulus).empty()) {
             if (missing++ == 0) firstMissing = row.line;
@@ -89,7 +89,7 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
     constexpr int most = static_cast<int>(mostGridLines);
     data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
-    rows.each("locate", [&](const CsvRow& r) {
+    rows.each(AnswerKind::place, [&](const CsvRow& r) {
         ++taken;
         conditionNamed(rows, data, StudyRows::textIf(r, condition))
             .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most), rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0)});
@@ -108,7 +108,7 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
     const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"), participant = rows.optional("participant");
     data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
-    rows.each("choose", [&](const CsvRow& row) {
+    rows.each(AnswerKind::choice, [&](const CsvRow& row) {
         ++taken;
         conditionNamed(rows, data, {}).push_back({StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), rows.text(row, choice)});
     });
@@ -132,7 +132,7 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     ratings.scales = names;
     ratings.data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
-    rows.each("rate", [&](const CsvRow& row) {
+    rows.each(AnswerKind::scores, [&](const CsvRow& row) {
         ++taken;
         RatingTrial trial{StudyRows::textIf(row, participant), kindOf(row, stimulus, condition), {}};
         for (const auto c : scales) trial.scores.push_back(rows.number(row, c, 0.0, 100.0));
@@ -152,12 +152,12 @@ const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
 /// A row of one of the kinds, or none.
 std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     const auto tasks = rows.optional(trialColumns::task);
-    const std::string task = tasks ? row.cells[*tasks] : rows.optional("value") ? "estimate" : "choose"; // other programs' tables have one kind
+    const std::optional<AnswerKind> answer = tasks ? answerOf(row.cells[*tasks]) : rows.optional("value") ? AnswerKind::number : AnswerKind::choice; // other programs' tables have one kind
     LevelTrial trial{LevelTrial::Kind::staircase, StudyRows::textIf(row, rows.optional("participant")), StudyRows::textIf(row, rows.optional("condition")),
                      rows.text(row, rows.required("stimulus"))};
-    if (task == "adjust") trial.kind = LevelTrial::Kind::adjustment;
-    else if (task == "estimate") trial.kind = LevelTrial::Kind::magnitude;
-    else if (task != "choose" || row.cells[rows.required("correct")].empty()) return std::nullopt;
+    if (answer == AnswerKind::level) trial.kind = LevelTrial::Kind::adjustment;
+    else if (answer == AnswerKind::number) trial.kind = LevelTrial::Kind::magnitude;
+    else if (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty()) return std::nullopt;
     if (trial.kind == LevelTrial::Kind::staircase) {
         trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
         trial.session = StudyRows::textIf(row, rows.optional("session"));
@@ -176,7 +176,7 @@ std::size_t takeLevels(const StudyRows& rows, StudyData<LevelTrial>& data) {
     const auto task = rows.optional(trialColumns::task);
     if (!task && !rows.optional("value")) rows.required("correct");
     for (const CsvRow& row : rows.table().rows) {
-        if (task && row.cells[*task] == "explore") continue; // it has no stimulus of its own
+        if (task && answerOf(row.cells[*task]) == AnswerKind::wish) continue; // it has no stimulus of its own
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
             conditionNamed(rows, data, {}).push_back(std::move(*trial));
@@ -193,7 +193,7 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     const auto condition = rows.optional("condition"), participant = rows.optional("participant");
     data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
-    rows.each(columns.isMagnitude ? "estimate" : "choose", [&](const CsvRow& row) {
+    rows.each(columns.isMagnitude ? AnswerKind::number : AnswerKind::choice, [&](const CsvRow& row) {
         if (row.cells[measure].empty()) return;
         const auto at = parseNumber<double>(level->level(row));
         if (!at || std::abs(*at) > largestLevel) throw StudyFault{rows.table().fault(row, level->column, level->expected() + " that is a number from -1e6 to 1e6")};
@@ -223,7 +223,7 @@ std::size_t takePercentCounts(const StudyRows& rows, StudyData<PercentCounts>& d
     const auto columns = countColumns(rows);
     data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
-    rows.each({}, [&](const CsvRow& r) {
+    rows.each(std::nullopt, [&](const CsvRow& r) {
         ++taken;
         auto& grids = conditionNamed(rows, data, rows.text(r, condition));
         if (grids.empty()) grids.push_back({r.cells[condition], 0, columns.size(), {}});
@@ -273,17 +273,6 @@ std::string percentCountsCsv(std::span<const PercentCounts> counts, const Proven
             appendCell(text, grid.condition);
             text += numbered(",", row + 1);
             for (std::size_t c = 0; c < columns; ++c) text.append(",").append(c < grid.columns ? numberText(grid.at(row, c)) : "0");
-            text += '\n';
-        }
-    return text;
-}
-
-std::string locationsCsv(std::span<const StudyCondition<LocationTrial>> conditions, const Provenance& provenance) {
-    std::string text = provenanceComment(provenance) + "condition,target_column,target_row,x,y\n";
-    for (const auto& condition : conditions)
-        for (const auto& trial : condition.trials) {
-            appendCell(text, condition.name);
-            for (const double number : {double(trial.targetColumn), double(trial.targetRow), trial.x, trial.y}) text.append(",").append(numberText(number));
             text += '\n';
         }
     return text;

@@ -5,6 +5,7 @@
 #include "Files/Text/CsvTable.h"
 #include "Files/Text/NumberText.h"
 #include "Files/TrialColumns.h"
+#include "Study/StudyTasks.h"
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -40,13 +41,13 @@ public:
         throw StudyFault{table_.name + ": expected a column " + std::string(column) + ", found none"};
     }
 
-    /// Calls take(row) for each row that counts: no training, and of `task`, if the table says so.
+    /// Calls take(row) for each row that counts: no training, and answered so, if the table says so; without a kind: of no task.
     template <class Take>
-    void each(std::string_view task, Take take) const {
+    void each(std::optional<AnswerKind> answer, Take take) const {
         const auto phase = optional(trialColumns::phase), tasks = optional(trialColumns::task);
         for (const CsvRow& row : table_.rows) {
             if (phase && row.cells[*phase] == trialColumns::training) continue;
-            if (tasks && row.cells[*tasks] != task) continue;
+            if (tasks && (answer ? answerOf(row.cells[*tasks]) != answer : !row.cells[*tasks].empty())) continue;
             take(row);
         }
     }

@@ -47,16 +47,16 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     Cells cells{{"participant", participant.code}, {"observer", participant.observer}, {"condition", protocol.conditions[trial.condition].name}, {"session", session.name}};
     cells["phase"] = session.isTraining ? columns::training : "main";
     cells["trial"] = std::to_string(trial.number);
-    cells["task"] = taskNames[static_cast<std::size_t>(trial.task)];
+    cells["task"] = describe(trial.task).name;
     cells["stimulus"] = trial.stimulus;
     cells["parts"] = joined(trial.parts);
-    cells[trial.task == StudyTask::choose ? "choice" : "response"] = answer.response;
+    cells[session.answer() == AnswerKind::choice ? "choice" : "response"] = answer.response;
     if (const auto target = targetOf(protocol.conditions[trial.condition], trial)) {
         cells["target_column"] = std::to_string(target->column);
         cells["target_row"] = std::to_string(target->row);
     }
     if (answer.place) addPlace(cells, *answer.place);
-    if (trial.task == StudyTask::adjust || trial.task == StudyTask::estimate) cells["value"] = numberText(answer.value);
+    if (session.answer() == AnswerKind::level || session.answer() == AnswerKind::number) cells["value"] = numberText(answer.value);
     if (const auto correct = isCorrect(protocol, record)) cells["correct"] = *correct ? "1" : "0";
     cells["replays"] = std::to_string(answer.plays - 1);
     cells["response_s"] = numberText(answer.seconds);
@@ -104,7 +104,7 @@ public:
         trial.number = rows_.wholeNumber(row, rows_.required("trial"), 1, std::numeric_limits<int>::max());
         trial.stimulus = cell(row, "stimulus");
         trial.levelDb = rows_.number(row, rows_.required("level_db"), -1000.0, 1000.0);
-        record.answer.response = cell(row, session.task == StudyTask::choose ? "choice" : "response");
+        record.answer.response = cell(row, session.answer() == AnswerKind::choice ? "choice" : "response");
         record.answer.plays = 1 + rows_.wholeNumber(row, rows_.required("replays"), 0, 1'000'000);
         record.answer.seconds = rows_.number(row, rows_.required("response_s"), 0.0, 1e9);
         if (!cell(row, "x").empty()) record.answer.place = FieldPlace{rows_.number(row, rows_.required("x"), 0.0, 1.0), rows_.number(row, rows_.required("y"), 0.0, 1.0)};

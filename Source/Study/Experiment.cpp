@@ -59,7 +59,7 @@ void Experiment::beginSession() {
 
 bool Experiment::isSessionOver() const {
     if (adaptive_) return adaptive_->isDone();
-    if (plan().task != StudyTask::explore) return inSession_ >= static_cast<int>(order_.size());
+    if (plan().answer() != AnswerKind::wish) return inSession_ >= static_cast<int>(order_.size());
     return isEnded_ || (!explorersEnd_ && hasExplored());
 }
 
@@ -74,7 +74,7 @@ void Experiment::endSession() {
 
 int Experiment::sessionTrials() const noexcept {
     if (adaptive_) return adaptive_->trials();
-    return plan().task == StudyTask::explore ? 0 : static_cast<int>(order_.size());
+    return plan().answer() == AnswerKind::wish ? 0 : static_cast<int>(order_.size());
 }
 
 void Experiment::advance() {
@@ -99,14 +99,14 @@ Trial Experiment::nextTrial() {
     const bool isNextCondition = conditionAt_ > 0 && sessionAt_ == 0;
     if (inSession_ == 0) trial.restSeconds = std::max(s.breakBeforeSeconds, isNextCondition ? protocol_.conditionBreakSeconds : 0.0);
     else if (s.breakEvery > 0 && inSession_ % s.breakEvery == 0) trial.restSeconds = s.breakSeconds;
-    if (s.task == StudyTask::explore) return trial;
+    if (s.answer() == AnswerKind::wish) return trial;
 
     auto random = randomFor("trial " + std::to_string(trial.number));
     const bool isPlanned = !adaptive_;
     const PlannedTrial planned = isPlanned ? order_[static_cast<std::size_t>(inSession_)] : PlannedTrial{random.below(items_.size()), random.chance(0.5)};
     trial.stimulus = items_[planned.stimulus].label;
     if (!s.alternatives.empty()) addAlternatives(trial, planned.isSwapped);
-    if (s.task == StudyTask::rate && !s.objects.empty()) {
+    if (!s.objects.empty()) {
         trial.parts = s.objects;
         random.shuffle(trial.parts);
     }
@@ -123,7 +123,7 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
     const SessionPlan& s = plan();
     std::vector<Alternative> buttons = s.alternatives;
     if (isSwapped) std::ranges::reverse(buttons);
-    if (buttons.size() > 2 && s.task == StudyTask::choose) randomFor("buttons " + std::to_string(trial.number)).shuffle(buttons);
+    if (buttons.size() > 2 && s.answer() == AnswerKind::choice) randomFor("buttons " + std::to_string(trial.number)).shuffle(buttons);
     if (adaptive_) trial.levelDb = adaptive_->levelDb();
     if (s.adjustment) trial.levelDb = startOf(*s.adjustment, trial.number);
     const std::string moved = adaptive_ ? *s.adaptedAlternative() : s.adjustment ? s.adjustment->alternative : std::string{};
@@ -155,26 +155,26 @@ std::string Experiment::refusal(const Answer& answer) const {
     const auto isLabel = [&] { return std::ranges::find(items_, answer.response, &StimulusItem::label) != items_.end(); };
     if (answer.plays < 1) return "expected that the stimulus was felt";
     if (!(answer.seconds >= 0.0)) return "expected a time from 0 s on";
-    switch (trial_->task) {
-    case StudyTask::explore:
+    switch (s.answer()) {
+    case AnswerKind::wish:
         if (s.fewestTouches > 0) return isOnField(answer.place) ? "" : "expected a place on the field";
         return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
-    case StudyTask::identify: return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
-    case StudyTask::locate: return isOnField(answer.place) ? "" : "expected a place on the field";
-    case StudyTask::choose: return choiceRefusal(answer);
-    case StudyTask::rate:
+    case AnswerKind::label: return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
+    case AnswerKind::place: return isOnField(answer.place) ? "" : "expected a place on the field";
+    case AnswerKind::choice: return choiceRefusal(answer);
+    case AnswerKind::scores:
         return answer.scores.size() == s.scales.size() && std::ranges::all_of(answer.scores, isScore) ? "" : "expected a score from 0 to 100 per scale";
-    case StudyTask::adjust:
+    case AnswerKind::level:
         return answer.value >= s.adjustment->leastDb && answer.value <= s.adjustment->mostDb ? "" : "expected a level within the adjustment's range";
-    case StudyTask::estimate: return answer.value >= leastEstimate && answer.value <= mostEstimate ? "" : "expected a number from 1e-12 to 1e12";
+    case AnswerKind::number: return answer.value >= leastEstimate && answer.value <= mostEstimate ? "" : "expected a number from 1e-12 to 1e12";
     }
     return "expected a task";
 }
 
 TrialRecord Experiment::take(Answer answer) {
     TrialRecord record{std::move(*trial_), std::move(answer)};
-    if (record.trial.task == StudyTask::explore) explored_.insert(record.answer.response);
-    if (record.trial.task == StudyTask::adjust)
+    if (plan().answer() == AnswerKind::wish) explored_.insert(record.answer.response);
+    if (plan().adjustment)
         adjusted_[{record.trial.condition, plan().name}][record.trial.stimulus].push_back(record.answer.value);
     if (adaptive_) adaptive_->answer(record.answer.response == *plan().adaptedAlternative());
     ++inSession_;

@@ -64,7 +64,7 @@ public:
     std::string redo(const TrialRecord& record);
 
     /// Whether the training at hand may end: enough was felt.
-    bool mayEnd() const { return trial_ && session().task == StudyTask::explore && hasExplored(); }
+    bool mayEnd() const { return trial_ && session().answer() == AnswerKind::wish && hasExplored(); }
     /// The next session begins; if mayEnd().
     void endSession();
 

@@ -30,31 +30,33 @@ bool startsInside(const auto& plan) { return plan.leastDb <= plan.startDb && pla
 
 /// Of the fields that only some tasks use.
 std::string taskFault(const SessionPlan& s) {
-    const bool compares = s.task == StudyTask::choose || s.task == StudyTask::adjust;
+    using Kind = AnswerKind;
+    const Kind answer = s.answer();
+    const bool compares = answer == Kind::choice || answer == Kind::level;
     if (compares && s.alternatives.size() < 2) return "alternatives: expected two or more, found " + std::to_string(s.alternatives.size());
-    if (!compares && !s.alternatives.empty()) return "alternatives: expected them of the tasks choose and adjust only";
+    if (!compares && !s.alternatives.empty()) return "alternatives: expected them of " + tasksThatAnswer({Kind::choice, Kind::level}) + " only";
     if (sharesNames(s.alternatives, [](const auto& a) { return a.name; })) return "alternatives: expected a name of its own for each";
-    if (s.bothOrders && (s.task != StudyTask::choose || s.alternatives.size() != 2)) return "both_orders: expected it of two alternatives to choose from";
-    if ((s.task == StudyTask::rate) == s.scales.empty()) return "scales: expected them of the task rate, and of no other";
+    if (s.bothOrders && (answer != Kind::choice || s.alternatives.size() != 2)) return "both_orders: expected it of two alternatives to choose from";
+    if ((answer == Kind::scores) == s.scales.empty()) return "scales: expected them of " + tasksThatAnswer({Kind::scores}) + ", and of no other";
     if (!s.definitions.empty() && s.definitions.size() != s.scales.size()) return "definitions: expected one of each scale";
     if (!s.anchors.empty() && s.anchors.size() != 2) return "anchors: expected two, of the left end and of the right";
     if (sharesNames(s.scales, [](const auto& scale) { return scale; })) return "scales: expected a name of its own for each";
-    if (s.task != StudyTask::rate && !s.objects.empty()) return "objects: expected them of the task rate only";
-    if ((s.task == StudyTask::adjust) != s.adjustment.has_value()) return "adjustment: expected it of the task adjust, and of no other";
+    if (answer != Kind::scores && !s.objects.empty()) return "objects: expected them of " + tasksThatAnswer({Kind::scores}) + " only";
+    if ((answer == Kind::level) != s.adjustment.has_value()) return "adjustment: expected it of " + tasksThatAnswer({Kind::level}) + ", and of no other";
     if (s.adjustment && !hasAlternative(s, s.adjustment->alternative)) return "adjustment.alternative: expected the name of an alternative";
     if (s.adjustment && !startsInside(*s.adjustment)) return "adjustment: expected least_db <= start_db <= most_db";
     if (s.staircase && !startsInside(*s.staircase)) return "staircase: expected least_db <= start_db <= most_db";
     if (s.staircase && s.quest) return "quest: expected it or a staircase, found both";
     if (const std::string* const adapted = s.adaptedAlternative()) {
         const std::string method = s.staircase ? "staircase" : "quest";
-        if (s.task != StudyTask::choose) return method + ": expected it of the task choose only";
+        if (answer != Kind::choice) return method + ": expected it of " + tasksThatAnswer({Kind::choice}) + " only";
         if (s.bothOrders) return method + ": expected alternatives in random order";
         if (!hasAlternative(s, *adapted)) return method + ".alternative: expected the name of an alternative";
     }
     if (s.quest)
         if (std::string fault = questFault(*s.quest); !fault.empty()) return "quest" + fault;
-    if (s.task == StudyTask::explore && !s.isTraining) return "task: expected explore in a training session only";
-    if (s.task != StudyTask::explore && s.fewestTouches > 0) return "fewest_touches: expected it of the task explore only";
+    if (answer == Kind::wish && !s.isTraining) return "task: expected " + std::string{describe(s.task).name} + " in a training session only";
+    if (answer != Kind::wish && s.fewestTouches > 0) return "fewest_touches: expected it of " + tasksThatAnswer({Kind::wish}) + " only";
     return {};
 }
 
@@ -83,7 +85,7 @@ std::string callsFault(const Protocol& p, const ConditionPlan& c, const CallSet&
     if (!std::ranges::all_of(namedPartsOf(p, calls), isPlain)) return "call: expected alternatives and objects without braces";
     return firstCallFault(p, c, [&p](const std::string& call) -> std::string {
         if (std::string fault = callFault(call); !fault.empty()) return "call: " + fault;
-        const auto bytes = call.size() + soundWords(p, call).size();
+        const auto bytes = withSounds(p, call).size();
         return bytes <= mostCallBytes ? std::string{} : "call: expected at most " + std::to_string(mostCallBytes) + " bytes with its recordings, found " + std::to_string(bytes);
     });
 }
@@ -91,7 +93,7 @@ std::string callsFault(const Protocol& p, const ConditionPlan& c, const CallSet&
 std::string stimulusFault(const ConditionPlan& c, const SessionPlan& s) {
     const bool isGrid = std::holds_alternative<GridSet>(c.stimuli);
     if (stimulusCount(c) * s.repetitions > mostTrials) return "stimuli: expected at most " + std::to_string(static_cast<int>(mostTrials)) + " trials in session " + s.name;
-    if (s.task == StudyTask::locate && !isGrid) return "stimuli: expected a grid, which the task locate needs";
+    if (s.answer() == AnswerKind::place && !isGrid) return "stimuli: expected a grid, which the task " + std::string{describe(s.task).name} + " needs";
     if (s.fewestTouches > 0 && !isGrid) return "stimuli: expected a grid, which free touches need";
     return {};
 }
@@ -212,7 +214,7 @@ std::string validate(const Protocol& p) {
         if (std::string fault = taskFault(s); !fault.empty()) return at("sessions", i, fault);
         if (!s.levelsFile.empty()) {
             if (!isPlainPath(s.levelsFile)) return at("sessions", i, "levels_file: expected a file in the folder or below, of plain characters");
-            if (s.task != StudyTask::choose || s.adaptedAlternative() || !s.levelsFrom.empty()) return at("sessions", i, "levels_file: expected it of the task choose, without another level");
+            if (s.answer() != AnswerKind::choice || s.adaptedAlternative() || !s.levelsFrom.empty()) return at("sessions", i, "levels_file: expected it of " + tasksThatAnswer({AnswerKind::choice}) + ", without another level");
             if (std::ranges::any_of(p.sessions, [&](const SessionPlan& o) { return !o.levelsFile.empty() && o.levelsFile != s.levelsFile; })) return at("sessions", i, "levels_file: expected one file for all sessions");
         }
         if (!s.levelsFrom.empty() && !isAdjustmentBefore(p, s)) return at("sessions", i, "levels_from: expected an earlier session of the task adjust");

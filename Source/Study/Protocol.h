@@ -9,6 +9,7 @@
 #include "Study/QuestMethod.h"
 #include "Study/Stimulus.h"
 #include "Study/StimulusLevels.h"
+#include "Study/StudyTasks.h"
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -19,17 +20,6 @@
 #include <vector>
 
 namespace physvib {
-
-/// What a participant does in a trial.
-enum class StudyTask {
-    explore,  ///< training: feels what they ask for, all (or so many) at least, and for as long as they want
-    identify, ///< names the stimulus
-    locate,   ///< points at where it was felt
-    choose,   ///< picks one of the alternatives
-    rate,     ///< scores what was felt on scales from 0 to 100
-    adjust,   ///< sets one alternative's level until it matches
-    estimate  ///< gives a number that is proportional to what was felt (magnitude estimation)
-};
 
 /// All spatiotemporal patterns of so many enchanters (thesis 3.2).
 struct PatternSet {
@@ -153,6 +143,7 @@ struct SessionPlan {
     std::string levelsFile; ///< or others' (Files/LevelsFile.h)
     bool operator==(const SessionPlan&) const = default;
 
+    AnswerKind answer() const noexcept { return describe(task).answer; }
     /// Which alternative's level follows the answers, by a staircase or QUEST+; none if no level does.
     const std::string* adaptedAlternative() const noexcept { return staircase ? &staircase->alternative : quest ? &quest->alternative : nullptr; }
     double guessRate() const noexcept { return 1.0 / static_cast<double>(alternatives.size()); } ///< of choices

@@ -64,18 +64,18 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
     Answer answer;
     answer.plays = 1 + static_cast<int>(random.below(session.mostPlays == 0 ? 3 : static_cast<std::size_t>(std::min(3, session.mostPlays))));
     answer.seconds = roundedTo(session.leastSeconds * static_cast<double>(std::max<std::size_t>(1, trial.parts.size())) + 0.8 - 1.5 * std::log(1.0 - random.uniform()), 1000.0);
-    switch (trial.task) {
-    case StudyTask::explore: answer.response = explored(experiment, random, answer); break;
-    case StudyTask::identify: answer.response = identified(condition, trial, random); break;
-    case StudyTask::locate: answer.place = feltPlace(std::get<GridSet>(condition.stimuli).grid().place(*targetOf(condition, trial)), blurOf(condition), random); break;
-    case StudyTask::choose: answer.response = chosen(session, trial, random); break;
-    case StudyTask::rate:
+    switch (session.answer()) {
+    case AnswerKind::wish: answer.response = explored(experiment, random, answer); break;
+    case AnswerKind::label: answer.response = identified(condition, trial, random); break;
+    case AnswerKind::place: answer.place = feltPlace(std::get<GridSet>(condition.stimuli).grid().place(*targetOf(condition, trial)), blurOf(condition), random); break;
+    case AnswerKind::choice: answer.response = chosen(session, trial, random); break;
+    case AnswerKind::scores:
         for (std::size_t s = 0; s < session.scales.size(); ++s) answer.scores.push_back(scored(trial, random));
         break;
-    case StudyTask::adjust:
+    case AnswerKind::level:
         answer.value = std::clamp(roundedTo(settings_.levelNoiseDb * random.normal(), 1.0 / session.adjustment->stepDb), session.adjustment->leastDb, session.adjustment->mostDb);
         break;
-    case StudyTask::estimate: answer.value = std::clamp(magnitude(condition, trial, random), leastEstimate, mostEstimate); break;
+    case AnswerKind::number: answer.value = std::clamp(magnitude(condition, trial, random), leastEstimate, mostEstimate); break;
     }
     return answer;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows explain themselves: right or wrong, and how to feel them again.
+// Right or wrong, and how to feel it again.
 #include "Study/Trial.h"
 #include "Study/NumberWord.h"
 #include <algorithm>
@@ -16,44 +16,30 @@ struct Part {
     double levelDb = 0.0;
 };
 
-struct CallMaker {
+struct JobMaker {
     const Protocol& protocol;
     const ConditionPlan& condition;
     const TrialRecord& record;
 
-    std::string common(double db) const {
-        return " --layout " + condition.layout + " --frequency " + (condition.isAtResonance ? "resonance" : numberWord(condition.frequencyHz)) + " --level-g " + numberWord(raised(condition.levelG, db));
-    }
     const std::string& label() const { return record.trial.stimulus.empty() ? record.answer.response : record.trial.stimulus; }
-
-    std::string call(const PatternSet& set, const Part& part) const { return "stimulus pattern " + label() + common(part.levelDb) + " --gap " + numberWord(set.gapSeconds); }
-    std::string call(const GridSet& set, const Part& part) const {
-        const bool isTouch = record.trial.stimulus.empty() && record.answer.place;
-        const std::string where = isTouch ? "--at " + numberWord(record.answer.place->x) + "," + numberWord(record.answer.place->y)
-                                          : "--grid " + std::to_string(set.columns) + "x" + std::to_string(set.rows) + " --cell " + label() +
-                                                (set.points == PhantomGrid::Points::middles ? " --points middles" : "");
-        return "stimulus phantom " + where + common(part.levelDb) + " --law " + std::string(panningLawNames[static_cast<std::size_t>(set.law)]) + " --exponent " + numberWord(set.exponent) +
-               " --seconds " + numberWord(set.seconds);
+    StimulusJob job(std::variant<PatternJob, PhantomJob> what, double db) const {
+        return {std::move(what), condition.layout, condition.isAtResonance ? std::nullopt : std::optional{condition.frequencyHz}, raised(condition.levelG, db)};
     }
-    std::string call(const CallSet& set, const Part& part) const {
+
+    TrialJob operator()(const PatternSet& set, const Part& part) const { return job(PatternJob{label(), set.gapSeconds}, part.levelDb); }
+    TrialJob operator()(const GridSet& set, const Part& part) const {
+        PhantomJob phantom{GridPlace{set.grid(), parseGridCell(label()).value_or(GridCell{})}, set.law, set.exponent, set.seconds};
+        if (record.trial.stimulus.empty() && record.answer.place) phantom.at = *record.answer.place;
+        return job(std::move(phantom), part.levelDb);
+    }
+    TrialJob operator()(const CallSet& set, const Part& part) const {
         const auto items = stimuliOf(condition);
         const auto item = std::ranges::find(items, label(), &StimulusItem::label);
-        const std::string words = callOf(set, item != items.end() ? *item : StimulusItem{}, part.name, numberWord(part.levelDb));
-        return words + soundWords(protocol, words);
+        return WrittenCall{withSounds(protocol, callOf(set, item != items.end() ? *item : StimulusItem{}, part.name, numberWord(part.levelDb)))};
     }
 };
 
 } // namespace
-
-std::string soundWords(const Protocol& protocol, const std::string& call) {
-    std::string words;
-    if (call.find("--method SV") == std::string::npos) return words;
-    for (const StudySoundFile& sound : protocol.sounds) {
-        const std::string quote = sound.file.find(' ') == std::string::npos ? "" : "\"";
-        words += " --sound " + quote + numberWord(sound.frequencyHz) + "=" + sound.file + quote;
-    }
-    return words;
-}
 
 std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& trial) {
     return std::holds_alternative<GridSet>(condition.stimuli) ? parseGridCell(trial.stimulus) : std::nullopt;
@@ -61,32 +47,24 @@ std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& tr
 
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record) {
     const SessionPlan& session = protocol.sessions[record.trial.session];
-    if (record.trial.task == StudyTask::identify) return record.answer.response == record.trial.stimulus;
+    if (session.answer() == AnswerKind::label) return record.answer.response == record.trial.stimulus;
     if (const std::string* const adapted = session.adaptedAlternative()) return record.answer.response == *adapted;
     return std::nullopt;
 }
 
-std::vector<std::string> partCallsOf(const Protocol& protocol, const TrialRecord& record) {
+std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record) {
     const ConditionPlan& condition = protocol.conditions[record.trial.condition];
-    const CallMaker maker{protocol, condition, record};
+    const JobMaker maker{protocol, condition, record};
     const SessionPlan& session = protocol.sessions[record.trial.session];
-    std::vector<std::string> calls;
-    const auto add = [&](const Part& part) { calls.push_back(std::visit([&](const auto& set) { return maker.call(set, part); }, condition.stimuli)); };
+    std::vector<TrialJob> jobs;
+    const auto add = [&](const Part& part) { jobs.push_back(std::visit([&](const auto& set) { return maker(set, part); }, condition.stimuli)); };
     for (std::size_t i = 0; i < record.trial.parts.size(); ++i) {
         const std::string& name = record.trial.parts[i];
         const bool isAdjusted = session.adjustment && session.adjustment->alternative == name; // felt at the level that was answered
         add({name, isAdjusted ? record.answer.value : i < record.trial.partLevelsDb.size() ? record.trial.partLevelsDb[i] : 0.0});
     }
-    if (calls.empty()) add({{}, 0.0});
-    return calls;
-}
-
-std::string callsOf(const Protocol& protocol, const TrialRecord& record) {
-    std::string words;
-    for (const std::string& session : record.answer.sessions) words.append(words.empty() ? "" : " ; ").append("render ").append(session);
-    if (!words.empty()) return words;
-    for (const std::string& call : partCallsOf(protocol, record)) words.append(words.empty() ? "" : " ; ").append(call);
-    return words;
+    if (jobs.empty()) add({{}, 0.0});
+    return jobs;
 }
 
 } // namespace physvib

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// One trial: what is presented, what is answered, and the calls that render it again.
+// One trial: what is presented, what is answered, and what it is made by.
 #pragma once
 #include "Study/Protocol.h"
+#include "Study/StimulusJob.h"
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace physvib {
@@ -60,14 +62,24 @@ std::optional<GridCell> targetOf(const ConditionPlan& condition, const Trial& tr
 /// Whether the answer was right; none if the task knows no right. Any thread.
 std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& record);
 
-/// What a call that plays recordings gets behind it: " --sound 80=ball.wav" and so on; a path with spaces in quotes. Any thread (allocates).
-std::string soundWords(const Protocol& protocol, const std::string& call);
+/// A call of the program in the words of a protocol (see CallSet), with all names filled in.
+struct WrittenCall {
+    std::string words;
+    bool operator==(const WrittenCall&) const = default;
+};
+inline std::string textOf(const WrittenCall& call) { return call.words; }
 
-/// The arguments of `physvib` that render what was felt, one call for each part; of a trial without parts one. What is felt
-/// while a trial is not answered yet: give the answer as it stands. M only (allocates).
-std::vector<std::string> partCallsOf(const Protocol& protocol, const TrialRecord& record);
+/// A protocol's call with the recordings that it plays: " --sound 80=ball.wav" and so on; a path with spaces in quotes. Any thread (allocates).
+std::string withSounds(const Protocol& protocol, std::string call);
 
-/// All of them, joined by " ; "; of worlds, the sessions that were felt. M only (allocates).
+/// What a part of a trial is made by.
+using TrialJob = std::variant<StimulusJob, WrittenCall>;
+
+/// One for each part; of a trial without parts one. What is felt while a trial is not answered yet: give the answer as it stands.
+/// M only (allocates).
+std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record);
+
+/// Their texts, joined by " ; "; of worlds, the sessions that were felt. M only (allocates).
 std::string callsOf(const Protocol& protocol, const TrialRecord& record);
 
 } // namespace physvib

@@ -2,11 +2,11 @@
 // The application `physvib-mixer`: its window, or pictures of it.
 #include "CommandLine/Play/Interrupt.h"
 #include "CommandLine/Process.h"
-#include "CommandLine/Reference/Reference.h"
 #include "Host/Devices/DeviceThread.h"
 #include "Host/Devices/NoDevice.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/Window/Shots.h"
+#include "Options/Reference.h"
 #include <iostream>
 
 namespace physvib {
@@ -34,9 +34,9 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     if (arguments.containsOption("--states"))
         return std::cout << shotStates().joinIntoString("\n") << '\n', 0;
     if (const auto folder = valueOf(arguments, referenceWord); folder.isNotEmpty()) {
-        const std::string error = writeReference(
-            listedUsage("physvib-mixer", "see a world, feel it, and mix what each enchanter plays", usage),
-            folder.toStdString());
+        OptionTable program{"physvib-mixer", "see a world, feel it, and mix what each enchanter plays"};
+        addUsage(program, usage);
+        const std::string error = writeReference(program, folder.toStdString());
         return error.empty() ? 0 : (std::cerr << "physvib-mixer: " << error << '\n', exitFailed);
     }
     if (!arguments.containsOption("--shot")) return {};

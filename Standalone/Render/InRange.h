@@ -2,7 +2,6 @@
 // Numbers that an option takes. CLI11's own checks let "nan" pass, which is not less than the least; these say what they expect.
 #pragma once
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <string>
 
 namespace physvib {
@@ -17,16 +16,6 @@ CLI::Validator inRange(T low, T high, const std::string& unit = "") {
                 return isNumber && value >= low && value <= high ? std::string{} : "expected " + range + ", found \"" + text + "\"";
             },
             range};
-}
-
-/// Above 0, and finite.
-inline CLI::Validator positive() {
-    return {[](std::string& text) {
-                double value = 0.0;
-                const bool isNumber = CLI::detail::lexical_cast(text, value);
-                return isNumber && value > 0.0 && std::isfinite(value) ? std::string{} : "expected more than 0, found \"" + text + "\"";
-            },
-            "POSITIVE"};
 }
 
 } // namespace physvib

@@ -11,8 +11,10 @@ set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Files/(Result|Text/NumberTex
 set(Api_may "Api/C/|Files/|Contacts/|Core/")
 set(Api/Live_may "Api/|Host/|Session/|Files/|Core/|juce_")
 set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
+set(Jobs_may "Jobs/|Session/|Study/|Physics/|Files/|Formats/|Measure/|Contacts/|Core/")
 set(Standalone/Web_may "PageWorld\\.h|Files/|Physics/|Contacts/|Core/")
 set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Session/OfflineRender\\.h|Files/|Physics/|Contacts/|Core/")
+set(Standalone/Options_may "Options/|Files/")
 set(Pictures_may "Pictures/|Study/|Files/|Physics/|Core/|ft2build|png\\.h")
 set(Host_may "Host/|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
 set(Host/Osc_may "Host/Osc/|Session/|Files/|Physics/|Core/|lo/")
@@ -21,7 +23,7 @@ set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Study Contacts Physics Files Formats Measure Pictures Api Api/Live Session Host Host/Osc Plugin Standalone/Render Standalone/Web)
+foreach(room Core Wire Study Contacts Physics Files Formats Measure Pictures Api Api/Live Session Jobs Host Host/Osc Plugin Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # a room of its own, under another licence
         list(FILTER files EXCLUDE REGEX "/Api/Live/")
@@ -39,6 +41,15 @@ foreach(room Core Wire Study Contacts Physics Files Formats Measure Pictures Api
                 list(APPEND bad "${file}: ${line}")
             endif()
         endforeach()
+    endforeach()
+endforeach()
+# One file per program knows the parser; all others fill its table.
+file(GLOB_RECURSE files ${ROOT}/Standalone/*.h ${ROOT}/Standalone/*.cpp)
+list(FILTER files EXCLUDE REGEX "/Standalone/(Options/Parser\\.cpp|Render/(Main\\.cpp|InRange\\.h))$")
+foreach(file ${files})
+    file(STRINGS ${file} includes REGEX "^ *# *include *<CLI/")
+    foreach(line ${includes})
+        list(APPEND bad "${file}: ${line}: only in Options/Parser.cpp; see OptionTable.h")
     endforeach()
 endforeach()
 # What asks the system for more than C++ knows is in files that are named for it, one per system and matter.

@@ -5,6 +5,7 @@ file(READ ${ROOT}/PhysVib.jucer jucer)
 file(READ ${ROOT}/CMakeLists.txt house)
 file(READ ${ROOT}/Plugin/Modules.cmake plugin)
 file(GLOB room_lists ${ROOT}/Source/*/CMakeLists.txt)
+list(FILTER room_lists EXCLUDE REGEX "/Jobs/") # for programs, as below
 set(rooms "")
 foreach(list ${room_lists})
     file(READ ${list} room)
@@ -61,7 +62,7 @@ set(bad "")
 
 # A Projucer project builds one thing, here the plug-in of one bus.
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/Source/*.cpp ${ROOT}/Plugin/*.cpp)
-list(FILTER sources EXCLUDE REGEX "^Source/(Api|Pictures|Host/Osc)/") # libraries of their own
+list(FILTER sources EXCLUDE REGEX "^Source/(Api|Jobs|Pictures|Host/Osc)/") # libraries of their own
 collect(listed_sources "<FILE [^>]*compile=\"1\"[^>]*file=\"([^\"]+\\.cpp)\"" "${jucer}")
 compare(sources listed_sources)
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options of the analyses, and which of them was asked for.
 #include "CommandLine/Analyse/AnalyseCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Analyse/AnalyseFits.h"
 #include "CommandLine/Analyse/AnalyseGrids.h"
 #include "CommandLine/Analyse/AnalyseLabels.h"
 #include "CommandLine/Analyse/AnalyseTests.h"
 #include "CommandLine/Analyse/AnalyseVotes.h"
-#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/TrialColumns.h"
-#include "Render/InRange.h"
-#include <CLI/CLI.hpp>
+#include "Study/StudyTasks.h"
 #include <algorithm>
 #include <set>
 #include <span>
@@ -34,6 +33,9 @@ constexpr Analysis analyses[] = {
     {"icons", "stimulus,response per trial: the patterns that are confused least", analyseIcons},
 };
 
+static_assert(std::ranges::all_of(studyTasks, [](const auto& task) { return task.analysis.empty() || std::ranges::find(analyses, task.analysis, &Analysis::name) != std::end(analyses); }),
+              "every task's analysis is one of these");
+
 constexpr Analysis testsOverParticipants[] = {
     {"anova", "analysis of variance with repeated measures", analyseAnova},
     {"friedman", "levels of a within-factor, by ranks", analyseFriedman},
@@ -44,20 +46,20 @@ constexpr Analysis testsOverParticipants[] = {
     {"pairs", "every two levels, corrected for their number", analysePairs},
 };
 
-void declareOwn(CLI::App& command, std::string_view name, AnalyseOptions& o) {
+void declareOwn(OptionTable& command, std::string_view name, AnalyseOptions& o) {
     const bool isGrid = name == "resolution" || name == "percent-counts";
     if (name == "confusion" || name == "icons")
-        command.add_option("--tolerance", o.tolerance, "grid steps (rows + columns) that still count as correct")
-            ->check(inRange(0, 1000))->capture_default_str();
+        command.add("--tolerance", o.tolerance, "grid steps (rows + columns) that still count as correct")
+            .in(0, 1000);
     if (isGrid)
-        command.add_option("--threshold", o.thresholdPercent, "percent count that a cell must reach, inclusive")
-            ->check(inRange(0.0, 100.0))->capture_default_str();
-    if (name == "resolution") command.add_option("--counts", o.countsPath, "the percent counts")->type_name("FILE.csv")->check(writtenFile);
+        command.add("--threshold", o.thresholdPercent, "percent count that a cell must reach, inclusive")
+            .in(0.0, 100.0);
+    if (name == "resolution") command.add("--counts", o.countsPath, "the percent counts").written("FILE.csv");
     if (name == "icons")
-        command.add_option("--meanings", o.meanings, "how many meanings the icons shall have")
-            ->check(inRange(std::size_t{2}, std::size_t{1000}))->capture_default_str();
+        command.add("--meanings", o.meanings, "how many meanings the icons shall have")
+            .in(std::size_t{2}, std::size_t{1000});
     if (name == "confusion")
-        command.add_option("--participants", o.participantsPath, "percent correct and IT of each participant and condition")->type_name("FILE.csv")->check(writtenFile);
+        command.add("--participants", o.participantsPath, "percent correct and IT of each participant and condition").written("FILE.csv");
 }
 
 constexpr Analysis fits[] = {
@@ -73,33 +75,31 @@ const Analysis* analysisThat(Is is) {
     return nullptr;
 }
 
-CLI::App* declare(CLI::App& command, const Analysis& analysis, AnalyseOptions& o) {
-    CLI::App* const own = command.add_subcommand(std::string{analysis.name}, analysis.purpose);
-    own->add_option("files", o.files, "trials, or what the analysis is about; several are taken together")->required()->type_name("FILE.csv");
-    own->add_option("--export", o.exportPath, "the result as a table for a statistics package")->type_name("FILE.csv")->check(writtenFile);
+OptionTable& declare(OptionTable& command, const Analysis& analysis, AnalyseOptions& o) {
+    OptionTable& own = command.addCommand(std::string{analysis.name}, analysis.purpose);
+    own.add("files", o.files, "trials, or what the analysis is about; several are taken together").required().as("FILE.csv");
+    own.add("--export", o.exportPath, "the result as a table for a statistics package").written("FILE.csv");
     return own;
 }
 
 } // namespace
 
-void declareColumns(CLI::App& command, AnalyseOptions& o) {
-    command.add_option("--columns", o.columnWords, "of another program's table: what it calls our columns, e.g. participant=subject,response=key_resp.keys")
-        ->type_name("NAME=COLUMN[,...]")->delimiter(',')->expected(1, static_cast<int>(limits::maxTableColumns));
+void declareColumns(OptionTable& command, AnalyseOptions& o) {
+    command.add("--columns", o.columnWords, "of another program's table: what it calls our columns, e.g. participant=subject,response=key_resp.keys").as("NAME=COLUMN[,...]").listed(static_cast<int>(limits::maxTableColumns));
 }
 
-void declareAnalyse(CLI::App& command, AnalyseOptions& o) {
-    command.require_subcommand(1);
+void declareAnalyse(OptionTable& command, AnalyseOptions& o) {
     for (const Analysis& analysis : analyses) {
-        CLI::App* const own = declare(command, analysis, o);
-        own->add_option("--picture", o.picturePath, "the result to look at")->type_name("FILE.png")->check(writtenFile);
-        declareOwn(*own, analysis.name, o);
-        declareColumns(*own, o);
+        OptionTable& own = declare(command, analysis, o);
+        own.add("--picture", o.picturePath, "the result to look at").written("FILE.png");
+        declareOwn(own, analysis.name, o);
+        declareColumns(own, o);
     }
-    for (const Analysis& test : testsOverParticipants) declareTest(*declare(command, test, o), o);
+    for (const Analysis& test : testsOverParticipants) declareTest(declare(command, test, o), o);
     for (const Analysis& fit : fits) {
-        CLI::App* const own = declare(command, fit, o);
-        declareFit(*own, o);
-        declareColumns(*own, o);
+        OptionTable& own = declare(command, fit, o);
+        declareFit(own, o);
+        declareColumns(own, o);
     }
 }
 
@@ -109,14 +109,12 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
     if (const auto task = table.column(trialColumns::task)) {
         const auto phase = table.column(trialColumns::phase), correct = table.column("correct");
         for (const CsvRow& row : table.rows) {
-            const std::string& did = row.cells[*task];
+            const StudyTaskDescription* const did = studyTaskNamed(row.cells[*task]);
+            if (did == nullptr) continue;
             const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
-            if (did == "adjust" || did == "estimate" || (did == "choose" && correct && !row.cells[*correct].empty())) found.insert("levels");
-            else if (isTraining) continue;
-            else if (did == "identify") found.insert("confusion");
-            else if (did == "locate") found.insert("resolution");
-            else if (did == "choose") found.insert("choices");
-            else if (did == "rate") found.insert("ratings");
+            const bool isAdapted = did->answer == AnswerKind::choice && correct && !row.cells[*correct].empty();
+            if (isAdapted || did->analysis == "levels") found.insert("levels"); // of trainings, too
+            else if (!isTraining) found.emplace(did->analysis);
         }
     } else {
         if (has("stimulus") && has("response")) found.insert("confusion");
@@ -138,11 +136,11 @@ AnalysisReport analyse(const std::string& name, const AnalyseOptions& options) {
     return found ? found->run(options) : AnalysisReport{"no analysis " + inQuotes(name)};
 }
 
-int runAnalyse(const CLI::App& command, AnalyseOptions& o) {
+int runAnalyse(const OptionTable& command, AnalyseOptions& o) {
     auto columns = parseColumnNames(o.columnWords);
     if (!columns) return leave(exitUsage, "--columns: " + columns.error);
     o.columns = std::move(columns.value);
-    const Analysis* const asked = analysisThat([&](const Analysis& a) { return command.got_subcommand(std::string{a.name}); });
+    const Analysis* const asked = analysisThat([&](const Analysis& a) { return command.isCalled(std::string{a.name}); });
     if (!asked) return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
     const AnalysisReport report = asked->run(o);
     for (const auto& words : report.warnings) warn(words);
@@ -151,5 +149,7 @@ int runAnalyse(const CLI::App& command, AnalyseOptions& o) {
     if (!report.error.empty()) return leave(exitFailed, report.error);
     return writeStudyFiles({{o.exportPath, report.table}, {o.countsPath, report.counts}, {o.participantsPath, report.participants}, {o.picturePath, report.picture}});
 }
+
+Command analyseCommand() { return commandOf("analyse", "what the trials of a study say", declareAnalyse, runAnalyse); }
 
 } // namespace physvib

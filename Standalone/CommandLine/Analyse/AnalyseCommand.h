@@ -13,11 +13,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 /// As given on the command line; each kind of analysis uses some of them.
 struct AnalyseOptions : StudySources {
@@ -57,12 +55,12 @@ std::vector<std::string> analysesFor(const CsvTable& table);
 AnalysisReport analyse(const std::string& name, const AnalyseOptions& options);
 
 /// Declares the analyses as subcommands of `command`.
-void declareAnalyse(CLI::App& command, AnalyseOptions& options);
+void declareAnalyse(OptionTable& command, AnalyseOptions& options);
 
 /// `--columns`, for those who read other programs' tables.
-void declareColumns(CLI::App& command, AnalyseOptions& options);
+void declareColumns(OptionTable& command, AnalyseOptions& options);
 
 /// Runs the one that `command` has parsed; the code to leave with.
-int runAnalyse(const CLI::App& command, AnalyseOptions& options);
+int runAnalyse(const OptionTable& command, AnalyseOptions& options);
 
 } // namespace physvib

@@ -3,12 +3,10 @@
 #include "CommandLine/Analyse/AnalyseFits.h"
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Analyse/FitCharts.h"
-#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "Render/InRange.h"
+#include "Options/OptionTable.h"
 #include "Study/Statistics/Bootstrap.h"
 #include "Study/Statistics/LevelFits.h"
-#include <CLI/CLI.hpp>
 #include <map>
 #include <sstream>
 
@@ -108,16 +106,16 @@ AnalysisReport analysePowerLaw(const AnalyseOptions& o) {
     return report;
 }
 
-void declareFit(CLI::App& command, AnalyseOptions& o) {
-    const bool isPsychometric = command.get_name() == "psychometric";
-    command.add_option("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (stimulus)")->type_name("COLUMN");
-    command.add_option("--measure", o.measure, isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)")->type_name("COLUMN");
-    command.add_option("--picture", o.picturePath, "what was answered and the function, of the first condition")->type_name("FILE.svg")->check(writtenFile);
+void declareFit(OptionTable& command, AnalyseOptions& o) {
+    const bool isPsychometric = command.name() == "psychometric";
+    command.add("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (stimulus)").as("COLUMN");
+    command.add("--measure", o.measure, isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)").as("COLUMN");
+    command.add("--picture", o.picturePath, "what was answered and the function, of the first condition").written("FILE.svg");
     if (!isPsychometric) return;
-    std::map<std::string, PsychometricShape> shapes;
-    for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i) shapes[std::string(psychometricShapeNames[i])] = static_cast<PsychometricShape>(i);
-    command.add_option("--shape", o.shape, "of the function (logistic)")->transform(CLI::CheckedTransformer(shapes))->type_name("logistic|normal|weibull");
-    command.add_option("--guess", o.guess, "share of right answers without a percept: 1 / alternatives")->check(inRange(0.0, 0.9))->capture_default_str();
+    std::vector<std::pair<std::string, int>> shapes;
+    for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i) shapes.emplace_back(psychometricShapeNames[i], static_cast<int>(i));
+    command.addRow("--shape", [&o](int shape) { o.shape = static_cast<PsychometricShape>(shape); }, "of the function (logistic)").numbered(shapes).as("logistic|normal|weibull");
+    command.add("--guess", o.guess, "share of right answers without a percept: 1 / alternatives").in(0.0, 0.9);
 }
 
 } // namespace physvib

@@ -2,11 +2,9 @@
 // Functions fitted to each participant's trials: psychometric functions, and the power law of magnitude estimations.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 struct AnalyseOptions;
 struct AnalysisReport;
@@ -15,6 +13,6 @@ AnalysisReport analysePsychometric(const AnalyseOptions& options);
 AnalysisReport analysePowerLaw(const AnalyseOptions& options);
 
 /// The options of either.
-void declareFit(CLI::App& command, AnalyseOptions& options);
+void declareFit(OptionTable& command, AnalyseOptions& options);
 
 } // namespace physvib

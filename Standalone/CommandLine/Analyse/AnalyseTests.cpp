@@ -4,13 +4,12 @@
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/LongTableCsv.h"
+#include "Options/OptionTable.h"
 #include "Study/Statistics/Pairs.h"
 #include "Study/Statistics/RankTests.h"
 #include "Study/Statistics/RepeatedMeasures.h"
 #include "Study/Statistics/ShapiroWilk.h"
-#include <CLI/CLI.hpp>
 #include <cmath>
-#include <map>
 #include <sstream>
 
 namespace physvib {
@@ -20,7 +19,7 @@ std::string degrees(double df) { return fixedNumber(df, df == std::round(df) ? 0
 
 std::string statisticWords(const TestReport& report, const TestLine& line) {
     std::string words = report.statistic;
-    if (line.df1) words += "(" + degrees(*line.df1) + (line.df2 ? ", " + degrees(*line.df2) : "") + ")";
+    if (line.df1) words.append("(").append(degrees(*line.df1)).append(line.df2 ? ", " + degrees(*line.df2) : "").append(")");
     return words + " = " + fixedNumber(*line.statistic, 3) + ", " + chanceWords(*line.p);
 }
 
@@ -87,22 +86,22 @@ AnalysisReport analysePairs(const AnalyseOptions& o) {
     return analyseDesign(o, "pairs", [&](const Design& design) { return pairs(design, o.pairTest, o.correction.value_or(Correction::holm)); });
 }
 
-void declareTest(CLI::App& command, AnalyseOptions& o) {
-    const std::string name = command.get_name();
-    command.add_option("--measure", o.measure, "column of numbers to test; COLUMN=WORD counts 1 where the column says so, else 0")->required()->type_name("COLUMN");
+void declareTest(OptionTable& command, AnalyseOptions& o) {
+    const std::string name = command.name();
+    command.add("--measure", o.measure, "column of numbers to test; COLUMN=WORD counts 1 where the column says so, else 0").required().as("COLUMN");
     if (name != "mann-whitney" && name != "kruskal-wallis")
-        command.add_option("--within", o.within, "factors that every participant has all levels of")->type_name("A[,B[,C]]")->delimiter(',')->expected(1, mostWithinFactors);
-    if (name != "friedman" && name != "wilcoxon") command.add_option("--between", o.between, "column of the participants' groups")->type_name("G");
-    command.add_option("--where", o.where, "only rows that say so; may be repeated")->type_name("COLUMN=WORD")->allow_extra_args(false);
-    command.add_option("--participant", o.participant, "column that names the participant (participant)")->type_name("COLUMN");
+        command.add("--within", o.within, "factors that every participant has all levels of").as("A[,B[,C]]").listed(mostWithinFactors);
+    if (name != "friedman" && name != "wilcoxon") command.add("--between", o.between, "column of the participants' groups").as("G");
+    command.add("--where", o.where, "only rows that say so; may be repeated").as("COLUMN=WORD").single();
+    command.add("--participant", o.participant, "column that names the participant (participant)").as("COLUMN");
     if (name == "anova") {
-        command.add_flag("--aligned-ranks", o.usesAlignedRanks, "of aligned ranks, for ratings");
+        command.add("--aligned-ranks", o.usesAlignedRanks, "of aligned ranks, for ratings");
         return; // its correction is of sphericity
     }
-    const std::map<std::string, Correction> corrections{{"none", Correction::none}, {"holm", Correction::holm}, {"bonferroni", Correction::bonferroni}};
-    command.add_option("--correction", o.correction, "of p, for so many lines (none; pairs: holm)")->transform(CLI::CheckedTransformer(corrections))->type_name("holm|bonferroni|none");
-    const std::map<std::string, PairTest> pairTests{{"t", PairTest::student}, {"ranks", PairTest::ranks}};
-    if (name == "pairs") command.add_option("--test", o.pairTest, "of two levels (t)")->transform(CLI::CheckedTransformer(pairTests))->type_name("t|ranks");
+    command.addRow("--correction", [&o](int correction) { o.correction = static_cast<Correction>(correction); }, "of p, for so many lines (none; pairs: holm)")
+        .numbered({{"none", 0}, {"holm", 1}, {"bonferroni", 2}}).as("holm|bonferroni|none");
+    if (name == "pairs")
+        command.addRow("--test", [&o](int test) { o.pairTest = static_cast<PairTest>(test); }, "of two levels (t)").numbered({{"t", 0}, {"ranks", 1}}).as("t|ranks");
 }
 
 } // namespace physvib

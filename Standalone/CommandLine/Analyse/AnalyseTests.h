@@ -2,11 +2,9 @@
 // Tests over participants on any long table: ANOVA with repeated measures, rank tests, normality, pairs.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 struct AnalyseOptions;
 struct AnalysisReport;
@@ -20,6 +18,6 @@ AnalysisReport analyseShapiro(const AnalyseOptions& options);
 AnalysisReport analysePairs(const AnalyseOptions& options);
 
 /// The options that all of them take.
-void declareTest(CLI::App& command, AnalyseOptions& options);
+void declareTest(OptionTable& command, AnalyseOptions& options);
 
 } // namespace physvib

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A board link for the length of a call.
 #include "CommandLine/Board/BoardCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/StandardStreams.h"
 #include "CommandLine/Render/RenderJob.h"
 #include "Files/EventsCsv.h"
 #include "Physics/Simulation.h"
-#include "Render/InRange.h"
 #include "Wire/SelfTest.h"
-#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -108,12 +107,12 @@ std::int64_t followClock(Simulation& world, std::int64_t endNs, std::int64_t del
 
 } // namespace
 
-void declareBoardOptions(CLI::App& command, BoardOptions& o) {
-    command.add_option("port", o.port, "serial port, or auto: the first on which a board answers")->required();
-    command.add_option("action", o.action, "info, play or test")->required()->check(CLI::IsMember({"info", "play", "test"}));
-    command.add_option("events", o.eventsPath, "event list to play")->type_name("EVENTS.csv");
-    command.add_option("--layout", o.layout, "layout of at most four enchanters: preset or file")->capture_default_str();
-    command.add_option("--level", o.levelDb, "master level of play in dB")->check(inRange(-90.0, 0.0))->capture_default_str();
+void declareBoardOptions(OptionTable& command, BoardOptions& o) {
+    command.add("port", o.port, "serial port, or auto: the first on which a board answers").required();
+    command.add("action", o.action, "info, play or test").required().oneOf({"info", "play", "test"});
+    command.add("events", o.eventsPath, "event list to play").as("EVENTS.csv");
+    command.add("--layout", o.layout, "layout of at most four enchanters: preset or file");
+    command.add("--level", o.levelDb, "master level of play in dB").in(-90.0, 0.0);
 }
 
 int runBoard(const BoardOptions& o) {
@@ -157,5 +156,7 @@ int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelD
               << " ms of stalls\n";
     return finish(link, before);
 }
+
+Command boardCommand() { return commandOf("board", "the four-channel board: info, play an event list, test", declareBoardOptions, runBoard); }
 
 } // namespace physvib

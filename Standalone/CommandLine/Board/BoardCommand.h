@@ -4,11 +4,9 @@
 #include "Host/Devices/AudioOutput.h"
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 struct BoardOptions {
     std::string port;              ///< a path, or "auto"
@@ -18,7 +16,7 @@ struct BoardOptions {
     double levelDb = safeStartDecibels; ///< master level of play
 };
 
-void declareBoardOptions(CLI::App& command, BoardOptions& options);
+void declareBoardOptions(OptionTable& command, BoardOptions& options);
 
 /// An exit code.
 int runBoard(const BoardOptions& options);

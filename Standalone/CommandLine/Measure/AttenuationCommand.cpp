@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Levels of recordings, axis by axis and condition by condition.
-#include "CommandLine/Measure/AttenuationCommand.h"
-#include "CommandLine/ExitCode.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
-#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/Text/NumberText.h"
 #include "Pictures/StudyPictures.h"
 #include "Study/Coupling.h"
-#include <CLI/CLI.hpp>
 #include <filesystem>
+#include <string>
 
 namespace physvib {
 namespace {
+
+/// As given on the command line: one channel per axis of the accelerometer.
+struct AttenuationOptions {
+    std::string isolatedPath, referencePath; ///< no reference: the former is a folder
+    std::string exportPath, picturePath;     ///< of a folder; empty: not wanted
+};
 
 constexpr const char* referenceWord = "reference";
 
@@ -85,13 +89,11 @@ int runFolder(const AttenuationOptions& o) {
     return exitDone;
 }
 
-} // namespace
-
-void declareAttenuation(CLI::App& command, AttenuationOptions& o) {
-    command.add_option("isolated", o.isolatedPath, "recorded behind the layer, a channel per axis; or a folder of conditions with " + std::string(RecordingList::fileName))->type_name("ISOLATED.wav|FOLDER")->required();
-    command.add_option("reference", o.referencePath, "the same drive recorded without it")->type_name("REFERENCE.wav");
-    command.add_option("--export", o.exportPath, "of a folder: a row per repetition")->type_name("FILE.csv")->check(writtenFile);
-    command.add_option("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer")->type_name("FILE.png")->check(writtenFile);
+void declareAttenuation(OptionTable& command, AttenuationOptions& o) {
+    command.add("isolated", o.isolatedPath, "recorded behind the layer, a channel per axis; or a folder of conditions with " + std::string(RecordingList::fileName)).as("ISOLATED.wav|FOLDER").required();
+    command.add("reference", o.referencePath, "the same drive recorded without it").as("REFERENCE.wav");
+    command.add("--export", o.exportPath, "of a folder: a row per repetition").written("FILE.csv");
+    command.add("--picture", o.picturePath, "of a folder: gamma over the frequency, a curve per layer").written("FILE.png");
 }
 
 int runAttenuation(const AttenuationOptions& o) {
@@ -100,5 +102,9 @@ int runAttenuation(const AttenuationOptions& o) {
     if (!std::filesystem::is_directory(o.isolatedPath)) return leave(exitUsage, "attenuation: expected a reference beside " + inQuotes(o.isolatedPath) + ", or a folder of conditions");
     return runFolder(o);
 }
+
+} // namespace
+
+Command attenuationCommand() { return commandOf("attenuation", "what an isolation layer holds back, from two recordings or a folder of conditions (thesis 3.1.1)", declareAttenuation, runAttenuation); }
 
 } // namespace physvib

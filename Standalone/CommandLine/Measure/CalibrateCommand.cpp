@@ -1,23 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a device or two files to a profile in its place.
-#include "CommandLine/Measure/CalibrateCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
-#include "CommandLine/Study/CallFiles.h"
-#include "CommandLine/ExitCode.h"
 #include "Files/ActuatorFile.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Text/NumberText.h"
-#include "Measure/ActuatorMeasurement.h"
 #include "Host/Devices/AudioOutput.h"
-#include "Host/Recordings/ReadRecording.h"
 #include "Host/Devices/SweepRecorder.h"
+#include "Host/Recordings/ReadRecording.h"
 #include "Host/Recordings/WavSink.h"
-#include "Render/InRange.h"
-#include <CLI/CLI.hpp>
+#include "Measure/ActuatorMeasurement.h"
 #include <cmath>
+#include <string>
 
 namespace physvib {
 namespace {
+
+/// As given on the command line.
+struct CalibrateOptions {
+    std::string device;
+    int channel = 1, input = 1;           ///< from 1
+    int sampleRateHz = 0;                 ///< 0: as the device stands
+    std::string playedPath, recordedPath; ///< WAV pair, instead of a device
+    std::string sweepPath;                ///< write the sweep and nothing else
+    std::string profilePath;              ///< to write
+    bool isLoopback = false;              ///< a cable instead of an actuator: its latency, no profile
+    std::string name = "calibrated";
+    std::string band;                     ///< "LO-HI" to declare; empty: within 10 dB of the peak
+    double levelDb = -12.0, seconds = 5.0;
+    double gPerUnit = 0.0;                ///< acceleration of a recorded sample of 1; 0: not known
+    double driveVolts = 0.0;              ///< at a played sample of 1; 0: not known
+};
 
 constexpr double bandDecibels = 10.0; // what a profile declares unless told: the equaliser then costs that much level
 
@@ -101,24 +114,22 @@ std::string fault(const CalibrateOptions& o) {
     return o.band.empty() || parseBand(o.band) ? std::string{} : "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band);
 }
 
-} // namespace
-
-void declareCalibrate(CLI::App& command, CalibrateOptions& o) {
-    command.add_option("--device", o.device, "device that plays and records (see physvib devices)");
-    command.add_option("--channel", o.channel, "output of the enchanter, from 1")->check(inRange(1, 256))->capture_default_str();
-    command.add_option("--input", o.input, "input of the accelerometer or microphone, from 1")->check(inRange(1, 256))->capture_default_str();
-    command.add_option("--rate", o.sampleRateHz, "sample rate; left out: as the device stands, 48000 for a file")->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz));
-    command.add_option("--played", o.playedPath, "what was played elsewhere")->type_name("FILE.wav");
-    command.add_option("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment")->type_name("FILE.wav");
-    command.add_option("--sweep", o.sweepPath, "only write the sweep")->type_name("FILE.wav")->check(writtenFile);
-    command.add_option("--out", o.profilePath, "the profile")->type_name("FILE.json")->check(writtenFile);
-    command.add_flag("--loopback", o.isLoopback, "a cable from the output to the input: tell the latency of the loop");
-    command.add_option("--name", o.name, "of the profile")->capture_default_str();
-    command.add_option("--band", o.band, "to declare; left out: where it is within 10 dB of its peak")->type_name("LO-HI");
-    command.add_option("--level", o.levelDb, "peak of the sweep in dB of full scale")->check(inRange(-60.0, 0.0))->capture_default_str();
-    command.add_option("--seconds", o.seconds, "length of the sweep")->check(inRange(1.0, 60.0))->capture_default_str();
-    command.add_option("--g-per-unit", o.gPerUnit, "acceleration in g that a recorded sample of 1 stands for")->check(positive());
-    command.add_option("--drive-volts", o.driveVolts, "voltage that a played sample of 1 becomes")->check(positive());
+void declareCalibrate(OptionTable& command, CalibrateOptions& o) {
+    command.add("--device", o.device, "device that plays and records (see physvib devices)");
+    command.add("--channel", o.channel, "output of the enchanter, from 1").in(1, 256);
+    command.add("--input", o.input, "input of the accelerometer or microphone, from 1").in(1, 256);
+    command.add("--rate", o.sampleRateHz, "sample rate; left out: as the device stands, 48000 for a file").in(limits::minSampleRateHz, limits::maxSampleRateHz);
+    command.add("--played", o.playedPath, "what was played elsewhere").as("FILE.wav");
+    command.add("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment").as("FILE.wav");
+    command.add("--sweep", o.sweepPath, "only write the sweep").written("FILE.wav");
+    command.add("--out", o.profilePath, "the profile").written("FILE.json");
+    command.add("--loopback", o.isLoopback, "a cable from the output to the input: tell the latency of the loop");
+    command.add("--name", o.name, "of the profile");
+    command.add("--band", o.band, "to declare; left out: where it is within 10 dB of its peak").as("LO-HI");
+    command.add("--level", o.levelDb, "peak of the sweep in dB of full scale").in(-60.0, 0.0);
+    command.add("--seconds", o.seconds, "length of the sweep").in(1.0, 60.0);
+    command.add("--g-per-unit", o.gPerUnit, "acceleration in g that a recorded sample of 1 stands for").positive();
+    command.add("--drive-volts", o.driveVolts, "voltage that a played sample of 1 becomes").positive();
 }
 
 int runCalibrate(const CalibrateOptions& o) {
@@ -140,5 +151,9 @@ int runCalibrate(const CalibrateOptions& o) {
               << fixedNumber(1e3 * m.delaySeconds, 2) << " ms; " << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
     return exitDone;
 }
+
+} // namespace
+
+Command calibrateCommand() { return commandOf("calibrate", "measure an actuator and write its profile", declareCalibrate, runCalibrate); }
 
 } // namespace physvib

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One enchanter is driven at a time, and all are listened to: columns of the matrix, means of repetitions.
-#include "CommandLine/Measure/CouplingCommand.h"
-#include "CommandLine/ExitCode.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
-#include "CommandLine/Render/LayoutNamed.h"
-#include "CommandLine/Study/CallFiles.h"
+#include "Jobs/LayoutNamed.h"
 #include "Files/CouplingFile.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Text/NumberText.h"
-#include <CLI/CLI.hpp>
 #include <map>
+#include <string>
 
 namespace physvib {
 namespace {
+
+/// As given on the command line.
+struct CouplingOptions {
+    std::string folder, layout, outPath;
+};
 
 /// Sums of repetitions, and how many they are of each driven enchanter.
 struct Measured {
@@ -71,12 +74,10 @@ Result<MeasuredCoupling> couplingIn(const std::string& folder, const LayoutDescr
     return coupling ? coupling : Result<MeasuredCoupling>{Failure{list.value.table().name + ": " + coupling.error}};
 }
 
-} // namespace
-
-void declareCoupling(CLI::App& command, CouplingOptions& o) {
-    command.add_option("folder", o.folder, "recordings, a channel per enchanter's accelerometer, and " + std::string(RecordingList::fileName) + ": file,driven,frequency_hz")->type_name("FOLDER")->required();
-    command.add_option("--layout", o.layout, "whose enchanters they are: labels and full scales")->required();
-    command.add_option("--out", o.outPath, "the coupling, for render --coupling")->type_name("FILE.json")->required()->check(writtenFile);
+void declareCoupling(OptionTable& command, CouplingOptions& o) {
+    command.add("folder", o.folder, "recordings, a channel per enchanter's accelerometer, and " + std::string(RecordingList::fileName) + ": file,driven,frequency_hz").as("FOLDER").required();
+    command.add("--layout", o.layout, "whose enchanters they are: labels and full scales").required();
+    command.add("--out", o.outPath, "the coupling, for render --coupling").written("FILE.json").required();
 }
 
 int runCoupling(const CouplingOptions& o) {
@@ -93,5 +94,9 @@ int runCoupling(const CouplingOptions& o) {
               << (coupling.value.frequenciesHz.size() == 1 ? " frequency\n" : " frequencies\n");
     return exitDone;
 }
+
+} // namespace
+
+Command couplingCommand() { return commandOf("coupling", "what enchanters make of each other's vibration, from recordings, for render --coupling", declareCoupling, runCoupling); }
 
 } // namespace physvib

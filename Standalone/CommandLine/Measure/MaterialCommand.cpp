@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a file to two numbers, and how far they can be trusted.
-#include "CommandLine/Measure/MaterialCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "CommandLine/Measure/TextureText.h"
-#include "CommandLine/ExitCode.h"
 #include "Files/MaterialTable.h"
 #include "Files/Text/NumberText.h"
+#include "Host/Recordings/ReadRecording.h"
 #include "Measure/LoudestChannel.h"
 #include "Measure/MaterialExtractor.h"
-#include "Host/Recordings/ReadRecording.h"
-#include "Render/InRange.h"
-#include <CLI/CLI.hpp>
 #include <cmath>
+#include <optional>
+#include <string>
 
 namespace physvib {
 namespace {
+
+/// As given on the command line.
+struct MaterialOptions {
+    std::string path;
+    std::string band = "20-1000"; ///< "LO-HI" in Hz
+    std::string rule = "fit";     ///< or "two-peaks"
+    bool lists = false;           ///< the built-in library, instead
+    std::string texturePath;      ///< a scrape, or a toolkit's models of some, instead
+    std::optional<double> speedMetresPerSecond;
+    double loadNewtons = 1.0, massKg = 1.0;
+};
 
 int listMaterials() {
     const MaterialTable& table = builtInMaterials();
@@ -37,17 +47,15 @@ std::string howSure(const ContactSound& s) {
            fixedNumber(s.beginSeconds, 4) + " s; confidence " + (s.isConfident() ? "high" : "low");
 }
 
-} // namespace
-
-void declareMaterial(CLI::App& command, MaterialOptions& o) {
-    command.add_option("recording", o.path, "one contact; of several, the strongest is taken")->type_name("FILE.wav");
-    command.add_option("--band", o.band, "Hz within which the frequency is looked for")->type_name("LO-HI")->capture_default_str();
-    command.add_option("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks")->check(CLI::IsMember({"fit", "two-peaks"}))->capture_default_str();
-    command.add_option("--texture", o.texturePath, "a scrape at a steady speed, or an autoregressive texture: grains instead of one contact")->type_name("FILE.wav|FILE.xml");
-    command.add_option("--speed", o.speedMetresPerSecond, "m/s at which it was scraped")->type_name("V")->check(inRange(0.001, 100.0));
-    command.add_option("--load", o.loadNewtons, "N that pressed")->type_name("N")->check(inRange(0.001, 1000.0))->capture_default_str();
-    command.add_option("--mass", o.massKg, "kg of what vibrated")->type_name("KG")->check(inRange(0.0001, 10000.0))->capture_default_str();
-    command.add_flag("--list", o.lists, "the built-in materials that sound, and where their numbers are from");
+void declareMaterial(OptionTable& command, MaterialOptions& o) {
+    command.add("recording", o.path, "one contact; of several, the strongest is taken").as("FILE.wav");
+    command.add("--band", o.band, "Hz within which the frequency is looked for").as("LO-HI");
+    command.add("--rule", o.rule, "fit of decaying partials, or the thesis' two-peaks").oneOf({"fit", "two-peaks"});
+    command.add("--texture", o.texturePath, "a scrape at a steady speed, or an autoregressive texture: grains instead of one contact").as("FILE.wav|FILE.xml");
+    command.add("--speed", o.speedMetresPerSecond, "m/s at which it was scraped").as("V").in(0.001, 100.0);
+    command.add("--load", o.loadNewtons, "N that pressed").as("N").in(0.001, 1000.0);
+    command.add("--mass", o.massKg, "kg of what vibrated").as("KG").in(0.0001, 10000.0);
+    command.add("--list", o.lists, "the built-in materials that sound, and where their numbers are from");
 }
 
 int runMaterial(const MaterialOptions& o) {
@@ -67,5 +75,9 @@ int runMaterial(const MaterialOptions& o) {
     std::cerr << "physvib: " << howSure(sound.value) << '\n';
     return exitDone;
 }
+
+} // namespace
+
+Command materialCommand() { return commandOf("material", "frequency and decay of a recorded contact", declareMaterial, runMaterial); }
 
 } // namespace physvib

@@ -3,21 +3,19 @@
 #include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Study/NumberList.h"
 #include "Files/Text/NumberText.h"
-#include "Render/InRange.h"
-#include <CLI/CLI.hpp>
+#include "Options/OptionTable.h"
 #include <algorithm>
 
 namespace physvib {
 
-void declareBeatOptions(CLI::App& command, BeatOptions& o) {
+void declareBeatOptions(OptionTable& command, BeatOptions& o) {
     for (std::size_t band = 0; band < beatBands.size(); ++band) {
         const BeatBand& b = beatBands[band];
-        command.add_option("--" + std::string{b.name}, o.enchanters[band], "enchanters that feel beats of " + numberText(b.lowHz) + " to " + numberText(b.highHz) + " Hz; none: \"\"")
-            ->type_name("AB")->group("Beats");
+        command.add("--" + std::string{b.name}, o.enchanters[band], "enchanters that feel beats of " + numberText(b.lowHz) + " to " + numberText(b.highHz) + " Hz; none: \"\"").as("AB").under("Beats");
     }
-    command.add_option("--sensitivity", o.sensitivity, "to beats: 0 for the strongest alone, to 1 for all that stirs")->check(inRange(0.0, 1.0))->capture_default_str()->group("Beats");
-    command.add_option("--strike-level", o.level, "of the strongest beats, in shares of full scale")->check(inRange(0.0, 1.0))->capture_default_str()->group("Beats");
-    command.add_option("--strike-hz", o.frequencies, "of the strikes: one frequency, or one each for low, mid and high")->type_name("HZ[,HZ,HZ]")->capture_default_str()->group("Beats");
+    command.add("--sensitivity", o.sensitivity, "to beats: 0 for the strongest alone, to 1 for all that stirs").in(0.0, 1.0).under("Beats");
+    command.add("--strike-level", o.level, "of the strongest beats, in shares of full scale").in(0.0, 1.0).under("Beats");
+    command.add("--strike-hz", o.frequencies, "of the strikes: one frequency, or one each for low, mid and high").as("HZ[,HZ,HZ]").under("Beats");
 }
 
 Result<BeatVoices> beatVoicesOf(const BeatOptions& o, int enchanters) {

@@ -8,11 +8,9 @@
 #include <optional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 struct BeatOptions {
     std::array<std::optional<std::string>, beatBands.size()> enchanters; ///< letters; not given: the usual ones
@@ -21,7 +19,7 @@ struct BeatOptions {
     std::string frequencies = "205"; ///< Hz: one for all bands, or one each
 };
 
-void declareBeatOptions(CLI::App& command, BeatOptions& options);
+void declareBeatOptions(OptionTable& command, BeatOptions& options);
 
 /// On so many enchanters; or the usage error in one line.
 Result<BeatVoices> beatVoicesOf(const BeatOptions& options, int enchanters);

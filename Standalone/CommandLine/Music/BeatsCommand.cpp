@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Block by block from a file of music to strikes, or to what is left of it between two slopes; files appear at the end, or not at all.
-#include "CommandLine/Music/BeatsCommand.h"
-#include "CommandLine/ExitCode.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
-#include "CommandLine/Render/LayoutNamed.h"
-#include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/Music/BeatOptions.h"
+#include "Jobs/LayoutNamed.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
 #include "Files/Text/NameList.h"
@@ -12,15 +11,25 @@
 #include "Host/Recordings/ReadRecording.h"
 #include "Host/Recordings/WavSink.h"
 #include "Session/OfflineRender.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace physvib {
 namespace {
+
+struct BeatsOptions {
+    std::string music;
+    std::string eventsPath, wavPath; ///< empty: not wanted
+    bool isThrough = false;          ///< the WAV holds the music itself, low-passed
+    std::string band;                ///< of that, in Hz; empty: the usual one
+    std::string enchanters;          ///< of that; empty: all
+    std::string layout = "phone4";
+    BeatOptions beats;
+};
 
 std::string rateFault(int rateHz) {
     if (isSampleRate(rateHz)) return {};
@@ -181,16 +190,14 @@ int runThrough(const BeatsOptions& o, const LayoutDescription& layout) {
     return exitDone;
 }
 
-} // namespace
-
-void declareBeats(CLI::App& command, BeatsOptions& o) {
-    command.add_option("music", o.music, "WAV, FLAC or Ogg Vorbis, of up to a day")->required()->type_name("MUSIC.wav");
-    command.add_option("--out", o.eventsPath, "its beats as an event list")->type_name("EVENTS.csv")->check(writtenFile);
-    command.add_option("--render", o.wavPath, "what is felt, a channel per enchanter, as long as the music and at its rate")->type_name("FILE.wav")->check(writtenFile);
-    command.add_flag("--through", o.isThrough, "not its beats but the music itself, between the slopes of --band");
-    command.add_option("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told")->type_name("LO-HI");
-    command.add_option("--enchanters", o.enchanters, "who feels it, with --through: all unless told")->type_name("AC");
-    command.add_option("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file")->capture_default_str();
+void declareBeats(OptionTable& command, BeatsOptions& o) {
+    command.add("music", o.music, "WAV, FLAC or Ogg Vorbis, of up to a day").required().as("MUSIC.wav");
+    command.add("--out", o.eventsPath, "its beats as an event list").written("EVENTS.csv");
+    command.add("--render", o.wavPath, "what is felt, a channel per enchanter, as long as the music and at its rate").written("FILE.wav");
+    command.add("--through", o.isThrough, "not its beats but the music itself, between the slopes of --band");
+    command.add("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told").as("LO-HI");
+    command.add("--enchanters", o.enchanters, "who feels it, with --through: all unless told").as("AC");
+    command.add("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file");
     declareBeatOptions(command, o.beats);
 }
 
@@ -201,5 +208,9 @@ int runBeats(const BeatsOptions& o) {
     if (!layout) return leave(exitFailed, layout.error);
     return o.isThrough ? runThrough(o, layout.value) : runStrikes(o, layout.value);
 }
+
+} // namespace
+
+Command beatsCommand() { return commandOf("beats", "music as strikes on enchanters, or what of it they can render", declareBeats, runBeats); }
 
 } // namespace physvib

@@ -1,24 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib play`, from words to a session's setup.
-#include "CommandLine/Play/PlayCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Board/BoardCommand.h"
-#include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
-#include "CommandLine/Study/NumberList.h"
 #include "CommandLine/Render/JobSession.h"
+#include "CommandLine/Render/RenderOptions.h"
+#include "CommandLine/Study/NumberList.h"
 #include "Files/Disk/FileClash.h"
-#include "Physics/Scenes/SceneEdits.h"
 #include "Host/Devices/AudioOutput.h"
-#include "Render/InRange.h"
+#include "Host/Osc/OscPort.h"
+#include "Physics/Scenes/SceneEdits.h"
 #include "Session/SerialLine.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numbers>
+#include <string>
 
 namespace physvib {
-
 namespace {
+
+/// The scene options, and where to play.
+struct PlayOptions {
+    RenderOptions scene;
+    std::string device;
+    std::string board;              ///< serial port of a four-channel board, alone or beside a device
+    std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
+    std::string onOff;              ///< enchanters from 1 that are motors, on or off; empty: none
+    double threshold = OnOffSteps::thesisThreshold; ///< of these, in full scale
+    std::string noise;              ///< as map: outputs that play pink noise; empty: none
+    double noiseDb = PinkNoise::safeDb;   ///< its root mean square, of full scale
+    std::string driver = "message"; ///< or "thread"
+    std::string recordPath;         ///< WAV of what was played; empty: not wanted
+    std::string savePath;           ///< the session as JSON; empty: not wanted
+    bool listens = false, hasHands = false, isDirect = false; ///< to standard input
+    std::string clips = ".";        ///< folder of its messages' clips, and of OSC's
+    std::string beatInputs;         ///< as map: of the device, whose beats are struck; empty: none
+    BeatOptions beats;
+    OscSettings osc;
+    double oscTurnDegrees = 0.0;    ///< by which a phone is held counter-clockwise of upright
+    double levelDb = safeStartDecibels; ///< master level
+    std::string ceilings = "0";     ///< dB of full scale: one for all enchanters, or one each
+    int blockFrames = 0;            ///< 0: as the device stands
+};
 
 /// "1,2,3" to {0, 1, 2}; empty means an empty map. False if it is anything else.
 bool parseMap(const std::string& text, std::vector<int>& map) {
@@ -51,36 +75,33 @@ SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
     return setup;
 }
 
-} // namespace
-
-void declarePlayOptions(CLI::App& command, PlayOptions& o) {
+void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     declareSceneOptions(command, o.scene);
-    command.add_option("--device", o.device, "output device (see physvib devices)");
-    command.add_option("--board", o.board, "four-channel board: serial port, or auto; alone, or together with a device")->type_name("PORT");
-    command.add_option("--map", o.map, "device outputs of the enchanters, from 1")->type_name("1,2,3,4");
-    command.add_option("--driver", o.driver, "who steps the world: message or thread")->check(CLI::IsMember({"message", "thread"}))->capture_default_str();
-    command.add_option("--level", o.levelDb, "master level in dB")->check(inRange(-90.0, 0.0))->capture_default_str();
-    command.add_option("--ceiling", o.ceilings, "drive ceiling in dB of full scale, before the master level: one for all, or one per enchanter")
-        ->type_name("DB[,DB...]")->capture_default_str();
-    command.add_option("--on-off", o.onOff, "enchanters, from 1, that are motors which are only on or off: full scale in each 10 ms after one in which a sample exceeds --threshold")->type_name("1,2");
-    command.add_option("--threshold", o.threshold, "of --on-off, in full scale")->check(inRange(0.0, 1.0))->capture_default_str();
-    command.add_option("--noise", o.noise, "other outputs of the device that play pink noise, from 1: masks what actuators sound like")->type_name("5,6");
-    command.add_option("--noise-db", o.noiseDb, "its root mean square, in dB of full scale")->check(inRange(PinkNoise::leastDb, PinkNoise::mostDb))->capture_default_str();
-    command.add_option("--contact-sound", o.scene.contactSound, "other outputs of the device on which each hit is heard, from 1")->type_name("5,6");
-    command.add_option("--marker", o.scene.marker, "other outputs of the device with a pulse at the sample of each onset, from 1: for trigger boxes")->type_name("8");
-    command.add_option("--block", o.blockFrames, "frames per block; 0: as the device stands")->check(inRange(0, limits::maxBlockFrames));
-    command.add_option("--record", o.recordPath, "WAV of what was played, before the master level")->type_name("FILE.wav")->check(writtenFile);
-    command.add_option("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv")->type_name("FILE.json")->check(writtenFile);
-    command.add_option("--beats", o.beatInputs, "inputs of the device, from 1, whose music is felt: its beats are struck (Docs/music.md)")->type_name("1,2");
+    command.add("--device", o.device, "output device (see physvib devices)");
+    command.add("--board", o.board, "four-channel board: serial port, or auto; alone, or together with a device").as("PORT");
+    command.add("--map", o.map, "device outputs of the enchanters, from 1").as("1,2,3,4");
+    command.add("--driver", o.driver, "who steps the world: message or thread").oneOf({"message", "thread"});
+    command.add("--level", o.levelDb, "master level in dB").in(-90.0, 0.0);
+    command.add("--ceiling", o.ceilings, "drive ceiling in dB of full scale, before the master level: one for all, or one per enchanter").as("DB[,DB...]");
+    command.add("--on-off", o.onOff, "enchanters, from 1, that are motors which are only on or off: full scale in each 10 ms after one in which a sample exceeds --threshold").as("1,2");
+    command.add("--threshold", o.threshold, "of --on-off, in full scale").in(0.0, 1.0);
+    command.add("--noise", o.noise, "other outputs of the device that play pink noise, from 1: masks what actuators sound like").as("5,6");
+    command.add("--noise-db", o.noiseDb, "its root mean square, in dB of full scale").in(PinkNoise::leastDb, PinkNoise::mostDb);
+    command.add("--contact-sound", o.scene.contactSound, "other outputs of the device on which each hit is heard, from 1").as("5,6");
+    command.add("--marker", o.scene.marker, "other outputs of the device with a pulse at the sample of each onset, from 1: for trigger boxes").as("8");
+    command.add("--block", o.blockFrames, "frames per block; 0: as the device stands").in(0, limits::maxBlockFrames).unshown();
+    command.add("--record", o.recordPath, "WAV of what was played, before the master level").written("FILE.wav");
+    command.add("--save", o.savePath, "the session, to render it again; what was played beside it as .events.csv").written("FILE.json");
+    command.add("--beats", o.beatInputs, "inputs of the device, from 1, whose music is felt: its beats are struck (Docs/music.md)").as("1,2");
     declareBeatOptions(command, o.beats);
-    command.add_flag("--hands", o.hasHands, "what the scene's script does of what hands do is left out: lines of --listen do it");
-    command.add_flag("--direct", o.isDirect, "messages and controls are felt a block and the limiter after they came, not the play-out delay; collisions as ever");
-    command.add_flag("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
-    command.add_option("--clips", o.clips, "folder from which messages of --listen and --osc may have clips read")->type_name("FOLDER")->check(CLI::ExistingDirectory)->capture_default_str();
-    command.add_option("--osc", o.osc.port, "take messages by OSC (Docs/osc.md) at this port of UDP, or the next free one; 0: any")->type_name("PORT")->check(inRange(0, 65'535));
-    command.add_option("--osc-interface", o.osc.address, "address of this computer at which they are taken; 0.0.0.0: any, for phones")->type_name("ADDRESS")->capture_default_str();
-    command.add_option("--osc-turn", o.oscTurnDegrees, "by how much a phone that tilts the scene is held counter-clockwise of upright")->type_name("DEGREES")->check(inRange(-180.0, 180.0));
-    command.add_option("--osc-to", o.osc.receiver, "send each hit as it is felt, and the status once a second")->type_name("HOST:PORT");
+    command.add("--hands", o.hasHands, "what the scene's script does of what hands do is left out: lines of --listen do it");
+    command.add("--direct", o.isDirect, "messages and controls are felt a block and the limiter after they came, not the play-out delay; collisions as ever");
+    command.add("--listen", o.listens, "take inputs and controls from standard input, a line of JSON each (Docs/live.md)");
+    command.add("--clips", o.clips, "folder from which messages of --listen and --osc may have clips read").as("FOLDER").existingFolder();
+    command.add("--osc", o.osc.port, "take messages by OSC (Docs/osc.md) at this port of UDP, or the next free one; 0: any").as("PORT").in(0, 65'535);
+    command.add("--osc-interface", o.osc.address, "address of this computer at which they are taken; 0.0.0.0: any, for phones").as("ADDRESS");
+    command.add("--osc-turn", o.oscTurnDegrees, "by how much a phone that tilts the scene is held counter-clockwise of upright").as("DEGREES").in(-180.0, 180.0).unshown();
+    command.add("--osc-to", o.osc.receiver, "send each hit as it is felt, and the status once a second").as("HOST:PORT");
 }
 
 int runPlay(PlayOptions& o) {
@@ -145,11 +166,8 @@ int runPlay(PlayOptions& o) {
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 
-int runDevices() {
-    const juce::ScopedJuceInitialiser_GUI juce;
-    for (const auto& device : listAudioDevices()) std::cout << device.type << ':' << device.name << "  " << device.channels << " outputs\n";
-    for (const auto& port : listSerialPorts()) std::cout << port.path << "  " << port.description << '\n';
-    return exitDone;
-}
+} // namespace
+
+Command playCommand() { return commandOf("play", "play a scene live on an audio device", declarePlayOptions, runPlay); }
 
 } // namespace physvib

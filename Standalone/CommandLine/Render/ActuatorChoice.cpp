@@ -110,15 +110,4 @@ std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<co
     return warnings;
 }
 
-int listActuators() {
-    const auto orUnknown = [](const std::optional<double>& figure) { return figure ? numberText(*figure) : std::string{}; };
-    std::string text = "actuator,resonance_hz,q,band_low_hz,band_high_hz,drive_limit_v,rise_time_s,full_scale_g,source\n";
-    for (const ActuatorProfile& p : builtInActuators()) {
-        text += p.name + ',' + orUnknown(p.resonanceHz) + ',' + orUnknown(p.q) + ',' + (p.band ? numberText(p.band->lowHz) + ',' + numberText(p.band->highHz) : ",") + ',';
-        text += orUnknown(p.driveLimitVolts) + ',' + orUnknown(p.riseSeconds) + ',' + orUnknown(p.fullScaleG) + ",\"" + p.source + "\"\n";
-    }
-    std::cout << text;
-    return exitDone;
-}
-
 } // namespace physvib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What --actuator, --equalise and --remap mean for a layout; `physvib actuators`.
+// What --actuator, --equalise and --remap mean for a layout.
 #pragma once
 #include "CommandLine/Render/RenderOptions.h"
 #include "Core/Actuators/ActuatorEqualiser.h"
@@ -29,8 +29,5 @@ std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRate
 /// Lines for people on what remapping loses: materials that end nearer to each other than one JND, and those that the
 /// actuator's own ring-down outlasts. `before`: the collisions, not remapped yet.
 std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<const CollisionEvent> before, const LayoutDescription& layout, const RenderOptions& options);
-
-/// A line of CSV per built-in profile on stdout; an exit code.
-int listActuators();
 
 } // namespace physvib

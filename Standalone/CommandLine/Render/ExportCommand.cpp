@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Events by the door of `render`, panned and drawn as curves, then as bytes.
-#include "CommandLine/Render/ExportCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
-#include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/Render/RenderOptions.h"
 #include "Files/Disk/FileClash.h"
 #include "Host/Recordings/HitExport.h"
-#include "Render/InRange.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <string>
 
 namespace physvib {
 namespace {
+
+struct ExportOptions {
+    RenderOptions input; ///< what is exported, and how it is spread
+    std::string to;      ///< path; its ending says the format
+    double error = 0.004;
+};
 
 constexpr double leastError = 1e-5, mostError = 0.1;
 
@@ -62,15 +67,13 @@ std::string takeEvents(RenderJob& job, std::vector<std::string>& warnings) {
     return {};
 }
 
-} // namespace
-
-void declareExport(CLI::App& command, ExportOptions& o) {
+void declareExport(OptionTable& command, ExportOptions& o) {
     declareSceneOptions(command, o.input);
-    command.add_option("--to", o.to, "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)")->required()->type_name("FILE")->check(writtenFile);
-    command.add_option("--error", o.error, "how far lines may be from each hit's exponential, of its strength")->check(inRange(leastError, mostError))->capture_default_str();
+    command.add("--to", o.to, "the file; its ending says the format: .hjif, .hmpg (MPEG), .haptic (Meta), .ahap (Apple)").required().written("FILE");
+    command.add("--error", o.error, "how far lines may be from each hit's exponential, of its strength").in(leastError, mostError);
 }
 
-int runExport(const CLI::App& command, ExportOptions& options) {
+int runExport(const OptionTable& command, ExportOptions& options) {
     RenderOptions& o = options.input;
     noteGiven(command, o);
     if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);
@@ -99,5 +102,9 @@ int runExport(const CLI::App& command, ExportOptions& options) {
     tellLosses(job, parts, *format, usual.value);
     return exitDone;
 }
+
+} // namespace
+
+Command exportCommand() { return commandOf("export", "a scene, a session, EVENTS.csv or a clip as a haptic file of others", declareExport, runExport); }
 
 } // namespace physvib

@@ -2,6 +2,7 @@
 // The way of a render: inputs are read and checked, outputs opened, events made or taken, samples rendered, and only
 // when everything is written do the files take their places.
 #include "CommandLine/Render/RenderCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/RenderOutputs.h"
@@ -126,6 +127,14 @@ int runRender(const RenderOptions& options, RenderListener* listener) {
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
     const std::string error = render(job, listener);
     return error.empty() ? exitDone : leave(exitFailed, error);
+}
+
+Command renderCommand() {
+    return commandOf("render", "render a scene, an event list or a clip to files", declareRenderOptions, [](const OptionTable& command, RenderOptions& options) {
+        noteGiven(command, options);
+        const std::string refusal = checkRenderOptions(options);
+        return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);
+    });
 }
 
 } // namespace physvib

@@ -4,7 +4,7 @@
 #include "CommandLine/Render/ActuatorChoice.h"
 #include "CommandLine/Render/CouplingChoice.h"
 #include "CommandLine/ExitCode.h"
-#include "CommandLine/Render/LayoutNamed.h"
+#include "Jobs/LayoutNamed.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "Host/Recordings/LoadContact.h"
 #include "Host/Recordings/LoadRecordings.h"

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names, ranges and help texts of the options of `physvib render`.
-#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "Core/EventShaping.h"
 #include "Files/Text/NameList.h"
 #include "Files/Text/NumberText.h"
+#include "Options/OptionTable.h"
 #include "Physics/Simulation.h"
-#include "Render/InRange.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -49,62 +47,55 @@ bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<d
     return true;
 }
 
-void declareSceneOptions(CLI::App& command, RenderOptions& o) {
-    command.add_option("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or (render, export) a saved SESSION.json or a CLIP.hjif, .hmpg, .haptic, .ahap");
-    command.add_option("--set", o.sets, "a variable of the scene; may be repeated")->type_name("NAME=VALUE")->allow_extra_args(false);
-    command.add_option("--seconds", o.seconds, "length of the render")->check(inRange(0.001, 86400.0, " s"))->capture_default_str();
-    command.add_option("--seed", o.seed, "seed of the scene")->check(inRange(0u, 4294967295u))->capture_default_str();
-    command.add_option("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file")->capture_default_str();
-    command.add_option("--field", o.field, "metres that x and y span (scene: its field; events: the layout's extent)")->type_name("W,H");
-    command.add_option("--law", o.law, "panning law: " + listed(panningLawNames))->capture_default_str();
-    command.add_option("--exponent", o.exponent, "exponent of the law")->check(inRange(0.01, 100.0))->capture_default_str();
-    command.add_option("--limiter", o.limiter, "on or off")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
-    command.add_option("--steps-per-second", o.stepsPerSecond, "physics steps per second")
-        ->check(inRange(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s"))->capture_default_str();
-    command.add_option("--location", o.location, "place of a hit: contact, or centre of the fixture")
-        ->check(CLI::IsMember({"contact", "fixture"}))->capture_default_str();
-    command.add_option("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)")
-        ->check(CLI::IsMember({"onset", "release"}))->capture_default_str();
-    command.add_option("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed; or SV, recorded contacts")->capture_default_str();
-    command.add_option("--sound", o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency, or synthetic-SEED; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
-    command.add_option("--sound-match", o.soundMatch, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)")
-        ->check(CLI::IsMember({"peak", "rms"}))->capture_default_str();
-    command.add_option("--level-db", o.levelDb, "all hits so much stronger or weaker")->check(inRange(-limits::maxLevelDb, limits::maxLevelDb, " dB"))->capture_default_str();
-    command.add_option("--gamma", o.gamma, "cut each decay where its envelope falls to this share, as Eq. 5.5 does with 0.1 (0: it rings out, without a click)")
-        ->check(inRange(0.0, EventShaping::mostTruncation))->capture_default_str();
-    command.add_option("--perceived-level", o.perceivedLevel, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)")
-        ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
-    command.add_option("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
-        ->check(inRange(leastContactDb, mostContactDb, " dB"))->capture_default_str();
-    command.add_option("--marker-of", o.markerOf, "what --marker marks: all onsets, hits (no grains, no messages), or messages")
-        ->check(CLI::IsMember({"all", "hits", "messages"}))->capture_default_str();
-    command.add_option("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file")->capture_default_str();
-    command.add_option("--equalise", o.equalise, "with an actuator: make it flat within its band (on or off)")->check(CLI::IsMember({"on", "off"}))->capture_default_str();
-    command.add_option("--remap", o.remap, "with an actuator: move all frequencies into its band, in their order (on or off)")
-        ->check(CLI::IsMember({"on", "off"}))->capture_default_str();
-    command.add_option("--coupling", o.coupling, "measured coupling of the layout's enchanters, made up for with at most 3 dB more drive (render)")->type_name("FILE.json");
+void declareSceneOptions(OptionTable& command, RenderOptions& o) {
+    command.add("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or (render, export) a saved SESSION.json or a CLIP.hjif, .hmpg, .haptic, .ahap");
+    command.add("--set", o.sets, "a variable of the scene; may be repeated").as("NAME=VALUE").single();
+    command.add("--seconds", o.seconds, "length of the render").in(0.001, 86400.0, " s");
+    command.add("--seed", o.seed, "seed of the scene").in(0u, 4294967295u);
+    command.add("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file");
+    command.add("--field", o.field, "metres that x and y span (scene: its field; events: the layout's extent)").as("W,H");
+    command.add("--law", o.law, "panning law: " + listed(panningLawNames));
+    command.add("--exponent", o.exponent, "exponent of the law").in(0.01, 100.0);
+    command.add("--limiter", o.limiter, "on or off").oneOf({"on", "off"});
+    command.add("--steps-per-second", o.stepsPerSecond, "physics steps per second")
+        .in(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s");
+    command.add("--location", o.location, "place of a hit: contact, or centre of the fixture").oneOf({"contact", "fixture"});
+    command.add("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)").oneOf({"onset", "release"});
+    command.add("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed; or SV, recorded contacts");
+    command.add("--sound", o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency, or synthetic-SEED; may be repeated").as("HZ=FILE.wav").single();
+    command.add("--sound-match", o.soundMatch, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)").oneOf({"peak", "rms"});
+    command.add("--level-db", o.levelDb, "all hits so much stronger or weaker").in(-limits::maxLevelDb, limits::maxLevelDb, " dB");
+    command.add("--gamma", o.gamma, "cut each decay where its envelope falls to this share, as Eq. 5.5 does with 0.1 (0: it rings out, without a click)")
+        .in(0.0, EventShaping::mostTruncation);
+    command.add("--perceived-level", o.perceivedLevel, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)").oneOf({"on", "off"});
+    command.add("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
+        .in(leastContactDb, mostContactDb, " dB");
+    command.add("--marker-of", o.markerOf, "what --marker marks: all onsets, hits (no grains, no messages), or messages").oneOf({"all", "hits", "messages"});
+    command.add("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file");
+    command.add("--equalise", o.equalise, "with an actuator: make it flat within its band (on or off)").oneOf({"on", "off"});
+    command.add("--remap", o.remap, "with an actuator: move all frequencies into its band, in their order (on or off)").oneOf({"on", "off"});
+    command.add("--coupling", o.coupling, "measured coupling of the layout's enchanters, made up for with at most 3 dB more drive (render)").as("FILE.json");
 }
 
-void declareRenderOptions(CLI::App& command, RenderOptions& o) {
+void declareRenderOptions(OptionTable& command, RenderOptions& o) {
     declareSceneOptions(command, o);
-    command.add_option("--from-events", o.fromEvents, "render this event list instead of a scene")->type_name("EVENTS.csv");
-    command.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav")->check(writtenFile);
-    command.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv")->check(writtenFile);
-    command.add_option("--picture", o.picturePath, "world, waveforms and event marks")->type_name("FILE.png")->check(writtenFile);
-    command.add_option("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel")->type_name("FILE.csv")->check(writtenFile);
-    command.add_option("--threshold", o.threshold, "of the pattern, in full scale")->check(inRange(0.0, 1.0))->capture_default_str();
-    command.add_option("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
-        ->check(inRange(0.001, 1000.0, " V"));
-    command.add_option("--contact-sound", o.contactSound, "what is heard of each hit, for headphones: one channel, in sync with --out")->type_name("FILE.wav")->check(writtenFile);
-    command.add_option("--marker", o.marker, "a pulse at the sample of each onset: one channel, in sync with --out")->type_name("FILE.wav")->check(writtenFile);
-    command.add_option("--rate", o.sampleRateHz, "sample rate")
-        ->check(inRange(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz"))->capture_default_str();
-    command.add_option("--block", o.blockFrames, "frames per block; does not change the result")
-        ->check(inRange(1, limits::maxBlockFrames, " frames"))->capture_default_str();
-    command.add_option("--instructions", o.instructions, "best: the fastest here; scalar: the same bytes of the same hits on every machine")
-        ->check(CLI::IsMember({"best", "scalar"}))->capture_default_str();
-    command.add_option("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds of processor time more")
-        ->check(inRange(0.0, 1e7, " s"))->capture_default_str();
+    command.add("--from-events", o.fromEvents, "render this event list instead of a scene").as("EVENTS.csv");
+    command.add("--out", o.wavPath, "32-bit float WAV, one channel per enchanter").written("FILE.wav");
+    command.add("--events", o.eventsPath, "the collisions as an event list").written("FILE.csv");
+    command.add("--picture", o.picturePath, "world, waveforms and event marks").written("FILE.png");
+    command.add("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel").written("FILE.csv");
+    command.add("--threshold", o.threshold, "of the pattern, in full scale").in(0.0, 1.0);
+    command.add("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
+        .in(0.001, 1000.0, " V");
+    command.add("--contact-sound", o.contactSound, "what is heard of each hit, for headphones: one channel, in sync with --out").written("FILE.wav");
+    command.add("--marker", o.marker, "a pulse at the sample of each onset: one channel, in sync with --out").written("FILE.wav");
+    command.add("--rate", o.sampleRateHz, "sample rate")
+        .in(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz");
+    command.add("--block", o.blockFrames, "frames per block; does not change the result")
+        .in(1, limits::maxBlockFrames, " frames");
+    command.add("--instructions", o.instructions, "best: the fastest here; scalar: the same bytes of the same hits on every machine").oneOf({"best", "scalar"});
+    command.add("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds of processor time more")
+        .in(0.0, 1e7, " s");
 }
 
 std::optional<MarkedOnsets> RenderOptions::marks() const {
@@ -112,9 +103,9 @@ std::optional<MarkedOnsets> RenderOptions::marks() const {
     return markerOf == "hits" ? MarkedOnsets::hits : markerOf == "messages" ? MarkedOnsets::messages : MarkedOnsets::all;
 }
 
-void noteGiven(const CLI::App& command, RenderOptions& o) {
-    for (const CLI::Option* option : command.get_options())
-        if (option->count() > 0) o.given.insert(option->get_name());
+void noteGiven(const OptionTable& command, RenderOptions& o) {
+    for (const Option& option : command.options)
+        if (!option.said.empty()) o.given.insert(option.spellings.front());
 }
 
 std::string checkSceneOptions(RenderOptions& o) {

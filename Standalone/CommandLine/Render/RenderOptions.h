@@ -13,11 +13,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 /// As given on the command line; the defaults are those that --help shows.
 struct RenderOptions {
@@ -72,13 +70,13 @@ inline constexpr std::string_view soundExpectation = "--sound: expected HZ=FILE.
 bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<double, std::string>>& recordings);
 
 /// Declares what says which scene is spread how (shared with `play`); `command` fills `options` while it parses.
-void declareSceneOptions(CLI::App& command, RenderOptions& options);
+void declareSceneOptions(OptionTable& command, RenderOptions& options);
 
 /// Declares all options of `render`.
-void declareRenderOptions(CLI::App& command, RenderOptions& options);
+void declareRenderOptions(OptionTable& command, RenderOptions& options);
 
 /// Notes which options the call had. After parsing.
-void noteGiven(const CLI::App& command, RenderOptions& options);
+void noteGiven(const OptionTable& command, RenderOptions& options);
 
 /// What parsing cannot see of the scene options: empty, or the usage error in one line.
 std::string checkSceneOptions(RenderOptions& options);

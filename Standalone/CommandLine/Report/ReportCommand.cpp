@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files in, a folder out: all of it, or nothing.
-#include "CommandLine/Report/ReportCommand.h"
+#include "CommandLine/Command.h"
+#include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Report/StudyReport.h"
 #include "CommandLine/Report/ThesisReport.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "CommandLine/Study/StudyRun.h"
+#include "Studies/StudyCalls.h"
 #include "Files/BidsDataset.h"
 #include "Files/Disk/FileClash.h"
-#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 namespace physvib {
 namespace {
+
+/// As given on the command line.
+struct ReportOptions {
+    AnalyseOptions sources; ///< files and columns of it
+    std::string folder, protocol;
+    bool wantsBids = false;
+};
 
 /// The folders that were not there before, outermost first; they go again unless they are kept.
 class MadeFolders {
@@ -77,13 +86,11 @@ int reportThesis(const ReportOptions& o) {
     return exitDone;
 }
 
-} // namespace
-
-void declareReport(CLI::App& command, ReportOptions& o) {
-    command.add_option("files", o.sources.files, "the trial files of one study; or `thesis`: what the thesis prints beside what follows from it, and its studies rehearsed")->required()->type_name("TRIALS.csv...|thesis");
-    command.add_option("--out", o.folder, "the folder: index.html, tables, report.R")->required()->type_name("FOLDER");
-    command.add_option("--protocol", o.protocol, "the study's protocol, if it is no built-in one")->type_name("PROTOCOL.json");
-    command.add_flag("--bids", o.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
+void declareReport(OptionTable& command, ReportOptions& o) {
+    command.add("files", o.sources.files, "the trial files of one study; or `thesis`: what the thesis prints beside what follows from it, and its studies rehearsed").required().as("TRIALS.csv...|thesis");
+    command.add("--out", o.folder, "the folder: index.html, tables, report.R").required().as("FOLDER");
+    command.add("--protocol", o.protocol, "the study's protocol, if it is no built-in one").as("PROTOCOL.json");
+    command.add("--bids", o.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
     declareColumns(command, o.sources);
 }
 
@@ -114,5 +121,9 @@ int runReport(const ReportOptions& o) {
     std::cout << (std::filesystem::path{o.folder} / "index.html").string() << "  " << report.files.size() << " files, " << report.tests.size() << " tests\n";
     return exitDone;
 }
+
+} // namespace
+
+Command reportCommand() { return commandOf("report", "trial files as a page with pictures, tests and tables", declareReport, runReport); }
 
 } // namespace physvib

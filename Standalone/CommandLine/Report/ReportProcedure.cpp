@@ -57,7 +57,7 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
             Attended& own = found->second;
             own.observer = cell(row, trialColumns::observer);
             (cell(row, trialColumns::phase) == trialColumns::training ? own.training : own.main) += 1;
-            own.unanswered += cell(row, trialColumns::task) == "identify" && cell(row, "response").empty();
+            own.unanswered += answerOf(cell(row, trialColumns::task)) == AnswerKind::label && cell(row, "response").empty();
             if (const auto seconds = parseNumber<double>(cell(row, "response_s")); seconds && cell(row, trialColumns::phase) != trialColumns::training) own.seconds.push_back(*seconds);
         }
     }
@@ -86,7 +86,7 @@ std::string conditionWords(const ConditionPlan& condition) {
 std::string secondsWords(double seconds) { return numberText(seconds) + " s"; }
 
 std::string sessionWords(const SessionPlan& session) {
-    std::string words = session.name + (session.isTraining ? " (training, left out of analyses)" : "") + ": task " + std::string(taskNames[static_cast<std::size_t>(session.task)]);
+    std::string words = session.name + (session.isTraining ? " (training, left out of analyses)" : "") + ": task " + std::string(describe(session.task).name);
     if (!session.question.empty()) words += ", \u201c" + session.question + "\u201d";
     words += "; order " + std::string(trialOrderNames[static_cast<std::size_t>(session.order)]);
     if (session.repetitions > 1) words += ", " + std::to_string(session.repetitions) + " repetitions";
@@ -136,7 +136,7 @@ void tellCalls(ReportBuilder& report) {
     std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> calls; // condition, session, stimulus, call: trials
     std::map<std::pair<std::string, std::string>, std::string> examples;
     for (const CsvRow& row : all.rows) {
-        if (cell(row, trialColumns::task) == "explore") continue;
+        if (answerOf(cell(row, trialColumns::task)) == AnswerKind::wish) continue;
         ++calls[{cell(row, "condition"), cell(row, "session"), cell(row, "stimulus"), cell(row, "render")}];
         examples.try_emplace({cell(row, "condition"), cell(row, "session")}, cell(row, "render"));
     }

@@ -2,6 +2,7 @@
 // Files to one table; what their first lines say.
 #include "CommandLine/Report/ReportTrials.h"
 #include "CommandLine/Study/CallFiles.h"
+#include "Study/StudyTasks.h"
 #include "Files/ProtocolFile.h"
 #include "Files/Text/NumberText.h"
 #include "Files/TrialColumns.h"
@@ -124,7 +125,7 @@ std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) 
     addRow(trials.all.columns);
     const auto task = trials.all.column(trialColumns::task);
     for (const CsvRow& row : trials.all.rows)
-        if (!task || row.cells[*task] != "explore") addRow(row.cells);
+        if (!task || answerOf(row.cells[*task]) != AnswerKind::wish) addRow(row.cells);
     return text;
 }
 

@@ -4,6 +4,7 @@
 #include "CommandLine/Report/ReportScript.h"
 #include "CommandLine/Report/ReportSections.h"
 #include "CommandLine/Study/StudyOutput.h"
+#include "Study/StudyTasks.h"
 #include <algorithm>
 
 namespace physvib {
@@ -15,6 +16,9 @@ struct Section {
 };
 
 constexpr Section sections[] = {{"confusion", tellIdentification}, {"resolution", tellPlaces}, {"choices", tellChoices}, {"ratings", tellRatings}, {"levels", tellLevels}};
+
+static_assert(std::ranges::all_of(studyTasks, [](const auto& task) { return task.analysis.empty() || std::ranges::find(sections, task.analysis, &Section::analysis) != std::end(sections); }),
+              "every task's analysis has its section");
 
 std::string firstLine(const ReportTrials& trials) {
     Provenance provenance{PHYSVIB_VERSION, {{"report", "trials"}}};

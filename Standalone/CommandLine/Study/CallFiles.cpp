@@ -15,44 +15,33 @@ struct CallFiles {
     std::vector<std::string> outputs, inputs;
 };
 
-bool isWritten(CLI::Option& option) {
-    try {
-        return option.get_validator(writtenFile.get_name()) != nullptr;
-    } catch (const CLI::OptionNotFound&) {
-        return false;
-    }
-}
-
-void collect(CLI::App& app, CallFiles& files) {
-    for (CLI::Option* const option : app.get_options())
-        for (const std::string& value : option->results()) {
-            if (isWritten(*option))
+void collect(const OptionTable& table, CallFiles& files) {
+    for (const Option& option : table.options)
+        for (const std::string& value : option.said) {
+            if (option.isWritten)
                 files.outputs.push_back(value);
             else
                 files.inputs.insert(files.inputs.end(),
                                     {value, value.substr(value.find('=') + 1)}); // the latter for HZ=FILE.wav
         }
-    for (CLI::App* const command : app.get_subcommands()) collect(*command, files);
+    for (const OptionTable* const command : table.calls) collect(*command, files);
 }
 
-void collectWritten(CLI::App& app, std::set<std::string, std::less<>>& words) {
-    for (CLI::Option* const option : app.get_options()) {
-        if (!isWritten(*option)) continue;
-        for (const std::string& name : option->get_snames()) words.insert("-" + name);
-        for (const std::string& name : option->get_lnames()) words.insert("--" + name);
-    }
-    for (CLI::App* const command : app.get_subcommands({})) collectWritten(*command, words);
+void collectWritten(const OptionTable& table, std::set<std::string, std::less<>>& words) {
+    for (const Option& option : table.options)
+        if (option.isWritten) words.insert(option.spellings.begin(), option.spellings.end());
+    for (const OptionTable& command : table.commands) collectWritten(command, words);
 }
 
 /// Every spelling of every option that names a file to be written, of the commands that a call can be.
 std::set<std::string, std::less<>> writtenWords() {
-    CLI::App app;
+    OptionTable calls{"physvib", {}};
     RenderOptions render;
     StimulusOptions stimulus;
-    declareRenderOptions(*app.add_subcommand("render"), render);
-    declareStimulus(*app.add_subcommand("stimulus"), stimulus);
+    declareRenderOptions(calls.addCommand("render", {}), render);
+    declareStimulus(calls.addCommand("stimulus", {}), stimulus);
     std::set<std::string, std::less<>> words;
-    collectWritten(app, words);
+    collectWritten(calls, words);
     return words;
 }
 
@@ -69,7 +58,7 @@ std::string writtenWordFault(std::string_view call) {
     return {};
 }
 
-std::string linkOfCallFault(CLI::App& app, const std::string& folder) {
+std::string linkOfCallFault(const OptionTable& app, const std::string& folder) {
     CallFiles files;
     collect(app, files);
     for (const std::string& path : files.inputs)
@@ -77,7 +66,7 @@ std::string linkOfCallFault(CLI::App& app, const std::string& folder) {
     return {};
 }
 
-std::string clashOfCall(CLI::App& app) {
+std::string clashOfCall(const OptionTable& app) {
     CallFiles files;
     collect(app, files);
     return fileClash(files.outputs, files.inputs);

@@ -2,25 +2,22 @@
 // Which words of a call name files that it writes; all others may name files that it reads. And what of it a
 // call in somebody's file may do.
 #pragma once
-#include <CLI/CLI.hpp>
+#include "Options/OptionTable.h"
 #include <string>
 #include <string_view>
 
 namespace physvib {
 
-/// ->check(writtenFile) on an option: its value names a file to be written.
-inline const CLI::Validator writtenFile{[](std::string&) { return std::string{}; }, "", "written file"};
-
 /// Empty, or that what was parsed names a file to be written that it reads, or one file to be written twice.
 /// M.
-std::string clashOfCall(CLI::App& app);
+std::string clashOfCall(const OptionTable& app);
 
 /// Empty, or that a call "render ..." or "stimulus ..." of a file names a file to be written: it has an
-/// option that the parser knows as one (writtenFile), wherever it stands. M.
+/// option that the table knows as one (Option::written), wherever it stands. M.
 std::string writtenWordFault(std::string_view call);
 
 /// Empty, or that what was parsed of a file's call reads a file through a link that leads out of its folder
 /// (see linkFault). M.
-std::string linkOfCallFault(CLI::App& app, const std::string& folder);
+std::string linkOfCallFault(const OptionTable& app, const std::string& folder);
 
 } // namespace physvib

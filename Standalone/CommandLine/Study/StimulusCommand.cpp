@@ -1,17 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a stimulus to a WAV file and a picture.
 #include "CommandLine/Study/StimulusCommand.h"
-#include "CommandLine/Render/LayoutNamed.h"
+#include "CommandLine/Command.h"
+#include "Jobs/LayoutNamed.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"
+#include "Core/SamplePeak.h"
 #include "Pictures/RenderPicture.h"
 #include "Session/StimulusRender.h"
+#include "Host/Recordings/ReadRecording.h"
 #include "Host/Recordings/WavSink.h"
-#include <CLI/CLI.hpp>
+#include "Jobs/MakeStimulus.h"
+#include <filesystem>
 #include <optional>
 
 namespace physvib {
 namespace {
+
+/// A stimulus on its way to its files.
+struct MadeStimulus {
+    std::string title;
+    std::vector<CollisionEvent> events; ///< none: a recording
+    StimulusSound sound;
+};
+
+std::string titleOf(const StimulusJob& job, const StimulusOptions& o) {
+    const auto* const phantom = std::get_if<PhantomJob>(&job.what);
+    if (phantom == nullptr) return o.pattern.label;
+    if (!phantom->recording.empty()) return std::filesystem::path{phantom->recording}.filename().string();
+    return o.cell.empty() ? "phantom at " + o.at : "phantom " + o.cell + " of " + o.grid;
+}
+
+/// The recording of a phantom, as samples at its own rate.
+Result<StimulusSound> placed(const PhantomJob& phantom, double levelG, const LayoutDescription& layout) {
+    auto recording = readRecording(phantom.recording);
+    if (!recording) return recording;
+    if (recording.value.channels.size() != 1) return Failure{phantom.recording + ": expected one channel, found " + std::to_string(recording.value.channels.size())};
+    if (const auto note = takeSlowPart(recording.value, phantom.recording, peakOf(recording.value.channels.front())); !note.empty()) tell(note);
+    const EnchanterLayout& places = layout.geometry;
+    return placeRecording(recording.value, phantom.place(), levelG, {places, phantom.law, phantom.exponent, places.extentWidthMetres, places.extentHeightMetres}, layout);
+}
+
+Result<StimulusSound> soundOf(const StimulusJob& job, const StimulusOptions& o, const LayoutDescription& layout, std::vector<CollisionEvent>& events) {
+    if (const auto* const phantom = std::get_if<PhantomJob>(&job.what); phantom != nullptr && !phantom->recording.empty()) return placed(*phantom, job.levelG, layout);
+    auto stimulus = makeStimulus(job, layout);
+    if (!stimulus) return Failure{stimulus.error};
+    events = stimulus.value.events;
+    return renderStimulus(stimulus.value, layout, o.sampleRateHz);
+}
 
 void writeWav(const StimulusSound& sound, WavSink& sink) {
     std::vector<const float*> at;
@@ -37,7 +73,7 @@ std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const 
     picture.subtitle = "a stimulus";
     picture.fieldWidthMetres = layout.geometry.extentWidthMetres;
     picture.fieldHeightMetres = layout.geometry.extentHeightMetres;
-    picture.events = made.stimulus.events;
+    picture.events = made.events;
     picture.layout = layout.geometry;
     for (const auto& enchanter : layout.enchanters) picture.labels.push_back(enchanter.label);
     picture.waveform = &whole;
@@ -50,7 +86,7 @@ std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const 
 }
 
 int write(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescription& layout) {
-    const std::string provenance = provenanceLine({PHYSVIB_VERSION, {{"stimulus", made.title}, {"layout", o.layout}, {"level_g", numberText(o.levelG)}}});
+    const std::string provenance = provenanceLine({PHYSVIB_VERSION, {{"stimulus", made.title}, {"layout", o.job.layout}, {"level_g", numberText(o.job.levelG)}}});
     std::optional<WavSink> wav;
     if (!o.wavPath.empty()) {
         writeWav(made.sound, wav.emplace(o.wavPath, static_cast<int>(made.sound.channels.size()), made.sound.sampleRateHz, provenance));
@@ -70,20 +106,21 @@ int list(const StimulusOptions& o) {
 
 } // namespace
 
-int runStimulus(const CLI::App& command, const StimulusOptions& o) {
-    if (command.got_subcommand("list")) return list(o);
-    const auto layout = layoutNamed(o.layout);
+int runStimulus(const OptionTable& command, const StimulusOptions& o) {
+    if (command.isCalled("list")) return list(o);
+    const auto layout = layoutNamed(o.job.layout);
     if (!layout) return leave(exitFailed, layout.error);
-    MadeStimulus made = makeStimulus(command, o, layout.value);
-    if (!made.usage.empty()) return leave(exitUsage, "stimulus: " + made.usage);
+    const auto job = readStimulus(command, o);
+    if (!job) return leave(exitUsage, "stimulus: " + job.error);
+    if (const auto fault = layoutFault(job.value, layout.value); !fault.empty()) return leave(exitUsage, "stimulus: " + fault);
     if (o.wavPath.empty() && o.picturePath.empty()) return leave(exitUsage, "stimulus: nothing to write; give --out or --picture");
-    if (!made.note.empty()) tell(made.note);
-    if (o.recording.empty() && made.error.empty()) {
-        auto sound = renderStimulus(made.stimulus, layout.value, o.sampleRateHz);
-        made.error = sound.error;
-        made.sound = std::move(sound.value);
-    }
-    return made.error.empty() ? write(made, o, layout.value) : leave(exitFailed, made.error);
+    MadeStimulus made{titleOf(job.value, o), {}, {}};
+    auto sound = soundOf(job.value, o, layout.value, made.events);
+    if (!sound) return leave(exitFailed, sound.error);
+    made.sound = std::move(sound.value);
+    return write(made, o, layout.value);
 }
+
+Command stimulusCommand() { return commandOf("stimulus", "a single stimulus of a study", declareStimulus, runStimulus); }
 
 } // namespace physvib

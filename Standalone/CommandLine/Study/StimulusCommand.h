@@ -6,6 +6,6 @@
 namespace physvib {
 
 /// Makes what `command` has parsed; the code to leave with.
-int runStimulus(const CLI::App& command, const StimulusOptions& options);
+int runStimulus(const OptionTable& command, const StimulusOptions& options);
 
 } // namespace physvib

@@ -1,43 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of `physvib stimulus`, and the stimulus that they say.
+// The words of `physvib stimulus`, and the value that they say: the words with which rows of studies say it (stimulusWords).
 #pragma once
-#include "Session/StimulusRender.h"
+#include "Files/Result.h"
+#include "Study/StimulusJob.h"
 #include <string>
-
-namespace CLI {
-class App;
-}
 
 namespace physvib {
 
-/// As given on the command line.
+class OptionTable;
+
+/// As given on the command line: values where a word is one, and text.
 struct StimulusOptions {
-    std::string pattern;           ///< "ABA-250"
-    std::string recording;         ///< path of a WAV file
+    PatternJob pattern;
+    PhantomJob phantom;
+    StimulusJob job;               ///< what both have
     std::string grid, cell, at;    ///< "5x5", "2,3"; or "0.25,0.5"
-    std::string points = "corners";
-    std::string layout = "phone4";
-    std::string law = "linear";
-    double exponent = 1.0;
-    std::string frequency = "205"; ///< Hz, or "resonance": that of the layout's actuators
-    double levelG = 1.0, seconds = 1.0, gapSeconds = 0.1;
+    std::string points = "corners", law = "linear", frequency = "205";
     int sampleRateHz = 48000;
     int enchanters = 4;            ///< of `stimulus list`
     std::string wavPath, picturePath;
 };
 
-/// A stimulus on its way to a file or a hand; `usage` says what is wrong with the call, `error` with a file or a level.
-struct MadeStimulus {
-    std::string usage, error, title;
-    std::string note; ///< on what was taken away from a recording; mostly empty
-    Stimulus stimulus; ///< empty events: a recording
-    StimulusSound sound;
-};
-
 /// Declares pattern, phantom, wav and list as subcommands of `command`.
-void declareStimulus(CLI::App& command, StimulusOptions& options);
+void declareStimulus(OptionTable& command, StimulusOptions& options);
 
-/// What `command` has parsed (not list), on that layout; recordings as samples, all else as events. M only.
-MadeStimulus makeStimulus(const CLI::App& command, const StimulusOptions& options, const LayoutDescription& layout);
+/// What `command` has parsed (not list), without a fault; or what is wrong with its words. M only.
+Result<StimulusJob> readStimulus(const OptionTable& command, const StimulusOptions& options);
 
 } // namespace physvib

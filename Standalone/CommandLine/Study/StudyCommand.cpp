@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every participant, one after the other, answered by the observer.
 #include "CommandLine/Study/StudyCommand.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Process.h"
 #include "CommandLine/Render/RenderOptions.h"
-#include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "CommandLine/Study/StudyRun.h"
 #include "Files/LevelsFile.h"
 #include "Files/ProtocolFile.h"
 #include "Files/StudyCsv.h"
 #include "Host/Recordings/LoadContact.h"
-#include "Render/InRange.h"
+#include "Jobs/StudyRun.h"
+#include "Studies/StudyCalls.h"
 #include "Study/SimulatedObserver.h"
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <thread>
 
@@ -36,15 +35,16 @@ void showProgress(const Participant& participant, int trials) {
 }
 
 /// One participant from the first trial without an answer to the last; the reason if it fails.
-std::string runParticipant(const Protocol& protocol, const Participant& participant, const ObserverSettings& settings, const StudyOptions& o) {
-    StudyRun study{o.folder, protocol, participant};
+std::string runParticipant(const StudyRun& run, const ObserverSettings& settings, double paceSeconds) {
+    if (auto fault = faultOf(run); !fault.empty()) return fault;
+    StudyInProgress study{run};
     if (!study.error().empty()) return study.error();
     const Experiment& experiment = study.experiment();
-    const SimulatedObserver observer{settings, protocol, participant};
+    const SimulatedObserver observer{settings, run.protocol, run.participant};
     while (!experiment.isDone()) {
-        if (o.paceSeconds > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(o.paceSeconds));
+        if (paceSeconds > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(paceSeconds));
         if (!study.take(observer.answer(experiment))) return study.error();
-        showProgress(participant, experiment.trialsTaken());
+        showProgress(run.participant, experiment.trialsTaken());
     }
     const int before = study.trialsBefore();
     std::cout << study.path().string() << "  " << experiment.trialsTaken() << " trials" << (before > 0 ? ", " + std::to_string(before) + " of them there before" : std::string{}) << '\n';
@@ -79,8 +79,8 @@ int run(const StudyOptions& o) {
     std::filesystem::create_directories(o.folder, fault);
     if (fault) return leave(exitFailed, o.folder + ": cannot be made: " + fault.message());
     for (int number = o.number; number < o.number + o.participants; ++number) {
-        const Participant participant{codeOf(o, number), number, o.observer};
-        if (auto error = runParticipant(protocol.value, participant, *settings, o); !error.empty()) return leave(exitFailed, error);
+        const StudyRun one{protocol.value, {codeOf(o, number), number, o.observer}, o.folder};
+        if (auto error = runParticipant(one, *settings, o.paceSeconds); !error.empty()) return leave(exitFailed, error);
     }
     tellIfSimulated(true);
     return exitDone;
@@ -105,32 +105,33 @@ int levels(const StudyOptions& o) {
 
 } // namespace
 
-void declareStudy(CLI::App& command, StudyOptions& o) {
-    command.require_subcommand(1);
-    command.add_subcommand("list", "the built-in protocols, one per line");
-    CLI::App* const show = command.add_subcommand("show", "a protocol as JSON, to start your own from");
-    CLI::App* const run = command.add_subcommand("run", "runs a study, or goes on with it where it was cut off");
-    CLI::App* const levels = command.add_subcommand("levels", "averages what experts set in a protocol's adjustments, for the levels_file of another");
-    levels->add_option("--out", o.levelsPath, "a level per stimulus")->type_name("FILE.csv")->required()->check(writtenFile);
-    for (CLI::App* one : {show, run, levels}) one->add_option("protocol", o.protocol, "a built-in protocol or PROTOCOL.json")->required();
-    levels->add_option("trials", o.trials, "trial files of that protocol")->type_name("TRIALS.csv")->required();
-    run->add_option("--observer", o.observer, "who answers: " + std::string(observerNames));
-    run->add_option("--participant", o.participant, "code of the participant; no other personal data is kept")->type_name("CODE");
-    run->add_option("--number", o.number, "number of the (first) participant: decides orders")->check(inRange(1, 100000))->capture_default_str();
-    run->add_option("--participants", o.participants, "how many, one after the other")->check(inRange(1, 1000))->capture_default_str();
-    run->add_option("--sound", o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated")->type_name("HZ=FILE.wav")->allow_extra_args(false);
-    run->add_option("--out", o.folder, "folder of the trial files, NAME-CODE.csv")->type_name("FOLDER")->capture_default_str();
-    run->add_option("--pace", o.paceSeconds, "seconds per trial of a simulated observer")->check(inRange(0.0, 60.0))->capture_default_str();
+void declareStudy(OptionTable& command, StudyOptions& o) {
+    command.addCommand("list", "the built-in protocols, one per line");
+    OptionTable& show = command.addCommand("show", "a protocol as JSON, to start your own from");
+    OptionTable& run = command.addCommand("run", "runs a study, or goes on with it where it was cut off");
+    OptionTable& levels = command.addCommand("levels", "averages what experts set in a protocol's adjustments, for the levels_file of another");
+    levels.add("--out", o.levelsPath, "a level per stimulus").written("FILE.csv").required();
+    for (OptionTable* const one : {&show, &run, &levels}) one->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
+    levels.add("trials", o.trials, "trial files of that protocol").as("TRIALS.csv").required();
+    run.add("--observer", o.observer, "who answers: " + std::string(observerNames));
+    run.add("--participant", o.participant, "code of the participant; no other personal data is kept").as("CODE");
+    run.add("--number", o.number, "number of the (first) participant: decides orders").in(1, 100000);
+    run.add("--participants", o.participants, "how many, one after the other").in(1, 1000);
+    run.add("--sound", o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated").as("HZ=FILE.wav").single();
+    run.add("--out", o.folder, "folder of the trial files, NAME-CODE.csv").as("FOLDER");
+    run.add("--pace", o.paceSeconds, "seconds per trial of a simulated observer").in(0.0, 60.0);
 }
 
-int runStudy(const CLI::App& command, const StudyOptions& o) {
-    if (command.got_subcommand("list")) return list();
-    if (command.got_subcommand("run")) return run(o);
-    if (command.got_subcommand("levels")) return levels(o);
+int runStudy(const OptionTable& command, const StudyOptions& o) {
+    if (command.isCalled("list")) return list();
+    if (command.isCalled("run")) return run(o);
+    if (command.isCalled("levels")) return levels(o);
     const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
     std::cout << protocolJson(protocol.value);
     return exitDone;
 }
+
+Command studyCommand() { return commandOf("study", "whole studies, from a protocol", declareStudy, runStudy); }
 
 } // namespace physvib

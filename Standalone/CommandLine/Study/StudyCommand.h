@@ -4,11 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace physvib {
+
+class OptionTable;
 
 /// As given on the command line.
 struct StudyOptions {
@@ -25,9 +23,9 @@ struct StudyOptions {
 };
 
 /// Declares list, show, run and levels as subcommands of `command`.
-void declareStudy(CLI::App& command, StudyOptions& options);
+void declareStudy(OptionTable& command, StudyOptions& options);
 
 /// Does what `command` has parsed; the code to leave with.
-int runStudy(const CLI::App& command, const StudyOptions& options);
+int runStudy(const OptionTable& command, const StudyOptions& options);
 
 } // namespace physvib

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Design, plan, tasks, index.
-#include "CommandLine/Sweep/SweepCommand.h"
-#include "CommandLine/ExitCode.h"
+#include "CommandLine/Command.h"
 #include "CommandLine/Sweep/SweepIndex.h"
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/Sweep/SweepSlurm.h"
@@ -9,14 +8,23 @@
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/Text/NumberText.h"
-#include "Render/InRange.h"
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace physvib {
 namespace {
+
+struct SweepOptions {
+    std::string design, folder;
+    int jobs = 0; ///< 0: as many as there are processors for this program
+    bool keepsWavs = false, keepsEvents = false;
+    bool plans = false, gathers = false, submits = false; ///< instead of rendering here
+    std::string part;                                     ///< "K/N"
+    std::vector<std::string> slurmWords;
+};
 
 constexpr int mostJobs = 1024;
 
@@ -78,19 +86,17 @@ int render(const SweepPlan& plan, const SweepFolder& folder, const SweepPart& pa
     return gather(plan, folder, ", " + std::to_string(tally.rendered) + " rendered now");
 }
 
-} // namespace
-
-void declareSweep(CLI::App& command, SweepOptions& o) {
-    command.add_option("design", o.design, "which renders: scenes, variables, seeds, layouts, laws, methods, options")->required()->type_name("DESIGN.json");
-    command.add_option("--out", o.folder, "the folder: index.csv, a row per task; tasks, a file for each that is done. The same call goes on where it was cut off")->type_name("FOLDER");
-    command.add_option("--jobs", o.jobs, "renders at once; all processors unless told")->check(inRange(1, mostJobs));
-    command.add_flag("--wav", o.keepsWavs, "keep each task's samples as well");
-    command.add_flag("--events", o.keepsEvents, "keep each task's event list as well");
-    command.add_flag("--plan,--dry-run", o.plans, "only say how many tasks there are and how many are done, and the first of them");
-    command.add_flag("--gather", o.gathers, "only write the index of what is done");
-    command.add_option("--part", o.part, "only every N-th task, from the K-th on, and no index: for several machines")->type_name("K/N");
-    command.add_flag("--slurm", o.submits, "write an array of jobs for Slurm and submit it with sbatch");
-    command.add_option("--sbatch", o.slurmWords, "of --slurm: an option of sbatch, as --sbatch=--time=10:00; may be repeated")->type_name("WORD")->allow_extra_args(false);
+void declareSweep(OptionTable& command, SweepOptions& o) {
+    command.add("design", o.design, "which renders: scenes, variables, seeds, layouts, laws, methods, options").required().as("DESIGN.json");
+    command.add("--out", o.folder, "the folder: index.csv, a row per task; tasks, a file for each that is done. The same call goes on where it was cut off").as("FOLDER");
+    command.add("--jobs", o.jobs, "renders at once; all processors unless told").in(1, mostJobs);
+    command.add("--wav", o.keepsWavs, "keep each task's samples as well");
+    command.add("--events", o.keepsEvents, "keep each task's event list as well");
+    command.add("--plan,--dry-run", o.plans, "only say how many tasks there are and how many are done, and the first of them");
+    command.add("--gather", o.gathers, "only write the index of what is done");
+    command.add("--part", o.part, "only every N-th task, from the K-th on, and no index: for several machines").as("K/N");
+    command.add("--slurm", o.submits, "write an array of jobs for Slurm and submit it with sbatch");
+    command.add("--sbatch", o.slurmWords, "of --slurm: an option of sbatch, as --sbatch=--time=10:00; may be repeated").as("WORD").single();
 }
 
 int runSweep(const SweepOptions& o) {
@@ -111,5 +117,9 @@ int runSweep(const SweepOptions& o) {
     if (auto fault = folder.prepare(text.value); !fault.empty()) return leave(exitFailed, fault);
     return o.submits ? submit(plan.value, folder, o) : render(plan.value, folder, *part, o);
 }
+
+} // namespace
+
+Command sweepCommand() { return commandOf("sweep", "many renders of a design as a table of numbers, on all processors or a cluster", declareSweep, runSweep); }
 
 } // namespace physvib

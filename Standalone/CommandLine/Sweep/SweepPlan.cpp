@@ -7,6 +7,7 @@
 #include "Files/Disk/ContentHash.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
+#include "Options/Parser.h"
 #include <filesystem>
 
 namespace physvib {
@@ -27,18 +28,15 @@ const EmbeddedFile* embeddedScene(const std::string& name) {
 
 Result<RenderOptions> renderOptionsOf(const std::string& call) {
     if (auto fault = writtenWordFault(call); !fault.empty()) return Failure{fault};
-    CLI::App words;
+    OptionTable words{"physvib", {}};
     RenderOptions options;
-    CLI::App* const render = words.add_subcommand("render");
-    declareRenderOptions(*render, options);
-    try {
-        words.parse(call, false);
-    } catch (const CLI::ParseError& fault) {
-        if (fault.get_exit_code() == 0) return Failure{"expected words that say what is rendered, found a call for help"};
-        return Failure{words.remaining().empty() ? fault.what() : "unknown: " + words.remaining().front()};
-    }
+    OptionTable& render = words.addCommand("render", {});
+    declareRenderOptions(render, options);
+    const ParsedWords parsed = parseText(words, call);
+    if (!parsed.help.empty()) return Failure{"expected words that say what is rendered, found a call for help"};
+    if (!parsed.fault.empty()) return Failure{parsed.reason()};
     if (auto fault = linkOfCallFault(words, {}); !fault.empty()) return Failure{fault};
-    noteGiven(*render, options);
+    noteGiven(render, options);
     if (auto fault = checkRenderInputs(options); !fault.empty()) return Failure{fault};
     return options;
 }

@@ -210,18 +210,21 @@ ListeningSettings StudiesTab::listening() const {
     return l;
 }
 
-Participant StudiesTab::participant() const { return {code_.getText().toStdString(), std::clamp(number_.getText().getIntValue(), 1, 100000), "person"}; }
+StudyRun StudiesTab::run() const {
+    return {*protocol_, {code_.getText().toStdString(), std::clamp(number_.getText().getIntValue(), 1, 100000), "person"}, pathOf(folder_.getText())};
+}
 
 /// Whether there is something to go on with.
 void StudiesTab::look() {
     if (!protocol_) return;
-    const auto path = trialFile(pathOf(folder_.getText()), *protocol_, participant());
+    const StudyRun chosen = run();
+    const auto path = chosen.trialFile();
     std::error_code none;
     begin_.setEnabled(!code_.isEmpty());
     if (code_.isEmpty()) return begin_.setButtonText("Begin"), say("Expected a code", Shade::muted);
     if (!std::filesystem::exists(path, none)) return begin_.setButtonText("Begin"), say("The rows will be in " + utf8(path.filename().string()), Shade::muted);
     const auto text = readFile(path, limits::maxTableBytes);
-    const auto log = text ? readTrialLog(text.value, path.string(), *protocol_, participant()) : Result<TrialLog>{Failure{text.error}};
+    const auto log = text ? readTrialLog(text.value, path.string(), chosen.protocol, chosen.participant) : Result<TrialLog>{Failure{text.error}};
     begin_.setButtonText("Go on");
     if (log) say(utf8(path.filename().string()) + " has " + juce::String{static_cast<int>(log.value.records.size())} + " trials: it goes on behind them" + exposureWords(log.value.records), Shade::text);
     else say(utf8(log.error), Shade::limit);
@@ -238,12 +241,13 @@ std::string StudiesTab::begin() {
     auto* view = findParentComponentOfClass<MixerView>();
     if (screen_ || analysis_ || !protocol_ || view == nullptr) return "expected a mixer without a study";
     if (code_.isEmpty()) return refuse("expected a participant's code");
+    if (auto fault = faultOf(run()); !fault.empty()) return refuse(fault);
     if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
     auto words = findWords(wordsPath_.empty() ? besideProtocol(protocol_->folder, protocol_->words) : wordsPath_);
     if (!words) return refuse(words.error);
     const auto typeface = typefaceFor(words.value);
     if (!typeface) return refuse("expected a font with the letters of " + words.value.name + ", found none; on Debian, fonts-nanum has Korean ones");
-    auto study = std::make_unique<StudyRun>(pathOf(folder_.getText()), *protocol_, participant());
+    auto study = std::make_unique<StudyInProgress>(run());
     if (!study->error().empty()) return refuse(study->error());
     if (auto fault = desk_.device().listening().hear(listening()); !fault.empty()) return refuse(fault);
     screen_ = std::make_unique<StudyScreen>(desk_, std::move(study), std::move(words.value), answersChoice_.getSelectedId() == answersElsewhereId);
@@ -265,7 +269,7 @@ void StudiesTab::cover(MixerView& view, juce::Component& screen) {
 void StudiesTab::analyse(std::vector<juce::File> files) {
     auto* view = findParentComponentOfClass<MixerView>();
     if (screen_ || analysis_ || !protocol_ || view == nullptr) return;
-    if (files.empty()) files.emplace_back(trialFile(pathOf(folder_.getText()), *protocol_, participant()).string());
+    if (files.empty()) files.emplace_back(run().trialFile().string());
     analysis_ = std::make_unique<AnalysisScreen>(desk_, files);
     analysis_->onClose = [this] { end(); };
     cover(*view, *analysis_);

@@ -57,7 +57,7 @@ private:
     void browseWords();
     ListeningSettings listening() const;
     void say(const juce::String& words, Shade shade);
-    Participant participant() const;
+    StudyRun run() const; ///< what is chosen; there is a protocol
 
     Desk& desk_;
     std::optional<Protocol> protocol_;

@@ -77,14 +77,9 @@ private:
 /// For the trial at hand; all outlive it. M.
 std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout, const StudyWords& words);
 
-// The parts that it chooses from.
+// Those of files of their own.
 std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition, const LayoutDescription& layout, const StudyWords& words);
 std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDescription& layout);
 std::unique_ptr<StudyAnswer> makePlaceAnswer(const LayoutDescription& layout);
-std::unique_ptr<StudyAnswer> makeLabelAnswer(const ConditionPlan& condition, const StudyWords& words);
-std::unique_ptr<StudyAnswer> makeChoiceAnswer(const Trial& trial, const StudyWords& words);
-std::unique_ptr<StudyAnswer> makeRatingAnswer(const SessionPlan& session, const StudyWords& words);
-std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment, double startDb, const StudyWords& words);
-std::unique_ptr<StudyAnswer> makeNumberAnswer();
 
 } // namespace physvib

@@ -257,20 +257,10 @@ private:
     } number_;
 };
 
-} // namespace
-
-std::unique_ptr<StudyAnswer> makeLabelAnswer(const ConditionPlan& condition, const StudyWords& words) { return std::make_unique<LabelAnswer>(condition, words); }
-std::unique_ptr<StudyAnswer> makeChoiceAnswer(const Trial& trial, const StudyWords& words) { return std::make_unique<ChoiceAnswer>(trial, words); }
-std::unique_ptr<StudyAnswer> makeRatingAnswer(const SessionPlan& session, const StudyWords& words) { return std::make_unique<RatingAnswer>(session, words); }
-std::unique_ptr<StudyAnswer> makeAdjustAnswer(const Adjustment& adjustment, double startDb, const StudyWords& words) { return std::make_unique<AdjustAnswer>(adjustment, startDb, words); }
-std::unique_ptr<StudyAnswer> makeNumberAnswer() { return std::make_unique<NumberAnswer>(); }
-
-namespace {
-
 std::unique_ptr<StudyAnswer> labelled(const ConditionPlan& condition, const LayoutDescription& layout, const StudyWords& words) {
     if (std::holds_alternative<PatternSet>(condition.stimuli)) return makePatternAnswer(condition, layout, words);
     if (const auto* grid = std::get_if<GridSet>(&condition.stimuli)) return makeCellAnswer(*grid, layout);
-    return makeLabelAnswer(condition, words);
+    return std::make_unique<LabelAnswer>(condition, words);
 }
 
 } // namespace
@@ -281,10 +271,10 @@ std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const
     case StudyTask::explore: return session.fewestTouches > 0 ? makePlaceAnswer(layout) : labelled(experiment.condition(), layout, words);
     case StudyTask::identify: return labelled(experiment.condition(), layout, words);
     case StudyTask::locate: return makePlaceAnswer(layout);
-    case StudyTask::choose: return makeChoiceAnswer(experiment.trial(), words);
-    case StudyTask::rate: return makeRatingAnswer(session, words);
-    case StudyTask::adjust: return makeAdjustAnswer(*session.adjustment, experiment.trial().levelDb, words);
-    case StudyTask::estimate: return makeNumberAnswer();
+    case StudyTask::choose: return std::make_unique<ChoiceAnswer>(experiment.trial(), words);
+    case StudyTask::rate: return std::make_unique<RatingAnswer>(session, words);
+    case StudyTask::adjust: return std::make_unique<AdjustAnswer>(*session.adjustment, experiment.trial().levelDb, words);
+    case StudyTask::estimate: return std::make_unique<NumberAnswer>();
     }
     return nullptr;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From page to page; what keys do.
 #include "Mixer/Studies/StudyScreen.h"
-#include "CommandLine/Render/LayoutNamed.h"
+#include "Jobs/LayoutNamed.h"
 #include "Files/ProtocolFile.h"
 #include "Mixer/Window/Parts.h"
 
@@ -19,13 +19,13 @@ TrialRecord firstRecord(const Protocol& protocol, std::size_t condition, std::si
         record.trial.parts.push_back(a.name);
         record.trial.partLevelsDb.push_back(a.levelDb);
     }
-    if (s.task == StudyTask::rate) record.trial.parts = s.objects;
+    if (!s.objects.empty()) record.trial.parts = s.objects;
     return record;
 }
 
-std::string callFault(Desk& desk, const Protocol& protocol, const ConditionPlan& condition, const std::string& call) {
-    if (!std::holds_alternative<WorldSet>(condition.stimuli)) return StudySound::make(desk, call, protocol.folder).error;
-    const auto world = worldOfCall(call, protocol.folder);
+std::string jobFault(Desk& desk, const Protocol& protocol, const ConditionPlan& condition, const TrialJob& job) {
+    if (!std::holds_alternative<WorldSet>(condition.stimuli)) return StudySound::make(desk, job, protocol.folder).error;
+    const auto world = feltWorld(std::get<WrittenCall>(job), protocol.folder);
     return world ? StudyWorld::refusal(desk, world.value) : world.error;
 }
 
@@ -34,12 +34,12 @@ std::string callFault(Desk& desk, const Protocol& protocol, const ConditionPlan&
 std::string feltFault(const Protocol& protocol, Desk& desk) {
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
-            for (const std::string& call : partCallsOf(protocol, firstRecord(protocol, c, s)))
-                if (auto fault = callFault(desk, protocol, protocol.conditions[c], call); !fault.empty()) return fault;
+            for (const TrialJob& job : jobsOf(protocol, firstRecord(protocol, c, s)))
+                if (auto fault = jobFault(desk, protocol, protocol.conditions[c], job); !fault.empty()) return fault;
     return {};
 }
 
-StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyRun> study, Words words, bool answersElsewhere)
+StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words, bool answersElsewhere)
     : desk_{desk}
     , study_{std::move(study)}
     , say_{std::move(words)}

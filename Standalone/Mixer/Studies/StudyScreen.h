@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window as a participant sees it: breaks, stimuli to be felt, the answer, the end. What is asked and what is kept is
-// StudyRun's business: this is only somebody who answers.
+// StudyInProgress' business: this is only somebody who answers.
 #pragma once
-#include "CommandLine/Study/StudyRun.h"
+#include "Jobs/StudyRun.h"
 #include "Mixer/Studies/StudySound.h"
 #include "Mixer/Studies/StudyWorldPane.h"
 #include "Mixer/Studies/StudyAnswerPane.h"
@@ -13,12 +13,12 @@ namespace physvib {
 class StudyScreen final : public juce::Component {
 public:
     /// With `answersElsewhere`, answers are given in a window of its own, on another display if there is one.
-    StudyScreen(Desk& desk, std::unique_ptr<StudyRun> study, Words words = {}, bool answersElsewhere = false);
+    StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words = {}, bool answersElsewhere = false);
     ~StudyScreen() override;
 
     std::function<void()> onClose; ///< the participant has finished, or leaves: everything answered is in the file
 
-    const StudyRun& study() const noexcept { return *study_; }
+    const StudyInProgress& study() const noexcept { return *study_; }
     const StudyWords& words() const noexcept { return say_; }
     enum class Page { pause, trial, comment, done, exposed, fault };
     Page page() const noexcept { return page_; }
@@ -70,7 +70,7 @@ private:
     const Experiment& experiment() const noexcept { return study_->experiment(); }
 
     Desk& desk_;
-    std::unique_ptr<StudyRun> study_;
+    std::unique_ptr<StudyInProgress> study_;
     const StudyWords say_;
     StudySound sound_;
     StudyWorldPane pane_;

@@ -5,7 +5,7 @@
 
 namespace physvib {
 
-bool StudyScreen::isExploring() const { return experiment().trial().task == StudyTask::explore; }
+bool StudyScreen::isExploring() const { return experiment().session().answer() == AnswerKind::wish; }
 
 bool StudyScreen::canAnswer() const { return progress_->canAnswer() && !isFeeling(); }
 
@@ -36,12 +36,12 @@ void StudyScreen::play(std::size_t part) {
 
 std::string StudyScreen::begin(std::size_t part) {
     const TrialRecord asked{experiment().trial(), exploring_.value_or(answers_->answer())};
-    const auto call = partCallsOf(study_->protocol(), asked)[part];
+    const auto job = jobsOf(study_->protocol(), asked)[part];
     if (worldSet() == nullptr) {
-        const auto stimulus = StudySound::make(desk_, call, study_->protocol().folder);
+        const auto stimulus = StudySound::make(desk_, job, study_->protocol().folder);
         return stimulus ? sound_.play(stimulus.value) : stimulus.error;
     }
-    auto world = worldOfCall(call, study_->protocol().folder);
+    auto world = feltWorld(std::get<WrittenCall>(job), study_->protocol().folder);
     if (!world) return world.error;
     const auto number = std::to_string(experiment().trialsTaken() + 1);
     const auto name = "trial-" + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + "-" + std::to_string(sessions_.size() + 1) + ".json";

@@ -39,8 +39,8 @@ void StudyScreen::updateParts() {
         auto& button = *parts_[i];
         const bool isPlaying = isFeeling() && part_ == i, wasFelt = progress_->plays(i) > 0;
         juce::String words = parts_.size() == 1 ? say_(wasFelt ? "Feel it again" : "Feel it") : juce::String{static_cast<int>(i) + 1};
-        if (trial.task == StudyTask::rate && !trial.parts.empty() && worldSet() == nullptr) words += "   " + say_(trial.parts[i]);
-        if (trial.task == StudyTask::adjust && session.adjustment->alternative == trial.parts[i]) words += "   " + say_("to be matched");
+        if (!session.objects.empty() && worldSet() == nullptr) words += "   " + say_(trial.parts[i]);
+        if (session.adjustment && session.adjustment->alternative == trial.parts[i]) words += "   " + say_("to be matched");
         juce::StringArray remarks;
         if (isPlaying) remarks.add(say_("feel it now"));
         else if (hasHands()) remarks.add(say_("key {n}", {{"n", juce::String{static_cast<int>(i) + 1}}}));

@@ -39,7 +39,7 @@ juce::File folder() {
 /// The trials before the wanted one are answered by the observer.
 void answerUntil(const Protocol& protocol, StudyTask task, int trial) {
     const Participant participant{"P01", 1, "person"};
-    StudyRun study{folder().getFullPathName().toStdString(), protocol, participant};
+    StudyInProgress study{{protocol, participant, folder().getFullPathName().toStdString()}};
     const SimulatedObserver observer{{}, protocol, participant};
     const auto isThere = [&] { return study.experiment().isDone() || (study.experiment().trial().task == task && study.experiment().trial().number == trial); };
     while (!isThere()) {
@@ -71,7 +71,7 @@ std::vector<juce::File> simulatedTrials(const std::string& name, int participant
     std::vector<juce::File> files;
     for (int number = 1; number <= participants; ++number) {
         const Participant participant{"S0" + std::to_string(number), number, "simulated-RING"};
-        StudyRun study{folder().getFullPathName().toStdString(), protocol, participant};
+        StudyInProgress study{{protocol, participant, folder().getFullPathName().toStdString()}};
         const SimulatedObserver observer{*observerNamed(participant.observer), protocol, participant};
         while (!study.experiment().isDone() && study.take(observer.answer(study.experiment()))) {}
         files.emplace_back(study.path().string());

@@ -48,21 +48,21 @@ void StudySound::useRecordings(const std::vector<ContactRecording>& recordings) 
     if (!desk_.session().take({PlayedRecordings{recordings}})) desk_.report(noControls);
 }
 
-Result<CallStimulus> StudySound::make(Desk& desk, const std::string& call, const std::string& folder) {
-    auto stimulus = stimulusOfCall(call, desk.output().sampleRateHz() > 0 ? desk.output().sampleRateHz() : 48000, folder);
+Result<FeltStimulus> StudySound::make(Desk& desk, const TrialJob& job, const std::string& folder) {
+    auto stimulus = feltStimulus(job, desk.output().sampleRateHz() > 0 ? desk.output().sampleRateHz() : 48000, folder);
     if (!stimulus) return stimulus;
     if (auto fault = refusal(desk, stimulus.value); !fault.empty()) return Failure{fault};
     return stimulus;
 }
 
-std::string StudySound::refusal(const Desk& desk, const CallStimulus& stimulus) {
+std::string StudySound::refusal(const Desk& desk, const FeltStimulus& stimulus) {
     const int wanted = stimulus.layout.geometry.count, there = desk.mix().count();
     if (!stimulus.recordings.empty() && desk.device().board()) return "--method SV: expected a mixer without the board, which plays no recordings";
     if (wanted <= there) return {};
     return stimulus.layout.name + ": expected " + std::to_string(wanted) + " enchanters in the mixer, found " + std::to_string(there);
 }
 
-std::string StudySound::play(const CallStimulus& stimulus) {
+std::string StudySound::play(const FeltStimulus& stimulus) {
     if (auto fault = refusal(desk_, stimulus); !fault.empty()) return fault;
     const auto& strips = desk_.mix().strips;
     gains_.resize(strips.size());

@@ -2,8 +2,8 @@
 // The desk lent to a study: the world stands still, the channels are the stimulus' enchanters, and what is felt are the
 // trial's own calls. Master level, ceilings, outputs and the silence button stay what they are.
 #pragma once
-#include "CommandLine/Study/CallStimulus.h"
 #include "Mixer/Desk/Desk.h"
+#include "Studies/StudyCalls.h"
 
 namespace physvib {
 
@@ -16,12 +16,12 @@ public:
     StudySound& operator=(const StudySound&) = delete;
 
     /// Why it cannot be felt on that desk; empty if it can.
-    static std::string refusal(const Desk& desk, const CallStimulus& stimulus);
-    /// The stimulus of a call at the desk's rate, if it can be felt there.
-    static Result<CallStimulus> make(Desk& desk, const std::string& call, const std::string& folder = {});
+    static std::string refusal(const Desk& desk, const FeltStimulus& stimulus);
+    /// What a trial is made by, at the desk's rate, if it can be felt there.
+    static Result<FeltStimulus> make(Desk& desk, const TrialJob& job, const std::string& folder = {});
 
     /// Plays it; empty, or the reason. Not while another plays: what was begun is felt to its end, like in the file.
-    std::string play(const CallStimulus& stimulus);
+    std::string play(const FeltStimulus& stimulus);
     bool isPlaying() const;
     double feltSeconds() const; ///< of the last one, so far
     /// What rings fades out, and what is to come is mute until the desk is given back.

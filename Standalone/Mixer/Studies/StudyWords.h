@@ -26,6 +26,7 @@ public:
     juce::String ordinal(int part) const;
 
 private:
+    juce::String lines(const TaskText& text, const ConditionPlan& condition) const;
     juce::String feel(const SessionPlan& session) const;
     Words words_;
     mutable std::set<std::string> missed_;

@@ -13,14 +13,14 @@ constexpr std::int64_t fadeNs = 100'000'000; // longer than whatever rings takes
 
 } // namespace
 
-std::string StudyWorld::refusal(const Desk& desk, const CallWorld& world) {
+std::string StudyWorld::refusal(const Desk& desk, const FeltWorld& world) {
     const int wanted = world.layout.geometry.count, there = desk.mix().count();
     if (desk.device().board()) return "a world: expected a mixer without the board, which follows one session only";
     if (wanted <= there) return {};
     return world.layout.name + ": expected " + std::to_string(wanted) + " enchanters in the mixer, found " + std::to_string(there);
 }
 
-std::string StudyWorld::begin(CallWorld world, bool hasHands, const std::filesystem::path& file) {
+std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesystem::path& file) {
     finish();
     if (auto fault = refusal(desk_, world); !fault.empty()) return fault;
     setup_ = std::move(world.setup);

@@ -2,11 +2,11 @@
 // A world that a participant watches, feels and may play with: a session of its own on the desk's output, which becomes a file that
 // renders what was felt, to the bit.
 #pragma once
-#include "CommandLine/Study/CallStimulus.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/Views/WorldView.h"
 #include "Mixer/Desk/Desk.h"
 #include "Session/SessionJournal.h"
+#include "Studies/StudyCalls.h"
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -24,11 +24,11 @@ public:
     StudyWorld& operator=(const StudyWorld&) = delete;
 
     /// Why it cannot be felt on that desk; empty if it can.
-    static std::string refusal(const Desk& desk, const CallWorld& world);
+    static std::string refusal(const Desk& desk, const FeltWorld& world);
 
     /// The world begins to move. With hands, what its script does of what hands do is left out, and it goes on until end(); else it
     /// ends after the call's seconds. `file` (.json) keeps it. Empty, or the reason.
-    std::string begin(CallWorld world, bool hasHands, const std::filesystem::path& file);
+    std::string begin(FeltWorld world, bool hasHands, const std::filesystem::path& file);
 
     bool isPlaying() const noexcept { return session_ != nullptr; } ///< it moves, or fades out
     bool isMoving() const noexcept { return isPlaying() && stoppedNs_ < 0; }

@@ -21,7 +21,7 @@ void StudyWorldPane::act(const Action& action) {
     if (const auto fault = world_.act(action); !fault.empty() && onFault) onFault(fault);
 }
 
-std::string StudyWorldPane::begin(CallWorld world, bool hasHands, const std::filesystem::path& file) {
+std::string StudyWorldPane::begin(FeltWorld world, bool hasHands, const std::filesystem::path& file) {
     if (auto fault = world_.begin(std::move(world), hasHands, file); !fault.empty()) return fault;
     hasHands_ = hasHands;
     tilt_.setVisible(hasHands);

@@ -14,7 +14,7 @@ public:
     std::function<void(const std::string& fault)> onFault; ///< a hand did what cannot be done
 
     /// See StudyWorld::begin.
-    std::string begin(CallWorld world, bool hasHands, const std::filesystem::path& file);
+    std::string begin(FeltWorld world, bool hasHands, const std::filesystem::path& file);
     StudyWorld& world() noexcept { return world_; }
     const StudyWorld& world() const noexcept { return world_; }
     WorldView& view() noexcept { return view_; }

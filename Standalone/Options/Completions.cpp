@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Completions for bash, zsh and fish. The first two find out which command is meant by going over the words that stand already.
-#include "CommandLine/Reference/Completions.h"
+#include "Options/Completions.h"
 #include <functional>
 #include <sstream>
 
 namespace physvib {
 namespace {
 
-using Visit = std::function<void(const ListedCommand&)>;
+using Visit = std::function<void(const OptionTable&)>;
 
-void each(const ListedCommand& command, const Visit& visit) {
+void each(const OptionTable& command, const Visit& visit) {
     visit(command);
-    for (const ListedCommand& inner : command.commands) each(inner, visit);
+    for (const OptionTable& inner : command.commands) each(inner, visit);
 }
 
 std::string shellWord(std::string_view text) {
@@ -37,34 +37,32 @@ std::string bracketed(const std::vector<std::string>& words) {
     return out;
 }
 
-std::string lastWord(const ListedCommand& command) { return command.words.substr(command.words.rfind(' ') + 1); }
-
-std::vector<std::string> namesWithin(const ListedCommand& command) {
+std::vector<std::string> namesWithin(const OptionTable& command) {
     std::vector<std::string> names;
-    for (const ListedCommand& inner : command.commands) names.push_back(lastWord(inner));
+    for (const OptionTable& inner : command.commands) names.push_back(inner.name());
     return names;
 }
 
 /// A function's name may hold no hyphen everywhere.
-std::string functionOf(const ListedCommand& program) {
+std::string functionOf(const OptionTable& program) {
     std::string name(1, '_');
     for (const char c : program.words) name += c == '-' ? '_' : c;
     return name;
 }
 
 /// "physvib render"|"physvib play": all that a command may be called beyond the program's own name.
-std::string allCalls(const ListedCommand& program) {
+std::string allCalls(const OptionTable& program) {
     std::string calls;
-    each(program, [&](const ListedCommand& command) {
+    each(program, [&](const OptionTable& command) {
         if (&command != &program) (calls += calls.empty() ? "" : "|") += shellWord(command.words);
     });
     return calls.empty() ? "''" : calls;
 }
 
-void heading(std::ostream& out, const ListedCommand& program) { out << "# SPDX-License-Identifier: GPL-3.0-or-later\n# Completions of " << program.words << ".\n"; }
+void heading(std::ostream& out, const OptionTable& program) { out << "# SPDX-License-Identifier: GPL-3.0-or-later\n# Completions of " << program.words << ".\n"; }
 
 /// Of one option of zsh: '--law[panning law]:TEXT:(linear log)'.
-std::string zshOption(const ListedOption& option, const std::string& spelling) {
+std::string zshOption(const Option& option, const std::string& spelling) {
     std::string text = spelling;
     text += '[';
     for (const char c : option.meaning) {
@@ -72,18 +70,18 @@ std::string zshOption(const ListedOption& option, const std::string& spelling) {
         text += c;
     }
     text += ']';
-    if (!option.value.empty()) (text += ": :") += option.choices.empty() ? "_files" : bracketed(option.choices);
+    if (!option.value().empty()) (text += ": :") += option.choices.empty() ? "_files" : bracketed(option.choices);
     return shellWord(text);
 }
 
-std::string zshPlace(const ListedCommand& command) {
+std::string zshPlace(const OptionTable& command) {
     if (!command.commands.empty()) return shellWord(std::string{"*: :"}.append(bracketed(namesWithin(command))));
-    for (const ListedOption& option : command.options)
+    for (const Option& option : command.options)
         if (option.isPlace && !option.choices.empty()) return shellWord(std::string{"*: :{_alternative \"n: :"}.append(bracketed(option.choices)) + "\" \"f: :_files\"}");
     return "'*: :_files'";
 }
 
-std::string fishCondition(const ListedCommand& program, const ListedCommand& command) {
+std::string fishCondition(const OptionTable& program, const OptionTable& command) {
     if (program.commands.empty()) return {};
     if (&command == &program) return " -n __fish_use_subcommand";
     std::string condition;
@@ -93,35 +91,35 @@ std::string fishCondition(const ListedCommand& program, const ListedCommand& com
     return std::string{" -n "}.append(shellWord(condition));
 }
 
-std::string fishOption(const ListedOption& option) {
+std::string fishOption(const Option& option) {
     std::string words;
     if (!option.isPlace)
         for (const std::string& name : option.spellings) words += name.starts_with("--") ? std::string{" -l "}.append(name, 2) : std::string{" -s "}.append(name, 1);
     if (!option.choices.empty()) words += std::string{option.isPlace ? " -a " : " -x -a "}.append(shellWord(joinedWords(option.choices)));
-    else if (!option.isPlace && !option.value.empty()) words += " -r";
+    else if (!option.isPlace && !option.value().empty()) words += " -r";
     if (!option.meaning.empty()) (words += " -d ") += shellWord(option.meaning);
     return words;
 }
 
 } // namespace
 
-std::string bashCompletion(const ListedCommand& program) {
+std::string bashCompletion(const OptionTable& program) {
     std::ostringstream out;
     heading(out, program);
     out << functionOf(program) << "() {\n    local word call=" << program.words << " choices=\n"
         << "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
         << "    for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n        case \"$call $word\" in " << allCalls(program) << ") call=\"$call $word\" ;; esac\n    done\n"
         << "    case \"$call $previous\" in\n";
-    each(program, [&](const ListedCommand& command) {
-        for (const ListedOption& option : command.options)
+    each(program, [&](const OptionTable& command) {
+        for (const Option& option : command.options)
             for (const std::string& name : option.spellings)
-                if (!option.isPlace && !option.value.empty())
+                if (!option.isPlace && !option.value().empty())
                     out << "        " << shellWord(command.words + ' ' + name) << ") " << (option.choices.empty() ? "return" : std::string{"choices="}.append(shellWord(joinedWords(option.choices)))) << " ;;\n";
     });
     out << "    esac\n    [ -n \"$choices\" ] || case $call in\n";
-    each(program, [&](const ListedCommand& command) {
+    each(program, [&](const OptionTable& command) {
         std::vector<std::string> words = namesWithin(command);
-        for (const ListedOption& option : command.options) {
+        for (const Option& option : command.options) {
             const auto& more = option.isPlace ? option.choices : option.spellings;
             words.insert(words.end(), more.begin(), more.end());
         }
@@ -131,15 +129,15 @@ std::string bashCompletion(const ListedCommand& program) {
     return out.str();
 }
 
-std::string zshCompletion(const ListedCommand& program) {
+std::string zshCompletion(const OptionTable& program) {
     std::ostringstream out;
     out << "#compdef " << program.words << '\n';
     heading(out, program);
     out << "local word call=" << program.words << "\nfor word in ${words[2,CURRENT-1]}; do\n    case \"$call $word\" in (" << allCalls(program)
         << ") call=\"$call $word\" ;; esac\ndone\ncase $call in\n";
-    each(program, [&](const ListedCommand& command) {
+    each(program, [&](const OptionTable& command) {
         out << "    (" << shellWord(command.words) << ") _arguments";
-        for (const ListedOption& option : command.options)
+        for (const Option& option : command.options)
             for (const std::string& name : option.spellings)
                 if (!option.isPlace) out << " \\\n        " << zshOption(option, name);
         out << " \\\n        " << zshPlace(command) << " ;;\n";
@@ -149,13 +147,13 @@ std::string zshCompletion(const ListedCommand& program) {
 }
 
 // Fish asks for each proposal whether it holds here: a command's hold after its words, until one of a command within it follows.
-std::string fishCompletion(const ListedCommand& program) {
+std::string fishCompletion(const OptionTable& program) {
     std::ostringstream out;
     heading(out, program);
-    each(program, [&](const ListedCommand& command) {
+    each(program, [&](const OptionTable& command) {
         const std::string begin = "complete -c " + program.words + fishCondition(program, command);
-        for (const ListedCommand& inner : command.commands) out << begin << " -f -a " << lastWord(inner) << " -d " << shellWord(inner.meaning) << '\n';
-        for (const ListedOption& option : command.options) out << begin << fishOption(option) << '\n';
+        for (const OptionTable& inner : command.commands) out << begin << " -f -a " << inner.name() << " -d " << shellWord(inner.meaning) << '\n';
+        for (const Option& option : command.options) out << begin << fishOption(option) << '\n';
     });
     return out.str();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A manual page: name, call, options, commands, exit codes.
-#include "CommandLine/Reference/ManPage.h"
+#include "Options/ManPage.h"
 #include <algorithm>
 #include <sstream>
 
@@ -30,41 +30,41 @@ std::string capitals(std::string text) {
     return text;
 }
 
-void writeOption(std::ostream& out, const ListedOption& option) {
+void writeOption(std::ostream& out, const Option& option) {
     const std::string name = shown(joined(option.spellings, ", "));
     out << ".TP\n" << (option.isPlace ? "\\fI" : "\\fB") << name << "\\fR";
-    if (!option.value.empty() && !option.isPlace) out << " \\fI" << shown(option.value) << "\\fR";
+    if (!option.value().empty() && !option.isPlace) out << " \\fI" << shown(option.value()) << "\\fR";
     if (!option.initial.empty()) out << " (" << shown(option.initial) << ')';
     out << '\n' << shown(option.meaning) << '\n';
 }
 
-void writeInCall(std::ostream& out, const ListedOption& option) {
+void writeInCall(std::ostream& out, const Option& option) {
     const std::string name = shown(option.spellings.back());
-    out << (option.isRequired ? " " : " [") << (option.isPlace ? "\\fI" + name : "\\fB" + name + "\\fR \\fI" + shown(option.value)) << (option.isRequired ? "\\fR" : "\\fR]");
+    out << (option.isRequired ? " " : " [") << (option.isPlace ? "\\fI" + name : "\\fB" + name + "\\fR \\fI" + shown(option.value())) << (option.isRequired ? "\\fR" : "\\fR]");
 }
 
-void writeCall(std::ostream& out, const ListedCommand& command) {
+void writeCall(std::ostream& out, const OptionTable& command) {
     if (!command.usage.empty()) {
         out << ".nf\n" << shown(command.usage) << ".fi\n";
         return;
     }
     out << "\\fB" << shown(command.words) << "\\fR [\\fIoptions\\fR]";
-    for (const ListedOption& option : command.options)
+    for (const Option& option : command.options)
         if (option.isPlace || option.isRequired) writeInCall(out, option);
     out << (command.commands.empty() ? "\n" : " \\fIcommand\\fR ...\n");
 }
 
-void writeOptions(std::ostream& out, const ListedCommand& command) {
-    for (const ListedOption& option : command.options)
+void writeOptions(std::ostream& out, const OptionTable& command) {
+    for (const Option& option : command.options)
         if (!option.meaning.empty()) writeOption(out, option);
 }
 
 /// A program's commands have pages of their own; those of a command are on its page.
-void writeCommands(std::ostream& out, const ListedCommand& command) {
+void writeCommands(std::ostream& out, const OptionTable& command) {
     if (command.commands.empty()) return;
     const bool isProgram = command.words.find(' ') == std::string::npos;
     out << ".SH COMMANDS\n";
-    for (const ListedCommand& inner : command.commands) {
+    for (const OptionTable& inner : command.commands) {
         if (isProgram) {
             out << ".TP\n\\fB" << shown(pageName(inner)) << "\\fR(1)\n" << shown(inner.meaning) << '\n';
             continue;
@@ -77,13 +77,13 @@ void writeCommands(std::ostream& out, const ListedCommand& command) {
 
 } // namespace
 
-std::string pageName(const ListedCommand& command) {
+std::string pageName(const OptionTable& command) {
     std::string name = command.words;
     std::ranges::replace(name, ' ', '-');
     return name;
 }
 
-std::string manPage(const ListedCommand& command, const std::vector<std::string>& pages) {
+std::string manPage(const OptionTable& command, const std::vector<std::string>& pages) {
     std::ostringstream out;
     out << ".TH " << shown(capitals(pageName(command))) << " 1 \"\" \"PhysVib " << PHYSVIB_VERSION << "\" \"PhysVib\"\n.SH NAME\n"
         << shown(pageName(command)) << " \\- " << shown(command.meaning) << "\n.SH SYNOPSIS\n";

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 // What --layout means everywhere.
 #pragma once
 #include "Core/RenderingMethod.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which files the reference of a program is.
-#include "CommandLine/Reference/Reference.h"
-#include "CommandLine/Reference/Completions.h"
-#include "CommandLine/Reference/ManPage.h"
+#include "Options/Reference.h"
+#include "Options/Completions.h"
+#include "Options/ManPage.h"
 #include "Files/Disk/AtomicFile.h"
 #include <system_error>
 
@@ -15,18 +15,18 @@ std::string writeInto(const std::filesystem::path& folder, const std::string& na
     return error ? folder.string() + ": cannot be made: " + error.message() : writeFile(folder / name, text);
 }
 
-std::string writePages(const ListedCommand& program, const std::filesystem::path& folder) {
+std::string writePages(const OptionTable& program, const std::filesystem::path& folder) {
     std::vector<std::string> pages{pageName(program)};
-    for (const ListedCommand& command : program.commands) pages.push_back(pageName(command));
+    for (const OptionTable& command : program.commands) pages.push_back(pageName(command));
     if (auto error = writeInto(folder, pages.front() + ".1", manPage(program, pages)); !error.empty()) return error;
-    for (const ListedCommand& command : program.commands)
+    for (const OptionTable& command : program.commands)
         if (auto error = writeInto(folder, pageName(command) + ".1", manPage(command, {pages.front()})); !error.empty()) return error;
     return {};
 }
 
 } // namespace
 
-std::string writeReference(const ListedCommand& program, const std::filesystem::path& folder) {
+std::string writeReference(const OptionTable& program, const std::filesystem::path& folder) {
     if (auto error = writePages(program, folder / "man1"); !error.empty()) return error;
     if (auto error = writeInto(folder / "bash", program.words, bashCompletion(program)); !error.empty()) return error;
     if (auto error = writeInto(folder / "zsh", "_" + program.words, zshCompletion(program)); !error.empty()) return error;

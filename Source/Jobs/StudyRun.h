@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// A participant's way through a study with the file that keeps it: whoever answers, a person or an observer, does it here.
+// SPDX-License-Identifier: MIT
+// A participant's way through a study, with the file that keeps it: whoever answers, a person or an observer, does it here.
 #pragma once
 #include "Files/TrialLog.h"
 #include "Study/Experiment.h"
@@ -8,31 +8,35 @@
 
 namespace physvib {
 
+/// Whose way through which study, and where it is kept.
+struct StudyRun {
+    Protocol protocol;
+    Participant participant;
+    std::filesystem::path folder;
+    bool operator==(const StudyRun&) const = default;
+
+    /// The file of its trials. Any thread (allocates).
+    std::filesystem::path trialFile() const { return folder / (protocol.name + "-" + participant.code + ".csv"); }
+};
+
 /// Whether files may be called after it: at most 32 letters, digits, - and _. Any thread.
 bool isStudyCode(const std::string& code) noexcept;
 
-/// A built-in protocol, or that of a file (see findProtocol) of whose calls none names a file to be written; or one line. M.
-Result<Protocol> protocolNamed(const std::string& nameOrPath);
-
-/// What the protocol asks of layouts and names that reading it could not tell; empty, or one line that begins with `name`. M.
-std::string protocolFault(const Protocol& protocol, const std::string& name);
-
-/// The file of that participant in `folder`. Any thread.
-std::filesystem::path trialFile(const std::filesystem::path& folder, const Protocol& protocol, const Participant& participant);
+/// What is wrong with it before anything is asked or written: empty, or one line. Any thread (allocates).
+std::string faultOf(const StudyRun& run);
 
 /// From the first trial without an answer to the last. M only.
-class StudyRun {
+class StudyInProgress {
 public:
     /// Opens or makes the trial file and does again what was answered before; error() says what went wrong.
-    StudyRun(const std::filesystem::path& folder, Protocol protocol, Participant participant);
-    StudyRun(const StudyRun&) = delete;
-    StudyRun& operator=(const StudyRun&) = delete;
+    explicit StudyInProgress(StudyRun run);
+    StudyInProgress(const StudyInProgress&) = delete;
+    StudyInProgress& operator=(const StudyInProgress&) = delete;
 
     /// Empty, or one line; then nothing may be asked of the experiment.
     const std::string& error() const noexcept { return error_; }
 
-    const Protocol& protocol() const noexcept { return protocol_; }
-    const Participant& participant() const noexcept { return participant_; }
+    const Protocol& protocol() const noexcept { return run_.protocol; }
     const std::filesystem::path& path() const noexcept { return path_; }
     const Experiment& experiment() const noexcept { return experiment_; }
     int trialsBefore() const noexcept { return before_; } ///< that were in the file when it was opened
@@ -52,8 +56,7 @@ public:
     std::string keepComment(const std::string& words) const;
 
 private:
-    Protocol protocol_;
-    Participant participant_;
+    StudyRun run_;
     std::filesystem::path path_;
     bool isOfToday_;
     TrialLogFile log_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The reference of a program: manual pages, and completions for bash, zsh and fish, as files of a folder that an installation copies.
 #pragma once
-#include "CommandLine/Reference/CallTable.h"
+#include "Options/OptionTable.h"
 #include <filesystem>
 #include <string>
 
@@ -11,6 +11,6 @@ namespace physvib {
 inline constexpr const char* referenceWord = "--reference";
 
 /// Writes man1/, bash/, zsh/ and fish/ into the folder. Empty, or one line with the reason. M.
-std::string writeReference(const ListedCommand& program, const std::filesystem::path& folder);
+std::string writeReference(const OptionTable& program, const std::filesystem::path& folder);
 
 } // namespace physvib

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib scenes`, `actuators` and `devices`: what there is, a line each.
+#include "CommandLine/Command.h"
+#include "Files/ActuatorFile.h"
+#include "Files/SceneCatalogue.h"
+#include "Files/Text/NumberText.h"
+#include "Host/Devices/AudioOutput.h"
+#include "Session/SerialLine.h"
+#include <juce_events/juce_events.h>
+
+namespace physvib {
+namespace {
+
+int listScenes() {
+    for (const Scene& scene : builtInScenes()) {
+        std::cout << scene.name << "  " << scene.description;
+        for (const SceneVariable& variable : scene.variables) {
+            std::cout << "  --set " << variable.name << '=';
+            for (const std::string& choice : variable.choices)
+                std::cout << (&choice == &variable.choices.front() ? "" : "|") << choice;
+        }
+        std::cout << '\n';
+    }
+    return exitDone;
+}
+
+int listActuators() {
+    const auto orUnknown = [](const std::optional<double>& figure) { return figure ? numberText(*figure) : std::string{}; };
+    std::string text = "actuator,resonance_hz,q,band_low_hz,band_high_hz,drive_limit_v,rise_time_s,full_scale_g,source\n";
+    for (const ActuatorProfile& p : builtInActuators()) {
+        text += p.name + ',' + orUnknown(p.resonanceHz) + ',' + orUnknown(p.q) + ',' + (p.band ? numberText(p.band->lowHz) + ',' + numberText(p.band->highHz) : ",") + ',';
+        text += orUnknown(p.driveLimitVolts) + ',' + orUnknown(p.riseSeconds) + ',' + orUnknown(p.fullScaleG) + ",\"" + p.source + "\"\n";
+    }
+    std::cout << text;
+    return exitDone;
+}
+
+int listDevices() {
+    const juce::ScopedJuceInitialiser_GUI juce;
+    for (const auto& device : listAudioDevices()) std::cout << device.type << ':' << device.name << "  " << device.channels << " outputs\n";
+    for (const auto& port : listSerialPorts()) std::cout << port.path << "  " << port.description << '\n';
+    return exitDone;
+}
+
+Command listOf(const char* name, const char* meaning, int (*list)()) {
+    return {name, meaning, [list](OptionTable&) { return list; }};
+}
+
+} // namespace
+
+Command scenesCommand() { return listOf("scenes", "list the built-in scenes", listScenes); }
+Command actuatorsCommand() { return listOf("actuators", "list the built-in actuator profiles; what is not known is empty", listActuators); }
+Command devicesCommand() { return listOf("devices", "list the audio devices", listDevices); }
+
+} // namespace physvib

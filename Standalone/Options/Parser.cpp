@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A table as CLI11 takes it, and what it found back into the table.
+#include "Options/Parser.h"
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <list>
+#include <map>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+/// CLI11's own checks let "nan" pass, which is not less than the least; these say what they expect.
+template <class T, class Fits>
+CLI::Validator numberThat(Fits fits, const std::string& expected, const std::string& shown) {
+    return {[=](std::string& text) {
+                T value{};
+                return CLI::detail::lexical_cast(text, value) && fits(value) ? std::string{} : "expected " + expected + ", found \"" + text + "\"";
+            },
+            shown};
+}
+
+template <class T>
+CLI::Validator rangeOf(const Option& row) {
+    return numberThat<T>([low = row.low, high = row.high](T value) { return static_cast<double>(value) >= low && static_cast<double>(value) <= high; }, row.range, row.range);
+}
+
+CLI::Validator rangeOf(const Option& row) {
+    if (std::holds_alternative<int*>(row.target) || std::holds_alternative<std::optional<int>*>(row.target)) return rangeOf<int>(row);
+    if (std::holds_alternative<std::uint32_t*>(row.target)) return rangeOf<std::uint32_t>(row);
+    return std::holds_alternative<std::size_t*>(row.target) ? rangeOf<std::size_t>(row) : rangeOf<double>(row);
+}
+
+void check(CLI::Option& option, const Option& row) {
+    switch (row.check) {
+    case Option::Check::none: return;
+    case Option::Check::range: option.check(rangeOf(row)); return;
+    case Option::Check::positive: option.check(numberThat<double>([](double value) { return value > 0.0 && std::isfinite(value); }, "more than 0", row.range)); return;
+    case Option::Check::choice: option.check(CLI::IsMember(row.choices)); return;
+    case Option::Check::number: option.transform(CLI::CheckedTransformer(std::map<std::string, int>(row.numbers.begin(), row.numbers.end()))); return;
+    case Option::Check::folder: option.check(CLI::ExistingDirectory); return;
+    }
+}
+
+std::string namesOf(const Option& row) {
+    std::string names;
+    for (const std::string& spelling : row.spellings) names += (names.empty() ? "" : ",") + spelling;
+    return names;
+}
+
+/// None: CLI11 has it of its own.
+CLI::Option* declare(CLI::App& app, const Option& row) {
+    const auto make = [&](const auto& target) -> CLI::Option* {
+        using Target = std::decay_t<decltype(target)>;
+        if constexpr (std::is_same_v<Target, std::monostate>) return nullptr;
+        else if constexpr (std::is_same_v<Target, bool*>) return app.add_flag(namesOf(row), *target, row.meaning);
+        else if constexpr (std::is_same_v<Target, std::function<void(int)>>) return app.add_option_function<int>(namesOf(row), target, row.meaning);
+        else return app.add_option(namesOf(row), *target, row.meaning);
+    };
+    CLI::Option* const option = std::visit(make, row.target);
+    if (!option) return nullptr;
+    check(*option, row);
+    if (!std::holds_alternative<bool*>(row.target)) option->type_name(row.type)->default_str(row.initial);
+    if (row.isRequired) option->required();
+    if (row.isSingle) option->allow_extra_args(false);
+    if (row.mostListed > 0) option->delimiter(',')->expected(1, row.mostListed);
+    if (!row.group.empty()) option->group(row.group);
+    return option;
+}
+
+/// A table and what CLI11 made of it.
+class Parser {
+public:
+    Parser(CLI::App& app, OptionTable& table)
+        : app_{app}
+        , table_{table} {
+        if (!table.version.empty()) app.set_version_flag("--version", table.version);
+        for (Option& row : table.options)
+            if (CLI::Option* const option = declare(app, row)) options_.emplace_back(option, &row);
+        if (!table.commands.empty()) app.require_subcommand(1);
+        for (OptionTable& inner : table.commands) {
+            CLI::App* const command = app.add_subcommand(inner.name(), inner.meaning);
+            if (!inner.alias.empty()) command->alias(inner.alias);
+            commands_.emplace_back(*command, inner);
+        }
+    }
+
+    template <class... Words>
+    ParsedWords parse(Words... words) {
+        try {
+            app_.parse(words...);
+        } catch (const CLI::ParseError& error) {
+            std::ostringstream said;
+            if (error.get_exit_code() == 0) app_.exit(error, said, said); // --help, --version
+            const auto unknown = app_.remaining();
+            return {error.what(), unknown.empty() ? std::string{} : unknown.front(), said.str()};
+        }
+        take();
+        return {};
+    }
+
+private:
+    void take() {
+        for (const auto& [option, row] : options_) row->said = option->results();
+        for (Parser& inner : commands_) inner.take();
+        table_.calls.clear();
+        for (const CLI::App* called : app_.get_subcommands())
+            for (const Parser& inner : commands_)
+                if (&inner.app_ == called) table_.calls.push_back(&inner.table_);
+    }
+
+    CLI::App& app_;
+    OptionTable& table_;
+    std::list<std::pair<CLI::Option*, Option*>> options_;
+    std::list<Parser> commands_;
+};
+
+} // namespace
+
+ParsedWords parseArguments(OptionTable& table, int argc, char** argv) {
+    CLI::App app{table.meaning};
+    return Parser{app, table}.parse(argc, argv);
+}
+
+ParsedWords parseText(OptionTable& table, const std::string& call) {
+    CLI::App app;
+    return Parser{app, table}.parse(call, false);
+}
+
+} // namespace physvib

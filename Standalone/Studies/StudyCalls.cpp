@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Values are made as they are; text goes through the program's own tables first.
+#include "Studies/StudyCalls.h"
+#include "CommandLine/Render/JobSession.h"
+#include "CommandLine/Study/CallFiles.h"
+#include "CommandLine/Study/StimulusOptions.h"
+#include "Files/ProtocolFile.h"
+#include "Jobs/LayoutNamed.h"
+#include "Jobs/MakeStimulus.h"
+#include "Jobs/StudyRun.h"
+#include "Options/Parser.h"
+#include "Session/StimulusRender.h"
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace physvib {
+namespace {
+
+/// The job of the options gets its scene and its layout, to be felt; empty, or one line.
+std::string prepareScene(RenderOptions& o, RenderJob& job) {
+    if (o.actuator != "none") return "--actuator is not yet felt here, only rendered";
+    if (!o.coupling.empty()) return "--coupling is not yet felt here, only rendered";
+    if (auto fault = checkSceneOptions(o); !fault.empty()) return fault;
+    if (o.scene.empty()) return "expected a scene";
+    auto layout = layoutNamed(o.layout);
+    if (!layout) return layout.error;
+    auto scene = findScene(o.scene, o.settings);
+    if (!scene) return scene.error;
+    job.layout = std::move(layout.value);
+    job.scene = std::move(scene.value);
+    return {};
+}
+
+Result<FeltStimulus> ofScene(RenderOptions& o) {
+    RenderJob job{o, {}, {}, {}, {}};
+    if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
+    Patience patience{Patience::usualSeconds}; // whatever the call says: it may be a stranger's
+    job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
+    if (auto fault = patience.fault(); !fault.empty()) return Failure{fault};
+    std::ranges::transform(job.made.events, job.made.events.begin(), EventShaper{job.shaping()});
+    if (auto fault = takeRecordings(job, job.made.events, o.scene); !fault.empty()) return Failure{fault};
+    return FeltStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f), job.feltRecordings()};
+}
+
+Result<FeltWorld> asWorld(RenderOptions& o) {
+    RenderJob job{o, {}, {}, {}, {}};
+    if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
+    if (auto fault = fixedLevelFault(job); !fault.empty()) return Failure{fault};
+    if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene); !fault.empty()) return Failure{fault};
+    return FeltWorld{sessionSetup(job), job.layout, job.seconds()};
+}
+
+Result<FeltStimulus> ofStimulus(const StimulusJob& job, int sampleRateHz) {
+    const auto layout = layoutNamed(job.layout);
+    if (!layout) return Failure{layout.error};
+    if (auto fault = layoutFault(job, layout.value); !fault.empty()) return Failure{fault};
+    if (const auto* const phantom = std::get_if<PhantomJob>(&job.what); phantom != nullptr && !phantom->recording.empty()) return Failure{"a recording is rendered to a file; a live session plays events"};
+    auto stimulus = makeStimulus(job, layout.value);
+    if (!stimulus) return Failure{stimulus.error};
+    if (const auto sound = renderStimulus(stimulus.value, layout.value, sampleRateHz); !sound) return Failure{sound.error};
+    FeltStimulus felt{std::move(stimulus.value), layout.value, {}, {}};
+    for (const auto& enchanter : layout.value.enchanters) felt.gains.push_back(static_cast<float>(1.0 / enchanter.fullScaleG));
+    return felt;
+}
+
+Result<FeltStimulus> felt(StimulusJob job, int sampleRateHz, const std::string& folder) {
+    if (const JobFault fault = faultOf(job)) return Failure{fault.words()};
+    if (auto fault = linkFault(folder, job.layout); !fault.empty()) return Failure{fault};
+    job.layout = besideProtocol(folder, job.layout);
+    return ofStimulus(job, sampleRateHz);
+}
+
+/// A call in its parts; `error` if its words are none.
+struct ParsedCall {
+    ParsedCall(const std::string& call, const std::string& folder) {
+        declareRenderOptions(render, renderOptions);
+        declareStimulus(stimulus, stimulusOptions);
+        error = writtenWordFault(call);
+        if (error.empty()) error = parseText(words, call).fault;
+        if (error.empty()) error = linkOfCallFault(words, folder);
+        if (error.empty()) findFiles(folder);
+    }
+    /// Those in `folder`, where they are there.
+    void findFiles(const std::string& folder) {
+        for (std::string* path : {&renderOptions.layout, &renderOptions.scene, &stimulusOptions.job.layout}) *path = besideProtocol(folder, *path);
+        for (std::string& sound : renderOptions.sounds)
+            if (const auto equals = sound.find('='); equals != std::string::npos) sound = sound.substr(0, equals + 1) + besideProtocol(folder, sound.substr(equals + 1));
+    }
+    OptionTable words{"physvib", {}};
+    RenderOptions renderOptions;
+    StimulusOptions stimulusOptions;
+    OptionTable& render = words.addCommand("render", {});
+    OptionTable& stimulus = words.addCommand("stimulus", {});
+    std::string error;
+};
+
+Result<FeltStimulus> felt(const WrittenCall& call, int sampleRateHz, const std::string& folder) {
+    ParsedCall parsed{call.words, folder};
+    if (!parsed.error.empty()) return Failure{parsed.error};
+    if (parsed.words.isCalled("render")) return ofScene(parsed.renderOptions);
+    const auto job = readStimulus(parsed.stimulus, parsed.stimulusOptions);
+    return job ? ofStimulus(job.value, sampleRateHz) : Failure{job.error};
+}
+
+/// Empty, or what the program would find wrong with a call, or that it renders a fixed level that its layout cannot give without the limiter.
+std::string studyCallFault(const std::string& call, const std::string& folder) {
+    ParsedCall parsed{call, folder};
+    RenderOptions& o = parsed.renderOptions;
+    if (!parsed.error.empty()) return call + ": " + parsed.error;
+    if (!parsed.words.isCalled("render") || !checkSceneOptions(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
+    const auto layout = layoutNamed(o.layout);
+    if (!layout) return layout.error;
+    const double leastG = leastStudyFullScaleG * std::pow(10.0, o.levelDb / 20.0);
+    for (const EnchanterDescription& enchanter : layout.value.enchanters)
+        if (enchanter.fullScaleG < leastG)
+            return "--method " + o.method + ": expected enchanters of at least " + fixedNumber(leastG, 2) + " g (full_scale_g), as 1.5 g and 1 dB of headroom are felt, found " +
+                   fixedNumber(enchanter.fullScaleG, 2) + " g";
+    return {};
+}
+
+/// The words of a condition's calls: each value of each factor once, with the first of the others. The reader has looked at all of them for
+/// what no call may do.
+std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condition) {
+    const CallSet* const calls = callSetOf(condition.stimuli);
+    if (calls == nullptr) return {};
+    StimulusItem first;
+    for (const StudyFactor& factor : calls->factors) first.values.emplace_back(factor.name, factor.values.front());
+    for (std::size_t f = 0; f < calls->factors.size(); ++f)
+        for (const std::string& value : calls->factors[f].values) {
+            StimulusItem item = first;
+            item.values[f].second = value;
+            if (auto fault = studyCallFault(callOf(*calls, item, *callPartsOf(protocol).begin(), "0"), protocol.folder); !fault.empty()) return fault;
+        }
+    return {};
+}
+
+} // namespace
+
+Result<Protocol> protocolNamed(const std::string& nameOrPath) {
+    auto protocol = findProtocol(nameOrPath);
+    for (std::size_t i = 0; i < protocol.value.conditions.size(); ++i)
+        if (const auto fault = firstCallFault(protocol.value, protocol.value.conditions[i], writtenWordFault); !fault.empty())
+            return Failure{nameOrPath + ": conditions[" + std::to_string(i) + "].call: " + fault};
+    return protocol;
+}
+
+std::string protocolFault(const Protocol& protocol, const std::string& name) {
+    if (!isStudyCode(protocol.name)) return name + ": name: expected letters, digits, - and _, as files are called after it";
+    for (const ConditionPlan& condition : protocol.conditions) {
+        const auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
+        if (!layout) return name + ": condition " + printable(condition.name) + ": " + layout.error;
+        if (auto fault = firstCallsFault(protocol, condition); !fault.empty()) return name + ": condition " + condition.name + ": call: " + fault;
+        const auto* patterns = std::get_if<PatternSet>(&condition.stimuli);
+        if (patterns && patterns->enchanters != layout.value.geometry.count)
+            return name + ": condition " + printable(condition.name) + ": expected as many enchanters as the layout has (" + std::to_string(layout.value.geometry.count) + "), found " +
+                   std::to_string(patterns->enchanters);
+    }
+    return {};
+}
+
+Result<FeltStimulus> feltStimulus(const TrialJob& job, int sampleRateHz, const std::string& folder) {
+    return std::visit(
+        [&](const auto& one) -> Result<FeltStimulus> {
+            auto made = felt(one, sampleRateHz, folder);
+            if (!made) return Failure{textOf(one) + ": " + made.error};
+            return made;
+        },
+        job);
+}
+
+Result<FeltWorld> feltWorld(const WrittenCall& call, const std::string& folder) {
+    ParsedCall parsed{call.words, folder};
+    auto made = parsed.error.empty() ? asWorld(parsed.renderOptions) : Failure{parsed.error};
+    if (!made) return Failure{call.words + ": " + made.error};
+    return made;
+}
+
+} // namespace physvib
