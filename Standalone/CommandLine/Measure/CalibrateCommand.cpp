@@ -7,11 +7,11 @@
 #include "Files/ActuatorFile.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Text/NumberText.h"
+#include "Files/WavSink.h"
 #include "Measure/ActuatorMeasurement.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Host/Devices/SweepRecorder.h"
-#include "Host/Recordings/WavSink.h"
 #include "Render/InRange.h"
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -7,9 +7,9 @@
 #include "CommandLine/Study/CallFiles.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
+#include "Files/WavSink.h"
 #include "Host/Music/BandPass.h"
 #include "Host/Recordings/ReadRecording.h"
-#include "Host/Recordings/WavSink.h"
 #include "Session/OfflineRender.h"
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -4,9 +4,9 @@
 #include "CommandLine/Render/LayoutNamed.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"
+#include "Files/WavSink.h"
 #include "Pictures/RenderPicture.h"
 #include "Session/StimulusRender.h"
-#include "Host/Recordings/WavSink.h"
 #include <CLI/CLI.hpp>
 #include <optional>
 

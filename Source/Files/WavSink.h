@@ -1,15 +1,10 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// A WAV file that grows block by block: 32-bit float, one discrete channel per enchanter.
+// SPDX-License-Identifier: MIT
+// A WAVE file that grows block by block: 32-bit float, one channel per enchanter, who made it and from what.
 #pragma once
 #include "Files/Disk/AtomicFile.h"
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
-
-namespace juce {
-class AudioFormatWriter;
-}
 
 namespace physvib {
 
@@ -20,10 +15,9 @@ class WavSink {
 public:
     /// Begins a file that appears at `path` (see AtomicFile). `comment` (who made this, from what) becomes its INFO comment.
     WavSink(const std::filesystem::path& path, int channels, int sampleRateHz, const std::string& comment = {});
-    ~WavSink();
 
     /// Another comment than the constructor's; before the first frame.
-    void setComment(const std::string& comment) { comment_ = comment; }
+    void setComment(const std::string& comment);
 
     /// Empty, or one line with the file and the reason.
     const std::string& error() const noexcept { return file_.error(); }
@@ -35,19 +29,22 @@ public:
     const std::string& complete();
 
     /// Completes the file and puts it in its place. Returns error(); after one there is no file.
-    const std::string& finish();
+    const std::string& finish() { return complete().empty() ? file_.commit() : error(); }
 
 private:
-    void begin();
-    std::string extensibleHeader() const;
+    std::string head() const;
+    void empty();
 
     AtomicFile file_;
     int channels_;
     int sampleRateHz_;
-    std::string comment_;
+    std::string info_;    // the chunk with the comment
+    std::string waiting_; // samples that the file has not got
     std::int64_t dataBytes_ = 0;
     bool isComplete_ = false;
-    std::unique_ptr<juce::AudioFormatWriter> writer_; // from the first frame until complete()
 };
+
+/// Whether a WAVE file can hold so much and be no RF64. Any thread.
+constexpr bool fitsWav(int channels, std::int64_t frames) noexcept { return frames <= 0xffff'ff00 / (4 * channels); }
 
 } // namespace physvib
