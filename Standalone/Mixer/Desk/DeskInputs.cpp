@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What comes from outside by messages: it moves what the desk shows.
+#include "Core/Decibels.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Desk/DeskWords.h"
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace physvib {
 namespace {
 
-double stripDb(float gain) { return gain == 0.0f ? leastStripDb : std::clamp(20.0 * std::log10(std::abs(static_cast<double>(gain))), leastStripDb, mostStripDb); }
+double stripDb(float gain) { return gain == 0.0f ? leastStripDb : std::clamp(toDecibels(std::abs(static_cast<double>(gain))), leastStripDb, mostStripDb); }
 
 } // namespace
 
