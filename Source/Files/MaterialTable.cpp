@@ -12,15 +12,11 @@
 
 namespace physvib {
 
-template <>
-struct FieldsOf<MaterialTable> {
-    template <class V>
-    static void visit(V& v) {
-        v.field("name", &MaterialTable::name, anyText, Need::required);
-        v.field("source", &MaterialTable::source, anyText, Need::optional);
-        v.field("materials", &MaterialTable::materials, items(0, sceneLimits::maxMaterials), Need::required);
-    }
-};
+void visitFields(auto& v, FieldsOf<MaterialTable>) {
+    v.field("name", &MaterialTable::name, anyText, Need::required);
+    v.field("source", &MaterialTable::source, anyText, Need::optional);
+    v.field("materials", &MaterialTable::materials, items(0, sceneLimits::maxMaterials), Need::required);
+}
 
 namespace {
 
