@@ -278,15 +278,4 @@ std::string percentCountsCsv(std::span<const PercentCounts> counts, const Proven
     return text;
 }
 
-std::string locationsCsv(std::span<const StudyCondition<LocationTrial>> conditions, const Provenance& provenance) {
-    std::string text = provenanceComment(provenance) + "condition,target_column,target_row,x,y\n";
-    for (const auto& condition : conditions)
-        for (const auto& trial : condition.trials) {
-            appendCell(text, condition.name);
-            for (const double number : {double(trial.targetColumn), double(trial.targetRow), trial.x, trial.y}) text.append(",").append(numberText(number));
-            text += '\n';
-        }
-    return text;
-}
-
 } // namespace physvib

@@ -79,7 +79,4 @@ Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> fi
 /// readPercentCounts' format, a row per line. Any thread.
 std::string percentCountsCsv(std::span<const PercentCounts> counts, const Provenance& provenance);
 
-/// A response list: condition,target_column,target_row,x,y. Any thread.
-std::string locationsCsv(std::span<const StudyCondition<LocationTrial>> conditions, const Provenance& provenance);
-
 } // namespace physvib
