@@ -4,7 +4,6 @@
 #include "Files/Disk/FileLimits.h"
 #include "Files/Json/JsonReader.h"
 #include "Files/Json/JsonText.h"
-#include "Files/Json/JsonVersion.h"
 #include "Files/Json/JsonWriter.h"
 #include "Files/Text/NumberText.h"
 #include "Physics/Scenes/SceneValidation.h"

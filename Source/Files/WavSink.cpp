@@ -46,7 +46,8 @@ std::string formatChunk(int channels, int sampleRateHz, bool isExtensible) {
 
 } // namespace
 
-WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRateHz, const std::string& comment)
+WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRateHz,
+                 const std::string& comment)
     : file_{path}
     , channels_{channels}
     , sampleRateHz_{sampleRateHz} {
@@ -54,16 +55,24 @@ WavSink::WavSink(const std::filesystem::path& path, int channels, int sampleRate
 }
 
 void WavSink::setComment(const std::string& comment) {
-    info_ = comment.empty() ? "" : chunk("LIST", "INFO" + chunk("ICMT", cleanLine(comment) + '\0'));
+    info_.clear();
+    if (comment.empty()) return;
+    std::string sampler(60, '\0'); // middle C and no loops: files with a comment have said so since JUCE
+                                   // wrote them, and keep their bytes
+    sampler[12] = 60;
+    info_ =
+        chunk("smpl", std::move(sampler)) + chunk("LIST", "INFO" + chunk("ICMT", cleanLine(comment) + '\0'));
 }
 
 bool WavSink::write(const float* const* channels, int frames) {
     if (!error().empty() || isComplete_) return false;
     const std::size_t before = waiting_.size();
-    waiting_.resize(before + static_cast<std::size_t>(frames) * static_cast<std::size_t>(channels_) * sizeof(float));
+    waiting_.resize(before +
+                    static_cast<std::size_t>(frames) * static_cast<std::size_t>(channels_) * sizeof(float));
     char* to = waiting_.data() + before;
     for (int n = 0; n < frames; ++n)
-        for (int j = 0; j < channels_; ++j, to += sizeof(float)) std::memcpy(to, channels[j] + n, sizeof(float));
+        for (int j = 0; j < channels_; ++j, to += sizeof(float))
+            std::memcpy(to, channels[j] + n, sizeof(float));
     if (waiting_.size() >= bufferBytes) empty();
     return error().empty();
 }
@@ -81,7 +90,8 @@ const std::string& WavSink::complete() {
     return error();
 }
 
-/// A chunk that counts in 64 bits comes first, or its room. A plain format is shorter: there is more room then.
+/// A chunk that counts in 64 bits comes first, or its room. A plain format is shorter: there is more room
+/// then.
 std::string WavSink::head() const {
     const bool isLong = dataBytes_ >= rf64Bytes, isExtensible = isLong || channels_ > 2;
     const std::int64_t riffBytes = headBytes - 8 + std::ssize(info_) + dataBytes_;
@@ -93,7 +103,8 @@ std::string WavSink::head() const {
     counts.resize(isExtensible ? 28 : 52);
     std::string bytes = isLong ? "RF64" : "RIFF";
     add(bytes, isLong ? -1 : riffBytes, 4);
-    bytes += "WAVE" + chunk(isLong ? "ds64" : "JUNK", counts) + formatChunk(channels_, sampleRateHz_, isExtensible) + info_ + "data";
+    bytes += "WAVE" + chunk(isLong ? "ds64" : "JUNK", counts) +
+             formatChunk(channels_, sampleRateHz_, isExtensible) + info_ + "data";
     add(bytes, isLong ? -1 : dataBytes_, 4);
     return bytes;
 }

@@ -8,13 +8,15 @@
 
 namespace physvib {
 
-/// Writes as the blocks come, and puts the file in its place at the end; M only. One and two channels are plain
-/// WAVE_FORMAT_IEEE_FLOAT, three and more WAVE_FORMAT_EXTENSIBLE with an empty speaker mask (channels are enchanters, not
-/// speakers), 4 GB and more RF64. The bytes depend on the samples and the comment alone.
+/// Writes as the blocks come, and puts the file in its place at the end; M only. One and two channels are
+/// plain WAVE_FORMAT_IEEE_FLOAT, three and more WAVE_FORMAT_EXTENSIBLE with an empty speaker mask (channels
+/// are enchanters, not speakers), 4 GB and more RF64. The bytes depend on the samples and the comment alone.
 class WavSink {
 public:
-    /// Begins a file that appears at `path` (see AtomicFile). `comment` (who made this, from what) becomes its INFO comment.
-    WavSink(const std::filesystem::path& path, int channels, int sampleRateHz, const std::string& comment = {});
+    /// Begins a file that appears at `path` (see AtomicFile). `comment` (who made this, from what) becomes
+    /// its INFO comment.
+    WavSink(const std::filesystem::path& path, int channels, int sampleRateHz,
+            const std::string& comment = {});
 
     /// Another comment than the constructor's; before the first frame.
     void setComment(const std::string& comment);
@@ -45,6 +47,8 @@ private:
 };
 
 /// Whether a WAVE file can hold so much and be no RF64. Any thread.
-constexpr bool fitsWav(int channels, std::int64_t frames) noexcept { return frames <= 0xffff'ff00 / (4 * channels); }
+constexpr bool fitsWav(int channels, std::int64_t frames) noexcept {
+    return frames <= 0xffff'ff00 / (4 * channels);
+}
 
 } // namespace physvib

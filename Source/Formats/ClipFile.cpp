@@ -96,8 +96,7 @@ Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat 
 }
 
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale) {
-    const Result<std::string> bytes = readFile(path, limits::maxClipFileBytes);
-    return bytes ? readClip(bytes.value, path.string(), format, scale) : Result<Clip>{Failure{bytes.error}};
+    return loadText(path, limits::maxClipFileBytes, [&](std::string_view bytes, std::string_view name) { return readClip(bytes, name, format, scale); });
 }
 
 Result<std::string> clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {
