@@ -3,10 +3,10 @@
 #include "Files/CouplingFile.h"
 #include "Core/Limits.h"
 #include "Files/Disk/FileLimits.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/Json/JsonField.h"
-#include "Files/Json/JsonFile.h"
 #include "Files/Json/JsonLines.h"
-#include "Files/Json/JsonVersion.h"
+#include "Files/Json/JsonText.h"
 #include "Files/Text/NumberText.h"
 #include <cmath>
 #include <numbers>

@@ -2,9 +2,10 @@
 // Every field of a layout file, checked when read and in a fixed order when written.
 #include "Files/LayoutFile.h"
 #include "Files/Disk/FileLimits.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/Json/JsonField.h"
-#include "Files/Json/JsonFile.h"
 #include "Files/Json/JsonLines.h"
+#include "Files/Json/JsonText.h"
 #include "Files/LayoutJson.h"
 #include "Files/Text/NumberText.h"
 #include "Files/Json/StrictJson.h"

@@ -3,24 +3,20 @@
 #include "Files/MaterialTable.h"
 #include "Files/Disk/Embedded.h"
 #include "Files/Disk/FileLimits.h"
-#include "Files/Json/JsonFile.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/Json/JsonReader.h"
-#include "Files/Json/JsonVersion.h"
+#include "Files/Json/JsonText.h"
 #include "Files/Json/JsonWriter.h"
 #include "Physics/Scenes/SceneValidation.h"
 #include <stdexcept>
 
 namespace physvib {
 
-template <>
-struct FieldsOf<MaterialTable> {
-    template <class V>
-    static void visit(V& v) {
-        v.field("name", &MaterialTable::name, anyText, Need::required);
-        v.field("source", &MaterialTable::source, anyText, Need::optional);
-        v.field("materials", &MaterialTable::materials, items(0, sceneLimits::maxMaterials), Need::required);
-    }
-};
+void visitFields(auto& v, FieldsOf<MaterialTable>) {
+    v.field("name", &MaterialTable::name, anyText, Need::required);
+    v.field("source", &MaterialTable::source, anyText, Need::optional);
+    v.field("materials", &MaterialTable::materials, items(0, sceneLimits::maxMaterials), Need::required);
+}
 
 namespace {
 

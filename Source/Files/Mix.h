@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Everything that is set on the mixer's desk: the scene that is played, the enchanters, and a strip for each.
 #pragma once
+#include "Core/Decibels.h"
 #include "Core/RenderControl.h"
 #include "Files/LayoutFile.h"
 #include "Physics/Scenes/Scene.h"
@@ -80,15 +81,15 @@ inline bool isSame(const EnchanterLayout& a, const EnchanterLayout& b) noexcept 
 
 /// The gain of a channel: its level and polarity. Any thread.
 inline float channelGain(const Strip& strip) noexcept {
-    const double gain = strip.gainDb <= leastStripDb ? 0.0 : std::pow(10.0, strip.gainDb / 20.0);
+    const double gain = strip.gainDb <= leastStripDb ? 0.0 : fromDecibels(strip.gainDb);
     return static_cast<float>(strip.isInverted ? -gain : gain);
 }
 
 /// What all enchanters are multiplied by at last. Any thread.
-inline float masterGain(const Mix& mix) noexcept { return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(std::pow(10.0, mix.levelDb / 20.0)); }
+inline float masterGain(const Mix& mix) noexcept { return mix.levelDb <= leastStripDb ? 0.0f : static_cast<float>(fromDecibels(mix.levelDb)); }
 
 /// The largest sample that a strip lets pass. Any thread.
-inline float ceilingOf(const Strip& strip) noexcept { return static_cast<float>(std::pow(10.0, strip.ceilingDb / 20.0)); }
+inline float ceilingOf(const Strip& strip) noexcept { return static_cast<float>(fromDecibels(strip.ceilingDb)); }
 
 /// What a session has been told of a channel's strip; at first what it begins with.
 struct ToldStrip {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene from a file; what its text says is read in SceneFile.cpp, also where there are no files.
 #include "Files/Disk/FileLimits.h"
-#include "Files/Json/JsonFile.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/SceneFile.h"
 
 namespace physvib {

@@ -2,13 +2,14 @@
 // Reading and writing a session; scenes and inputs by the table in SceneFields.h.
 #include "Files/SessionFile.h"
 #include "Core/ClipNumber.h"
+#include "Core/Decibels.h"
 #include "Files/ControlJson.h"
 #include "Files/Disk/FileClash.h"
 #include "Files/Disk/FileLimits.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/EventColumns.h"
-#include "Files/Json/JsonFile.h"
 #include "Files/Json/JsonReader.h"
-#include "Files/Json/JsonVersion.h"
+#include "Files/Json/JsonText.h"
 #include "Files/Json/JsonWriter.h"
 #include "Files/MixJson.h"
 #include "Files/Text/NumberText.h"
@@ -378,7 +379,7 @@ Mix mixOf(const SavedSession& session) {
     mix.law = panner.law();
     mix.exponent = panner.exponent();
     mix.strips.resize(static_cast<std::size_t>(mix.count()));
-    const auto decibels = [](float gain) { return 20.0 * std::log10(static_cast<double>(gain)); };
+    const auto decibels = [](float gain) { return toDecibels(static_cast<double>(gain)); };
     for (std::size_t j = 0; j < mix.strips.size(); ++j) {
         mix.strips[j].output = static_cast<int>(j);
         mix.strips[j].ceilingDb = std::clamp(decibels(session.ceilings[j]), leastCeilingDb, 0.0);

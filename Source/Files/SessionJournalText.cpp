@@ -2,9 +2,8 @@
 // Lines out and in.
 #include "Files/SessionJournalText.h"
 #include "Files/Disk/FileLimits.h"
-#include "Files/Json/JsonFile.h"
 #include "Files/Json/JsonReader.h"
-#include "Files/Json/JsonVersion.h"
+#include "Files/Json/JsonText.h"
 #include "Files/SessionJson.h"
 #include "Physics/Scenes/SceneValidation.h"
 #include <algorithm>

@@ -2,9 +2,9 @@
 // Lists of words, each checked to be a word of a call; and numbers of tasks as digits, one per factor.
 #include "Files/SweepFile.h"
 #include "Files/Disk/FileLimits.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/Json/JsonField.h"
-#include "Files/Json/JsonFile.h"
-#include "Files/Json/JsonVersion.h"
+#include "Files/Json/JsonText.h"
 #include "Files/Text/NumberText.h"
 #include "Study/CallWords.h"
 #include <algorithm>

@@ -122,6 +122,12 @@ private:
     std::string error_;
 };
 
+std::int64_t numberAt(std::string_view bytes, std::size_t at, std::size_t width) noexcept {
+    std::int64_t value = 0;
+    for (std::size_t i = width; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return value;
+}
+
 } // namespace
 
 std::string streamWav(std::FILE& file, SoundTaker& taker) { return WavReader{file}.read(taker); }
@@ -130,6 +136,13 @@ Result<SampledSound> readWav(std::FILE& file) {
     SoundKeeper keeper;
     if (auto fault = streamWav(file, keeper); !fault.empty()) return Failure{fault};
     return std::move(keeper.sound);
+}
+
+std::int64_t wavFileBytes(std::string_view head) noexcept {
+    constexpr std::size_t idBytes = 4, longSizeAt = 20; // of RF64, in its chunk ds64
+    if (head.size() < wavSizeBytes) return 0;
+    if (head.starts_with("RIFF")) return 8 + numberAt(head, idBytes, 4);
+    return head.starts_with("RF64") ? 8 + numberAt(head, longSizeAt, 8) : 0;
 }
 
 } // namespace physvib

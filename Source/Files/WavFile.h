@@ -4,6 +4,7 @@
 #include "Files/Result.h"
 #include "Files/SampledSound.h"
 #include <cstdio>
+#include <string_view>
 
 namespace physvib {
 
@@ -14,5 +15,10 @@ Result<SampledSound> readWav(std::FILE& file);
 
 /// The same block by block: empty, or what is wrong with it, or what `taker` says. Any thread.
 std::string streamWav(std::FILE& file, SoundTaker& taker);
+
+constexpr std::size_t wavSizeBytes = 28;
+
+/// How long a WAVE file (RIFF or RF64) says it is in its first wavSizeBytes bytes; 0: they begin none. Any thread.
+std::int64_t wavFileBytes(std::string_view head) noexcept;
 
 } // namespace physvib

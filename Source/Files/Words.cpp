@@ -3,9 +3,9 @@
 #include "Files/Words.h"
 #include "Files/Disk/Embedded.h"
 #include "Files/Disk/FileLimits.h"
-#include "Files/Json/JsonFile.h"
+#include "Files/Disk/ReadFile.h"
 #include "Files/Json/JsonReader.h"
-#include "Files/Json/JsonVersion.h"
+#include "Files/Json/JsonText.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
 #include <set>

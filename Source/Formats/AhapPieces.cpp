@@ -11,8 +11,6 @@ namespace {
 
 constexpr double silenceSeconds = 0.05; // what lasts longer is no part of an event
 constexpr double rounding = 1e-9;       // of a line's values
-constexpr double envelopeRiseSeconds =
-    0.0005; // how long the envelope may stand still for a transient: as a hit may rise
 constexpr double leastPieceSeconds = 0.001;
 constexpr double leadSeconds = 0.0004; // by which curves are neutral before a transient
 constexpr double mostChange =
@@ -103,7 +101,7 @@ private:
     void cutBeside(double start, double transient, double end) {
         EnvelopePoint level = pointAt(envelope_, transient);
         const double changes = changesAt(level, end, 1.0),
-                     held = std::min(end, transient + envelopeRiseSeconds);
+                     held = std::min(end, transient + envelopeRiseSeconds); // a hit may rise so long
         const bool isHeld = changes < held;
         double from = isHeld ? held : changes;
         std::vector<EnvelopePoint> points = partOf(envelope_, start, from);

@@ -25,12 +25,11 @@ Facts factsOf(const Clip& clip) {
     Facts facts;
     for (const ClipChannel& channel : clip.channels) {
         facts.overlaps = facts.overlaps || channel.bands.size() > 1;
-        for (const ClipTransient& t : channel.transients) facts.frequenciesHz.insert(t.frequencyHz), facts.peak = std::max(facts.peak, std::abs(t.amplitude));
+        facts.peak = std::max(facts.peak, peakOf(channel));
+        for (const ClipTransient& t : channel.transients) facts.frequenciesHz.insert(t.frequencyHz);
         for (const ClipBand& band : channel.bands)
-            for (const ClipWave& wave : band.waves) {
+            for (const ClipWave& wave : band.waves)
                 for (const ClipPoint& p : wave.frequencyHz) facts.frequenciesHz.insert(p.value);
-                for (const ClipPoint& p : wave.amplitude) facts.peak = std::max(facts.peak, std::abs(p.value));
-            }
     }
     return facts;
 }
@@ -97,8 +96,7 @@ Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat 
 }
 
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale) {
-    const Result<std::string> bytes = readFile(path, limits::maxClipFileBytes);
-    return bytes ? readClip(bytes.value, path.string(), format, scale) : Result<Clip>{Failure{bytes.error}};
+    return loadText(path, limits::maxClipFileBytes, [&](std::string_view bytes, std::string_view name) { return readClip(bytes, name, format, scale); });
 }
 
 Result<std::string> clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale) {

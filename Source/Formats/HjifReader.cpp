@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Field by field after MPEG's schema: perceptions, channels, bands, effects, keyframes.
 #include "Files/Json/JsonField.h"
-#include "Files/Json/JsonFile.h"
+#include "Files/Json/JsonText.h"
 #include "Files/Text/NumberText.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"

@@ -2,8 +2,8 @@
 // version, metadata, signals.continuous.envelopes.
 #include "Formats/MetaHapticFile.h"
 #include "Files/Json/JsonField.h"
-#include "Files/Json/JsonFile.h"
 #include "Files/Json/JsonLines.h"
+#include "Files/Json/JsonText.h"
 #include "Formats/ClipEnvelope.h"
 #include "Formats/ClipLimits.h"
 #include <cmath>

@@ -115,10 +115,6 @@ bool isTextureModels(std::string_view path) noexcept {
 
 Result<TextureModels> readTextureModels(std::string_view text, std::string_view name) { return Reader{text, name}.read(); }
 
-Result<TextureModels> loadTextureModels(const std::filesystem::path& path) {
-    const Result<std::string> text = readFile(path, limits::maxTextureFileBytes);
-    if (!text) return Failure{text.error};
-    return readTextureModels(text.value, path.string());
-}
+Result<TextureModels> loadTextureModels(const std::filesystem::path& path) { return loadText(path, limits::maxTextureFileBytes, readTextureModels); }
 
 } // namespace physvib

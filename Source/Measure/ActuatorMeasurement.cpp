@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Transfer function, a first guess from magnitudes, the delay from phases, then least squares of all of it.
 #include "Measure/ActuatorMeasurement.h"
+#include "Core/Decibels.h"
 #include "Files/Text/NumberText.h"
 #include "Measure/RecordingFaults.h"
 #include <Eigen/Cholesky>
@@ -168,7 +169,7 @@ std::vector<float> sweepOf(const SweepSettings& s, double rateHz) {
 }
 
 FrequencyBand MeasuredActuator::bandWithin(double decibels, const FrequencyBand& swept) const {
-    const double least = std::pow(10.0, -decibels / 20.0) * std::max(1.0, 1.0 / resonator.q); // of the peak or the plateau
+    const double least = fromDecibels(-decibels) * std::max(1.0, 1.0 / resonator.q); // of the peak or the plateau
     FrequencyBand band{};
     for (double hz = std::ceil(swept.lowHz); hz <= swept.highHz; hz += 1.0) {
         if (std::abs(resonator.at(hz)) < least) continue;

@@ -18,13 +18,6 @@ constexpr std::size_t fewestGrains = 20;
 constexpr double mostLost = 0.3;
 constexpr double mostSpread = 0.8; // of heights, in means: chance makes 0.46, ringing of another partial above 1
 
-std::vector<Peak> peaksOf(std::span<const double> x) {
-    std::vector<Peak> all;
-    for (std::size_t i = 1; i + 1 < x.size(); ++i)
-        if (isPeak(x, i) && x[i] > 0.0) all.push_back(vertex(x, i));
-    return all;
-}
-
 /// Noise goes both ways, pulses one.
 double noiseOf(std::span<const double> x) {
     double sum = 0.0, count = 0.0;

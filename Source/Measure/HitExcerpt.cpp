@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Levels of short frames against the quietest part of the recording.
 #include "Measure/HitExcerpt.h"
+#include "Measure/PartialFit.h"
 #include <span>
 
 namespace physvib {
@@ -10,11 +11,7 @@ constexpr double longestHitSeconds = 1.0; // a slower decay is seen well enough 
 constexpr double frameSeconds = 0.025;    // a period of 40 Hz, so that power does not ripple
 constexpr double leastBeforeSeconds = 0.01; // a shorter silence tells no offset
 
-double power(std::span<const double> samples) {
-    double sum = 0.0;
-    for (const double x : samples) sum += x * x;
-    return sum / static_cast<double>(samples.size());
-}
+double power(std::span<const double> samples) { return energyOf(samples) / static_cast<double>(samples.size()); }
 
 /// Power of the quietest twentieth of the recording; 0 if it is too short to tell.
 double noisePower(const std::vector<double>& samples, std::size_t frame) {

@@ -16,12 +16,6 @@ constexpr double cleanShare = 1e-11; // of the energy: below it, what is left is
 constexpr double shortHit = 8.0;     // omega / tau
 constexpr double penalty = 1.5;      // per number, in units of ln N: the number, and the search for it (Schwarz 1978)
 
-double energyOf(std::span<const double> samples) {
-    double sum = 0.0;
-    for (const double x : samples) sum += x * x;
-    return sum;
-}
-
 } // namespace
 
 HitFit::HitFit(std::vector<double> samples, std::size_t guess, double rateHz)

@@ -4,6 +4,7 @@
 #include "Files/Text/NumberText.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/HitFit.h"
+#include "Measure/Peaks.h"
 #include "Measure/RecordingFaults.h"
 #include <algorithm>
 #include <cmath>
@@ -15,12 +16,6 @@ namespace {
 
 constexpr double shortestSeconds = 0.01; // half a period of the lowest frequency that is felt
 constexpr double slowestTau = 0.5;        // a partial that lasts longer was there before the hit: hum
-
-double power(std::span<const double> samples) {
-    double sum = 0.0;
-    for (const double x : samples) sum += x * x;
-    return samples.empty() ? 0.0 : sum / static_cast<double>(samples.size());
-}
 
 std::string faultOf(const std::vector<float>& x, double rateHz, ExtractionBand band) {
     if (!(rateHz > 0.0) || !(band.lowHz > 0.0) || !(band.highHz > band.lowHz)) return "expected a band of two rising frequencies";
@@ -67,23 +62,15 @@ Result<ContactSound> byFit(const std::vector<float>& samples, const HitExcerpt& 
     return sound;
 }
 
-struct TimePeak {
-    double seconds, height;
-};
-
-/// The local maxima of |x|, between samples, highest first; of those nearer than `apart` only the highest.
-std::vector<TimePeak> twoHighest(std::span<const double> x, double rateHz, double apart) {
-    std::vector<TimePeak> all;
-    for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-        const double a = std::abs(x[i - 1]), b = std::abs(x[i]), c = std::abs(x[i + 1]);
-        if (!(b > a && b >= c)) continue;
-        const double bend = a - 2.0 * b + c, at = 0.5 * (a - c) / bend; // the vertex of the parabola through them
-        all.push_back({(static_cast<double>(i) + at) / rateHz, b - 0.25 * (a - c) * at});
+/// The local maxima of |x|, in seconds, highest first; of those nearer than `apart` only the highest.
+std::vector<Peak> twoHighest(std::vector<double> x, double rateHz, double apart) {
+    for (double& sample : x) sample = std::abs(sample);
+    std::vector<Peak> all = peaksOf(x), two;
+    std::ranges::sort(all, std::greater{}, &Peak::height);
+    for (const Peak& peak : all) {
+        const double seconds = peak.at / rateHz;
+        if (two.size() < 2 && (two.empty() || std::abs(seconds - two.front().at) >= apart)) two.push_back({seconds, peak.height});
     }
-    std::ranges::sort(all, std::greater{}, &TimePeak::height);
-    std::vector<TimePeak> two;
-    for (const TimePeak& peak : all)
-        if (two.size() < 2 && (two.empty() || std::abs(peak.seconds - two.front().seconds) >= apart)) two.push_back(peak);
     return two;
 }
 
@@ -93,13 +80,14 @@ Result<ContactSound> byTwoPeaks(const std::vector<float>& samples, const HitExce
     sound.frequencyHz = highestPeakHz(x, rateHz, band.lowHz, band.highHz);
     const auto two = twoHighest(x, rateHz, 0.25 / sound.frequencyHz);
     if (two.size() < 2) return Failure{"two-peaks: expected two peaks in time, found " + std::to_string(two.size())};
-    sound.decayPerSecond = std::log(two[0].height / two[1].height) / (two[1].seconds - two[0].seconds);
+    sound.decayPerSecond = std::log(two[0].height / two[1].height) / (two[1].at - two[0].at);
     if (!(sound.decayPerSecond > 0.0)) return Failure{"two-peaks: expected the higher peak before the lower one, found it after"};
     sound.partials = 1;
     PartialFit fit{x, rateHz};
     fit.add({2.0 * std::numbers::pi * sound.frequencyHz, sound.decayPerSecond, 0.0, 0.0});
     fit.solveLinear();
-    const double energy = power(x) * static_cast<double>(x.size());
+    const auto count = static_cast<double>(x.size());
+    const double energy = energyOf(x) / count * count; // by the mean: figures keep their last bit
     sound.residualShare = fit.residualEnergy() / energy;
     sound.ownShare = 1.0 - sound.residualShare;
     sound.beginSeconds = static_cast<double>(hit.begin) / rateHz;

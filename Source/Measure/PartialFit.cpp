@@ -24,12 +24,6 @@ void subtract(std::vector<double>& samples, const Partial& p, double rateHz) {
     }
 }
 
-double energyOf(std::span<const double> samples) {
-    double sum = 0.0;
-    for (const double x : samples) sum += x * x;
-    return sum;
-}
-
 /// The amplitudes that fit best at p's frequency and decay; the energy that this takes away.
 double solveAmplitudes(std::span<const double> samples, double rateHz, Partial& p) {
     const Complex<double> point = pointOfSpectrum(samples, rateHz, p.omega, p.tau);
@@ -48,6 +42,12 @@ double solveAmplitudes(std::span<const double> samples, double rateHz, Partial& 
 }
 
 } // namespace
+
+double energyOf(std::span<const double> samples) {
+    double sum = 0.0;
+    for (const double x : samples) sum += x * x;
+    return sum;
+}
 
 Partial Partial::shifted(double seconds) const noexcept {
     const double decay = std::exp(-tau * seconds), c = decay * std::cos(omega * seconds), s = decay * std::sin(omega * seconds);

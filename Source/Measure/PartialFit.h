@@ -64,6 +64,9 @@ private:
     std::vector<Partial> partials_;
 };
 
+/// The sum of their squares. Any thread.
+double energyOf(std::span<const double> samples);
+
 /// Frequency in Hz, between `lowHz` and `highHz`, of the highest peak in the magnitude spectrum, to a thousandth of a bin.
 double highestPeakHz(std::span<const double> samples, double rateHz, double lowHz, double highHz);
 

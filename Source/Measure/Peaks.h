@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace physvib {
 
@@ -19,5 +20,13 @@ inline Peak vertex(std::span<const double> x, std::size_t i) {
 
 /// Any thread.
 inline bool isPeak(std::span<const double> x, std::size_t i) { return x[i] > x[i - 1] && x[i] >= x[i + 1]; }
+
+/// All above 0. Any thread (allocates).
+inline std::vector<Peak> peaksOf(std::span<const double> x) {
+    std::vector<Peak> all;
+    for (std::size_t i = 1; i + 1 < x.size(); ++i)
+        if (isPeak(x, i) && x[i] > 0.0) all.push_back(vertex(x, i));
+    return all;
+}
 
 } // namespace physvib

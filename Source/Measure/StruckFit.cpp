@@ -26,11 +26,7 @@ std::vector<double> StruckFit::residual(const State& state) const {
     return rest;
 }
 
-double StruckFit::energyOf(const State& state) const {
-    double sum = 0.0;
-    for (const double x : residual(state)) sum += x * x;
-    return sum;
-}
+double StruckFit::energyOf(const State& state) const { return physvib::energyOf(residual(state)); }
 
 NormalEquations StruckFit::equationsOf(const State& state) const {
     NormalEquations equations(1 + numbersEach * state.partials.size());

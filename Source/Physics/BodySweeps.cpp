@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One look at each body per step.
 #include "Physics/BodySweeps.h"
-#include "Physics/AdvancedPart.h"
+#include "Physics/BoxPrivates.h"
 #include "Physics/WorldNames.h"
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A link in the chain of a world's listeners.
 #include "Physics/WorldListener.h"
-#include "Physics/InstalledListener.h"
+#include "Physics/BoxPrivates.h"
 #include "Physics/WorldNames.h"
 #include <typeinfo>
 #include <utility>

@@ -63,7 +63,7 @@ void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, bool i
     canvas.graphics.strokePath(outline, isLine ? 1.0f : 2.0f, move);
 }
 
-void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyMark& mark, const FieldMap& map) {
+void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyPose& mark, const FieldMap& map) {
     const auto move = Transform::rotation(static_cast<float>(-mark.angleRadians))
                           .translated(map.at(mark.xMetres, mark.yMetres));
     for (const auto& fixture : body.fixtures)
@@ -77,8 +77,8 @@ void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap&
     const auto cast = sceneCast(*input.scene);
     for (std::size_t i = 0; i < cast.size(); ++i) {
         const auto& at = cast[i].positionMetres;
-        const BodyMark start{at.x, at.y, cast[i].angleRadians, i < input.scene->bodies.size()};
-        const BodyMark& mark = i < input.bodies.size() ? input.bodies[i] : start;
+        const BodyPose start{at.x, at.y, cast[i].angleRadians, i < input.scene->bodies.size()};
+        const BodyPose& mark = i < input.bodies.size() ? input.bodies[i] : start;
         if (mark.isPresent) drawBody(canvas, cast[i], mark, map);
     }
 }

@@ -36,7 +36,6 @@ struct Rectangle {
                p.x < static_cast<float>(right()) && p.y < static_cast<float>(bottom());
     }
 
-    Rectangle withX(T value) const noexcept { return {value, y, width, height}; }
     Rectangle withY(T value) const noexcept { return {x, value, width, height}; }
     Rectangle withHeight(T value) const noexcept { return {x, y, width, value}; }
     Rectangle withLeft(T left) const noexcept { return {left, y, std::max(T{}, right() - left), height}; }

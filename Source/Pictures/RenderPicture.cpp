@@ -63,14 +63,11 @@ std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept {
     return found == events.end() ? -1 : found - events.begin();
 }
 
-std::vector<BodyMark> bodiesAtStrongest(const Scene& scene, const SceneRun& run,
+std::vector<BodyPose> bodiesAtStrongest(const Scene& scene, const SceneRun& run,
                                         std::span<const CollisionEvent> events) {
-    std::vector<BodyMark> bodies;
     const auto strongest = strongestEvent(events);
-    if (strongest < 0) return bodies;
-    for (const BodyPose& pose : posesAt(scene, run, events[static_cast<std::size_t>(strongest)].timeNs))
-        bodies.push_back({pose.xMetres, pose.yMetres, pose.angleRadians, pose.isPresent});
-    return bodies;
+    if (strongest < 0) return {};
+    return posesAt(scene, run, events[static_cast<std::size_t>(strongest)].timeNs);
 }
 
 FrameWindow zoomWindow(std::span<const CollisionEvent> events, int sampleRateHz) noexcept {

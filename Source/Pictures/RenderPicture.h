@@ -15,14 +15,6 @@
 
 namespace physvib {
 
-/// Where a body stood when the picture was taken; origin at the field's lower left, angle counter-clockwise.
-struct BodyMark {
-    double xMetres = 0.0;
-    double yMetres = 0.0;
-    double angleRadians = 0.0;
-    bool isPresent = true; ///< false: not drawn
-};
-
 /// What the picture shows. Every part may be empty: no scene, no bodies, no events, no sound.
 struct PictureInput {
     std::string title;
@@ -30,7 +22,7 @@ struct PictureInput {
     double fieldWidthMetres = 0.0; ///< mapped on the layout's extent
     double fieldHeightMetres = 0.0;
     const Scene* scene = nullptr; ///< null: events without a world
-    std::vector<BodyMark> bodies; ///< at the strongest event, per body of sceneCast(); missing: as it began
+    std::vector<BodyPose> bodies; ///< at the strongest event, per body of sceneCast(); missing: as it began
     std::span<const CollisionEvent> events;     ///< in any order
     EnchanterLayout layout;                     ///< channel j of the waveforms is place j
     std::vector<std::string> labels;            ///< of the enchanters; missing ones are A, B, ... or numbers
@@ -46,7 +38,7 @@ struct PictureInput {
 std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept;
 
 /// Where the bodies of a scene stand at its strongest event; none if nothing was struck. Any thread.
-std::vector<BodyMark> bodiesAtStrongest(const Scene& scene, const SceneRun& run,
+std::vector<BodyPose> bodiesAtStrongest(const Scene& scene, const SceneRun& run,
                                         std::span<const CollisionEvent> events);
 
 /// Frames of a render, which may reach beyond its ends.

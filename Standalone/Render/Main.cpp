@@ -3,11 +3,11 @@
 #include "Core/CollisionEvent.h"
 #include "Files/Disk/FileClash.h"
 #include "Files/EventsCsv.h"
-#include "Files/FloatWav.h"
 #include "Files/LayoutFile.h"
 #include "Files/SceneCatalogue.h"
 #include "Files/Text/CleanText.h"
 #include "Files/Text/NameList.h"
+#include "Files/WavSink.h"
 #include "InRange.h"
 #include "Physics/Scenes/SceneRun.h"
 #include "Session/OfflineRender.h"
@@ -120,9 +120,9 @@ PictureInput pictureWords(const Options& o, const Source& source, const LayoutDe
 /// Writes the WAV file and the picture, those that are wanted.
 std::string writeSound(const Options& o, const Source& source, const LayoutDescription& layout) {
     const RendererSettings settings = settingsOf(o, layout.geometry, source);
-    std::optional<FloatWav> wav;
+    std::optional<WavSink> wav;
     if (!o.wavPath.empty() &&
-        !wav.emplace(o.wavPath, settings.outputs(), o.sampleRateHz, o.frames()).error().empty())
+        !wav.emplace(o.wavPath, settings.outputs(), o.sampleRateHz, provenanceLine(source.provenance)).error().empty())
         return wav->error();
 #if PHYSVIB_PICTURES
     std::optional<RenderedPicture> picture;
@@ -145,7 +145,7 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
 #if PHYSVIB_PICTURES
     if (picture) error = picture->draw(pictureWords(o, source, layout, settings));
 #endif
-    if (error.empty() && wav) error = wav->commit();
+    if (error.empty() && wav) error = wav->finish();
 #if PHYSVIB_PICTURES
     if (error.empty() && picture) error = picture->commit();
 #endif

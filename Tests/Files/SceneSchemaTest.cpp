@@ -148,7 +148,7 @@ template <class T>
 void expectDefinition(const std::string& name, std::set<std::string> alsoKnown) {
     SCOPED_TRACE(name);
     SchemaCheck<T> check(name);
-    FieldsOf<T>::visit(check);
+    visitFields(check, FieldsOf<T>{});
     if (name.empty()) check.required().insert("physvib_scene");
     check.finish(std::move(alsoKnown));
 }

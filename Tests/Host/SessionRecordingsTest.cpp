@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recorded contacts: at a level that is known, in a live session, and in the session that is rendered again from its file.
+#include "Files/WavSink.h"
 #include "Session/FakeHost.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Session/SessionJournal.h"
 #include "Host/Recordings/LoadContact.h"
 #include "Host/Recordings/LoadRecordings.h"
 #include "Host/Recordings/SessionWav.h"
-#include "Host/Recordings/WavSink.h"
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Host/Recordings/WavSink.h"
+#include "Files/WavSink.h"
 #include "Files/FileTesting.h"
 #include "Files/FullDisk.h"
 #include "Host/Recordings/PlayedRecorder.h"

@@ -235,7 +235,7 @@ TEST(RenderPicture, StemsStandAtTheirTimes) {
 }
 
 TEST(RenderPicture, BodiesStandWhereTheMarksSay) {
-    const auto ballAt = [](std::vector<BodyMark> bodies) {
+    const auto ballAt = [](std::vector<BodyPose> bodies) {
         Render render(1, 0);
         render.input.bodies = std::move(bodies);
         return find(drawPicture(render.input), palette::material(1).withMultipliedBrightness(0.9f),

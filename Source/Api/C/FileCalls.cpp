@@ -5,9 +5,9 @@
 #include "Core/OfflineLoop.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
-#include "Files/FloatWav.h"
 #include "Files/LayoutFile.h"
 #include "Files/Text/NameList.h"
+#include "Files/WavSink.h"
 #include <memory>
 #include <physvib/Version.h>
 #include <vector>
@@ -135,13 +135,13 @@ int physvib_wav_save(const char* path, const float* samples, int channels, physv
         if (path == nullptr || samples == nullptr) return nothingThere("sound: expected a path and samples, found NULL");
         if (channels < 1 || channels > limits::maxEnchanters || !isSampleRate(rateHz) || frames < 1 || !fitsWav(channels, frames))
             return fail(PHYSVIB_ERROR_ARGUMENT, "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB");
-        FloatWav file{path, channels, rateHz, frames};
+        WavSink file{path, channels, rateHz};
         std::vector<const float*> block(static_cast<std::size_t>(channels));
         for (physvib_int64 from = 0; from < frames && file.error().empty(); from += limits::maxBlockFrames) {
             for (int j = 0; j < channels; ++j) block[static_cast<std::size_t>(j)] = samples + j * frames + from;
             file.write(block.data(), static_cast<int>(std::min<physvib_int64>(frames - from, limits::maxBlockFrames)));
         }
-        return written(file.commit());
+        return written(file.finish());
     });
 }
 

@@ -42,12 +42,7 @@ struct LineDrawing {
 
     void through(const LineSeries& series) const {
         std::string d;
-        for (const LinePoint& point : series.points) {
-            d += d.empty() ? 'M' : 'L';
-            appendPixels(d, at(point).x);
-            d += ' ';
-            appendPixels(d, at(point).y);
-        }
+        for (const LinePoint& point : series.points) appendPoint(d, d.empty() ? 'M' : 'L', at(point));
         if (series.isFaint) svg.path(d, "none", {"#aaa", 0.8});
         else svg.path(d, "none", {seriesColour(series.style), 2.0, seriesDash(series.style)});
     }

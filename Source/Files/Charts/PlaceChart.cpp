@@ -58,12 +58,7 @@ struct PlaceDrawing {
                 }
         return d;
     }
-    static void move(std::string& d, double x, double y) {
-        d += 'M';
-        appendPixels(d, x);
-        d += ' ';
-        appendPixels(d, y);
-    }
+    static void move(std::string& d, double x, double y) { appendPoint(d, 'M', {x, y}); }
     static void step(std::string& d, char direction, double length) {
         d += direction;
         appendPixels(d, length);

@@ -62,6 +62,13 @@ void appendPixels(std::string& out, double pixels) {
     out += text.empty() || text == "-0" ? "0" : text;
 }
 
+void appendPoint(std::string& out, char command, ChartPoint at) {
+    out += command;
+    appendPixels(out, at.x);
+    out += ' ';
+    appendPixels(out, at.y);
+}
+
 Svg::Svg(std::string name, double width, double height)
     : name_{std::move(name)}, width_{width}, height_{height} {}
 
@@ -162,12 +169,7 @@ void Svg::marker(ChartPoint at, std::size_t series, double r) {
     const std::size_t style = series % chartStyles;
     const auto around = [&](std::initializer_list<ChartPoint> corners) {
         std::string d;
-        for (const ChartPoint& corner : corners) {
-            d += d.empty() ? 'M' : 'L';
-            appendPixels(d, at.x + r * corner.x);
-            d += ' ';
-            appendPixels(d, at.y + r * corner.y);
-        }
+        for (const ChartPoint& corner : corners) appendPoint(d, d.empty() ? 'M' : 'L', {at.x + r * corner.x, at.y + r * corner.y});
         path(d + "Z", colours[style], {"#222", 0.8});
     };
     switch (style) {

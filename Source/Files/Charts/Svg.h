@@ -72,7 +72,8 @@ private:
     unsigned hatches_ = 0; // a bit per series whose hatch is used
 };
 
-/// Appends with at most two decimals. Any thread.
+/// Appends with at most two decimals; a place after a path's command. Any thread.
 void appendPixels(std::string& out, double pixels);
+void appendPoint(std::string& out, char command, ChartPoint at);
 
 } // namespace physvib

@@ -10,7 +10,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <type_traits>
 
 namespace physvib {
 
@@ -38,6 +40,14 @@ inline Result<std::string> readFile(const std::filesystem::path& path, std::size
     }
     if (std::ferror(file.get())) return unreadable(path, errno);
     return text;
+}
+
+/// What `read` makes of a file's text and name. M only.
+template <class Read>
+std::invoke_result_t<Read, std::string_view, std::string_view> loadText(const std::filesystem::path& path, std::size_t maxBytes, Read read) {
+    const Result<std::string> text = readFile(path, maxBytes);
+    if (!text) return Failure{text.error};
+    return read(text.value, path.string());
 }
 
 struct RegularFile {

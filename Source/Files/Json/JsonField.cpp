@@ -120,22 +120,6 @@ std::vector<std::string> JsonField::names() const {
     return names;
 }
 
-bool JsonField::isNumber() const {
-    return value_.is_number();
-}
-
-bool JsonField::isArray() const {
-    return value_.is_array();
-}
-
-bool JsonField::isObject() const {
-    return value_.is_object();
-}
-
-bool JsonField::isNull() const {
-    return value_.is_null();
-}
-
 bool JsonField::is(std::string_view word) const {
     return value_.is_string() && value_.get_ref<const std::string&>() == word;
 }

@@ -44,10 +44,10 @@ public:
     std::string line() const;
     /// Index of the word it is among `names`.
     std::size_t oneOf(std::span<const std::string_view> names) const;
-    bool isNull() const;
-    bool isNumber() const;
-    bool isArray() const;
-    bool isObject() const;
+    bool isNull() const { return value_.is_null(); }
+    bool isNumber() const { return value_.is_number(); }
+    bool isArray() const { return value_.is_array(); }
+    bool isObject() const { return value_.is_object(); }
     bool is(std::string_view word) const;
 
 private:

@@ -125,7 +125,7 @@ private:
     template <class Kind>
     void readKind(Kind& kind) {
         FieldReader<Kind> reader(json_, kind, materials_);
-        FieldsOf<Kind>::visit(reader);
+        visitFields(reader, FieldsOf<Kind>{});
         known_.insert(known_.end(), reader.known().begin(), reader.known().end());
         if (missing_.empty()) missing_ = reader.missing();
     }
@@ -149,7 +149,7 @@ template <class T>
 void readValue(const JsonField& json, T& out, const Bounds&, const Materials& materials) {
     if (std::is_same_v<T, Normalisation> && json.is("auto")) return; // all of it
     FieldReader<T> reader(json, out, materials);
-    FieldsOf<T>::visit(reader);
+    visitFields(reader, FieldsOf<T>{});
     reader.finish();
 }
 

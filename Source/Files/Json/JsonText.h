@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How every JSON text is read: within its limit, strictly, whole or not at all. For the .cpp files of Files.
+// How every JSON text is read: within its limit, strictly, whole or not at all; and the version that ours have. For the .cpp files of Files.
 #pragma once
+#include "Files/Json/JsonField.h"
 #include "Files/Result.h"
-#include "Files/Json/StrictJson.h"
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -22,6 +22,17 @@ Result<std::invoke_result_t<Read, Json&>> readJson(std::string_view text, std::s
     } catch (const JsonError& error) {
         return Failure{std::string(name) + ": " + error.what()};
     }
+}
+
+/// Fails unless `root` is an object whose field `name` is a version from 1 to `newest`.
+inline void checkVersion(const JsonField& root, std::string_view name, int newest) {
+    root.expectObject();
+    const JsonField field = root[name];
+    const int version = field.wholeNumber();
+    if (version < 1) field.fail("expected a version from 1 on, found " + std::to_string(version));
+    if (version > newest)
+        field.fail("made for a newer PhysVib: expected a version up to " + std::to_string(newest) +
+                   ", found " + std::to_string(version));
 }
 
 } // namespace physvib

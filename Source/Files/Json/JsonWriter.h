@@ -56,7 +56,7 @@ private:
     template <class F>
     OrderedJson valueJson(const F& value) const {
         if constexpr (
-            requires { OrderedJson(value); } && !requires { &FieldsOf<F>::visit; })
+            requires { OrderedJson(value); } && !requires(int visitor) { visitFields(visitor, FieldsOf<F>{}); })
             return value;
         else
             return fieldsJson(value, materials_);
@@ -82,7 +82,7 @@ private:
 template <class T>
 OrderedJson fieldsJson(const T& object, const std::vector<Material>& materials) {
     FieldWriter<T> writer(object, materials);
-    FieldsOf<T>::visit(writer);
+    visitFields(writer, FieldsOf<T>{});
     return std::move(writer.json);
 }
 

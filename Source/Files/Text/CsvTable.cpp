@@ -154,9 +154,7 @@ std::string eachCsvRow(std::string_view text, std::string_view name, const std::
 }
 
 Result<CsvTable> loadCsvTable(const std::filesystem::path& path) {
-    const Result<std::string> text = readFile(path, limits::maxTableBytes);
-    if (!text) return Failure{text.error};
-    return readCsvTable(text.value, path.string());
+    return loadText(path, limits::maxTableBytes, [](std::string_view text, std::string_view name) { return readCsvTable(text, name); });
 }
 
 void appendCell(std::string& line, std::string_view text) {

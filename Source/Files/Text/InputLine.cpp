@@ -14,17 +14,9 @@ namespace {
 struct ActionLine {
     Action action;
 };
-} // namespace
-
-template <>
-struct FieldsOf<ActionLine> {
-    template <class V>
-    static void visit(V& v) {
-        v.variant("input", &ActionLine::action, actionNames);
-    }
-};
-
-namespace {
+void visitFields(auto& v, FieldsOf<ActionLine>) {
+    v.variant("input", &ActionLine::action, actionNames);
+}
 
 constexpr std::size_t mostNumbers = 1024; // of a list
 constexpr std::string_view silenceName = "silence", truthName = "on";

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Digits by <charconv>, in groups of three.
 #include "Files/Text/ReadableNumber.h"
+#include "Core/Decibels.h"
 #include "Core/Limits.h"
 #include "Files/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace physvib::readable {
 
@@ -37,8 +37,7 @@ std::string shortNumber(double value) {
 }
 
 double decibels(double amplitude) {
-    return amplitude == 0.0 ? -std::numeric_limits<double>::infinity()
-                            : 20.0 * std::log10(std::abs(amplitude));
+    return toDecibels(std::abs(amplitude));
 }
 
 std::string decibelText(double amplitude) {

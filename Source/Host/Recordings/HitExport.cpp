@@ -5,8 +5,8 @@
 #include "Files/ActuatorFile.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Text/NumberText.h"
+#include "Files/WavSink.h"
 #include "Formats/ClipLimits.h"
-#include "Host/Recordings/WavSink.h"
 #include "Session/OfflineRender.h"
 #include "Wire/BoardSteps.h"
 #include <algorithm>

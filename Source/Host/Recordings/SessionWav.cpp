@@ -2,8 +2,8 @@
 // Its recordings in, its samples out.
 #include "Host/Recordings/SessionWav.h"
 #include "Files/Disk/FileClash.h"
+#include "Files/WavSink.h"
 #include "Host/Recordings/LoadRecordings.h"
-#include "Host/Recordings/WavSink.h"
 
 namespace physvib {
 

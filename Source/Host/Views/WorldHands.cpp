@@ -22,9 +22,7 @@ int WorldView::bodyAt(juce::Point<float> p) const {
         if (body.type != BodyType::dynamicBody || !pose.isPresent) continue;
         for (const auto& fixture : body.fixtures) {
             auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
-            path.applyTransform(juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
-                                    .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre, static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
-                                    .followedBy(placeOf(pose, at)));
+            path.applyTransform(placeOf(fixture, pose, at));
             if (path.contains(p) || path.getBounds().withSizeKeepingCentre(16.0f, 16.0f).contains(p)) return i;
         }
     }

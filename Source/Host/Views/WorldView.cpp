@@ -139,6 +139,12 @@ juce::AffineTransform WorldView::placeOf(const BodyPose& pose, const Map& at) co
     return juce::AffineTransform::rotation(static_cast<float>(-pose.angleRadians)).translated(at.at(pose.xMetres, pose.yMetres));
 }
 
+juce::AffineTransform WorldView::placeOf(const FixtureDescription& fixture, const BodyPose& pose, const Map& at) const {
+    return juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
+        .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre, static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
+        .followedBy(placeOf(pose, at));
+}
+
 juce::Point<float> WorldView::placeOfEnchanter(int enchanter) const {
     const auto& layout = layout_.geometry;
     const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
@@ -193,11 +199,8 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
         const auto& body = cast_[i];
         const BodyPose pose = poseOf(i);
         if (!pose.isPresent) continue;
-        const auto move = placeOf(pose, at);
         for (const auto& fixture : body.fixtures) {
-            const auto place = juce::AffineTransform::rotation(static_cast<float>(-fixture.angleRadians))
-                                   .translated(static_cast<float>(fixture.offsetMetres.x) * at.pixelsPerMetre, static_cast<float>(-fixture.offsetMetres.y) * at.pixelsPerMetre)
-                                   .followedBy(move);
+            const auto place = placeOf(fixture, pose, at);
             const auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
             const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
             g.setColour(palette::material(fixture.material).withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f));

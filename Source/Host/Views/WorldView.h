@@ -130,6 +130,7 @@ private:
     juce::Colour colourOf(const CollisionEvent& event) const;
     BodyPose poseOf(std::size_t body) const;
     juce::AffineTransform placeOf(const BodyPose& pose, const Map& at) const;
+    juce::AffineTransform placeOf(const FixtureDescription& fixture, const BodyPose& pose, const Map& at) const;
     int bodyAt(juce::Point<float> p) const;
     int enchanterAt(juce::Point<float> p) const;
     juce::Rectangle<float> badgeOf(int enchanter, const Map& at) const;

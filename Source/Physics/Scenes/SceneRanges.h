@@ -123,7 +123,7 @@ private:
 template <class T>
 std::string checkFields(const std::string& path, const T& object, int materials) {
     RangeCheck<T> check(object, path, materials);
-    FieldsOf<T>::visit(check);
+    visitFields(check, FieldsOf<T>{});
     return std::move(check.fault);
 }
 

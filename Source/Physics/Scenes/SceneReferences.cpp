@@ -84,12 +84,6 @@ private:
         return std::visit([&](const auto& action) { return checkAction(action, path); }, input.action);
     }
 
-    std::string checkAction(const GravityAction&, const std::string&) const { return {}; }
-    std::string checkAction(const TiltAction&, const std::string&) const { return {}; }
-    std::string checkAction(const HoldAction&, const std::string&) const { return {}; }
-    std::string checkAction(const SpawnAction&, const std::string&) const { return {}; }
-    std::string checkAction(const SoundAction&, const std::string&) const { return {}; }
-    std::string checkAction(const TextureAction&, const std::string&) const { return {}; }
     std::string checkAction(const MotorAction& action, const std::string& path) const {
         const auto joint = joints_.find(action.joint);
         const bool hasMotor =
@@ -97,14 +91,16 @@ private:
                                        std::holds_alternative<WheelJoint>(joint->second->joint));
         return hasMotor ? std::string() : missing(path + ".joint", "revolute or wheel joint", action.joint);
     }
-    template <class BodyAction>
-    std::string checkAction(const BodyAction& action, const std::string& path) const {
-        const auto body = bodies_.find(action.body);
-        if (body == bodies_.end()) return missing(path + ".body", "body", action.body);
-        if constexpr (requires { action.fixture; }) {
-            const auto count = static_cast<int>(body->second->fixtures.size());
-            if (action.fixture >= count)
-                return detail::outside(path + ".fixture", 0, count - 1, action.fixture);
+    template <class One>
+    std::string checkAction(const One& action, const std::string& path) const {
+        if constexpr (requires { bodies_.find(action.body); }) { // the name of one, that is: others name none
+            const auto body = bodies_.find(action.body);
+            if (body == bodies_.end()) return missing(path + ".body", "body", action.body);
+            if constexpr (requires { action.fixture; }) {
+                const auto count = static_cast<int>(body->second->fixtures.size());
+                if (action.fixture >= count)
+                    return detail::outside(path + ".fixture", 0, count - 1, action.fixture);
+            }
         }
         return {};
     }

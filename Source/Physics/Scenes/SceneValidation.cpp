@@ -88,12 +88,8 @@ std::string checkUnique(const std::string& list, const std::vector<T>& all) {
     return {};
 }
 
-std::string checkOutline(const PolygonShape& polygon) {
-    if (!isConvexCounterClockwise(polygon.verticesMetres))
-        return "expected a convex outline, counter-clockwise";
-    if (thicknessMetres(polygon) < minSizeMetres) return "expected an outline at least 0.01 m wide";
-    const auto& v = polygon.verticesMetres;
-    for (std::size_t i = 0; i < v.size(); ++i) {
+std::string checkEdges(const std::vector<Vector>& v, bool isLoop) {
+    for (std::size_t i = 0; i + (isLoop ? 0 : 1) < v.size(); ++i) {
         const Vector& next = v[(i + 1) % v.size()];
         if (std::hypot(next.x - v[i].x, next.y - v[i].y) < minSizeMetres)
             return "expected edges at least 0.01 m long";
@@ -101,15 +97,16 @@ std::string checkOutline(const PolygonShape& polygon) {
     return {};
 }
 
+std::string checkOutline(const PolygonShape& polygon) {
+    if (!isConvexCounterClockwise(polygon.verticesMetres))
+        return "expected a convex outline, counter-clockwise";
+    if (thicknessMetres(polygon) < minSizeMetres) return "expected an outline at least 0.01 m wide";
+    return checkEdges(polygon.verticesMetres, true);
+}
+
 std::string checkOutline(const ChainShape& chain) {
-    const auto& v = chain.verticesMetres;
-    if (chain.isLoop && v.size() < 3) return "expected at least 3 vertices of a loop";
-    for (std::size_t i = 0; i + (chain.isLoop ? 0 : 1) < v.size(); ++i) {
-        const Vector& next = v[(i + 1) % v.size()];
-        if (std::hypot(next.x - v[i].x, next.y - v[i].y) < minSizeMetres)
-            return "expected edges at least 0.01 m long";
-    }
-    return {};
+    if (chain.isLoop && chain.verticesMetres.size() < 3) return "expected at least 3 vertices of a loop";
+    return checkEdges(chain.verticesMetres, chain.isLoop);
 }
 
 std::string checkOutline(const CircleShape&) {

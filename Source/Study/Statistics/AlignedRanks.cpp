@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is left of each cell's mean, and one effect's part of that mean, ranked over all values.
 #include "Study/Statistics/DesignEffects.h"
+#include "Study/Statistics/Moments.h"
 #include "Study/Statistics/Ranks.h"
 #include "Study/Statistics/RepeatedMeasures.h"
 #include <algorithm>
@@ -52,8 +53,7 @@ std::vector<double> aligned(const Design& design, const DesignEffect& effect) {
 
 /// Sums that are equal on paper differ by rounding: steps of a ten-thousand-millionth of the largest value make them equal again.
 void makeTiesEqual(std::vector<double>& values) {
-    double largest = 0.0;
-    for (const double v : values) largest = std::max(largest, std::abs(v));
+    const double largest = largestMagnitude(values);
     if (largest == 0.0) return;
     for (double& v : values) v = std::round(v / largest * 1e10);
 }

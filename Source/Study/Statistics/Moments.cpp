@@ -2,9 +2,16 @@
 // Sums in two passes, for values that are far from 0 and near each other.
 #include "Study/Statistics/Moments.h"
 #include "Study/Statistics/Distributions.h"
+#include <algorithm>
 #include <cmath>
 
 namespace physvib {
+
+double largestMagnitude(std::span<const double> values) noexcept {
+    double largest = 0.0;
+    for (const double v : values) largest = std::max(largest, std::abs(v));
+    return largest;
+}
 
 Moments::Moments(std::span<const double> values) noexcept
     : n{values.size()} {

@@ -6,6 +6,9 @@
 
 namespace physvib {
 
+/// Of values, whatever their signs; 0 of none. Any thread.
+double largestMagnitude(std::span<const double> values) noexcept;
+
 struct Moments {
     std::size_t n = 0;
     double mean = 0.0;

@@ -2,6 +2,7 @@
 // Paired and Welch's t as in R's t.test; ranks as in RankTests.
 #include "Study/Statistics/Pairs.h"
 #include "Study/Statistics/Distributions.h"
+#include "Study/Statistics/Moments.h"
 #include "Study/Statistics/RankTests.h"
 #include <algorithm>
 #include <cmath>
@@ -21,19 +22,17 @@ struct Sample {
     bool varies(double size) const { return variance > std::max(1e-200, 1e-28 * size * size); }
 };
 
-double largest(const std::vector<double>& values) {
-    double most = 0.0;
-    for (const double v : values) most = std::max(most, std::abs(v));
-    return most;
+std::vector<double> differencesOf(const std::vector<double>& first, const std::vector<double>& second) {
+    std::vector<double> differences(first.size());
+    for (std::size_t i = 0; i < first.size(); ++i) differences[i] = first[i] - second[i];
+    return differences;
 }
 
 TestLine pairedT(const std::vector<double>& first, const std::vector<double>& second) {
-    std::vector<double> differences(first.size());
-    for (std::size_t i = 0; i < first.size(); ++i) differences[i] = first[i] - second[i];
     TestLine line;
     line.n = first.size();
-    const Sample sample{differences};
-    if (!sample.varies(std::max(largest(first), largest(second)))) return line;
+    const Sample sample{differencesOf(first, second)};
+    if (!sample.varies(std::max(largestMagnitude(first), largestMagnitude(second)))) return line;
     line.df1 = sample.n - 1.0;
     line.statistic = sample.mean / std::sqrt(sample.variance / sample.n);
     line.p = studentTwoSided(*line.statistic, *line.df1);
@@ -47,7 +46,7 @@ TestLine welchT(const std::vector<double>& first, const std::vector<double>& sec
     if (first.size() < 2 || second.size() < 2) return line;
     const Sample a{first}, b{second};
     const double error = a.variance / a.n + b.variance / b.n, share = a.variance / a.n / error;
-    if (!a.varies(largest(first)) && !b.varies(largest(second))) return line;
+    if (!a.varies(largestMagnitude(first)) && !b.varies(largestMagnitude(second))) return line;
     line.df1 = 1.0 / (share * share / (a.n - 1.0) + (1.0 - share) * (1.0 - share) / (b.n - 1.0));
     line.statistic = (a.mean - b.mean) / std::sqrt(error);
     line.p = studentTwoSided(*line.statistic, *line.df1);
@@ -56,9 +55,7 @@ TestLine welchT(const std::vector<double>& first, const std::vector<double>& sec
 }
 
 TestLine pairedRanks(const std::vector<double>& first, const std::vector<double>& second) {
-    std::vector<double> differences(first.size());
-    for (std::size_t i = 0; i < first.size(); ++i) differences[i] = first[i] - second[i];
-    return signedRank(differences);
+    return signedRank(differencesOf(first, second));
 }
 
 using Test = TestLine (*)(const std::vector<double>&, const std::vector<double>&);

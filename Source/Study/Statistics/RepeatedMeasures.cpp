@@ -3,6 +3,7 @@
 #include "Study/Statistics/RepeatedMeasures.h"
 #include "Study/Statistics/DesignEffects.h"
 #include "Study/Statistics/Distributions.h"
+#include "Study/Statistics/Moments.h"
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -116,8 +117,7 @@ void addSphericity(const Matrix& error, double df, double cells, TestLine& line)
 
 /// A sum of squares that may be rounding alone; the least of all leaves room for what is divided by it.
 double roundingOf(const std::vector<double>& values) {
-    double largest = 0.0;
-    for (const double v : values) largest = std::max(largest, std::abs(v));
+    const double largest = largestMagnitude(values);
     return std::max(1e-200, 1e-28 * static_cast<double>(values.size()) * largest * largest);
 }
 

@@ -5,10 +5,10 @@
 #include "Files/ActuatorFile.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/Text/NumberText.h"
+#include "Files/WavSink.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SweepRecorder.h"
 #include "Host/Recordings/ReadRecording.h"
-#include "Host/Recordings/WavSink.h"
 #include "Measure/ActuatorMeasurement.h"
 #include <cmath>
 #include <string>

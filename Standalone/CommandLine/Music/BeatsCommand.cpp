@@ -7,9 +7,9 @@
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
 #include "Files/Text/NameList.h"
+#include "Files/WavSink.h"
 #include "Host/Music/BandPass.h"
 #include "Host/Recordings/ReadRecording.h"
-#include "Host/Recordings/WavSink.h"
 #include "Session/OfflineRender.h"
 #include <algorithm>
 #include <filesystem>

@@ -6,7 +6,7 @@
 #include "CommandLine/Render/RenderListener.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
-#include "Host/Recordings/WavSink.h"
+#include "Files/WavSink.h"
 #include "Pictures/WaveformEnvelope.h"
 #include <iosfwd>
 #include <memory>

@@ -6,11 +6,11 @@
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"
 #include "Core/SamplePeak.h"
+#include "Files/WavSink.h"
+#include "Host/Recordings/ReadRecording.h"
+#include "Jobs/MakeStimulus.h"
 #include "Pictures/RenderPicture.h"
 #include "Session/StimulusRender.h"
-#include "Host/Recordings/ReadRecording.h"
-#include "Host/Recordings/WavSink.h"
-#include "Jobs/MakeStimulus.h"
 #include <filesystem>
 #include <optional>
 

@@ -7,7 +7,7 @@
 #include "Files/Disk/ReadFile.h"
 #include "Files/Provenance.h"
 #include "Files/Text/NumberText.h"
-#include "Files/WavHead.h"
+#include "Files/WavFile.h"
 #include <algorithm>
 #include <limits>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opening its port, and what inputs and controls do.
 #include "Mixer/Desk/DeskInputs.h"
+#include "Core/Decibels.h"
 #include "Mixer/Desk/Desk.h"
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,7 @@
 namespace physvib {
 namespace {
 
-double stripDb(float gain) { return gain == 0.0f ? leastStripDb : std::clamp(20.0 * std::log10(std::abs(static_cast<double>(gain))), leastStripDb, mostStripDb); }
+double stripDb(float gain) { return gain == 0.0f ? leastStripDb : std::clamp(toDecibels(std::abs(static_cast<double>(gain))), leastStripDb, mostStripDb); }
 
 } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Strips and what they change on the desk.
 #include "Mixer/Strips/StripView.h"
+#include "Core/Decibels.h"
 #include <cmath>
 
 namespace physvib {
@@ -28,7 +29,7 @@ StripView::StripView(Desk& desk, int strip)
     setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
     onSlide(fader_, [this](bool goesOn) { change("Gain", [this](Strip& s) { s.gainDb = fader_.getValue(); }, goesOn); });
     ceiling_.textFromValueFunction = [this](double db) {
-        return "at most " + number(db, 1) + " dB, " + inG(gOf(desk_, index_, static_cast<float>(std::pow(10.0, db / 20.0)))) + " g";
+        return "at most " + number(db, 1) + " dB, " + inG(gOf(desk_, index_, static_cast<float>(fromDecibels(db)))) + " g";
     };
     onSlide(ceiling_, [this](bool goesOn) { change("Ceiling", [this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }, goesOn); });
     const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint, bool Strip::*what) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Logarithms of frequency and level.
 #include "Mixer/Window/FrequencyAxis.h"
+#include "Core/Decibels.h"
 #include "Mixer/Window/Parts.h"
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, 
         };
         double highest = std::max(between(from), between(to));
         for (auto i = static_cast<std::size_t>(std::ceil(from)); i <= static_cast<std::size_t>(to); ++i) highest = std::max(highest, magnitudes[i]);
-        const double db = 20.0 * std::log10(std::max(highest / fullScale, 1e-9));
+        const double db = toDecibels(std::max(highest / fullScale, 1e-9));
         levels[static_cast<std::size_t>(k)] = std::max(FrequencyAxis::floorDb, static_cast<float>(db));
     }
     return levels;
