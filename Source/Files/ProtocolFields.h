@@ -63,9 +63,9 @@ void visitFields(auto& v, FieldsOf<ConditionPlan>) {
     v.field("name", &C::name, anyText, Need::required);
     v.field("group", &C::group, anyText, Need::optional);
     v.field("layout", &C::layout, anyText, Need::optional);
-    v.field("frequency_hz", &C::frequencyHz, Bounds{limits::slowestToneHz, limits::maxFrequencyHz}, Need::optional);
+    v.field("frequency_hz", &C::frequencyHz, studyBounds::of(stimulusRanges::frequencyHz), Need::optional);
     v.field("at_resonance", &C::isAtResonance, {}, Need::optional);
-    v.field("level_g", &C::levelG, Bounds{1e-6, 1000.0}, Need::optional);
+    v.field("level_g", &C::levelG, studyBounds::of(stimulusRanges::levelG), Need::optional);
     v.field("observer_blur", &C::observerBlur, Bounds{0.001, 1.0}, Need::optional);
     v.variant("stimuli", &C::stimuli, stimulusSetNames);
 }
