@@ -33,7 +33,8 @@ std::size_t lastSink(std::string_view text, const SinkKind*& kind) {
     std::size_t last = text.npos;
     for (const SinkKind& one : sinkKinds) {
         const std::string mark = std::string(one.name) + ":";
-        const std::size_t behind = text.rfind("+" + mark), at = behind == text.npos && text.starts_with(mark) ? 0 : behind;
+        const std::size_t behind = text.rfind("+" + mark),
+                          at = behind == text.npos && text.starts_with(mark) ? 0 : behind;
         if (at != text.npos && (last == text.npos || at >= last)) last = at, kind = &one;
     }
     return last;
@@ -55,11 +56,13 @@ OutputNames::OutputNames(std::string_view text) {
 
 std::string channelFault(const std::vector<SinkName>& sinks, int channels) {
     for (const SinkName& sink : sinks)
-        if (const SinkKind& kind = kindOf(sink); kind.channels > 0 && channels > kind.channels) return std::string(kind.tooMany);
+        if (const SinkKind& kind = kindOf(sink); kind.channels > 0 && channels > kind.channels)
+            return std::string(kind.tooMany);
     return {};
 }
 
-std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner, const std::function<bool()>& goesOn, Sinks& opened) {
+std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
+                      const std::function<bool()>& goesOn, Sinks& opened) {
     for (const SinkName& sink : wanted) {
         opened.push_back(kindOf(sink).make(sink.where, panner));
         if (auto fault = opened.back()->awaitReady(goesOn); !fault.empty()) return fault;
