@@ -157,6 +157,19 @@ TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {
     EXPECT_EQ(numberAt<std::uint32_t>(bytes, chunkAt(bytes, "data") - 4), 960u * 4u);
 }
 
+TEST(PlayedRecorder, EndsWhereAnotherRateComes) {
+    PlayedRecorder recorder{pathOf("rates.wav"), 1, rateHz};
+    const std::vector<float> block(480, 0.5f);
+    const float* const channels[] = {block.data()};
+    recorder.rendered({channels, 480, 0, rateHz});
+    EXPECT_TRUE(recorder.isWhole());
+    recorder.rendered({channels, 480, 480, 2 * rateHz});
+    recorder.rendered({channels, 480, 960, rateHz});
+    EXPECT_FALSE(recorder.isWhole());
+    ASSERT_EQ(recorder.finish(), "");
+    EXPECT_EQ(recorder.frames(), 480);
+}
+
 TEST(WavSink, NoFramesAreAFileToo) {
     const auto path = pathOf("empty.wav");
     ASSERT_EQ(writeBlocks(path, 4, 0, 64), "");
