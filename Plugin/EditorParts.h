@@ -2,11 +2,13 @@
 // What the parts of the editor share: words, grounds, distances.
 #pragma once
 #include "Host/Views/Look.h"
+#include "Host/Views/Palette.h"
 #include <string_view>
 
 namespace physvib {
 
 constexpr int panelInset = 12, panelGap = 8;
+constexpr auto number = readable::words;
 
 inline juce::String words(std::string_view utf8) { return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size())); }
 

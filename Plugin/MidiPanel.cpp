@@ -2,13 +2,11 @@
 // Rows of words, and a form for each kind of rule. What a form asks for is checked by the reader of states.
 #include "MidiPanel.h"
 #include "EditorParts.h"
-#include "Host/Views/Palette.h"
 
 namespace physvib {
 
 namespace {
 
-const auto number = readable::words;
 constexpr int rowPixels = 30;
 
 juce::String percent(double share) { return number(100.0 * share, 0) + " %"; }

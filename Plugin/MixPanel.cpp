@@ -3,7 +3,6 @@
 #include "MixPanel.h"
 #include "EditorParts.h"
 #include "Files/ActuatorFile.h"
-#include "Host/Views/Palette.h"
 
 namespace physvib {
 
@@ -12,7 +11,6 @@ namespace {
 constexpr int stripGap = 6, masterWidth = 84;
 constexpr double holdMs = 1500.0;
 
-const auto number = readable::words;
 juce::String inG(double g) { return number(g, g < 9.995 ? 2 : 1); }
 
 void tinted(juce::TextButton& button, juce::Colour tint) { button.getProperties().set(tintProperty, static_cast<juce::int64>(tint.getARGB())); }
