@@ -13,6 +13,7 @@ namespace physvib {
 /// A column of ours, and what a table calls it.
 struct ColumnName {
     std::string ours, theirs;
+    bool operator==(const ColumnName&) const = default;
 };
 
 /// Of words like `response=key_resp.keys`, each of ours once; or one line on the first that is none. Any thread.

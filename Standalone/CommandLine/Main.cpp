@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The `physvib` program: its commands, and how a wrong call is told.
 #include "CommandLine/Command.h"
-#include "CommandLine/Process.h"
-#include "CommandLine/StandardStreams.h"
+#include "System/Process.h"
+#include "System/StandardStreams.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "Host/Devices/DeviceThread.h"
 #include "Options/Parser.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The application `physvib-mixer`: its window, or pictures of it.
-#include "CommandLine/Play/Interrupt.h"
-#include "CommandLine/Process.h"
+#include "System/Interrupt.h"
+#include "System/Process.h"
 #include "Host/Devices/DeviceThread.h"
 #include "Host/Devices/NoDevice.h"
 #include "Mixer/Window/MixerWindow.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the programs need of the system, by this program run again.
-#include "CommandLine/Process.h"
-#include "CommandLine/Play/Interrupt.h"
+#include "System/Process.h"
+#include "System/Interrupt.h"
 #include <chrono>
 #include <csignal>
 #include <cstdlib>

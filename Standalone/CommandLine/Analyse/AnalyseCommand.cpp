@@ -2,51 +2,26 @@
 // Options of the analyses, and which of them was asked for.
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Command.h"
-#include "CommandLine/Analyse/AnalyseFits.h"
-#include "CommandLine/Analyse/AnalyseGrids.h"
-#include "CommandLine/Analyse/AnalyseLabels.h"
-#include "CommandLine/Analyse/AnalyseTests.h"
-#include "CommandLine/Analyse/AnalyseVotes.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "Files/TrialColumns.h"
-#include "Study/StudyTasks.h"
+#include "Jobs/Analyse/Analysis.h"
+#include "Study/Statistics/RepeatedMeasures.h"
 #include <algorithm>
-#include <set>
-#include <span>
 
 namespace physvib {
+
+void declareColumns(OptionTable& command, std::vector<std::string>& words) {
+    command.add("--columns", words, "of another program's table: what it calls our columns, e.g. participant=subject,response=key_resp.keys").as("NAME=COLUMN[,...]").listed(static_cast<int>(limits::maxTableColumns));
+}
+
 namespace {
 
-struct Analysis {
-    std::string_view name;
-    const char* purpose;
-    AnalysisReport (*run)(const AnalyseOptions&);
+struct AnalyseOptions {
+    AnalysisJob job;
+    std::vector<std::string> columnWords; ///< as NAME=COLUMN, before they are columns
 };
 
-constexpr Analysis analyses[] = {
-    {"confusion", "stimulus,response per trial: percent correct and information transfer", analyseConfusion},
-    {"resolution", "pointing responses: normals, likelihood map, percent counts, perceptual resolution", analyseResolution},
-    {"percent-counts", "percent counts: the largest grid that merging makes of them", analysePercentCounts},
-    {"choices", "forced choices: shares of the alternatives", analyseChoices},
-    {"ratings", "slider ratings: means by condition", analyseRatings},
-    {"levels", "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
-    {"icons", "stimulus,response per trial: the patterns that are confused least", analyseIcons},
-};
-
-static_assert(std::ranges::all_of(studyTasks, [](const auto& task) { return task.analysis.empty() || std::ranges::find(analyses, task.analysis, &Analysis::name) != std::end(analyses); }),
-              "every task's analysis is one of these");
-
-constexpr Analysis testsOverParticipants[] = {
-    {"anova", "analysis of variance with repeated measures", analyseAnova},
-    {"friedman", "levels of a within-factor, by ranks", analyseFriedman},
-    {"wilcoxon", "two levels of a within-factor, by signed ranks", analyseWilcoxon},
-    {"mann-whitney", "two groups, by ranks", analyseMannWhitney},
-    {"kruskal-wallis", "two or more groups, by ranks", analyseKruskalWallis},
-    {"shapiro", "whether values may be normal (Shapiro-Wilk)", analyseShapiro},
-    {"pairs", "every two levels, corrected for their number", analysePairs},
-};
-
-void declareOwn(OptionTable& command, std::string_view name, AnalyseOptions& o) {
+void declareOwn(OptionTable& command, AnalysisJob& o) {
+    const std::string name = command.name();
     const bool isGrid = name == "resolution" || name == "percent-counts";
     if (name == "confusion" || name == "icons")
         command.add("--tolerance", o.tolerance, "grid steps (rows + columns) that still count as correct")
@@ -62,93 +37,71 @@ void declareOwn(OptionTable& command, std::string_view name, AnalyseOptions& o) 
         command.add("--participants", o.participantsPath, "percent correct and IT of each participant and condition").written("FILE.csv");
 }
 
-constexpr Analysis fits[] = {
-    {"psychometric", "psychometric functions of each participant, thresholds and JNDs over participants", analysePsychometric},
-    {"power-law", "Stevens' exponent of magnitude estimations", analysePowerLaw},
-};
-
-/// Of any kind; none of that name.
-template <class Is>
-const Analysis* analysisThat(Is is) {
-    for (const auto kind : std::initializer_list<std::span<const Analysis>>{analyses, testsOverParticipants, fits})
-        if (const auto found = std::ranges::find_if(kind, is); found != kind.end()) return &*found;
-    return nullptr;
+void declareTest(OptionTable& command, AnalysisJob& o) {
+    const std::string name = command.name();
+    command.add("--measure", o.measure, "column of numbers to test; COLUMN=WORD counts 1 where the column says so, else 0").required().as("COLUMN");
+    if (name != "mann-whitney" && name != "kruskal-wallis")
+        command.add("--within", o.within, "factors that every participant has all levels of").as("A[,B[,C]]").listed(mostWithinFactors);
+    if (name != "friedman" && name != "wilcoxon") command.add("--between", o.between, "column of the participants' groups").as("G");
+    command.add("--where", o.where, "only rows that say so; may be repeated").as("COLUMN=WORD").single();
+    command.add("--participant", o.participant, "column that names the participant (participant)").as("COLUMN");
+    if (name == "anova") {
+        command.add("--aligned-ranks", o.usesAlignedRanks, "of aligned ranks, for ratings");
+        return; // its correction is of sphericity
+    }
+    command.addRow("--correction", [&o](int correction) { o.correction = static_cast<Correction>(correction); }, "of p, for so many lines (none; pairs: holm)")
+        .numbered({{"none", 0}, {"holm", 1}, {"bonferroni", 2}}).as("holm|bonferroni|none");
+    if (name == "pairs")
+        command.addRow("--test", [&o](int test) { o.pairTest = static_cast<PairTest>(test); }, "of two levels (t)").numbered({{"t", 0}, {"ranks", 1}}).as("t|ranks");
 }
 
-OptionTable& declare(OptionTable& command, const Analysis& analysis, AnalyseOptions& o) {
+void declareFit(OptionTable& command, AnalysisJob& o) {
+    const bool isPsychometric = command.name() == "psychometric";
+    command.add("--level", o.level, isPsychometric ? "column of levels (level_db)" : "column of levels > 0, or word of the stimulus (stimulus)").as("COLUMN");
+    command.add("--measure", o.measure, isPsychometric ? "column of 1 and 0 (correct)" : "column of magnitudes (value)").as("COLUMN");
+    command.add("--picture", o.picturePath, "what was answered and the function, of the first condition").written("FILE.svg");
+    if (!isPsychometric) return;
+    std::vector<std::pair<std::string, int>> shapes;
+    for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i) shapes.emplace_back(psychometricShapeNames[i], static_cast<int>(i));
+    command.addRow("--shape", [&o](int shape) { o.shape = static_cast<PsychometricShape>(shape); }, "of the function (logistic)").numbered(shapes).as("logistic|normal|weibull");
+    command.add("--guess", o.guess, "share of right answers without a percept: 1 / alternatives").in(0.0, 0.9);
+}
+
+OptionTable& declare(OptionTable& command, const Analysis& analysis, AnalysisJob& o) {
     OptionTable& own = command.addCommand(std::string{analysis.name}, analysis.purpose);
     own.add("files", o.files, "trials, or what the analysis is about; several are taken together").required().as("FILE.csv");
     own.add("--export", o.exportPath, "the result as a table for a statistics package").written("FILE.csv");
     return own;
 }
 
-} // namespace
-
-void declareColumns(OptionTable& command, AnalyseOptions& o) {
-    command.add("--columns", o.columnWords, "of another program's table: what it calls our columns, e.g. participant=subject,response=key_resp.keys").as("NAME=COLUMN[,...]").listed(static_cast<int>(limits::maxTableColumns));
-}
-
 void declareAnalyse(OptionTable& command, AnalyseOptions& o) {
-    for (const Analysis& analysis : analyses) {
-        OptionTable& own = declare(command, analysis, o);
-        own.add("--picture", o.picturePath, "the result to look at").written("FILE.png");
-        declareOwn(own, analysis.name, o);
-        declareColumns(own, o);
-    }
-    for (const Analysis& test : testsOverParticipants) declareTest(declare(command, test, o), o);
-    for (const Analysis& fit : fits) {
-        OptionTable& own = declare(command, fit, o);
-        declareFit(own, o);
-        declareColumns(own, o);
-    }
-}
-
-std::vector<std::string> analysesFor(const CsvTable& table) {
-    std::set<std::string> found;
-    const auto has = [&](std::string_view column) { return table.column(column).has_value(); };
-    if (const auto task = table.column(trialColumns::task)) {
-        const auto phase = table.column(trialColumns::phase), correct = table.column("correct");
-        for (const CsvRow& row : table.rows) {
-            const StudyTaskDescription* const did = studyTaskNamed(row.cells[*task]);
-            if (did == nullptr) continue;
-            const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
-            const bool isAdapted = did->answer == AnswerKind::choice && correct && !row.cells[*correct].empty();
-            if (isAdapted || did->analysis == "levels") found.insert("levels"); // of trainings, too
-            else if (!isTraining) found.emplace(did->analysis);
+    for (const Analysis& analysis : allAnalyses()) {
+        OptionTable& own = declare(command, analysis, o.job);
+        switch (analysis.kind) {
+        case Analysis::Kind::test: declareTest(own, o.job); continue;
+        case Analysis::Kind::fit: declareFit(own, o.job); break;
+        case Analysis::Kind::results:
+            own.add("--picture", o.job.picturePath, "the result to look at").written("FILE.png");
+            declareOwn(own, o.job);
         }
-    } else {
-        if (has("stimulus") && has("response")) found.insert("confusion");
-        if (has("target_column") && has("x")) found.insert("resolution");
-        if (has("c1")) found.insert("percent-counts");
-        if (has("choice")) found.insert("choices");
-        if ((has("value") && has("stimulus")) || (has("level_db") && has("correct"))) found.insert("levels");
-        const bool hasScale = std::ranges::any_of(table.columns, [](const auto& column) { return !trialColumns::has(column); });
-        if (found.empty() && has("participant") && (has("stimulus") || has("condition")) && hasScale) found.insert("ratings");
+        declareColumns(own, o.columnWords);
     }
-    std::vector<std::string> names;
-    for (const Analysis& analysis : analyses)
-        if (found.contains(std::string{analysis.name})) names.emplace_back(analysis.name);
-    return names;
 }
 
-AnalysisReport analyse(const std::string& name, const AnalyseOptions& options) {
-    const Analysis* const found = analysisThat([&](const Analysis& a) { return a.name == name; });
-    return found ? found->run(options) : AnalysisReport{"no analysis " + inQuotes(name)};
-}
-
-int runAnalyse(const OptionTable& command, AnalyseOptions& o) {
-    auto columns = parseColumnNames(o.columnWords);
+int runAnalyse(const OptionTable& command, AnalyseOptions& options) {
+    auto columns = parseColumnNames(options.columnWords);
     if (!columns) return leave(exitUsage, "--columns: " + columns.error);
+    AnalysisJob& o = options.job;
     o.columns = std::move(columns.value);
-    const Analysis* const asked = analysisThat([&](const Analysis& a) { return command.isCalled(std::string{a.name}); });
-    if (!asked) return leave(exitUsage, "analyse: expected a kind of analysis (see physvib analyse --help)");
-    const AnalysisReport report = asked->run(o);
+    const AnalysisReport report = analyse(command.called()->name(), o);
     for (const auto& words : report.warnings) warn(words);
     if (report.error.empty() || !report.words.empty()) tellIfSimulated(report.isSimulated);
     std::cout << report.words;
     if (!report.error.empty()) return leave(exitFailed, report.error);
     return writeStudyFiles({{o.exportPath, report.table}, {o.countsPath, report.counts}, {o.participantsPath, report.participants}, {o.picturePath, report.picture}});
 }
+
+} // namespace
 
 Command analyseCommand() { return commandOf("analyse", "what the trials of a study say", declareAnalyse, runAnalyse); }
 

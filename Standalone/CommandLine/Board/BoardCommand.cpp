@@ -4,7 +4,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
-#include "CommandLine/StandardStreams.h"
+#include "System/StandardStreams.h"
 #include "CommandLine/Render/RenderJob.h"
 #include "Files/EventsCsv.h"
 #include "Physics/Simulation.h"

@@ -2,8 +2,8 @@
 // Polls standard input, cuts it into lines, looks for silence in them, and hands each to the session.
 #include "CommandLine/Play/InputListener.h"
 #include "CommandLine/ExitCode.h"
-#include "CommandLine/Process.h"
-#include "CommandLine/StandardStreams.h"
+#include "System/Process.h"
+#include "System/StandardStreams.h"
 #include "Session/BoardLink.h"
 #include <iostream>
 #include <type_traits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writing beside, then renaming; progress on a terminal only.
 #include "CommandLine/Render/RenderOutputs.h"
-#include "CommandLine/Process.h"
+#include "System/Process.h"
 #include "CommandLine/Render/LevelReport.h"
 #include "CommandLine/Render/MarkWords.h"
 #include "Pictures/RenderPicture.h"

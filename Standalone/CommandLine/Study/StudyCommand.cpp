@@ -2,7 +2,7 @@
 // Every participant, one after the other, answered by the observer.
 #include "CommandLine/Study/StudyCommand.h"
 #include "CommandLine/Command.h"
-#include "CommandLine/Process.h"
+#include "System/Process.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Files/LevelsFile.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far long work is, on a terminal; nothing anywhere else.
 #pragma once
-#include "CommandLine/Process.h"
+#include "System/Process.h"
 #include <chrono>
 #include <cmath>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // The temporary file of a result is the claim to its task: who has it renders, who is killed loses it.
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/ExitCode.h"
-#include "CommandLine/Process.h"
+#include "System/Process.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Sweep/HeardWords.h"
 #include "CommandLine/Sweep/ProgressBar.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each job does every so many-th task, so that all take about as long; which are done already, the folder says.
 #include "CommandLine/Sweep/SweepSlurm.h"
-#include "CommandLine/Process.h"
+#include "System/Process.h"
 #include <algorithm>
 #include <juce_core/juce_core.h>
 

@@ -2,7 +2,7 @@
 // POSIX: one counter in shared memory says what comes next; one pipe, whose writes are whole, brings what
 // became of it.
 #if !defined(_WIN32)
-#include "CommandLine/Process.h"
+#include "System/Process.h"
 #include "CommandLine/Sweep/Workers.h"
 #include <algorithm>
 #include <array>

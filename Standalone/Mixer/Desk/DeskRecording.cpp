@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // When a recording begins, and when all of it has come.
 #include "Mixer/Desk/DeskRecording.h"
-#include "CommandLine/Play/Interrupt.h"
+#include "System/Interrupt.h"
 #include "Mixer/Desk/DeskWords.h"
 #include <utility>
 

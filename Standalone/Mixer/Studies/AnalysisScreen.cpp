@@ -105,7 +105,7 @@ void AnalysisScreen::analyse(const std::vector<juce::File>& files) {
 void AnalysisScreen::run(const std::string& name) {
     picture_ = {};
     if (!name.empty()) {
-        AnalyseOptions options;
+        AnalysisJob options;
         options.files = pathsOf(files_);
         report_ = physvib::analyse(name, options);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the trials of a study say, over the whole window: the figures of `physvib analyse`, its warnings and its picture.
 #pragma once
-#include "CommandLine/Analyse/AnalyseCommand.h"
+#include "Jobs/Analyse/Analysis.h"
 #include "Mixer/Window/TabPanel.h"
 
 namespace physvib {

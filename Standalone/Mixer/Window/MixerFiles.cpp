@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files in one folder; a copy bears the number of its process.
 #include "Mixer/Window/MixerFiles.h"
-#include "CommandLine/Process.h"
+#include "System/Process.h"
 #include "Files/Disk/AtomicFile.h"
 #include <algorithm>
 #include <cstdlib>

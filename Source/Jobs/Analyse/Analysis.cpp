@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The list of all analyses, and which of them fit a table.
+#include "Jobs/Analyse/Analysis.h"
+#include "Files/TrialColumns.h"
+#include "Jobs/Analyse/AnalyseFits.h"
+#include "Jobs/Analyse/AnalyseGrids.h"
+#include "Jobs/Analyse/AnalyseLabels.h"
+#include "Jobs/Analyse/AnalyseTests.h"
+#include "Jobs/Analyse/AnalyseVotes.h"
+#include "Study/StudyTasks.h"
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace physvib {
+namespace {
+
+constexpr Analysis analyses[] = {
+    {Analysis::Kind::results, "confusion", "stimulus,response per trial: percent correct and information transfer", analyseConfusion},
+    {Analysis::Kind::results, "resolution", "pointing responses: normals, likelihood map, percent counts, perceptual resolution", analyseResolution},
+    {Analysis::Kind::results, "percent-counts", "percent counts: the largest grid that merging makes of them", analysePercentCounts},
+    {Analysis::Kind::results, "choices", "forced choices: shares of the alternatives", analyseChoices},
+    {Analysis::Kind::results, "ratings", "slider ratings: means by condition", analyseRatings},
+    {Analysis::Kind::results, "levels", "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
+    {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least", analyseIcons},
+    {Analysis::Kind::test, "anova", "analysis of variance with repeated measures", analyseAnova},
+    {Analysis::Kind::test, "friedman", "levels of a within-factor, by ranks", analyseFriedman},
+    {Analysis::Kind::test, "wilcoxon", "two levels of a within-factor, by signed ranks", analyseWilcoxon},
+    {Analysis::Kind::test, "mann-whitney", "two groups, by ranks", analyseMannWhitney},
+    {Analysis::Kind::test, "kruskal-wallis", "two or more groups, by ranks", analyseKruskalWallis},
+    {Analysis::Kind::test, "shapiro", "whether values may be normal (Shapiro-Wilk)", analyseShapiro},
+    {Analysis::Kind::test, "pairs", "every two levels, corrected for their number", analysePairs},
+    {Analysis::Kind::fit, "psychometric", "psychometric functions of each participant, thresholds and JNDs over participants", analysePsychometric},
+    {Analysis::Kind::fit, "power-law", "Stevens' exponent of magnitude estimations", analysePowerLaw},
+};
+
+static_assert(std::ranges::all_of(studyTasks, [](const auto& task) { return task.analysis.empty() || std::ranges::find(analyses, task.analysis, &Analysis::name) != std::end(analyses); }),
+              "every task's analysis is one of these");
+
+} // namespace
+
+std::span<const Analysis> allAnalyses() noexcept { return analyses; }
+
+std::vector<std::string> analysesFor(const CsvTable& table) {
+    std::set<std::string> found;
+    const auto has = [&](std::string_view column) { return table.column(column).has_value(); };
+    if (const auto task = table.column(trialColumns::task)) {
+        const auto phase = table.column(trialColumns::phase), correct = table.column("correct");
+        for (const CsvRow& row : table.rows) {
+            const StudyTaskDescription* const did = studyTaskNamed(row.cells[*task]);
+            if (did == nullptr) continue;
+            const bool isTraining = phase && row.cells[*phase] == trialColumns::training;
+            const bool isAdapted = did->answer == AnswerKind::choice && correct && !row.cells[*correct].empty();
+            if (isAdapted || did->analysis == "levels") found.insert("levels"); // of trainings, too
+            else if (!isTraining) found.emplace(did->analysis);
+        }
+    } else {
+        if (has("stimulus") && has("response")) found.insert("confusion");
+        if (has("target_column") && has("x")) found.insert("resolution");
+        if (has("c1")) found.insert("percent-counts");
+        if (has("choice")) found.insert("choices");
+        if ((has("value") && has("stimulus")) || (has("level_db") && has("correct"))) found.insert("levels");
+        const bool hasScale = std::ranges::any_of(table.columns, [](const auto& column) { return !trialColumns::has(column); });
+        if (found.empty() && has("participant") && (has("stimulus") || has("condition")) && hasScale) found.insert("ratings");
+    }
+    std::vector<std::string> names;
+    for (const Analysis& analysis : analyses)
+        if (found.contains(std::string{analysis.name})) names.emplace_back(analysis.name);
+    return names;
+}
+
+AnalysisReport analyse(const std::string& name, const AnalysisJob& job) {
+    const auto found = std::ranges::find(analyses, name, &Analysis::name);
+    return found != std::end(analyses) ? found->run(job) : AnalysisReport{"no analysis " + inQuotes(name)};
+}
+
+PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated) {
+    PictureWords words{{}, "physvib " PHYSVIB_VERSION, isSimulated};
+    words.source = std::filesystem::path{files.front()}.filename().string();
+    if (files.size() > 1) words.source += " and " + std::to_string(files.size() - 1) + " more";
+    return words;
+}
+
+} // namespace physvib

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Texts to trials, trials to a report.
+#include "Jobs/Report/ReportJob.h"
+#include "Files/BidsDataset.h"
+#include "Files/Disk/FileLimits.h"
+#include "Files/Disk/ReadFile.h"
+
+namespace physvib {
+namespace {
+
+void addBids(StudyReport& report, const ReportTrials& trials) {
+    BidsWords words{trials.protocol ? trials.protocol->title : trials.files.front().name, trials.common("protocol"), PHYSVIB_VERSION, {}, trials.isSimulated};
+    if (words.task.empty()) words.task = trials.files.front().name;
+    for (const char* key : {"hash", "seed", "version"})
+        if (const std::string value = trials.common(key); !value.empty()) words.source[key] = value;
+    for (auto& [name, text] : bidsDataset(trials.all, words)) report.files["bids/" + name] = std::move(text);
+}
+
+Result<std::vector<std::pair<std::string, std::string>>> readTexts(const std::vector<std::string>& paths) {
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const std::string& path : paths) {
+        auto text = readFile(path, limits::maxTableBytes);
+        if (!text) return Failure{text.error};
+        texts.emplace_back(path, std::move(text.value));
+    }
+    return texts;
+}
+
+} // namespace
+
+Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol, const CallCheck& callFault) {
+    const auto texts = readTexts(job.files);
+    if (!texts) return Failure{texts.error};
+    const auto trials = readReportTrials(texts.value, job.columns, protocol, callFault);
+    if (!trials) return Failure{trials.error};
+    StudyReport report = studyReport(trials.value);
+    report.isSimulated = trials.value.isSimulated;
+    if (!job.wantsBids) return report;
+    if (!trials.value.all.column("participant")) return Failure{job.files.front() + ": --bids: expected a column participant, found none"};
+    addBids(report, trials.value);
+    return report;
+}
+
+} // namespace physvib

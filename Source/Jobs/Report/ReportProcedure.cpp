@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// What stands in a paper's section on methods, as far as files know it.
+#include "Jobs/Report/ReportSections.h"
+#include "Jobs/Analyse/AnalysisFiles.h"
+#include "Files/ProtocolFields.h"
+#include "Files/TrialColumns.h"
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+/// Cells of a row by the names of columns; empty where there is none.
+class Cells {
+public:
+    explicit Cells(const CsvTable& table)
+        : table_{table} {}
+    const std::string& operator()(const CsvRow& row, std::string_view column) const {
+        static const std::string none;
+        const auto at = table_.column(column);
+        return at ? row.cells[*at] : none;
+    }
+    bool has(std::string_view column) const { return table_.column(column).has_value(); }
+
+private:
+    const CsvTable& table_;
+};
+
+double medianOf(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    std::ranges::sort(values);
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+struct Attended {
+    std::string number, observer;
+    std::size_t main = 0, training = 0, unanswered = 0;
+    std::vector<double> seconds;
+};
+
+/// Everyone in the order of the files.
+std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& trials) {
+    std::vector<std::pair<std::string, Attended>> people;
+    for (const TrialFile& file : trials.files) {
+        const Cells cell{file.table};
+        for (const CsvRow& row : file.table.rows) {
+            const std::string& code = cell(row, "participant");
+            auto found = std::ranges::find(people, code, &std::pair<std::string, Attended>::first);
+            if (found == people.end()) {
+                found = people.insert(people.end(), {code, {}});
+                const auto number = file.head.find("number");
+                if (number != file.head.end()) found->second.number = number->second;
+            }
+            Attended& own = found->second;
+            own.observer = cell(row, trialColumns::observer);
+            (cell(row, trialColumns::phase) == trialColumns::training ? own.training : own.main) += 1;
+            own.unanswered += answerOf(cell(row, trialColumns::task)) == AnswerKind::label && cell(row, "response").empty();
+            if (const auto seconds = parseNumber<double>(cell(row, "response_s")); seconds && cell(row, trialColumns::phase) != trialColumns::training) own.seconds.push_back(*seconds);
+        }
+    }
+    return people;
+}
+
+std::string count(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+
+std::string setWords(const StimulusSet& set) {
+    if (const auto* patterns = std::get_if<PatternSet>(&set)) return "pulse patterns on " + count(static_cast<std::size_t>(patterns->enchanters), "enchanter");
+    if (const auto* grid = std::get_if<GridSet>(&set))
+        return "phantoms on a grid of " + std::to_string(grid->columns) + " x " + std::to_string(grid->rows) + " (columns x rows), law " + std::string(nameOf(grid->law)) + ", " +
+               numberText(grid->seconds) + " s";
+    std::string words = "calls of physvib by";
+    if (const auto* calls = std::get_if<CallSet>(&set))
+        for (const StudyFactor& factor : calls->factors) words += (words.ends_with(" by") ? " " : ", ") + factor.name + " (" + count(factor.values.size(), "level") + ")";
+    return words;
+}
+
+std::string conditionWords(const ConditionPlan& condition) {
+    std::string words = condition.name + (condition.group.empty() ? "" : " (group " + condition.group + ")") + ": " + setWords(condition.stimuli) + "; layout " + condition.layout;
+    if (!std::holds_alternative<CallSet>(condition.stimuli)) words += ", " + (condition.isAtResonance ? "the actuators' resonance" : numberText(condition.frequencyHz) + " Hz") + ", " + numberText(condition.levelG) + " g";
+    return words;
+}
+
+std::string secondsWords(double seconds) { return numberText(seconds) + " s"; }
+
+std::string sessionWords(const SessionPlan& session) {
+    std::string words = session.name + (session.isTraining ? " (training, left out of analyses)" : "") + ": task " + std::string(describe(session.task).name);
+    if (!session.question.empty()) words += ", \u201c" + session.question + "\u201d";
+    words += "; order " + std::string(trialOrderNames[static_cast<std::size_t>(session.order)]);
+    if (session.repetitions > 1) words += ", " + std::to_string(session.repetitions) + " repetitions";
+    if (session.fewestTouches > 0) words += ", " + std::to_string(session.fewestTouches) + " touches";
+    if (session.bothOrders) words += ", both orders of the alternatives";
+    const auto named = [&](const char* what, const auto& items, auto nameOf) {
+        for (std::size_t i = 0; i < items.size(); ++i) words += (i ? ", " : std::string("; ") + what + " ") + nameOf(items[i]);
+    };
+    named("alternatives", session.alternatives, [](const Alternative& a) { return a.name; });
+    named("objects", session.objects, [](const std::string& o) { return o; });
+    named("scales (0 to 100)", session.scales, [](const std::string& s) { return s; });
+    if (session.staircase)
+        words += "; staircase " + std::to_string(session.staircase->down) + " down, 1 up, from " + numberText(session.staircase->startDb) + " dB in steps of " + numberText(session.staircase->stepDb) + " dB, until " +
+                 std::to_string(session.staircase->reversals) + " reversals";
+    if (session.quest) words += "; QUEST+ on " + session.quest->alternative;
+    if (session.adjustment) words += "; " + session.adjustment->alternative + " is set, in steps of " + numberText(session.adjustment->stepDb) + " dB";
+    if (!session.levelsFrom.empty() || !session.levelsFile.empty()) words += "; levels from " + session.levelsFrom + session.levelsFile;
+    if (session.leastSeconds > 0.0) words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
+    if (session.mostPlays > 0) words += "; felt at most " + std::to_string(session.mostPlays) + " times";
+    if (session.breakBeforeSeconds > 0.0) words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
+    if (session.breakEvery > 0) words += "; a break of " + secondsWords(session.breakSeconds) + " every " + std::to_string(session.breakEvery) + " trials";
+    return words;
+}
+
+void tellProtocol(ReportPage& page, const Protocol& protocol) {
+    page.paragraph("Protocol " + protocol.name + ": " + protocol.title + ". Every participant does each session in each condition; the order of conditions is " +
+                   std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + (protocol.hasPinkNoise ? "; pink noise on headphones" : "") + ".");
+    page.subheading("Conditions");
+    std::vector<std::string> conditions, sessions;
+    for (const ConditionPlan& condition : protocol.conditions) conditions.push_back(conditionWords(condition));
+    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session));
+    page.list(conditions);
+    page.subheading("Sessions");
+    page.list(sessions);
+    if (protocol.sounds.empty()) return;
+    std::vector<std::string> sounds;
+    for (const StudySoundFile& sound : protocol.sounds) sounds.push_back(numberText(sound.frequencyHz) + " Hz: " + sound.file + (sound.file.starts_with("synthetic-") ? " (nobody recorded it)" : ""));
+    page.subheading("Recorded contacts");
+    page.list(sounds);
+}
+
+/// Every stimulus with the call that made it, and a first example of each condition and session on the page.
+void tellCalls(ReportBuilder& report) {
+    const CsvTable& all = report.trials.all;
+    const Cells cell{all};
+    if (!cell.has("render")) return;
+    std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> calls; // condition, session, stimulus, call: trials
+    std::map<std::pair<std::string, std::string>, std::string> examples;
+    for (const CsvRow& row : all.rows) {
+        if (answerOf(cell(row, trialColumns::task)) == AnswerKind::wish) continue;
+        ++calls[{cell(row, "condition"), cell(row, "session"), cell(row, "stimulus"), cell(row, "render")}];
+        examples.try_emplace({cell(row, "condition"), cell(row, "session")}, cell(row, "render"));
+    }
+    if (calls.empty()) return;
+    ExportTable table{"stimuli", report.isSimulated(), "condition,session,stimulus,trials,call"};
+    for (const auto& [key, trials] : calls) {
+        const auto& [condition, session, stimulus, call] = key;
+        table.cell(condition).cell(session).cell(stimulus).cell(trials).cell(call);
+        table.endRow();
+    }
+    report.addTable("stimuli.csv", table.text());
+    report.page.subheading("How stimuli were made");
+    report.page.paragraph("Each of these calls of physvib renders a stimulus again; one of each condition and session, all " + std::to_string(calls.size()) + " in stimuli.csv:");
+    for (const auto& [key, call] : examples) {
+        std::string lines;
+        for (std::size_t from = 0; from < call.size();) {
+            const std::size_t to = std::min(call.find(" ; ", from), call.size());
+            lines += "physvib " + call.substr(from, to - from) + "\n";
+            from = to + 3;
+        }
+        report.page.lines("# " + key.first + ", " + key.second + "\n" + lines);
+    }
+}
+
+/// Columns of numbers that say how strong or how much was felt, by condition.
+void tellDoses(ReportBuilder& report) {
+    const CsvTable& all = report.trials.all;
+    const Cells cell{all};
+    ExportTable table{"levels-and-exposure", report.isSimulated(), "condition,session,measure,trials,least,mean,most"};
+    bool isFilled = false, measuresExposure = false;
+    for (const std::string& column : all.columns) {
+        if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
+        std::map<std::pair<std::string, std::string>, std::vector<double>> values;
+        for (const CsvRow& row : all.rows)
+            if (const auto value = parseNumber<double>(cell(row, column))) values[{cell(row, "condition"), cell(row, "session")}].push_back(*value);
+        if (column == "level_db" && std::ranges::all_of(values, [](const auto& v) { return std::ranges::all_of(v.second, [](double db) { return db == 0.0; }); })) continue;
+        measuresExposure |= column == trialColumns::exposure && !values.empty();
+        for (const auto& [key, own] : values) {
+            double sum = 0.0;
+            for (const double value : own) sum += value;
+            table.cell(key.first).cell(key.second).cell(column).cell(own.size());
+            table.cell(*std::ranges::min_element(own)).cell(sum / static_cast<double>(own.size())).cell(*std::ranges::max_element(own));
+            table.endRow();
+            isFilled = true;
+        }
+    }
+    report.page.subheading("Levels and exposure");
+    if (!isFilled) return report.page.paragraph("Every trial was at its condition's own level; nobody measured what was felt.");
+    report.addTable("levels-and-exposure.csv", table.text());
+    report.page.paragraph("level_db: relative to the condition's own level, in dB. peak_g and rms_g: what was felt in a trial, in g. a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1.");
+    report.page.table(table.text(), "levels-and-exposure.csv");
+    if (!measuresExposure) report.page.note("exposure was not measured in these trials");
+}
+
+} // namespace
+
+void tellParticipants(ReportBuilder& report) {
+    report.page.heading("Participants");
+    const auto people = attendance(report.trials);
+    ExportTable table{"participants", report.isSimulated(), "participant,number,observer,trials,training_trials,unanswered,median_response_s"};
+    std::size_t most = 0;
+    for (const auto& [code, own] : people) {
+        table.cell(code).cell(own.number).cell(own.observer).cell(own.main).cell(own.training).cell(own.unanswered);
+        if (own.seconds.empty()) table.cell("");
+        else table.cell(medianOf(own.seconds));
+        table.endRow();
+        most = std::max(most, own.main);
+    }
+    report.addTable("participants.csv", table.text());
+    report.page.paragraph(count(people.size(), "participant") + " in " + count(report.trials.files.size(), "file") + ".");
+    if (people.size() == 1) report.page.note("one participant: intervals and tests over participants are not possible, and nothing here says anything about other people");
+    report.page.table(table.text(), "participants.csv");
+    std::vector<std::string> exclusions;
+    for (const auto& [code, own] : people) {
+        if (own.main < most) exclusions.push_back("participant " + code + " has " + std::to_string(own.main) + " trials, others have up to " + std::to_string(most) + ": tests leave out who lacks a combination of levels");
+        if (own.unanswered > 0) exclusions.push_back("participant " + code + ": " + count(own.unanswered, "trial") + " without an answer left out");
+    }
+    if (report.trials.rowsLeftOut > 0) exclusions.push_back(count(report.trials.rowsLeftOut, "row") + " with nothing in one of the named columns left out");
+    report.page.subheading("Exclusions");
+    if (exclusions.empty()) report.page.paragraph("Nobody and no main trial is left out. Trainings are left out of all analyses.");
+    else report.page.list(exclusions);
+}
+
+void tellProcedure(ReportBuilder& report) {
+    report.page.heading("Procedure");
+    if (report.trials.protocol) tellProtocol(report.page, *report.trials.protocol);
+    else report.page.note(report.trials.protocolNote);
+    tellCalls(report);
+    tellDoses(report);
+}
+
+void tellProvenance(ReportBuilder& report) {
+    report.page.heading("Files, versions, seeds");
+    std::vector<std::string> facts{std::string("report: physvib ") + PHYSVIB_VERSION};
+    for (const auto& [key, words] : std::initializer_list<std::pair<const char*, const char*>>{{"version", "trials: physvib "}, {"protocol", "protocol: "}, {"hash", "hash of the protocol: "}, {"seed", "seed of all orders: "}})
+        if (const std::string value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
+    facts.emplace_back("intervals of thresholds and exponents: 4000 draws of participants, seed 1; all others Student's t over participants");
+    report.page.list(facts);
+    report.page.paragraph("Every table below is CSV with names in its first line; report.R (R with afex) repeats every test from them and compares each p.");
+    std::vector<std::string> files;
+    for (const auto& [name, text] : report.tables()) files.push_back(name);
+    report.page.list(files);
+}
+
+} // namespace physvib

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The trial files of a report, as one study.
+#pragma once
+#include "Files/ColumnNames.h"
+#include "Files/Result.h"
+#include "Files/Text/CsvTable.h"
+#include "Study/Protocol.h"
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// A trial file's first line, key by key: version, protocol, hash, seed, participant ...
+using TrialHead = std::map<std::string, std::string>;
+
+struct TrialFile {
+    std::string name; ///< without its folder
+    TrialHead head;
+    CsvTable table;
+};
+
+struct ReportTrials {
+    std::vector<TrialFile> files;
+    CsvTable all;              ///< every row of every file; file by file
+    bool isSimulated = false;
+    std::size_t rowsLeftOut = 0; ///< with nothing in one of the columns that were asked for
+    std::optional<Protocol> protocol{}; ///< that of the files, if it is known
+    std::string protocolNote{};         ///< why it is not
+
+    /// A value of the files' first lines if all say the same; else empty.
+    std::string common(const std::string& key) const;
+};
+
+/// Empty, or why a call in a file is none that it may hold.
+using CallCheck = std::function<std::string(std::string_view call)>;
+
+/// Of texts by their names. Files of different studies, or with different columns, are refused by name. `protocol`: given by the user; none: a built-in one
+/// is looked for. Any thread.
+Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, std::string>>& texts, const std::vector<ColumnName>& columns, const std::optional<Protocol>& protocol, const CallCheck& callFault = {});
+
+/// All rows as one table, with that first line. Touches of a training without an answer are left out. Any thread.
+std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine);
+
+} // namespace physvib

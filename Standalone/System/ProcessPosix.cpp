@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// POSIX: descriptors 0 to 2, signals, other processes.
+#if !defined(_WIN32)
+#include "System/Process.h"
+#include "Files/Disk/SystemFile.h"
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <initializer_list>
+#include <iostream>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace physvib {
+namespace {
+
+// A file that is opened while one of them is closed gets its number, and is taken for it. Opened the wrong way round, reading
+// standard input and writing the others stay the errors that they are.
+void openStandardDescriptors() {
+    for (int standard = STDIN_FILENO; standard <= STDERR_FILENO; ++standard)
+        if (fcntl(standard, F_GETFD) < 0 && open("/dev/null", standard == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) std::_Exit(1);
+}
+
+} // namespace
+
+void beginProcess() {
+    openStandardDescriptors();
+    std::signal(SIGXFSZ, SIG_IGN);
+    catchEnding(endBySignal, KeepIgnored::all);
+}
+
+void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept {
+    for (const int signal : endingSignals()) {
+        const bool wasIgnored = std::signal(signal, handler) == SIG_IGN;
+        if (wasIgnored && (kept == KeepIgnored::all || signal == SIGHUP)) std::signal(signal, SIG_IGN);
+    }
+}
+
+void ignoreLostReader() noexcept { std::signal(SIGPIPE, SIG_IGN); }
+
+bool isErrorTerminal() noexcept { return isatty(STDERR_FILENO) != 0; }
+
+std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept {
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (poll(&input, 1, milliseconds) <= 0) return std::nullopt;
+    const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+    return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+// A pipe that is ready takes this many without a wait.
+std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept {
+    pollfd out{standard == Standard::output ? STDOUT_FILENO : STDERR_FILENO, POLLOUT, 0};
+    if (poll(&out, 1, 0) <= 0) return 0;
+    const ssize_t count = write(out.fd, bytes.data(), std::min<std::size_t>(bytes.size(), PIPE_BUF));
+    if (count < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
+    return count < 0 ? std::nullopt : std::optional{static_cast<std::size_t>(count)};
+}
+
+int processNumber() noexcept { return getpid(); }
+
+bool isProcessRunning(int number) noexcept { return number > 0 && (kill(number, 0) == 0 || errno == EPERM); }
+
+Result<bool> runProgram(std::string name, std::string argument) {
+    std::array<char*, 3> words{name.data(), argument.data(), nullptr};
+    pid_t child = 0;
+    std::cout.flush();
+    if (const int fault = posix_spawnp(&child, name.c_str(), nullptr, nullptr, words.data(), environ)) return Failure{name + ": " + std::generic_category().message(fault)};
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+} // namespace physvib
+#endif

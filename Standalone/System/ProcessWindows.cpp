@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Windows: handles, the console's signals, other processes.
+#if defined(_WIN32)
+#include "System/Process.h"
+#include "Files/Disk/SystemFile.h"
+#include "Files/Disk/SystemWindows.h"
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <initializer_list>
+#include <io.h>
+#include <iostream>
+#include <process.h>
+#include <system_error>
+
+namespace physvib {
+namespace {
+
+/// A pipe cannot be waited for: looked at each millisecond.
+std::optional<DWORD> waitingInPipe(HANDLE pipe, int milliseconds) noexcept {
+    for (int waited = 0;; ++waited) {
+        DWORD waiting = 0;
+        if (PeekNamedPipe(pipe, nullptr, 0, nullptr, &waiting, nullptr) == 0) return 0; // its other end is closed
+        if (waiting > 0) return waiting;
+        if (waited >= milliseconds) return std::nullopt;
+        Sleep(1);
+    }
+}
+
+} // namespace
+
+void beginProcess() { catchEnding(endBySignal, KeepIgnored::all); }
+
+void catchEnding(void (*handler)(int signal), KeepIgnored kept) noexcept {
+    for (const int signal : endingSignals())
+        if (std::signal(signal, handler) == SIG_IGN && kept == KeepIgnored::all) std::signal(signal, SIG_IGN);
+}
+
+void ignoreLostReader() noexcept {} // writing to it is an error here, and no signal
+
+bool isErrorTerminal() noexcept { return _isatty(_fileno(stderr)) != 0; }
+
+// At a console a line that was begun is waited for.
+std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) noexcept {
+    const HANDLE input = GetStdHandle(STD_INPUT_HANDLE);
+    if (GetFileType(input) == FILE_TYPE_PIPE) {
+        const auto waiting = waitingInPipe(input, milliseconds);
+        if (!waiting || *waiting == 0) return waiting;
+    } else if (GetFileType(input) == FILE_TYPE_CHAR && WaitForSingleObject(input, static_cast<DWORD>(milliseconds)) == WAIT_TIMEOUT) {
+        return std::nullopt;
+    }
+    DWORD count = 0;
+    return ReadFile(input, bytes.data(), static_cast<DWORD>(bytes.size()), &count, nullptr) != 0 ? count : 0;
+}
+
+std::optional<std::size_t> writeSome(Standard standard, std::string_view bytes) noexcept {
+    const int count = _write(_fileno(standard == Standard::output ? stdout : stderr), bytes.data(), static_cast<unsigned>(bytes.size()));
+    return count < 0 ? std::nullopt : std::optional{static_cast<std::size_t>(count)};
+}
+
+int processNumber() noexcept { return static_cast<int>(GetCurrentProcessId()); }
+
+bool isProcessRunning(int number) noexcept {
+    const HANDLE process = number > 0 ? OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(number)) : nullptr;
+    if (process == nullptr) return number > 0 && GetLastError() == ERROR_ACCESS_DENIED;
+    const bool isRunning = WaitForSingleObject(process, 0) == WAIT_TIMEOUT; // until nobody holds it, a process that ended has its number
+    CloseHandle(process);
+    return isRunning;
+}
+
+Result<bool> runProgram(std::string name, std::string argument) {
+    const std::wstring program = std::filesystem::path{name}.wstring(), quoted = L'"' + std::filesystem::path{argument}.wstring() + L'"';
+    std::cout.flush();
+    const std::intptr_t code = _wspawnlp(_P_WAIT, program.c_str(), program.c_str(), quoted.c_str(), nullptr);
+    if (code == -1) return Failure{name + ": " + std::generic_category().message(errno)};
+    return code == 0;
+}
+
+} // namespace physvib
+#endif
