@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every panning law once: its name and its factor. Files, options, messages, bindings and the plug-in's parameter read this table;
-// Docs/panning.md is held against it.
+// Every panning law once: its name and its factor. Files, options, messages, bindings and the plug-in's
+// parameter read this table; Docs/panning.md is held against it.
 #pragma once
 #include <array>
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace physvib {
 
-/// How a gain falls with the distance ratio u = d/D from an enchanter, u in [0, 1]. New ones go to the end: C programs number them.
+/// How a gain falls with the distance ratio u = d/D from an enchanter, u in [0, 1]. New ones go to the end: C
+/// programs number them.
 enum class PanningLaw {
     linear,   ///< 1 - u (Eq. 4.2)
     log,      ///< 1 - log2(1 + u): reconstruction of Eq. 4.3, falls faster than linear
@@ -25,17 +26,22 @@ struct PanningLawDescription {
 };
 
 /// All of them.
-inline constexpr std::array panningLaws{
-    PanningLawDescription{PanningLaw::linear, "linear", [](double u) noexcept { return 1.0 - u; }},
-    PanningLawDescription{PanningLaw::log, "log", [](double u) noexcept { return 1.0 - std::log2(1.0 + u); }},
-    PanningLawDescription{PanningLaw::logOuter, "log-outer", [](double u) noexcept { return std::log2(2.0 - u); }},
-    PanningLawDescription{PanningLaw::energy, "energy", [](double u) noexcept { return std::sqrt(1.0 - u); }}};
+inline constexpr auto panningLaws = std::to_array<PanningLawDescription>({
+    {PanningLaw::linear, "linear", [](double u) noexcept { return 1.0 - u; }},
+    {PanningLaw::log, "log", [](double u) noexcept { return 1.0 - std::log2(1.0 + u); }},
+    {PanningLaw::logOuter, "log-outer", [](double u) noexcept { return std::log2(2.0 - u); }},
+    {PanningLaw::energy, "energy", [](double u) noexcept { return std::sqrt(1.0 - u); }},
+});
 
 /// The law's row. Any thread.
-constexpr const PanningLawDescription& describe(PanningLaw law) noexcept { return panningLaws[static_cast<std::size_t>(law)]; }
+constexpr const PanningLawDescription& describe(PanningLaw law) noexcept {
+    return panningLaws[static_cast<std::size_t>(law)];
+}
 
 /// As files and options have it. Any thread.
-constexpr std::string_view nameOf(PanningLaw law) noexcept { return describe(law).name; }
+constexpr std::string_view nameOf(PanningLaw law) noexcept {
+    return describe(law).name;
+}
 
 /// Names of the laws, in their order.
 inline constexpr auto panningLawNames = [] {
@@ -44,11 +50,13 @@ inline constexpr auto panningLawNames = [] {
     return names;
 }();
 
-static_assert([] {
-    for (std::size_t i = 0; i < panningLaws.size(); ++i)
-        if (static_cast<std::size_t>(panningLaws[i].law) != i) return false;
-    return true;
-}(), "each law at the place of its number");
+static_assert(
+    [] {
+        for (std::size_t i = 0; i < panningLaws.size(); ++i)
+            if (static_cast<std::size_t>(panningLaws[i].law) != i) return false;
+        return true;
+    }(),
+    "each law at the place of its number");
 
 /// The law of that name; false if there is none. Any thread.
 constexpr bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept {

@@ -11,12 +11,15 @@ namespace physvib {
 /// Those between are the laws of the table, with exponent 1: see spreadBy().
 enum class Spread : std::uint8_t {
     layout,                         ///< as every hit: by the law and exponent of the panner
-    equal = 1 + panningLaws.size(), ///< energy, scaled so that the squares sum to one wherever it is: the felt strength stays
+    equal = 1 + panningLaws.size(), ///< energy, scaled so that the squares sum to one wherever it is: the
+                                    ///< felt strength stays
     alone                           ///< the nearest enchanter, and no other
 };
 
 /// By that law, exponent 1. Any thread.
-constexpr Spread spreadBy(PanningLaw law) noexcept { return static_cast<Spread>(1 + static_cast<std::size_t>(law)); }
+constexpr Spread spreadBy(PanningLaw law) noexcept {
+    return static_cast<Spread>(1 + static_cast<std::size_t>(law));
+}
 
 /// In their order.
 inline constexpr auto spreadNames = [] {
@@ -28,6 +31,8 @@ inline constexpr auto spreadNames = [] {
 }();
 
 /// As files and messages have it. Any thread.
-constexpr std::string_view nameOf(Spread spread) noexcept { return spreadNames[static_cast<std::size_t>(spread)]; }
+constexpr std::string_view nameOf(Spread spread) noexcept {
+    return spreadNames[static_cast<std::size_t>(spread)];
+}
 
 } // namespace physvib

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Lists of words, each checked to be a word of a call; and numbers of tasks as digits, one per factor.
+// Lists of words, and numbers of tasks as digits, one per factor.
 #include "Files/SweepFile.h"
 #include "Files/Disk/FileLimits.h"
 #include "Files/Disk/ReadFile.h"
 #include "Files/Json/JsonField.h"
 #include "Files/Json/JsonText.h"
+#include "Files/SweepText.h"
 #include "Files/Text/NumberText.h"
-#include "Study/CallWords.h"
 #include <algorithm>
 #include <array>
 
@@ -17,16 +17,13 @@ constexpr const char* sweepVersionField = "physvib_sweep";
 constexpr int largestSeed = 1'000'000'000;
 
 struct SweepList {
-    const char *name, *option;
+    const char *name, *factor;
 };
 constexpr std::array<SweepList, 3> sweepLists{{{"layouts", "layout"}, {"laws", "law"}, {"methods", "method"}}};
 
-/// Calls stand in tables for somebody to copy into a shell, and a design may be a stranger's: as in a protocol.
-std::string readWord(const JsonField& json, const std::string& before = {}) {
+std::string readWord(const JsonField& json, SweepWord kind, const std::string& name = {}) {
     const std::string word = json.isNumber() ? numberText(json.number()) : json.text();
-    if (word.empty() || !std::ranges::all_of(word, isPlainCharacter)) json.fail("expected letters, digits and _-+.,:=/%, found " + inQuotes(word));
-    if (before.empty() && word.starts_with('-')) json.fail("expected the name of a scene, found " + inQuotes(word));
-    if (const auto fault = callFault("render " + before + word); !fault.empty()) json.fail(fault);
+    if (const auto fault = sweepWordFault(kind, name, word); !fault.empty()) json.fail(fault);
     return word;
 }
 
@@ -42,14 +39,14 @@ std::size_t sizeOfList(const JsonField& json) {
 }
 
 /// A word, or a list of different ones.
-SweepFactor readFactor(const JsonField& json, const std::string& name, const std::string& before) {
+SweepFactor readFactor(const JsonField& json, const std::string& name, SweepWord kind = SweepWord::option) {
     SweepFactor factor{name, json.path(), {}};
     if (!json.isArray()) {
-        factor.values.push_back(readWord(json, before));
+        factor.values.push_back(readWord(json, kind, name));
         return factor;
     }
     for (std::size_t i = 0, size = sizeOfList(json); i < size; ++i) {
-        const std::string word = readWord(json.item(i), before);
+        const std::string word = readWord(json.item(i), kind, name);
         expectOnce(json.item(i), factor.values, word, inQuotes(word));
         factor.values.push_back(word);
     }
@@ -57,13 +54,13 @@ SweepFactor readFactor(const JsonField& json, const std::string& name, const std
 }
 
 SweepScene readSweepScene(const JsonField& json) {
-    if (!json.isObject()) return {readWord(json), {}};
+    if (!json.isObject()) return {readWord(json, SweepWord::scene), {}};
     json.expectObject({"scene", "variables"});
-    SweepScene scene{readWord(json["scene"]), {}};
+    SweepScene scene{readWord(json["scene"], SweepWord::scene), {}};
     const JsonField variables = json["variables"];
     for (const std::string& name : variables.names()) {
-        if (name.empty() || name.find('=') != name.npos || !std::ranges::all_of(name, isPlainCharacter)) variables.fail("expected names of variables, found " + inQuotes(name));
-        scene.variables.push_back(readFactor(variables[name], name, "--set " + name + '='));
+        if (!isSweepVariable(name)) variables.fail("expected names of variables, found " + inQuotes(name));
+        scene.variables.push_back(readFactor(variables[name], name, SweepWord::variable));
     }
     return scene;
 }
@@ -99,7 +96,7 @@ std::vector<SweepFactor> readOptions(const JsonField& json) {
         if (!isName) json.fail("expected names of options of render without dashes in front, found " + inQuotes(name));
         if (std::ranges::find(own, name) != own.end()) json.fail("expected " + inQuotes(name) + " in a field of its own");
         if (name == "sound") json.fail("expected \"sounds\" in a field of its own");
-        factors.push_back(readFactor(json[name], name, "--" + name + '='));
+        factors.push_back(readFactor(json[name], name));
     }
     return factors;
 }
@@ -121,9 +118,9 @@ SweepDesign readSweepRoot(const JsonField& root) {
             if (design.scenes[k].name == design.scenes[i].name) scenes.item(i).fail("expected each scene only once, found " + inQuotes(design.scenes[i].name) + " again");
     }
     design.seeds = readSeeds(root["seeds"]);
-    for (const auto& [name, option] : sweepLists)
-        if (root.has(name)) design.factors.push_back(readFactor(root[name], option, std::string{"--"} + option + '='));
-    if (root.has("sounds")) design.sounds = readFactor(root["sounds"], "sound", "--sound=").values;
+    for (const auto& [name, factor] : sweepLists)
+        if (root.has(name)) design.factors.push_back(readFactor(root[name], factor));
+    if (root.has("sounds")) design.sounds = readFactor(root["sounds"], "sound").values;
     if (root.has("options"))
         for (SweepFactor& factor : readOptions(root["options"])) design.factors.push_back(std::move(factor));
     if (const auto tasks = design.size(); tasks > limits::maxSweepTasks) root.fail("expected at most " + std::to_string(limits::maxSweepTasks) + " tasks, found more");
@@ -139,18 +136,6 @@ std::vector<std::string> takeValues(const std::vector<SweepFactor>& factors, std
         index /= from.size();
     }
     return values;
-}
-
-std::string callOf(const SweepTask& task, const SweepScene& scene, const SweepDesign& design) {
-    std::string call = "render " + task.scene;
-    for (std::size_t v = 0; v < task.variables.size(); ++v) call += " --set " + scene.variables[v].name + '=' + task.variables[v];
-    call += " --seed=" + std::to_string(task.seed);
-    for (std::size_t f = 0; f < task.options.size(); ++f) {
-        call += " --" + design.factors[f].name + '=' + task.options[f];
-        if (design.factors[f].name == "method" && task.options[f] == "SV")
-            for (const std::string& sound : design.sounds) call += " --sound " + sound;
-    }
-    return call;
 }
 
 } // namespace
@@ -172,7 +157,7 @@ SweepTask SweepDesign::task(std::uint64_t index) const {
     index /= seeds.size();
     task.options = takeValues(factors, index);
     task.variables = takeValues(scene->variables, index);
-    task.call = callOf(task, *scene, *this);
+    task.call = sweepCall(task, *scene, *this);
     return task;
 }
 

@@ -18,10 +18,10 @@ namespace physvib {
 namespace {
 
 /// The job of the options gets its scene and its layout, to be felt; empty, or one line.
-std::string prepareScene(RenderOptions& o, RenderJob& job) {
+std::string prepareScene(RenderJob& o, LoadedRender& job) {
     if (o.actuator != "none") return "--actuator is not yet felt here, only rendered";
     if (!o.coupling.empty()) return "--coupling is not yet felt here, only rendered";
-    if (auto fault = checkSceneOptions(o); !fault.empty()) return fault;
+    if (auto fault = sceneFault(o); !fault.empty()) return fault;
     if (o.scene.empty()) return "expected a scene";
     auto layout = layoutNamed(o.layout);
     if (!layout) return layout.error;
@@ -32,8 +32,8 @@ std::string prepareScene(RenderOptions& o, RenderJob& job) {
     return {};
 }
 
-Result<FeltStimulus> ofScene(RenderOptions& o) {
-    RenderJob job{o, {}, {}, {}, {}};
+Result<FeltStimulus> ofScene(RenderJob& o) {
+    LoadedRender job{o, {}, {}, {}, {}};
     if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
     Patience patience{Patience::usualSeconds}; // whatever the call says: it may be a stranger's
     job.made = runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
@@ -43,8 +43,8 @@ Result<FeltStimulus> ofScene(RenderOptions& o) {
     return FeltStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f), job.feltRecordings()};
 }
 
-Result<FeltWorld> asWorld(RenderOptions& o) {
-    RenderJob job{o, {}, {}, {}, {}};
+Result<FeltWorld> asWorld(RenderJob& o) {
+    LoadedRender job{o, {}, {}, {}, {}};
     if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
     if (auto fault = fixedLevelFault(job); !fault.empty()) return Failure{fault};
     if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene); !fault.empty()) return Failure{fault};
@@ -88,7 +88,7 @@ struct ParsedCall {
             if (const auto equals = sound.find('='); equals != std::string::npos) sound = sound.substr(0, equals + 1) + besideProtocol(folder, sound.substr(equals + 1));
     }
     OptionTable words{"physvib", {}};
-    RenderOptions renderOptions;
+    RenderJob renderOptions;
     StimulusOptions stimulusOptions;
     OptionTable& render = words.addCommand("render", {});
     OptionTable& stimulus = words.addCommand("stimulus", {});
@@ -106,9 +106,9 @@ Result<FeltStimulus> felt(const WrittenCall& call, int sampleRateHz, const std::
 /// Empty, or what the program would find wrong with a call, or that it renders a fixed level that its layout cannot give without the limiter.
 std::string studyCallFault(const std::string& call, const std::string& folder) {
     ParsedCall parsed{call, folder};
-    RenderOptions& o = parsed.renderOptions;
+    RenderJob& o = parsed.renderOptions;
     if (!parsed.error.empty()) return call + ": " + parsed.error;
-    if (!parsed.words.isCalled("render") || !checkSceneOptions(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
+    if (!parsed.words.isCalled("render") || !sceneFault(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
     const auto layout = layoutNamed(o.layout);
     if (!layout) return layout.error;
     const double leastG = leastStudyFullScaleG * std::pow(10.0, o.levelDb / 20.0);

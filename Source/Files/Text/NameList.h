@@ -30,10 +30,12 @@ std::string listed(const Names& names, std::string_view last = ", ") {
 }
 
 /// Names that are numbered one after the other are one: "phone1..phone4, ring1..ring4". Any thread.
-inline std::string listedByNumber(std::span<const std::string_view> names, std::string_view to = "..", std::string_view last = ", ") {
+inline std::string listedByNumber(std::span<const std::string_view> names, std::string_view to = "..",
+                                  std::string_view last = ", ") {
     const auto follows = [&](std::size_t i) {
         const std::string_view a = names[i], b = names[i + 1];
-        return a.size() == b.size() && a.substr(0, a.size() - 1) == b.substr(0, b.size() - 1) && a.back() + 1 == b.back();
+        return a.size() == b.size() && a.substr(0, a.size() - 1) == b.substr(0, b.size() - 1) &&
+               a.back() + 1 == b.back();
     };
     std::vector<std::string> runs;
     for (std::size_t first = 0, end = 0; first < names.size(); first = ++end) {

@@ -5,7 +5,7 @@
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
 #include "System/StandardStreams.h"
-#include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Render/LoadedRender.h"
 #include "Files/EventsCsv.h"
 #include "Physics/Simulation.h"
 #include "Wire/SelfTest.h"
@@ -138,7 +138,7 @@ int runBoard(const BoardOptions& o) {
     return o.action == "test" ? test(link) : play(link, events, panner);
 }
 
-int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelDb) {
+int runSceneOnBoard(const std::string& port, const LoadedRender& job, double levelDb) {
     const SceneRun run = job.run();
     Simulation world(*job.scene, run.seed, run.stepsPerSecond, run.timing, run.location);
     heedInterrupts();

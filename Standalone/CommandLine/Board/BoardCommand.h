@@ -21,9 +21,9 @@ void declareBoardOptions(OptionTable& command, BoardOptions& options);
 /// An exit code.
 int runBoard(const BoardOptions& options);
 
-struct RenderJob;
+struct LoadedRender;
 
 /// A scene felt on the board alone (`physvib play --board`), its world stepped by this computer's clock; an exit code.
-int runSceneOnBoard(const std::string& port, const RenderJob& job, double levelDb);
+int runSceneOnBoard(const std::string& port, const LoadedRender& job, double levelDb);
 
 } // namespace physvib

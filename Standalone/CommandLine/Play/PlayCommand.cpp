@@ -22,7 +22,7 @@ namespace {
 
 /// The scene options, and where to play.
 struct PlayOptions {
-    RenderOptions scene;
+    RenderJob scene;
     std::string device;
     std::string board;              ///< serial port of a four-channel board, alone or beside a device
     std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
@@ -65,7 +65,7 @@ bool parseCeilings(const std::string& text, int channels, std::array<float, limi
     return true;
 }
 
-SessionSetup setupOf(const PlayOptions& o, const RenderJob& job) {
+SessionSetup setupOf(const PlayOptions& o, const LoadedRender& job) {
     SessionSetup setup = sessionSetup(job);
     if (!o.scene.contactSound.empty()) setup.contactSound = job.recordings;
     setup.marks = o.scene.marks();
@@ -109,12 +109,12 @@ int runPlay(PlayOptions& o) {
     o.device = outputs.device;
     if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
     if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
-    if (auto refusal = checkSceneOptions(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
+    if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
     const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 && o.scene.perceivedLevel == "off";
     if (!outputs.sinks.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
     if (o.isDirect && !outputs.sinks.empty()) return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
-    RenderJob job{o.scene, {}, {}, {}, {}};
+    LoadedRender job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.hasHands) job.scene = sceneForHands(std::move(*job.scene));
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");

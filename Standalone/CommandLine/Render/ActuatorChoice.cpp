@@ -15,7 +15,7 @@ namespace {
 constexpr double frequencyJnd = 0.18;
 
 /// One per enchanter; empty with --actuator none.
-Result<std::vector<ActuatorProfile>> profilesOf(const RenderOptions& o, const LayoutDescription& layout) {
+Result<std::vector<ActuatorProfile>> profilesOf(const RenderJob& o, const LayoutDescription& layout) {
     std::vector<ActuatorProfile> profiles;
     if (o.actuator == "none") return profiles;
     for (const EnchanterDescription& enchanter : layout.enchanters) {
@@ -56,7 +56,7 @@ std::string scaleVoltages(const std::vector<ActuatorProfile>& profiles, double i
 
 } // namespace
 
-Result<ActuatorChoice> chooseActuators(const RenderOptions& o, const LayoutDescription& layout) {
+Result<ActuatorChoice> chooseActuators(const RenderJob& o, const LayoutDescription& layout) {
     auto profiles = profilesOf(o, layout);
     if (!profiles) return Failure{profiles.error};
     ActuatorChoice choice;
@@ -87,7 +87,7 @@ std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRate
     return notes;
 }
 
-std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<const CollisionEvent> before, const LayoutDescription& layout, const RenderOptions& o) {
+std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<const CollisionEvent> before, const LayoutDescription& layout, const RenderJob& o) {
     std::vector<std::string> warnings;
     if (!remap.band.isKnown()) return warnings;
     std::set<double> frequencies, decays;

@@ -21,13 +21,13 @@ struct ActuatorChoice {
 
 /// By the options: --actuator none, a profile for all enchanters, or `layout`: those that it names. One line if a profile
 /// is unknown or lacks what is wanted of it. M only.
-Result<ActuatorChoice> chooseActuators(const RenderOptions& options, const LayoutDescription& layout);
+Result<ActuatorChoice> chooseActuators(const RenderJob& options, const LayoutDescription& layout);
 
 /// Lines for people on what the choice costs: the highest level that is flat in the band, per distinct actuator.
 std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRateHz);
 
 /// Lines for people on what remapping loses: materials that end nearer to each other than one JND, and those that the
 /// actuator's own ring-down outlasts. `before`: the collisions, not remapped yet.
-std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<const CollisionEvent> before, const LayoutDescription& layout, const RenderOptions& options);
+std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<const CollisionEvent> before, const LayoutDescription& layout, const RenderJob& options);
 
 } // namespace physvib

@@ -20,7 +20,7 @@ LayoutDescription layoutOf(const Clip& clip) {
 }
 
 /// In metres of the job's field.
-EnchanterPlace placeOf(const RenderJob& job, std::size_t channel) {
+EnchanterPlace placeOf(const LoadedRender& job, std::size_t channel) {
     const Clip& clip = *job.clip;
     const EnchanterLayout& layout = job.layout.geometry;
     const auto onField = [&](double x, double y) { return EnchanterPlace{x * job.fieldWidthMetres(), y * job.fieldHeightMetres()}; };
@@ -29,7 +29,7 @@ EnchanterPlace placeOf(const RenderJob& job, std::size_t channel) {
     return onField(layout.places[channel].xMetres / layout.extentWidthMetres, layout.places[channel].yMetres / layout.extentHeightMetres);
 }
 
-std::string faultOf(const RenderJob& job) {
+std::string faultOf(const LoadedRender& job) {
     const Clip& clip = *job.clip;
     const auto channels = clip.channels.size();
     if (!hasPlaces(clip) && channels != 1 && static_cast<int>(channels) != job.layout.geometry.count)
@@ -39,7 +39,7 @@ std::string faultOf(const RenderJob& job) {
 
 } // namespace
 
-ClipVoices::ClipVoices(const RenderJob& job)
+ClipVoices::ClipVoices(const LoadedRender& job)
     : sound_{clipSound(*job.clip, job.options.sampleRateHz)} {
     if (const std::string note = takeSlowPart(sound_, job.options.scene); !note.empty()) tell(note);
     for (std::size_t j = 0; j < sound_.channels.size(); ++j) {
@@ -50,15 +50,15 @@ ClipVoices::ClipVoices(const RenderJob& job)
     }
 }
 
-Result<FrequencyScale> frequencyScaleOf(const RenderOptions& options) {
+Result<FrequencyScale> frequencyScaleOf(const RenderJob& options) {
     if (options.actuator == "none" || options.actuator == "layout") return FrequencyScale{};
     const auto profile = findActuator(options.actuator);
     if (!profile) return Failure{"--actuator: " + profile.error};
     return profile.value.band ? FrequencyScale{profile.value.band->lowHz, profile.value.band->highHz} : FrequencyScale{};
 }
 
-int takeClip(RenderJob& job) {
-    const RenderOptions& o = job.options;
+int takeClip(LoadedRender& job) {
+    const RenderJob& o = job.options;
     for (const char* other : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--method", "--sound", "--perceived-level", "--remap", "--contact-sound", "--marker", "--events", "--coupling"})
         if (o.given.contains(other)) return leave(exitUsage, std::string{other} + ": a clip has no collisions");
     const auto scale = frequencyScaleOf(o);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Haptic files of others as inputs: on which enchanters each of their channels is felt.
 #pragma once
-#include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Render/LoadedRender.h"
 #include "Core/RecordedContact.h"
 #include "Files/SampledSound.h"
 #include <vector>
@@ -12,7 +12,7 @@ namespace physvib {
 class ClipVoices {
 public:
     /// `job` has a clip; see ClipInput.cpp for where its channels are felt. What is taken away of them is told on stderr.
-    explicit ClipVoices(const RenderJob& job);
+    explicit ClipVoices(const LoadedRender& job);
 
     const std::vector<CollisionEvent>& events() const { return events_; }
     std::span<const RecordedContact> contacts() const { return contacts_; }
@@ -25,10 +25,10 @@ private:
 
 /// What phones' frequencies are by the options: the band of a named --actuator, else what is usual. One line if there is no such
 /// actuator. M only.
-Result<FrequencyScale> frequencyScaleOf(const RenderOptions& options);
+Result<FrequencyScale> frequencyScaleOf(const RenderJob& options);
 
 /// Takes the clip that the options name, and its own layout if none is given, into `job`: exitDone, or the code to leave with
 /// after a line on stderr. M only.
-int takeClip(RenderJob& job);
+int takeClip(LoadedRender& job);
 
 } // namespace physvib

@@ -14,7 +14,7 @@ namespace physvib {
 namespace {
 
 struct ExportOptions {
-    RenderOptions input; ///< what is exported, and how it is spread
+    RenderJob input; ///< what is exported, and how it is spread
     std::string to;      ///< path; its ending says the format
     double error = 0.004;
 };
@@ -22,7 +22,7 @@ struct ExportOptions {
 constexpr double leastError = 1e-5, mostError = 0.1;
 
 /// The panner at an event's time: a session may have changed its layout.
-StrikeGains gainsOf(const RenderJob& job) {
+StrikeGains gainsOf(const LoadedRender& job) {
     return [&job, panner = job.panner(), next = std::size_t{0}](const CollisionEvent& event, PhantomPanner::Gains& gains) mutable {
         while (job.keepsLayouts() && next < job.session->log.panners.size() && job.session->log.panners[next].timeNs <= event.timeNs) panner = job.session->log.panners[next++].panner;
         gains = {};
@@ -30,18 +30,18 @@ StrikeGains gainsOf(const RenderJob& job) {
     };
 }
 
-HitExport hitsOf(const RenderJob& job) {
+HitExport hitsOf(const LoadedRender& job) {
     const std::string& actuator = job.options.actuator;
     const bool isOwn = actuator == "none" || actuator == "layout";
     return {job.source(), std::filesystem::path{job.source()}.filename().string(), job.made.events, job.layout, job.options.layout, isOwn ? std::string{} : actuator};
 }
 
-Result<Clip> clipOf(const RenderJob& job, double error) {
+Result<Clip> clipOf(const LoadedRender& job, double error) {
     if (job.clip) return *job.clip;
     return clipOfHits(hitsOf(job), {error, static_cast<std::size_t>(job.channels()), gainsOf(job)});
 }
 
-void tellLosses(const RenderJob& job, const std::vector<ClipPart>& parts, ClipFormat format, const FrequencyScale& usual) {
+void tellLosses(const LoadedRender& job, const std::vector<ClipPart>& parts, ClipFormat format, const FrequencyScale& usual) {
     for (const std::string& loss : lossesOf(parts, format, usual)) tell("warning: " + loss);
     if (parts.size() > 1) tell("warning: a file for each enchanter; for one file of all hits: --layout phone1");
     if (job.session && !job.session->log.channels.empty()) tell("warning: gains, mutes and stops of the session are not carried: hits are as they were struck");
@@ -49,7 +49,7 @@ void tellLosses(const RenderJob& job, const std::vector<ClipPart>& parts, ClipFo
 }
 
 /// Words of the call that say nothing here.
-std::string refusalOf(const RenderOptions& o) {
+std::string refusalOf(const RenderJob& o) {
     if (o.scene.empty()) return "export: give a scene, a saved session, EVENTS.csv or a clip";
     for (const char* other : {"--sound", "--sound-match", "--coupling", "--contact-sound-db", "--limiter", "--equalise"})
         if (o.given.contains(other)) return std::string{other} + ": says how something is played, not what it is: expected with render or play";
@@ -57,7 +57,7 @@ std::string refusalOf(const RenderOptions& o) {
 }
 
 /// Of scene, session or list: what lies within --seconds, if that is given.
-std::string takeEvents(RenderJob& job, std::vector<std::string>& warnings) {
+std::string takeEvents(LoadedRender& job, std::vector<std::string>& warnings) {
     if (!job.sessionRecordings.sets.empty()) return job.options.scene + ": the session plays recordings, which are no waves to be exported; expected --method AV-FV-DRV, for modes";
     if (job.session && !job.session->log.clips.empty()) return job.options.scene + ": the session plays clips, which are exported by themselves";
     auto made = makeEvents(job);
@@ -74,15 +74,15 @@ void declareExport(OptionTable& command, ExportOptions& o) {
 }
 
 int runExport(const OptionTable& command, ExportOptions& options) {
-    RenderOptions& o = options.input;
+    RenderJob& o = options.input;
     noteGiven(command, o);
     if (const std::string refusal = refusalOf(o); !refusal.empty()) return leave(exitUsage, refusal);
     const auto format = clipFormatOf(options.to);
     if (!format) return leave(exitUsage, "--to: expected a name that ends in .hjif, .hmpg, .haptic or .ahap, found " + inQuotes(options.to));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
     o.equalise = "off"; // of the player's own actuators
-    if (const std::string refusal = checkSceneOptions(o); !refusal.empty()) return leave(exitUsage, refusal);
-    RenderJob job{o, {}, {}, {}, {}};
+    if (const std::string refusal = sceneFault(o); !refusal.empty()) return leave(exitUsage, refusal);
+    LoadedRender job{o, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;
     const auto usual = frequencyScaleOf(o);
     if (!usual) return leave(exitFailed, usual.error);

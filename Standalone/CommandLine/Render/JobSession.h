@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A job that is played live instead: the session that it becomes.
 #pragma once
-#include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Render/LoadedRender.h"
 #include "Session/SessionSetup.h"
 #include <vector>
 
@@ -20,7 +20,7 @@ inline std::vector<CollisionEvent> soundsOf(const Scene& scene) {
 }
 
 /// A job with a scene, as a session plays it.
-inline SessionSetup sessionSetup(const RenderJob& job) {
+inline SessionSetup sessionSetup(const LoadedRender& job) {
     SessionSetup setup;
     setup.scene = *job.scene;
     const SceneRun run = job.run();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Levels in words: in dB of full scale and in g.
 #pragma once
-#include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Render/LoadedRender.h"
 #include "Core/Limits.h"
 #include "Files/Text/NumberText.h"
 #include "Pictures/WaveformEnvelope.h"
@@ -15,7 +15,7 @@ inline std::string inG(double g) { return fixedNumber(g, g < 0.1 ? 4 : 2) + " g"
 
 /// "peak -6.0 dBFS (0.50 g)", g that of the enchanter that moves most. An equalised channel holds drive: what is felt is
 /// what was asked for, not what stands in the file.
-inline std::string peakWords(const RenderJob& job, const WaveformEnvelope& whole) {
+inline std::string peakWords(const LoadedRender& job, const WaveformEnvelope& whole) {
     if (!(whole.peak() > 0.0f)) return "silent";
     std::string words = "peak " + fixedNumber(20.0 * std::log10(static_cast<double>(whole.peak())), 1) + " dBFS";
     const auto equalised = job.equalised();
@@ -28,7 +28,7 @@ inline std::string peakWords(const RenderJob& job, const WaveformEnvelope& whole
 
 /// "48 collisions, 0.0020 g to 0.42 g, 3 under one step of an 8-bit converter": of each event, the enchanter that gets
 /// most of it.
-inline std::string collisionWords(const RenderJob& job) {
+inline std::string collisionWords(const LoadedRender& job) {
     constexpr double step = 1.0 / 128.0; // of full scale: the board's converters
     const auto& events = job.made.events;
     std::string words = std::to_string(events.size()) + (events.size() == 1 ? " collision" : " collisions");

@@ -33,7 +33,7 @@ std::string tooHighFor(int rateHz, const std::vector<CollisionEvent>& events, co
 }
 
 // What was lost or altered must not go unseen.
-void warn(const RenderStatus& status, const RenderJob& job) {
+void warn(const RenderStatus& status, const LoadedRender& job) {
     const auto say = [](std::uint64_t count, const char* what) {
         if (count > 0) std::cerr << "physvib: warning: " << what << ": " << count << '\n';
     };
@@ -47,10 +47,10 @@ void warn(const RenderStatus& status, const RenderJob& job) {
     say(static_cast<std::uint64_t>(beyond), "events that begin after the end of the render (see --seconds)");
 }
 
-InstructionSet instructionsOf(const RenderOptions& o) { return o.instructions == "scalar" ? InstructionSet::scalar : InstructionSet::best; }
+InstructionSet instructionsOf(const RenderJob& o) { return o.instructions == "scalar" ? InstructionSet::scalar : InstructionSet::best; }
 
-OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl>& controls, const RecordedContacts& contacts) {
-    const RenderOptions& o = job.options;
+OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderControl>& controls, const RecordedContacts& contacts) {
+    const RenderJob& o = job.options;
     const RendererSettings renderer{.sampleRateHz = o.sampleRateHz,
                                     .channels = job.channels(),
                                     .panner = job.panner(),
@@ -63,7 +63,7 @@ OfflineSettings settingsOf(const RenderJob& job, const std::vector<RenderControl
 }
 
 /// The same events once more, in one channel; controls of the enchanters say nothing here, but that all shall stop.
-void renderContactSound(const RenderJob& job, std::vector<RenderControl> controls, RenderOutputs& outputs) {
+void renderContactSound(const LoadedRender& job, std::vector<RenderControl> controls, RenderOutputs& outputs) {
     const ContactSounds sounds{job.recordings, job.options.sampleRateHz};
     std::erase_if(controls, [](const RenderControl& control) { return control.kind != RenderControl::Kind::stopAll; });
     auto hits = job.made.events;
@@ -73,13 +73,13 @@ void renderContactSound(const RenderJob& job, std::vector<RenderControl> control
 }
 
 /// The clip's own samples; no collisions, no controls.
-RenderStatus renderClip(const RenderJob& job, RenderOutputs& outputs) {
+RenderStatus renderClip(const LoadedRender& job, RenderOutputs& outputs) {
     const ClipVoices voices{job};
     return renderOffline(voices.events(), settingsOf(job, {}, {voices.contacts()}), [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
 }
 
 /// Samples, and marks if they are wanted, beside each other.
-RenderStatus renderMarked(const RenderJob& job, OfflineSettings settings, RenderOutputs& outputs) {
+RenderStatus renderMarked(const LoadedRender& job, OfflineSettings settings, RenderOutputs& outputs) {
     const auto which = job.options.marks();
     if (!which) return renderOffline(job.made.events, settings, [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
     OnsetMarks marks{*which};
@@ -91,7 +91,7 @@ RenderStatus renderMarked(const RenderJob& job, OfflineSettings settings, Render
     return status;
 }
 
-RenderStatus renderEvents(const RenderJob& job, RenderOutputs& outputs) {
+RenderStatus renderEvents(const LoadedRender& job, RenderOutputs& outputs) {
     SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings, job.options.sampleRateHz};
     const auto controls = again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{});
     const RenderStatus status = renderMarked(job, settingsOf(job, controls, again.beside(job.feltRecordings())), outputs);
@@ -99,7 +99,7 @@ RenderStatus renderEvents(const RenderJob& job, RenderOutputs& outputs) {
     return status;
 }
 
-std::string render(RenderJob& job, RenderListener* listener) {
+std::string render(LoadedRender& job, RenderListener* listener) {
     RenderOutputs outputs{job, listener};
     if (auto error = outputs.open(); !error.empty()) return error;
     const auto warnings = makeEvents(job);
@@ -119,8 +119,8 @@ std::string render(RenderJob& job, RenderListener* listener) {
 
 } // namespace
 
-int runRender(const RenderOptions& options, RenderListener* listener) {
-    RenderJob job{options, {}, {}, {}, {}};
+int runRender(const RenderJob& options, RenderListener* listener) {
+    LoadedRender job{options, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;
     if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
@@ -130,9 +130,9 @@ int runRender(const RenderOptions& options, RenderListener* listener) {
 }
 
 Command renderCommand() {
-    return commandOf("render", "render a scene, an event list or a clip to files", declareRenderOptions, [](const OptionTable& command, RenderOptions& options) {
+    return commandOf("render", "render a scene, an event list or a clip to files", declareRenderOptions, [](const OptionTable& command, RenderJob& options) {
         noteGiven(command, options);
-        const std::string refusal = checkRenderOptions(options);
+        const std::string refusal = renderFault(options);
         return refusal.empty() ? runRender(options) : leave(exitUsage, refusal);
     });
 }

@@ -8,6 +8,6 @@ namespace physvib {
 
 /// Does what the (checked) options say. All files appear, or none: exitDone, or exitFailed with a line on stderr. A listener hears the
 /// render instead of a person: warnings apart, nothing is told of one that is well.
-int runRender(const RenderOptions& options, RenderListener* listener = nullptr);
+int runRender(const RenderJob& options, RenderListener* listener = nullptr);
 
 } // namespace physvib

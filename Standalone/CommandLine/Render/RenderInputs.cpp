@@ -10,7 +10,7 @@
 namespace physvib {
 namespace {
 
-std::string readInputs(RenderJob& job) {
+std::string readInputs(LoadedRender& job) {
     if (job.session && !job.options.given.contains("--layout")) {
         job.layout = describeLayout("session", job.session->panner.layout());
     } else {
@@ -36,7 +36,7 @@ std::string readInputs(RenderJob& job) {
 }
 
 /// Of the scene or session; one line if it is simulated too slowly.
-Result<SceneEvents> eventsOf(const RenderJob& job) {
+Result<SceneEvents> eventsOf(const LoadedRender& job) {
     Patience patience{job.options.patienceSeconds};
     auto made = job.session ? sessionEvents(*job.session, job.endNs(), std::ref(patience)) : runScene(*job.scene, job.run(), job.endNs(), std::ref(patience));
     if (auto fault = patience.fault(); !fault.empty()) return Failure{job.options.scene + ": " + fault};
@@ -45,7 +45,7 @@ Result<SceneEvents> eventsOf(const RenderJob& job) {
 
 } // namespace
 
-int takeInputs(RenderJob& job) {
+int takeInputs(LoadedRender& job) {
     const std::string& name = job.options.scene;
     if (clipFormatOf(name)) return takeClip(job);
     if (!name.empty()) {
@@ -56,7 +56,7 @@ int takeInputs(RenderJob& job) {
     return error.empty() ? exitDone : leave(exitFailed, error);
 }
 
-Result<std::vector<std::string>> makeEvents(RenderJob& job) {
+Result<std::vector<std::string>> makeEvents(LoadedRender& job) {
     if (job.scene) {
         auto made = eventsOf(job);
         if (!made) return Failure{made.error};

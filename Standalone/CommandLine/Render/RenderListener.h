@@ -4,7 +4,7 @@
 
 namespace physvib {
 
-struct RenderJob;
+struct LoadedRender;
 
 /// M only; on the thread of the render.
 class RenderListener {
@@ -12,7 +12,7 @@ public:
     virtual ~RenderListener() = default;
 
     /// The inputs are read and the events known; `job` lives until the render is over.
-    virtual void begin(const RenderJob& job) = 0;
+    virtual void begin(const LoadedRender& job) = 0;
 
     /// The next frames of every channel, as the WAV gets them.
     virtual void take(const float* const* channels, int frames) = 0;

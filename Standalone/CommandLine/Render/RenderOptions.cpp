@@ -3,51 +3,15 @@
 #include "CommandLine/Render/RenderOptions.h"
 #include "Core/EventShaping.h"
 #include "Files/Text/NameList.h"
-#include "Files/Text/NumberText.h"
+#include "Host/Devices/AudioOutput.h"
 #include "Options/OptionTable.h"
 #include "Physics/Simulation.h"
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace physvib {
 
-namespace {
+static_assert(usualContactDb == safeContactDb, "as on a device");
 
-bool parseMetres(std::string_view text, double& metres) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
-    return error == std::errc{} && end == text.data() + text.size() && metres >= 1e-3 && metres <= 1e6;
-}
-
-bool parseField(RenderOptions& o) {
-    const auto comma = o.field.find(',');
-    if (comma == std::string::npos) return false;
-    const std::string_view text{o.field};
-    return parseMetres(text.substr(0, comma), o.fieldWidthMetres) && parseMetres(text.substr(comma + 1), o.fieldHeightMetres);
-}
-
-bool parseSettings(RenderOptions& o) {
-    for (const std::string& text : o.sets) {
-        const auto equals = text.find('=');
-        if (equals == 0 || equals == std::string::npos) return false;
-        o.settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-    }
-    return true;
-}
-
-} // namespace
-
-bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<double, std::string>>& recordings) {
-    for (const std::string& text : sounds) {
-        const auto equals = text.find('=');
-        const auto hz = parseNumber<double>(std::string_view{text}.substr(0, equals));
-        if (equals == std::string::npos || !hz || !(*hz > 0.0) || equals + 1 == text.size()) return false;
-        recordings.emplace_back(*hz, text.substr(equals + 1));
-    }
-    return true;
-}
-
-void declareSceneOptions(OptionTable& command, RenderOptions& o) {
+void declareSceneOptions(OptionTable& command, RenderJob& o) {
     command.add("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or (render, export) a saved SESSION.json or a CLIP.hjif, .hmpg, .haptic, .ahap");
     command.add("--set", o.sets, "a variable of the scene; may be repeated").as("NAME=VALUE").single();
     command.add("--seconds", o.seconds, "length of the render").in(0.001, 86400.0, " s");
@@ -77,7 +41,7 @@ void declareSceneOptions(OptionTable& command, RenderOptions& o) {
     command.add("--coupling", o.coupling, "measured coupling of the layout's enchanters, made up for with at most 3 dB more drive (render)").as("FILE.json");
 }
 
-void declareRenderOptions(OptionTable& command, RenderOptions& o) {
+void declareRenderOptions(OptionTable& command, RenderJob& o) {
     declareSceneOptions(command, o);
     command.add("--from-events", o.fromEvents, "render this event list instead of a scene").as("EVENTS.csv");
     command.add("--out", o.wavPath, "32-bit float WAV, one channel per enchanter").written("FILE.wav");
@@ -98,44 +62,9 @@ void declareRenderOptions(OptionTable& command, RenderOptions& o) {
         .in(0.0, 1e7, " s");
 }
 
-std::optional<MarkedOnsets> RenderOptions::marks() const {
-    if (marker.empty()) return {};
-    return markerOf == "hits" ? MarkedOnsets::hits : markerOf == "messages" ? MarkedOnsets::messages : MarkedOnsets::all;
-}
-
-void noteGiven(const OptionTable& command, RenderOptions& o) {
+void noteGiven(const OptionTable& command, RenderJob& o) {
     for (const Option& option : command.options)
         if (!option.said.empty()) o.given.insert(option.spellings.front());
-}
-
-std::string checkSceneOptions(RenderOptions& o) {
-    if (!parseSettings(o)) return "--set: expected NAME=VALUE";
-    if (!panningLawNamed(o.law, o.panningLaw)) return "--law: expected " + listed(panningLawNames, " or ") + ", found \"" + o.law + "\"";
-    if (!o.field.empty() && !parseField(o)) return "--field: expected W,H in metres (0.001 to 1e6), found \"" + o.field + "\"";
-    if (!parseSounds(o.sounds, o.recordings)) return std::string{soundExpectation};
-    if (o.playsRecordings() && o.sounds.empty()) return "--method SV: expected a --sound for each material";
-    if (!o.playsRecordings() && !o.sounds.empty() && o.contactSound.empty()) return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
-    if (o.playsRecordings() && o.remap == "on") return std::string{recordingsHaveNoFrequency};
-    if (o.playsRecordings() && o.gamma > 0.0) return "--gamma: recordings have no one decay to be cut";
-    if (o.playsRecordings() && o.perceivedLevel == "on") return std::string{recordingsHaveNoWeight};
-    if (!o.playsRecordings() && !renderingMethodNamed(o.method, o.renderingMethod)) return "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"" + o.method + "\"";
-    if (!o.sounds.empty() && (o.remap == "on" || o.renderingMethod.fixesFrequency)) return "--sound: expected hits at their material's own frequency, found " + (o.remap == "on" ? "--remap" : "--method " + o.method);
-    if (o.remap == "on" && o.actuator == "none") return "--remap: expected an --actuator, whose band is to be used";
-    return {};
-}
-
-std::string checkRenderInputs(RenderOptions& o) {
-    if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
-    if (!o.sets.empty() && o.scene.empty()) return "--set: only a scene has variables";
-    if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";
-    if (!o.coupling.empty() && o.playsRecordings()) return "--coupling: expected a --method of modes; a recording has no one frequency";
-    return checkSceneOptions(o);
-}
-
-std::string checkRenderOptions(RenderOptions& o) {
-    const std::string fault = checkRenderInputs(o);
-    if (!fault.empty() || !std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return fault;
-    return "render: nothing to write; give --out, --events, --picture, --pattern, --contact-sound or --marker";
 }
 
 } // namespace physvib

@@ -28,14 +28,14 @@ std::string open(std::unique_ptr<WavSink>& wav, const std::string& path, int cha
 
 } // namespace
 
-RenderOutputs::RenderOutputs(const RenderJob& job, RenderListener* listener)
+RenderOutputs::RenderOutputs(const LoadedRender& job, RenderListener* listener)
     : job_{job}
     , listener_{listener}
     , pattern_{job.channels(), job.options.sampleRateHz, job.options.threshold}
     , whole_{job.channels(), 0, job.frames()} {}
 
 std::string RenderOutputs::open() {
-    const RenderOptions& o = job_.options;
+    const RenderJob& o = job_.options;
     std::string error = physvib::open(wav_, o.wavPath, job_.channels(), o.sampleRateHz, provenanceText());
     if (error.empty()) error = physvib::open(contactWav_, o.contactSound, 1, o.sampleRateHz, provenanceText() + " heard=contact_sound");
     if (error.empty()) error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz, provenanceText() + " marked=" + o.markerOf);
@@ -98,7 +98,7 @@ std::string RenderOutputs::finish() {
 }
 
 Provenance RenderOutputs::provenance() const {
-    const RenderOptions& o = job_.options;
+    const RenderJob& o = job_.options;
     Provenance p = inputProvenance();
     if (!job_.method().fixesNothing() || o.playsRecordings()) p.entries.emplace_back("method", o.method);
     if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
@@ -114,7 +114,7 @@ Provenance RenderOutputs::provenance() const {
 }
 
 Provenance RenderOutputs::inputProvenance() const {
-    const RenderOptions& o = job_.options;
+    const RenderJob& o = job_.options;
     if (job_.clip) return {PHYSVIB_VERSION, {{"clip", std::filesystem::path{o.scene}.filename().string()}}};
     if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
     Provenance p{PHYSVIB_VERSION, {{"scene", job_.scene->name}, {"seed", std::to_string(job_.session ? job_.session->log.takes.front().seed : o.seed)},
@@ -164,7 +164,7 @@ void RenderOutputs::showProgress() {
 
 void RenderOutputs::summarise(std::ostream& out) const {
     if (listener_) return;
-    const RenderOptions& o = job_.options;
+    const RenderJob& o = job_.options;
     out << std::fixed << std::setprecision(1);
     if (wav_) {
         out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ") << job_.seconds() << " s at "

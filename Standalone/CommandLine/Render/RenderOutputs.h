@@ -2,7 +2,7 @@
 // The files a render leaves: WAV, event list, picture, pattern. They appear together at the end, or not at all.
 #pragma once
 #include "CommandLine/Render/OnOffPattern.h"
-#include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Render/LoadedRender.h"
 #include "CommandLine/Render/RenderListener.h"
 #include "Files/Disk/AtomicFile.h"
 #include "Files/EventsCsv.h"
@@ -19,7 +19,7 @@ class RenderOutputs {
 public:
     /// `job` outlives this object; its layout is known, its events need not be. A listener, if there is one, hears what is taken, and
     /// tells people as much of it as it wants.
-    explicit RenderOutputs(const RenderJob& job, RenderListener* listener = nullptr);
+    explicit RenderOutputs(const LoadedRender& job, RenderListener* listener = nullptr);
 
     /// Makes sure that every wanted file can be written.
     std::string open();
@@ -52,7 +52,7 @@ private:
     void showProgress();
     bool writeWav(const float* const* channels, int frames);
 
-    const RenderJob& job_;
+    const LoadedRender& job_;
     RenderListener* listener_;
     std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_;
     std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;

@@ -36,7 +36,7 @@ void collectWritten(const OptionTable& table, std::set<std::string, std::less<>>
 /// Every spelling of every option that names a file to be written, of the commands that a call can be.
 std::set<std::string, std::less<>> writtenWords() {
     OptionTable calls{"physvib", {}};
-    RenderOptions render;
+    RenderJob render;
     StimulusOptions stimulus;
     declareRenderOptions(calls.addCommand("render", {}), render);
     declareStimulus(calls.addCommand("stimulus", {}), stimulus);

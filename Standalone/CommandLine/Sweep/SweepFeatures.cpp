@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over events, then over samples. What each column means: Docs/sweep.md.
 #include "CommandLine/Sweep/SweepFeatures.h"
-#include "CommandLine/Render/RenderJob.h"
+#include "CommandLine/Render/LoadedRender.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,7 +56,7 @@ void SweepFeatures::prepare(const LayoutDescription& layout, int sampleRateHz, d
     spectrum_.emplace(sampleRateHz, layout_.geometry.count);
 }
 
-void SweepFeatures::begin(const RenderJob& job) {
+void SweepFeatures::begin(const LoadedRender& job) {
     prepare(job.layout, job.options.sampleRateHz, job.seconds());
     const auto& events = job.made.events;
     const auto end = std::ranges::lower_bound(events, job.endNs(), {}, &CollisionEvent::timeNs);

@@ -26,7 +26,7 @@ public:
     /// Of the features of a layout of so many channels, in their order.
     static std::vector<std::string> names(int channels);
 
-    void begin(const RenderJob& job) override;
+    void begin(const LoadedRender& job) override;
     void take(const float* const* channels, int frames) override;
 
     /// When the render is over: all features, once.

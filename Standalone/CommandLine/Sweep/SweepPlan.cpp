@@ -26,10 +26,10 @@ const EmbeddedFile* embeddedScene(const std::string& name) {
 
 } // namespace
 
-Result<RenderOptions> renderOptionsOf(const std::string& call) {
+Result<RenderJob> renderOptionsOf(const std::string& call) {
     if (auto fault = writtenWordFault(call); !fault.empty()) return Failure{fault};
     OptionTable words{"physvib", {}};
-    RenderOptions options;
+    RenderJob options;
     OptionTable& render = words.addCommand("render", {});
     declareRenderOptions(render, options);
     const ParsedWords parsed = parseText(words, call);
@@ -37,7 +37,7 @@ Result<RenderOptions> renderOptionsOf(const std::string& call) {
     if (!parsed.fault.empty()) return Failure{parsed.reason()};
     if (auto fault = linkOfCallFault(words, {}); !fault.empty()) return Failure{fault};
     noteGiven(render, options);
-    if (auto fault = checkRenderInputs(options); !fault.empty()) return Failure{fault};
+    if (auto fault = renderInputFault(options); !fault.empty()) return Failure{fault};
     return options;
 }
 
@@ -88,7 +88,7 @@ std::string SweepPlan::placeOfFault() {
 std::string SweepPlan::tryTask(const SweepTask& task) {
     const auto options = renderOptionsOf(task.call);
     if (!options) return options.error;
-    RenderJob job{options.value, {}, {}, {}, {}};
+    LoadedRender job{options.value, {}, {}, {}, {}};
     const HeardWords heard;
     if (takeInputs(job) != exitDone) return heard.reason();
     channels_ = std::max(channels_, job.channels());

@@ -20,7 +20,7 @@ struct PlannedTask {
 };
 
 /// The options of a call "render ...", checked; or one line. M only.
-Result<RenderOptions> renderOptionsOf(const std::string& call);
+Result<RenderJob> renderOptionsOf(const std::string& call);
 
 class SweepPlan {
 public:

@@ -25,8 +25,8 @@
 
 namespace physvib {
 
-struct RenderJob {
-    const RenderOptions& options;
+struct LoadedRender {
+    const RenderJob& options;
     std::optional<Scene> scene; ///< none: events come from a list
     LayoutDescription layout;
     std::optional<SavedSession> session{}; ///< what is rendered again, if it is one; `scene` is its first take's
@@ -115,7 +115,7 @@ struct RenderJob {
 
 /// Why the method's fixed level cannot be had, or empty; a warning where it is high. An event has one amplitude: 1.5 g on every
 /// enchanter is one only if their full scales are one.
-inline std::string fixedLevelFault(const RenderJob& job) {
+inline std::string fixedLevelFault(const LoadedRender& job) {
     if (!job.method().fixesAmplitude) return {};
     for (const auto& enchanter : job.layout.enchanters)
         if (enchanter.fullScaleG != job.fullScaleG())
@@ -129,7 +129,7 @@ inline std::string fixedLevelFault(const RenderJob& job) {
 }
 
 /// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty, or one line.
-inline std::string takeRecordings(RenderJob& job, const std::vector<CollisionEvent>& events, const std::string& source) {
+inline std::string takeRecordings(LoadedRender& job, const std::vector<CollisionEvent>& events, const std::string& source) {
     for (const auto& [hz, path] : job.options.recordings) {
         const auto struck = std::ranges::find(events, hz, &CollisionEvent::frequencyHz);
         auto contact = loadContact({hz, path, struck != events.end() ? struck->decayPerSecond : 0.0, job.options.soundMatch == "rms"});
@@ -144,7 +144,7 @@ inline std::string takeRecordings(RenderJob& job, const std::vector<CollisionEve
 }
 
 /// Takes the saved session that the options name into `job`: exitDone, or the code to leave with after a line on stderr.
-inline int takeSession(RenderJob& job) {
+inline int takeSession(LoadedRender& job) {
     for (const char* own : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--limiter"})
         if (job.options.given.contains(own)) return leave(exitUsage, std::string{own} + ": a saved session brings its own");
     auto session = loadSession(job.options.scene);
@@ -165,7 +165,7 @@ inline int takeSession(RenderJob& job) {
 
 /// Takes the scene that the options name into `job`, with warnings on what it simulates badly: exitDone, or
 /// the code to leave with after a line on stderr.
-inline int takeScene(RenderJob& job) {
+inline int takeScene(LoadedRender& job) {
     const std::string& name = job.options.scene;
     auto scene = findScene(name, job.options.settings);
     if (!scene) return leave(isJsonPath(name) ? exitFailed : exitUsage, scene.error);
