@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Channel sets that survive the way through a plug-in format in their order.
 #include "BusPlan.h"
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include <algorithm>
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // Which note strikes what and where; which controller moves which parameter.
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Files/PluginState.h"
+#include "Scene/Sessions/PluginState.h"
 #include "Parameters.h"
 #include <array>
 

@@ -2,7 +2,7 @@
 // Strips and what they change.
 #include "MixPanel.h"
 #include "EditorParts.h"
-#include "Files/ActuatorFile.h"
+#include "Scene/ActuatorFile.h"
 
 namespace physvib {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // By what the file says it is.
 #include "OpenedFile.h"
-#include "Files/DeskLimits.h"
-#include "Files/Disk/FileKind.h"
-#include "Files/SceneFile.h"
-#include "Files/SessionFile.h"
+#include "Scene/Sessions/DeskLimits.h"
+#include "Io/Disk/FileKind.h"
+#include "Scene/SceneFile.h"
+#include "Scene/Sessions/SessionFile.h"
 #include "Parameters.h"
 #include "PluginSettings.h"
 #include <algorithm>

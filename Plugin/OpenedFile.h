@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A file of one's own into what an instance plays: a scene, a layout, or a session with its desk.
 #pragma once
-#include "Files/PluginState.h"
-#include "Files/Result.h"
+#include "Scene/Sessions/PluginState.h"
+#include "Io/Result.h"
 #include <filesystem>
 #include <string>
 

@@ -2,7 +2,7 @@
 // Places, choices, and what is asked of the processor 25 times a second.
 #include "PluginEditor.h"
 #include "EditorParts.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include "Host/Views/Palette.h"
 #include "OpenedFile.h"
 

@@ -2,7 +2,7 @@
 // The message thread's part: settings, buses, rates, latency.
 #include "PluginProcessor.h"
 #include "PluginEditor.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include <algorithm>
 #include <stdexcept>
 

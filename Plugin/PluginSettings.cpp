@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panner, session, tail and parameters of a state.
 #include "PluginSettings.h"
-#include "Files/SceneCatalogue.h"
-#include "Files/Text/NameList.h"
+#include "Scene/SceneCatalogue.h"
+#include "Io/Text/NameList.h"
 #include "MidiMap.h"
 #include <algorithm>
 #include <cmath>

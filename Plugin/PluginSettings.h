@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the state of an instance to what renders it.
 #pragma once
-#include "Files/PluginState.h"
+#include "Scene/Sessions/PluginState.h"
 #include "Parameters.h"
 #include "Session/Session.h"
 #include <optional>

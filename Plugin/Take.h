@@ -2,7 +2,7 @@
 // One run of a session from its seed on, with the settings it was made for, until it has played what is owed.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
-#include "Files/Mix.h"
+#include "Scene/Sessions/Mix.h"
 #include "Session/Session.h"
 #include "TakeSettings.h"
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Making, stepping and freeing takes: all but the render role's part.
 #include "Takes.h"
-#include "Physics/InputCheck.h"
-#include "Physics/Scenes/SceneValidation.h"
+#include "Scene/World/InputCheck.h"
+#include "Scene/SceneValidation.h"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

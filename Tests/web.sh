@@ -19,7 +19,7 @@ for scene in marbles fruit-basket; do # of round bodies: Docs/web.md says why
     "$physvib" render "$scene" --seconds "$seconds" --seed "$seed" --instructions scalar --out "$work/$scene.wav" >/dev/null
     natives="$natives $scene=$work/$scene.wav"
 done
-sed 's/"radius_m": 0.099/"radius_m": -1/' Source/Files/Scenes/shake-the-box.json >"$work/bad.json"
+sed 's/"radius_m": 0.099/"radius_m": -1/' Source/Scene/Scenes/shake-the-box.json >"$work/bad.json"
 physvib=$(realpath "$physvib")
 (cd "$work" && "$physvib" render bad.json --out never.wav 2>fault.txt) && exit 1
 # shellcheck disable=SC2086 # a list of words

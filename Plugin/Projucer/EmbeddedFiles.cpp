@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The built-in scenes, materials, actuators, protocols and words where the Projucer embeds them (CMake does by Source/Files/embed.cmake).
+// The built-in scenes, materials, actuators, protocols and words where the Projucer embeds them (CMake does by Source/Io/embed.cmake).
 #include "BinaryData.h"
-#include "Files/Disk/Embedded.h"
+#include "Io/Disk/Embedded.h"
 
 namespace physvib {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Event by event: its curves between the moments at which they bend.
-#include "Files/Json/StrictJson.h"
+#include "Io/Json/StrictJson.h"
 #include "Formats/AhapPattern.h"
 #include "Formats/ClipLimits.h"
 #include <cmath>

@@ -9,7 +9,7 @@
 //
 // Left out of what others write, and told: sound, attack, decay, release, and what is not known.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
 #include <string>

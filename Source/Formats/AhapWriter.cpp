@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The envelope in pieces: a continuous event each, and two curves that bend it. Of full intensity and no
 // sharpness, except where a transient sounds: there the event has the level, and the curves begin at 1 and 0.
-#include "Files/Json/JsonLines.h"
+#include "Io/Json/JsonLines.h"
 #include "Formats/AhapFile.h"
 #include "Formats/AhapPieces.h"
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What every clip keeps to, whatever file it came from.
 #include "Formats/Clip.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Formats/ClipLimits.h"
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Who reads, who writes, and what is lost.
 #include "Formats/ClipFile.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/NumberText.h"
 #include "Formats/AhapFile.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"

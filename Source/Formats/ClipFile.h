@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Haptic files of others by their endings: one door in, one out.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
 #include <array>

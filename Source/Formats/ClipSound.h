@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A clip as samples.
 #pragma once
-#include "Files/SampledSound.h"
+#include "Io/Wav/SampledSound.h"
 #include "Formats/Clip.h"
 
 namespace physvib {

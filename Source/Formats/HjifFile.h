@@ -5,7 +5,7 @@
 // Does not carry: places finer than 127 points across the field; panning laws and strikes as such.
 // Of what others write it is read: vibrotactile perceptions with vectorial, transient and curve bands; not wavelets, nor composite effects.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Formats/Clip.h"
 #include <string>
 #include <string_view>

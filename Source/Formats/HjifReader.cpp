@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Field by field after MPEG's schema: perceptions, channels, bands, effects, keyframes.
-#include "Files/Json/JsonField.h"
-#include "Files/Json/JsonText.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Json/JsonField.h"
+#include "Io/Json/JsonText.h"
+#include "Io/Text/NumberText.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
 #include "Formats/LeftOut.h"

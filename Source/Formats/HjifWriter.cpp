@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One line per effect; everything in a fixed order.
-#include "Files/Json/JsonLines.h"
+#include "Io/Json/JsonLines.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HjifFile.h"
 #include "Formats/MpegEffects.h"

@@ -4,7 +4,7 @@
 // Carries what .hjif carries, with amplitudes of 8 bits (of each channel's strongest) and frequencies of whole Hz.
 // Of what others write it is read what is read of .hjif; check sums are passed over.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Formats/Clip.h"
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Unit by unit, packet by packet. What was told of a band is kept until the end: an effect may go on in a later unit.
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/HmpgFile.h"
 #include "Formats/HmpgLayout.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What of a stranger's file is not felt, counted while it is read, and told as one line.
 #pragma once
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <map>
 #include <string>
 #include <string_view>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // version, metadata, signals.continuous.envelopes.
 #include "Formats/MetaHapticFile.h"
-#include "Files/Json/JsonField.h"
-#include "Files/Json/JsonLines.h"
-#include "Files/Json/JsonText.h"
+#include "Io/Json/JsonField.h"
+#include "Io/Json/JsonLines.h"
+#include "Io/Json/JsonText.h"
 #include "Formats/ClipEnvelope.h"
 #include "Formats/ClipLimits.h"
 #include <cmath>

@@ -4,7 +4,7 @@
 // Carries: one channel, amplitudes and frequencies from 0 to 1, transients as emphasis, any length.
 // Does not carry: several channels, places, several frequencies at once, phases, levels beyond full scale, Hz.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Leaf by leaf; a model is looked at when it has ended.
 #include "Formats/TextureModels.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/NumberText.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/XmlLeaves.h"
 #include <algorithm>

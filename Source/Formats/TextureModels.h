@@ -6,7 +6,7 @@
 // frequencies, triangles and pictures are passed over. Models with a moving average, which the toolkit makes for other rates, are
 // refused: take those at 10 kHz. None of these files comes with PhysVib: their licence forbids it.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include <filesystem>
 #include <string_view>
 #include <vector>

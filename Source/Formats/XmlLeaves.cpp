@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tag by tag; comments and instructions are passed over.
 #include "Formats/XmlLeaves.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <utility>
 

@@ -2,7 +2,7 @@
 // What --layout means everywhere.
 #pragma once
 #include "Core/RenderingMethod.h"
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include <string>
 
 namespace physvib {

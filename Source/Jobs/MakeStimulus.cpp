@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A resonance is the layout's; all else stands in the job.
 #include "Jobs/MakeStimulus.h"
-#include "Files/ActuatorFile.h"
-#include "Files/Text/NumberText.h"
+#include "Scene/ActuatorFile.h"
+#include "Io/Text/NumberText.h"
 
 namespace physvib {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is wrong with a render before any file is read.
 #include "Jobs/RenderJob.h"
-#include "Files/Text/NameList.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NameList.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <charconv>
 #include <concepts>

@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/PhantomPanner.h"
 #include "Core/RenderingMethod.h"
-#include "Files/SceneFile.h"
+#include "Scene/SceneFile.h"
 #include "Session/OnsetMarks.h"
 #include "Session/Patience.h"
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Experiment and trial file, step by step together.
 #include "Jobs/StudyRun.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <chrono>
 #include <ctime>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A participant's way through a study, with the file that keeps it: whoever answers, a person or an observer, does it here.
 #pragma once
-#include "Files/TrialLog.h"
+#include "Study/Files/TrialLog.h"
 #include "Study/Experiment.h"
 #include <filesystem>
 #include <string>

@@ -2,7 +2,7 @@
 // Transfer function, a first guess from magnitudes, the delay from phases, then least squares of all of it.
 #include "Measure/ActuatorMeasurement.h"
 #include "Core/Decibels.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Measure/RecordingFaults.h"
 #include <Eigen/Cholesky>
 #include <algorithm>

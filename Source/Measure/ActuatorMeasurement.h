@@ -2,7 +2,7 @@
 // Resonance, Q, gain and delay of an actuator, or of a cable, from a sweep that was played and what was recorded of it.
 #pragma once
 #include "Core/Actuators/Resonator.h"
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include <vector>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Checks, then the excerpt, then one of the two rules.
 #include "Measure/MaterialExtractor.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/HitFit.h"
 #include "Measure/Peaks.h"

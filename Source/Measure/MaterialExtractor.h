@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Frequency and decay of a material from the sound of one contact (thesis 5.2.1).
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include <vector>
 
 namespace physvib {

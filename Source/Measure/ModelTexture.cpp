@@ -2,7 +2,7 @@
 // An autoregressive texture as grains: the peak of its spectrum, how wide it is, and how strong.
 #include "Contacts/Grains.h"
 #include "Core/Limits.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Measure/TextureExtractor.h"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What makes a recording useless, in words: too short, not finite, clipped. M only.
 #pragma once
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

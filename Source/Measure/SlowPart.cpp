@@ -2,7 +2,7 @@
 // Two running means, one after the other, are the triangle.
 #include "Measure/SlowPart.h"
 #include "Core/Limits.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <cmath>
 #include <span>
 

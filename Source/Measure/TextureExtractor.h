@@ -2,7 +2,7 @@
 // A surface's grains from the recording of a scrape, or from an autoregressive model of one.
 #pragma once
 #include "Contacts/Texture.h"
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include <cstddef>
 #include <vector>
 

@@ -6,7 +6,7 @@ list(JOIN ROOMS "|" names)
 set(wanted "")
 foreach(room ${ROOMS})
     file(GLOB_RECURSE headers RELATIVE ${FROM} ${FROM}/${room}/*.h)
-    list(FILTER headers EXCLUDE REGEX "Json") # they serve Files alone; without them nobody else needs nlohmann-json
+    list(FILTER headers EXCLUDE REGEX "Json") # they serve our own files alone; without them nobody else needs nlohmann-json
     foreach(header ${headers})
         file(READ ${FROM}/${header} text)
         string(REGEX REPLACE "(\n *# *include +)\"((${names})/[^\"]*)\"" "\\1<physvib/\\2>" text "${text}")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which colour a hit has, and what that colour is called in the legend.
-#include "Physics/Scenes/SceneCast.h"
+#include "Scene/World/SceneCast.h"
 #include "Pictures/PictureParts.h"
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Faces by FreeType, unhinted: a word is as wide as its letters.
 #include "Pictures/Letters.h"
-#include "Files/Text/CleanText.h"
+#include "Io/Text/CleanText.h"
 #include "Pictures/FreeType.h"
 #include <array>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The look of a picture: panels, wells, words in three sizes, axes.
 #pragma once
-#include "Files/Text/CleanText.h"
-#include "Files/Text/ReadableNumber.h"
+#include "Io/Text/CleanText.h"
+#include "Io/Text/ReadableNumber.h"
 #include "Pictures/Letters.h"
 #include "Pictures/Painter.h"
 #include "Pictures/Palette.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The panel that shows the world: field, bodies, hits as light, enchanters.
-#include "Physics/Scenes/SceneCast.h"
+#include "Scene/World/SceneCast.h"
 #include "Pictures/PictureLight.h"
 #include "Pictures/PictureParts.h"
 #include "Pictures/ShapeOutline.h"

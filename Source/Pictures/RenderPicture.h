@@ -4,8 +4,8 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
-#include "Physics/Scenes/Scene.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/Scene.h"
+#include "Scene/World/SceneRun.h"
 #include "Pictures/Image.h"
 #include "Pictures/Letters.h"
 #include "Pictures/WaveformEnvelope.h"

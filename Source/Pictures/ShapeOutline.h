@@ -2,7 +2,7 @@
 // The outline of a scene's shape as it is drawn: by the picture of a render, and by views of a world that
 // moves.
 #pragma once
-#include "Physics/Scenes/Scene.h"
+#include "Scene/Scene.h"
 #include <algorithm>
 #include <variant>
 #include <vector>

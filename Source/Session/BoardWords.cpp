@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Counters of both ends of the line.
 #include "Session/BoardWords.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <chrono>
 
 namespace physvib {

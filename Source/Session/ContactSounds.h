@@ -2,7 +2,7 @@
 // Recorded contacts, made fit for a renderer: at its rate.
 #pragma once
 #include "Core/RecordedContact.h"
-#include "Files/RecordingFile.h"
+#include "Scene/Sessions/RecordingFile.h"
 #include <span>
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A file that grows by whole lines while something plays, whatever the disk does meanwhile.
 #pragma once
-#include "Files/Disk/SystemFile.h"
+#include "Io/Disk/SystemFile.h"
 #include <cstddef>
 #include <filesystem>
 #include <string>

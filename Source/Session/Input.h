@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/RenderControl.h"
-#include "Physics/Scenes/Scene.h"
+#include "Scene/Scene.h"
 #include "Session/ContactSounds.h"
 #include <cstdint>
 #include <limits>

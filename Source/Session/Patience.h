@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How long somebody waits for a world to be simulated before the first sample: a stranger's scene may ask for hours.
 #pragma once
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Session/ThreadTime.h"
 #include <cstdint>
 #include <string>

@@ -2,7 +2,7 @@
 // What comes from outside while a session plays: inputs, controls, recordings, strikes, and the log of it all.
 #include "Session/Scheduler.h"
 #include "Core/ClipNumber.h"
-#include "Files/Disk/FileLimits.h"
+#include "Io/Disk/FileLimits.h"
 #include <algorithm>
 #include <iterator>
 #include <utility>

@@ -2,9 +2,9 @@
 // The one way of all inputs from outside: checked, given a time, logged, and handed to the world or to the renderer.
 #pragma once
 #include "Core/EventQueue.h"
-#include "Files/Result.h"
-#include "Files/SessionLog.h"
-#include "Physics/InputCheck.h"
+#include "Io/Result.h"
+#include "Scene/Sessions/SessionLog.h"
+#include "Scene/World/InputCheck.h"
 #include "Session/Input.h"
 #include "Session/RecordingSets.h"
 #include "Session/RenderedChannels.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Two files that grow, and what becomes of the first.
 #include "Session/SessionJournal.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Disk/ReadFile.h"
+#include "Scene/SceneFileLimits.h"
+#include "Io/Disk/ReadFile.h"
 #include <algorithm>
 #include <chrono>
 #include <utility>

@@ -5,9 +5,9 @@
 // whatever ends the program, what was played is there up to a second before. At the end the journal becomes an ordinary
 // session file; one that was cut off is read as it is.
 #pragma once
-#include "Files/Disk/AtomicFile.h"
-#include "Files/EventsCsv.h"
-#include "Files/SessionJournalText.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Scene/EventsCsv.h"
+#include "Scene/Sessions/SessionJournalText.h"
 #include "Session/GrowingFile.h"
 #include "Session/Session.h"
 #include <condition_variable>

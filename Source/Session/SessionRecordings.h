@@ -2,7 +2,7 @@
 // The recordings and clips of a saved session, on their way to a renderer.
 #pragma once
 #include "Core/RenderControl.h"
-#include "Files/SessionLog.h"
+#include "Scene/Sessions/SessionLog.h"
 #include "Session/RecordingSets.h"
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A saved session to samples again, faster than it was played.
 #pragma once
-#include "Files/SessionFile.h"
+#include "Scene/Sessions/SessionFile.h"
 #include "Session/OfflineRender.h"
 #include "Session/SessionRecordings.h"
 #include <cstdint>

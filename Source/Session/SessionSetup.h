@@ -6,7 +6,7 @@
 #include "Core/HapticRenderer.h"
 #include "Session/ContactSounds.h"
 #include "Session/OnsetMarks.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/World/SceneRun.h"
 #include <array>
 #include <cstdint>
 #include <limits>

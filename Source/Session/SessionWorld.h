@@ -3,9 +3,9 @@
 #pragma once
 #include "Core/EventShaping.h"
 #include "Session/SessionSetup.h"
-#include "Physics/Scenes/SceneRun.h"
-#include "Physics/Scenes/SceneTake.h"
-#include "Physics/Simulation.h"
+#include "Scene/World/SceneRun.h"
+#include "Scene/SceneTake.h"
+#include "Scene/World/Simulation.h"
 #include <cstdint>
 #include <memory>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Requests with numbers, and who else holds.
 #include "Session/SilenceHolders.h"
-#include "Files/Text/InputLine.h"
+#include "Scene/Sessions/InputLine.h"
 #include <utility>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Samples in g, then in shares of each enchanter's full scale.
 #include "Session/StimulusRender.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Session/OfflineRender.h"
 #include <algorithm>
 #include <cmath>

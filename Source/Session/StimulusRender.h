@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A stimulus as samples, one channel per enchanter, by the renderer that plays everything else.
 #pragma once
-#include "Files/LayoutFile.h"
-#include "Files/Result.h"
-#include "Files/SampledSound.h"
+#include "Scene/LayoutFile.h"
+#include "Io/Result.h"
+#include "Io/Wav/SampledSound.h"
 #include "Study/Stimulus.h"
 
 namespace physvib {

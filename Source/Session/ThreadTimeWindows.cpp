@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Windows: GetThreadTimes, in steps of 100 ns.
 #if defined(_WIN32)
-#include "Files/Disk/SystemWindows.h"
+#include "Io/Disk/SystemWindows.h"
 #include "Session/ThreadTime.h"
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stepping and handing over; a state waits for whoever steps the world.
 #include "Session/WorldRunner.h"
-#include "Physics/Scenes/SceneValidation.h"
+#include "Scene/SceneValidation.h"
 #include <algorithm>
 #include <iterator>
 #include <utility>

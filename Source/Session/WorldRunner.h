@@ -2,7 +2,7 @@
 // Steps the world of a session up to session time, and queues what it makes for the renderer.
 #pragma once
 #include "Core/EventQueue.h"
-#include "Files/SessionLog.h"
+#include "Scene/Sessions/SessionLog.h"
 #include "Session/CallbackInputs.h"
 #include "Session/SessionSetup.h"
 #include "Session/SessionWorld.h"

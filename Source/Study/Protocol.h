@@ -140,7 +140,7 @@ struct SessionPlan {
     std::optional<StaircasePlan> staircase;
     std::optional<QuestMethod> quest;
     std::string levelsFrom; ///< an earlier session whose adjustments hold here
-    std::string levelsFile; ///< or others' (Files/LevelsFile.h)
+    std::string levelsFile; ///< or others' (Study/Files/LevelsFile.h)
     bool operator==(const SessionPlan&) const = default;
 
     AnswerKind answer() const noexcept { return describe(task).answer; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the command line's exit codes mean, and how it says what went wrong.
 #pragma once
-#include "Files/Text/CleanText.h"
+#include "Io/Text/CleanText.h"
 #include <iostream>
 #include <string_view>
 

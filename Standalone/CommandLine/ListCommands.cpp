@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib scenes`, `actuators` and `devices`: what there is, a line each.
 #include "CommandLine/Command.h"
-#include "Files/ActuatorFile.h"
-#include "Files/SceneCatalogue.h"
-#include "Files/Text/NumberText.h"
+#include "Scene/ActuatorFile.h"
+#include "Scene/SceneCatalogue.h"
+#include "Io/Text/NumberText.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Session/SerialLine.h"
 #include <juce_events/juce_events.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a row is before anything is said of it; and rows from a usage text.
 #include "Options/OptionTable.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include <algorithm>
 #include <regex>
 #include <type_traits>

@@ -3,7 +3,7 @@
 #include "Options/Reference.h"
 #include "Options/Completions.h"
 #include "Options/ManPage.h"
-#include "Files/Disk/AtomicFile.h"
+#include "Io/Disk/AtomicFile.h"
 #include <system_error>
 
 namespace physvib {

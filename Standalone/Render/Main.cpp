@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // A scene or an event list to samples, on any system: nothing here but the library.
 #include "Core/CollisionEvent.h"
-#include "Files/Disk/FileClash.h"
-#include "Files/EventsCsv.h"
-#include "Files/LayoutFile.h"
-#include "Files/SceneCatalogue.h"
-#include "Files/Text/CleanText.h"
-#include "Files/Text/NameList.h"
-#include "Files/WavSink.h"
+#include "Io/Disk/FileClash.h"
+#include "Scene/EventsCsv.h"
+#include "Scene/LayoutFile.h"
+#include "Scene/SceneCatalogue.h"
+#include "Io/Text/CleanText.h"
+#include "Io/Text/NameList.h"
+#include "Io/Wav/WavSink.h"
 #include "InRange.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/World/SceneRun.h"
 #include "Session/OfflineRender.h"
 #include <CLI/CLI.hpp>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The picture of a render: what it needs of the samples while they are made.
 #pragma once
-#include "Files/Disk/AtomicFile.h"
+#include "Io/Disk/AtomicFile.h"
 #include "Pictures/RenderPicture.h"
 
 namespace physvib {

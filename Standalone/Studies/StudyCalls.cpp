@@ -4,7 +4,7 @@
 #include "CommandLine/Render/JobSession.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StimulusOptions.h"
-#include "Files/ProtocolFile.h"
+#include "Study/Files/ProtocolFile.h"
 #include "Jobs/LayoutNamed.h"
 #include "Jobs/MakeStimulus.h"
 #include "Jobs/StudyRun.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a trial's stimuli are for a live session. A protocol's own calls are text, which is parsed here as the program parses it.
 #pragma once
-#include "Files/LayoutFile.h"
-#include "Files/Result.h"
+#include "Scene/LayoutFile.h"
+#include "Io/Result.h"
 #include "Session/SessionSetup.h"
 #include "Study/Stimulus.h"
 #include "Study/Trial.h"

@@ -2,7 +2,7 @@
 // The end of a program: by a signal, or with all that it wrote.
 #include "System/Process.h"
 #include "System/StandardStreams.h"
-#include "Files/Disk/SystemFile.h"
+#include "Io/Disk/SystemFile.h"
 #include <cerrno>
 #include <csignal>
 #include <cstdio>

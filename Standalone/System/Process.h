@@ -2,7 +2,7 @@
 // What the programs need of the system: before their first word, after their last, and in between. One file
 // per system does it, ProcessPosix.cpp and ProcessWindows.cpp.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include <cstddef>
 #include <optional>
 #include <span>

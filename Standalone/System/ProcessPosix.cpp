@@ -2,7 +2,7 @@
 // POSIX: descriptors 0 to 2, signals, other processes.
 #if !defined(_WIN32)
 #include "System/Process.h"
-#include "Files/Disk/SystemFile.h"
+#include "Io/Disk/SystemFile.h"
 #include <algorithm>
 #include <array>
 #include <cerrno>

@@ -2,8 +2,8 @@
 // Windows: handles, the console's signals, other processes.
 #if defined(_WIN32)
 #include "System/Process.h"
-#include "Files/Disk/SystemFile.h"
-#include "Files/Disk/SystemWindows.h"
+#include "Io/Disk/SystemFile.h"
+#include "Io/Disk/SystemWindows.h"
 #include <cerrno>
 #include <csignal>
 #include <cstdint>

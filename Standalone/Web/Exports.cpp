@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What the page calls. Text is read from the buffer that text() gives; what fails does not return (see fail), and the page throws the
 // instance away.
-#include "Files/Disk/Embedded.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include "PageWorld.h"
-#include "Physics/Scenes/SceneEdits.h"
+#include "Scene/SceneEdits.h"
 #include <array>
 #include <cstdlib>
 #include <exception>

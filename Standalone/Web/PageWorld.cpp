@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stepping, pulling, and rendering behind.
 #include "PageWorld.h"
-#include "Physics/Scenes/SceneCast.h"
+#include "Scene/World/SceneCast.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>

@@ -3,9 +3,9 @@
 #pragma once
 #include "Core/ClockLaw.h"
 #include "Core/HapticRenderer.h"
-#include "Physics/InputCheck.h"
-#include "Physics/Scenes/ScenePlayer.h"
-#include "Physics/Simulation.h"
+#include "Scene/World/InputCheck.h"
+#include "Scene/World/ScenePlayer.h"
+#include "Scene/World/Simulation.h"
 #include <deque>
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The library as a program in another language sees it.
 #include "Core/PanningLaws.h"
-#include "Files/WavFile.h"
+#include "Io/Wav/WavFile.h"
 #include "Support/BegunStructs.h"
 #include "Support/RandomCalls.h"
 #include <atomic>

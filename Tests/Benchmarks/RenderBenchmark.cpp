@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes from their start to a WAV file, a minute of "shake the box" also in its parts; the counter `times_real_time` is the figure.
-#include "Files/WavSink.h"
+#include "Io/Wav/WavSink.h"
 #include "Session/OfflineRender.h"
-#include "Files/SceneCatalogue.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/World/SceneRun.h"
 #include <benchmark/benchmark.h>
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib beats`: what it writes of a song, and what it refuses.
 #include "Calls.h"
-#include "Files/EventsCsv.h"
+#include "Scene/EventsCsv.h"
 #include "Support/BeatSong.h"
 #include "Support/WavBytes.h"
 #include <algorithm>

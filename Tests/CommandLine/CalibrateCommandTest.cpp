@@ -2,7 +2,7 @@
 // `physvib calibrate` from two recordings, and how bad ones are told.
 #include "Calls.h"
 #include "Core/Actuators/SimulatedActuator.h"
-#include "Files/ActuatorFile.h"
+#include "Scene/ActuatorFile.h"
 #include <algorithm>
 #include <cstring>
 #include <limits>

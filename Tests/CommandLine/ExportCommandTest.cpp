@@ -129,7 +129,7 @@ TEST_F(ExportCommand, KeepsEveryHitOfAListAndOfASessionWhereItWasAndWhen) {
 }
 
 TEST_F(ExportCommand, KeepsASessionsLayoutsAndInputs) {
-    std::ifstream file{PHYSVIB_SOURCE_DIR "/Source/Files/Scenes/shake-the-box.json"};
+    std::ifstream file{PHYSVIB_SOURCE_DIR "/Source/Scene/Scenes/shake-the-box.json"};
     std::string scene{std::istreambuf_iterator<char>{file}, {}};
     scene.erase(scene.find("\"physvib_scene\": 1,"), 19);
     const auto panning = [](double left) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that were made to do harm: refused in one clean line, in little memory, and at once.
 #include "CommandLine/Calls.h"
-#include "Files/Text/CleanText.h"
+#include "Io/Text/CleanText.h"
 #include "Support/WavBytes.h"
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@ protected:
 
     void SetUp() override {
         CommandLine::SetUp();
-        write("scene.json", call("scenes").exitCode == 0 ? readSource("Source/Files/Scenes/drop.json") : "");
+        write("scene.json", call("scenes").exitCode == 0 ? readSource("Source/Scene/Scenes/drop.json") : "");
         ASSERT_EQ(call("render drop --seconds 2 --out hit.wav --events hits.csv").exitCode, 0);
         write("trials.csv", "stimulus,response\na,a\nb,b\na,b\n");
         std::filesystem::create_symlink("scene.json", folder_ / "link.json");
@@ -81,7 +81,7 @@ TEST_F(Outputs, NoInputIsWrittenOver) {
 
 TEST_F(Outputs, WhatInputsNameIsNotWrittenOverEither) {
     write("layout.json", R"({"name": "one", "extent_m": [0.1, 0.1], "enchanters": [{"label": "A", "x_m": 0.05, "y_m": 0.05, "actuator": "mine.json", "full_scale_g": 1.0}]})");
-    write("mine.json", readSource("Source/Files/Actuators/lra-205.json"));
+    write("mine.json", readSource("Source/Scene/Actuators/lra-205.json"));
     const std::size_t kept = files().size();
     refuses("render drop --layout layout.json --actuator layout --equalise off --out new.wav --events mine.json", 2, "the input mine.json", kept);
 }

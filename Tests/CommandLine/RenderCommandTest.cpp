@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib render` as users and scripts hold on to it: files, bytes, exit codes, refusals.
 #include "Calls.h"
-#include "Files/EventsCsv.h"
+#include "Scene/EventsCsv.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
 #include <cmath>

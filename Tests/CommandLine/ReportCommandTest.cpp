@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A study's report as researchers call it: pages that need nothing else, tables that repeat, simulated data that say so.
 #include "Calls.h"
-#include "Files/ProtocolFile.h"
+#include "Study/Files/ProtocolFile.h"
 
 namespace physvib {
 namespace {

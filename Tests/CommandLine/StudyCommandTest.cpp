@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib study`: each of the thesis' studies run whole by the observer, cut off in the middle, and analysed.
 #include "Calls.h"
-#include "Files/Text/CsvTable.h"
+#include "Io/Text/CsvTable.h"
 #include "TestPlaces.h"
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 // Many renders as a user asks for them: one table, the same bytes whoever made it and how often it was cut off.
 #include "CommandLine/Calls.h"
 #include "Core/PanningLaws.h"
-#include "Files/EventsCsv.h"
-#include "Files/Text/CsvTable.h"
-#include "Files/Text/NameList.h"
-#include "Files/Text/NumberText.h"
+#include "Scene/EventsCsv.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/NameList.h"
+#include "Io/Text/NumberText.h"
 #include "TestPlaces.h"
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the reader of actuator profiles.
-#include "Files/ActuatorFile.h"
+#include "Scene/ActuatorFile.h"
 #include "Fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the reader of couplings, and of the drives that follow from them.
-#include "Files/CouplingFile.h"
+#include "Study/Files/CouplingFile.h"
 #include "Fuzzing.h"
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What every fuzz target demands of a parser.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of live input lines; what is accepted acts on a small world.
-#include "Files/Text/InputLine.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/Sessions/InputLine.h"
+#include "Scene/SceneCatalogue.h"
 #include "Fuzzing.h"
-#include "Physics/InputCheck.h"
-#include "Physics/Simulation.h"
+#include "Scene/World/InputCheck.h"
+#include "Scene/World/Simulation.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the layout reader.
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include "Fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the material library's reader.
-#include "Files/MaterialTable.h"
+#include "Scene/MaterialTable.h"
 #include "Fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

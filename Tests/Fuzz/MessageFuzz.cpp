@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of messages in lines; what is taken is played for a while.
-#include "Files/Text/InputLine.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Fuzzing.h"
 #include "Session/Messages/MessageRouter.h"
 #include "SessionFuzzing.h"

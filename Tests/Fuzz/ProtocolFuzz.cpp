@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the protocol reader, and of experiments on whatever it lets through.
-#include "Files/ProtocolFile.h"
-#include "Files/TrialLog.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Study/Files/TrialLog.h"
 #include "Fuzzing.h"
 #include "Study/Experiment.h"
 #include "Study/SimulatedObserver.h"

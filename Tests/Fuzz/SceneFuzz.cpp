@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the scene reader: whatever it accepts can be written, read again and simulated.
-#include "Files/SceneFile.h"
+#include "Scene/SceneFile.h"
 #include "Fuzzing.h"
-#include "Physics/Scenes/SceneWorld.h"
+#include "Scene/World/SceneWorld.h"
 
 namespace {
 

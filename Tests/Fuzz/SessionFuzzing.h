@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What messages are fuzzed against: a small session without a log, and clips by any name.
 #pragma once
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include "Session/Messages/ClipSource.h"
 #include "Session/Session.h"
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the plug-in's state, which hosts keep and may damage.
-#include "Files/PluginState.h"
+#include "Scene/Sessions/PluginState.h"
 #include "Fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

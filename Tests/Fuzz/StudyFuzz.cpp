@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the readers of study files, and of the analyses on whatever they let through: no number may be missing.
-#include "Files/LongTableCsv.h"
-#include "Files/StudyCsv.h"
+#include "Study/Files/LongTableCsv.h"
+#include "Study/Files/StudyCsv.h"
 #include "Fuzzing.h"
 #include "Study/InformationTransfer.h"
 #include "Study/Statistics/RankTests.h"

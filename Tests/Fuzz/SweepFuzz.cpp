@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the reader of designs: every task is a call that renders, reads below its folder, and does nothing else.
-#include "Files/SweepFile.h"
+#include "Study/Files/SweepFile.h"
 #include "Fuzzing.h"
 #include "Study/CallWords.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the WAV reader.
-#include "Files/Disk/FileLimits.h"
-#include "Files/WavFile.h"
+#include "Io/Wav/WavFile.h"
 #include "Fuzzing.h"
 #include <memory>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the reader of words that participants read.
-#include "Files/Words.h"
+#include "Study/Files/Words.h"
 #include "Fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

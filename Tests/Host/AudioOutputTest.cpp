@@ -3,7 +3,7 @@
 #include "Host/Devices/AudioOutput.h"
 #include "FakeAudioDevice.h"
 #include "Session/FakeHost.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/World/SceneRun.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <thread>

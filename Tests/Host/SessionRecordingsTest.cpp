@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recorded contacts: at a level that is known, in a live session, and in the session that is rendered again from its file.
-#include "Files/WavSink.h"
+#include "Io/Wav/WavSink.h"
 #include "Session/FakeHost.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Session/SessionJournal.h"

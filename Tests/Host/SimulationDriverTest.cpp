@@ -3,7 +3,7 @@
 // missing.
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/MessageLoop.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/World/SceneRun.h"
 #include "Session/FakeHost.h"
 #include <atomic>
 #include <gtest/gtest.h>

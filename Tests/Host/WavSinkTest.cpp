@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Files/WavSink.h"
-#include "Files/FileTesting.h"
-#include "Files/FullDisk.h"
+#include "Io/Wav/WavSink.h"
+#include "Io/FileTesting.h"
+#include "Io/FullDisk.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mutated files of every kind through the program: physvib-hostile PROGRAM COUNT [SEED [SECONDS]]. Each call leaves with 0, or with 1 or 2
 // after one clean line, takes at most 300 MB and SECONDS of processor, and leaves nothing half-done. Ends with a table; the inputs of failures stay.
-#include "Files/Text/CleanText.h"
+#include "Io/Text/CleanText.h"
 #include "Support/Mutations.h"
 #include "Support/WavBytes.h"
 #include "TestPlaces.h"
@@ -80,7 +80,7 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
     const std::vector<std::string> clipCalls{"render FILE --out o.wav --picture p.png", "render FILE --layout ring3 --out o.wav", "export FILE --to o.hjif", "export FILE --to o.hmpg", "export FILE --to o.haptic", "export FILE --to o.ahap",
                                              "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav"};
     auto scenes = filesIn(corpus / "scene");
-    for (auto& scene : filesIn(source / "Source/Files/Scenes")) scenes.push_back(std::move(scene));
+    for (auto& scene : filesIn(source / "Source/Scene/Scenes")) scenes.push_back(std::move(scene));
     const std::string table = " FILE --export e.csv --picture p.png";
     return {{"scene", "json", scenes, {"render FILE --seconds 0.1 --out o.wav --events e.csv", "render FILE --seconds 0.1 --picture p.png"}},
             {"session", "json", filesIn(corpus / "session"), {"render FILE --seconds 0.1 --out o.wav", "render FILE --seconds 0.1 --layout ring2 --events e.csv"}},

@@ -2,28 +2,29 @@
 # Each room includes only what the rule in CMakeLists.txt allows it; header-only rooms would slip past the linker.
 set(Core_may "Core/")
 set(Wire_may "Wire/|Core/")
-set(Study_may "Study/|Core/|Eigen/|boost/")
+set(Io_may "Io/|Core/|nlohmann/")
 set(Contacts_may "Contacts/|Core/")
 set(Physics_may "Physics/|Contacts/|Core/|box2d/")
-set(Files_may "Files/|Physics/|Contacts/|Study/|Core/|nlohmann/")
-set(Formats_may "Formats/|Files/(Result|SampledSound)\\.h|Files/(Disk|Json|Text)/|Core/|nlohmann/") # reads and writes as Files does
-set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Files/(Result|Text/NumberText)\\.h|Contacts/(Grains|Texture)\\.h|Core/") # one line of words for what a recording lacks
-set(Api_may "Api/C/|Files/|Contacts/|Core/")
-set(Api/Live_may "Api/|Host/|Session/|Files/|Core/|juce_")
-set(Session_may "Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/")
-set(Standalone/Web_may "PageWorld\\.h|Files/|Physics/|Contacts/|Core/")
-set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Session/OfflineRender\\.h|Files/|Physics/|Contacts/|Core/")
-set(Jobs_may "Jobs/|Session/|Pictures/|Study/|Formats/|Measure/|Physics/|Files/|Contacts/|Core/")
-set(Standalone/Options_may "Options/|Files/")
-set(Pictures_may "Pictures/|Study/|Files/|Physics/|Core/|ft2build|png\\.h")
-set(Host_may "Host/|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Formats/|Session/|Measure/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
-set(Host/Osc_may "Host/Osc/|Session/|Files/|Physics/|Core/|lo/")
-set(Plugin_may "Host/|Session/|Files/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
+set(Scene_may "Scene/|Physics/|Contacts/|Io/|Core/|box2d/|nlohmann/")
+set(Study_may "Study/|Scene/|Io/|Core/|Eigen/|boost/|nlohmann/")
+set(Formats_may "Formats/|Io/|Core/|nlohmann/")
+set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Io/(Result|Text/NumberText)\\.h|Contacts/(Grains|Texture)\\.h|Core/") # one line of words for what a recording lacks
+set(Api_may "Api/C/|Scene/|Io/|Contacts/|Core/")
+set(Api/Live_may "Api/|Host/|Session/|Scene/|Io/|Core/|juce_")
+set(Session_may "Session/|Scene/|Io/|Physics/|Contacts/|Wire/|Study/|Core/")
+set(Standalone/Web_may "PageWorld\\.h|Scene/|Io/|Physics/|Contacts/|Core/")
+set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Session/OfflineRender\\.h|Scene/|Io/|Physics/|Contacts/|Core/")
+set(Jobs_may "Jobs/|Session/|Pictures/|Study/|Formats/|Measure/|Scene/|Io/|Physics/|Contacts/|Core/")
+set(Standalone/Options_may "Options/|Scene/|Io/")
+set(Pictures_may "Pictures/|Study/|Scene/|Io/|Core/|ft2build|png\\.h")
+set(Host_may "Host/|Pictures/(Palette|ShapeOutline|WaveformEnvelope)\\.h|aubio/|Formats/|Session/|Measure/|Scene/|Io/|Physics/|Contacts/|Wire/|Study/|Core/|juce_")
+set(Host/Osc_may "Host/Osc/|Session/|Scene/|Io/|Physics/|Core/|lo/")
+set(Plugin_may "Host/|Session/|Scene/|Io/|Physics/|Contacts/|Wire/|Study/|Core/|juce_|[A-Za-z0-9]+\\.h\"") # its own files have no folder
 # Core also stays free of what a board without an operating system lacks.
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Study Contacts Physics Files Formats Measure Pictures Api Api/Live Session Jobs Host Host/Osc Plugin Standalone/Options Standalone/Render Standalone/Web)
+foreach(room Core Wire Io Contacts Physics Scene Study Formats Measure Pictures Api Api/Live Session Jobs Host Host/Osc Plugin Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
     if(room STREQUAL "Api") # a room of its own, under another licence
         list(FILTER files EXCLUDE REGEX "/Api/Live/")

@@ -67,10 +67,10 @@ collect(listed_sources "<FILE [^>]*compile=\"1\"[^>]*file=\"([^\"]+\\.cpp)\"" "$
 compare(sources listed_sources)
 
 # The built-in scenes, materials, actuators, protocols and words, in the order of their listing.
-include(${ROOT}/Source/Files/built-in.cmake)
+include(${ROOT}/Source/built-in.cmake)
 set(embedded "")
-foreach(kind Scenes Materials Actuators Protocols Words)
-    physvib_built_in(files ${kind})
+foreach(folder Scene/Scenes Scene/Materials Scene/Actuators Study/Protocols Study/Words)
+    physvib_built_in(files ${folder})
     list(TRANSFORM files REPLACE "^${ROOT}/" "")
     list(APPEND embedded ${files})
 endforeach()

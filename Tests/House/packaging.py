@@ -23,11 +23,11 @@ mime = {"m": "http://www.freedesktop.org/standards/shared-mime-info"}
 kinds = ElementTree.parse(packaging / "physvib-mime.xml").getroot().findall("m:mime-type", mime)
 types = {kind.attrib["type"] for kind in kinds}
 marks = {match.attrib["value"].strip('"') for kind in kinds for match in kind.findall(".//m:match", mime)}
-for file in sorted((root / "Source" / "Files").glob("*.cpp")):
+for file in sorted([*(root / "Source" / "Scene").rglob("*.cpp"), *(root / "Source" / "Study" / "Files").glob("*.cpp")]):
     for mark in re.findall(r'"(physvib_[a-z]+)"', file.read_text()): # a plug-in's state is no file
         expect(mark in marks, f"{file.name}: no MIME type for files with {mark}")
 columns = re.search(r'value="(time_s,[^"]*)"', (packaging / "physvib-mime.xml").read_text()).group(1).split(",")
-expect(all(f'"{column}"' in (root / "Source/Files/EventColumns.h").read_text() for column in columns), f"event lists begin otherwise than {columns}")
+expect(all(f'"{column}"' in (root / "Source/Scene/EventColumns.h").read_text() for column in columns), f"event lists begin otherwise than {columns}")
 
 desktop = (packaging / "org.physvib.mixer.desktop").read_text()
 opened = set(re.search(r"^MimeType=(.*);$", desktop, re.M).group(1).split(";"))

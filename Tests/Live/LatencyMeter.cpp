@@ -2,10 +2,10 @@
 // Measures how long after its contact a collision comes out of a JACK server: a session on it, and in the same process
 // a client that records what it plays and notes which frame of the session each cycle is. Prints a row of a table.
 // Usage: physvib-latency-meter message|thread SECONDS
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Devices/SimulationDriver.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/World/SceneRun.h"
 #include "MeterClient.h"
 #include <cmath>
 #include <cstdio>

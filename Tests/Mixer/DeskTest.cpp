@@ -2,7 +2,7 @@
 // The desk without a window: what is set on it reaches the session, comes back by undo, and is in the saved session.
 #include "Host/FakeAudioDevice.h"
 #include "MixerTesting.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 
 namespace physvib {
 namespace {

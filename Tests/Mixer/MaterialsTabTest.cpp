@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The materials: edited and taken back, measured from recordings, felt at a spot, saved and rendered again.
-#include "Files/WavSink.h"
+#include "Io/Wav/WavSink.h"
 #include "MixerTesting.h"
-#include "Files/SessionFile.h"
+#include "Scene/Sessions/SessionFile.h"
 #include "Host/Recordings/SessionWav.h"
 #include "Mixer/Materials/MaterialShots.h"
 #include "Mixer/Materials/MaterialsTab.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes that are played in the mixer: a basket is moved by keys, mouse and tilt, a car is driven by keys, and the scene's script leaves it to them.
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include "MixerTesting.h"
 #include <algorithm>
 

@@ -17,7 +17,7 @@ awk '{ print }
          for (k = 0; k < 200; ++k)
              printf "    { \"name\": \"ball %d\", \"position_m\": [%.2f, %.2f], \"fixtures\": [{ \"shape\": \"circle\", \"radius_m\": 0.1, \"material\": \"%s\" }] },\n",
                  k, 0.3 + 0.29 * (k % 20), 0.2 + 0.3 * int(k / 20), k % 3 == 0 ? "rubber" : k % 3 == 1 ? "wood" : "steel can"
-     }' "$(dirname "$0")/../../Source/Files/Scenes/shake-the-box.json" >"$folder/crowd.json"
+     }' "$(dirname "$0")/../../Source/Scene/Scenes/shake-the-box.json" >"$folder/crowd.json"
 "$mixer" "$folder/crowd.json" --device "None:no device" --summary &
 pid=$!
 until xdotool search --name "PhysVib mixer" >/dev/null 2>&1; do sleep 0.1; done

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Docs/osc.md has the addresses that are taken.
-#include "Files/ControlJson.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/Text/NumberText.h"
+#include "Scene/Sessions/ControlJson.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/NumberText.h"
 #include "Host/Osc/OscPort.h"
-#include "Physics/Scenes/SceneFields.h"
+#include "Scene/SceneFields.h"
 #include "TestPlaces.h"
 #include <functional>
 #include <gtest/gtest.h>

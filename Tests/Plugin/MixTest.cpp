@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The plug-in's mix: trims, mutes, solos, polarity, delays, ceilings and equalisers, in a bounce, live, and while it plays.
 #include "PluginTesting.h"
-#include "Files/ActuatorFile.h"
-#include "Files/Disk/ReadFile.h"
+#include "Scene/ActuatorFile.h"
+#include "Io/Disk/ReadFile.h"
 #include "Session/OfflineRender.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/World/SceneRun.h"
 #include "TestPlaces.h"
 
 namespace physvib {
@@ -167,7 +167,7 @@ TEST(PluginMix, EnchantersThatComeGetTheLowestCeiling) {
 }
 
 TEST(PluginMix, ANewInstanceAndAChunkOfVersion1SoundAsWithoutAMix) {
-    const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Files/plugin-state-1.json", 1'000'000);
+    const auto text = readFile(PHYSVIB_SOURCE_DIR "/Tests/Scene/plugin-state-1.json", 1'000'000);
     ASSERT_TRUE(text) << text.error;
     TestHost host;
     host.plugin->setStateInformation(text.value.data(), static_cast<int>(text.value.size()));

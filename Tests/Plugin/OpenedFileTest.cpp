@@ -3,10 +3,10 @@
 #include "OpenedFile.h"
 #include "PluginSettings.h"
 #include "PluginTesting.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/SceneCatalogue.h"
-#include "Files/SceneFile.h"
-#include "Files/SessionFile.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
+#include "Scene/Sessions/SessionFile.h"
 
 namespace physvib {
 namespace {

@@ -3,7 +3,7 @@
 #include "PluginTesting.h"
 #include "Host/Views/Look.h"
 #include "PluginEditor.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 
 namespace physvib {
 namespace {

@@ -2,7 +2,7 @@
 // The processor in its hosts' hands: bounces, rates, blocks, suspension, bypass, many instances.
 #include "PluginTesting.h"
 #include "Session/OfflineRender.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/World/SceneRun.h"
 
 namespace physvib {
 namespace {

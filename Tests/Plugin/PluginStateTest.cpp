@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // State in the host's chunk: round trips, broken ones, any thread, presets, what the host is told.
 #include "PluginTesting.h"
-#include "Files/SceneCatalogue.h"
-#include "Files/Text/NameList.h"
+#include "Scene/SceneCatalogue.h"
+#include "Io/Text/NameList.h"
 #include <atomic>
 #include <future>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What automation and notes do to the world: gravity, tilt, materials, pushes, spawned discs; each felt, each repeatable.
 #include "PluginTesting.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include <set>
 
 namespace physvib {

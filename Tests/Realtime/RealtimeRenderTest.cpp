@@ -2,7 +2,7 @@
 // A million guarded blocks of a live session while another thread edits it ten thousand times.
 #include "Core/ClipNumber.h"
 #include "Session/Session.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include "Realtime/RealtimeGuard.h"
 #include "Support/ClosedForm.h"
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What needs no world is felt sooner where a session is direct; the world's collisions keep the play-out delay.
 #include "FakeHost.h"
-#include "Files/Text/InputLine.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Session/Messages/MessageRouter.h"
 #include "Session/SessionRender.h"
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // A host in virtual time: blocks of random size, and a driver that comes after random gaps.
 #pragma once
 #include "Session/Session.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
 #include <vector>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Docs/messages.md says what the table of messages says, and its lines are taken as they stand there.
 #include "FakeHost.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/Text/InputLine.h"
-#include "Files/SceneFile.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/ReadFile.h"
+#include "Scene/Sessions/InputLine.h"
+#include "Scene/SceneFile.h"
+#include "Io/Text/NumberText.h"
 #include "Session/Messages/MessageRouter.h"
 #include "TestPlaces.h"
 #include <gtest/gtest.h>

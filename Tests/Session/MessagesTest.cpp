@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a message does: the strikes it becomes, the words of its refusals, and that what was felt is rendered again.
 #include "FakeHost.h"
-#include "Files/SessionFile.h"
-#include "Files/SessionJournalText.h"
-#include "Files/Text/InputLine.h"
-#include "Files/Text/NameList.h"
+#include "Scene/Sessions/SessionFile.h"
+#include "Scene/Sessions/SessionJournalText.h"
+#include "Scene/Sessions/InputLine.h"
+#include "Io/Text/NameList.h"
 #include "Session/Messages/MessageRouter.h"
 #include "Session/Messages/MessageStrikes.h"
 #include "Session/SessionRender.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // OfflineRender: frame n is time n/rate, pieces do not matter, and the shipped scene has its level.
 #include "Session/OfflineRender.h"
-#include "Files/SceneCatalogue.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/World/SceneRun.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

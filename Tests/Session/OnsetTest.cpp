@@ -3,7 +3,7 @@
 // driver is delayed at random up to 50 ms and blocks vary from 1 to 2048 frames.
 #include "FakeHost.h"
 #include "Session/Session.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/World/SceneRun.h"
 #include <gtest/gtest.h>
 #include <numbers>
 

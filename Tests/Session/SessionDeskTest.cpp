@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What a mixer does to a session while it plays is saved, and rendered again to the bit.
 #include "FakeHost.h"
-#include "Files/SessionFile.h"
+#include "Scene/Sessions/SessionFile.h"
 #include "Session/OfflineRender.h"
 #include "Session/Session.h"
 #include "Session/SessionRender.h"
-#include "Physics/Scenes/SceneEdits.h"
+#include "Scene/SceneEdits.h"
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>

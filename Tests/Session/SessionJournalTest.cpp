@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What `play --save` leaves, whatever disk and targets do.
 #include "FakeHost.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/SessionFile.h"
+#include "Io/Disk/ReadFile.h"
+#include "Scene/Sessions/SessionFile.h"
 #include "Session/SessionJournal.h"
 #include <csignal>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is done to a session while it plays is logged; the log, saved and read again, renders to what was felt, to the bit.
 #include "FakeHost.h"
-#include "Files/SessionFile.h"
-#include "Files/SessionJournalText.h"
+#include "Scene/Sessions/SessionFile.h"
+#include "Scene/Sessions/SessionJournalText.h"
 #include "Session/OfflineRender.h"
 #include "Session/Session.h"
 #include <atomic>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Session: live is the rendered file, L later, to the bit; and nothing is lost when hosts and timers misbehave.
 #include "FakeHost.h"
-#include "Files/EventsCsv.h"
+#include "Scene/EventsCsv.h"
 #include "Session/Session.h"
 #include "Session/OfflineRender.h"
-#include "Physics/Scenes/SceneRun.h"
+#include "Scene/World/SceneRun.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>

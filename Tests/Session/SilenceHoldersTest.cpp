@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who asks for silence, and who lifts it.
 #include "Session/SilenceHolders.h"
-#include "Files/Text/InputLine.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Session/InputQueue.h"
 #include <gtest/gtest.h>
 #include <thread>

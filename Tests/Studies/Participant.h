@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A participant with a mouse and a keyboard at the mixer's window, and a folder for the rows.
 #pragma once
-#include "Files/Text/CsvTable.h"
+#include "Io/Text/CsvTable.h"
 #include "Host/MessageLoop.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/OnlyNoDevice.h"

@@ -2,8 +2,8 @@
 // A scripted participant completes a short study of each kind by mouse and keyboard; the rows are what the script answered,
 // and `physvib analyse` takes them.
 #include "Participant.h"
-#include "Files/Text/CsvTable.h"
-#include "Files/ProtocolFile.h"
+#include "Io/Text/CsvTable.h"
+#include "Study/Files/ProtocolFile.h"
 #include "TestPlaces.h"
 #include <cstdlib>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a row of a study says is read as the value that it was written from.
 #include "CommandLine/Study/StimulusOptions.h"
-#include "Files/ProtocolFile.h"
+#include "Study/Files/ProtocolFile.h"
 #include "Options/Parser.h"
 #include "Study/Trial.h"
 #include <gtest/gtest.h>

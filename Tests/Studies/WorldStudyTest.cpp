@@ -2,10 +2,10 @@
 // A scripted participant takes shortened versions of the thesis' studies 5.2 and 5.3: sees the world move, drags, tilts, chooses, rates; the log
 // of every trial renders to what came out of the device, bit for bit.
 #include "Participant.h"
-#include "Files/SceneCatalogue.h"
-#include "Files/SceneFile.h"
-#include "Files/SessionFile.h"
-#include "Files/Text/CsvTable.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
+#include "Scene/Sessions/SessionFile.h"
+#include "Io/Text/CsvTable.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Host/FakeAudioDevice.h"
 #include "TestPlaces.h"

@@ -3,11 +3,11 @@
 #include "Api/C/Convert.h"
 #include "Contacts/Texture.h"
 #include "Core/OfflineLoop.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/EventsCsv.h"
-#include "Files/LayoutFile.h"
-#include "Files/Text/NameList.h"
-#include "Files/WavSink.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Scene/EventsCsv.h"
+#include "Scene/LayoutFile.h"
+#include "Io/Text/NameList.h"
+#include "Io/Wav/WavSink.h"
 #include <memory>
 #include <physvib/Version.h>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Session files: read, made of strikes, written, rendered again.
 #include "Api/Live/Lives.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/SessionFile.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Scene/Sessions/SessionFile.h"
 #include "Host/Recordings/LoadRecordings.h"
 #include "Session/SessionRender.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scanning.
 #include "Host/Devices/AudioDevices.h"
-#include "Files/Text/CleanText.h"
+#include "Io/Text/CleanText.h"
 #include <algorithm>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays samples on one output of a device and records one of its inputs meanwhile, frame for frame.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Host/Devices/AudioDevices.h"
 #include <string>
 #include <vector>

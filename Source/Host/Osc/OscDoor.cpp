@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which of the kinds an address is; what they mean stands in the rooms where lines are taken.
 #include "Host/Osc/OscDoor.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 
 namespace physvib {

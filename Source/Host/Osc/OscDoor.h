@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The door by which packets come in: from addresses and values to messages, inputs and controls, each counted.
 #pragma once
-#include "Files/Text/InputLine.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Host/Osc/OscClock.h"
 #include "Host/Osc/OscSocket.h"
 #include "Host/Osc/PhoneSensors.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bundles, messages, and values with names.
 #include "Host/Osc/OscPacket.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <cmath>
 #include <cstring>
 #include <lo/lo.h>

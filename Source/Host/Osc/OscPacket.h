@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Packets of Open Sound Control 1.0: read and written by liblo; bundles are taken apart here, since liblo does that only for sockets of its own.
 #pragma once
-#include "Files/Result.h"
-#include "Files/Text/PlainMessage.h"
+#include "Io/Result.h"
+#include "Scene/Sessions/PlainMessage.h"
 #include <cstdint>
 #include <initializer_list>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names, ports and datagrams.
 #include "Host/Osc/OscSocket.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <chrono>
 #include <cstring>
 #include <memory>

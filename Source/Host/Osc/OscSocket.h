@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A socket of UDP: bound to one address and to a port of its own, or connected to one receiver.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include <array>
 #include <cstddef>
 #include <cstdint>

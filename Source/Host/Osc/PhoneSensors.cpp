@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Gravity and motion, added up, turned as the phone is held.
 #include "Host/Osc/PhoneSensors.h"
-#include "Files/Text/NumberText.h"
-#include "Physics/Scenes/SceneLimits.h"
+#include "Io/Text/NumberText.h"
+#include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #pragma once
 #include "Core/StandardGravity.h"
 #include "Host/Osc/OscPacket.h"
-#include "Physics/Scenes/Scene.h"
+#include "Scene/Scene.h"
 #include <array>
 #include <optional>
 #include <string_view>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Windows: what differs between systems about datagrams. For OscSocket.cpp alone; SocketsPosix.h is the other one.
 #pragma once
-#include "Files/Disk/SystemWindows.h"
+#include "Io/Disk/SystemWindows.h"
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A name is looked up, read, and known by its hash.
 #include "Host/Recordings/ClipFolder.h"
-#include "Files/Disk/ContentHash.h"
-#include "Files/Disk/FileClash.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/ContentHash.h"
+#include "Io/Disk/FileClash.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/NumberText.h"
 #include "Formats/ClipFile.h"
 #include "Formats/ClipLimits.h"
 #include "Host/Recordings/ReadRecording.h"

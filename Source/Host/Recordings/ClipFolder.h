@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clips by their names below one folder: what a message may have read.
 #pragma once
-#include "Files/SessionLog.h"
+#include "Scene/Sessions/SessionLog.h"
 #include "Session/Messages/ClipSource.h"
 #include <filesystem>
 #include <string>

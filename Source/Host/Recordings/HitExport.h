@@ -2,7 +2,7 @@
 // Hits as files for other programs: drawn as the curves of a clip, or as samples. Levels are as struck: no gains, no equaliser, no limiter.
 #pragma once
 #include "Core/PhantomPanner.h"
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include "Formats/ClipFile.h"
 #include "Formats/StrikeClip.h"
 #include <span>

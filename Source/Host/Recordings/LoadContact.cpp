@@ -2,8 +2,8 @@
 // Read, cut, normalised.
 #include "Host/Recordings/LoadContact.h"
 #include "Core/SamplePeak.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Disk/ReadFile.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/LoudestChannel.h"
 #include "Host/Recordings/ReadRecording.h"

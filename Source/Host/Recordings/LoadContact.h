@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recorded contacts from files: one channel, from the hit on, at a level that is known.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Session/ContactSounds.h"
 
 namespace physvib {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each file once, within the limits.
 #include "Host/Recordings/LoadRecordings.h"
-#include "Files/Disk/FileLimits.h"
+#include "Io/Disk/FileLimits.h"
+#include "Scene/SceneFileLimits.h"
 #include "Host/Recordings/ClipFolder.h"
 #include "Host/Recordings/LoadContact.h"
 #include <algorithm>

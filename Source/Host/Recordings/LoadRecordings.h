@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The recordings and clips of a saved session, loaded again.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Session/SessionRecordings.h"
 #include <string>
 #include <vector>

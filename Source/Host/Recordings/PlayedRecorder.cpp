@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ring in, file out.
 #include "Host/Recordings/PlayedRecorder.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 
 namespace physvib {
 

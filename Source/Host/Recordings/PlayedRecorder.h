@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a live session plays, to a WAV file: the render role fills a ring, the message thread empties it to disk.
 #pragma once
-#include "Files/WavSink.h"
+#include "Io/Wav/WavSink.h"
 #include "Host/Devices/SignalTap.h"
 #include <atomic>
 #include <cstdint>

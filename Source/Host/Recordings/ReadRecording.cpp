@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // WAV by our own reader, FLAC and Ogg Vorbis by JUCE's, which believe what a file says of itself: so it is looked at first.
 #include "Host/Recordings/ReadRecording.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/WavFile.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Wav/WavFile.h"
 #include "Formats/ClipFile.h"
 #include "Formats/ClipSound.h"
 #include "Measure/SlowPart.h"

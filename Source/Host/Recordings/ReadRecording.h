@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings in: the one door through which sounds come from files.
 #pragma once
-#include "Files/Result.h"
-#include "Files/SampledSound.h"
+#include "Io/Result.h"
+#include "Io/Wav/SampledSound.h"
 #include "Formats/Clip.h"
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the session's time to that of the file.
 #include "Host/Recordings/Recording.h"
-#include "Files/Disk/AtomicFile.h"
+#include "Io/Disk/AtomicFile.h"
 #include <algorithm>
 
 namespace physvib {

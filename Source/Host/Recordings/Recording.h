@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A recording of a live session: what its channels play as WAV, and every event of it beside it, in the WAV's time.
 #pragma once
-#include "Files/EventsCsv.h"
+#include "Scene/EventsCsv.h"
 #include "Core/RenderControl.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Its recordings in, its samples out.
 #include "Host/Recordings/SessionWav.h"
-#include "Files/Disk/FileClash.h"
-#include "Files/WavSink.h"
+#include "Io/Disk/FileClash.h"
+#include "Io/Wav/WavSink.h"
 #include "Host/Recordings/LoadRecordings.h"
 
 namespace physvib {

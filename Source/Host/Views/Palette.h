@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The palette and numbers of our pictures, as JUCE's colours and words.
 #pragma once
-#include "Files/Text/ReadableNumber.h"
+#include "Io/Text/ReadableNumber.h"
 #include "Pictures/Palette.h"
 #include <juce_graphics/juce_graphics.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The meter's scale is the ceiling's way.
 #include "Host/Views/StripParts.h"
-#include "Files/Mix.h"
+#include "Scene/Sessions/Mix.h"
 #include "Host/Views/Palette.h"
 #include <cmath>
 

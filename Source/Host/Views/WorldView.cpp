@@ -3,7 +3,7 @@
 #include "Host/Views/WorldView.h"
 #include "Pictures/ShapeOutline.h"
 #include "Host/Views/DisplayScale.h"
-#include "Physics/Scenes/SceneCast.h"
+#include "Scene/World/SceneCast.h"
 #include <juce_audio_basics/juce_audio_basics.h>
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include "Host/Views/Look.h"
-#include "Physics/Scenes/Scene.h"
-#include "Physics/Scenes/SceneWorld.h"
+#include "Scene/Scene.h"
+#include "Scene/World/SceneWorld.h"
 #include <deque>
 #include <functional>
 #include <optional>

@@ -3,7 +3,7 @@
 #include "Jobs/Analyse/AnalyseTests.h"
 #include "Jobs/Analyse/Analysis.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
-#include "Files/LongTableCsv.h"
+#include "Study/Files/LongTableCsv.h"
 #include "Study/Statistics/Pairs.h"
 #include "Study/Statistics/RankTests.h"
 #include "Study/Statistics/RepeatedMeasures.h"

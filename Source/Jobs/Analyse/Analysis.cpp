@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The list of all analyses, and which of them fit a table.
 #include "Jobs/Analyse/Analysis.h"
-#include "Files/TrialColumns.h"
+#include "Study/Files/TrialColumns.h"
 #include "Jobs/Analyse/AnalyseFits.h"
 #include "Jobs/Analyse/AnalyseGrids.h"
 #include "Jobs/Analyse/AnalyseLabels.h"

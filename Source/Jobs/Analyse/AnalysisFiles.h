@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What analyses share: files in, words, and tables out.
 #pragma once
-#include "Files/Disk/FileLimits.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/Provenance.h"
-#include "Files/StudyCsv.h"
-#include "Files/Text/CsvTable.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Provenance.h"
+#include "Study/Files/StudyCsv.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/NumberText.h"
 #include "Pictures/StudyPictures.h"
 #include <map>
 #include <string>

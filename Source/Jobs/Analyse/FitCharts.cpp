@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What was answered as points, what was fitted as lines.
 #include "Jobs/Analyse/FitCharts.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Study/Statistics/Bootstrap.h"
 #include "Study/Statistics/Moments.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures of fits to each participant's trials.
 #pragma once
-#include "Files/Charts/Charts.h"
+#include "Io/Charts/Charts.h"
 #include "Study/Statistics/LevelFits.h"
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Percent counts as a picture: of a study's responses, of what merging makes of them, and of those that are published.
 #pragma once
-#include "Files/Charts/Charts.h"
+#include "Io/Charts/Charts.h"
 #include "Study/PercentCounts.h"
 #include <string>
 #include <utility>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The same rows as `study run` writes.
 #include "Jobs/Report/Rehearsal.h"
-#include "Files/ProtocolFile.h"
-#include "Files/TrialLog.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Study/Files/TrialLog.h"
 #include "Study/SimulatedObserver.h"
 
 namespace physvib {

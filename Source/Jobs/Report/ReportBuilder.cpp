@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every test is a call that a reader can repeat.
 #include "Jobs/Report/ReportBuilder.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 
 namespace physvib {

@@ -2,8 +2,8 @@
 // Identified labels: information transfer, percent correct, by condition and by stimulus.
 #include "Jobs/Report/ConditionAxes.h"
 #include "Jobs/Report/ReportSections.h"
-#include "Files/Charts/Charts.h"
-#include "Files/StudyCsv.h"
+#include "Io/Charts/Charts.h"
+#include "Study/Files/StudyCsv.h"
 #include "Study/InformationTransfer.h"
 #include "Study/Statistics/Moments.h"
 #include <cmath>

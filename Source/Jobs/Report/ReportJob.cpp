@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Texts to trials, trials to a report.
 #include "Jobs/Report/ReportJob.h"
-#include "Files/BidsDataset.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Disk/ReadFile.h"
+#include "Study/Files/BidsDataset.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
 
 namespace physvib {
 namespace {

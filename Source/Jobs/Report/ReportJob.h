@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A report on trial files: which, and into which folder.
 #pragma once
-#include "Files/ColumnNames.h"
+#include "Study/Files/ColumnNames.h"
 #include "Jobs/Report/StudyReport.h"
 #include <optional>
 #include <string>

@@ -2,9 +2,9 @@
 // Levels: thresholds with the functions behind them, matches, magnitudes.
 #include "Jobs/Analyse/FitCharts.h"
 #include "Jobs/Report/ReportSections.h"
-#include "Files/Charts/Charts.h"
-#include "Files/StudyCsv.h"
-#include "Files/Text/CsvText.h"
+#include "Io/Charts/Charts.h"
+#include "Study/Files/StudyCsv.h"
+#include "Io/Text/CsvText.h"
 #include "Study/LevelTrials.h"
 #include <algorithm>
 

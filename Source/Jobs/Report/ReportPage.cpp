@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Elements, and the style that all of them share.
 #include "Jobs/Report/ReportPage.h"
-#include "Files/Charts/Svg.h"
-#include "Files/Text/CsvTable.h"
-#include "Files/Text/NumberText.h"
-#include "Files/Text/CsvText.h"
+#include "Io/Charts/Svg.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/NumberText.h"
+#include "Io/Text/CsvText.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>

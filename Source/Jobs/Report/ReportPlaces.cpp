@@ -2,8 +2,8 @@
 // Places pointed at: responses and normals, perceived rows and columns, territories, percent counts.
 #include "Jobs/Report/CountsChart.h"
 #include "Jobs/Report/ReportSections.h"
-#include "Files/Charts/Charts.h"
-#include "Files/StudyCsv.h"
+#include "Io/Charts/Charts.h"
+#include "Study/Files/StudyCsv.h"
 #include "Study/ResponseMap.h"
 #include "Study/Statistics/Moments.h"
 #include <set>

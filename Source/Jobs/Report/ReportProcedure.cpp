@@ -2,8 +2,8 @@
 // What stands in a paper's section on methods, as far as files know it.
 #include "Jobs/Report/ReportSections.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
-#include "Files/ProtocolFields.h"
-#include "Files/TrialColumns.h"
+#include "Study/Files/ProtocolFields.h"
+#include "Study/Files/TrialColumns.h"
 #include <algorithm>
 #include <set>
 #include <sstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Functions in R that read columns as `physvib analyse` does, then a line per test.
 #include "Jobs/Report/ReportScript.h"
-#include "Files/Text/CleanText.h"
+#include "Io/Text/CleanText.h"
 
 namespace physvib {
 namespace {

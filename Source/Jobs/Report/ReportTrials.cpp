@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Files to one table; what their first lines say.
 #include "Jobs/Report/ReportTrials.h"
-#include "Files/ProtocolFile.h"
-#include "Files/Text/NumberText.h"
-#include "Files/TrialColumns.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Io/Text/NumberText.h"
+#include "Study/Files/TrialColumns.h"
 #include "Study/StudyTasks.h"
 #include <algorithm>
 #include <filesystem>

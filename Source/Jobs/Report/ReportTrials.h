@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The trial files of a report, as one study.
 #pragma once
-#include "Files/ColumnNames.h"
-#include "Files/Result.h"
-#include "Files/Text/CsvTable.h"
+#include "Study/Files/ColumnNames.h"
+#include "Io/Result.h"
+#include "Io/Text/CsvTable.h"
 #include "Study/Protocol.h"
 #include <functional>
 #include <map>

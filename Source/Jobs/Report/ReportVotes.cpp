@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Opinions: shares of forced choices, ratings on scales.
 #include "Jobs/Report/ReportSections.h"
-#include "Files/Charts/Charts.h"
-#include "Files/StudyCsv.h"
-#include "Files/Text/CsvText.h"
+#include "Io/Charts/Charts.h"
+#include "Study/Files/StudyCsv.h"
+#include "Io/Text/CsvText.h"
 #include "Study/Statistics/Moments.h"
 #include "Study/Votes.h"
 #include <set>

@@ -6,7 +6,7 @@
 #include "Jobs/Report/ReportPage.h"
 #include "Jobs/Report/StudyReport.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
-#include "Files/Charts/Charts.h"
+#include "Io/Charts/Charts.h"
 #include "Study/InformationTransfer.h"
 #include "Study/PercentCounts.h"
 #include "Study/PlaceBlur.h"

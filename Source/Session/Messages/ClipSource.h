@@ -2,7 +2,7 @@
 // Where a door's clips come from: reading files is not this room's, and each door reads what it was given.
 #pragma once
 #include "Core/EnchanterLayout.h"
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Session/ContactSounds.h"
 #include <functional>
 #include <string>

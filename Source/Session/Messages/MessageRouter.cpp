@@ -2,9 +2,9 @@
 // Names, times and answers.
 #include "Session/Messages/MessageRouter.h"
 #include "Core/ClipNumber.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Text/NameList.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Text/NameList.h"
+#include "Io/Text/NumberText.h"
 #include "Session/Messages/MessageStrikes.h"
 #include "Session/Messages/MessageValues.h"
 #include <algorithm>

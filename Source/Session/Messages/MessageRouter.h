@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The one road of messages, whichever door they come by: checked against the table, timed, and handed to the session.
 #pragma once
-#include "Files/Result.h"
-#include "Files/Text/PlainMessage.h"
+#include "Io/Result.h"
+#include "Scene/Sessions/PlainMessage.h"
 #include "Session/Messages/ClipSource.h"
 #include "Session/Messages/MessageTable.h"
 #include "Session/Session.h"

@@ -2,8 +2,8 @@
 // Strikes, patterns, phantoms and paths.
 #include "Session/Messages/MessageStrikes.h"
 #include "Core/ToneEnd.h"
-#include "Files/EventColumns.h"
-#include "Files/Text/NumberText.h"
+#include "Scene/EventColumns.h"
+#include "Io/Text/NumberText.h"
 #include "Study/PulsePattern.h"
 #include <algorithm>
 #include <cmath>

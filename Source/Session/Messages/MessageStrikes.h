@@ -2,7 +2,7 @@
 // From a message to what is struck.
 #pragma once
 #include "Core/EventShaping.h"
-#include "Physics/Scenes/Scene.h"
+#include "Scene/Scene.h"
 #include "Session/Messages/ClipSource.h"
 #include "Session/Messages/MessageValues.h"
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Types and ranges of the table, places and letters.
 #include "Session/Messages/MessageValues.h"
-#include "Files/Text/NameList.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NameList.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // The values of one message, asked for by the names in the table; each refusal is worded here, for every door.
 #pragma once
 #include "Core/PhantomPanner.h"
-#include "Files/Text/PlainMessage.h"
+#include "Scene/Sessions/PlainMessage.h"
 #include "Session/Messages/MessageTable.h"
 #include <optional>
 #include <stdexcept>

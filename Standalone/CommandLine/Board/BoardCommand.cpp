@@ -6,8 +6,8 @@
 #include "CommandLine/ExitCode.h"
 #include "System/StandardStreams.h"
 #include "CommandLine/Render/LoadedRender.h"
-#include "Files/EventsCsv.h"
-#include "Physics/Simulation.h"
+#include "Scene/EventsCsv.h"
+#include "Scene/World/Simulation.h"
 #include "Wire/SelfTest.h"
 #include <iomanip>
 #include <iostream>

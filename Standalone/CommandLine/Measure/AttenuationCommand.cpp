@@ -4,7 +4,7 @@
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Pictures/StudyPictures.h"
 #include "Study/Coupling.h"
 #include <filesystem>

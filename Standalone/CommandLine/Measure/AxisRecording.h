@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Steady vibrations as accelerometers record them: a channel per axis, or per enchanter.
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include <complex>
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // A band as words: "90-1000".
 #pragma once
 #include "Core/Actuators/Resonator.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include <optional>
 #include <string_view>
 

@@ -4,9 +4,9 @@
 #include "CommandLine/Measure/AxisRecording.h"
 #include "CommandLine/Measure/RecordingList.h"
 #include "Jobs/LayoutNamed.h"
-#include "Files/CouplingFile.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/Text/NumberText.h"
+#include "Study/Files/CouplingFile.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Text/NumberText.h"
 #include <map>
 #include <string>
 

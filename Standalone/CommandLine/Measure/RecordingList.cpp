@@ -2,8 +2,8 @@
 // Columns by name.
 #include "CommandLine/Measure/RecordingList.h"
 #include "Core/Limits.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Text/NumberText.h"
+#include "Scene/SceneFileLimits.h"
+#include "Io/Text/NumberText.h"
 
 namespace physvib {
 

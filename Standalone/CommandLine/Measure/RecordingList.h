@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A folder of recordings with a table that says what each of them is.
 #pragma once
-#include "Files/Result.h"
-#include "Files/Text/CsvTable.h"
+#include "Io/Result.h"
+#include "Io/Text/CsvTable.h"
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -2,11 +2,11 @@
 // From a file to grains, what is certain about them, and what is not.
 #include "CommandLine/Measure/TextureText.h"
 #include "CommandLine/ExitCode.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Formats/TextureModels.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Measure/LoudestChannel.h"
-#include "Physics/Scenes/SceneFields.h"
+#include "Scene/SceneFields.h"
 #include <iostream>
 
 namespace physvib {

@@ -2,7 +2,7 @@
 // Letters and numbers to voices.
 #include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Study/NumberList.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Options/OptionTable.h"
 #include <algorithm>
 

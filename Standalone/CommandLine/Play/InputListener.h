@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lines of standard input that act on a live session as they come; answers go to standard output, a line each.
 #pragma once
-#include "Files/Text/InputLine.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Session/InputQueue.h"
 #include "Session/Messages/ComplaintLimit.h"

@@ -9,7 +9,7 @@
 #include "System/Process.h"
 #include "CommandLine/Render/MarkWords.h"
 #include "System/StandardStreams.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Host/Devices/NoDevice.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Host/Recordings/ClipFolder.h"

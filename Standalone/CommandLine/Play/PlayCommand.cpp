@@ -8,10 +8,10 @@
 #include "CommandLine/Render/JobSession.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "CommandLine/Study/NumberList.h"
-#include "Files/Disk/FileClash.h"
+#include "Io/Disk/FileClash.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
-#include "Physics/Scenes/SceneEdits.h"
+#include "Scene/SceneEdits.h"
 #include "Session/SerialLine.h"
 #include <algorithm>
 #include <numbers>

@@ -2,8 +2,8 @@
 // Profiles looked up, checked and weighed.
 #include "CommandLine/Render/ActuatorChoice.h"
 #include "CommandLine/ExitCode.h"
-#include "Files/ActuatorFile.h"
-#include "Files/Text/NumberText.h"
+#include "Scene/ActuatorFile.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
 #include <set>

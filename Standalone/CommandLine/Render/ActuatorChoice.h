@@ -5,7 +5,7 @@
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Core/CollisionEvent.h"
 #include "Core/EventShaping.h"
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include <span>
 #include <string>
 #include <vector>

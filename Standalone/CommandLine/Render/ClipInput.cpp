@@ -2,7 +2,7 @@
 // A channel with a place is felt there; channels without, if they are as many as the enchanters, one on each; a single one
 // in the middle of all.
 #include "CommandLine/Render/ClipInput.h"
-#include "Files/ActuatorFile.h"
+#include "Scene/ActuatorFile.h"
 #include "Formats/ClipSound.h"
 #include "Host/Recordings/ReadRecording.h"
 

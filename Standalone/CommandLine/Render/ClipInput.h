@@ -3,7 +3,7 @@
 #pragma once
 #include "CommandLine/Render/LoadedRender.h"
 #include "Core/RecordedContact.h"
-#include "Files/SampledSound.h"
+#include "Io/Wav/SampledSound.h"
 #include <vector>
 
 namespace physvib {

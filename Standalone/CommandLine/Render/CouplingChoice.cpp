@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A coupling looked up, checked and weighed.
 #include "CommandLine/Render/CouplingChoice.h"
-#include "Files/CouplingFile.h"
-#include "Files/Text/NumberText.h"
+#include "Study/Files/CouplingFile.h"
+#include "Io/Text/NumberText.h"
 #include <cmath>
 
 namespace physvib {

@@ -4,7 +4,7 @@
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/RenderOptions.h"
-#include "Files/Disk/FileClash.h"
+#include "Io/Disk/FileClash.h"
 #include "Host/Recordings/HitExport.h"
 #include <algorithm>
 #include <filesystem>

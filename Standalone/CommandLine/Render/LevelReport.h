@@ -3,7 +3,7 @@
 #pragma once
 #include "CommandLine/Render/LoadedRender.h"
 #include "Core/Limits.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Pictures/WaveformEnvelope.h"
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // A render as a timed pattern of on and off, for motors that know nothing else.
 #pragma once
 #include "Core/Actuators/VibrationConverter.h"
-#include "Files/Text/NumberText.h"
-#include "Files/Provenance.h"
+#include "Io/Text/NumberText.h"
+#include "Io/Provenance.h"
 #include <string>
 #include <vector>
 

@@ -2,8 +2,8 @@
 // Files first, then simulation, then what the options make of each collision.
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/ClipInput.h"
-#include "Files/Disk/FileKind.h"
-#include "Files/EventsCsv.h"
+#include "Io/Disk/FileKind.h"
+#include "Scene/EventsCsv.h"
 #include "Session/SessionRender.h"
 #include <functional>
 

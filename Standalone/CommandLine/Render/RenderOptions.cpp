@@ -2,10 +2,10 @@
 // Names, ranges and help texts of the options of `physvib render`.
 #include "CommandLine/Render/RenderOptions.h"
 #include "Core/EventShaping.h"
-#include "Files/Text/NameList.h"
+#include "Io/Text/NameList.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Options/OptionTable.h"
-#include "Physics/Simulation.h"
+#include "Scene/World/Simulation.h"
 
 namespace physvib {
 

@@ -4,9 +4,9 @@
 #include "CommandLine/Render/OnOffPattern.h"
 #include "CommandLine/Render/LoadedRender.h"
 #include "CommandLine/Render/RenderListener.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/EventsCsv.h"
-#include "Files/WavSink.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Scene/EventsCsv.h"
+#include "Io/Wav/WavSink.h"
 #include "Pictures/WaveformEnvelope.h"
 #include <iosfwd>
 #include <memory>

@@ -4,7 +4,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "Files/Disk/FileClash.h"
+#include "Io/Disk/FileClash.h"
 #include "Jobs/Report/ReportJob.h"
 #include "Jobs/Report/ThesisReport.h"
 #include "Studies/StudyCalls.h"

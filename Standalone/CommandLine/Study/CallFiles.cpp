@@ -3,8 +3,8 @@
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "CommandLine/Study/StimulusOptions.h"
-#include "Files/Disk/FileClash.h"
-#include "Files/ProtocolFile.h"
+#include "Io/Disk/FileClash.h"
+#include "Study/Files/ProtocolFile.h"
 #include <set>
 #include <vector>
 

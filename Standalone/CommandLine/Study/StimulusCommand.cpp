@@ -6,7 +6,7 @@
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"
 #include "Core/SamplePeak.h"
-#include "Files/WavSink.h"
+#include "Io/Wav/WavSink.h"
 #include "Host/Recordings/ReadRecording.h"
 #include "Jobs/MakeStimulus.h"
 #include "Pictures/RenderPicture.h"

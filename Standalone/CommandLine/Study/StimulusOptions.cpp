@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib stimulus`, from words to a value.
 #include "CommandLine/Study/StimulusOptions.h"
-#include "Files/Text/NameList.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NameList.h"
+#include "Io/Text/NumberText.h"
 #include "Options/OptionTable.h"
 #include "Study/PercentCounts.h"
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The words of `physvib stimulus`, and the value that they say: the words with which rows of studies say it (stimulusWords).
 #pragma once
-#include "Files/Result.h"
+#include "Io/Result.h"
 #include "Study/StimulusJob.h"
 #include <string>
 

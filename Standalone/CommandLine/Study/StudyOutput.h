@@ -2,7 +2,7 @@
 // What the study commands share: warnings, and files out.
 #pragma once
 #include "CommandLine/ExitCode.h"
-#include "Files/Disk/AtomicFile.h"
+#include "Io/Disk/AtomicFile.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
 #include <functional>
 #include <iostream>

@@ -4,10 +4,10 @@
 #include "CommandLine/Sweep/SweepIndex.h"
 #include "CommandLine/Sweep/SweepRun.h"
 #include "CommandLine/Sweep/SweepSlurm.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Study/Files/StudyFileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <optional>
 #include <string>

@@ -4,7 +4,7 @@
 #include "CommandLine/Render/RenderListener.h"
 #include "Core/Actuators/ExposureMeter.h"
 #include "Core/CollisionEvent.h"
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include "Measure/PowerSpectrum.h"
 #include <memory>
 #include <optional>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Results are tables of one row: a person can open each.
 #include "CommandLine/Sweep/SweepFolder.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/Disk/FileClash.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Disk/ReadFile.h"
-#include "Files/Provenance.h"
-#include "Files/Text/NumberText.h"
-#include "Files/WavFile.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/FileClash.h"
+#include "Scene/SceneFileLimits.h"
+#include "Study/Files/StudyFileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Provenance.h"
+#include "Io/Text/NumberText.h"
+#include "Io/Wav/WavFile.h"
 #include <algorithm>
 #include <limits>
 

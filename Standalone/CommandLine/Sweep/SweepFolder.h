@@ -3,7 +3,7 @@
 #pragma once
 #include "CommandLine/Sweep/SweepFeatures.h"
 #include "CommandLine/Sweep/SweepPlan.h"
-#include "Files/Text/CsvTable.h"
+#include "Io/Text/CsvTable.h"
 #include <filesystem>
 #include <optional>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Row by row from the tasks' own files, so that a hundred thousand take the memory of one.
 #include "CommandLine/Sweep/SweepIndex.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/Disk/ContentHash.h"
-#include "Files/Provenance.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/ContentHash.h"
+#include "Io/Provenance.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 
 namespace physvib {

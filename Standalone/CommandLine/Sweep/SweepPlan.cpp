@@ -4,9 +4,9 @@
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Sweep/HeardWords.h"
-#include "Files/Disk/ContentHash.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Disk/ReadFile.h"
+#include "Io/Disk/ContentHash.h"
+#include "Scene/SceneFileLimits.h"
+#include "Io/Disk/ReadFile.h"
 #include "Options/Parser.h"
 #include <filesystem>
 

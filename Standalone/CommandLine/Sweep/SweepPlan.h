@@ -2,7 +2,7 @@
 // A design whose files are there and whose words the program knows: tasks by their numbers, each with the hash that it is kept under.
 #pragma once
 #include "CommandLine/Render/RenderOptions.h"
-#include "Files/SweepFile.h"
+#include "Study/Files/SweepFile.h"
 #include <cstdint>
 #include <map>
 #include <string>

@@ -7,8 +7,8 @@
 #include "CommandLine/Sweep/HeardWords.h"
 #include "CommandLine/Sweep/ProgressBar.h"
 #include "CommandLine/Sweep/Workers.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/Text/NumberText.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Text/NumberText.h"
 #include "Session/GrowingFile.h"
 #include <chrono>
 #include <juce_core/juce_core.h>

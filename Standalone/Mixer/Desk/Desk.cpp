@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mix, the session that plays it, and the output.
 #include "Mixer/Desk/Desk.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include "Mixer/Desk/DeskWords.h"
 #include <algorithm>
 #include <cmath>

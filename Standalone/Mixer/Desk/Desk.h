@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the mixer's window shows and changes: a live session on a device, the mix that is set on it, and the way back of every change.
 #pragma once
-#include "Files/Mix.h"
-#include "Files/SessionFile.h"
+#include "Scene/Sessions/Mix.h"
+#include "Scene/Sessions/SessionFile.h"
 #include "Host/Devices/SimulationDriver.h"
 #include "Mixer/Desk/DeskDevice.h"
 #include "Mixer/Desk/DeskExposure.h"

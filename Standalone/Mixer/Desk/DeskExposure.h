@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What hands have taken of what the output played, in g: sums of full scales become sums of g by the layout that is felt.
 #pragma once
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Study/Trial.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the desk's device plays for ears and machines, on outputs where no enchanter is.
 #pragma once
-#include "Files/Mix.h"
+#include "Scene/Sessions/Mix.h"
 #include "Mixer/Desk/DeskMoment.h"
 #include <functional>
 #include <optional>

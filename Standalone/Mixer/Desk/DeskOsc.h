@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Messages by OSC at the desk: from nobody, from this computer, or from any that reaches it; and what is felt, to whom it is wanted.
 #pragma once
-#include "Files/Text/InputLine.h"
+#include "Scene/Sessions/InputLine.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
 #include <functional>

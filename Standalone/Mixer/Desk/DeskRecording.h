@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the desk records: its enchanters as WAV, and the events beside it.
 #pragma once
-#include "Files/Mix.h"
+#include "Scene/Sessions/Mix.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Recordings/Recording.h"
 #include "Session/Session.h"

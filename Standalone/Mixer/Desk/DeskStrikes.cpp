@@ -2,7 +2,7 @@
 // Strikes at the place of an enchanter or anywhere on the field.
 #include "Mixer/Desk/DeskStrikes.h"
 #include "Core/ToneEnd.h"
-#include "Files/ActuatorFile.h"
+#include "Scene/ActuatorFile.h"
 #include <cmath>
 
 namespace physvib {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inputs, and edits with their opposites.
 #include "Mixer/Desk/DeskWorld.h"
-#include "Physics/InputCheck.h"
-#include "Physics/Scenes/SceneCast.h"
-#include "Physics/Scenes/SceneEdits.h"
+#include "Scene/World/InputCheck.h"
+#include "Scene/World/SceneCast.h"
+#include "Scene/SceneEdits.h"
 #include <algorithm>
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world of the desk: what is done to it, and the way back of every edit.
 #pragma once
-#include "Files/Mix.h"
+#include "Scene/Sessions/Mix.h"
 #include "Session/Session.h"
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What of a mix its session plays by already.
 #pragma once
-#include "Files/Mix.h"
+#include "Scene/Sessions/Mix.h"
 #include "Session/Session.h"
 #include <array>
 

@@ -2,7 +2,7 @@
 // A hit in physical words.
 #pragma once
 #include "Core/CollisionEvent.h"
-#include "Files/Mix.h"
+#include "Scene/Sessions/Mix.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A hit as Eq. 5.1 has it, and what a room and a microphone add.
 #include "Mixer/Materials/MaterialShots.h"
-#include "Files/WavSink.h"
+#include "Io/Wav/WavSink.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Study/SeededRandom.h"
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "Mixer/Materials/FeltRange.h"
 #include "Mixer/Materials/MaterialColumns.h"
 #include "Mixer/Window/Parts.h"
-#include "Physics/Scenes/SceneLimits.h"
+#include "Scene/SceneLimits.h"
 #include <cmath>
 
 namespace physvib {

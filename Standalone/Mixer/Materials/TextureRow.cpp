@@ -3,7 +3,7 @@
 #include "Mixer/Materials/TextureRow.h"
 #include "Mixer/Materials/FeltRange.h"
 #include "Mixer/Window/Parts.h"
-#include "Physics/Scenes/SceneFields.h"
+#include "Scene/SceneFields.h"
 
 namespace physvib {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of enchanters and the settings of the panner.
 #include "Mixer/Output/EnchantersTab.h"
-#include "Files/ActuatorFile.h"
+#include "Scene/ActuatorFile.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Chosen hits as files: what other programs take, and where it lies while they take it.
 #pragma once
-#include "Files/Mix.h"
-#include "Files/Result.h"
+#include "Scene/Sessions/Mix.h"
+#include "Io/Result.h"
 #include "Formats/ClipFile.h"
 #include <juce_core/juce_core.h>
 #include <string>

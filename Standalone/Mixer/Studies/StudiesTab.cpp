@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Choices, checks, and the way to the screen and back.
 #include "Mixer/Studies/StudiesTab.h"
-#include "Files/Disk/FileLimits.h"
-#include "Files/Text/NumberText.h"
-#include "Files/ProtocolFile.h"
-#include "Files/Disk/ReadFile.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Text/NumberText.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Io/Disk/ReadFile.h"
 #include "Host/Devices/NoDevice.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a participant answers with: one component for each kind of task.
 #pragma once
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include "Mixer/Studies/StudyWords.h"
 #include "Study/Experiment.h"
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A typeface with the letters of a language: JUCE draws boxes for those that a typeface lacks, and looks for no other one.
 #pragma once
-#include "Files/Words.h"
+#include "Study/Files/Words.h"
 #include <juce_gui_basics/juce_gui_basics.h>
 #include <optional>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the screens for participants: large buttons, a field with its enchanters, arrow keys.
 #pragma once
-#include "Files/LayoutFile.h"
+#include "Scene/LayoutFile.h"
 #include "Mixer/Window/Parts.h"
 #include "Study/PhantomGrid.h"
 

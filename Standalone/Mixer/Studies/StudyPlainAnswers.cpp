@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Answers without a place: labels, alternatives, scales, a level, a number.
-#include "Files/Text/NumberText.h"
+#include "Io/Text/NumberText.h"
 #include "Mixer/Studies/StudyAnswer.h"
 #include "Mixer/Studies/StudyParts.h"
 #include <cmath>

@@ -2,7 +2,7 @@
 // From page to page; what keys do.
 #include "Mixer/Studies/StudyScreen.h"
 #include "Jobs/LayoutNamed.h"
-#include "Files/ProtocolFile.h"
+#include "Study/Files/ProtocolFile.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {

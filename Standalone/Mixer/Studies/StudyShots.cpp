@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A study is brought to a screen by answers of the simulated observer, and felt there as by a person.
 #include "Mixer/Studies/StudyShots.h"
-#include "Files/ProtocolFile.h"
+#include "Study/Files/ProtocolFile.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Study/SimulatedObserver.h"
 

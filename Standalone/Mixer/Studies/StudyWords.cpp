@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Words of the tasks.
 #include "Mixer/Studies/StudyWords.h"
-#include "Files/Text/CsvText.h"
+#include "Io/Text/CsvText.h"
 #include "Mixer/Window/Parts.h"
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a participant reads.
 #pragma once
-#include "Files/Words.h"
+#include "Study/Files/Words.h"
 #include "Study/Protocol.h"
 #include <juce_core/juce_core.h>
 #include <set>

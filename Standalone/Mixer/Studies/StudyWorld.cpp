@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lends a session to the output and keeps its journal.
 #include "Mixer/Studies/StudyWorld.h"
-#include "Files/Disk/FileClash.h"
-#include "Physics/Scenes/SceneEdits.h"
+#include "Io/Disk/FileClash.h"
+#include "Scene/SceneEdits.h"
 #include <algorithm>
 #include <utility>
 

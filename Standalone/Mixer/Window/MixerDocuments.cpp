@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sessions, scenes and layouts from files and into them; recordings and renders; what is asked before anything is lost.
 #include "Mixer/Window/MixerWindow.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/Disk/FileKind.h"
-#include "Files/SceneFile.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/FileKind.h"
+#include "Scene/SceneFile.h"
 #include "Mixer/Window/Parts.h"
 #include "Mixer/Window/RenderTask.h"
 

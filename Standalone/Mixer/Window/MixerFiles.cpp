@@ -2,7 +2,7 @@
 // Files in one folder; a copy bears the number of its process.
 #include "Mixer/Window/MixerFiles.h"
 #include "System/Process.h"
-#include "Files/Disk/AtomicFile.h"
+#include "Io/Disk/AtomicFile.h"
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>

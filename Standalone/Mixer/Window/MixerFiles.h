@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the mixer keeps between its runs: settings, recent documents, and a copy of the session in case it ends badly.
 #pragma once
-#include "Files/DeskLimits.h"
+#include "Scene/Sessions/DeskLimits.h"
 #include "Mixer/Desk/Desk.h"
 #include <juce_gui_extra/juce_gui_extra.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // States are reached as a person would reach them, with a clock instead of a device.
 #include "Mixer/Window/Shots.h"
-#include "Files/Disk/AtomicFile.h"
-#include "Files/SceneCatalogue.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Scene/SceneCatalogue.h"
 #include "Mixer/Materials/MaterialShots.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Window/MixerView.h"

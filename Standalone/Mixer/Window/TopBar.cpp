@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bar's controls and its numbers.
 #include "Mixer/Window/TopBar.h"
-#include "Files/SceneCatalogue.h"
+#include "Scene/SceneCatalogue.h"
 #include "Host/Devices/NoDevice.h"
 
 namespace physvib {

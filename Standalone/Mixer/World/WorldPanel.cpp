@@ -3,7 +3,7 @@
 #include "Mixer/World/WorldPanel.h"
 #include "Core/ClipNumber.h"
 #include "Mixer/Materials/HitWords.h"
-#include "Physics/Scenes/SceneEdits.h"
+#include "Scene/SceneEdits.h"
 #include <utility>
 
 namespace physvib {

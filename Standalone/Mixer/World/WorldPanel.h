@@ -6,7 +6,7 @@
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
 #include "Mixer/World/TiltKnob.h"
-#include "Physics/Scenes/ScenePlayer.h"
+#include "Scene/World/ScenePlayer.h"
 #include <optional>
 
 namespace physvib {

@@ -3,8 +3,8 @@
 // open again; the recorded file has what the actions say.
 #include "../MixerTesting.h"
 #include "Host/FakeAudioDevice.h"
-#include "Files/SceneCatalogue.h"
-#include "Files/SceneFile.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
 #include "Host/Views/DisplayScale.h"
 #include "Session/OfflineRender.h"
 #include "Session/SessionRender.h"

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What bars and lines share: title, legend, axes. For the .cpp files of Charts.
+#pragma once
+#include "Io/Charts/ChartAxis.h"
+#include "Io/Charts/Svg.h"
+#include <string>
+#include <vector>
+
+namespace physvib::detail {
+
+/// The rectangle between the axes.
+struct PlotArea {
+    double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
+    double width() const noexcept { return right - left; }
+    double height() const noexcept { return bottom - top; }
+    double y(const ChartAxis& axis, double value) const noexcept { return bottom - axis.share(value) * height(); }
+    double x(const ChartAxis& axis, double value) const noexcept { return left + axis.share(value) * width(); }
+};
+
+constexpr double titleSize = 14.0, labelSize = 12.0, smallSize = 11.0;
+
+/// A word of the legend and how it is drawn.
+struct LegendItem {
+    std::string words;
+    std::size_t style = 0;
+    enum class Kind { bar, marker, dashes } kind = Kind::bar;
+};
+
+/// Its height: rows as wide as `width`.
+double legendHeight(const std::vector<LegendItem>& items, double width);
+void drawLegend(Svg& svg, const std::vector<LegendItem>& items, ChartPoint corner, double width);
+
+/// Lines of words that fit into `width`. Any thread (allocates).
+std::vector<std::string> wrapped(std::string_view words, double width, double size);
+
+/// The title at the top, in lines; the height that it takes.
+double drawTitle(Svg& svg, const std::string& title, double width);
+
+void drawValueAxis(Svg& svg, const PlotArea& area, const ChartAxis& axis, const std::string& words);
+void drawAxisBelow(Svg& svg, const PlotArea& area, const ChartAxis& axis, const std::string& words);
+
+} // namespace physvib::detail

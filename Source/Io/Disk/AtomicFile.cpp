@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Temporary siblings, renames, and sentences for what can go wrong with them.
+#include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/FileClash.h"
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+namespace fs = std::filesystem;
+using Lock = SystemFile::Lock;
+
+constexpr const char* suffix = ".physvib.part"; // a name that no other program gives: what is left behind under it is removed
+constexpr const char* beingWritten = "it is being written already, here or by another program";
+constexpr const char* inTheWay = "another program is writing it, or left its temporary file: ";
+
+std::string reasonOf(int code) {
+    return std::generic_category().message(code);
+}
+
+/// Opens and closes; 0 or the error number.
+int tryOpen(const fs::path& path, const char* mode) {
+    std::FILE* const file = openStream(path, mode);
+    return file != nullptr && std::fclose(file) == 0 ? 0 : errno;
+}
+
+/// Why nothing may be put at `target`; empty if something may.
+std::string obstacle(const fs::path& target) {
+    std::error_code code;
+    const fs::path folder = folderOf(target);
+    if (!target.has_filename()) return "it names a folder, expected a file";
+    const bool isThere = fs::exists(folder, code);
+    if (code) return code.message();
+    if (!isThere) return "the folder " + folder.string() + " does not exist";
+    const fs::file_status present = fs::status(target, code);
+    if (!fs::exists(present)) return {};
+    if (!fs::is_regular_file(present)) return "expected a regular file, found a folder, a device or a pipe";
+    const int denied = tryOpen(target, "r+b"); // a rename would not ask
+    return denied == 0 ? std::string() : reasonOf(denied);
+}
+
+/// Removes the temporary file of a program that was killed: no one living has locked it. Whoever removes has locked what he
+/// removes, so nobody's living file goes. Empty, or what is in the way.
+std::string removeLeftBehind(const fs::path& sibling) {
+    SystemFile left = SystemFile::look(sibling);
+    if (!left.isOpen()) return left.error() == ENOENT ? std::string() : inTheWay + sibling.string() + ": " + left.reason();
+    const Lock lock = left.lock();
+    if (lock == Lock::others) return beingWritten;
+    if (lock == Lock::none) return inTheWay + sibling.string();
+    std::error_code code;
+    if (left.isAt(sibling)) fs::remove(sibling, code);
+    return code ? inTheWay + sibling.string() + ": " + code.message() : std::string();
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(const fs::path& path)
+    : named_(path)
+    , target_(path) {
+    const std::string reason = prepare();
+    isTaken_ = reason == beingWritten;
+    if (!reason.empty()) fail(reason);
+}
+
+AtomicFile::~AtomicFile() {
+    removeTemporary();
+}
+
+bool AtomicFile::writeAt(std::int64_t position, std::string_view bytes) {
+    if (!error_.empty() || file_.writeAt(position, bytes)) return error_.empty();
+    fail(file_.reason());
+    removeTemporary();
+    return false;
+}
+
+const std::string& AtomicFile::write(std::string_view bytes) {
+    if (error_.empty()) file_.resize(0);
+    writeAt(0, bytes);
+    return error_;
+}
+
+const std::string& AtomicFile::commit() {
+    if (!error_.empty()) return error_;
+    std::error_code code;
+    file_.takePermissionsOf(target_);
+    if (!file_.sync()) {
+        fail(file_.reason());
+    } else if (!file_.isAt(temporary_) && fs::exists(fs::symlink_status(temporary_, code))) {
+        fail("its temporary file was replaced by another");
+    } else if (fs::rename(temporary_, target_, code); code) {
+        fail(code.message());
+    }
+    if (error_.empty()) SystemFile::syncFolder(folderOf(target_));
+    removeTemporary();
+    return error_;
+}
+
+std::string AtomicFile::prepare() {
+    std::error_code code;
+    if (fs::is_symlink(named_, code)) {
+        if (!isWithin(named_.parent_path(), named_)) return leadsElsewhere;
+        target_ = fs::weakly_canonical(named_, code);
+        if (code) return code.message();
+    }
+    if (std::string reason = obstacle(target_); !reason.empty()) return reason;
+    fs::path sibling = target_;
+    return make(sibling += suffix);
+}
+
+// Between making and locking, another program may take the new file for one that was left behind, and remove it.
+std::string AtomicFile::make(const fs::path& sibling) {
+    constexpr int mostTries = 100;
+    for (int i = 0; i < mostTries; ++i) {
+        const HeldSignals held;
+        SystemFile made = SystemFile::create(sibling);
+        if (!made.isOpen() && made.error() != EEXIST) return made.reason();
+        if (made.isOpen() && made.lock() != Lock::others && made.isAt(sibling)) {
+            temporary_ = sibling;
+            file_ = std::move(made);
+            onEnd_ = RemovedOnEnd(file_, temporary_);
+            return {};
+        }
+        if (std::string reason = removeLeftBehind(sibling); !reason.empty()) return reason;
+    }
+    return beingWritten;
+}
+
+void AtomicFile::fail(std::string_view reason) {
+    error_ = named_.string() + ": cannot be written: ";
+    error_ += reason;
+}
+
+void AtomicFile::removeTemporary() noexcept {
+    std::error_code ignored;
+    if (file_.isOpen() && file_.isAt(temporary_)) fs::remove(temporary_, ignored);
+    temporary_.clear();
+    onEnd_ = RemovedOnEnd();
+    file_ = SystemFile(); // and with it the lock
+}
+
+std::string writeFile(const fs::path& path, std::string_view bytes) {
+    AtomicFile file(path);
+    file.write(bytes);
+    return file.commit();
+}
+
+} // namespace physvib

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Files that stand in the library itself, so that no path is needed at run time.
+#pragma once
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// Whether a thing is meant by its file and not by its name: NAME.json, or with a folder. Any thread.
+inline bool isJsonPath(std::string_view name) noexcept { return name.ends_with(".json") || name.find('/') != std::string_view::npos; }
+
+struct EmbeddedFile {
+    std::string_view name; ///< "NAME.json"
+    std::string_view text;
+};
+
+/// What `read` (text and name to a Result) makes of them all. Throws std::logic_error at one that cannot be read: a test
+/// reads them all. Any thread.
+template <class Read>
+auto readEmbedded(const std::vector<EmbeddedFile>& files, Read read) {
+    std::vector<decltype(read(files.front().text, files.front().name).value)> all;
+    for (const EmbeddedFile& file : files) {
+        auto found = read(file.text, file.name);
+        if (!found) throw std::logic_error(found.error);
+        all.push_back(std::move(found.value));
+    }
+    return all;
+}
+
+} // namespace physvib

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Windows: CreateFile, WriteFile, LockFileEx. What is open may be renamed and removed by anybody, as on POSIX.
+#if defined(_WIN32)
+#include "Io/Disk/SystemFile.h"
+#include "Io/Disk/SystemWindows.h"
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cwchar>
+
+namespace physvib {
+namespace {
+
+constexpr DWORD othersMay = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+constexpr std::int64_t lockedByte = 0x7fff'ffff'ffff'fff0; // locks keep readers out: of a byte that no file has
+
+SRWLOCK makers = SRWLOCK_INIT; // HeldSignals share it, the end of the program has it alone
+
+HANDLE handleOf(std::intptr_t handle) noexcept { return reinterpret_cast<HANDLE>(handle); }
+
+OVERLAPPED placeOf(std::int64_t position) noexcept {
+    OVERLAPPED place{};
+    place.Offset = static_cast<DWORD>(position & 0xffff'ffff);
+    place.OffsetHigh = static_cast<DWORD>(position >> 32);
+    return place;
+}
+
+int errnoOf(DWORD error) noexcept {
+    switch (error) {
+    case ERROR_FILE_EXISTS:
+    case ERROR_ALREADY_EXISTS: return EEXIST;
+    case ERROR_FILE_NOT_FOUND:
+    case ERROR_PATH_NOT_FOUND:
+    case ERROR_INVALID_NAME: return ENOENT;
+    case ERROR_ACCESS_DENIED:
+    case ERROR_WRITE_PROTECT: return EACCES;
+    case ERROR_SHARING_VIOLATION:
+    case ERROR_LOCK_VIOLATION: return EBUSY;
+    case ERROR_HANDLE_DISK_FULL:
+    case ERROR_DISK_FULL: return ENOSPC;
+    case ERROR_FILE_TOO_LARGE: return EFBIG;
+    case ERROR_TOO_MANY_OPEN_FILES: return EMFILE;
+    default: return EIO;
+    }
+}
+
+bool identityOf(HANDLE file, BY_HANDLE_FILE_INFORMATION& identity) noexcept { return GetFileInformationByHandle(file, &identity) != 0; }
+
+bool identityOf(const std::filesystem::path& path, BY_HANDLE_FILE_INFORMATION& identity) noexcept {
+    const HANDLE file = CreateFileW(path.c_str(), 0, othersMay, nullptr, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT | FILE_FLAG_BACKUP_SEMANTICS, nullptr);
+    if (file == INVALID_HANDLE_VALUE) return false;
+    const bool isKnown = identityOf(file, identity);
+    CloseHandle(file);
+    return isKnown;
+}
+
+bool isRegular(HANDLE file, bool followsLinks) noexcept {
+    BY_HANDLE_FILE_INFORMATION identity;
+    if (GetFileType(file) != FILE_TYPE_DISK || !identityOf(file, identity)) return false;
+    return followsLinks || (identity.dwFileAttributes & FILE_ATTRIBUTE_REPARSE_POINT) == 0;
+}
+
+bool isFolder(const std::filesystem::path& path) noexcept {
+    const DWORD attributes = GetFileAttributesW(path.c_str());
+    return attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
+}
+
+} // namespace
+
+SystemFile SystemFile::opened(const std::filesystem::path& path, Opening opening) noexcept {
+    const bool looks = opening == Opening::look, creates = opening == Opening::create;
+    SystemFile file;
+    file.handle_ = reinterpret_cast<Handle>(CreateFileW(path.c_str(), looks ? GENERIC_READ : GENERIC_READ | GENERIC_WRITE, othersMay, nullptr,
+                                                        creates ? CREATE_NEW : looks ? OPEN_EXISTING : OPEN_ALWAYS,
+                                                        FILE_ATTRIBUTE_NORMAL | (looks ? FILE_FLAG_OPEN_REPARSE_POINT : 0), nullptr));
+    if (!file.note(file.isOpen())) {
+        if (!creates && isFolder(path)) file.error_ = EINVAL; // it says that access is denied
+    } else if (!isRegular(handleOf(file.handle_), !looks)) {
+        file.refuse();
+    }
+    return file;
+}
+
+void SystemFile::closeNow() noexcept { CloseHandle(handleOf(handle_)); }
+
+SystemFile::Lock SystemFile::lock() noexcept {
+    OVERLAPPED place = placeOf(lockedByte);
+    if (LockFileEx(handleOf(handle_), LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &place) != 0) return Lock::taken;
+    const DWORD error = GetLastError();
+    return error == ERROR_LOCK_VIOLATION || error == ERROR_IO_PENDING ? Lock::others : Lock::none;
+}
+
+bool SystemFile::writeAt(std::int64_t position, std::string_view bytes) noexcept {
+    constexpr std::size_t most = 1u << 30;
+    while (error_ == 0 && !bytes.empty()) {
+        OVERLAPPED place = placeOf(position);
+        DWORD written = 0;
+        if (!note(WriteFile(handleOf(handle_), bytes.data(), static_cast<DWORD>(std::min(bytes.size(), most)), &written, &place) != 0)) break;
+        if (written == 0) error_ = ENOSPC; // it would never end
+        bytes.remove_prefix(written);
+        position += written;
+    }
+    return error_ == 0;
+}
+
+bool SystemFile::sync() noexcept { return error_ == 0 && note(FlushFileBuffers(handleOf(handle_)) != 0); }
+
+void SystemFile::syncFolder(const std::filesystem::path&) noexcept {} // NTFS keeps a journal of names
+
+bool SystemFile::resize(std::int64_t bytes) noexcept {
+    FILE_END_OF_FILE_INFO end{};
+    end.EndOfFile.QuadPart = bytes;
+    return error_ == 0 && note(SetFileInformationByHandle(handleOf(handle_), FileEndOfFileInfo, &end, sizeof(end)) != 0);
+}
+
+std::int64_t SystemFile::size() noexcept {
+    LARGE_INTEGER bytes{};
+    return error_ == 0 && note(GetFileSizeEx(handleOf(handle_), &bytes) != 0) ? bytes.QuadPart : 0;
+}
+
+bool SystemFile::isAt(Handle handle, const std::filesystem::path& path) noexcept {
+    BY_HANDLE_FILE_INFORMATION mine, there;
+    return identityOf(handleOf(handle), mine) && identityOf(path, there) && mine.dwVolumeSerialNumber == there.dwVolumeSerialNumber &&
+           mine.nFileIndexHigh == there.nFileIndexHigh && mine.nFileIndexLow == there.nFileIndexLow;
+}
+
+void SystemFile::removeNow(const std::filesystem::path& path) noexcept { DeleteFileW(path.c_str()); }
+
+void SystemFile::takePermissionsOf(const std::filesystem::path&) const noexcept {}
+
+bool SystemFile::note(bool isGood) noexcept {
+    if (!isGood && error_ == 0) error_ = errnoOf(GetLastError());
+    return isGood;
+}
+
+HeldSignals::HeldSignals() noexcept { AcquireSRWLockShared(&makers); }
+HeldSignals::~HeldSignals() { ReleaseSRWLockShared(&makers); }
+
+std::span<const int> endingSignals() noexcept {
+    static constexpr int ending[]{SIGINT, SIGTERM, SIGBREAK};
+    return ending;
+}
+
+void removeAllOnEnd() noexcept {
+    AcquireSRWLockExclusive(&makers);
+    RemovedOnEnd::removeAll();
+    ReleaseSRWLockExclusive(&makers);
+}
+
+std::FILE* openStream(const std::filesystem::path& path, const char* mode) noexcept {
+    wchar_t wide[8]{};
+    std::mbstowcs(wide, mode, std::size(wide) - 1);
+    return _wfopen(path.c_str(), wide);
+}
+
+} // namespace physvib
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Typed access to a JSON value, with errors that name the path to it. For the .cpp files of Files and Formats.
+#pragma once
+#include "Io/Json/StrictJson.h"
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// A value and the path to it; whatever is asked of it and not there is thrown as JsonError.
+class JsonField {
+public:
+    JsonField(const Json& value, std::string path)
+        : value_(value)
+        , path_(std::move(path)) {}
+
+    const std::string& path() const { return path_; }
+    [[noreturn]] void fail(const std::string& message) const;
+
+    void expectObject() const;
+    void expectObject(std::initializer_list<std::string_view> known) const;
+    void expectOnly(std::span<const std::string_view> known) const;
+
+    bool has(std::string_view key) const;
+    std::vector<std::string> names() const; ///< of an object's fields
+    JsonField operator[](std::string_view key) const;
+    std::size_t arraySize() const;
+    JsonField item(std::size_t index) const;
+
+    double number() const;
+    double positiveNumber() const;
+    double numberUpTo(double most) const; ///< from 0 on
+    double numberWithin(double least, double most) const;
+    int wholeNumber() const;
+    bool truth() const;
+    /// One line of at most limits::maxNameBytes.
+    std::string text() const;
+    /// Of any text what a screen shows as one line: of strangers' titles.
+    std::string line() const;
+    /// Index of the word it is among `names`.
+    std::size_t oneOf(std::span<const std::string_view> names) const;
+    bool isNull() const { return value_.is_null(); }
+    bool isNumber() const { return value_.is_number(); }
+    bool isArray() const { return value_.is_array(); }
+    bool isObject() const { return value_.is_object(); }
+    bool is(std::string_view word) const;
+
+private:
+    [[noreturn]] void failType(const std::string& expected) const;
+
+    const Json& value_;
+    std::string path_;
+};
+
+} // namespace physvib

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// How every JSON text is read: within its limit, strictly, whole or not at all; and the version that ours have. For the .cpp files of Files.
+#pragma once
+#include "Io/Json/JsonField.h"
+#include "Io/Result.h"
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace physvib {
+
+/// What `read` makes of the value that `text` spells, or one line that begins with `name`. `read` takes a Json& and
+/// throws JsonError. Any thread.
+template <class Read>
+Result<std::invoke_result_t<Read, Json&>> readJson(std::string_view text, std::string_view name, std::size_t maxBytes, Read read) {
+    try {
+        if (text.size() > maxBytes)
+            throw JsonError({}, "expected at most " + std::to_string(maxBytes) + " bytes, found more");
+        Json root = parseStrictly(text);
+        return read(root);
+    } catch (const JsonError& error) {
+        return Failure{std::string(name) + ": " + error.what()};
+    }
+}
+
+/// Fails unless `root` is an object whose field `name` is a version from 1 to `newest`.
+inline void checkVersion(const JsonField& root, std::string_view name, int newest) {
+    root.expectObject();
+    const JsonField field = root[name];
+    const int version = field.wholeNumber();
+    if (version < 1) field.fail("expected a version from 1 on, found " + std::to_string(version));
+    if (version > newest)
+        field.fail("made for a newer PhysVib: expected a version up to " + std::to_string(newest) +
+                   ", found " + std::to_string(version));
+}
+
+} // namespace physvib

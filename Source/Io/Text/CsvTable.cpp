@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Lines into cells, strictly: what is not a table is refused by line.
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/CsvText.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Text/NumberText.h"
+#include "Io/Disk/ReadFile.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+/// Takes a cell off the front of `rest`; false if its quotes do not match.
+bool takeCell(std::string_view& rest, std::string& cell) {
+    const std::size_t start = std::min(rest.find_first_not_of(" \t"), rest.size());
+    if (start == rest.size() || rest[start] != '"') {
+        cell = trimmed(takeUntil(',', rest));
+        return cell.find('"') == std::string::npos;
+    }
+    rest.remove_prefix(start + 1);
+    cell.clear();
+    for (;;) {
+        const std::size_t quote = rest.find('"');
+        if (quote == std::string_view::npos) return false;
+        cell.append(rest.substr(0, quote));
+        rest.remove_prefix(quote + 1);
+        if (!rest.starts_with('"')) break;
+        cell += '"';
+        rest.remove_prefix(1);
+    }
+    return trimmed(takeUntil(',', rest)).empty();
+}
+
+/// A spreadsheet would take the text for a formula and reckon it: behind an apostrophe it stays text. Those that have one get another, so
+/// that reading takes away what writing has added.
+bool isTakenForFormula(std::string_view text) noexcept {
+    const std::size_t first = std::min(text.find_first_not_of('\''), text.size());
+    constexpr std::string_view signs = "=+-@";
+    return first < text.size() && signs.find(text[first]) != std::string_view::npos && !parseNumber<double>(text);
+}
+
+class TableReader {
+public:
+    TableReader(std::string_view text, std::string_view name, CsvHeader header)
+        : rest_{text}, header_{header} {
+        table_.name = name;
+        dropByteOrderMark(rest_);
+    }
+    /// What is wrong. Rows are not kept: `take` gets each.
+    template <class Begin, class Take>
+    std::string read(Begin begin, Take take) {
+        if (!readHeader()) return placed();
+        if (std::string fault = begin(table_); !fault.empty()) return fault;
+        CsvRow row;
+        while (readRow(row))
+            if (std::string fault = take(row); !fault.empty()) return fault;
+        if (error_.empty() && row.line == 0) fail("expected rows after the header, found none");
+        return error_.empty() ? "" : placed();
+    }
+    std::string placed() const { return table_.name + ":" + std::to_string(std::max<std::size_t>(line_, 1)) + ": " + error_; }
+
+private:
+    bool readHeader() {
+        std::string_view header;
+        while (header.empty()) {
+            if (rest_.empty()) return fail("expected a header line, found the end of the file");
+            header = nextLine();
+            if (!header.starts_with('#')) continue;
+            if (table_.comments.size() < limits::maxTableColumns) table_.comments.emplace_back(trimmed(header.substr(1)));
+            header = {};
+        }
+        if (!takeCells(header, table_.columns)) return false;
+        for (const std::string& column : table_.columns) {
+            if (header_ == CsvHeader::loose) break;
+            if (column.empty()) return fail("expected a name for every column");
+            if (std::ranges::count(table_.columns, column) > 1) return fail("column " + printable(column) + " appears twice");
+        }
+        return true;
+    }
+    bool readRow(CsvRow& row) {
+        if (rest_.find_first_not_of(" \t\r\n") == std::string_view::npos) return false;
+        const std::string_view line = nextLine();
+        row.cells.clear();
+        row.line = line_;
+        if (!takeCells(line, row.cells)) return false;
+        return row.cells.size() == table_.columns.size() || fail("expected " + std::to_string(table_.columns.size()) + " cells, found " + std::to_string(row.cells.size()) +
+                                                                 " (a cell with a comma stands in quotes)");
+    }
+    bool takeCells(std::string_view line, std::vector<std::string>& cells) {
+        for (bool another = !line.empty(); another;) {
+            if (cells.size() == limits::maxTableColumns) return fail("expected at most " + std::to_string(limits::maxTableColumns) + " cells in a row");
+            const std::string_view whole = line;
+            if (!takeCell(line, cells.emplace_back())) return fail("expected quotes around whole cells, and in pairs");
+            if (cells.back().starts_with('\'') && isTakenForFormula(cells.back())) cells.back().erase(0, 1);
+            if (cells.back().size() > limits::maxCellBytes) return fail("expected cells of at most " + std::to_string(limits::maxCellBytes) + " bytes");
+            const std::size_t taken = whole.size() - line.size();
+            another = taken > 0 && whole[taken - 1] == ',';
+        }
+        return true;
+    }
+    std::string_view nextLine() {
+        ++line_;
+        return trimmed(takeUntil('\n', rest_));
+    }
+    bool fail(std::string message) {
+        error_ = std::move(message);
+        return false;
+    }
+
+    std::string_view rest_;
+    CsvHeader header_;
+    std::size_t line_ = 0;
+    CsvTable table_;
+    std::string error_;
+};
+
+} // namespace
+
+std::optional<std::size_t> CsvTable::column(std::string_view wanted) const noexcept {
+    const auto found = std::ranges::find(columns, wanted);
+    if (found == columns.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::string CsvTable::fault(const CsvRow& row, std::size_t at, std::string_view expected) const {
+    return name + ":" + std::to_string(row.line) + ": column " + printable(columns[at]) + ": expected " + std::string(expected) + ", found " +
+           inQuotes(row.cells[at]);
+}
+
+Result<CsvTable> readCsvTable(std::string_view text, std::string_view name, CsvHeader header) {
+    CsvTable table;
+    TableReader reader{text, name, header};
+    const auto tooMany = [&](const CsvRow& row, std::size_t most, const char* what) {
+        return table.name + ":" + std::to_string(row.line) + ": expected at most " + std::to_string(most) + what;
+    };
+    const auto begin = [&](const CsvTable& head) {
+        table = head;
+        return std::string{};
+    };
+    const auto take = [&](CsvRow& row) {
+        if (table.rows.size() == limits::maxTableRows) return tooMany(row, limits::maxTableRows, " rows");
+        if ((table.rows.size() + 1) * table.columns.size() > limits::maxTableCells) return tooMany(row, limits::maxTableCells, " cells in all");
+        table.rows.push_back(std::move(row));
+        row.cells.reserve(table.columns.size());
+        return std::string{};
+    };
+    if (std::string error = reader.read(begin, take); !error.empty()) return Failure{std::move(error)};
+    return table;
+}
+
+std::string eachCsvRow(std::string_view text, std::string_view name, const std::function<std::string(const CsvTable&)>& begin,
+                       const std::function<std::string(const CsvRow&)>& take) {
+    return TableReader{text, name, CsvHeader::named}.read(begin, take);
+}
+
+Result<CsvTable> loadCsvTable(const std::filesystem::path& path) {
+    return loadText(path, limits::maxTableBytes, [](std::string_view text, std::string_view name) { return readCsvTable(text, name); });
+}
+
+void appendCell(std::string& line, std::string_view text) {
+    const bool needsQuotes = text.find_first_of(",\"#") != std::string_view::npos || text.starts_with(' ') || text.ends_with(' ');
+    if (needsQuotes) line += '"';
+    if (isTakenForFormula(text)) line += '\'';
+    for (const char c : text) {
+        if (c == '"') line += '"';
+        line += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+    if (needsQuotes) line += '"';
+}
+
+} // namespace physvib

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The lines of a text, or of a file without holding all of it.
+#pragma once
+#include "Io/Text/CsvText.h"
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+class TextLines {
+public:
+    static constexpr std::size_t mostBytes = 1'000'000; // of a line of a file
+
+    explicit TextLines(std::string_view text)
+        : rest_{text} {}
+    /// Stays open, from where it is on.
+    explicit TextLines(std::FILE* file)
+        : file_{file} {}
+    TextLines(const TextLines&) = delete;
+    TextLines& operator=(const TextLines&) = delete;
+    TextLines(TextLines&&) = delete;
+
+    /// The next line without its end, until the next call; false if there is none, or it is too long.
+    bool next(std::string_view& line) {
+        while (file_ != nullptr && rest_.find('\n') == std::string_view::npos)
+            if (!readMore()) return false;
+        if (rest_.empty()) return false;
+        line = takeUntil('\n', rest_);
+        return true;
+    }
+
+    bool isTooLong() const noexcept { return isTooLong_; }
+
+private:
+    bool readMore() {
+        constexpr std::size_t most = 65536;
+        isTooLong_ = rest_.size() > mostBytes;
+        if (isTooLong_) return false;
+        block_.erase(0, block_.size() - rest_.size()); // what is left of it
+        const std::size_t begun = block_.size();
+        block_.resize(begun + most);
+        const std::size_t count = std::fread(block_.data() + begun, 1, most, file_);
+        if (count == 0) file_ = nullptr; // its end, or it cannot be read
+        block_.resize(begun + count);
+        rest_ = block_;
+        return true;
+    }
+
+    std::string_view rest_;
+    std::string block_; // of a file, that ends with rest_
+    std::FILE* file_ = nullptr;
+    bool isTooLong_ = false;
+};
+
+} // namespace physvib

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// A WAVE file that grows block by block: 32-bit float, one channel per enchanter, who made it and from what.
+#pragma once
+#include "Io/Disk/AtomicFile.h"
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace physvib {
+
+/// Writes as the blocks come, and puts the file in its place at the end; M only. One and two channels are
+/// plain WAVE_FORMAT_IEEE_FLOAT, three and more WAVE_FORMAT_EXTENSIBLE with an empty speaker mask (channels
+/// are enchanters, not speakers), 4 GB and more RF64. The bytes depend on the samples and the comment alone.
+class WavSink {
+public:
+    /// Begins a file that appears at `path` (see AtomicFile). `comment` (who made this, from what) becomes
+    /// its INFO comment.
+    WavSink(const std::filesystem::path& path, int channels, int sampleRateHz,
+            const std::string& comment = {});
+
+    /// Another comment than the constructor's; before the first frame.
+    void setComment(const std::string& comment);
+
+    /// Empty, or one line with the file and the reason.
+    const std::string& error() const noexcept { return file_.error(); }
+
+    /// Appends `frames` samples of each channel. False after the first error.
+    bool write(const float* const* channels, int frames);
+
+    /// Every sample and the header are with the system: nothing but the name is missing. Returns error().
+    const std::string& complete();
+
+    /// Completes the file and puts it in its place. Returns error(); after one there is no file.
+    const std::string& finish() { return complete().empty() ? file_.commit() : error(); }
+
+private:
+    std::string head() const;
+    void empty();
+
+    AtomicFile file_;
+    int channels_;
+    int sampleRateHz_;
+    std::string info_;    // the chunk with the comment
+    std::string waiting_; // samples that the file has not got
+    std::int64_t dataBytes_ = 0;
+    bool isComplete_ = false;
+};
+
+/// Whether a WAVE file can hold so much and be no RF64. Any thread.
+constexpr bool fitsWav(int channels, std::int64_t frames) noexcept {
+    return frames <= 0xffff'ff00 / (4 * channels);
+}
+
+} // namespace physvib

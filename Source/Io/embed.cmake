@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+# Turns text files into a C++ source: cmake -DOUT=FILE.cpp -DFILES=A.json,B.json -DNAME=embeddedScenes -P embed.cmake
+# A string literal longer than some compilers bear is written in pieces, which the compiler joins.
+string(REPLACE "," ";" files "${FILES}")
+set(text "// Made by Source/Io/embed.cmake.\n#include \"Io/Disk/Embedded.h\"\n\nnamespace physvib {\n")
+string(APPEND text "\nconst std::vector<EmbeddedFile>& ${NAME}() {\n    static const std::vector<EmbeddedFile> files{\n")
+foreach(file ${files})
+    get_filename_component(name ${file} NAME)
+    file(READ ${file} content)
+    string(REPLACE "\n" ")json\"\n        R\"json(\n" content "${content}")
+    string(APPEND text "        {\"${name}\",\n        R\"json(${content})json\"},\n")
+endforeach()
+string(APPEND text "    };\n    return files;\n}\n\n} // namespace physvib\n")
+file(WRITE ${OUT} "${text}")

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// The columns of an event list, for reading and writing: name, field of the event, what a cell may hold.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Io/Text/DecimalSeconds.h"
+#include "Io/Text/NumberText.h"
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace physvib {
+
+/// A time, 0 to limits::maxTimeNs, written in seconds.
+struct SecondsColumn {
+    std::int64_t& (*field)(CollisionEvent&);
+};
+
+/// A real number from `least` (or only above it) to `most`.
+struct NumberColumn {
+    double& (*field)(CollisionEvent&);
+    double least = std::numeric_limits<double>::lowest();
+    double most = std::numeric_limits<double>::max();
+    bool aboveLeast = false;
+};
+
+/// The number of a fixture.
+struct WholeColumn {
+    std::int32_t& (*field)(CollisionEvent&);
+};
+
+/// What the event came of; a list of hits only has none of it, as all lists had once.
+struct KindColumn {
+    ContactKind& (*field)(CollisionEvent&);
+};
+inline constexpr std::array<std::string_view, 3> contactKindNames{"hit", "roll", "slide"};
+
+struct EventColumn {
+    std::string_view name;
+    std::variant<SecondsColumn, NumberColumn, WholeColumn, KindColumn> cell;
+};
+
+template <auto Member>
+auto& of(CollisionEvent& event) {
+    return event.*Member;
+}
+template <auto Member>
+auto& ofSource(CollisionEvent& event) {
+    return event.source.*Member;
+}
+
+/// In the order they are written. The bounds are those of isPlayable; a mass is not negative.
+inline constexpr std::array<EventColumn, 12> eventColumns{{
+    {"time_s", SecondsColumn{of<&CollisionEvent::timeNs>}},
+    {"frequency_hz", NumberColumn{of<&CollisionEvent::frequencyHz>, 0.0, limits::maxFrequencyHz, true}},
+    {"decay_per_s", NumberColumn{of<&CollisionEvent::decayPerSecond>, 0.0, limits::maxDecayPerSecond}},
+    {"amplitude", NumberColumn{of<&CollisionEvent::amplitude>, -limits::maxAmplitude, limits::maxAmplitude}},
+    {"x_m", NumberColumn{of<&CollisionEvent::x>}},
+    {"y_m", NumberColumn{of<&CollisionEvent::y>}},
+    {"duration_s", SecondsColumn{of<&CollisionEvent::durationNs>}},
+    {"fixture", WholeColumn{ofSource<&CollisionSource::fixture>}},
+    {"other", WholeColumn{ofSource<&CollisionSource::other>}},
+    {"impulse_ns", NumberColumn{ofSource<&CollisionSource::impulseNewtonSeconds>}},
+    {"mass_kg", NumberColumn{ofSource<&CollisionSource::massKg>, 0.0}},
+    {"kind", KindColumn{ofSource<&CollisionSource::kind>}},
+}};
+
+/// Columns up to y_m must be there when read; an event without the others has their defaults.
+inline constexpr std::size_t requiredEventColumns = 6;
+
+/// What is wrong with the frequency of an event that isTooSlow. Any thread.
+inline std::string tooSlowFault(const CollisionEvent& event) {
+    return "expected at least " + numberText(limits::slowestToneHz) + " Hz, or a decay of at least " + numberText(limits::slowDecayPerSecond) + " per second, found " + numberText(event.frequencyHz) + " Hz";
+}
+
+/// What the cell should have held, empty if the event has taken it.
+inline std::string readCell(const SecondsColumn& column, std::string_view cell, CollisionEvent& event) {
+    const auto nanoseconds = parseSeconds(cell);
+    if (!nanoseconds) return "seconds from 0 to " + std::to_string(limits::maxTimeNs / 1'000'000'000);
+    column.field(event) = *nanoseconds;
+    return {};
+}
+
+inline std::string readCell(const NumberColumn& column, std::string_view cell, CollisionEvent& event) {
+    const auto number = parseNumber<double>(cell);
+    if (!number) return "a number";
+    if (*number < column.least || (column.aboveLeast && *number == column.least))
+        return (column.aboveLeast ? "a number > " : "a number >= ") + plainNumber(column.least);
+    if (*number > column.most) return "a number <= " + plainNumber(column.most);
+    column.field(event) = *number;
+    return {};
+}
+
+inline std::string readCell(const WholeColumn& column, std::string_view cell, CollisionEvent& event) {
+    const auto number = parseNumber<std::int32_t>(cell);
+    if (!number) return "a whole number";
+    column.field(event) = *number;
+    return {};
+}
+
+inline std::string readCell(const KindColumn& column, std::string_view cell, CollisionEvent& event) {
+    const auto* const found = std::ranges::find(contactKindNames, cell);
+    if (found == contactKindNames.end()) return "hit, roll or slide";
+    column.field(event) = static_cast<ContactKind>(found - contactKindNames.begin());
+    return {};
+}
+
+inline void writeCell(const SecondsColumn& column, CollisionEvent& event, std::string& out) {
+    appendSeconds(out, column.field(event));
+}
+inline void writeCell(const NumberColumn& column, CollisionEvent& event, std::string& out) {
+    appendNumber(out, column.field(event));
+}
+inline void writeCell(const WholeColumn& column, CollisionEvent& event, std::string& out) {
+    appendNumber(out, column.field(event));
+}
+inline void writeCell(const KindColumn& column, CollisionEvent& event, std::string& out) {
+    out += contactKindNames[static_cast<std::size_t>(column.field(event))];
+}
+
+} // namespace physvib

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// Header, rows and order of an event list; the cells are in EventColumns.h.
+#include "Scene/EventsCsv.h"
+#include "Io/Text/CsvText.h"
+#include "Scene/EventColumns.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/TextLines.h"
+#include <algorithm>
+#include <cerrno>
+
+namespace physvib {
+namespace {
+
+bool isKind(const EventColumn& column) { return std::holds_alternative<KindColumn>(column.cell); }
+
+std::string columnNames(bool hasKinds = false) {
+    std::string names;
+    for (const EventColumn& column : eventColumns) {
+        if (isKind(column) && !hasKinds) continue;
+        if (!names.empty()) names += ',';
+        names += column.name;
+    }
+    return names;
+}
+
+std::size_t cellsIn(std::string_view line) {
+    return line.empty() ? 0 : static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
+}
+
+class Reader {
+public:
+    /// `from`: a text, or a file.
+    template <class From>
+    Reader(From from, std::string_view name, std::size_t maxRows)
+        : lines_(from)
+        , name_(name)
+        , maxRows_(maxRows) {}
+
+    /// How many events there are, none of which is kept.
+    Result<std::size_t> count() {
+        isKept_ = false;
+        if (!readAll()) return Failure{std::move(error_)};
+        return count_;
+    }
+
+    /// Room for so many is made at once.
+    Result<std::vector<CollisionEvent>> read(std::size_t expected) {
+        events_.reserve(std::min(expected, maxRows_));
+        if (!readAll()) return Failure{std::move(error_)};
+        return std::move(events_);
+    }
+
+private:
+    bool readAll() { return readHeader() && readRows(); }
+
+    bool readHeader() {
+        std::string_view header;
+        while (header.empty() || header.starts_with('#'))
+            if (!nextLine(header)) return failEnd("expected a header line " + columnNames() + ", found the end of the file");
+        for (std::size_t left = cellsIn(header); left > 0; --left)
+            if (!readName(trimmed(takeUntil(',', header)))) return false;
+        for (std::size_t i = 0; i < requiredEventColumns; ++i)
+            if (!has(eventColumns[i]))
+                return fail("column " + std::string(eventColumns[i].name) + " is missing");
+        return true;
+    }
+
+    bool readName(std::string_view name) {
+        for (const EventColumn& column : eventColumns) {
+            if (column.name != name) continue;
+            if (has(column)) return fail("column " + std::string(name) + " appears twice");
+            order_.push_back(&column);
+            return true;
+        }
+        return fail("unknown column " + inQuotes(name) + ", expected a header line " + columnNames());
+    }
+
+    bool has(const EventColumn& column) const { return std::ranges::find(order_, &column) != order_.end(); }
+
+    // Blank lines are none at the end only.
+    bool readRows() {
+        std::string_view line;
+        std::size_t blank = 0;
+        while (nextLine(line)) {
+            if (!line.empty() && blank > 0) break;
+            if (line.empty()) ++blank;
+            else if (!readRow(line)) return false;
+        }
+        line_ -= blank;
+        if (!line.empty() && blank > 0) return readRow({});
+        return count_ == 0 ? failEnd("expected events after the header, found none") : !lines_.isTooLong() || failEnd({});
+    }
+
+    bool readRow(std::string_view line) {
+        if (count_ == maxRows_)
+            return fail("expected at most " + std::to_string(maxRows_) + " events");
+        const std::size_t cells = cellsIn(line);
+        if (cells != order_.size())
+            return fail("expected " + std::to_string(order_.size()) + " cells, found " +
+                        std::to_string(cells));
+        CollisionEvent event;
+        std::string_view rest = line;
+        for (const EventColumn* column : order_)
+            if (!readCellOf(*column, trimmed(takeUntil(',', rest)), event)) return false;
+        return accept(event);
+    }
+
+    bool readCellOf(const EventColumn& column, std::string_view cell, CollisionEvent& event) {
+        const std::string expected =
+            std::visit([&](const auto& kind) { return readCell(kind, cell, event); }, column.cell);
+        return expected.empty() || fail("column " + std::string(column.name) + ": expected " + expected +
+                                        ", found " + inQuotes(cell));
+    }
+
+    bool accept(const CollisionEvent& event) {
+        if (event.decayPerSecond == 0.0 && event.durationNs == 0)
+            return fail("column decay_per_s: expected a number > 0, or a duration_s > 0, found 0");
+        if (isTooSlow(event)) return fail("column frequency_hz: " + tooSlowFault(event));
+        if (count_ > 0 && event.timeNs < lastNs_) return failOrder(event.timeNs);
+        ++count_;
+        lastNs_ = event.timeNs;
+        if (isKept_) events_.push_back(event);
+        return true;
+    }
+
+    bool failOrder(std::int64_t timeNs) {
+        std::string message = "column time_s: expected a time >= ";
+        appendSeconds(message, lastNs_);
+        message += " of the row above, found ";
+        appendSeconds(message, timeNs);
+        return fail(message);
+    }
+
+    bool nextLine(std::string_view& line) {
+        if (!lines_.next(line)) return false;
+        if (++line_ == 1) dropByteOrderMark(line);
+        line = trimmed(line);
+        return true;
+    }
+
+    bool failEnd(std::string_view message) {
+        if (!lines_.isTooLong()) return fail(message);
+        ++line_;
+        return fail("expected lines of at most " + std::to_string(TextLines::mostBytes) + " bytes");
+    }
+
+    /// Always false.
+    bool fail(std::string_view message) {
+        const std::size_t line = std::max<std::size_t>(line_, 1); // of an empty file, too
+        error_.assign(name_).append(":").append(std::to_string(line)).append(": ").append(message);
+        return false;
+    }
+
+    TextLines lines_;
+    std::string_view name_;
+    std::size_t maxRows_;
+    std::size_t line_ = 0; // of the line last taken, from 1
+    std::size_t count_ = 0;
+    std::int64_t lastNs_ = 0; // of the event last accepted
+    bool isKept_ = true;
+    std::vector<const EventColumn*> order_;
+    std::vector<CollisionEvent> events_;
+    std::string error_;
+};
+
+} // namespace
+
+Result<std::vector<CollisionEvent>> readEventsCsv(std::string_view text, std::string_view name,
+                                                  std::size_t maxRows) {
+    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1;
+    return Reader(text, name, maxRows).read(lines);
+}
+
+// A file is read twice, line by line: what is refused takes no memory, however long it is.
+Result<std::vector<CollisionEvent>> loadEventsCsv(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) { // a pipe can be read once only
+        const Result<std::string> text = readFile(path, limits::maxEventsFileBytes);
+        if (!text) return Failure{text.error};
+        return readEventsCsv(text.value, name);
+    }
+    const auto file = openRegular(path, limits::maxEventsFileBytes);
+    if (!file) return Failure{file.error};
+    std::FILE* const stream = file.value.stream.get();
+    const auto reader = [&] { return Reader(stream, name, limits::maxEventRows); };
+    const auto found = reader().count();
+    if (std::ferror(stream)) return unreadable(path, errno);
+    if (!found) return Failure{found.error};
+    std::rewind(stream);
+    return reader().read(found.value);
+}
+
+std::string eventsCsvHead(const Provenance& provenance, bool hasKinds) { return provenanceComment(provenance) + columnNames(hasKinds) + "\n"; }
+
+void appendEventRow(std::string& text, CollisionEvent event, bool hasKinds) {
+    for (const EventColumn& column : eventColumns) {
+        if (isKind(column) && !hasKinds) continue;
+        std::visit([&](const auto& cell) { writeCell(cell, event, text); }, column.cell);
+        text += ',';
+    }
+    text.back() = '\n';
+}
+
+std::string eventsCsv(std::span<const CollisionEvent> events, const Provenance& provenance) {
+    const bool hasKinds = std::ranges::any_of(events, [](const CollisionEvent& e) { return e.source.kind != ContactKind::hit; });
+    std::string text = eventsCsvHead(provenance, hasKinds);
+    constexpr std::size_t usualRowBytes = 160;
+    text.reserve(text.size() + events.size() * usualRowBytes);
+    for (const CollisionEvent& event : events) appendEventRow(text, event, hasKinds);
+    return text;
+}
+
+} // namespace physvib

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// From JSON to the structs of a scene, field by field after the table in SceneFields.h. For the .cpp files of
+// Files.
+#pragma once
+#include "Io/Json/JsonField.h"
+#include "Io/Text/NumberText.h"
+#include "Scene/SceneFields.h"
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace physvib {
+
+using Materials = std::vector<Material>; // those that fixtures may name
+
+namespace detail {
+
+inline void readValue(const JsonField& json, std::string& out, const Bounds&, const Materials&) {
+    out = json.text();
+}
+inline void readValue(const JsonField& json, bool& out, const Bounds&, const Materials&) {
+    out = json.truth();
+}
+inline void readValue(const JsonField& json, double& out, const Bounds&, const Materials&) {
+    out = json.number();
+}
+inline void readValue(const JsonField& json, int& out, const Bounds&, const Materials&) {
+    out = json.wholeNumber();
+}
+
+inline std::array<double, 2> readPair(const JsonField& json) {
+    if (const std::size_t size = json.arraySize(); size != 2)
+        json.fail("expected 2 numbers, found " + std::to_string(size) + " items");
+    return {json.item(0).number(), json.item(1).number()};
+}
+inline void readValue(const JsonField& json, Vector& out, const Bounds&, const Materials&) {
+    const auto [x, y] = readPair(json);
+    out = {x, y};
+}
+inline void readValue(const JsonField& json, Interval& out, const Bounds&, const Materials&) {
+    const auto [lower, upper] = readPair(json);
+    out = {lower, upper};
+}
+
+template <class T>
+void readValue(const JsonField& json, T& out, const Bounds&, const Materials& materials);
+template <class T>
+void readValue(const JsonField& json, std::optional<T>& out, const Bounds& bounds,
+               const Materials& materials) {
+    readValue(json, out.emplace(), bounds, materials);
+}
+template <class T>
+void readValue(const JsonField& json, std::vector<T>& out, const Bounds& bounds, const Materials& materials) {
+    const std::size_t size = json.arraySize();
+    if (size > bounds.mostItems)
+        json.fail("expected at most " + std::to_string(bounds.mostItems) + " items, found " +
+                  std::to_string(size));
+    out.resize(size);
+    for (std::size_t i = 0; i < size; ++i) readValue(json.item(i), out[i], bounds, materials);
+}
+
+/// Visits the fields of one object. Unknown fields are told before missing ones: most are the same typo.
+template <class T>
+class FieldReader {
+public:
+    FieldReader(const JsonField& json, T& object, const Materials& materials)
+        : json_(json)
+        , object_(object)
+        , materials_(materials) {
+        json.expectObject();
+    }
+
+    template <class F>
+    void field(std::string_view name, F T::*member, const Bounds& bounds, Need need) {
+        if (isThere(name, need)) readValue(json_[name], object_.*member, bounds, materialsIn());
+    }
+    void pair(std::string_view name, double T::*first, double T::*second, const Bounds&) {
+        if (!isThere(name, Need::required)) return;
+        const auto numbers = readPair(json_[name]);
+        object_.*first = numbers[0];
+        object_.*second = numbers[1];
+    }
+    template <class E, class Names>
+    void choice(std::string_view name, E T::*member, const Names& names) {
+        if (isThere(name, Need::optional)) object_.*member = static_cast<E>(json_[name].oneOf(names));
+    }
+    void material(std::string_view name, int T::*member) {
+        if (!isThere(name, Need::required)) return;
+        const std::string wanted = json_[name].text();
+        const auto isWanted = [&wanted](const Material& material) { return material.name == wanted; };
+        const auto found = std::ranges::find_if(materials_, isWanted);
+        if (found == materials_.end())
+            json_[name].fail("expected the name of a material, found " + inQuotes(wanted));
+        object_.*member = static_cast<int>(found - materials_.begin());
+    }
+    template <class... Kinds, class Names>
+    void variant(std::string_view name, std::variant<Kinds...> T::*member, const Names& names) {
+        static_assert(sizeof...(Kinds) == std::tuple_size_v<Names>);
+        if (!isThere(name, Need::required)) return;
+        const std::size_t kind = json_[name].oneOf(names);
+        std::size_t index = 0;
+        (..., (index++ == kind ? readKind((object_.*member).template emplace<Kinds>()) : void()));
+    }
+
+    void finish() const {
+        json_.expectOnly(known_);
+        if (!missing_.empty()) static_cast<void>(json_[missing_]); // which fails
+    }
+
+    std::vector<std::string_view>& known() { return known_; }
+    std::string_view missing() const { return missing_; }
+
+private:
+    bool isThere(std::string_view name, Need need) {
+        known_.push_back(name);
+        const bool found = json_.has(name);
+        if (!found && need == Need::required && missing_.empty()) missing_ = name;
+        return found;
+    }
+
+    template <class Kind>
+    void readKind(Kind& kind) {
+        FieldReader<Kind> reader(json_, kind, materials_);
+        visitFields(reader, FieldsOf<Kind>{});
+        known_.insert(known_.end(), reader.known().begin(), reader.known().end());
+        if (missing_.empty()) missing_ = reader.missing();
+    }
+
+    /// A scene brings its own; they stand before whatever names them.
+    const Materials& materialsIn() const {
+        if constexpr (requires(T t) { t.materials; })
+            return object_.materials;
+        else
+            return materials_;
+    }
+
+    const JsonField json_;
+    T& object_;
+    const Materials& materials_;
+    std::vector<std::string_view> known_;
+    std::string_view missing_;
+};
+
+template <class T>
+void readValue(const JsonField& json, T& out, const Bounds&, const Materials& materials) {
+    if (std::is_same_v<T, Normalisation> && json.is("auto")) return; // all of it
+    FieldReader<T> reader(json, out, materials);
+    visitFields(reader, FieldsOf<T>{});
+    reader.finish();
+}
+
+} // namespace detail
+
+/// Reads the fields of an object and refuses any other. Types only: ranges are validate()'s business, apart
+/// from the lengths of lists. Throws JsonError.
+template <class T>
+T readFields(const JsonField& json) {
+    T object;
+    const Materials none;
+    detail::readValue(json, object, {}, none);
+    return object;
+}
+
+} // namespace physvib

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The outer shape of a table of materials; a material's fields are those of a scene's.
+#include "Scene/MaterialTable.h"
+#include "Io/Disk/Embedded.h"
+#include "Scene/SceneFileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Scene/JsonReader.h"
+#include "Io/Json/JsonText.h"
+#include "Scene/JsonWriter.h"
+#include "Scene/SceneValidation.h"
+#include <stdexcept>
+
+namespace physvib {
+
+const std::vector<EmbeddedFile>& embeddedMaterials(); // Source/Scene/Materials/*.json, in the order of their listing
+
+void visitFields(auto& v, FieldsOf<MaterialTable>) {
+    v.field("name", &MaterialTable::name, anyText, Need::required);
+    v.field("source", &MaterialTable::source, anyText, Need::optional);
+    v.field("materials", &MaterialTable::materials, items(0, sceneLimits::maxMaterials), Need::required);
+}
+
+namespace {
+
+constexpr const char* materialsVersionField = "physvib_materials";
+
+MaterialTable readMaterialsRoot(Json& root) {
+    checkVersion(JsonField(root, {}), materialsVersionField, materialsFormatVersion);
+    root.erase(materialsVersionField);
+    auto table = readFields<MaterialTable>(JsonField(root, {}));
+    if (const std::string fault = validateMaterials(table.materials); !fault.empty())
+        throw JsonError({}, fault);
+    return table;
+}
+
+} // namespace
+
+Result<MaterialTable> readMaterials(std::string_view text, std::string_view name) {
+    return readJson(text, name, limits::maxMaterialsFileBytes, readMaterialsRoot);
+}
+
+Result<MaterialTable> loadMaterials(const std::filesystem::path& path) {
+    return loadText(path, limits::maxMaterialsFileBytes, readMaterials);
+}
+
+std::string materialsJson(const MaterialTable& table) {
+    OrderedJson root = {{materialsVersionField, materialsFormatVersion}};
+    root.update(detail::fieldsJson(table, table.materials));
+    return jsonLines(root);
+}
+
+const MaterialTable& builtInMaterials() {
+    static const MaterialTable table = [] {
+        const EmbeddedFile& file = embeddedMaterials().front();
+        Result<MaterialTable> read = readMaterials(file.text, file.name);
+        if (!read) throw std::logic_error(read.error); // a test reads it
+        return read.value;
+    }();
+    return table;
+}
+
+} // namespace physvib

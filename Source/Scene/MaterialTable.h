@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Materials as JSON: a library that scenes copy from.
+#pragma once
+#include "Io/Result.h"
+#include "Scene/Scene.h"
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// The version of the format that is written, and the newest that is read.
+constexpr int materialsFormatVersion = 1;
+
+struct MaterialTable {
+    std::string name;
+    std::string source; ///< where the numbers are from
+    std::vector<Material> materials;
+    bool operator==(const MaterialTable&) const = default;
+};
+
+/// The table that `text` describes, with ranges and names checked as in a scene; or one line
+/// `name: materials[2].friction: expected 0 to 100, found -1`. Any thread.
+Result<MaterialTable> readMaterials(std::string_view text, std::string_view name);
+
+/// The same of a file. M only.
+Result<MaterialTable> loadMaterials(const std::filesystem::path& path);
+
+/// `table` as JSON, a material per line; readMaterials gives it back bit for bit. Any thread.
+std::string materialsJson(const MaterialTable& table);
+
+/// Table 5.1 of the thesis. Built on first use; any thread.
+const MaterialTable& builtInMaterials();
+
+} // namespace physvib

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Edits of descriptions; what would leave a scene that is not valid is left out.
+#include "Scene/SceneEdits.h"
+#include "Scene/World/ScenePlayer.h"
+#include "Scene/SceneValidation.h"
+#include <algorithm>
+#include <variant>
+
+namespace physvib {
+namespace {
+
+BodyDescription* findBody(Scene& scene, const std::string& name) {
+    const auto found = std::ranges::find(scene.bodies, name, &BodyDescription::name);
+    if (found != scene.bodies.end()) return &*found;
+    for (LiveInput& input : scene.inputs)
+        if (auto* spawn = std::get_if<SpawnAction>(&input.action); spawn != nullptr && spawn->body.name == name) return &spawn->body;
+    return nullptr;
+}
+
+template <class Change>
+void changeFixtures(Scene& scene, const std::string& body, int fixture, Change change) {
+    BodyDescription* found = findBody(scene, body);
+    if (found == nullptr) return;
+    for (std::size_t i = 0; i < found->fixtures.size(); ++i)
+        if (fixture == everyFixture || fixture == static_cast<int>(i)) change(found->fixtures[i]);
+}
+
+} // namespace
+
+void describeEdit(Scene& scene, const Action& action) {
+    if (const auto* material = std::get_if<MaterialAction>(&action))
+        changeFixtures(scene, material->body, material->fixture, [material](FixtureDescription& f) { f.material = material->material; });
+    if (const auto* camera = std::get_if<CameraAction>(&action))
+        changeFixtures(scene, camera->body, camera->fixture, [camera](FixtureDescription& f) { f.isCamera = camera->isOn; });
+    if (const auto* sound = std::get_if<SoundAction>(&action)) {
+        Material& material = scene.materials[static_cast<std::size_t>(sound->material)];
+        material.frequencyHz = sound->frequencyHz;
+        material.decayPerSecond = sound->decayPerSecond;
+    }
+    if (const auto* texture = std::get_if<TextureAction>(&action)) scene.materials[static_cast<std::size_t>(texture->material)].setTexture(texture->texture());
+}
+
+Scene sceneAsLeft(const SceneTake& take) {
+    Scene scene = *take.scene;
+    for (const LiveInput& input : take.inputs) {
+        Scene next = scene;
+        describeEdit(next, input.action);
+        if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) next.bodies.push_back(spawn->body);
+        if (const auto* removal = std::get_if<RemoveAction>(&input.action)) std::erase_if(next.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
+        if (next != scene && validate(next).empty()) scene = std::move(next);
+    }
+    return scene;
+}
+
+Scene sceneForHands(Scene scene) {
+    const ScenePlayer player{scene};
+    std::erase_if(scene.script, [&](const ScriptInput& input) {
+        const Action& a = input.action;
+        if (player.isThere()) return player.isPlayedBy(a) || std::holds_alternative<TiltAction>(a);
+        return std::holds_alternative<GravityAction>(a) || std::holds_alternative<TiltAction>(a) || std::holds_alternative<ImpulseAction>(a) || std::holds_alternative<VelocityAction>(a) ||
+               std::holds_alternative<HoldAction>(a) || std::holds_alternative<GripAction>(a);
+    });
+    return scene;
+}
+
+} // namespace physvib

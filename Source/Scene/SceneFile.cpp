@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// The outer shape of a scene file and its variables; its fields are read and written after the table in SceneFields.h.
+#include "Scene/SceneFile.h"
+#include "Scene/SceneFileLimits.h"
+#include "Scene/JsonReader.h"
+#include "Io/Json/JsonText.h"
+#include "Scene/JsonWriter.h"
+#include "Io/Text/NameList.h"
+#include "Io/Text/NumberText.h"
+#include "Scene/SceneValidation.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+struct Choice {
+    std::string value;
+    const Json* replacements; // JSON Pointer to value
+    std::string path;
+};
+
+struct Variable {
+    SceneVariable described;
+    std::vector<Choice> choices;
+};
+
+std::size_t sizeOf(const JsonField& list, std::size_t most) {
+    const std::size_t size = list.arraySize();
+    if (size < 1 || size > most)
+        list.fail("expected 1 to " + std::to_string(most) + " items, found " + std::to_string(size));
+    return size;
+}
+
+Choice readChoice(const JsonField& json, const Json& value) {
+    json.expectObject({"value", "set"});
+    json["set"].expectObject();
+    return {json["value"].text(), &value["set"], json.path() + ".set"};
+}
+
+Variable readVariable(const JsonField& json, const Json& value) {
+    json.expectObject({"name", "default", "choices"});
+    Variable variable{{json["name"].text(), json["default"].text(), {}}, {}};
+    const JsonField list = json["choices"];
+    for (std::size_t i = 0, size = sizeOf(list, limits::maxChoices); i < size; ++i) {
+        variable.choices.push_back(readChoice(list.item(i), value["choices"][i]));
+        variable.described.choices.push_back(variable.choices.back().value);
+    }
+    return variable;
+}
+
+std::vector<Variable> readVariables(const JsonField& json, const Json& list) {
+    std::vector<Variable> variables;
+    for (std::size_t i = 0, size = sizeOf(json, limits::maxVariables); i < size; ++i)
+        variables.push_back(readVariable(json.item(i), list[i]));
+    return variables;
+}
+
+void choose(std::vector<Variable>& variables, const SceneSettings& settings) {
+    for (const auto& [name, value] : settings) {
+        const auto isMeant = [&n = name](const Variable& v) { return v.described.name == n; };
+        const auto variable = std::ranges::find_if(variables, isMeant);
+        if (variable == variables.end()) {
+            std::vector<std::string> names;
+            for (const Variable& v : variables) names.push_back(v.described.name);
+            throw JsonError(
+                {}, "no variable " + inQuotes(name) +
+                        (names.empty() ? ", the scene has none" : ", expected one of " + listed(names)));
+        }
+        variable->described.value = value;
+    }
+}
+
+const Choice& chosen(const Variable& variable) {
+    const auto& [name, value, choices] = variable.described;
+    const auto found = std::ranges::find(choices, value);
+    if (found == choices.end())
+        throw JsonError({}, "variable " + inQuotes(name) + ": expected one of " + listed(choices) +
+                                ", found " + inQuotes(value));
+    return variable.choices[static_cast<std::size_t>(found - choices.begin())];
+}
+
+Json::json_pointer pointerTo(const Json& root, const std::string& text, const std::string& path) {
+    try {
+        const Json::json_pointer pointer(text);
+        if (!pointer.empty() && root.contains(pointer)) return pointer;
+    } catch (const Json::exception&) { // not even a pointer
+    }
+    throw JsonError(path, "expected a pointer to a value of the scene, found " + inQuotes(text));
+}
+
+void replace(Json& root, const Choice& choice) {
+    for (const auto& item : choice.replacements->items())
+        root[pointerTo(root, item.key(), choice.path)] = item.value();
+}
+
+/// Takes "variables" out of `root`, and replaces what the chosen ones say:
+///   [{ "name": "height", "default": "1", "choices": [{ "value": "1", "set": { POINTER: VALUE, ... } }, ...]
+///   }]
+/// A POINTER (JSON Pointer, RFC 6901) names a value that the file has. Variables act in their order. Throws
+/// JsonError.
+std::vector<SceneVariable> applyVariables(Json& root, const SceneSettings& settings) {
+    const Json list = root.value("variables", Json());
+    std::vector<Variable> variables;
+    if (root.erase("variables") > 0) variables = readVariables(JsonField(list, "variables"), list);
+    choose(variables, settings);
+    std::vector<SceneVariable> described;
+    for (const Variable& variable : variables) {
+        for (const Choice& choice : variable.choices) // those not chosen are checked, too
+            for (const auto& item : choice.replacements->items()) pointerTo(root, item.key(), choice.path);
+        replace(root, chosen(variable));
+        described.push_back(variable.described);
+    }
+    return described;
+}
+
+constexpr const char* sceneVersionField = "physvib_scene";
+
+Scene readSceneRoot(Json& root, const SceneSettings& settings) {
+    checkVersion(JsonField(root, {}), sceneVersionField, sceneFormatVersion);
+    root.erase(sceneVersionField);
+    auto variables = applyVariables(root, settings);
+    Scene scene = readFields<Scene>(JsonField(root, {}));
+    if (const std::string fault = validate(scene); !fault.empty()) throw JsonError({}, fault);
+    scene.variables = std::move(variables);
+    return scene;
+}
+
+} // namespace
+
+Result<Scene> readScene(std::string_view text, std::string_view name, const SceneSettings& settings) {
+    return readJson(text, name, limits::maxSceneFileBytes, [&](Json& root) { return readSceneRoot(root, settings); });
+}
+
+std::string sceneJson(const Scene& scene) {
+    OrderedJson root = {{sceneVersionField, sceneFormatVersion}};
+    root.update(detail::fieldsJson(scene, scene.materials));
+    return jsonLines(root);
+}
+
+} // namespace physvib

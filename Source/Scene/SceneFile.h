@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Scenes as JSON: worlds that anybody can write, read strictly, and written back the same.
+#pragma once
+#include "Io/Result.h"
+#include "Scene/Scene.h"
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace physvib {
+
+/// The version of the format that is written, and the newest that is read.
+constexpr int sceneFormatVersion = 1;
+
+/// Choices for a scene's variables, {"height", "2"}; a variable without one has its default.
+using SceneSettings = std::vector<std::pair<std::string, std::string>>;
+
+/// The scene that `text` describes, ready for a Simulation; or, of the first thing that is wrong, one line
+/// `name: bodies[3].fixtures[0].radius_m: expected 0.01 to 100, found 0`. Fields: scene.schema.json. Unknown
+/// and repeated fields are errors, and so are settings that the scene does not know. Any thread.
+Result<Scene> readScene(std::string_view text, std::string_view name, const SceneSettings& settings = {});
+
+/// The same of a file. M only.
+Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& settings = {});
+
+/// A valid scene as JSON, as its variables are set; readScene gives all of it back but the variables, bit for
+/// bit. Any thread.
+std::string sceneJson(const Scene& scene);
+
+} // namespace physvib

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// A scene's script by step index: the same inputs act in the same steps, however fast the world is run.
+#pragma once
+#include "Scene/Scene.h"
+#include "Scene/World/StepClock.h"
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace physvib {
+
+/// Something that happens now; `repetition` counts an input's times from 0.
+struct DueAction {
+    const Action* action = nullptr; ///< of the scene
+    int repetition = 0;
+    int times = 1;
+};
+
+/// The script of a valid scene at a fixed step rate. An input acts in the first step that begins at or after
+/// its time, those of one step in their order in the scene. Allocates in its constructor only. M only.
+class SceneScript {
+public:
+    /// `scene` outlives the script.
+    SceneScript(const Scene& scene, const StepClock& clock);
+
+    /// The next action that is due in step `step` or before, each once; nullptr `action` if there is none.
+    /// Steps are asked for in ascending order.
+    DueAction next(std::int64_t step) noexcept;
+
+private:
+    struct Entry {
+        std::int64_t step;
+        DueAction due;
+    };
+    std::int64_t periodSteps_;   // 0: does not repeat
+    std::vector<Entry> entries_; // by step
+    std::int64_t periodStart_ = 0;
+    std::size_t next_ = 0;
+};
+
+} // namespace physvib

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Says what is wrong with a scene, before a world is built from it.
+#pragma once
+#include "Scene/Scene.h"
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// Empty if a Simulation can be built from the scene; else one line that names the field, as scene files
+/// spell it, and what was expected. Any thread.
+std::string validate(const Scene& scene);
+
+/// The same of materials alone: ranges, and a name of its own for each. Any thread.
+std::string validateMaterials(const std::vector<Material>& materials);
+
+/// Lines on what can be simulated, but badly: dynamic bodies outside of the 0.1 to 10 m that Box2D is made
+/// for. The scene must be valid. Any thread.
+std::vector<std::string> sceneWarnings(const Scene& scene);
+
+} // namespace physvib

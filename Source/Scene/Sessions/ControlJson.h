@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Render controls and panners as parts of JSON files and lines. For the .cpp files of Files.
+#pragma once
+#include "Core/RenderControl.h"
+#include "Io/Json/JsonField.h"
+#include "Io/Json/JsonLines.h"
+#include "Io/Text/NameList.h"
+#include <array>
+#include <string_view>
+
+namespace physvib {
+
+/// A control that files and lines know: its name, and its value's field and range.
+struct ControlDescription {
+    enum class Holds { panner, number, truth, nothing }; ///< numbers and truths are a channel's
+    std::string_view name;
+    RenderControl::Kind kind;
+    Holds holds;
+    std::string_view field{};
+    double least = 0.0, most = 0.0;
+};
+
+inline constexpr auto controlTable = std::to_array<ControlDescription>({
+    {"layout", RenderControl::Kind::panner, ControlDescription::Holds::panner, "panning"},
+    {"gain", RenderControl::Kind::gain, ControlDescription::Holds::number, "value", -1000.0, 1000.0},
+    {"mute", RenderControl::Kind::mute, ControlDescription::Holds::truth, "on"},
+    {"stop", RenderControl::Kind::stopAll, ControlDescription::Holds::nothing},
+    {"delay", RenderControl::Kind::delay, ControlDescription::Holds::number, "seconds", 0.0, limits::maxChannelDelaySeconds},
+    {"ceiling", RenderControl::Kind::ceiling, ControlDescription::Holds::number, "value", 1e-6, 1.0},
+});
+inline constexpr auto controlNames = namesOf(controlTable);
+
+/// Layout, law, exponent and field; at most `channels` enchanters. Throws JsonError.
+PhantomPanner readPanner(const JsonField& json, int channels);
+
+/// A control without its time; `otherFields` may stand beside it. Throws JsonError.
+RenderControl readControl(const JsonField& json, int channels, std::string_view otherField = {});
+
+OrderedJson pannerJson(const PhantomPanner& panner);
+OrderedJson controlJson(const RenderControl& control); ///< without its time
+
+} // namespace physvib

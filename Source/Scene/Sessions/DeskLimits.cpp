@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Number by number the lesser one, and a note of each.
+#include "Scene/Sessions/DeskLimits.h"
+#include "Io/Json/JsonText.h"
+#include "Scene/Sessions/MixJson.h"
+#include "Io/Text/NumberText.h"
+
+namespace physvib {
+namespace {
+
+constexpr std::size_t mostTextBytes = 100'000; // 64 strips fill 8 kB
+
+class Notes {
+public:
+    void lower(double& value, double most, const std::string& what) {
+        if (value <= most) return;
+        add(what + ' ' + fixedNumber(value, 1) + " to " + fixedNumber(most, 1) + " dB");
+        value = most;
+    }
+    void add(const std::string& note) {
+        constexpr int mostNotes = 8; // more are not read
+        if (++count_ <= mostNotes) words_ += (words_.empty() ? "" : "; ") + note;
+    }
+    std::string words() const { return words_; }
+
+private:
+    std::string words_;
+    int count_ = 0;
+};
+
+void lowerStrip(const Strip* most, bool isSilentThere, Strip& strip, const std::string& label, Notes& notes) {
+    if (most == nullptr) {
+        notes.add(label + " without output " + std::to_string(strip.output + 1));
+        strip.output = -1;
+        return;
+    }
+    notes.lower(strip.gainDb, most->gainDb, label + " gain");
+    notes.lower(strip.ceilingDb, most->ceilingDb, label + " ceiling");
+    if (!isSilentThere || strip.isMuted) return;
+    notes.add(label + " muted");
+    strip.isMuted = true;
+}
+
+} // namespace
+
+DeskLimits DeskLimits::of(const Mix& mix) {
+    return {mix.levelDb, mix.strips};
+}
+
+std::string lowerTo(const DeskLimits& most, Mix& mix) {
+    Notes notes;
+    notes.lower(mix.levelDb, most.levelDb, "master");
+    for (std::size_t j = 0; j < mix.strips.size(); ++j) {
+        Strip& strip = mix.strips[j];
+        if (strip.output < 0) continue;
+        const auto own = std::ranges::find(most.strips, strip.output, &Strip::output);
+        const bool isThere = own != most.strips.end();
+        lowerStrip(isThere ? &*own : nullptr,
+                   isThere && isSilent(most.strips, static_cast<std::size_t>(own - most.strips.begin())),
+                   strip, mix.layout.enchanters[j].label, notes);
+    }
+    return notes.words();
+}
+
+std::string deskLimitsText(const DeskLimits& limits) {
+    return OrderedJson{{"level_db", limits.levelDb}, {"strips", stripsJson(limits.strips, Outputs::chosen)}}
+        .dump();
+}
+
+std::optional<DeskLimits> readDeskLimits(std::string_view text) {
+    auto read = readJson(text, "settings", mostTextBytes, [](const Json& root) {
+        const JsonField json{root, {}};
+        json.expectObject({"level_db", "strips"});
+        const JsonField strips = json["strips"];
+        return DeskLimits{json["level_db"].numberWithin(leastStripDb, 0.0),
+                          readStrips(strips, static_cast<int>(strips.arraySize()), Outputs::chosen)};
+    });
+    return read ? std::optional{std::move(read.value)} : std::nullopt;
+}
+
+} // namespace physvib

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Recorded contacts as sessions and calls name them: where the samples are, and how to know that they are still the same.
+#pragma once
+#include "Io/Disk/ContentHash.h"
+#include "Io/Result.h"
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace physvib {
+
+struct RecordingFile {
+    double frequencyHz = 0.0;    ///< of the material's events
+    std::string path{};          ///< a WAV file, or "synthetic-SEED"
+    double decayPerSecond = 0.0; ///< of the material; 0: not known
+    bool isMatched = false;      ///< as strong as the material's mode; else as high: its peak is 1
+    std::string hash{};          ///< contentHash of the file when it was read; empty: whatever it holds; always of what is synthetic
+    bool operator==(const RecordingFile&) const = default;
+};
+
+/// The seed of "synthetic-7", a contact that nobody recorded; none: it is a file's path. Any thread.
+inline std::optional<std::uint32_t> syntheticSeed(std::string_view path) noexcept {
+    constexpr std::string_view prefix = "synthetic-";
+    std::uint32_t seed = 0;
+    if (!path.starts_with(prefix)) return {};
+    const auto [end, error] = std::from_chars(path.data() + prefix.size(), path.data() + path.size(), seed);
+    return error == std::errc{} && end == path.data() + path.size() ? std::optional{seed} : std::nullopt;
+}
+
+} // namespace physvib

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// From the descriptions of a scene to Box2D's bodies, fixtures and joints.
+#pragma once
+#include "Scene/World/BodyStart.h"
+#include "Scene/Scene.h"
+#include <box2d/box2d.h>
+#include <vector>
+
+namespace physvib {
+
+inline b2Vec2 box2dVector(const Vector& v) noexcept {
+    return {static_cast<float>(v.x), static_cast<float>(v.y)};
+}
+
+/// Creates a scene's body and appends its fixtures, in their order; outlines exactly as described. Bodies
+/// that cross their own thickness within a step at twice v_max (Eq. 5.7) are bullets. The scene must be
+/// valid. M only.
+b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& body, const BodyStart& start,
+                   double stepSeconds, std::vector<b2Fixture*>& fixtures);
+
+/// Puts a body, wherever it is, where it starts; enables it. M only.
+void restartBody(b2Body& created, const BodyDescription& body, const BodyStart& start);
+
+/// Gives a dynamic body the mass that its description says; others have none. M only.
+void setMass(b2Body& created, const BodyDescription& body, const Scene& scene);
+
+/// Friction and restitution. M only.
+void setSurface(b2Fixture& fixture, const Material& material);
+
+/// Creates a joint between two bodies where they are now. M only.
+b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB);
+
+} // namespace physvib

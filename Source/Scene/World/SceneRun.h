@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// A scene from its start to a given time in one go, for renders that are not live.
+#pragma once
+#include "Core/CollisionEvent.h"
+#include "Scene/Scene.h"
+#include "Scene/SceneTake.h"
+#include "Scene/World/Simulation.h"
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace physvib {
+
+/// What decides the events of a scene, apart from the scene.
+struct SceneRun {
+    std::uint32_t seed = 1;
+    int stepsPerSecond = 100;
+    ImpactTiming timing = ImpactTiming::onset;
+    ImpactLocation location = ImpactLocation::contact;
+};
+
+/// All collisions before `endNs`, in time order, and how many were lost (0 unless thousands begin in one
+/// step).
+struct SceneEvents {
+    std::vector<CollisionEvent> events;
+    std::uint64_t drops = 0;
+};
+
+/// Asked before the first step of a take and after each step, with the session time that is reached; false: what has been made so far is enough.
+using StepWatch = std::function<bool(std::int64_t timeNs)>;
+
+/// M only. Throws what Simulation throws.
+SceneEvents runScene(const Scene& scene, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn = {});
+
+/// The events of a session, again, in session time: of each take up to its end, of the last one all before
+/// `endNs`. `run` gives the step rate; seeds are the takes' own. M only. Throws what Simulation throws.
+SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std::int64_t endNs, const StepWatch& goesOn = {});
+
+/// Poses of all bodies at the last step not after `timeNs`. M only; simulates from the start.
+std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);
+
+} // namespace physvib

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// Building and changing a scene's world.
+#include "Scene/World/SceneWorld.h"
+#include "Scene/World/SceneBodies.h"
+#include "Scene/World/SceneCast.h"
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace physvib {
+
+namespace {
+
+// How long a removed body is kept: hits that it made are told until ReleaseImpacts::latestNs after them, some steps later.
+constexpr double heldSeconds = 0.5;
+
+Vector turnedBy(const Vector& v, double angleRadians) {
+    const double c = std::cos(angleRadians), s = std::sin(angleRadians);
+    return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+} // namespace
+
+SceneWorld::SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& clock)
+    : scene_(scene)
+    , clock_(clock)
+    , jitters_(seed != 0)
+    , random_(seed)
+    , script_(scene_, clock)
+    , gravity_(scene.gravityMetresPerSecond2)
+    , world_(box2dVector(scene.gravityMetresPerSecond2))
+    , materials_(scene.materials)
+    , lastInputSeconds_(scene.inputs.empty() ? 0.0 : scene.inputs.back().timeSeconds) {
+    world_.SetContactFilter(&bound_);
+    build();
+    actOnScript(0);
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) startHalfAStepBehind(*bodies_.at(i).body);
+}
+
+void SceneWorld::build() {
+    const auto cast = scriptedCast(scene_);
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        const bool isThere = i < scene_.bodies.size();
+        const Body& body = add(cast[i], isThere ? startOf(cast[i]) : describedStart(cast[i]));
+        if (!isThere) body.body->SetEnabled(false);
+    }
+    scripted_ = nextBody_;
+    for (const JointDescription& joint : scene_.joints)
+        joints_.emplace(joint.name, &createJoint(world_, joint, *find(joint.bodyA)->body, *find(joint.bodyB)->body));
+    std::size_t next = scene_.bodies.size();
+    for (const ScriptInput& input : scene_.script)
+        if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) {
+            spawned_.emplace(spawn, next);
+            next += static_cast<std::size_t>(input.times);
+        }
+}
+
+SceneWorld::Body& SceneWorld::add(const BodyDescription& body, const BodyStart& start) {
+    std::vector<b2Fixture*> created;
+    b2Body& made = createBody(world_, scene_, body, start, clock_.stepSeconds(), created);
+    bodyNames_.emplace(body.name, nextBody_);
+    Body& added = bodies_.emplace(nextBody_++, Body{&made, nextFixture_, std::move(created), body, body}).first->second;
+    nextFixture_ += added.fixtures.size();
+    return added;
+}
+
+BodyStart SceneWorld::startOf(const BodyDescription& body) {
+    const bool moves = jitters_ && body.type == BodyType::dynamicBody;
+    return moves ? jitteredStart(body, random_) : describedStart(body);
+}
+
+// Box2D adds a whole step of gravity before it moves a body, which is half a step too early. Velocities that
+// start half a step behind make this the leapfrog scheme: bodies fall along the exact parabola.
+void SceneWorld::startHalfAStepBehind(b2Body& body) const {
+    if (body.GetType() != b2_dynamicBody) return;
+    const b2Vec2 halfStep = static_cast<float>(-0.5 * clock_.stepSeconds()) * world_.GetGravity();
+    body.SetLinearVelocity(body.GetLinearVelocity() + halfStep);
+}
+
+void SceneWorld::setGravity(const Vector& beforeHold) {
+    gravity_ = beforeHold;
+    holdDevice();
+}
+
+void SceneWorld::holdDevice() {
+    const Vector turned = turnedBy(gravity_, hold_.angleRadians);
+    const b2Vec2 gravity = box2dVector({hold_.factor * turned.x, hold_.factor * turned.y});
+    if (gravity == world_.GetGravity()) return;
+    world_.SetGravity(gravity);
+    for (const auto& [number, body] : bodies_) body.body->SetAwake(true); // sleeping bodies would not notice
+}
+
+SceneWorld::Body* SceneWorld::find(std::string_view name) noexcept {
+    const auto place = bodyNames_.find(name);
+    return place == bodyNames_.end() ? nullptr : &bodies_.at(place->second);
+}
+
+b2Body* SceneWorld::findInWorld(std::string_view name) noexcept {
+    Body* const found = find(name);
+    return found == nullptr ? nullptr : found->body;
+}
+
+template <class Change>
+void SceneWorld::forFixtures(const std::string& body, int fixture, Change change) {
+    Body* const meant = find(body);
+    if (meant == nullptr) return;
+    for (std::size_t i = 0; i < meant->fixtures.size(); ++i)
+        if (fixture == everyFixture || static_cast<std::size_t>(fixture) == i) change(*meant, i);
+}
+
+void SceneWorld::setMaterial(Body& body, std::size_t fixture, int material) {
+    body.now.fixtures[fixture].material = material;
+    setSurface(*body.fixtures[fixture], materials_[static_cast<std::size_t>(material)]);
+    setMass(*body.body, body.now, scene_);
+}
+
+void SceneWorld::addInput(std::int64_t step, Action action) {
+    lastInputSeconds_ = std::max(lastInputSeconds_, static_cast<double>(step) / clock_.stepsPerSecond);
+    scene_.inputs.push_back({lastInputSeconds_, std::move(action)});
+}
+
+void SceneWorld::forgetDone() {
+    if (2 * nextInput_ < scene_.inputs.size() || nextInput_ == 0) return; // each is moved once, on average
+    scene_.inputs.erase(scene_.inputs.begin(), scene_.inputs.begin() + static_cast<std::ptrdiff_t>(nextInput_));
+    nextInput_ = 0;
+}
+
+bool SceneWorld::act(std::int64_t step) {
+    step_ = step;
+    destroyRemoved(step);
+    const bool live = actOnInputs(step), script = actOnScript(step);
+    grips_.move(step + 1);
+    return live || script;
+}
+
+// They have neither contacts nor places in Box2D's tree since they were disabled: the others' order stays as it is.
+void SceneWorld::destroyRemoved(std::int64_t step) {
+    for (; !leaving_.empty() && leaving_.front().step <= step; leaving_.pop_front()) {
+        const auto gone = bodies_.find(leaving_.front().body);
+        world_.DestroyBody(gone->second.body);
+        bodies_.erase(gone);
+    }
+}
+
+bool SceneWorld::actOnInputs(std::int64_t step) {
+    bool fixturesChanged = false;
+    for (; nextInput_ < scene_.inputs.size(); ++nextInput_) {
+        const LiveInput& input = scene_.inputs[nextInput_];
+        if (clock_.firstStepAt(input.timeSeconds) > step) break;
+        const auto* wanted = std::get_if<SpawnAction>(&input.action);
+        fixturesChanged |= wanted != nullptr ? spawn(wanted->body) : apply(input.action);
+    }
+    return fixturesChanged;
+}
+
+bool SceneWorld::actOnScript(std::int64_t step) {
+    bool fixturesChanged = false;
+    for (DueAction due = script_.next(step); due.action != nullptr; due = script_.next(step))
+        fixturesChanged |= act(due);
+    return fixturesChanged;
+}
+
+bool SceneWorld::act(const DueAction& due) {
+    if (const auto* spawn = std::get_if<SpawnAction>(due.action)) return act(*spawn, due.repetition);
+    return apply(*due.action);
+}
+
+bool SceneWorld::apply(const Action& action) {
+    return std::visit(
+        [this](const auto& one) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, SpawnAction>)
+                return act(one);
+            else
+                return false; // it needs to know who spawns
+        },
+        action);
+}
+
+bool SceneWorld::spawn(const BodyDescription& body) {
+    startHalfAStepBehind(*add(body, describedStart(body)).body);
+    return true;
+}
+
+bool SceneWorld::act(const GravityAction& action) {
+    setGravity(action.metresPerSecond2);
+    return false;
+}
+
+bool SceneWorld::act(const TiltAction& action) {
+    setGravity(turnedBy(scene_.gravityMetresPerSecond2, action.angleRadians));
+    return false;
+}
+
+bool SceneWorld::act(const HoldAction& action) {
+    hold_ = action;
+    holdDevice();
+    return false;
+}
+
+bool SceneWorld::act(const ImpulseAction& action) {
+    b2Body* body = findInWorld(action.body);
+    if (body == nullptr) return false;
+    const b2Vec2 point =
+        action.pointMetres ? body->GetWorldPoint(box2dVector(*action.pointMetres)) : body->GetWorldCenter();
+    body->ApplyLinearImpulse(box2dVector(action.newtonSeconds), point, true);
+    return false;
+}
+
+bool SceneWorld::act(const VelocityAction& action) {
+    b2Body* body = findInWorld(action.body);
+    if (body == nullptr) return false;
+    body->SetAwake(true); // also for a velocity of 0
+    body->SetLinearVelocity(box2dVector(action.metresPerSecond));
+    body->SetAngularVelocity(static_cast<float>(action.spinRadiansPerSecond));
+    return false;
+}
+
+bool SceneWorld::act(const SpawnAction& action, int repetition) {
+    Body& body = bodies_.at(spawned_.at(&action) + static_cast<std::size_t>(repetition));
+    for (std::size_t i = 0; i < body.fixtures.size(); ++i) {
+        setMaterial(body, i, body.described.fixtures[i].material);
+        body.now.fixtures[i].isCamera = body.described.fixtures[i].isCamera;
+    }
+    grips_.letGo(*body.body); // it starts anew
+    restartBody(*body.body, body.described, startOf(body.described));
+    startHalfAStepBehind(*body.body);
+    return true;
+}
+
+bool SceneWorld::act(const RemoveAction& action) {
+    const auto place = bodyNames_.find(action.body);
+    if (place == bodyNames_.end()) return false;
+    b2Body& body = *bodies_.at(place->second).body;
+    grips_.letGo(body);
+    body.SetEnabled(false);
+    if (place->second < scripted_) return false;
+    leaving_.push_back({step_ + clock_.firstStepAt(heldSeconds), place->second});
+    bodyNames_.erase(place);
+    return false;
+}
+
+bool SceneWorld::act(const MotorAction& action) const {
+    const auto place = joints_.find(action.joint);
+    if (place == joints_.end()) return false;
+    const auto set = [&action](auto& joint) {
+        joint.SetMotorSpeed(static_cast<float>(action.radiansPerSecond));
+        if (action.maxTorqueNewtonMetres)
+            joint.SetMaxMotorTorque(static_cast<float>(*action.maxTorqueNewtonMetres));
+    };
+    if (place->second->GetType() == e_revoluteJoint) set(static_cast<b2RevoluteJoint&>(*place->second));
+    if (place->second->GetType() == e_wheelJoint) set(static_cast<b2WheelJoint&>(*place->second));
+    return false;
+}
+
+bool SceneWorld::act(const CameraAction& action) {
+    forFixtures(action.body, action.fixture,
+                [&](Body& body, std::size_t fixture) { body.now.fixtures[fixture].isCamera = action.isOn; });
+    return true;
+}
+
+bool SceneWorld::act(const MaterialAction& action) {
+    forFixtures(action.body, action.fixture,
+                [&](Body& body, std::size_t fixture) { setMaterial(body, fixture, action.material); });
+    if (b2Body* body = findInWorld(action.body))
+        for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+            edge->contact->ResetFriction(); // contacts keep the values they began with
+            edge->contact->ResetRestitution();
+        }
+    return true;
+}
+
+bool SceneWorld::act(const SoundAction& action) {
+    Material& material = materials_[static_cast<std::size_t>(action.material)];
+    material.frequencyHz = action.frequencyHz;
+    material.decayPerSecond = action.decayPerSecond;
+    return true;
+}
+
+bool SceneWorld::act(const TextureAction& action) {
+    materials_[static_cast<std::size_t>(action.material)].setTexture(action.texture());
+    return true;
+}
+
+bool SceneWorld::act(const GripAction& action) {
+    if (b2Body* body = findInWorld(action.body)) grips_.act(*body, action, step_);
+    return false;
+}
+
+BodyPose SceneWorld::pose(std::size_t number) const noexcept {
+    const auto found = bodies_.find(number);
+    return found == bodies_.end() ? BodyPose{0.0, 0.0, 0.0, false} : poseOf(*found->second.body);
+}
+
+BodyPose SceneWorld::poseOf(const b2Body& body) noexcept {
+    return {body.GetPosition().x, body.GetPosition().y, body.GetAngle(), body.IsEnabled()};
+}
+
+SceneWorld::FixtureNow SceneWorld::fixtureNow(const Body& body, std::size_t index) const noexcept {
+    const FixtureDescription& description = body.now.fixtures[index];
+    return {body.firstFixture + index, *body.fixtures[index], description,
+            materials_[static_cast<std::size_t>(description.material)], body.now};
+}
+
+} // namespace physvib

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// The Box2D world of a scene, and what the actions of its script and of live inputs do to it.
+#pragma once
+#include "Scene/World/BodyStart.h"
+#include "Scene/World/ContactBound.h"
+#include "Scene/Scene.h"
+#include "Scene/World/SceneGrips.h"
+#include "Scene/SceneScript.h"
+#include "Scene/World/StepClock.h"
+#include <box2d/box2d.h>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// Where a body is, in metres of the field.
+struct BodyPose {
+    double xMetres = 0.0;
+    double yMetres = 0.0;
+    double angleRadians = 0.0;
+    bool isPresent = true; ///< false: not spawned yet, or removed
+};
+
+/// All bodies of scriptedCast() exist from the start; those that are not there (yet) are disabled, which for Box2D
+/// means no contacts: the script may want them again. What a live input spawns is created when it acts, under the
+/// numbers that follow, and destroyed soon after it was removed: nobody can name it again. Numbers are never used twice.
+/// Seed 0 starts bodies exactly as described, any other a little beside (see jitteredStart). M only.
+class SceneWorld {
+public:
+    /// The scene must be valid. Does what its script wants done in step 0.
+    SceneWorld(const Scene& scene, std::uint32_t seed, const StepClock& clock);
+    SceneWorld(const SceneWorld&) = delete;
+    SceneWorld& operator=(const SceneWorld&) = delete;
+
+    /// Adds an input that is valid (see InputCheck) and acts in `step`, or as soon as those before it have.
+    void addInput(std::int64_t step, Action action);
+
+    /// Does what live inputs, then the script, want done in `step` or before; true if a fixture may be new or
+    /// have another sound, texture or camera since. Allocates for new bodies and grips only.
+    bool act(std::int64_t step);
+
+    /// Drops from scene() the live inputs that have acted, for worlds without end whose inputs are kept elsewhere.
+    void forgetDone();
+
+    b2World& world() noexcept { return world_; }
+
+    /// How often two bodies passed through each other because there were too many contacts.
+    std::uint64_t contactsRefused() const noexcept { return bound_.refused(); }
+
+    const Scene& scene() const noexcept { return scene_; } ///< with all inputs so far, but those forgotten
+
+    /// Bodies so far; numbers as in sceneCast().
+    std::size_t bodyCount() const noexcept { return nextBody_; }
+    std::size_t bodiesInBox2d() const noexcept { return bodies_.size(); }
+    BodyPose pose(std::size_t body) const noexcept; ///< of one that is gone: not present
+    /// Calls `use` with number and pose of those that Box2D has, in the order of their numbers.
+    template <class Use>
+    void forAllBodies(Use use) const {
+        for (const auto& [number, body] : bodies_) use(number, poseOf(*body.body));
+    }
+
+    /// One fixture, its material and its body as they are now.
+    struct FixtureNow {
+        std::size_t number;
+        const b2Fixture& fixture; // owned by the world, as bodies and joints
+        const FixtureDescription& description;
+        const Material& material;
+        const BodyDescription& body;
+    };
+    /// Calls `use` with every FixtureNow of the world, in the order of their numbers.
+    template <class Use>
+    void forAllFixtures(Use use) const {
+        for (const auto& [number, body] : bodies_)
+            for (std::size_t i = 0; i < body.fixtures.size(); ++i) use(fixtureNow(body, i));
+    }
+
+private:
+    struct Body {
+        b2Body* body;
+        std::size_t firstFixture; // its number
+        std::vector<b2Fixture*> fixtures;
+        BodyDescription described;
+        BodyDescription now; // with the materials and cameras of now
+    };
+    struct Leaving {
+        std::int64_t step;
+        std::size_t body;
+    };
+    static BodyPose poseOf(const b2Body& body) noexcept;
+    FixtureNow fixtureNow(const Body& body, std::size_t index) const noexcept;
+    void build();
+    Body& add(const BodyDescription& body, const BodyStart& start);
+    void destroyRemoved(std::int64_t step);
+    bool actOnInputs(std::int64_t step);
+    bool actOnScript(std::int64_t step);
+    bool apply(const Action& action);
+    bool spawn(const BodyDescription& body);
+    BodyStart startOf(const BodyDescription& body);
+    void startHalfAStepBehind(b2Body& body) const;
+    void setGravity(const Vector& beforeHold);
+    void holdDevice();
+    Body* find(std::string_view name) noexcept; // nullptr if none has it
+    b2Body* findInWorld(std::string_view name) noexcept;
+    /// Calls `change` with a body and the indices of one of its fixtures, or of all.
+    template <class Change>
+    void forFixtures(const std::string& body, int fixture, Change change);
+    void setMaterial(Body& body, std::size_t fixture, int material);
+
+    bool act(const DueAction& due);
+    bool act(const GravityAction& action);
+    bool act(const TiltAction& action);
+    bool act(const HoldAction& action);
+    bool act(const ImpulseAction& action);
+    bool act(const VelocityAction& action);
+    bool act(const SpawnAction& action, int repetition);
+    bool act(const RemoveAction& action);
+    bool act(const MotorAction& action) const;
+    bool act(const CameraAction& action);
+    bool act(const MaterialAction& action);
+    bool act(const SoundAction& action);
+    bool act(const TextureAction& action);
+    bool act(const GripAction& action);
+
+    Scene scene_; // only its inputs grow
+    StepClock clock_;
+    bool jitters_;
+    std::mt19937 random_;
+    SceneScript script_;
+    Vector gravity_;  // before hold_
+    HoldAction hold_;
+    b2World world_;
+    ContactBound bound_{world_};
+    SceneGrips grips_{world_, clock_};
+    std::vector<Material> materials_; // with the sounds and textures of now
+    std::map<std::size_t, Body> bodies_; // by number
+    std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0; // numbers; below scripted_ stands scriptedCast()
+    std::map<std::string, std::size_t, std::less<>> bodyNames_;
+    std::deque<Leaving> leaving_; // in the order of their steps
+    std::map<std::string_view, b2Joint*> joints_;
+    std::map<const SpawnAction*, std::size_t> spawned_; // the body of the script's first repetition
+    std::size_t nextInput_ = 0;
+    double lastInputSeconds_ = 0.0;
+    std::int64_t step_ = 0; // that begins
+};
+
+} // namespace physvib

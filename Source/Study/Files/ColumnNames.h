@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Other programs' tables under our columns' names: the one place that maps them.
+#pragma once
+#include "Io/Result.h"
+#include "Io/Text/CsvTable.h"
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// A column of ours, and what a table calls it.
+struct ColumnName {
+    std::string ours, theirs;
+    bool operator==(const ColumnName&) const = default;
+};
+
+/// Of words like `response=key_resp.keys`, each of ours once; or one line on the first that is none. Any thread.
+Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words);
+
+/// Makes `table` one of the named columns alone, under our names; `observer` stays, as it may mark a simulation. Rows with nothing in one of the
+/// columns (instructions, fixations, trials without an answer) are left out and counted. What is wrong: a line; empty names: nothing happens. Any thread.
+std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut);
+
+} // namespace physvib

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// What counts is on the disk: every fsync of this program is seen here, with what stood at the file's place
+// at that moment.
+#include "FileTesting.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Study/Files/TrialLog.h"
+#include "Study/Experiment.h"
+#include "Study/SimulatedObserver.h"
+#include <cerrno>
+#include <functional>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace {
+
+std::function<int(int descriptor)> watcher; // of one test
+
+} // namespace
+
+extern "C" int fsync(int descriptor) {
+    return watcher ? watcher(descriptor) : static_cast<int>(syscall(SYS_fsync, descriptor));
+}
+
+namespace physvib {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SyncTest : public FolderTest {
+protected:
+    void TearDown() override {
+        watcher = nullptr;
+        FolderTest::TearDown();
+    }
+    /// From now on: "folder" or "N bytes", and what `path` was then.
+    void watch(const fs::path& path) {
+        watcher = [this, path](int descriptor) {
+            struct stat synced {
+            }, there{};
+            EXPECT_EQ(fstat(descriptor, &synced), 0);
+            const bool isThere = stat(path.c_str(), &there) == 0, isFolder = S_ISDIR(synced.st_mode);
+            if (isFolder) EXPECT_TRUE(fs::equivalent(folder, path.parent_path()));
+            seen.push_back((isFolder ? std::string{"folder"} : std::to_string(synced.st_size) + " bytes") +
+                           ", there " + (isThere ? std::to_string(there.st_size) : "nothing"));
+            return 0;
+        };
+    }
+    std::vector<std::string> seen;
+};
+
+TEST_F(SyncTest, AFileIsOnTheDiskBeforeItHasItsNameAndThenTheNameIs) {
+    watch(folder / "out.csv");
+    EXPECT_EQ(writeFile(folder / "out.csv", "four"), "");
+    EXPECT_EQ(seen, (std::vector<std::string>{"4 bytes, there nothing", "folder, there 4"}));
+    seen.clear();
+    EXPECT_EQ(writeFile(folder / "out.csv", "eight..."), "");
+    EXPECT_EQ(seen, (std::vector<std::string>{"8 bytes, there 4", "folder, there 8"}));
+}
+
+TEST_F(SyncTest, WhatCannotReachTheDiskDoesNotGetItsName) {
+    put(folder / "out.csv", "old");
+    watcher = [](int) { return errno = EIO, -1; };
+    EXPECT_EQ(writeFile(folder / "out.csv", "new"),
+              (folder / "out.csv").string() + ": cannot be written: Input/output error");
+    EXPECT_EQ(contentOf(folder / "out.csv"), "old");
+    EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(SyncTest, ATrialsRowIsOnTheDiskBeforeItCounts) {
+    const Protocol protocol = findProtocol("magnitudes").value;
+    const Participant participant{"P01", 1};
+    const fs::path path = folder / "magnitudes-P01.csv";
+    watch(path);
+    TrialLogFile log{path, protocol, participant, "1"};
+    ASSERT_EQ(log.error(), "");
+    const auto head = std::to_string(fs::file_size(path));
+    EXPECT_EQ(seen, (std::vector{head + " bytes, there " + head, "folder, there " + head}));
+    Experiment experiment{protocol, participant};
+    const SimulatedObserver observer{*observerNamed("simulated"), protocol, participant};
+    for (int i = 0; i < 3; ++i) {
+        seen.clear();
+        EXPECT_TRUE(log.append(experiment.take(observer.answer(experiment))));
+        const auto size = std::to_string(fs::file_size(path));
+        EXPECT_EQ(seen, (std::vector{size + " bytes, there " + size}));
+    }
+    seen.clear();
+    TrialLogFile simulated{folder / "magnitudes-P02.csv", protocol, {"P02", 1, "simulated"}, "1"};
+    seen.clear();
+    Experiment again{protocol, {"P02", 1, "simulated"}};
+    EXPECT_TRUE(simulated.append(again.take(observer.answer(again))));
+    EXPECT_TRUE(seen.empty()) << "who answers the same again";
+    EXPECT_TRUE(simulated.sync());
+    EXPECT_EQ(seen.size(), 1u);
+    watcher = [](int) { return errno = EIO, -1; };
+    EXPECT_FALSE(log.append(experiment.take(observer.answer(experiment))));
+    EXPECT_EQ(log.error(), path.string() + ": cannot be written: Input/output error");
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Inputs while the world runs: they act when they should, are checked first, and a world with them in its scene does
+// the same again to the bit.
+#include "DropScene.h"
+#include "Scene/World/InputCheck.h"
+#include "Scene/World/SceneCast.h"
+#include "Scene/World/SceneRun.h"
+#include "Scene/SceneValidation.h"
+#include <gtest/gtest.h>
+#include <random>
+
+namespace physvib {
+namespace {
+
+BodyDescription stone(const std::string& name, Vector at) {
+    return {name, BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 1, true}}, at};
+}
+
+Action anyInput(std::mt19937& random, int& stones) {
+    const auto some = [&](double reach) { return (static_cast<double>(random()) * 0x1p-31 - 1.0) * reach; };
+    const std::string ball = "ball " + std::to_string(random() % 10);
+    switch (random() % 11) {
+    case 0: return GravityAction{{some(10.0), some(10.0)}};
+    case 1: return TiltAction{some(3.0)};
+    case 2: return VelocityAction{ball, {some(5.0), some(5.0)}, some(3.0)};
+    case 3: return SpawnAction{stone("stone " + std::to_string(stones++), {2.0 + some(1.0), 2.0 + some(1.0)}), {}};
+    case 4:
+        if (stones == 0) return TiltAction{};
+        return RemoveAction{"stone " + std::to_string(random() % static_cast<unsigned>(stones))};
+    case 5: return CameraAction{ball, everyFixture, random() % 2 == 0};
+    case 6: return MaterialAction{ball, 0, static_cast<int>(random() % 2)};
+    case 7: return SoundAction{static_cast<int>(random() % 2), 100.0 + some(50.0), 50.0 + some(20.0)};
+    case 8: return TextureAction{static_cast<int>(random() % 2), 0.005 + 0.001 * some(4.0), 1.0 + some(1.0), static_cast<GrainPattern>(random() % 2)};
+    case 9: return random() % 4 == 0 ? GripAction{ball, {}, {}} : GripAction{ball, Vector{2.0 + some(2.0), 2.0 + some(2.0)}, Vector{some(0.1), some(0.1)}, 0.1 + some(0.1)};
+    default: return ImpulseAction{ball, {some(20.0), some(20.0)}, Vector{some(0.1), some(0.1)}};
+    }
+}
+
+TEST(LiveInputs, AWorldWithThemInItsSceneDoesTheSameAgain) {
+    constexpr int stepsPerSecond = 100, steps = 3000;
+    const Scene scene = shakenScene();
+    Simulation live(scene, 3, stepsPerSecond);
+    InputCheck check(scene);
+    std::mt19937 random(1);
+    std::vector<CollisionEvent> events;
+    for (int step = 0, stones = 0; step < steps; ++step) {
+        for (int i = static_cast<int>(random() % 4); i < 2; ++i) { // none, one or two
+            const Action action = anyInput(random, stones);
+            ASSERT_EQ(check.take(action), "");
+            const double delay = 0.001 * static_cast<double>(random() % 30);
+            live.addInput(static_cast<double>(live.timeNs()) * 1e-9 + delay, action);
+        }
+        live.step(events);
+    }
+    EXPECT_GT(events.size(), 1000U);
+    ASSERT_GT(live.scene().inputs.size(), 2000U);
+
+    Simulation again(live.scene(), 3, stepsPerSecond);
+    std::vector<CollisionEvent> same;
+    for (int step = 0; step < steps; ++step) again.step(same);
+    ASSERT_EQ(same.size(), events.size());
+    EXPECT_TRUE(same == events);
+    ASSERT_EQ(again.bodyCount(), live.bodyCount());
+    for (std::size_t i = 0; i < live.bodyCount(); ++i) {
+        EXPECT_EQ(again.pose(i).xMetres, live.pose(i).xMetres);
+        EXPECT_EQ(again.pose(i).isPresent, live.pose(i).isPresent);
+    }
+    EXPECT_EQ(posesAt(live.scene(), {3, stepsPerSecond}, 1'000'000'000).size(), sceneCast(live.scene()).size());
+}
+
+TEST(LiveInputs, ActInTheFirstStepAtOrAfterTheirTime) {
+    Scene scene = dropScene(1.0);
+    scene.gravityMetresPerSecond2 = {};
+    Simulation world(scene, 0, 100);
+    std::vector<CollisionEvent> events;
+    world.addInput(0.055, VelocityAction{"ball", {1.0, 0.0}, 0.0});
+    const double start = world.pose(ballIndex).xMetres;
+    for (int i = 0; i < 6; ++i) world.step(events);
+    EXPECT_EQ(world.pose(ballIndex).xMetres, start);
+    world.step(events); // from 0.06 s on
+    EXPECT_NEAR(world.pose(ballIndex).xMetres, start + 0.01, 1e-6);
+    EXPECT_EQ(world.scene().inputs[0].timeSeconds, 0.06);
+    world.addInput(0.0, VelocityAction{"ball", {0.0, 0.0}, 0.0}); // past: now
+    EXPECT_EQ(world.scene().inputs[1].timeSeconds, 0.07);
+}
+
+TEST(LiveInputs, ASpawnedCameraIsFeltAndASoundChanges) {
+    Scene scene = dropScene(1.0);
+    scene.bodies[plateIndex].fixtures[0].isCamera = false;
+    Simulation world(scene, 5, 1000);
+    std::vector<CollisionEvent> events;
+    const auto run = [&](int steps) {
+        events.clear();
+        for (int i = 0; i < steps; ++i) world.step(events);
+    };
+    world.addInput(0.0, SpawnAction{stone("stone", {2.5, 0.6}), {}});
+    run(300);
+    ASSERT_FALSE(events.empty());
+    EXPECT_EQ(events[0].frequencyHz, 205.0);
+    const double falls = std::sqrt(2 * 0.2 / dropGravity); // from where it was put
+    EXPECT_NEAR(static_cast<double>(events[0].timeNs) * 1e-9, falls, 0.002);
+    EXPECT_EQ(events[0].source.fixture, 2);
+    world.addInput(0.3, SoundAction{1, 150.0, 20.0});
+    run(400);
+    ASSERT_FALSE(events.empty());
+    EXPECT_EQ(events.back().frequencyHz, 150.0);
+    EXPECT_EQ(events.back().decayPerSecond, 20.0);
+}
+
+TEST(InputCheck, SaysWhatIsWrongAndForgetsIt) {
+    InputCheck check(dropScene(1.0));
+    const auto isRefused = [&](const Action& action, const char* why) { EXPECT_EQ(check.take(action), why); };
+    isRefused(ImpulseAction{"bull", {}, {}}, "body: expected the name of a body, found \"bull\"");
+    isRefused(ImpulseAction{"ball", {1e12, 0.0}, {}}, "impulse_ns[0]: expected -1e+09 to 1e+09, found 1e+12");
+    isRefused(MaterialAction{"ball", 0, 7}, "material: expected one of the 2 materials of the scene");
+    isRefused(SpawnAction{stone("ball", {1, 1}), {}}, "bodies: expected names of their own, found \"ball\" twice");
+    isRefused(ImpulseAction{"stone", {}, {}}, "body: expected the name of a body, found \"stone\"");
+    EXPECT_EQ(check.take(SpawnAction{stone("stone", {1, 1}), {}}), "");
+    EXPECT_EQ(check.take(ImpulseAction{"stone", {}, {}}), "");
+}
+
+TEST(InputCheck, SpawningAndRemovingGoesOnForMonths) {
+    const Scene scene = dropScene(1.0);
+    InputCheck check(scene, InputCheck::endless);
+    Scene whole = scene;
+    const auto take = [&](Action action) {
+        ASSERT_EQ(check.take(action), "");
+        whole.inputs.push_back({0.0, std::move(action)});
+    };
+    for (int i = 0; i < 4200; ++i) { // more than a world may hold at once
+        const std::string name = "stone " + std::to_string(i % 3000);
+        take(SpawnAction{stone(name, {1.0, 1.0}), {}});
+        take(CameraAction{name, everyFixture, i % 2 == 0});
+        take(TiltAction{0.1});
+        take(RemoveAction{name});
+        take(RemoveAction{name}); // nothing happens
+    }
+    EXPECT_EQ(validate(whole), "");
+    take(SpawnAction{stone("stone", {1.0, 1.0}), {}});
+    EXPECT_EQ(check.take(SpawnAction{stone("stone", {2.0, 1.0}), {}}), "bodies: expected names of their own, found \"stone\" twice");
+    EXPECT_EQ(check.take(ImpulseAction{"stone 5", {}, {}}), "body: expected the name of a body, found \"stone 5\"") << "gone long ago";
+}
+
+TEST(InputCheck, CountsWhatIsThereAtOnce) {
+    Scene scene = dropScene(1.0);
+    for (int i = 0; i < 5000; ++i) scene.inputs.push_back({0.0, SpawnAction{stone("stone " + std::to_string(i), {1.0, 1.0}), {}}});
+    EXPECT_EQ(validate(scene), "bodies: expected at most 4096 in all, found 4097");
+}
+
+TEST(InputCheck, EndsWithTheLimit) {
+    InputCheck check(dropScene(1.0));
+    std::string fault;
+    int taken = 0;
+    for (; fault.empty() && taken < 200'000; ++taken) fault = check.take(TiltAction{0.0});
+    EXPECT_EQ(taken, 100'001);
+    EXPECT_EQ(fault, "expected at most 100000 inputs");
+}
+
+} // namespace
+} // namespace physvib

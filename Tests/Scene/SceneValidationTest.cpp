@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+// Every fault of a scene is named with its place.
+#include "Scene/SceneValidation.h"
+#include "DropScene.h"
+#include "Scene/SceneLimits.h"
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace physvib {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// The drop scene with a bit of everything: a chain, a polygon, joints, a script.
+Scene richScene() {
+    Scene scene = dropScene(1.0);
+    const auto sounding = [](Shape shape) -> FixtureDescription { return {std::move(shape), {}, 0.0, 1}; };
+    scene.bodies.push_back(
+        {"ground", BodyType::staticBody, {sounding(ChainShape{{{4.0, 0.0}, {2.0, 0.1}, {0.0, 0.0}}})}});
+    scene.bodies.push_back({"wedge",
+                            BodyType::dynamicBody,
+                            {sounding(PolygonShape{{{0.0, 0.0}, {0.5, 0.0}, {0.0, 0.5}}})},
+                            {3.0, 2.0}});
+    scene.joints = {{"hinge", "ball", "wedge", RevoluteJoint{{2.5, 2.0}}},
+                    {"rod", "plate", "wedge", DistanceJoint{{2.0, 0.3}, {3.0, 2.0}}}};
+    const BodyDescription stone{"stone", BodyType::dynamicBody, {sounding(CircleShape{0.1})}, {1.0, 3.0}};
+    scene.script = {{0.0, 1, 0.0, TiltAction{0.1}},
+                    {1.0, 3, 0.5, SpawnAction{stone, {0.3, 0.0}}},
+                    {2.0, 1, 0.0, ImpulseAction{"ball", {1.0, 0.0}, {}}},
+                    {3.0, 1, 0.0, MotorAction{"hinge", 3.0, 5.0}},
+                    {4.0, 1, 0.0, CameraAction{"stone 2", everyFixture, true}},
+                    {5.0, 1, 0.0, MaterialAction{"plate", 0, 1}},
+                    {6.0, 1, 0.0, RemoveAction{"stone 3"}},
+                    {7.0, 1, 0.0, VelocityAction{"wedge", {1.0, 0.0}, 0.0}}};
+    return scene;
+}
+
+template <class T>
+T& action(Scene& scene, std::size_t input) {
+    return std::get<T>(scene.script[input].action);
+}
+Shape& shape(Scene& scene, std::size_t body) {
+    return scene.bodies[body].fixtures[0].shape;
+}
+
+TEST(SceneValidation, AcceptsGoodScenes) {
+    EXPECT_EQ(validate(dropScene(1.0)), "");
+    EXPECT_EQ(validate(shakenScene()), "");
+    EXPECT_EQ(validate(richScene()), "");
+}
+
+struct Fault {
+    const char* name;
+    std::function<void(Scene&)> make;
+    std::string expected; // the sentence begins so
+};
+class FaultyScene : public testing::TestWithParam<Fault> {};
+
+TEST_P(FaultyScene, IsRefusedByNamingThePlace) {
+    Scene scene = richScene();
+    GetParam().make(scene);
+    EXPECT_EQ(validate(scene).substr(0, GetParam().expected.size()), GetParam().expected) << validate(scene);
+}
+
+std::string nameOf(const testing::TestParamInfo<Fault>& fault) {
+    return fault.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ranges, FaultyScene,
+    testing::Values(
+        Fault{"NoName", [](Scene& s) { s.name.clear(); }, "name: expected text"},
+        Fault{"FieldWidth", [](Scene& s) { s.fieldWidthMetres = 0.0; },
+              "field_m[0]: expected 0.01 to 1000, found 0"},
+        Fault{"FieldHeight", [](Scene& s) { s.fieldHeightMetres = nan; }, "field_m[1]: expected"},
+        Fault{"DriveGain", [](Scene& s) { s.driveGain = -1.0; }, "drive_gain: expected"},
+        Fault{"Gravity", [](Scene& s) { s.gravityMetresPerSecond2.y = nan; },
+              "gravity_m_per_s2[1]: expected"},
+        Fault{"HandMass", [](Scene& s) { s.normalisation.handMassKg = -1.0; },
+              "normalisation.hand_mass_kg: expected"},
+        Fault{"Density", [](Scene& s) { s.materials[1].densityKgPerSquareMetre = 0.0; },
+              "materials[1].density_kg_per_m2: expected"},
+        Fault{"Friction", [](Scene& s) { s.materials[0].friction = -0.1; },
+              "materials[0].friction: expected"},
+        Fault{"Restitution", [](Scene& s) { s.materials[0].restitution = 1.1; },
+              "materials[0].restitution: expected 0 to 1, found 1.1"},
+        Fault{"Frequency", [](Scene& s) { s.materials[0].frequencyHz = 1.0e6; }, "materials[0].frequency_hz"},
+        Fault{"Decay", [](Scene& s) { s.materials[0].decayPerSecond = -1.0; }, "materials[0].decay_per_s"},
+        Fault{"MaterialIndex", [](Scene& s) { s.bodies[1].fixtures[0].material = 2; },
+              "bodies[1].fixtures[0].material: expected one of the 2"},
+        Fault{"NegativeIndex", [](Scene& s) { s.bodies[1].fixtures[0].material = -1; },
+              "bodies[1].fixtures[0].material: expected"},
+        Fault{"Radius", [](Scene& s) { shape(s, 1) = CircleShape{0.0}; },
+              "bodies[1].fixtures[0].radius_m: expected"},
+        Fault{"Width",
+              [](Scene& s) {
+                  shape(s, 0) = BoxShape{-1.0, 1.0};
+              },
+              "bodies[0].fixtures[0].size_m[0]: expected"},
+        Fault{"Height",
+              [](Scene& s) {
+                  shape(s, 0) = BoxShape{1.0, nan};
+              },
+              "bodies[0].fixtures[0].size_m[1]: expected"},
+        Fault{"NoFixture", [](Scene& s) { s.bodies[0].fixtures.clear(); },
+              "bodies[0].fixtures: expected 1 to 64 items, found 0"},
+        Fault{"Position", [](Scene& s) { s.bodies[0].positionMetres.y = 1.0e9; },
+              "bodies[0].position_m[1]: expected"},
+        Fault{"Angle", [](Scene& s) { s.bodies[0].angleRadians = nan; }, "bodies[0].angle_rad: expected"},
+        Fault{"Mass", [](Scene& s) { s.bodies[1].massKg = -1.0; }, "bodies[1].mass_kg: expected"},
+        Fault{"JointLimits",
+              [](Scene& s) {
+                  std::get<RevoluteJoint>(s.joints[0].joint).limitsRadians = {1.0, -1.0};
+              },
+              "joints[0].limits_rad: expected [lower, upper]"},
+        Fault{"Torque",
+              [](Scene& s) { std::get<RevoluteJoint>(s.joints[0].joint).maxTorqueNewtonMetres = -1.0; },
+              "joints[0].max_torque_nm: expected"},
+        Fault{"Period", [](Scene& s) { s.scriptPeriodSeconds = -1.0; }, "script_period_s: expected"},
+        Fault{"Time", [](Scene& s) { s.script[0].timeSeconds = nan; }, "script[0].time_s: expected"},
+        Fault{"Times", [](Scene& s) { s.script[1].times = 0; }, "script[1].times: expected 1 to"},
+        Fault{"SpawnedShape",
+              [](Scene& s) { action<SpawnAction>(s, 1).body.fixtures[0].shape = CircleShape{-1.0}; },
+              "script[1].body.fixtures[0].radius_m: expected"},
+        Fault{"SpawnedFixtures", [](Scene& s) { action<SpawnAction>(s, 1).body.fixtures.clear(); },
+              "script[1].body.fixtures: expected 1 to"},
+        Fault{"Impulse", [](Scene& s) { action<ImpulseAction>(s, 2).newtonSeconds.x = nan; },
+              "script[2].impulse_ns[0]: expected"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Outlines, FaultyScene,
+    testing::Values(Fault{"Clockwise",
+                          [](Scene& s) {
+                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {0.0, 0.5}, {0.5, 0.0}}};
+                          },
+                          "bodies[3].fixtures[0].vertices_m: expected a convex outline"},
+                    Fault{"Dented",
+                          [](Scene& s) {
+                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {1.0, 0.0}, {0.1, 0.1}, {0.0, 1.0}}};
+                          },
+                          "bodies[3].fixtures[0].vertices_m: expected a convex outline"},
+                    Fault{"TwiceAround",
+                          [](Scene& s) {
+                              shape(s, 3) = PolygonShape{
+                                  {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
+                          },
+                          "bodies[3].fixtures[0].vertices_m: expected a convex outline"},
+                    Fault{"Sliver",
+                          [](Scene& s) {
+                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.001}}};
+                          },
+                          "bodies[3].fixtures[0].vertices_m: expected an outline at least"},
+                    Fault{"ShortEdge",
+                          [](Scene& s) {
+                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.005}, {0.0, 1.0}}};
+                          },
+                          "bodies[3].fixtures[0].vertices_m: expected edges"},
+                    Fault{"TwoVertices",
+                          [](Scene& s) {
+                              shape(s, 3) = PolygonShape{{{0.0, 0.0}, {1.0, 0.0}}};
+                          },
+                          "bodies[3].fixtures[0].vertices_m: expected 3 to 8 items, found 2"},
+                    Fault{"Vertex",
+                          [](Scene& s) {
+                              shape(s, 3) = PolygonShape{{{0.0, nan}, {1.0, 0.0}, {0.0, 1.0}}};
+                          },
+                          "bodies[3].fixtures[0].vertices_m[0][1]: expected"},
+                    Fault{"ShortChain",
+                          [](Scene& s) {
+                              shape(s, 2) = ChainShape{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.0}}};
+                          },
+                          "bodies[2].fixtures[0].vertices_m: expected edges"},
+                    Fault{"LoopOfTwo",
+                          [](Scene& s) {
+                              shape(s, 2) = ChainShape{{{0.0, 0.0}, {1.0, 0.0}}, true};
+                          },
+                          "bodies[2].fixtures[0].vertices_m: expected at least 3"},
+                    Fault{
+                        "LoopThatEndsWhereItBegins",
+                        [](Scene& s) {
+                            shape(s, 2) = ChainShape{{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}}, true};
+                        },
+                        "bodies[2].fixtures[0].vertices_m: expected edges"},
+                    Fault{"MovingChain", [](Scene& s) { s.bodies[2].type = BodyType::dynamicBody; },
+                          "bodies[2].fixtures[0].shape: a chain has no mass"},
+                    Fault{"FarOut",
+                          [](Scene& s) {
+                              s.bodies[1].fixtures[0].offsetMetres = {50.0, 0.0};
+                          },
+                          "bodies[1].fixtures: expected a centre of mass nearer"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    References, FaultyScene,
+    testing::Values(Fault{"MaterialNames", [](Scene& s) { s.materials[1].name = "concrete"; },
+                          "materials[1].name: expected a name of its own, found \"concrete\" again"},
+                    Fault{"BodyNames", [](Scene& s) { s.bodies[1].name = "plate"; },
+                          "bodies[1].name: expected a name of its own"},
+                    Fault{"SpawnedName", [](Scene& s) { s.bodies[1].name = "stone 2"; },
+                          "bodies: expected names of their own, found \"stone 2\" twice"},
+                    Fault{"JointNames", [](Scene& s) { s.joints[1].name = "hinge"; },
+                          "joints[1].name: expected a name of its own"},
+                    Fault{"JointBodyA", [](Scene& s) { s.joints[0].bodyA = "bal"; },
+                          "joints[0].body_a: expected the name of a body, found \"bal\""},
+                    Fault{"JointBodyB", [](Scene& s) { s.joints[0].bodyB = "stone"; },
+                          "joints[0].body_b: expected the name of a body"},
+                    Fault{"JointOfOne", [](Scene& s) { s.joints[0].bodyB = "ball"; },
+                          "joints[0].body_b: expected another body"},
+                    Fault{"WheelAxis",
+                          [](Scene& s) {
+                              s.joints[0].joint = WheelJoint{{}, {0.0, 0.0}};
+                          },
+                          "joints[0].axis: expected a direction"},
+                    Fault{"ImpulseBody", [](Scene& s) { action<ImpulseAction>(s, 2).body = "x"; },
+                          "script[2].body: expected the name of a body, found \"x\""},
+                    Fault{"RemovedBody", [](Scene& s) { action<RemoveAction>(s, 6).body = "stone"; },
+                          "script[6].body: expected the name of a body"},
+                    Fault{"MotorOfARod", [](Scene& s) { action<MotorAction>(s, 3).joint = "rod"; },
+                          "script[3].joint: expected the name of a revolute or wheel joint"},
+                    Fault{"MotorOfNothing", [](Scene& s) { action<MotorAction>(s, 3).joint = "x"; },
+                          "script[3].joint: expected the name of a revolute or wheel joint"},
+                    Fault{"FixtureIndex", [](Scene& s) { action<MaterialAction>(s, 5).fixture = 1; },
+                          "script[5].fixture: expected 0 to 0, found 1"},
+                    Fault{"AfterThePeriod", [](Scene& s) { s.scriptPeriodSeconds = 6.5; },
+                          "script[7].time_s: expected 0 to 6.5, found 7"},
+                    Fault{"RepetitionAfterThePeriod",
+                          [](Scene& s) {
+                              s.script[1].everySeconds = 4.0;
+                              s.scriptPeriodSeconds = 8.0;
+                          },
+                          "script[1].time_s: expected 0 to 8, found 9"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Cameras, FaultyScene,
+    testing::Values(Fault{"Mass", [](Scene& s) { s.bodies[0].massKg = 0.0; },
+                          "bodies[0].mass_kg: a camera body"},
+                    Fault{"Frequency", [](Scene& s) { s.materials[0].frequencyHz = 0.0; },
+                          "bodies[0].fixtures[0].material: a camera"},
+                    Fault{"Decay", [](Scene& s) { s.materials[0].decayPerSecond = 0.0; },
+                          "bodies[0].fixtures[0].material: a camera"},
+                    Fault{"MaterialOfLater",
+                          [](Scene& s) {
+                              s.materials[1].frequencyHz = 0.0;
+                              s.script.erase(s.script.begin() + 4);
+                          },
+                          "bodies[0].fixtures[0].material: a camera"},
+                    Fault{"CameraOfLater",
+                          [](Scene& s) {
+                              s.materials[1].frequencyHz = 0.0;
+                              s.script.erase(s.script.begin() + 5);
+                          },
+                          "script[1].body.fixtures[0].material: a camera"},
+                    Fault{"VoiceOfOthers",
+                          [](Scene& s) {
+                              s.materials[1].frequencyHz = 0.0;
+                              s.bodies[0].fixtures[0].voice = Voice::other;
+                          },
+                          "materials[1]: expected frequency_hz and decay_per_s, for bodies[0]"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Totals, FaultyScene,
+    testing::Values(Fault{"Bodies", [](Scene& s) { s.bodies.resize(1'000'000, s.bodies[1]); },
+                          "bodies: expected 0 to 4096 items, found 1000000"},
+                    Fault{"SpawnedBodies",
+                          [](Scene& s) {
+                              s.script[1].times = 100'000;
+                              s.script[1].everySeconds = 0.0;
+                          },
+                          "bodies: expected at most 4096 in all, found 100004"},
+                    Fault{"Repetitions", [](Scene& s) { s.script[0].times = 1'000'000; },
+                          "script[0].times: expected 1 to 100000, found 1e+06"},
+                    Fault{"Actions", [](Scene& s) { s.script[0].times = 100'000; },
+                          "script actions: expected at most 100000 in all, found 100009"},
+                    Fault{"Fixtures",
+                          [](Scene& s) {
+                              action<SpawnAction>(s, 1).body.fixtures.resize(
+                                  64, action<SpawnAction>(s, 1).body.fixtures[0]);
+                              s.script[1].times = 200;
+                              s.script[1].everySeconds = 0.0;
+                          },
+                          "fixtures: expected at most 8192 in all, found 12804"},
+                    Fault{"ChainVertices",
+                          [](Scene& s) { std::get<ChainShape>(shape(s, 2)).verticesMetres.resize(1025); },
+                          "bodies[2].fixtures[0].vertices_m: expected 2 to 1024 items, found 1025"}),
+    nameOf);
+
+TEST(SceneValidation, MaterialsAloneAreCheckedToo) {
+    Scene scene = dropScene(1.0);
+    EXPECT_EQ(validateMaterials(scene.materials), "");
+    scene.materials[1].friction = -1.0;
+    EXPECT_EQ(validateMaterials(scene.materials), "materials[1].friction: expected 0 to 100, found -1");
+}
+
+TEST(SceneWarnings, TellMovingBodiesOutsideBox2dsRange) {
+    Scene scene = richScene();
+    EXPECT_TRUE(sceneWarnings(scene).empty());
+    shape(scene, 0) = BoxShape{90.0, 0.02}; // static: no matter
+    shape(scene, 1) = CircleShape{0.04};
+    shape(scene, 3) = PolygonShape{{{0.0, 0.0}, {12.0, 0.0}, {0.0, 5.0}}};
+    const auto warnings = sceneWarnings(scene);
+    ASSERT_EQ(warnings.size(), 2U);
+    EXPECT_EQ(warnings[0], "bodies[1].fixtures[0]: expected 0.1 to 10, found 0.08 m: Box2D simulates such "
+                           "moving bodies less well");
+    EXPECT_EQ(warnings[1].substr(0, 51), "bodies[3].fixtures[0]: expected 0.1 to 10, found 13");
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// A ball dropped on a plate against the formulas of free fall, and the promises of the event stream.
+#include "Scene/World/Simulation.h"
+#include "DropScene.h"
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <stdexcept>
+#include <tuple>
+
+namespace physvib {
+namespace {
+
+struct Drop {
+    double heightMetres;
+    int stepsPerSecond;
+};
+class DroppedBall : public testing::TestWithParam<Drop> {
+protected:
+    CollisionEvent firstHit() const {
+        const auto events = eventsOf(dropScene(GetParam().heightMetres), 1.2, GetParam().stepsPerSecond);
+        return events.empty() ? CollisionEvent{} : events.front();
+    }
+    double speed() const { return std::sqrt(2.0 * dropGravity * GetParam().heightMetres); }
+};
+
+TEST_P(DroppedBall, HitsWhenFreeFallEnds) {
+    const double expectedSeconds = speed() / dropGravity;
+    EXPECT_NEAR(static_cast<double>(firstHit().timeNs) * 1.0e-9, expectedSeconds, 1.0e-4);
+}
+
+TEST_P(DroppedBall, GivesTheImpulseOfItsBounce) {
+    const double expected = dropMass * speed() * (1.0 + 0.688); // Box2D takes the larger restitution
+    EXPECT_NEAR(firstHit().source.impulseNewtonSeconds, expected, 0.02 * expected);
+}
+
+TEST_P(DroppedBall, HasTheAmplitudeOfTheEquations) {
+    const CollisionEvent hit = firstHit();
+    const double normalisation = 1.0 / (2.0 * 4.0); // Eq. 5.7: one field width per second
+    const double expected =
+        3.0 * normalisation * hit.source.impulseNewtonSeconds / (plateMass + plateMass); // Eq. 5.4
+    EXPECT_DOUBLE_EQ(hit.amplitude, expected);
+    EXPECT_EQ(hit.source.massKg, plateMass);
+}
+
+TEST_P(DroppedBall, IsFeltWhereItHitsWithThePlatesSound) {
+    const CollisionEvent hit = firstHit();
+    EXPECT_NEAR(hit.x, 1.7, 1.0e-3);
+    EXPECT_NEAR(hit.y, 0.3, 0.04); // half of a step's travel at 7.7 m/s, 100 steps/s
+    EXPECT_EQ(hit.frequencyHz, 80.0);
+    EXPECT_EQ(hit.decayPerSecond, 34.13);
+    EXPECT_EQ(hit.source.fixture, plateIndex);
+    EXPECT_EQ(hit.source.other, ballIndex);
+}
+
+std::string nameOf(const testing::TestParamInfo<Drop>& drop) {
+    return "From" + std::to_string(static_cast<int>(drop.param.heightMetres)) + "MetresAt" +
+           std::to_string(drop.param.stepsPerSecond) + "StepsPerSecond";
+}
+
+INSTANTIATE_TEST_SUITE_P(HeightsAndRates, DroppedBall,
+                         testing::Values(Drop{1.0, 100}, Drop{2.0, 100}, Drop{3.0, 100}, Drop{1.0, 1000},
+                                         Drop{2.0, 1000}, Drop{3.0, 1000}),
+                         nameOf);
+
+TEST(Simulation, BouncingBallHitsOncePerBounceThenRestsInSilence) {
+    const auto events = eventsOf(dropScene(1.0), 60.0);
+    ASSERT_GE(events.size(), 3U);
+    EXPECT_LE(events.size(), 12U);
+    EXPECT_LT(events.back().timeNs, 5'000'000'000);
+    for (std::size_t i = 1; i < events.size(); ++i)
+        EXPECT_LT(events[i].source.impulseNewtonSeconds, events[i - 1].source.impulseNewtonSeconds);
+}
+
+TEST(Simulation, BouncesFollowEachOtherAsFlightTimeAndRestitutionSay) {
+    const auto events = eventsOf(dropScene(2.0), 3.0);
+    ASSERT_GE(events.size(), 2U);
+    const double flight = 2.0 * 0.688 * std::sqrt(2.0 * 2.0 / dropGravity);
+    EXPECT_NEAR(static_cast<double>(events[1].timeNs - events[0].timeNs) * 1.0e-9, flight, 0.02);
+}
+
+TEST(Simulation, TwoCamerasEachGetTheirOwnEvent) {
+    Scene scene = dropScene(1.0);
+    scene.bodies[ballIndex].fixtures[0].isCamera = true;
+    const auto events = eventsOf(scene, 0.6);
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events[0].source.fixture, plateIndex);
+    EXPECT_EQ(events[1].source.fixture, ballIndex);
+    EXPECT_EQ(events[1].source.other, plateIndex);
+    EXPECT_EQ(events[1].frequencyHz, 205.0);
+    EXPECT_EQ(events[1].decayPerSecond, 40.0);
+    EXPECT_EQ(events[0].timeNs, events[1].timeNs);
+    EXPECT_NEAR(events[1].source.massKg, dropMass, 1.0e-5);
+    const double model = 3.0 / (2.0 * 4.0) * events[1].source.impulseNewtonSeconds;
+    EXPECT_DOUBLE_EQ(events[1].amplitude, model / (events[1].source.massKg + plateMass));
+}
+
+TEST(Simulation, NothingIsFeltWithoutACamera) {
+    Scene scene = dropScene(1.0);
+    scene.bodies[plateIndex].fixtures[0].isCamera = false;
+    EXPECT_TRUE(eventsOf(scene, 2.0).empty());
+}
+
+TEST(Simulation, StreamIsSortedAndSettledAtEveryStep) {
+    const Scene scene = shakenScene();
+    Simulation simulation(scene, 1, 100);
+    std::vector<CollisionEvent> events;
+    std::int64_t settledBefore = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const std::size_t known = events.size();
+        simulation.step(events);
+        for (std::size_t j = known; j < events.size(); ++j) {
+            EXPECT_GE(events[j].timeNs, settledBefore);
+            EXPECT_LT(events[j].timeNs, simulation.settledNs());
+            EXPECT_TRUE(isPlayable(events[j]));
+        }
+        settledBefore = simulation.settledNs();
+        EXPECT_EQ(simulation.timeNs(), (i + 1) * 10'000'000LL);
+    }
+    const auto isBefore = [](const CollisionEvent& a, const CollisionEvent& b) {
+        return std::tie(a.timeNs, a.source.fixture) < std::tie(b.timeNs, b.source.fixture);
+    };
+    EXPECT_TRUE(std::is_sorted(events.begin(), events.end(), isBefore));
+    EXPECT_GT(events.size(), 100U);
+    EXPECT_EQ(simulation.drops(), 0U);
+}
+
+TEST(Simulation, SameSeedRepeatsEveryBitAndAnotherSeedDiffers) {
+    const Scene scene = shakenScene();
+    const auto first = eventsOf(scene, 20.0, 100, 7);
+    EXPECT_EQ(first, eventsOf(scene, 20.0, 100, 7));
+    EXPECT_NE(first, eventsOf(scene, 20.0, 100, 8));
+}
+
+TEST(Simulation, SeedZeroStartsExactlyAsDescribedAndOthersWithinAMillimetre) {
+    const Scene scene = dropScene(1.0);
+    EXPECT_EQ(Simulation(scene, 0, 100).pose(ballIndex).xMetres, 1.7F);
+    const double moved = Simulation(scene, 5, 100).pose(ballIndex).xMetres - 1.7F;
+    EXPECT_NE(moved, 0.0);
+    EXPECT_LE(std::abs(moved), 1.001e-3);
+    EXPECT_EQ(Simulation(scene, 5, 100).pose(plateIndex).xMetres, 2.0);
+}
+
+TEST(Simulation, BallRestsWhereThePlateIsDescribed) {
+    Simulation simulation(dropScene(0.1), 0, 100);
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < 500; ++i) simulation.step(events);
+    EXPECT_NEAR(simulation.pose(ballIndex).yMetres, 0.3 + dropRadius, 0.006); // Box2D's slop is 5 mm
+}
+
+TEST(Simulation, ChangedGravityWakesSleepingBodies) {
+    Scene scene = dropScene(0.1);
+    scene.bodies[ballIndex].positionMetres.x = 2.0;
+    scene.script = {{20.0, 1, 0.0, GravityAction{{5.0, -dropGravity}}}};
+    Simulation simulation(scene, 0, 100);
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < 2000; ++i) simulation.step(events);
+    EXPECT_NEAR(simulation.pose(ballIndex).xMetres, 2.0, 1.0e-3);
+    for (int i = 0; i < 50; ++i) simulation.step(events);
+    EXPECT_GT(simulation.pose(ballIndex).xMetres, 2.2);
+}
+
+TEST(Simulation, SmallFastBodiesDoNotPassThroughMovingOnes) {
+    Scene scene = dropScene(1.0);
+    const auto box = [](double width, double height) -> std::vector<FixtureDescription> {
+        return {{BoxShape{width, height}, {}, 0.0, 0, true}};
+    };
+    scene.bodies[ballIndex].fixtures[0].shape = CircleShape{0.03};
+    scene.bodies[plateIndex] = {"shelf", BodyType::dynamicBody, box(2.4, 0.1), {2.0, 1.05}};
+    scene.bodies.push_back({"left support", BodyType::staticBody, box(0.2, 1.0), {1.0, 0.5}});
+    scene.bodies.push_back({"right support", BodyType::staticBody, box(0.2, 1.0), {3.0, 0.5}});
+    scene.bodies[2].massKg = scene.bodies[3].massKg = plateMass;
+    scene.gravityMetresPerSecond2 = {0.0, -100.0};
+    for (double height = 8.0; height < 8.4; height += 0.1) { // 40 m/s, 0.4 m per step
+        scene.bodies[ballIndex].positionMetres = {2.0, height};
+        Simulation simulation(scene, 0, 100);
+        std::vector<CollisionEvent> events;
+        for (int i = 0; i < 60; ++i) {
+            simulation.step(events);
+            ASSERT_GT(simulation.pose(ballIndex).yMetres, 1.0) << height;
+        }
+    }
+}
+
+TEST(Simulation, CameraSwitchedOnLaterFeelsFromThenOn) {
+    Scene scene = dropScene(1.0);
+    scene.bodies[plateIndex].fixtures[0].isCamera = false;
+    const auto all = eventsOf(dropScene(1.0), 3.0);
+    ASSERT_GE(all.size(), 3U);
+    const double between = 0.5e-9 * static_cast<double>(all[0].timeNs + all[1].timeNs);
+    const double beyond = 0.5e-9 * static_cast<double>(all[1].timeNs + all[2].timeNs);
+    scene.script = {{between, 1, 0.0, CameraAction{"plate", 0, true}},
+                    {beyond, 1, 0.0, CameraAction{"plate", everyFixture, false}}};
+    EXPECT_EQ(eventsOf(scene, 3.0), (std::vector{all[1]}));
+}
+
+TEST(Simulation, ChangedMaterialIsHeardInTheNextHit) {
+    Scene scene = dropScene(1.0);
+    scene.materials.push_back({"glass", 2500.0, 0.5, 0.5, 1200.0, 15.0});
+    const auto before = eventsOf(scene, 3.0);
+    const double between = 0.5e-9 * static_cast<double>(before[0].timeNs + before[1].timeNs);
+    scene.script = {{between, 1, 0.0, MaterialAction{"plate", 0, 2}}};
+    const auto events = eventsOf(scene, 3.0);
+    ASSERT_EQ(events.size(), before.size());
+    EXPECT_EQ(events[0].frequencyHz, 80.0);
+    EXPECT_EQ(events[1].frequencyHz, 1200.0);
+    EXPECT_EQ(events[1].decayPerSecond, 15.0);
+}
+
+TEST(Simulation, NormalisationMayBeGiven) {
+    Scene scene = dropScene(1.0);
+    scene.normalisation = {0.25, 30.0};
+    const auto hit = eventsOf(scene, 1.0).at(0);
+    EXPECT_DOUBLE_EQ(hit.amplitude, 3.0 * 0.25 * hit.source.impulseNewtonSeconds / (plateMass + 30.0));
+}
+
+TEST(Simulation, HandMassFollowsTheBodiesPresent) {
+    Scene scene = dropScene(1.0);
+    BodyDescription giant = scene.bodies[plateIndex];
+    giant.name = "giant";
+    giant.positionMetres = {50.0, 50.0};
+    giant.massKg = 5000.0;
+    scene.script = {{0.1, 1, 0.0, SpawnAction{giant, {}}}, {0.2, 1, 0.0, RemoveAction{"giant"}}};
+    Simulation simulation(scene, 0, 100);
+    std::vector<CollisionEvent> events;
+    const auto handMassAfter = [&](int steps) {
+        for (int i = 0; i < steps; ++i) simulation.step(events);
+        return simulation.impactModel().handMassKg;
+    };
+    EXPECT_EQ(handMassAfter(5), plateMass);
+    EXPECT_EQ(handMassAfter(10), 5000.0);
+    EXPECT_EQ(handMassAfter(10), plateMass);
+}
+
+TEST(Simulation, SpawnedBodiesStrikeUnderTheirOwnNumbers) {
+    Scene scene = dropScene(1.0);
+    BodyDescription stone = scene.bodies[ballIndex];
+    stone.name = "stone";
+    stone.positionMetres = {1.0, 1.45};
+    scene.script = {{1.0, 3, 0.2, SpawnAction{stone, {0.7, 0.0}}}};
+    scene.bodies.pop_back();
+    std::vector<int> strikers;
+    for (const CollisionEvent& event : eventsOf(scene, 1.95)) strikers.push_back(event.source.other);
+    EXPECT_EQ(strikers, (std::vector{1, 2, 3}));
+}
+
+TEST(Simulation, RefusesAnInvalidSceneAndStepRate) {
+    Scene scene = dropScene(1.0);
+    EXPECT_THROW(Simulation(scene, 0, 0), std::invalid_argument);
+    EXPECT_THROW(Simulation(scene, 0, 10'001), std::invalid_argument);
+    scene.bodies[ballIndex].fixtures[0].shape = CircleShape{-1.0};
+    EXPECT_THROW(Simulation(scene, 0, 100), std::invalid_argument);
+}
+
+} // namespace
+} // namespace physvib

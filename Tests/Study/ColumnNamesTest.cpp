@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Tables of experiment programs under our columns' names.
+#include "Study/Files/ColumnNames.h"
+#include "Study/Files/LongTableCsv.h"
+#include "Study/Files/StudyCsv.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+const std::string psychopy = "sound,key_resp.keys,key_resp.rt,participant,expInfo,\n"
+                             "A,A,0.4,7,x,\n"
+                             ",,,7,x,\n"
+                             "B,A,0.6,7,x,\n";
+
+std::vector<ColumnName> names(const std::vector<std::string>& words) { return parseColumnNames(words).value; }
+
+TEST(ColumnNames, ATableOfPsychoPyIsReadByTheNamesThatItHas) {
+    const auto columns = names({"stimulus=sound", "response=key_resp.keys", "participant=participant"});
+    const NamedText file{psychopy, "p.csv", columns};
+    const auto read = readIdentification({&file, 1});
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(read.value.conditions.front().trials, (std::vector<IdentificationTrial>{{"A", "A", "7"}, {"B", "A", "7"}}));
+    ASSERT_EQ(read.value.warnings.size(), 1u);
+    EXPECT_EQ(read.value.warnings.front(), "p.csv: rows left out, with nothing in one of the named columns: 1");
+    const NamedText plain{psychopy, "p.csv"};
+    EXPECT_EQ(readIdentification({&plain, 1}).error, "p.csv:1: expected a name for every column");
+}
+
+TEST(ColumnNames, OnlyNamedColumnsCountAndFaultsNameTheLine) {
+    const auto columns = names({"stimulus=sound", "realism=key_resp.rt", "participant=participant"});
+    const NamedText file{psychopy, "p.csv", columns};
+    const auto ratings = readRatings({&file, 1});
+    ASSERT_TRUE(ratings) << ratings.error;
+    EXPECT_EQ(ratings.value.scales, std::vector<std::string>{"realism"});
+    const auto wrong = names({"stimulus=sound", "realism=key_resp.keys"});
+    const NamedText other{psychopy, "p.csv", wrong};
+    EXPECT_EQ(readRatings({&other, 1}).error, "p.csv:2: column realism: expected a number from 0 to 100, found \"A\"");
+    const auto missing = names({"stimulus=picture"});
+    const NamedText none{psychopy, "p.csv", missing};
+    EXPECT_EQ(readRatings({&none, 1}).error, "p.csv: expected a column picture, found none");
+}
+
+TEST(ColumnNames, ASimulationStaysMarked) {
+    const std::string text = "s,r,observer\nA,A,simulated\n";
+    const auto columns = names({"stimulus=s", "response=r"});
+    const NamedText file{text, "t.csv", columns};
+    EXPECT_TRUE(readIdentification({&file, 1}).value.isSimulated);
+}
+
+TEST(ColumnNames, WordsThatNameNothingAreRefused) {
+    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"response"}).error, "expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found \"response\"");
+    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b", "a=c"}).error, "expected each name once, found \"a\" twice");
+    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b=c"}).value.front().theirs, "b=c");
+}
+
+TEST(ColumnNames, PartsOfAConditionAreFactorsAndRowsCanBeChosen) {
+    const std::string text = "participant,condition,score\nP,PHONE-3x3,1\nP,PHONE-4x4,2\nP,RING-3x3,3\nP,RING-4x4,4\n";
+    const NamedText file{text, "t.csv"};
+    const auto read = readLongTable({&file, 1}, {"score", {"condition.1", "condition.2"}, "", ""});
+    ASSERT_TRUE(read) << read.error;
+    const Design design = Design::of(read.value.table);
+    EXPECT_EQ(design.within[1].levels, (std::vector<std::string>{"3x3", "4x4"}));
+    const auto ring = readLongTable({&file, 1}, {"score", {"condition.2"}, "", "", {"condition.1=RING"}});
+    ASSERT_TRUE(ring) << ring.error;
+    EXPECT_EQ(Design::of(ring.value.table).values, (std::vector<double>{3, 4}));
+    EXPECT_EQ(readLongTable({&file, 1}, {"score", {"condition.3"}, "", ""}).error, "t.csv:2: column condition: expected 3 parts between hyphens, found \"PHONE-3x3\"");
+    EXPECT_EQ(readLongTable({&file, 1}, {"score", {"condition"}, "", "", {"hand=left"}}).error.substr(0, 5), "t.csv");
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+// Trial files: rows come back as records, cut ends are dropped, other people's files are left alone.
+#include "Study/Files/TrialLog.h"
+#include "FileTesting.h"
+#if !defined(_WIN32)
+#include "FullDisk.h"
+#endif
+#include "Study/Files/ProtocolFile.h"
+#include "Io/Disk/ReadFile.h"
+#include "Study/Files/StudyCsv.h"
+#include "Study/Experiment.h"
+#include "Study/SimulatedObserver.h"
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+const Participant participant{"P01", 1, "simulated"};
+
+std::string wholeFile(const Protocol& p) {
+    Experiment experiment{p, participant};
+    const SimulatedObserver observer{{}, p, participant};
+    std::string text = trialHeader(p, participant, "0");
+    while (!experiment.isDone()) text += trialRow(p, participant, experiment.take(observer.answer(experiment)));
+    return text;
+}
+
+TEST(TrialLog, EveryProtocolsRowsAreTheExperimentAgain) {
+    for (const Protocol& p : builtInProtocols()) {
+        const std::string text = wholeFile(p);
+        const auto log = readTrialLog(text, "t.csv", p, participant);
+        ASSERT_TRUE(log) << p.name << ": " << log.error;
+        EXPECT_EQ(log.value.wholeBytes, text.size());
+        Experiment experiment{p, participant};
+        std::string again = trialHeader(p, participant, "0");
+        for (const TrialRecord& record : log.value.records) {
+            const Trial trial = experiment.trial();
+            ASSERT_EQ(experiment.redo(record), "") << p.name;
+            again += trialRow(p, participant, {trial, record.answer});
+        }
+        EXPECT_TRUE(experiment.isDone());
+        EXPECT_EQ(again, text) << p.name;
+    }
+}
+
+TEST(TrialLog, ManyLongCallsOfATrialAreReadBack) {
+    Protocol p = findProtocol("magnitudes").value;
+    p.conditions.resize(1);
+    p.conditions[0].stimuli = CallSet{{{"n", {"one"}}}, "render drop --set pair={object} --layout " + std::string(1500, 'l')};
+    p.sessions.resize(1);
+    p.sessions[0].task = StudyTask::rate;
+    p.sessions[0].scales = {"liking"};
+    for (int i = 0; i < 64; ++i) p.sessions[0].objects.push_back("object " + std::to_string(i));
+    ASSERT_EQ(validate(p), "");
+    const std::string text = wholeFile(p);
+    EXPECT_GT(text.size(), 64u * 1500);
+    const auto log = readTrialLog(text, "t.csv", p, participant);
+    ASSERT_TRUE(log) << log.error;
+    EXPECT_EQ(log.value.wholeBytes, text.size());
+}
+
+TEST(TrialLog, NumbersThatAnObserverGivesOfAnyLevelAreReadBack) {
+    Protocol p = findProtocol("magnitudes").value;
+    p.conditions.resize(1);
+    p.conditions[0].stimuli = CallSet{{{"level_g", {"1e-60", "0.1", "1e60"}}}, "stimulus phantom --level-g {level_g}"};
+    const auto log = readTrialLog(wholeFile(p), "t.csv", p, participant);
+    ASSERT_TRUE(log) << log.error;
+    Experiment experiment{p, participant};
+    for (const double number : {0.0, 1e-13, 1e13, std::nan(""), HUGE_VAL}) {
+        Answer answer;
+        answer.value = number;
+        EXPECT_EQ(experiment.refusal(answer), "expected a number from 1e-12 to 1e12");
+    }
+}
+
+TEST(TrialLog, CutAnywhereTheWholeRowsRemain) {
+    const Protocol protocol = findProtocol("level-steps").value;
+    const std::string text = wholeFile(protocol);
+    const std::size_t rows = readTrialLog(text, "t.csv", protocol, participant).value.records.size();
+    for (std::size_t bytes = 0; bytes < text.size(); bytes += 13) {
+        const auto log = readTrialLog(std::string_view{text}.substr(0, bytes), "t.csv", protocol, participant);
+        ASSERT_TRUE(log) << log.error;
+        EXPECT_LE(log.value.wholeBytes, bytes);
+        EXPECT_LT(log.value.records.size(), rows);
+        if (log.value.wholeBytes > 0) { EXPECT_EQ(text[log.value.wholeBytes - 1], '\n'); }
+    }
+}
+
+TEST(TrialLog, FilesOfOthersAreRefused) {
+    const Protocol p = findProtocol("level-steps").value;
+    const std::string text = wholeFile(p);
+    const auto refusal = [&](const Protocol& protocol, const Participant& who) { return readTrialLog(text, "t.csv", protocol, who).error; };
+    EXPECT_EQ(refusal(p, participant), "");
+    EXPECT_EQ(refusal(p, {"P02", 1, "simulated"}), "t.csv:1: expected trials of participant P02, found P01");
+    EXPECT_EQ(refusal(p, {"P01", 2, "simulated"}), "t.csv:1: expected trials of number 2, found 1");
+    EXPECT_EQ(refusal(p, {"P01", 1, "person"}), "t.csv:1: expected trials of observer person, found simulated");
+    EXPECT_EQ(refusal(findProtocol("magnitudes").value, participant), "t.csv:1: expected trials of protocol magnitudes, found level-steps");
+    Protocol changed = p;
+    changed.seed = 9;
+    EXPECT_EQ(refusal(changed, participant), "t.csv:1: expected trials of seed 9, found 1");
+    EXPECT_EQ(readTrialLog("my diary", "t.csv", p, participant).error, "t.csv:1: expected a trial file of physvib, found something else") << "even a single line without an end";
+}
+
+TEST(TrialLog, WhatWasFeltIsKeptAndTheExposureComesBack) {
+    const Protocol p = findProtocol("level-steps").value;
+    Experiment experiment{p, participant};
+    Answer answer{.response = "stronger"};
+    answer.felt = {{0.25, 0.125}, {1.0 / 3.0, 0.2}};
+    answer.exposure = 0.0123456789;
+    const std::string text = trialHeader(p, participant, "0") + trialRow(p, participant, experiment.take(answer));
+    EXPECT_TRUE(text.ends_with(",0.25|0.333333,0.125|0.2,0.0123457\n")) << text;
+    const auto log = readTrialLog(text, "t.csv", p, participant);
+    ASSERT_TRUE(log) << log.error;
+    EXPECT_EQ(log.value.records.front().answer.exposure, 0.0123457);
+}
+
+TEST(TrialLog, AProtocolThatHasChangedSinceIsToldAsThat) {
+    const Protocol p = findProtocol("level-steps").value;
+    const std::string text = wholeFile(p);
+    Protocol changed = p;
+    changed.sessions.front().question = "Which one is stronger now?";
+    EXPECT_EQ(readTrialLog(text, "t.csv", changed, participant).error,
+              "t.csv:1: was begun with another version of the protocol level-steps (hash " + protocolHash(p) + ", now " + protocolHash(changed) +
+                  "), so it does not go on: keep it, and begin anew in another folder");
+}
+
+TEST(TrialLog, BadRowsAreNamed) {
+    const Protocol p = findProtocol("level-steps").value;
+    std::string text = wholeFile(p);
+    const std::size_t at = text.find(",choose,");
+    text.replace(text.find("P01,simulated,PHONE", at - 60), 19, "P01,simulated,GLOVE");
+    EXPECT_EQ(readTrialLog(text, "t.csv", p, participant).error, "t.csv:3: column condition: expected a condition of the protocol, found \"GLOVE\"");
+}
+
+class TrialLogFiles : public FolderTest {
+protected:
+    void SetUp() override {
+        FolderTest::SetUp();
+        path = folder / "t.csv";
+    }
+    /// As a study does: what the file has is done again, the rest is answered and kept; `change(answer)` before.
+    template <class Change>
+    void goOn(const Protocol& p, Change change) const {
+        TrialLogFile log{path, p, participant, "0"};
+        ASSERT_EQ(log.error(), "");
+        Experiment experiment{p, participant};
+        const SimulatedObserver observer{{}, p, participant};
+        for (const auto& record : log.records()) ASSERT_EQ(experiment.redo(record), "");
+        while (!experiment.isDone()) {
+            Answer answer = observer.answer(experiment);
+            change(answer);
+            ASSERT_TRUE(log.append(experiment.take(answer)));
+            EXPECT_EQ(readFile(path, 1'000'000).value.back(), '\n') << "each row is there at once";
+        }
+    }
+    std::filesystem::path path;
+};
+
+TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
+    const Protocol p = findProtocol("magnitudes").value;
+    const std::string text = wholeFile(p);
+    for (const std::size_t bytes : {std::size_t{0}, std::size_t{40}, text.size() / 3, text.size() / 2, text.size() - 1}) {
+        std::ofstream{path, std::ios::binary} << text.substr(0, bytes);
+        goOn(p, [](Answer&) {});
+        EXPECT_EQ(readFile(path, 1'000'000).value, text) << bytes;
+    }
+    std::ofstream{path, std::ios::binary} << "my diary";
+    EXPECT_NE((TrialLogFile{path, p, participant, "0"}.error()), "");
+    EXPECT_EQ(readFile(path, 1'000'000).value, "my diary");
+}
+
+TEST_F(TrialLogFiles, OfBeforeAnythingWasMeasuredGoOnInTheirOwnColumns) {
+    const Protocol p = findProtocol("magnitudes").value;
+    std::string old;
+    std::istringstream lines{wholeFile(p)};
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t measured = line.find(",peak_g,rms_g,a8_m_per_s2");
+        if (measured != std::string::npos) line.resize(measured);
+        else if (line.ends_with(",,,")) line.resize(line.size() - 3);
+        old += line + "\n";
+    }
+    ASSERT_EQ(old.find("peak_g"), std::string::npos);
+    std::ofstream{path, std::ios::binary} << old.substr(0, old.size() / 2);
+    goOn(p, [](Answer& answer) { answer.exposure = 1.0; });
+    EXPECT_EQ(readFile(path, 1'000'000).value, old);
+}
+
+TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
+    const Protocol p = findProtocol("magnitudes").value;
+    Experiment experiment{p, participant};
+    const SimulatedObserver observer{{}, p, participant};
+    {
+        TrialLogFile log{path, p, participant, "0"};
+        EXPECT_EQ((TrialLogFile{path, p, participant, "0"}.error()), path.string() + ": another program is writing it: the participant's study runs already");
+        EXPECT_TRUE(log.append(experiment.take(observer.answer(experiment))));
+    }
+    const TrialLogFile next{path, p, participant, "0"};
+    EXPECT_EQ(next.error(), "");
+    EXPECT_EQ(next.records().size(), 1u);
+}
+
+#if !defined(_WIN32)
+TEST_F(TrialLogFiles, AFullDiskLeavesWholeRows) {
+    const Protocol p = findProtocol("magnitudes").value;
+    const std::string text = wholeFile(p);
+    for (const std::size_t bytes : {std::size_t{0}, std::size_t{10}, text.size() / 2, text.size() - 1}) {
+        std::filesystem::remove(path);
+        {
+            const FileSizeLimit full(bytes);
+            TrialLogFile log{path, p, participant, "0"};
+            Experiment experiment{p, participant};
+            const SimulatedObserver observer{{}, p, participant};
+            while (!experiment.isDone() && log.append(experiment.take(observer.answer(experiment)))) {}
+            EXPECT_EQ(log.error(), path.string() + ": cannot be written: File too large");
+        }
+        const std::string kept = readFile(path, 1'000'000).value;
+        EXPECT_EQ(kept, text.substr(0, bytes < 100 ? 0 : text.rfind('\n', bytes - 1) + 1));
+        EXPECT_EQ(std::filesystem::exists(path), !kept.empty());
+    }
+}
+#endif
+
+TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
+    const Protocol p = findProtocol("level-quest").value;
+    std::string text = wholeFile(p);
+    const auto summaries = [&text]() -> Result<std::vector<LevelSummary>> {
+        const NamedText file{text, "t.csv"};
+        const auto levels = readLevels(std::span{&file, 1});
+        if (!levels) return Failure{levels.error};
+        return summariseLevels(levels.value.conditions.front().trials);
+    };
+    const auto read = summaries();
+    ASSERT_TRUE(read) << read.error;
+    ASSERT_EQ(read.value.size(), 1u);
+    EXPECT_EQ(read.value[0].kind, LevelTrial::Kind::quest);
+    EXPECT_EQ(read.value[0].trials, 30u);
+    EXPECT_NEAR(read.value[0].estimate, 0.674 * std::sqrt(2.0) * 2.0, read.value[0].halfInterval) << "75 % of comparisons with 2 dB of noise";
+    const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20,,,\n";
+    ASSERT_NE(text.rfind(words), std::string::npos);
+    text.replace(text.rfind(words), words.size(), ",weibull,,,\n");
+    EXPECT_EQ(summaries().error, "t.csv:32: column quest: expected the words of a QUEST+ session, found \"weibull\"");
+}
+
+TEST(TrialLog, AnalysesReadIt) {
+    const auto trialsOf = [](const char* name) { return wholeFile(findProtocol(name).value); };
+    const auto one = [](const std::string& text) { return NamedText{text, "t.csv"}; };
+    std::string text = trialsOf("phantom-grids");
+    NamedText file = one(text);
+    const auto grids = readIdentification(std::span{&file, 1});
+    ASSERT_TRUE(grids) << grids.error;
+    EXPECT_EQ(grids.value.conditions.size(), 6u);
+    EXPECT_TRUE(grids.value.isSimulated);
+    std::size_t trials = 0;
+    for (const auto& c : grids.value.conditions) trials += c.trials.size();
+    EXPECT_EQ(trials, 2u * (90 + 160 + 250)) << "training left out";
+    text = trialsOf("phantom-places");
+    file = one(text);
+    EXPECT_EQ(readLocations(std::span{&file, 1}).value.conditions.size(), 4u);
+    text = trialsOf("model-or-sound");
+    file = one(text);
+    EXPECT_EQ(readChoices(std::span{&file, 1}).value.conditions.front().trials.size(), 108u);
+    text = trialsOf("eight-methods");
+    file = one(text);
+    EXPECT_EQ(readRatings(std::span{&file, 1}).value.scales, (std::vector<std::string>{"realism", "harmony", "liking"}));
+}
+
+} // namespace
+} // namespace physvib
