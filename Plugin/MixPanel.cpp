@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Strips and what they change.
+#include "Core/Decibels.h"
 #include "MixPanel.h"
 #include "EditorParts.h"
 #include "Scene/ActuatorFile.h"
@@ -26,7 +27,7 @@ MixStrip::MixStrip(const MixHands& hands, int strip, const juce::String& label)
     setTitle("Strip " + label);
     setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
     fader_.onValueChange = [this] { change([this](Strip& s) { s.gainDb = fader_.getValue(); }); };
-    ceiling_.textFromValueFunction = [this](double db) { return "at most " + number(db, 1) + " dB, " + inG(std::pow(10.0, db / 20.0) * enchanter_.fullScaleG) + " g"; };
+    ceiling_.textFromValueFunction = [this](double db) { return "at most " + number(db, 1) + " dB, " + inG(fromDecibels(db) * enchanter_.fullScaleG) + " g"; };
     ceiling_.onValueChange = [this] { change([this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }); };
     const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint, bool Strip::*what) {
         button.setTitle(name + " " + label);

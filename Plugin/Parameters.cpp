@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of parameters and its two mappings.
+#include "Core/Decibels.h"
 #include "Parameters.h"
 #include <algorithm>
 #include <charconv>
@@ -107,6 +108,6 @@ PanningLaw lawOf(double value) noexcept {
     return law;
 }
 
-double gainOfLevel(double levelDb) noexcept { return levelDb <= silentDb ? 0.0 : std::pow(10.0, levelDb / 20.0); }
+double gainOfLevel(double levelDb) noexcept { return levelDb <= silentDb ? 0.0 : fromDecibels(levelDb); }
 
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Regularised least squares over complex amplitudes.
 #include "Study/Coupling.h"
+#include "Core/Decibels.h"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -49,7 +50,7 @@ ComplexAmplitudes CouplingMatrix::times(const ComplexAmplitudes& amplitudes) con
 }
 
 CouplingMatrix compensationMatrix(const CouplingMatrix& coupling, double mostDecibels) {
-    const double limit = std::pow(10.0, mostDecibels / 20.0);
+    const double limit = fromDecibels(mostDecibels);
     const auto keeps = [limit](const CouplingMatrix& drives) { return strongestDrive(drives) <= limit; };
     CouplingMatrix drives = drivesAt(coupling, leastLambda);
     if (keeps(drives)) return drives;
@@ -90,7 +91,7 @@ double strayShare(const CouplingMatrix& coupling, const CouplingMatrix& drives) 
 CouplingMatrix mismatched(CouplingMatrix coupling, SeededRandom& random) {
     const auto upTo = [&random](double most) { return most * (2.0 * random.uniform() - 1.0); };
     for (ComplexNumber& entry : coupling.entries) {
-        const double share = std::pow(10.0, upTo(mismatchDb) / 20.0);
+        const double share = fromDecibels(upTo(mismatchDb));
         entry *= std::polar(share, upTo(mismatchDegrees) * std::numbers::pi / 180.0);
     }
     return coupling;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One small model per task.
 #include "Study/SimulatedObserver.h"
+#include "Core/Decibels.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -154,8 +155,8 @@ double SimulatedObserver::scored(const Trial& trial, SeededRandom& random) const
 double SimulatedObserver::magnitude(const ConditionPlan& condition, const Trial& trial, SeededRandom& random) const {
     double levelG = condition.levelG; // or what the stimulus is called after
     std::from_chars(trial.stimulus.data(), trial.stimulus.data() + trial.stimulus.size(), levelG);
-    const double db = 20.0 * std::log10(std::max(levelG, 1e-6)) + trial.levelDb + settings_.levelNoiseDb * random.normal();
-    return std::max(0.01, roundedTo(10.0 * std::pow(10.0, 0.9 * db / 20.0), 100.0));
+    const double db = toDecibels(std::max(levelG, 1e-6)) + trial.levelDb + settings_.levelNoiseDb * random.normal();
+    return std::max(0.01, roundedTo(10.0 * fromDecibels(0.9 * db), 100.0));
 }
 
 } // namespace physvib

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Right or wrong, and how to feel it again.
 #include "Study/Trial.h"
+#include "Core/Decibels.h"
 #include "Study/NumberWord.h"
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,7 @@ namespace physvib {
 namespace {
 
 /// Level in g; dB are rounded to a thousandth so that the text is short and exact enough.
-double raised(double levelG, double db) { return db == 0.0 ? levelG : std::round(levelG * std::pow(10.0, db / 20.0) * 1e6) * 1e-6; }
+double raised(double levelG, double db) { return db == 0.0 ? levelG : std::round(levelG * fromDecibels(db) * 1e6) * 1e-6; }
 
 struct Part {
     std::string name;

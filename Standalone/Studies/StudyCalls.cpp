@@ -4,6 +4,7 @@
 #include "CommandLine/Render/JobSession.h"
 #include "CommandLine/Study/CallFiles.h"
 #include "CommandLine/Study/StimulusOptions.h"
+#include "Core/Decibels.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Jobs/LayoutNamed.h"
 #include "Jobs/MakeStimulus.h"
@@ -111,7 +112,7 @@ std::string studyCallFault(const std::string& call, const std::string& folder) {
     if (!parsed.words.isCalled("render") || !sceneFault(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
     const auto layout = layoutNamed(o.layout);
     if (!layout) return layout.error;
-    const double leastG = leastStudyFullScaleG * std::pow(10.0, o.levelDb / 20.0);
+    const double leastG = leastStudyFullScaleG * fromDecibels(o.levelDb);
     for (const EnchanterDescription& enchanter : layout.value.enchanters)
         if (enchanter.fullScaleG < leastG)
             return "--method " + o.method + ": expected enchanters of at least " + fixedNumber(leastG, 2) + " g (full_scale_g), as 1.5 g and 1 dB of headroom are felt, found " +

@@ -11,7 +11,7 @@ namespace {
 
 test::Channels render(const Stimulus& stimulus, int rate, double extraSeconds = 0.05) {
     const int frames = static_cast<int>(std::lround((stimulus.seconds + extraSeconds) * rate));
-    return test::renderEvents<>(stimulus.events, {rate, stimulus.panner.channels(), stimulus.panner, false}, frames).channels;
+    return test::renderEvents(stimulus.events, {rate, stimulus.panner.channels(), stimulus.panner, false}, frames).channels;
 }
 
 /// First and one past the last frame that is not silent, from `from` on; equal if all are.

@@ -5,6 +5,7 @@
 #include "Api/C/Handles.h"
 #include "Api/Live/Live.h"
 #include "Api/Live/physvib-live.h"
+#include "Core/Decibels.h"
 #include <cmath>
 
 namespace physvib::api {
@@ -27,7 +28,7 @@ auto in(physvib_live name, Call call) noexcept -> decltype(call(std::declval<Liv
 }
 
 inline bool isLevel(double db) noexcept { return db >= -90.0 && db <= 0.0; } // not NaN
-inline float gainOf(double db) noexcept { return static_cast<float>(std::pow(10.0, db / 20.0)); }
+inline float gainOf(double db) noexcept { return static_cast<float>(fromDecibels(db)); }
 
 /// Null: as init has it. False, and said, if they are none.
 inline bool takeRenderer(const physvib_renderer_settings* from, RendererSettings& to) {

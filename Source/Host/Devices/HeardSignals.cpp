@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Levels, ramps, and the outputs' turns.
 #include "Host/Devices/HeardSignals.h"
+#include "Core/Decibels.h"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -17,7 +18,7 @@ constexpr double noiseFadeSeconds = 2.0; // to full scale; nobody shall start
 // The noise's generator has a level of its own.
 void HeardSignals::setLevels(const ListeningSettings& l) {
     const auto gainOf = [](double db, double leastDb, double mostDb) {
-        return std::pow(10.0, std::clamp(db, leastDb, mostDb) / 20.0);
+        return fromDecibels(std::clamp(db, leastDb, mostDb));
     };
     noiseGain_ = l.noise.empty()
                      ? 0.0f

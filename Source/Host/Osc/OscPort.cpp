@@ -59,14 +59,14 @@ void OscPort::readAll() {
 void OscPort::run() {
     while (!stop_) {
         const bool hasCome = packets_.wait(std::chrono::milliseconds{pollMilliseconds});
-        follow();
+        followClock();
         if (hasCome || lost_ > 0) receive();
         refuseLate();
         if (out_.isOpen()) tellStatus();
     }
 }
 
-void OscPort::follow() {
+void OscPort::followClock() {
     if (const std::int64_t ahead = physvib::unixAheadNs(); std::abs(ahead - unixAheadNs_) > clockSlackNs) unixAheadNs_ = ahead;
     const std::lock_guard lock{mutex_};
     clock_.follow(device_.felt(), unixAheadNs_);

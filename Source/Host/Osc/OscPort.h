@@ -72,7 +72,7 @@ private:
     void reply(std::size_t packetBytes, const OscSender& to);
     void refuseLate();
     void sendRefusal(const OscRefusal& refusal, const OscSender& to);
-    void follow();
+    void followClock();
     void tellStatus();
     void count(bool left) noexcept;
 

@@ -4,6 +4,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Board/BoardStatus.h"
 #include "CommandLine/ExitCode.h"
+#include "Core/Decibels.h"
 #include "System/StandardStreams.h"
 #include "CommandLine/Render/LoadedRender.h"
 #include "Scene/EventsCsv.h"
@@ -21,7 +22,7 @@ constexpr std::int64_t ms = 1'000'000;
 void nap(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
 
 void setLevel(BoardLink& link, double levelDb) {
-    const double level = std::pow(10.0, levelDb / 20.0);
+    const double level = fromDecibels(levelDb);
     link.setGains({level, level, level, level});
 }
 

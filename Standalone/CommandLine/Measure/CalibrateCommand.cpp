@@ -2,6 +2,7 @@
 // From a device or two files to a profile in its place.
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
+#include "Core/Decibels.h"
 #include "Scene/ActuatorFile.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
@@ -34,7 +35,7 @@ struct CalibrateOptions {
 
 constexpr double bandDecibels = 10.0; // what a profile declares unless told: the equaliser then costs that much level
 
-SweepSettings sweepSettings(const CalibrateOptions& o) { return {.seconds = o.seconds, .level = std::pow(10.0, o.levelDb / 20.0)}; }
+SweepSettings sweepSettings(const CalibrateOptions& o) { return {.seconds = o.seconds, .level = fromDecibels(o.levelDb)}; }
 
 /// Channel 1 of each file.
 Result<RecordedSweep> readPair(const CalibrateOptions& o) {

@@ -8,6 +8,7 @@
 #include "CommandLine/Render/JobSession.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "CommandLine/Study/NumberList.h"
+#include "Core/Decibels.h"
 #include "Io/Disk/FileClash.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
@@ -52,7 +53,7 @@ bool parseMap(const std::string& text, std::vector<int>& map) {
     return true;
 }
 
-float gainOf(double decibels) { return static_cast<float>(std::pow(10.0, decibels / 20.0)); }
+float gainOf(double decibels) { return static_cast<float>(fromDecibels(decibels)); }
 
 /// "-6" for all channels, or "-6,-12,-6,-6", one each; false if it is anything else.
 bool parseCeilings(const std::string& text, int channels, std::array<float, limits::maxEnchanters>& ceilings) {

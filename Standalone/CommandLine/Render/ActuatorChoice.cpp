@@ -2,6 +2,7 @@
 // Profiles looked up, checked and weighed.
 #include "CommandLine/Render/ActuatorChoice.h"
 #include "CommandLine/ExitCode.h"
+#include "Core/Decibels.h"
 #include "Scene/ActuatorFile.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
@@ -81,7 +82,7 @@ std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRate
     for (auto at = choice.equalised.begin(); at != choice.equalised.end(); ++at) {
         if (!at->isKnown() || std::find(choice.equalised.begin(), at, *at) != at) continue;
         const double level = ActuatorEqualiser{*at, sampleRateHz}.flatLevel();
-        notes.push_back("equalised from " + hertz(at->band.lowHz) + " to " + hertz(at->band.highHz) + ": flat up to " + fixedNumber(20.0 * std::log10(level), 1) +
+        notes.push_back("equalised from " + hertz(at->band.lowHz) + " to " + hertz(at->band.highHz) + ": flat up to " + fixedNumber(toDecibels(level), 1) +
                         " dB of the level at " + hertz(at->resonator.resonanceHz) + "; above it the limiter holds the drive");
     }
     return notes;

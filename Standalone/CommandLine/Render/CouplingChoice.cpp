@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A coupling looked up, checked and weighed.
 #include "CommandLine/Render/CouplingChoice.h"
+#include "Core/Decibels.h"
 #include "Study/Files/CouplingFile.h"
 #include "Io/Text/NumberText.h"
 #include <cmath>
@@ -14,7 +15,7 @@ std::string noteOf(const MeasuredCoupling& measured) {
     const CouplingResidual r = residualOf(measured);
     return "coupling: what is felt differs from what is wanted by " + percent(r.compensated) + ", without compensation by " + percent(r.plain) +
            "; by " + percent(r.mismatchedCompensated) + " and " + percent(r.mismatchedPlain) + " where it is off by up to 2 dB and 20 degrees; strongest drive " +
-           fixedNumber(20.0 * std::log10(r.strongestDrive), 1) + " dB";
+           fixedNumber(toDecibels(r.strongestDrive), 1) + " dB";
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // Levels in words: in dB of full scale and in g.
 #pragma once
 #include "CommandLine/Render/LoadedRender.h"
+#include "Core/Decibels.h"
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"
 #include "Pictures/WaveformEnvelope.h"
@@ -17,7 +18,7 @@ inline std::string inG(double g) { return fixedNumber(g, g < 0.1 ? 4 : 2) + " g"
 /// what was asked for, not what stands in the file.
 inline std::string peakWords(const LoadedRender& job, const WaveformEnvelope& whole) {
     if (!(whole.peak() > 0.0f)) return "silent";
-    std::string words = "peak " + fixedNumber(20.0 * std::log10(static_cast<double>(whole.peak())), 1) + " dBFS";
+    std::string words = "peak " + fixedNumber(toDecibels(static_cast<double>(whole.peak())), 1) + " dBFS";
     const auto equalised = job.equalised();
     if (std::ranges::any_of(equalised, &EqualisedActuator::isKnown)) return "drive " + words;
     double most = 0.0;

@@ -4,6 +4,7 @@
 #include "CommandLine/Render/ActuatorChoice.h"
 #include "CommandLine/Render/CouplingChoice.h"
 #include "CommandLine/ExitCode.h"
+#include "Core/Decibels.h"
 #include "Jobs/LayoutNamed.h"
 #include "CommandLine/Render/RenderOptions.h"
 #include "Host/Recordings/LoadContact.h"
@@ -78,7 +79,7 @@ struct LoadedRender {
     EqualisedActuators equalised() const { return keepsActuators() ? session->equalised : actuators.equalised; }
     EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain(), perceived(), truncation()}; }
     double truncation() const { return session && !options.given.contains("--gamma") ? session->shaping.truncation : options.gamma; }
-    double gain() const { return session && !options.given.contains("--level-db") ? session->shaping.gain : std::pow(10.0, options.levelDb / 20.0); }
+    double gain() const { return session && !options.given.contains("--level-db") ? session->shaping.gain : fromDecibels(options.levelDb); }
     PerceivedLevel perceived() const {
         return session && !options.given.contains("--perceived-level") ? session->shaping.perceived : PerceivedLevel{options.perceivedLevel == "on"};
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writing beside, then renaming; progress on a terminal only.
 #include "CommandLine/Render/RenderOutputs.h"
+#include "Core/Decibels.h"
 #include "System/Process.h"
 #include "CommandLine/Render/LevelReport.h"
 #include "CommandLine/Render/MarkWords.h"
@@ -74,7 +75,7 @@ bool RenderOutputs::writeWav(const float* const* channels, int frames) {
 }
 
 bool RenderOutputs::takeContactSound(const float* samples, int frames) {
-    const auto gain = static_cast<float>(std::pow(10.0, job_.options.contactSoundDb / 20.0));
+    const auto gain = static_cast<float>(fromDecibels(job_.options.contactSoundDb));
     heard_.assign(samples, samples + frames);
     for (float& sample : heard_) sample *= gain;
     const float* const at = heard_.data();

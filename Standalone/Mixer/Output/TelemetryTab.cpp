@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Counters in words; amber where something was lost.
 #include "Mixer/Output/TelemetryTab.h"
+#include "Core/Decibels.h"
 #include "Host/Devices/NoDevice.h"
 #include <cmath>
 
@@ -41,7 +42,7 @@ std::vector<Fact> telemetryFacts(const Desk& desk, const DeskMoment& moment, flo
     const auto& r = moment.session.render;
     const auto& session = desk.session();
     const auto refused = moment.session.refused + r.rejected;
-    const double reduction = 20.0 * std::log10(std::max(static_cast<double>(r.limiterGain), 1e-6));
+    const double reduction = toDecibels(std::max(static_cast<double>(r.limiterGain), 1e-6));
     std::vector<Fact> facts{
         {"Played", count(r.played) + " hits, " + juce::String{r.pending} + " waiting"},
         {"Late", count(r.late) + " hits", noneIsGood(r.late)},
