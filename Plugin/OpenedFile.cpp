@@ -2,7 +2,7 @@
 // By what the file says it is.
 #include "OpenedFile.h"
 #include "Scene/Sessions/DeskLimits.h"
-#include "Io/Disk/FileKind.h"
+#include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
 #include "Scene/Sessions/SessionFile.h"
 #include "Parameters.h"

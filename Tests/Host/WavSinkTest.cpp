@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Io/Wav/WavSink.h"
-#include "Io/FileTesting.h"
-#include "Io/FullDisk.h"
+#include "Support/FileTesting.h"
+#include "Support/FullDisk.h"
 #include "Host/Recordings/PlayedRecorder.h"
 #include <algorithm>
 #include <cmath>

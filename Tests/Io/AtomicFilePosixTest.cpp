@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The same where there are links, pipes, permissions and limits as POSIX has them.
 #include "Io/Disk/AtomicFile.h"
-#include "FileTesting.h"
-#include "FullDisk.h"
+#include "Support/FileTesting.h"
+#include "Support/FullDisk.h"
 #include <csignal>
 #include <cstdlib>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A file appears whole or not at all, and nothing is left behind.
 #include "Io/Disk/AtomicFile.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 
 namespace physvib {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Seconds become nanoseconds exactly, whatever way they are written.
 #include "Io/Text/DecimalSeconds.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 
 namespace physvib {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paths are compared by what they are.
 #include "Io/Disk/FileClash.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include <fstream>
 #include <vector>
 

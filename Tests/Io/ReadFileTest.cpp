@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A file is read whole, up to a limit, or the reason is named.
 #include "Io/Disk/ReadFile.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
 
 namespace physvib {

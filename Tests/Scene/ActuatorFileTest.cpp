@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Actuator profiles survive writing and reading, say what is not known, and a bad one is named by its field.
 #include "Scene/ActuatorFile.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ReadFile.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Event lists survive writing and reading to the bit, and a bad one is named by line and column.
 #include "Scene/EventsCsv.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
 #include <algorithm>
 #include <limits>

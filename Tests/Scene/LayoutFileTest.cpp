@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Layouts survive writing and reading to the bit, and a bad one is named by its field.
 #include "Scene/LayoutFile.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include "Scene/SceneFileLimits.h"
 #include "Io/Disk/AtomicFile.h"
 #include <algorithm>

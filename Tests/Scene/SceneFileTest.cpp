@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scenes survive writing and reading to the byte, and a bad one is named by its field.
 #include "Scene/SceneFile.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/SceneFileLimits.h"
 #include "Scene/SceneCatalogue.h"

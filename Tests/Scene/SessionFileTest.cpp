@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sessions from anywhere: what is out of range is named by its place, not taken for something else.
 #include "Scene/Sessions/SessionFile.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "TestPlaces.h"

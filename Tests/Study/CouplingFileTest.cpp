@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A measured coupling is read as it was written, and a bad one is named by its place.
 #include "Study/Files/CouplingFile.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
 
 namespace physvib {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Trial files: rows come back as records, cut ends are dropped, other people's files are left alone.
 #include "Study/Files/TrialLog.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #if !defined(_WIN32)
-#include "FullDisk.h"
+#include "Support/FullDisk.h"
 #endif
 #include "Study/Files/ProtocolFile.h"
 #include "Io/Disk/ReadFile.h"

@@ -3,7 +3,7 @@
 #include "CommandLine/Play/LivePlay.h"
 #include "CommandLine/ExitCode.h"
 #include "CommandLine/Play/InputListener.h"
-#include "CommandLine/Play/Interrupt.h"
+#include "System/Interrupt.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/OscReport.h"
 #include "System/Process.h"

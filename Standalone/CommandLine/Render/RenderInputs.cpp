@@ -2,7 +2,7 @@
 // Files first, then simulation, then what the options make of each collision.
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/ClipInput.h"
-#include "Io/Disk/FileKind.h"
+#include "Scene/FileKind.h"
 #include "Scene/EventsCsv.h"
 #include "Session/SessionRender.h"
 #include <functional>

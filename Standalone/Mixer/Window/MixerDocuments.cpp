@@ -2,7 +2,7 @@
 // Sessions, scenes and layouts from files and into them; recordings and renders; what is asked before anything is lost.
 #include "Mixer/Window/MixerWindow.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Io/Disk/FileKind.h"
+#include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
 #include "Mixer/Window/Parts.h"
 #include "Mixer/Window/RenderTask.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What counts is on the disk: every fsync of this program is seen here, with what stood at the file's place
 // at that moment.
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Study/Files/TrialLog.h"

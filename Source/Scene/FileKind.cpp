@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Looks for the fields that only one kind of file has.
-#include "Io/Disk/FileKind.h"
+#include "Scene/FileKind.h"
 #include <array>
 #include <fstream>
 #include <string>

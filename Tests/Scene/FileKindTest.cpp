@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A file says what it is, wherever it says so.
 #include "Io/Disk/AtomicFile.h"
-#include "Io/Disk/FileKind.h"
+#include "Scene/FileKind.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneFile.h"
 #include "Scene/Sessions/SessionFile.h"
-#include "FileTesting.h"
+#include "Support/FileTesting.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
