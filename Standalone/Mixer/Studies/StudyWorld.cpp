@@ -68,7 +68,7 @@ std::string StudyWorld::act(const Action& action) { return isMoving() ? session_
 WorldMoment StudyWorld::look() {
     WorldMoment moment;
     if (!session_) return moment;
-    for (PlayedEvent played; session_->played().pop(played);) journal_->take(played);
+    for (PlayedEvent played; session_->played().pop(played);) journal_->played(played, session_->timeline().sampleRateHz());
     moment.sessionNs = session_->world().readPoses(moment.poses);
     moment.aheadNs = session_->timeline().playOutFrames() * 1'000'000'000 / std::max(1, desk_.output().sampleRateHz());
     const std::int64_t now = session_->status().sessionNs;
@@ -91,7 +91,7 @@ void StudyWorld::finish() {
     // A hit of the last step is known a step later, and there is none: a render that ended where the stand-still does would feel it.
     const std::int64_t endNs = stoppedNs_ < 0 ? session_->status().sessionNs : stoppedNs_ + fadeNs;
     if (journal_ && journal_->error().empty()) {
-        for (PlayedEvent played; session_->played().pop(played);) journal_->take(played);
+        for (PlayedEvent played; session_->played().pop(played);) journal_->played(played, session_->timeline().sampleRateHz());
         journal_->end(endNs);
         fault_ = journal_->finish();
     }
