@@ -2,7 +2,7 @@
 // What can be played beside a device, by its name: a row of the table each.
 #pragma once
 #include "Core/PhantomPanner.h"
-#include "Session/Sink.h"
+#include "Session/SinkSet.h"
 #include <functional>
 #include <memory>
 #include <string>
@@ -16,7 +16,7 @@ struct SinkName {
     std::string kind, where;
 };
 
-/// "DEVICE", "KIND:WHERE" or "DEVICE+KIND:WHERE", and as many of them as one likes. Beside no device, they follow a clock: None.
+/// "DEVICE", "KIND:WHERE" or "DEVICE+KIND:WHERE", and up to mostNamedSinks of them. Beside no device, they follow a clock: None.
 struct OutputNames {
     std::string device;
     std::vector<SinkName> sinks;
@@ -28,6 +28,9 @@ struct OutputNames {
 std::string channelFault(const std::vector<SinkName>& sinks, int channels);
 
 using Sinks = std::vector<std::unique_ptr<Sink>>;
+
+/// At once; a SinkSet has as much room again for what programs attach themselves (recorder, meters, OSC).
+constexpr std::size_t mostNamedSinks = SinkSet::most / 2;
 
 /// All of them, ready, for a session with that panner; or one line. Waits for as long as `goesOn`. M.
 std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner, const std::function<bool()>& goesOn, Sinks& opened);
