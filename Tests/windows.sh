@@ -23,5 +23,5 @@ unset DISPLAY
 run=wine
 [ -e "$WINEPREFIX/system.reg" ] || quietly "$folder/wine.log" timeout 300 wine wineboot --init
 trap 'wineserver -k >/dev/null 2>&1 || true' EXIT
-tests core wire study contacts physics files formats measure api system
+tests core wire io contacts physics scene study formats measure api system
 compare "$native" drawing fruit-basket
