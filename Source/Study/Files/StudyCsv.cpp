@@ -170,7 +170,7 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
     return trial;
 }
 
-std::size_t takeLevels(const StudyRows& rows, StudyData<LevelTrial>& data) {
+std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     data.isSimulated |= rows.isSimulated();
     std::size_t taken = 0;
     const auto task = rows.optional(trialColumns::task);
@@ -252,7 +252,7 @@ Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) { r
 
 Result<RatingData> readRatings(std::span<const NamedText> files) { return readAll<RatingData>(files, takeRatings); }
 
-Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files) { return readAll<StudyData<LevelTrial>>(files, takeLevels); }
+Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files) { return readAll<StudyData<LevelTrial>>(files, takeLevelTrial); }
 
 Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files, const LevelAnswerColumns& columns) {
     return readAll<StudyData<LevelAnswer>>(files, [&](const StudyRows& rows, auto& data) { return takeLevelAnswers(rows, data, columns); });
