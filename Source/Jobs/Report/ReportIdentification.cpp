@@ -3,6 +3,7 @@
 #include "Jobs/Report/ConditionAxes.h"
 #include "Jobs/Report/ReportSections.h"
 #include "Io/Charts/Charts.h"
+#include "Io/Text/NameList.h"
 #include "Study/Files/StudyCsv.h"
 #include "Study/InformationTransfer.h"
 #include "Study/Statistics/Moments.h"
@@ -38,12 +39,6 @@ std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolera
 ChartValue withInterval(const std::vector<double>& values) {
     const Moments moments{values};
     return {moments.mean, moments.mean - moments.halfInterval(), moments.mean + moments.halfInterval()};
-}
-
-std::string listed(const std::vector<std::string>& words) {
-    std::string all;
-    for (const std::string& word : words) all.append(all.empty() ? "" : ", ").append(word);
-    return all;
 }
 
 const IdentifiedCondition* named(const std::vector<IdentifiedCondition>& all, const std::string& name) {

@@ -3,6 +3,7 @@
 #include "Study/Files/BidsDataset.h"
 #include "Io/Json/JsonLines.h"
 #include "Io/Text/CleanText.h"
+#include "Io/Text/NameList.h"
 #include "Study/Files/TrialColumns.h"
 #include "Study/StudyTasks.h"
 #include <algorithm>
@@ -58,13 +59,6 @@ constexpr ColumnMeaning meanings[] = {
     {"render", "render", "Call of physvib that renders the stimulus again", ""},
 };
 
-/// "explore, identify or locate".
-std::string taskList() {
-    std::string list;
-    for (const auto name : studyTaskNames) list.append(list.empty() ? "" : name == studyTaskNames.back() ? " or " : ", ").append(name);
-    return list;
-}
-
 const ColumnMeaning* meaningOf(const std::string& column) {
     const auto found = std::ranges::find(meanings, column, &ColumnMeaning::ours);
     return found == std::end(meanings) ? nullptr : found;
@@ -81,7 +75,7 @@ std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsW
         if (c == participant) continue;
         const auto* const known = meaningOf(trials.columns[c]);
         OrderedJson& own = json[bidsName(trials.columns[c])];
-        own["Description"] = known ? std::string{known->description} + (known->ours == trialColumns::task ? taskList() : "") : "Column " + cellOf(trials.columns[c]) + " of the trial file: a rating scale from 0 to 100, or a column of another program";
+        own["Description"] = known ? std::string{known->description} + (known->ours == trialColumns::task ? listed(studyTaskNames, " or ") : "") : "Column " + cellOf(trials.columns[c]) + " of the trial file: a rating scale from 0 to 100, or a column of another program";
         if (known && !known->units.empty()) own["Units"] = known->units;
     }
     return jsonLines(json);

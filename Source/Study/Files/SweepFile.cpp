@@ -2,7 +2,6 @@
 // Lists of words, and numbers of tasks as digits, one per factor.
 #include "Study/Files/SweepFile.h"
 #include "Study/Files/StudyFileLimits.h"
-#include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
 #include "Study/Files/SweepText.h"
@@ -164,7 +163,5 @@ SweepTask SweepDesign::task(std::uint64_t index) const {
 Result<SweepDesign> readSweep(std::string_view text, std::string_view name) {
     return readJson(text, name, limits::maxSweepFileBytes, [](const Json& root) { return readSweepRoot(JsonField(root, {})); });
 }
-
-Result<SweepDesign> loadSweep(const std::filesystem::path& path) { return loadText(path, limits::maxSweepFileBytes, readSweep); }
 
 } // namespace physvib

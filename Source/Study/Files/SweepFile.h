@@ -3,7 +3,6 @@
 #pragma once
 #include "Io/Result.h"
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,8 +57,5 @@ struct SweepDesign {
 /// The design that `text` describes, of 1 to limits::maxSweepTasks tasks; or, of the first thing that is wrong, one line
 /// `name: laws[1]: expected ...`. Whether `render` knows an option's value is not asked here. Any thread.
 Result<SweepDesign> readSweep(std::string_view text, std::string_view name);
-
-/// The same of a file. M only.
-Result<SweepDesign> loadSweep(const std::filesystem::path& path);
 
 } // namespace physvib
