@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A render as a value: what is rendered, how it is spread and which files it writes. A call, a design of a sweep or a button makes one.
 #pragma once
-#include "Core/PhantomPanner.h"
+#include "Core/Modes/InstructionSet.h"
+#include "Core/PanningLaws.h"
 #include "Core/RenderingMethod.h"
 #include "Scene/SceneFile.h"
+#include "Scene/World/SceneRun.h"
 #include "Session/OnsetMarks.h"
 #include "Session/Patience.h"
 #include <cstdint>
@@ -16,12 +18,21 @@
 
 namespace physvib {
 
+/// What x and y of events span. 0: not known.
+struct FieldSize {
+    double widthMetres = 0.0, heightMetres = 0.0;
+    bool operator==(const FieldSize&) const = default;
+};
+
+/// Of which frequency a material is, and in which file its recorded contact.
+using RecordedSounds = std::vector<std::pair<double, std::string>>;
+
 constexpr double usualContactDb = -20.0; ///< of the contact sound of a hit at full scale
 
 /// The defaults are those that --help shows.
 struct RenderJob {
     std::string scene;      ///< a built-in scene's name or the path of a scene file; empty with fromEvents
-    std::vector<std::string> sets; ///< "NAME=VALUE" of the scene's variables
+    SceneSettings settings; ///< the scene's variables
     std::string fromEvents; ///< path of an event list
     std::string wavPath, eventsPath, picturePath, patternPath; ///< empty: not wanted
     double threshold = 0.1;      ///< of the pattern, in full scale
@@ -29,56 +40,49 @@ struct RenderJob {
     double seconds = 10.0;
     int sampleRateHz = 48000;
     int blockFrames = 256;
-    std::string instructions = "best"; ///< or "scalar"
+    InstructionSet instructions = InstructionSet::best;
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;
     double patienceSeconds = Patience::usualSeconds; ///< with a world that is simulated slower than it lasts
     std::string layout = "phone4"; ///< preset or path of a layout file
-    std::string field;             ///< "W,H" in metres; empty: the scene's, or the layout's extent
-    std::string law = "linear";
+    FieldSize field;               ///< none: the scene's, or the layout's extent
+    PanningLaw law = PanningLaw::linear;
     double exponent = 1.0;
-    std::string limiter = "on";
-    std::string location = "contact", timing = "onset", method = "AV-FV-DRV";
+    bool isLimited = true;
+    ImpactLocation location = ImpactLocation::contact;
+    ImpactTiming timing = ImpactTiming::onset;
+    RenderingMethod method;          ///< its amplitude needs the layout
+    bool playsRecordings = false;    ///< SV: of `sounds`, instead of the method's modes
     double levelDb = 0.0;            ///< of all hits
     double gamma = 0.0;              ///< Eq. 5.5, the share at which a decay is cut; 0: it rings out
-    std::string perceivedLevel = "off"; ///< on: hits of one amplitude feel more alike at all frequencies
-    std::string soundMatch = "peak"; ///< of recordings: as high as the mode, or ("rms") as strong
-    std::vector<std::string> sounds; ///< "HZ=FILE.wav" for SV and the contact sound
+    bool isWeighted = false;         ///< hits of one amplitude feel more alike at all frequencies
+    bool matchesStrength = false;    ///< recordings are as strong as the mode; else as high
+    RecordedSounds sounds;           ///< for SV and the contact sound
     std::string contactSound;        ///< where it is heard: a WAV of `render`, outputs of `play`; empty: not wanted
     double contactSoundDb = usualContactDb; ///< of a hit at full scale
     std::string marker;              ///< where onsets are marked: a WAV of `render`, outputs of `play`; empty: not wanted
-    std::string markerOf = "all";    ///< of which
+    MarkedOnsets marked = MarkedOnsets::all;
     std::string actuator = "none"; ///< or "layout", a profile's name, a profile's path
-    std::string equalise = "on", remap = "off"; ///< with an actuator
+    bool isEqualised = true, isRemapped = false; ///< with an actuator
     std::string coupling; ///< path of a measured coupling that drives shall make up for; empty: none
 
     std::set<std::string> given; ///< names of the options that were chosen, with their dashes: a session keeps its own where they are not
-    SceneSettings settings; ///< from `sets` by renderFault
-    double fieldWidthMetres = 0.0, fieldHeightMetres = 0.0; ///< from `field` by renderFault; 0: not given
-    PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
     std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, patternPath, contactSound, marker}; } ///< of `render`
-    std::optional<MarkedOnsets> marks() const; ///< nullopt: not wanted
-    bool playsRecordings() const { return method == "SV"; }
-    std::vector<std::pair<double, std::string>> recordings; ///< from `sounds`: of which frequency, in which file
-    RenderingMethod renderingMethod;                        ///< from `method`; its amplitude needs the layout
+    std::optional<MarkedOnsets> marks() const { return marker.empty() ? std::nullopt : std::optional{marked}; } ///< nullopt: not wanted
+    std::string methodName() const; ///< "AV-FV-DRV", or "SV"
 
     bool operator==(const RenderJob&) const = default;
 };
 
 inline constexpr std::string_view recordingsHaveNoFrequency = "--remap: recordings have no frequency to be moved";
 inline constexpr std::string_view recordingsHaveNoWeight = "--perceived-level: recordings have no one frequency to be weighted by";
-inline constexpr std::string_view soundExpectation = "--sound: expected HZ=FILE.wav, the frequency of a material and its recorded contact";
+/// What does not fit together of how a scene is felt: empty, or the usage error in one line. Any thread (allocates), as the others.
+std::string sceneFault(const RenderJob& job);
 
-/// Appends what --sound says, "HZ=FILE.wav"; false if one is anything else.
-bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<double, std::string>>& recordings);
+/// The same of all that says what is rendered.
+std::string renderInputFault(const RenderJob& job);
 
-/// What parsing cannot see of the scene options: empty, or the usage error in one line.
-std::string sceneFault(RenderJob& job);
-
-/// The same of all options of `render` that say what is rendered.
-std::string renderInputFault(RenderJob& job);
-
-/// The same, and of those that say where to.
-std::string renderFault(RenderJob& job);
+/// The same, and of what says where to.
+std::string renderFault(const RenderJob& job);
 
 } // namespace physvib

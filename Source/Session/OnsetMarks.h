@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 namespace physvib {
 
@@ -16,6 +17,8 @@ enum class MarkedOnsets {
     hits,    ///< two bodies that met: no grains, nothing that is struck apart from a world
     messages ///< what is struck apart from a world
 };
+inline constexpr std::array<std::string_view, 3> markedOnsetsNames{"all", "hits", "messages"};
+constexpr std::string_view nameOf(MarkedOnsets which) noexcept { return markedOnsetsNames[static_cast<std::size_t>(which)]; }
 
 /// Full scale from the first frame at or after the onset on, else 0. Each onset has an edge of its own: a pulse ends early, so that it has rested
 /// before the next. Only those that come leastApartSeconds or less after an edge share its pulse.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What may stand in the calls of a protocol. A protocol comes from anywhere; its calls are rendered, and stand in every row of the
 // trial file for somebody to copy into a shell: they render, read what is below their folder, and do nothing else. Which options
-// write a file, the program's parser knows (Standalone/CommandLine/Study/CallFiles.h).
+// write a file, the program's parser knows (Standalone/Calls/CallFiles.h).
 #pragma once
 #include <algorithm>
 #include <string>

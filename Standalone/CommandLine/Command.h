@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A command of the program: its options, and what it does. Main.cpp has the table of all.
 #pragma once
-#include "CommandLine/ExitCode.h"
+#include "System/ExitCode.h"
 #include "Options/OptionTable.h"
 #include <functional>
 #include <memory>

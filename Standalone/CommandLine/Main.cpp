@@ -3,7 +3,7 @@
 #include "CommandLine/Command.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
-#include "CommandLine/Study/CallFiles.h"
+#include "Calls/CallFiles.h"
 #include "Host/Devices/DeviceThread.h"
 #include "Options/Parser.h"
 #include "Options/Reference.h"

@@ -102,6 +102,12 @@ Option& OptionTable::addRow(const std::string& names, OptionTarget target, std::
     return made;
 }
 
+Option& OptionTable::addRead(const std::string& names, std::string initial, WordReader reader, std::string says) {
+    Option& made = addRow(names, std::move(reader), std::move(says)).as("TEXT");
+    made.initial = std::move(initial);
+    return made;
+}
+
 OptionTable& OptionTable::addCommand(const std::string& name, std::string says) { return commands.emplace_back(words + ' ' + name, std::move(says)); }
 
 void OptionTable::addVersion(std::string answer) {

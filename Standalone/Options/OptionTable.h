@@ -16,9 +16,13 @@
 
 namespace physvib {
 
-/// Where a value goes. A bool: the option takes none. A function: of one of several words, each with a number.
+/// Reads a word, or all that were said, into a value; what it expected instead, or empty.
+using WordReader = std::function<std::string(const std::string&)>;
+using WordsReader = std::function<std::string(const std::vector<std::string>&)>;
+
+/// Where a value goes. A bool: the option takes none. A function of a number: of one of several words, each with a number.
 using OptionTarget = std::variant<std::monostate, bool*, int*, std::uint32_t*, std::size_t*, double*, std::string*, std::vector<std::string>*, std::optional<int>*,
-                                  std::optional<double>*, std::optional<std::string>*, std::function<void(int)>>;
+                                  std::optional<double>*, std::optional<std::string>*, std::function<void(int)>, WordReader, WordsReader>;
 
 /// One row. What is said of it returns the row. M only.
 struct Option {
@@ -79,6 +83,25 @@ public:
     Option& add(const std::string& names, T& value, std::string says) {
         return addRow(names, &value, std::move(says));
     }
+    /// A value that text has to be read for; `initial` is its word if nobody says one.
+    Option& addRead(const std::string& names, std::string initial, WordReader reader, std::string says);
+    /// One of several values, each with its word.
+    template <class T>
+    Option& addOneOf(const std::string& names, T& value, std::vector<std::pair<std::string, T>> all, std::string says) {
+        std::vector<std::string> choices;
+        std::string initial;
+        for (const auto& [word, of] : all) {
+            choices.push_back(word);
+            if (of == value) initial = word;
+        }
+        const auto read = [&value, all](const std::string& said) {
+            for (const auto& [word, of] : all)
+                if (word == said) value = of;
+            return std::string{};
+        };
+        return addRead(names, initial, read, std::move(says)).oneOf(std::move(choices));
+    }
+    Option& addSwitch(const std::string& names, bool& value, std::string says) { return addOneOf<bool>(names, value, {{"on", true}, {"off", false}}, std::move(says)); }
     Option& addRow(const std::string& names, OptionTarget target, std::string says);
     OptionTable& addCommand(const std::string& name, std::string meaning);
     void addVersion(std::string answer); ///< --version, with what it says

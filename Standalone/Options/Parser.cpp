@@ -48,6 +48,14 @@ std::string namesOf(const Option& row) {
     return names;
 }
 
+template <class Words, class Reader>
+CLI::Option* readBy(CLI::App& app, const Option& row, const Reader& read) {
+    const auto take = [name = row.spellings.front(), read](const Words& words) {
+        if (const std::string fault = read(words); !fault.empty()) throw CLI::ValidationError(name, fault);
+    };
+    return app.add_option_function<Words>(namesOf(row), take, row.meaning);
+}
+
 /// None: CLI11 has it of its own.
 CLI::Option* declare(CLI::App& app, const Option& row) {
     const auto make = [&](const auto& target) -> CLI::Option* {
@@ -55,6 +63,8 @@ CLI::Option* declare(CLI::App& app, const Option& row) {
         if constexpr (std::is_same_v<Target, std::monostate>) return nullptr;
         else if constexpr (std::is_same_v<Target, bool*>) return app.add_flag(namesOf(row), *target, row.meaning);
         else if constexpr (std::is_same_v<Target, std::function<void(int)>>) return app.add_option_function<int>(namesOf(row), target, row.meaning);
+        else if constexpr (std::is_same_v<Target, WordReader>) return readBy<std::string>(app, row, target);
+        else if constexpr (std::is_same_v<Target, WordsReader>) return readBy<std::vector<std::string>>(app, row, target);
         else return app.add_option(namesOf(row), *target, row.meaning);
     };
     CLI::Option* const option = std::visit(make, row.target);

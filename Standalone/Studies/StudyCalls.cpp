@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Values are made as they are; text goes through the program's own tables first.
 #include "Studies/StudyCalls.h"
-#include "CommandLine/Render/JobSession.h"
-#include "CommandLine/Study/CallFiles.h"
-#include "CommandLine/Study/StimulusOptions.h"
+#include "Calls/JobSession.h"
+#include "Calls/CallFiles.h"
+#include "Calls/StimulusOptions.h"
 #include "Core/Decibels.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Jobs/LayoutNamed.h"
@@ -19,7 +19,7 @@ namespace physvib {
 namespace {
 
 /// The job of the options gets its scene and its layout, to be felt; empty, or one line.
-std::string prepareScene(RenderJob& o, LoadedRender& job) {
+std::string prepareScene(const RenderJob& o, LoadedRender& job) {
     if (o.actuator != "none") return "--actuator is not yet felt here, only rendered";
     if (!o.coupling.empty()) return "--coupling is not yet felt here, only rendered";
     if (auto fault = sceneFault(o); !fault.empty()) return fault;
@@ -33,7 +33,7 @@ std::string prepareScene(RenderJob& o, LoadedRender& job) {
     return {};
 }
 
-Result<FeltStimulus> ofScene(RenderJob& o) {
+Result<FeltStimulus> ofScene(const RenderJob& o) {
     LoadedRender job{o, {}, {}, {}, {}};
     if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
     Patience patience{Patience::usualSeconds}; // whatever the call says: it may be a stranger's
@@ -44,7 +44,7 @@ Result<FeltStimulus> ofScene(RenderJob& o) {
     return FeltStimulus{{job.made.events, job.panner(), job.seconds()}, job.layout, std::vector<float>(job.layout.enchanters.size(), 1.0f), job.feltRecordings()};
 }
 
-Result<FeltWorld> asWorld(RenderJob& o) {
+Result<FeltWorld> asWorld(const RenderJob& o) {
     LoadedRender job{o, {}, {}, {}, {}};
     if (auto fault = prepareScene(o, job); !fault.empty()) return Failure{fault};
     if (auto fault = fixedLevelFault(job); !fault.empty()) return Failure{fault};
@@ -85,8 +85,7 @@ struct ParsedCall {
     /// Those in `folder`, where they are there.
     void findFiles(const std::string& folder) {
         for (std::string* path : {&renderOptions.layout, &renderOptions.scene, &stimulusOptions.job.layout}) *path = besideProtocol(folder, *path);
-        for (std::string& sound : renderOptions.sounds)
-            if (const auto equals = sound.find('='); equals != std::string::npos) sound = sound.substr(0, equals + 1) + besideProtocol(folder, sound.substr(equals + 1));
+        for (auto& [hz, sound] : renderOptions.sounds) sound = besideProtocol(folder, sound);
     }
     OptionTable words{"physvib", {}};
     RenderJob renderOptions;
@@ -107,15 +106,15 @@ Result<FeltStimulus> felt(const WrittenCall& call, int sampleRateHz, const std::
 /// Empty, or what the program would find wrong with a call, or that it renders a fixed level that its layout cannot give without the limiter.
 std::string studyCallFault(const std::string& call, const std::string& folder) {
     ParsedCall parsed{call, folder};
-    RenderJob& o = parsed.renderOptions;
+    const RenderJob& o = parsed.renderOptions;
     if (!parsed.error.empty()) return call + ": " + parsed.error;
-    if (!parsed.words.isCalled("render") || !sceneFault(o).empty() || !o.renderingMethod.fixesAmplitude) return {};
+    if (!parsed.words.isCalled("render") || !sceneFault(o).empty() || !o.method.fixesAmplitude) return {};
     const auto layout = layoutNamed(o.layout);
     if (!layout) return layout.error;
     const double leastG = leastStudyFullScaleG * fromDecibels(o.levelDb);
     for (const EnchanterDescription& enchanter : layout.value.enchanters)
         if (enchanter.fullScaleG < leastG)
-            return "--method " + o.method + ": expected enchanters of at least " + fixedNumber(leastG, 2) + " g (full_scale_g), as 1.5 g and 1 dB of headroom are felt, found " +
+            return "--method " + o.methodName() + ": expected enchanters of at least " + fixedNumber(leastG, 2) + " g (full_scale_g), as 1.5 g and 1 dB of headroom are felt, found " +
                    fixedNumber(enchanter.fullScaleG, 2) + " g";
     return {};
 }

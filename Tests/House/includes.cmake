@@ -59,9 +59,9 @@ endfunction()
 file(GLOB_RECURSE files ${ROOT}/Standalone/*.h ${ROOT}/Standalone/*.cpp)
 list(FILTER files EXCLUDE REGEX "/Standalone/(Options/Parser\\.cpp|Render/(Main\\.cpp|InRange\\.h))$")
 refuse("^ *# *include *<CLI/" "only in Options/Parser.cpp, see OptionTable.h" ${files})
-# A window makes jobs as a call does, and reads no calls: what both need is in Options, System or Source.
-file(GLOB_RECURSE files ${ROOT}/Standalone/Mixer/*.h ${ROOT}/Standalone/Mixer/*.cpp ${ROOT}/Standalone/Options/*.h ${ROOT}/Standalone/Options/*.cpp ${ROOT}/Standalone/System/*.h
-     ${ROOT}/Standalone/System/*.cpp)
+# A window makes jobs as a call does, and needs no command: what both need is beside them.
+file(GLOB_RECURSE files ${ROOT}/Standalone/*.h ${ROOT}/Standalone/*.cpp)
+list(FILTER files EXCLUDE REGEX "/Standalone/CommandLine/")
 refuse("^ *# *include *\"CommandLine/" "not from the command line" ${files})
 # What asks the system for more than C++ knows is in files that are named for it, one per system and matter.
 set(systems "<(unistd|fcntl|poll|spawn|termios|pthread|dirent|dlfcn|sched|signal|netdb|pwd|strings|syslog|windows|winsock2|ws2tcpip|io|process)\\.h>|<(sys|netinet|arpa|net|linux|mach)/")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a file to grains, what is certain about them, and what is not.
 #include "CommandLine/Measure/TextureText.h"
-#include "CommandLine/ExitCode.h"
+#include "System/ExitCode.h"
 #include "Io/Text/NumberText.h"
 #include "Formats/TextureModels.h"
 #include "Host/Recordings/ReadRecording.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Session, driver, device, sinks, recorder, journal and listener for the length of a call.
 #include "CommandLine/Play/LivePlay.h"
-#include "CommandLine/ExitCode.h"
+#include "System/ExitCode.h"
 #include "CommandLine/Play/InputListener.h"
 #include "System/Interrupt.h"
 #include "CommandLine/Play/LiveBeats.h"

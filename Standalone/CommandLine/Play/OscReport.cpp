@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Counts, and the last fault.
 #include "CommandLine/Play/OscReport.h"
-#include "CommandLine/ExitCode.h"
+#include "System/ExitCode.h"
 #include <iostream>
 #include <sstream>
 #include <utility>

@@ -5,8 +5,8 @@
 #include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
-#include "CommandLine/Render/JobSession.h"
-#include "CommandLine/Render/RenderOptions.h"
+#include "Calls/JobSession.h"
+#include "Calls/RenderOptions.h"
 #include "CommandLine/Study/NumberList.h"
 #include "Core/Decibels.h"
 #include "Io/Disk/FileClash.h"
@@ -112,7 +112,7 @@ int runPlay(PlayOptions& o) {
     if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
     if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
-    const bool isPlain = o.scene.renderingMethod.fixesNothing() && !o.scene.playsRecordings() && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 && o.scene.perceivedLevel == "off";
+    const bool isPlain = o.scene.method.fixesNothing() && !o.scene.playsRecordings && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 && !o.scene.isWeighted;
     if (!outputs.sinks.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
     if (o.isDirect && !outputs.sinks.empty()) return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
     LoadedRender job{o.scene, {}, {}, {}, {}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Haptic files of others as inputs: on which enchanters each of their channels is felt.
 #pragma once
-#include "CommandLine/Render/LoadedRender.h"
+#include "Calls/LoadedRender.h"
 #include "Core/RecordedContact.h"
 #include "Io/Wav/SampledSound.h"
 #include <vector>

@@ -3,7 +3,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/ClipInput.h"
 #include "CommandLine/Render/RenderInputs.h"
-#include "CommandLine/Render/RenderOptions.h"
+#include "Calls/RenderOptions.h"
 #include "Io/Disk/FileClash.h"
 #include "Host/Recordings/HitExport.h"
 #include <algorithm>
@@ -53,7 +53,7 @@ std::string refusalOf(const RenderJob& o) {
     if (o.scene.empty()) return "export: give a scene, a saved session, EVENTS.csv or a clip";
     for (const char* other : {"--sound", "--sound-match", "--coupling", "--contact-sound-db", "--limiter", "--equalise"})
         if (o.given.contains(other)) return std::string{other} + ": says how something is played, not what it is: expected with render or play";
-    return o.playsRecordings() ? "--method SV: recordings are no waves to be exported" : "";
+    return o.playsRecordings ? "--method SV: recordings are no waves to be exported" : "";
 }
 
 /// Of scene, session or list: what lies within --seconds, if that is given.
@@ -80,7 +80,7 @@ int runExport(const OptionTable& command, ExportOptions& options) {
     const auto format = clipFormatOf(options.to);
     if (!format) return leave(exitUsage, "--to: expected a name that ends in .hjif, .hmpg, .haptic or .ahap, found " + inQuotes(options.to));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
-    o.equalise = "off"; // of the player's own actuators
+    o.isEqualised = false; // of the player's own actuators
     if (const std::string refusal = sceneFault(o); !refusal.empty()) return leave(exitUsage, refusal);
     LoadedRender job{o, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Levels in words: in dB of full scale and in g.
 #pragma once
-#include "CommandLine/Render/LoadedRender.h"
+#include "Calls/LoadedRender.h"
 #include "Core/Decibels.h"
 #include "Core/Limits.h"
 #include "Io/Text/NumberText.h"

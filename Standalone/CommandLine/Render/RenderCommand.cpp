@@ -47,8 +47,6 @@ void warn(const RenderStatus& status, const LoadedRender& job) {
     say(static_cast<std::uint64_t>(beyond), "events that begin after the end of the render (see --seconds)");
 }
 
-InstructionSet instructionsOf(const RenderJob& o) { return o.instructions == "scalar" ? InstructionSet::scalar : InstructionSet::best; }
-
 OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderControl>& controls, const RecordedContacts& contacts) {
     const RenderJob& o = job.options;
     const RendererSettings renderer{.sampleRateHz = o.sampleRateHz,
@@ -56,7 +54,7 @@ OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderCont
                                     .panner = job.panner(),
                                     .limiterEnabled = job.isLimited(),
                                     .ceilings = job.ceilings(),
-                                    .instructions = instructionsOf(o),
+                                    .instructions = o.instructions,
                                     .equalised = job.equalised(),
                                     .drives = job.coupling.drives.view()};
     return {renderer, job.frames(), o.blockFrames, controls, contacts};

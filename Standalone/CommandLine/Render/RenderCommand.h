@@ -2,7 +2,7 @@
 // `physvib render`: a scene or an event list to WAV, CSV and PNG, faster than real time.
 #pragma once
 #include "CommandLine/Render/RenderListener.h"
-#include "CommandLine/Render/RenderOptions.h"
+#include "Calls/RenderOptions.h"
 
 namespace physvib {
 

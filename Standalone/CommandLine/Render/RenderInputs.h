@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The one door by which scenes, saved sessions and event lists become the events of a render or an export.
 #pragma once
-#include "CommandLine/Render/LoadedRender.h"
+#include "Calls/LoadedRender.h"
 
 namespace physvib {
 

@@ -39,7 +39,7 @@ std::string RenderOutputs::open() {
     const RenderJob& o = job_.options;
     std::string error = physvib::open(wav_, o.wavPath, job_.channels(), o.sampleRateHz, provenanceText());
     if (error.empty()) error = physvib::open(contactWav_, o.contactSound, 1, o.sampleRateHz, provenanceText() + " heard=contact_sound");
-    if (error.empty()) error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz, provenanceText() + " marked=" + o.markerOf);
+    if (error.empty()) error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz, provenanceText() + " marked=" + std::string{nameOf(o.marked)});
     for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}})
         if (error.empty()) error = physvib::open(*file, *path);
     return error;
@@ -101,15 +101,15 @@ std::string RenderOutputs::finish() {
 Provenance RenderOutputs::provenance() const {
     const RenderJob& o = job_.options;
     Provenance p = inputProvenance();
-    if (!job_.method().fixesNothing() || o.playsRecordings()) p.entries.emplace_back("method", o.method);
+    if (!job_.method().fixesNothing() || o.playsRecordings) p.entries.emplace_back("method", o.methodName());
     if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
-    if (o.perceivedLevel == "on") p.entries.emplace_back("perceived_level", "on");
-    for (const auto& [hz, path] : o.recordings)
-        p.entries.emplace_back("sound", numberText(hz) + '=' + std::filesystem::path{path}.filename().string() + (o.soundMatch == "rms" ? ":rms" : ""));
+    if (o.isWeighted) p.entries.emplace_back("perceived_level", "on");
+    for (const auto& [hz, path] : o.sounds)
+        p.entries.emplace_back("sound", numberText(hz) + '=' + std::filesystem::path{path}.filename().string() + (o.matchesStrength ? ":rms" : ""));
     if (o.actuator != "none") p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());
-    if (o.actuator != "none" && o.equalise == "off") p.entries.emplace_back("equalise", "off");
+    if (o.actuator != "none" && !o.isEqualised) p.entries.emplace_back("equalise", "off");
     if (o.interfaceVolts > 0.0) p.entries.emplace_back("interface_volts", numberText(o.interfaceVolts));
-    if (o.remap == "on") p.entries.emplace_back("remap", "on");
+    if (o.isRemapped) p.entries.emplace_back("remap", "on");
     if (!o.coupling.empty()) p.entries.emplace_back("coupling", std::filesystem::path{o.coupling}.filename().string());
     return p;
 }
@@ -150,7 +150,7 @@ std::string RenderOutputs::writePictureFile() {
     picture.zoom = &*zoom_;
     picture.sampleRateHz = job_.options.sampleRateHz;
     picture.durationSeconds = job_.seconds();
-    picture.law = job_.options.law + " law";
+    picture.law = std::string{nameOf(job_.options.law)} + " law";
     picture.provenance = provenanceText();
     return pictureFile_->write(picturePng(picture));
 }

@@ -2,7 +2,7 @@
 // The files a render leaves: WAV, event list, picture, pattern. They appear together at the end, or not at all.
 #pragma once
 #include "CommandLine/Render/OnOffPattern.h"
-#include "CommandLine/Render/LoadedRender.h"
+#include "Calls/LoadedRender.h"
 #include "CommandLine/Render/RenderListener.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/EventsCsv.h"

@@ -2,7 +2,7 @@
 // Files in, a folder out: all of it, or nothing.
 #include "CommandLine/Analyse/AnalyseCommand.h"
 #include "CommandLine/Command.h"
-#include "CommandLine/Study/CallFiles.h"
+#include "Calls/CallFiles.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Disk/FileClash.h"
 #include "Jobs/Report/ReportJob.h"

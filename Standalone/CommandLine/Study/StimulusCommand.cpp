@@ -80,7 +80,7 @@ std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const 
     picture.zoom = &start;
     picture.sampleRateHz = made.sound.sampleRateHz;
     picture.durationSeconds = static_cast<double>(frames) / made.sound.sampleRateHz;
-    picture.law = o.law + " law";
+    picture.law = std::string{nameOf(o.phantom.law)} + " law";
     picture.provenance = provenance;
     return picturePng(picture);
 }

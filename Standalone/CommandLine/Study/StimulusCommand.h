@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib stimulus`: single stimuli of the studies, as files.
 #pragma once
-#include "CommandLine/Study/StimulusOptions.h"
+#include "Calls/StimulusOptions.h"
 
 namespace physvib {
 

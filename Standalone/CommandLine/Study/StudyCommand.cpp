@@ -3,7 +3,7 @@
 #include "CommandLine/Study/StudyCommand.h"
 #include "CommandLine/Command.h"
 #include "System/Process.h"
-#include "CommandLine/Render/RenderOptions.h"
+#include "Calls/RenderWords.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Study/Files/LevelsFile.h"
 #include "Study/Files/ProtocolFile.h"
@@ -52,10 +52,8 @@ std::string runParticipant(const StudyRun& run, const ObserverSettings& settings
 }
 
 /// The protocol with the sounds of the call; one line if one of either is no recording.
-std::string takeSounds(const std::vector<std::string>& sounds, Protocol& protocol) {
-    std::vector<std::pair<double, std::string>> recordings;
-    if (!parseSounds(sounds, recordings)) return std::string{soundExpectation};
-    for (const auto& [hz, path] : recordings) {
+std::string takeSounds(const RecordedSounds& sounds, Protocol& protocol) {
+    for (const auto& [hz, path] : sounds) {
         std::erase_if(protocol.sounds, [hz = hz](const StudySoundFile& sound) { return sound.frequencyHz == hz; });
         protocol.sounds.push_back({hz, path});
     }
@@ -117,7 +115,7 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
     run.add("--participant", o.participant, "code of the participant; no other personal data is kept").as("CODE");
     run.add("--number", o.number, "number of the (first) participant: decides orders").in(1, 100000);
     run.add("--participants", o.participants, "how many, one after the other").in(1, 1000);
-    run.add("--sound", o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated").as("HZ=FILE.wav").single();
+    addSounds(run, o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated");
     run.add("--out", o.folder, "folder of the trial files, NAME-CODE.csv").as("FOLDER");
     run.add("--pace", o.paceSeconds, "seconds per trial of a simulated observer").in(0.0, 60.0);
 }

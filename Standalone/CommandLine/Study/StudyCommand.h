@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib study`: protocols, and studies run without a window.
 #pragma once
+#include "Jobs/RenderJob.h"
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct StudyOptions {
     int number = 1;          ///< of the first participant: the row of the Latin squares
     int participants = 1;
     std::string folder = ".";
-    std::vector<std::string> sounds; ///< "HZ=FILE.wav", instead of the protocol's of that frequency
+    RecordedSounds sounds; ///< instead of the protocol's of that frequency
     std::vector<std::string> trials; ///< levels: files of those who set them
     std::string levelsPath;          ///< levels: where they are written
     double paceSeconds = 0.0; ///< per trial, to watch it or to interrupt it

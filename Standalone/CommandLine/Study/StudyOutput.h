@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the study commands share: warnings, and files out.
 #pragma once
-#include "CommandLine/ExitCode.h"
+#include "System/ExitCode.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
 #include <functional>

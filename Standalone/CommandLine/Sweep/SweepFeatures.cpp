@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over events, then over samples. What each column means: Docs/sweep.md.
 #include "CommandLine/Sweep/SweepFeatures.h"
-#include "CommandLine/Render/LoadedRender.h"
+#include "Calls/LoadedRender.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

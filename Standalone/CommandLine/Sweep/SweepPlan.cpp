@@ -2,7 +2,7 @@
 // One task per word is looked at: a sweep of many seeds is checked as fast as one of few.
 #include "CommandLine/Sweep/SweepPlan.h"
 #include "CommandLine/Render/RenderInputs.h"
-#include "CommandLine/Study/CallFiles.h"
+#include "Calls/CallFiles.h"
 #include "CommandLine/Sweep/HeardWords.h"
 #include "Io/Disk/ContentHash.h"
 #include "Scene/SceneFileLimits.h"
@@ -94,7 +94,7 @@ std::string SweepPlan::tryTask(const SweepTask& task) {
     channels_ = std::max(channels_, job.channels());
     noteFile(task.scene, task.scene);
     for (const std::string& option : task.options) noteFile(option, option);
-    for (const auto& [hz, path] : options.value.recordings) noteFile(path, path);
+    for (const auto& [hz, path] : options.value.sounds) noteFile(path, path);
     for (const std::string& path : job.namedInputs()) noteFile(options.value.layout, path);
     return {};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A design whose files are there and whose words the program knows: tasks by their numbers, each with the hash that it is kept under.
 #pragma once
-#include "CommandLine/Render/RenderOptions.h"
+#include "Calls/RenderOptions.h"
 #include "Study/Files/SweepFile.h"
 #include <cstdint>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The temporary file of a result is the claim to its task: who has it renders, who is killed loses it.
 #include "CommandLine/Sweep/SweepRun.h"
-#include "CommandLine/ExitCode.h"
+#include "System/ExitCode.h"
 #include "System/Process.h"
 #include "CommandLine/Render/RenderCommand.h"
 #include "CommandLine/Sweep/HeardWords.h"

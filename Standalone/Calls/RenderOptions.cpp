@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names, ranges and help texts of the options of `physvib render`.
-#include "CommandLine/Render/RenderOptions.h"
+#include "Calls/RenderOptions.h"
+#include "Calls/RenderWords.h"
 #include "Core/EventShaping.h"
 #include "Io/Text/NameList.h"
 #include "Host/Devices/AudioOutput.h"
-#include "Options/OptionTable.h"
 #include "Scene/World/Simulation.h"
 
 namespace physvib {
@@ -13,31 +13,32 @@ static_assert(usualContactDb == safeContactDb, "as on a device");
 
 void declareSceneOptions(OptionTable& command, RenderJob& o) {
     command.add("scene", o.scene, "a built-in scene (see `physvib scenes`), SCENE.json, or (render, export) a saved SESSION.json or a CLIP.hjif, .hmpg, .haptic, .ahap");
-    command.add("--set", o.sets, "a variable of the scene; may be repeated").as("NAME=VALUE").single();
+    addSettings(command, o.settings);
     command.add("--seconds", o.seconds, "length of the render").in(0.001, 86400.0, " s");
     command.add("--seed", o.seed, "seed of the scene").in(0u, 4294967295u);
     command.add("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file");
-    command.add("--field", o.field, "metres that x and y span (scene: its field; events: the layout's extent)").as("W,H");
-    command.add("--law", o.law, "panning law: " + listed(panningLawNames));
+    addField(command, o.field);
+    addLaw(command, o.law);
     command.add("--exponent", o.exponent, "exponent of the law").in(0.01, 100.0);
-    command.add("--limiter", o.limiter, "on or off").oneOf({"on", "off"});
+    command.addSwitch("--limiter", o.isLimited, "on or off");
     command.add("--steps-per-second", o.stepsPerSecond, "physics steps per second")
         .in(Simulation::minStepsPerSecond, Simulation::maxStepsPerSecond, " steps/s");
-    command.add("--location", o.location, "place of a hit: contact, or centre of the fixture").oneOf({"contact", "fixture"});
-    command.add("--timing", o.timing, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)").oneOf({"onset", "release"});
-    command.add("--method", o.method, "A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency, decay varied by physics or fixed; or SV, recorded contacts");
-    command.add("--sound", o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency, or synthetic-SEED; may be repeated").as("HZ=FILE.wav").single();
-    command.add("--sound-match", o.soundMatch, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)").oneOf({"peak", "rms"});
+    command.addOneOf<ImpactLocation>("--location", o.location, {{"contact", ImpactLocation::contact}, {"fixture", ImpactLocation::fixture}}, "place of a hit: contact, or centre of the fixture");
+    command.addOneOf<ImpactTiming>("--timing", o.timing, {{"onset", ImpactTiming::onset}, {"release", ImpactTiming::release}}, "a hit is felt when its contact begins (onset) or ends (release, at most 50 ms later)");
+    addMethod(command, o);
+    addSounds(command, o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency, or synthetic-SEED; may be repeated");
+    command.addOneOf<bool>("--sound-match", o.matchesStrength, {{"peak", false}, {"rms", true}}, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)");
     command.add("--level-db", o.levelDb, "all hits so much stronger or weaker").in(-limits::maxLevelDb, limits::maxLevelDb, " dB");
     command.add("--gamma", o.gamma, "cut each decay where its envelope falls to this share, as Eq. 5.5 does with 0.1 (0: it rings out, without a click)")
         .in(0.0, EventShaping::mostTruncation);
-    command.add("--perceived-level", o.perceivedLevel, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)").oneOf({"on", "off"});
+    command.addSwitch("--perceived-level", o.isWeighted, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)");
     command.add("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")
         .in(leastContactDb, mostContactDb, " dB");
-    command.add("--marker-of", o.markerOf, "what --marker marks: all onsets, hits (no grains, no messages), or messages").oneOf({"all", "hits", "messages"});
+    command.addOneOf<MarkedOnsets>("--marker-of", o.marked, {{"all", MarkedOnsets::all}, {"hits", MarkedOnsets::hits}, {"messages", MarkedOnsets::messages}},
+                                   "what --marker marks: all onsets, hits (no grains, no messages), or messages");
     command.add("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file");
-    command.add("--equalise", o.equalise, "with an actuator: make it flat within its band (on or off)").oneOf({"on", "off"});
-    command.add("--remap", o.remap, "with an actuator: move all frequencies into its band, in their order (on or off)").oneOf({"on", "off"});
+    command.addSwitch("--equalise", o.isEqualised, "with an actuator: make it flat within its band (on or off)");
+    command.addSwitch("--remap", o.isRemapped, "with an actuator: move all frequencies into its band, in their order (on or off)");
     command.add("--coupling", o.coupling, "measured coupling of the layout's enchanters, made up for with at most 3 dB more drive (render)").as("FILE.json");
 }
 
@@ -57,7 +58,8 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
         .in(limits::minSampleRateHz, limits::maxSampleRateHz, " Hz");
     command.add("--block", o.blockFrames, "frames per block; does not change the result")
         .in(1, limits::maxBlockFrames, " frames");
-    command.add("--instructions", o.instructions, "best: the fastest here; scalar: the same bytes of the same hits on every machine").oneOf({"best", "scalar"});
+    command.addOneOf<InstructionSet>("--instructions", o.instructions, {{"best", InstructionSet::best}, {"scalar", InstructionSet::scalar}},
+                                     "best: the fastest here; scalar: the same bytes of the same hits on every machine");
     command.add("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds of processor time more")
         .in(0.0, 1e7, " s");
 }

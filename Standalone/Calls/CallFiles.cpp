@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Walks what was parsed, and what can be.
-#include "CommandLine/Study/CallFiles.h"
-#include "CommandLine/Render/RenderOptions.h"
-#include "CommandLine/Study/StimulusOptions.h"
+#include "Calls/CallFiles.h"
+#include "Calls/RenderOptions.h"
+#include "Calls/StimulusOptions.h"
 #include "Io/Disk/FileClash.h"
 #include "Study/Files/ProtocolFile.h"
 #include <set>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One render from its inputs to its events: what the renderer and the outputs need to know.
 #pragma once
-#include "CommandLine/Render/ActuatorChoice.h"
-#include "CommandLine/Render/CouplingChoice.h"
-#include "CommandLine/ExitCode.h"
+#include "Calls/ActuatorChoice.h"
+#include "Calls/CouplingChoice.h"
+#include "System/ExitCode.h"
 #include "Core/Decibels.h"
 #include "Jobs/LayoutNamed.h"
-#include "CommandLine/Render/RenderOptions.h"
+#include "Calls/RenderOptions.h"
 #include "Host/Recordings/LoadContact.h"
 #include "Host/Recordings/LoadRecordings.h"
 #include "Core/ClipNumber.h"
@@ -42,13 +42,11 @@ struct LoadedRender {
     const std::string& source() const { return scene ? scene->name : clip ? options.scene : options.fromEvents; }
 
     /// Those that are played instead of modes.
-    std::vector<ContactRecording> feltRecordings() const { return options.playsRecordings() ? recordings : std::vector<ContactRecording>{}; }
+    std::vector<ContactRecording> feltRecordings() const { return options.playsRecordings ? recordings : std::vector<ContactRecording>{}; }
 
     SceneRun run() const {
         if (session) return session->run;
-        const auto timing = options.timing == "release" ? ImpactTiming::release : ImpactTiming::onset;
-        const auto location = options.location == "fixture" ? ImpactLocation::fixture : ImpactLocation::contact;
-        return {options.seed, options.stepsPerSecond, timing, location};
+        return {options.seed, options.stepsPerSecond, options.timing, options.location};
     }
     /// Whether the session's layouts are kept, or replaced by one of the options.
     bool keepsLayouts() const {
@@ -81,27 +79,27 @@ struct LoadedRender {
     double truncation() const { return session && !options.given.contains("--gamma") ? session->shaping.truncation : options.gamma; }
     double gain() const { return session && !options.given.contains("--level-db") ? session->shaping.gain : fromDecibels(options.levelDb); }
     PerceivedLevel perceived() const {
-        return session && !options.given.contains("--perceived-level") ? session->shaping.perceived : PerceivedLevel{options.perceivedLevel == "on"};
+        return session && !options.given.contains("--perceived-level") ? session->shaping.perceived : PerceivedLevel{options.isWeighted};
     }
     /// Whether what a session played of recordings is kept: its own method.
     bool keepsRecordings() const { return session && !options.given.contains("--method"); }
-    bool isLimited() const { return session ? session->limiterEnabled : options.limiter == "on"; }
+    bool isLimited() const { return session ? session->limiterEnabled : options.isLimited; }
     std::int64_t frames() const { return std::max<std::int64_t>(1, std::llround(seconds() * options.sampleRateHz)); }
     std::int64_t endNs() const { return std::llround(seconds() * 1e9); }
     double fieldWidthMetres() const {
-        if (options.fieldWidthMetres > 0) return options.fieldWidthMetres;
+        if (options.field.widthMetres > 0) return options.field.widthMetres;
         if (session) return session->panner.fieldWidthMetres();
         return scene ? scene->fieldWidthMetres : layout.geometry.extentWidthMetres;
     }
     double fieldHeightMetres() const {
-        if (options.fieldHeightMetres > 0) return options.fieldHeightMetres;
+        if (options.field.heightMetres > 0) return options.field.heightMetres;
         if (session) return session->panner.fieldHeightMetres();
         return scene ? scene->fieldHeightMetres : layout.geometry.extentHeightMetres;
     }
     /// The wanted method, its fixed level in shares of the enchanters' full scale.
     RenderingMethod method() const {
         if (session && !options.given.contains("--method")) return session->shaping.method;
-        RenderingMethod wanted = options.renderingMethod;
+        RenderingMethod wanted = options.method;
         wanted.fixedAmplitude = RenderingMethod::fixedLevelG / fullScaleG();
         wanted.holdsLevel = wanted.fixesAmplitude;
         return wanted;
@@ -110,7 +108,7 @@ struct LoadedRender {
     double fullScaleG() const { return layout.enchanters.front().fullScaleG; }
     PhantomPanner panner() const {
         if (keepsLayouts()) return session->panner;
-        return {layout.geometry, options.panningLaw, options.exponent, fieldWidthMetres(), fieldHeightMetres()};
+        return {layout.geometry, options.law, options.exponent, fieldWidthMetres(), fieldHeightMetres()};
     }
 };
 
@@ -120,10 +118,10 @@ inline std::string fixedLevelFault(const LoadedRender& job) {
     if (!job.method().fixesAmplitude) return {};
     for (const auto& enchanter : job.layout.enchanters)
         if (enchanter.fullScaleG != job.fullScaleG())
-            return job.options.layout + ": --method " + job.options.method + ": expected one full_scale_g for all enchanters, found " +
+            return job.options.layout + ": --method " + job.options.methodName() + ": expected one full_scale_g for all enchanters, found " +
                    numberText(job.fullScaleG()) + " and " + numberText(enchanter.fullScaleG);
     if (job.method().fixedAmplitude > 1.0)
-        std::cerr << "physvib: warning: --method " << job.options.method << ": the fixed level of " << numberText(RenderingMethod::fixedLevelG)
+        std::cerr << "physvib: warning: --method " << job.options.methodName() << ": the fixed level of " << numberText(RenderingMethod::fixedLevelG)
                   << " g is above the enchanters' full scale of " << numberText(job.fullScaleG()) << " g"
                   << (job.isLimited() ? "; the limiter lowers it\n" : "\n");
     return {};
@@ -131,15 +129,15 @@ inline std::string fixedLevelFault(const LoadedRender& job) {
 
 /// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty, or one line.
 inline std::string takeRecordings(LoadedRender& job, const std::vector<CollisionEvent>& events, const std::string& source) {
-    for (const auto& [hz, path] : job.options.recordings) {
+    for (const auto& [hz, path] : job.options.sounds) {
         const auto struck = std::ranges::find(events, hz, &CollisionEvent::frequencyHz);
-        auto contact = loadContact({hz, path, struck != events.end() ? struck->decayPerSecond : 0.0, job.options.soundMatch == "rms"});
+        auto contact = loadContact({hz, path, struck != events.end() ? struck->decayPerSecond : 0.0, job.options.matchesStrength});
         if (!contact) return contact.error;
         job.recordings.push_back(std::move(contact.value));
     }
     for (const std::string& note : notesOf(job.recordings)) tell(note);
     for (const CollisionEvent& e : events)
-        if (job.options.playsRecordings() && !isClip(e.frequencyHz) && std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) == job.recordings.end())
+        if (job.options.playsRecordings && !isClip(e.frequencyHz) && std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) == job.recordings.end())
             return source + ": expected a --sound for " + numberText(e.frequencyHz) + " Hz, found none";
     return {};
 }
@@ -155,7 +153,7 @@ inline int takeSession(LoadedRender& job) {
     SessionLog& log = job.session->log;
     if (!job.keepsRecordings()) log.recordings.clear();
     if (log.recordings.empty() && log.clips.empty()) return exitDone;
-    if (!log.recordings.empty() && job.options.remap == "on") return leave(exitUsage, std::string{recordingsHaveNoFrequency});
+    if (!log.recordings.empty() && job.options.isRemapped) return leave(exitUsage, std::string{recordingsHaveNoFrequency});
     if (!log.recordings.empty() && job.perceived().isWeighted) return leave(exitUsage, std::string{recordingsHaveNoWeight});
     auto recordings = loadRecordings(log);
     if (!recordings) return leave(exitFailed, job.options.scene + ": " + recordings.error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A coupling looked up, checked and weighed.
-#include "CommandLine/Render/CouplingChoice.h"
+#include "Calls/CouplingChoice.h"
 #include "Core/Decibels.h"
 #include "Study/Files/CouplingFile.h"
 #include "Io/Text/NumberText.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A job that is played live instead: the session that it becomes.
 #pragma once
-#include "CommandLine/Render/LoadedRender.h"
+#include "Calls/LoadedRender.h"
 #include "Session/SessionSetup.h"
 #include <vector>
 
@@ -33,7 +33,7 @@ inline SessionSetup sessionSetup(const LoadedRender& job) {
     setup.equalised = job.equalised();
     setup.shaping = job.shaping();
     setup.recordings = job.feltRecordings();
-    setup.limiterEnabled = job.options.limiter == "on";
+    setup.limiterEnabled = job.options.isLimited;
     return setup;
 }
 

@@ -15,7 +15,7 @@ struct StimulusOptions {
     PhantomJob phantom;
     StimulusJob job;               ///< what both have
     std::string grid, cell, at;    ///< "5x5", "2,3"; or "0.25,0.5"
-    std::string points = "corners", law = "linear", frequency = "205";
+    std::string points = "corners", frequency = "205";
     int sampleRateHz = 48000;
     int enchanters = 4;            ///< of `stimulus list`
     std::string wavPath, picturePath;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Profiles looked up, checked and weighed.
-#include "CommandLine/Render/ActuatorChoice.h"
-#include "CommandLine/ExitCode.h"
+#include "Calls/ActuatorChoice.h"
+#include "System/ExitCode.h"
 #include "Core/Decibels.h"
 #include "Scene/ActuatorFile.h"
 #include "Io/Text/NumberText.h"
@@ -61,7 +61,7 @@ Result<ActuatorChoice> chooseActuators(const RenderJob& o, const LayoutDescripti
     auto profiles = profilesOf(o, layout);
     if (!profiles) return Failure{profiles.error};
     ActuatorChoice choice;
-    for (std::size_t j = 0; j < profiles.value.size() && o.equalise == "on"; ++j) {
+    for (std::size_t j = 0; j < profiles.value.size() && o.isEqualised; ++j) {
         const ActuatorProfile& p = profiles.value[j];
         if (p.name.empty()) continue;
         if (const std::string fault = equaliserFault(p); !fault.empty()) return Failure{"--actuator " + o.actuator + ": " + p.name + ": " + fault};
@@ -70,7 +70,7 @@ Result<ActuatorChoice> chooseActuators(const RenderJob& o, const LayoutDescripti
     }
     if (o.interfaceVolts > 0.0)
         if (auto fault = scaleVoltages(profiles.value, o.interfaceVolts, choice); !fault.empty()) return Failure{fault};
-    if (o.remap == "off") return choice;
+    if (!o.isRemapped) return choice;
     const auto band = commonBand(profiles.value);
     if (!band) return Failure{band.error};
     choice.remap.band = band.value;
@@ -101,7 +101,7 @@ std::vector<std::string> remapWarnings(const FrequencyRemap& remap, std::span<co
                                fixedNumber(100.0 * frequencyJnd, 0) + " % (Pongrac 2008)");
     }
     const auto profiles = profilesOf(o, layout);
-    for (std::size_t j = 0; o.equalise == "off" && profiles && j < profiles.value.size(); ++j) {
+    for (std::size_t j = 0; !o.isEqualised && profiles && j < profiles.value.size(); ++j) {
         const Resonator r = profiles.value[j].resonator();
         if (!r.isKnown() || decays.empty() || *decays.rbegin() <= r.ringDownPerSecond()) continue;
         warnings.push_back("--remap: " + profiles.value[j].name + " rings down with " + fixedNumber(r.ringDownPerSecond(), 1) + " /s; a decay of up to " +

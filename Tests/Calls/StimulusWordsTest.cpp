@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a row of a study says is read as the value that it was written from.
-#include "CommandLine/Study/StimulusOptions.h"
+#include "Calls/StimulusOptions.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Options/Parser.h"
 #include "Study/Trial.h"

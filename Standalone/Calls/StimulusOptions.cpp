@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib stimulus`, from words to a value.
-#include "CommandLine/Study/StimulusOptions.h"
+#include "Calls/StimulusOptions.h"
+#include "Calls/RenderWords.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
-#include "Options/OptionTable.h"
 #include "Study/PercentCounts.h"
 #include <cmath>
 
@@ -45,7 +45,7 @@ void declarePlace(OptionTable& command, StimulusOptions& o) {
     command.add(words::grid, o.grid, "columns and rows of a grid, e.g. 7x5").as("CxR");
     command.add(words::cell, o.cell, "row and column in the grid, from 1, row 1 above").as("r,c");
     command.add(words::points, o.points, "the grid's points: its outer ones on the corners, or the middles of cells").oneOf({"corners", "middles"});
-    command.add(words::law, o.law, "panning law: " + listed(panningLawNames));
+    addLaw(command, o.phantom.law);
     command.add(words::exponent, o.phantom.exponent, "exponent of the law").in(ranges::exponent.least, ranges::exponent.most);
 }
 
@@ -82,16 +82,13 @@ Result<StimulusJob> readStimulus(const OptionTable& command, const StimulusOptio
     job.frequencyHz = parseNumber<double>(o.frequency).value_or(0.0);
     if (o.frequency == words::resonance) job.frequencyHz.reset();
     job.what = o.pattern;
-    bool isLaw = true;
     if (!command.isCalled("pattern")) {
         if (o.at.empty() == o.cell.empty()) return Failure{"give either --at X,Y or --grid CxR with --cell r,c"};
         auto& phantom = job.what.emplace<PhantomJob>(o.phantom);
         if (o.at.empty()) phantom.at = gridPlace(o);
         else phantom.at = placeAt(o.at);
-        isLaw = panningLawNamed(o.law, phantom.law);
     }
     const JobFault fault = faultOf(job);
-    if (!isLaw && (!fault || fault.word == words::frequency)) return Failure{"--law: expected " + listed(panningLawNames, " or ") + ", found " + inQuotes(o.law)};
     if (fault) return Failure{fault.words() + ", found " + inQuotes(saidOf(o, fault.word))};
     return job;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What --actuator, --equalise and --remap mean for a layout.
 #pragma once
-#include "CommandLine/Render/RenderOptions.h"
+#include "Calls/RenderOptions.h"
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Core/CollisionEvent.h"
 #include "Core/EventShaping.h"
