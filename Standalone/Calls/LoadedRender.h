@@ -127,7 +127,8 @@ inline std::string fixedLevelFault(const LoadedRender& job) {
     return {};
 }
 
-/// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty, or one line.
+/// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty, or one line. Their notes are the
+/// caller's to tell.
 inline std::string takeRecordings(LoadedRender& job, const std::vector<CollisionEvent>& events, const std::string& source) {
     for (const auto& [hz, path] : job.options.sounds) {
         const auto struck = std::ranges::find(events, hz, &CollisionEvent::frequencyHz);
@@ -135,7 +136,6 @@ inline std::string takeRecordings(LoadedRender& job, const std::vector<Collision
         if (!contact) return contact.error;
         job.recordings.push_back(std::move(contact.value));
     }
-    for (const std::string& note : notesOf(job.recordings)) tell(note);
     for (const CollisionEvent& e : events)
         if (job.options.playsRecordings && !isClip(e.frequencyHz) && std::ranges::find(job.recordings, e.frequencyHz, &ContactRecording::frequencyHz) == job.recordings.end())
             return source + ": expected a --sound for " + numberText(e.frequencyHz) + " Hz, found none";

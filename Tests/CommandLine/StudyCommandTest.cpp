@@ -73,7 +73,7 @@ TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
     const auto outcome = call(last + " --out again.wav"); // the model at its matched level
     EXPECT_EQ(outcome.exitCode, 0) << last << outcome.err;
     refuses("study run model-or-sound --observer simulated --out other --sound 349=gone.wav", 1, "gone.wav: cannot be read", 3);
-    refuses("study run model-or-sound --observer simulated --out other --sound gone.wav", 1, "--sound: expected HZ=FILE.wav", 3);
+    refuses("study run model-or-sound --observer simulated --out other --sound gone.wav", 2, "--sound: expected HZ=FILE.wav", 3);
 }
 
 TEST_F(Study, EightMethodsWhole) {

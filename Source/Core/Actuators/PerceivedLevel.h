@@ -33,4 +33,12 @@ struct PerceivedLevel {
     bool operator==(const PerceivedLevel&) const = default;
 };
 
+/// About the weakest peak acceleration, in g, that is felt at a frequency, by the same curve: 0.1 um at 250 Hz (20 dB below 1 um) is 0.025 g.
+/// An assumption: people, places and contactors differ by 10 dB. Any thread.
+constexpr double detectionThresholdG(double frequencyHz) noexcept {
+    constexpr double lowestG = 0.025;
+    const double share = frequencyHz / std::clamp(frequencyHz, PerceivedLevel::flatLowHz, PerceivedLevel::flatHighHz);
+    return lowestG * share * share;
+}
+
 } // namespace physvib

@@ -131,6 +131,7 @@ int runPlay(PlayOptions& o) {
     job.actuators = std::move(actuators.value);
     for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) tell("warning: " + line);
     if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty()) return leave(exitFailed, fault);
+    for (const std::string& note : notesOf(job.recordings)) tell(note);
     for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
     if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty() && o.scene.marker.empty()))
         return leave(exitUsage, "--noise, --contact-sound, --marker: expected a --device that they leave by");

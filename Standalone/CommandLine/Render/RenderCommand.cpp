@@ -104,6 +104,7 @@ std::string render(LoadedRender& job, RenderListener* listener) {
     if (!warnings) return warnings.error;
     if (auto error = tooHighFor(job.options.sampleRateHz, job.made.events, job.source()); !error.empty()) return error;
     if (auto error = takeRecordings(job, job.made.events, job.source()); !error.empty()) return error;
+    for (const std::string& note : notesOf(job.recordings)) tell(note);
     outputs.begin();
     const RenderStatus status = job.clip ? renderClip(job, outputs) : renderEvents(job, outputs);
     if (auto error = outputs.finish(); !error.empty()) return error;

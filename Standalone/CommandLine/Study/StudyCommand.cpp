@@ -11,6 +11,7 @@
 #include "Host/Recordings/LoadContact.h"
 #include "Jobs/StudyRun.h"
 #include "Studies/StudyCalls.h"
+#include "Studies/StudyCheck.h"
 #include "Study/SimulatedObserver.h"
 #include <chrono>
 #include <thread>
@@ -84,6 +85,15 @@ int run(const StudyOptions& o) {
     return exitDone;
 }
 
+int check(const StudyOptions& o) {
+    auto protocol = protocolNamed(o.protocol);
+    if (!protocol) return leave(exitFailed, protocol.error);
+    if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
+    const StudyCheck found = checkStudy(protocol.value, o.participants);
+    std::cout << found.text;
+    return found.errors.empty() ? exitDone : exitFailed;
+}
+
 int levels(const StudyOptions& o) {
     const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
@@ -107,15 +117,17 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
     command.addCommand("list", "the built-in protocols, one per line");
     OptionTable& show = command.addCommand("show", "a protocol as JSON, to start your own from");
     OptionTable& run = command.addCommand("run", "runs a study, or goes on with it where it was cut off");
+    OptionTable& check = command.addCommand("check", "how strong each stimulus is, what the limiter would alter, how long it takes, how orders balance; nobody feels anything");
     OptionTable& levels = command.addCommand("levels", "averages what experts set in a protocol's adjustments, for the levels_file of another");
     levels.add("--out", o.levelsPath, "a level per stimulus").written("FILE.csv").required();
-    for (OptionTable* const one : {&show, &run, &levels}) one->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
+    for (OptionTable* const one : {&show, &run, &check, &levels}) one->add("protocol", o.protocol, "a built-in protocol or PROTOCOL.json").required();
     levels.add("trials", o.trials, "trial files of that protocol").as("TRIALS.csv").required();
     run.add("--observer", o.observer, "who answers: " + std::string(observerNames));
     run.add("--participant", o.participant, "code of the participant; no other personal data is kept").as("CODE");
     run.add("--number", o.number, "number of the (first) participant: decides orders").in(1, 100000);
     run.add("--participants", o.participants, "how many, one after the other").in(1, 1000);
-    addSounds(run, o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated");
+    check.add("--participants", o.participants, "whose orders are looked at").in(1, 1000);
+    for (OptionTable* const one : {&run, &check}) addSounds(*one, o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated");
     run.add("--out", o.folder, "folder of the trial files, NAME-CODE.csv").as("FOLDER");
     run.add("--pace", o.paceSeconds, "seconds per trial of a simulated observer").in(0.0, 60.0);
 }
@@ -123,6 +135,7 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
 int runStudy(const OptionTable& command, const StudyOptions& o) {
     if (command.isCalled("list")) return list();
     if (command.isCalled("run")) return run(o);
+    if (command.isCalled("check")) return check(o);
     if (command.isCalled("levels")) return levels(o);
     const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Counted from the protocol alone: no participant, no device.
+#include "Study/StudyPlan.h"
+#include "Study/StudyOrder.h"
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace physvib {
+namespace {
+
+/// The highest level of one of a session's alternatives.
+double highestOf(const Protocol& protocol, const SessionPlan& session, const Alternative& alternative) {
+    const auto from = std::ranges::find(protocol.sessions, session.levelsFrom, &SessionPlan::name);
+    const auto& adjustment = from != protocol.sessions.end() ? from->adjustment : session.adjustment;
+    if (adjustment && adjustment->alternative == alternative.name) return adjustment->mostDb;
+    if (session.staircase && session.staircase->alternative == alternative.name) return session.staircase->mostDb;
+    if (session.quest && session.quest->alternative == alternative.name) return session.quest->mostDb;
+    double highest = alternative.levelDb;
+    if (!session.levelsFile.empty())
+        for (const StimulusLevel& level : protocol.levels)
+            if (level.alternative == alternative.name) highest = std::max(highest, level.levelDb);
+    return highest;
+}
+
+/// The parts that a session's trials have, each with its highest level; one without a name where trials have none.
+std::map<std::string, double> partsOf(const Protocol& protocol, const SessionPlan& session) {
+    std::map<std::string, double> parts;
+    for (const Alternative& alternative : session.alternatives) parts[alternative.name] = highestOf(protocol, session, alternative);
+    for (const std::string& object : session.objects) parts[object] = 0.0;
+    if (parts.empty()) parts[{}] = 0.0;
+    return parts;
+}
+
+int trialsOf(const SessionPlan& session, std::size_t stimuli) {
+    const auto count = static_cast<int>(stimuli);
+    if (session.answer() == AnswerKind::wish) return session.fewestTouches > 0 ? session.fewestTouches : count;
+    if (session.quest) return session.quest->trials * count;
+    if (session.staircase) return session.staircase->mostTrials * count;
+    return count * session.repetitions * (session.bothOrders ? 2 : 1);
+}
+
+} // namespace
+
+TrialJob PlannedStimulus::job(const Protocol& protocol) const {
+    TrialRecord record;
+    record.trial.condition = condition;
+    record.trial.session = session;
+    record.trial.stimulus = label;
+    if (!part.empty()) {
+        record.trial.parts = {part};
+        record.trial.partLevelsDb = {highestDb};
+        record.answer.value = highestDb; // of an adjustment, what is felt
+    }
+    return jobsOf(protocol, record).front();
+}
+
+std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
+    std::map<std::string, std::pair<double, std::size_t>> parts; // highest level, and the session that sets it
+    for (std::size_t s = 0; s < protocol.sessions.size(); ++s)
+        for (const auto& [name, db] : partsOf(protocol, protocol.sessions[s]))
+            if (const auto [at, isNew] = parts.try_emplace(name, db, s); !isNew && db > at->second.first) at->second = {db, s};
+    if (parts.size() > 1) parts.erase(std::string{}); // trainings without alternatives feel what the others feel
+    std::vector<PlannedStimulus> planned;
+    for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
+        for (const StimulusItem& item : stimuliOf(protocol.conditions[c]))
+            for (const auto& [name, of] : parts) planned.push_back({c, of.second, item.label, name, of.first});
+    return planned;
+}
+
+std::vector<PlannedTrials> plannedTrials(const Protocol& protocol) {
+    std::vector<PlannedTrials> all;
+    for (std::size_t c = 0; c < protocol.conditions.size(); ++c) {
+        const auto items = stimuliOf(protocol.conditions[c]);
+        for (const SessionPlan& session : protocol.sessions)
+            for (const StimulusItem& item : items)
+                for (const auto& [part, db] : partsOf(protocol, session)) all.push_back({c, item.label, part, trialsOf(session, items.size()) / std::max(1, static_cast<int>(items.size()))});
+    }
+    return all;
+}
+
+PlannedTime plannedTime(const Protocol& protocol, const std::function<double(std::size_t, const std::string&, const std::string&)>& secondsOf) {
+    PlannedTime time;
+    double stretch = 0.0;
+    const auto work = [&](double seconds) { time.seconds += seconds, time.longestStretchSeconds = std::max(time.longestStretchSeconds, stretch += seconds); };
+    const auto rest = [&](double seconds) {
+        if (seconds > 0.0) time.seconds += seconds, stretch = 0.0;
+    };
+    for (std::size_t c = 0; c < protocol.conditions.size(); ++c) {
+        if (c > 0) rest(protocol.conditionBreakSeconds);
+        const auto items = stimuliOf(protocol.conditions[c]);
+        for (const SessionPlan& session : protocol.sessions) {
+            rest(session.breakBeforeSeconds);
+            double each = 0.0; // a trial of this session, on average
+            for (const StimulusItem& item : items)
+                for (const auto& [part, db] : partsOf(protocol, session)) each += std::max(session.leastSeconds, secondsOf(c, item.label, part)) / static_cast<double>(items.size());
+            const int trials = trialsOf(session, items.size());
+            for (int t = 0; t < trials; ++t) {
+                if (session.breakEvery > 0 && t > 0 && t % session.breakEvery == 0) rest(session.breakSeconds);
+                work(each + (session.answer() == AnswerKind::wish ? 0.0 : PlannedTime::answerSeconds));
+            }
+            time.trials += trials;
+        }
+    }
+    return time;
+}
+
+OrderBalance orderBalance(const Protocol& protocol, int participants) {
+    const std::size_t count = protocol.conditions.size();
+    std::vector<int> atPlace(count * count);
+    std::set<std::pair<std::size_t, std::size_t>> successions;
+    for (int number = 1; number <= participants; ++number) {
+        const auto order = conditionOrder(protocol, number);
+        for (std::size_t place = 0; place < count; ++place) {
+            ++atPlace[order[place] * count + place];
+            if (place > 0) successions.emplace(order[place - 1], order[place]);
+        }
+    }
+    const auto [fewest, most] = std::ranges::minmax(atPlace);
+    return {fewest, most, static_cast<int>(successions.size()), static_cast<int>(count * (count - 1))};
+}
+
+} // namespace physvib

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stimuli are rendered as a participant would feel them, without the limiter.
+#include "Studies/StudyCheck.h"
+#include "Core/Actuators/HandWeighting.h"
+#include "Core/Actuators/PerceivedLevel.h"
+#include "Core/Decibels.h"
+#include "Io/Text/NumberText.h"
+#include "Session/ContactSounds.h"
+#include "Session/OfflineRender.h"
+#include "Studies/StudyCalls.h"
+#include "Study/StudyPlan.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+constexpr int checkRateHz = 48000;
+constexpr double fullScaleSlack = 1e-6; // a sine's peak at a rounded level
+constexpr double longestWithoutBreakSeconds = 30.0 * 60.0;
+constexpr double weakDb = 6.0;          // above the threshold of detection: what most people feel at once
+
+/// One per actuator.
+struct ChannelSums {
+    double peak = 0.0, squares = 0.0, weightedSquares = 0.0;
+    HandWeighting weighting{checkRateHz};
+};
+
+void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
+    const auto channels = static_cast<std::size_t>(felt.stimulus.panner.channels());
+    std::vector<ChannelSums> sums(channels);
+    const ContactSounds sounds{felt.recordings, checkRateHz};
+    const OfflineSettings settings{.renderer = {checkRateHz, 0, felt.stimulus.panner, false}, .frames = std::llround(felt.stimulus.seconds * checkRateHz), .contacts = {sounds.contacts()}};
+    renderOffline(felt.stimulus.events, settings, [&](const float* const* blocks, int frames) {
+        for (std::size_t j = 0; j < channels; ++j)
+            for (int n = 0; n < frames; ++n) {
+                const double sample = static_cast<double>(blocks[j][n]) * felt.gains[j], weighted = sums[j].weighting.process(sample);
+                sums[j].peak = std::max(sums[j].peak, std::abs(sample));
+                sums[j].squares += sample * sample;
+                sums[j].weightedSquares += weighted * weighted;
+            }
+        return true;
+    });
+    checked.seconds = felt.stimulus.seconds;
+    for (std::size_t j = 0; j < channels; ++j) {
+        const double fullScaleG = felt.layout.enchanters[j].fullScaleG;
+        checked.peakShare = std::max(checked.peakShare, sums[j].peak);
+        checked.peakG = std::max(checked.peakG, sums[j].peak * fullScaleG);
+        checked.rmsG = std::max(checked.rmsG, std::sqrt(sums[j].squares / static_cast<double>(std::max<std::int64_t>(1, settings.frames))) * fullScaleG);
+        checked.squareGSeconds += sums[j].weightedSquares / checkRateHz * fullScaleG * fullScaleG;
+    }
+    const auto strongest = std::ranges::max_element(felt.stimulus.events, {}, &CollisionEvent::amplitude);
+    if (strongest != felt.stimulus.events.end()) checked.frequencyHz = strongest->frequencyHz;
+}
+
+CheckedStimulus checkStimulus(const Protocol& protocol, const PlannedStimulus& planned) {
+    CheckedStimulus checked{.condition = planned.condition, .label = planned.label, .part = planned.part, .levelDb = planned.highestDb, .error = {}};
+    const auto* const world = std::get_if<WorldSet>(&protocol.conditions[planned.condition].stimuli);
+    checked.isOpenEnded = world != nullptr && world->hasHands;
+    const auto felt = feltStimulus(planned.job(protocol), checkRateHz, protocol.folder);
+    if (!felt) checked.error = felt.error;
+    else measure(felt.value, checked);
+    return checked;
+}
+
+std::string signedNumber(double number, int decimals) { return number < 0.0 ? fixedNumber(number, decimals) : std::string{"+"}.append(fixedNumber(number, decimals)); }
+
+std::string nameOf(const Protocol& protocol, const CheckedStimulus& s) {
+    std::string name = "condition " + printable(protocol.conditions[s.condition].name) + ", " + (s.label.empty() ? std::string{"any place"} : printable(s.label));
+    if (!s.part.empty()) name += ", " + printable(s.part);
+    return s.levelDb == 0.0 ? name : name + " at " + signedNumber(s.levelDb, 1) + " dB";
+}
+
+double inDb(double share) { return toDecibels(std::max(share, 1e-6)); }
+
+std::string limiterWords(const Protocol& protocol, const CheckedStimulus& s) {
+    const double neededG = s.peakG; // of the actuator that is beyond
+    return nameOf(protocol, s) + ": peaks " + fixedNumber(inDb(s.peakShare), 1) + " dB above full scale, which the limiter would lower: expected a layout of at least " +
+           fixedNumber(neededG, 2) + " g (full_scale_g), or a level that is as much lower";
+}
+
+bool needsLimiter(const CheckedStimulus& s) { return s.error.empty() && s.peakShare > 1.0 + fullScaleSlack; }
+
+double aboveThresholdDb(const CheckedStimulus& s) { return inDb(s.peakG / detectionThresholdG(s.frequencyHz)); }
+
+void judge(const Protocol& protocol, const CheckedStimulus& s, StudyCheck& check) {
+    if (!s.error.empty()) return void(check.errors.push_back(nameOf(protocol, s) + ": " + s.error));
+    if (needsLimiter(s)) (s.isOpenEnded ? check.warnings : check.errors).push_back(limiterWords(protocol, s));
+    if (s.peakG <= 0.0) check.warnings.push_back(nameOf(protocol, s) + ": nothing is felt");
+    else if (const double db = aboveThresholdDb(s) - s.levelDb; db < weakDb && !s.isOpenEnded)
+        check.warnings.push_back(nameOf(protocol, s) + ": weak: " + fixedNumber(1e3 * s.peakG / fromDecibels(s.levelDb), 1) + " mg at 0 dB, " + fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +
+                                 " the threshold of detection at " + fixedNumber(s.frequencyHz, 0) + " Hz (assumed: " + fixedNumber(1e3 * detectionThresholdG(s.frequencyHz), 0) + " mg)");
+}
+
+std::string lineOf(const CheckedStimulus& s) {
+    if (!s.error.empty()) return "cannot be played";
+    return fixedNumber(s.peakG, 4) + "\t" + fixedNumber(s.rmsG, 4) + "\t" + fixedNumber(-inDb(s.peakShare), 1) + "\t" + fixedNumber(aboveThresholdDb(s), 1) + "\t" + fixedNumber(s.seconds, 2);
+}
+
+std::string tableOf(const Protocol& protocol, const std::vector<CheckedStimulus>& stimuli) {
+    std::string text = "condition\tstimulus\tpart\tlevel_db\tpeak_g\trms_g\tbelow_full_scale_db\tabove_threshold_db\tseconds\n";
+    for (const CheckedStimulus& s : stimuli)
+        text += printable(protocol.conditions[s.condition].name) + "\t" + printable(s.label) + "\t" + printable(s.part) + "\t" + numberText(s.levelDb) + "\t" + lineOf(s) + "\n";
+    return text;
+}
+
+std::string listOf(const char* what, const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += std::string{what} + ": " + line + "\n";
+    return text;
+}
+
+std::string minutes(double seconds) { return fixedNumber(seconds / 60.0, 0) + " min"; }
+
+/// Of one participant: what is felt of a stimulus once.
+const CheckedStimulus* checkedOf(const std::vector<CheckedStimulus>& all, std::size_t condition, const std::string& label, const std::string& part) {
+    const auto found = std::ranges::find_if(all, [&](const CheckedStimulus& s) { return s.condition == condition && s.label == label && (s.part == part || part.empty()); });
+    return found != all.end() ? &*found : nullptr;
+}
+
+void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
+    double squareGSeconds = 0.0; // of every trial at one play
+    const PlannedTime time = plannedTime(protocol, [&](std::size_t condition, const std::string& label, const std::string& part) {
+        const CheckedStimulus* const one = checkedOf(check.stimuli, condition, label, part);
+        return one != nullptr ? one->seconds : 0.0;
+    });
+    for (const PlannedTrials& trials : plannedTrials(protocol))
+        if (const CheckedStimulus* const one = checkedOf(check.stimuli, trials.condition, trials.label, trials.part)) squareGSeconds += trials.count * one->squareGSeconds;
+    const double exposure = dailyExposure(squareGSeconds);
+    check.text += "trials: " + std::to_string(time.trials) + ", at most " + minutes(time.seconds) + " with breaks, at one play of each part and " + fixedNumber(PlannedTime::answerSeconds, 0) + " s per answer\n";
+    check.text += "exposure: A(8) " + fixedNumber(exposure, 3) + " m/s2 of one participant on one day, at one play of each part and the highest levels (action value " + fixedNumber(exposureActionValue, 1) + ")\n";
+    if (exposure > protocol.exposureLimit) check.warnings.push_back("exposure: A(8) of " + fixedNumber(exposure, 2) + " m/s2 is above the protocol's limit of " + numberText(protocol.exposureLimit) + ", at which the study pauses");
+    if (time.longestStretchSeconds > longestWithoutBreakSeconds) check.warnings.push_back("breaks: expected one at least every " + minutes(longestWithoutBreakSeconds) + ", found " + minutes(time.longestStretchSeconds) + " without");
+    if (protocol.conditions.size() < 2) return;
+    const OrderBalance balance = orderBalance(protocol, participants);
+    const std::string words = std::to_string(participants) + " participants: a condition is at one place " + std::to_string(balance.fewestAtPlace) + " to " + std::to_string(balance.mostAtPlace) + " times; " +
+                              std::to_string(balance.successions) + " of " + std::to_string(balance.possibleSuccessions) + " successions occur";
+    check.text += "orders: " + words + "\n";
+    if (!balance.isBalanced()) check.warnings.push_back("orders are not balanced: " + words);
+}
+
+} // namespace
+
+StudyCheck checkStudy(const Protocol& protocol, int participants) {
+    StudyCheck check;
+    for (const PlannedStimulus& planned : plannedStimuli(protocol)) check.stimuli.push_back(checkStimulus(protocol, planned));
+    for (const CheckedStimulus& s : check.stimuli) judge(protocol, s, check);
+    check.text = tableOf(protocol, check.stimuli) + "\n";
+    judgePlan(protocol, participants, check);
+    check.text += listOf("error", check.errors) + listOf("warning", check.warnings);
+    return check;
+}
+
+std::string limiterFault(const Protocol& protocol) {
+    for (const PlannedStimulus& planned : plannedStimuli(protocol)) {
+        const StimulusSet& set = protocol.conditions[planned.condition].stimuli;
+        const auto* const world = std::get_if<WorldSet>(&set);
+        if (callSetOf(set) == nullptr || (world != nullptr && world->hasHands)) continue; // the others are refused where they are made
+        const CheckedStimulus checked = checkStimulus(protocol, planned);
+        if (needsLimiter(checked)) return limiterWords(protocol, checked);
+    }
+    return {};
+}
+
+} // namespace physvib

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A study looked at before anybody takes part: how strong each stimulus is, what the limiter would alter, how long it takes, how orders balance.
+#pragma once
+#include "Study/Protocol.h"
+#include <string>
+#include <vector>
+
+namespace physvib {
+
+/// A stimulus of a condition, or a part of it (an alternative, an object), at the highest level that the protocol allows.
+struct CheckedStimulus {
+    std::size_t condition = 0;  ///< its index in the protocol
+    std::string label, part;    ///< no part: empty
+    double levelDb = 0.0;       ///< of the part, the highest that a session can set
+    double seconds = 0.0;       ///< that it lasts
+    double frequencyHz = 0.0;   ///< of the strongest impact or pulse
+    double peakShare = 0.0;     ///< of the strongest actuator's full scale, without the limiter
+    double peakG = 0.0, rmsG = 0.0; ///< of the strongest actuator, the latter over the time that it lasts
+    double squareGSeconds = 0.0; ///< hand-weighted, of all actuators together: see HandWeighting.h
+    bool isOpenEnded = false;    ///< a world with hands: as its own script has it
+    std::string error;           ///< it cannot be played: one line
+};
+
+/// What is found. M only.
+struct StudyCheck {
+    std::vector<CheckedStimulus> stimuli;
+    std::vector<std::string> errors;   ///< why it may not be run
+    std::vector<std::string> warnings; ///< what a person should decide
+    std::string text;                  ///< one page: a line per stimulus, then times, orders, and both of the above
+};
+
+/// Renders every stimulus once. M only.
+StudyCheck checkStudy(const Protocol& protocol, int participants);
+
+/// The first stimulus made by a call that would need the limiter, with what it would need instead; empty if there is none. Worlds with hands are
+/// left out: how strong they are, their participants decide. M only.
+std::string limiterFault(const Protocol& protocol);
+
+} // namespace physvib

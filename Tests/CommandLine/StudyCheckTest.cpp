@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `physvib study check`: what nobody should find out by feeling it.
+#include "Calls.h"
+#include "Core/Decibels.h"
+#include "Io/Text/NumberText.h"
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+namespace physvib {
+namespace {
+
+class StudyCheckCommand : public test::CommandLine {
+protected:
+    /// The built-in protocol with some of its text replaced, as mine.json.
+    void change(const std::string& protocol, const std::vector<std::pair<std::string, std::string>>& edits) const {
+        std::string text = call("study show " + protocol).out;
+        for (const auto& [from, to] : edits) {
+            ASSERT_NE(text.find(from), std::string::npos) << from;
+            for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size()) text.replace(at, from.size(), to);
+        }
+        write("mine.json", text);
+    }
+    /// Peaks in g by "stimulus part".
+    static std::map<std::string, double> peaksOf(const std::string& out) {
+        std::map<std::string, double> peaks;
+        std::istringstream lines{out};
+        for (std::string line; std::getline(lines, line) && !line.empty();) {
+            std::vector<std::string> cells;
+            std::istringstream row{line};
+            for (std::string cell; std::getline(row, cell, '\t');) cells.push_back(cell);
+            if (cells.size() > 4 && cells[0] != "condition") peaks[cells[1] + " " + cells[2]] = parseNumber<double>(cells[4]).value_or(0.0);
+        }
+        return peaks;
+    }
+};
+
+TEST_F(StudyCheckCommand, EveryConditionOfTheFallingObjectsKeepsItsDistancesBelowTheLimiter) {
+    const auto outcome = call("study check model-or-sound --participants 20");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.out << outcome.err;
+    auto peaks = peaksOf(outcome.out);
+    ASSERT_EQ(peaks.size(), 54u);
+    for (const char* pair : {"rubber-concrete", "wood-wood", "steel-steel"})
+        for (const char* size : {"small", "medium", "large"})
+            for (const std::string part : {"AV-FV-DRV", "SV"}) {
+                const auto at = [&](const char* height) { return toDecibels(peaks.at(std::string{pair} + " " + size + " " + height + " " + part)); };
+                EXPECT_NEAR(at("2") - at("1"), 3.01, 0.1) << pair << size << part; // Eq. 5.4: as the root of the height
+                EXPECT_NEAR(at("3") - at("1"), 4.77, 0.1) << pair << size << part;
+            }
+    EXPECT_NE(outcome.out.find("warning: condition drop, rubber-concrete small 1"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("below the threshold of detection at 80 Hz"), std::string::npos);
+    EXPECT_NE(outcome.out.find("trials: 135"), std::string::npos);
+}
+
+TEST_F(StudyCheckCommand, WhatNeedsTheLimiterIsRefusedWithWhatItWouldNeed) {
+    change("model-or-sound", {{"\"level_db\": -8", "\"level_db\": 0"}});
+    const auto outcome = call("study check mine.json");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_NE(outcome.out.find("error: condition drop, wood-wood large 3, SV: peaks 7."), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("expected a layout of at least 4."), std::string::npos) << outcome.out;
+    refuses("study run mine.json --observer simulated --out other", 1, "which the limiter would lower", 1);
+}
+
+TEST_F(StudyCheckCommand, ALevelBeyondTheLayoutIsRefused) {
+    change("phantom-grids", {{"\"PHONE-3x3\",", "\"PHONE-3x3\", \"level_g\": 5,"}});
+    const auto outcome = call("study check mine.json");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_NE(outcome.out.find("expected at most its full scale of 1 g, found 5.000 g"), std::string::npos) << outcome.out;
+}
+
+TEST_F(StudyCheckCommand, OrdersAndBreaksAreCounted) {
+    const auto patterns = call("study check patterns --participants 5");
+    EXPECT_EQ(patterns.exitCode, 0) << patterns.err;
+    EXPECT_NE(patterns.out.find("orders: 5 participants"), std::string::npos) << patterns.out;
+    EXPECT_NE(patterns.out.find("warning: orders are not balanced: 5 participants"), std::string::npos);
+}
+
+} // namespace
+} // namespace physvib
