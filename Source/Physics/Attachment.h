@@ -19,7 +19,7 @@ namespace physvib {
 /// is the same to the bit, and its contact and destruction listeners are called as before, also those that are set, or
 /// taken away, while the attachment is there. Bodies and fixtures may come and go between steps, or between the parts
 /// of one. Only a fixture destroyed by b2Body::DestroyFixture should be named to remove() first: Box2D tells nobody, and
-/// the next fixture of that body may take its address, and so its values.
+/// the next fixture of that body may take its address, and so its values. Who forgets that loses values, and no memory.
 ///
 /// World and attachment may end in any order. A world outlived by its attachment is not touched any more; an attachment
 /// outlived by its world leaves a listener there that hands on calls, unless it has been detached.
@@ -93,10 +93,11 @@ public:
 
 private:
     void releaseUnseen();
+    void finishStep();
 
     b2World* world_; // nullptr: detached
     BodySweeps sweeps_;
-    WorldBodies bodies_{sweeps_};
+    WorldBodies bodies_;
     ContactEvents events_;
     std::unique_ptr<WorldListener> listener_;
 };
