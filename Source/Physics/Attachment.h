@@ -10,6 +10,7 @@
 #include <box2d/box2d.h>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -44,7 +45,7 @@ public:
 
     /// Gives a fixture its values, at first or again (the camera may come and go). Its id in events is `id` (>= 0), if
     /// given (a number of the game's own for it), else 0, 1, 2... in order of first calls, never used twice. Refused, told by the result, are values that
-    /// cannot be played, a fixture of another world, and an id that another fixture has.
+    /// cannot be played, a fixture of another world, an id below 0, and one that another fixture has.
     SetResult set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id = FixtureTable::none);
 
     /// How two kinds of surfaces sound together (HapticFixture::surface), in any order, whatever the voice of the camera is.
@@ -87,6 +88,10 @@ public:
 
     /// Hits left out so far because they were more than ImpactSettings::hitsPerStep.
     std::uint64_t overBudget() const noexcept { return events_.overBudget(); }
+
+    /// What became of all contacts so far, and why nothing is felt, in one sentence.
+    ContactCounts counts() const noexcept { return events_.counts(); }
+    std::string explain() const { return physvib::explain(counts()); }
 
     /// The constants of Eq. 5.4 in the last step begun.
     const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }

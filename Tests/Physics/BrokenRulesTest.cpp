@@ -14,7 +14,7 @@ TEST_F(AttachedWorld, AStaticBodyThatWentUnheardWeighsNothing) {
     b2Fixture& heavy = edge({-100.0F, -5.0F}, {100.0F, -5.0F});
     HapticFixture values = camera;
     values.staticMassKg = 1000.0;
-    attachment.set(heavy, values);
+    (void)attachment.set(heavy, values);
     ImpactSettings settings;
     settings.normalisation = 1.0; // the hand's mass is the largest in the world
     attachment.configure(settings);
@@ -111,7 +111,7 @@ private:
         fixture.SetRestitution(0.1F * static_cast<float>(choose(10)));
         HapticFixture values{100.0 + choose(300), 20.0, choose(2) == 0, static_cast<double>(choose(100)), Voice::both};
         if (choose(3) == 0) values.texture = {.grainMetres = 0.005};
-        if (choose(4) != 0) attachment_.set(fixture, values);
+        if (choose(4) != 0) (void)attachment_.set(fixture, values);
     }
     void join(b2Body* a, b2Body* b) {
         if (a == nullptr || b == nullptr || a == b) return;
