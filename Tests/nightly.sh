@@ -15,6 +15,7 @@ step() {
         asan) under asan ;;
         tsan) under tsan ;;
         fuzz) build asan physvib-fuzzers && Tests/Fuzz/run.sh 1000000 ;;
+        freed) Tests/Physics/freed.sh ;;
         hostile) Tests/Hostile/run.sh 10000 ;;
         kills) Tests/CommandLine/kills.sh $bin 200 render study sweep play ;;
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;

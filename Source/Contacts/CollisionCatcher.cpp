@@ -63,6 +63,7 @@ void CollisionCatcher::forget(std::int32_t slot) noexcept {
 
 void CollisionCatcher::begin(std::int32_t a, std::int32_t b) {
     graph_.insert(a, b);
+    meet(a, b);
     if (isStepping_ && isFelt(a, b)) loads_.begin({a, b, know(a, b)});
 }
 

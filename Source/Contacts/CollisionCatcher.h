@@ -51,6 +51,14 @@ public:
     /// as if it had not ended in time.
     ContactEnd* end(std::int32_t a, std::int32_t b);
 
+    /// Parts of two fixtures meet, told apart from others of a pair that touches: it is counted, and no more.
+    void meet(std::int32_t a, std::int32_t b) noexcept {
+        ++contacts_;
+        withoutSource_ += isFelt(a, b) ? 0 : 1;
+    }
+    /// Parts of two fixtures met, and too slowly for a blow: counted if a camera is one of them.
+    void passOver(std::int32_t a, std::int32_t b) noexcept { tooSlow_ += isFelt(a, b) ? 1 : 0; }
+
     /// The number of a pair of known fixtures, by which all of the following is asked. It may be kept: see TouchingPairs.
     std::int32_t know(std::int32_t a, std::int32_t b) { return pairs_.know(a, b); }
     bool isKnown(const TouchingPairs::Name& pair) const noexcept { return pairs_.is(pair); }
@@ -97,6 +105,10 @@ public:
 
     /// Blows that found no room so far.
     std::uint64_t drops() const noexcept { return drops_; }
+    /// Contacts so far; those without a camera; those of cameras that were no blows.
+    std::uint64_t contacts() const noexcept { return contacts_; }
+    std::uint64_t withoutSource() const noexcept { return withoutSource_; }
+    std::uint64_t tooSlow() const noexcept { return tooSlow_; }
 
 private:
     struct Aftermath { // of a blow of the last step: what its pair has pushed in this one
@@ -118,7 +130,7 @@ private:
     std::size_t directBlows_ = 0;
     std::int32_t order_ = 0;
     bool isStepping_ = false, hasHeard_ = false;
-    std::uint64_t drops_ = 0;
+    std::uint64_t drops_ = 0, contacts_ = 0, withoutSource_ = 0, tooSlow_ = 0;
 };
 
 } // namespace physvib

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace physvib {
@@ -17,22 +18,23 @@ constexpr std::size_t heldImpacts = 8 * CollisionCatcher::maxDirectBlows;
 constexpr double restingSteps = 1.5; // see ImpactSettings::thresholdMetresPerSecond
 
 const ImpactSettings& checked(const ImpactSettings& settings) {
-    const auto isPositive = [](double value) { return value > 0.0 && std::isfinite(value); };
-    const auto isAmount = [](double value) { return value >= 0.0 && std::isfinite(value); };
-    if (!isPositive(settings.fieldWidthMetres))
-        throw std::invalid_argument("field width: expected more than 0 m");
-    if (!isAmount(settings.normalisation.value_or(0.0)))
-        throw std::invalid_argument("normalisation: expected 0 s/m or more");
-    if (!isAmount(settings.handMassKg.value_or(0.0)))
-        throw std::invalid_argument("hand mass: expected 0 kg or more");
-    if (!isAmount(settings.driveGain)) throw std::invalid_argument("drive gain: expected 0 or more");
-    if (!isAmount(settings.thresholdMetresPerSecond))
-        throw std::invalid_argument("threshold: expected 0 m/s or more");
-    if (settings.hitsPerStep.value_or(0) < 0) throw std::invalid_argument("hits per step: expected 0 or more");
+    if (const std::string_view fault = faultOf(settings); !fault.empty()) throw std::invalid_argument(std::string(fault));
     return settings;
 }
 
 } // namespace
+
+std::string_view faultOf(const ImpactSettings& settings) noexcept {
+    const auto isPositive = [](double value) { return value > 0.0 && std::isfinite(value); };
+    const auto isAmount = [](double value) { return value >= 0.0 && std::isfinite(value); };
+    if (!isPositive(settings.fieldWidthMetres)) return "field width: expected more than 0 m";
+    if (!isAmount(settings.normalisation.value_or(0.0))) return "normalisation: expected 0 s/m or more";
+    if (!isAmount(settings.handMassKg.value_or(0.0))) return "hand mass: expected 0 kg or more";
+    if (!isAmount(settings.driveGain)) return "drive gain: expected 0 or more";
+    if (!isAmount(settings.thresholdMetresPerSecond)) return "threshold: expected 0 m/s or more";
+    if (settings.hitsPerStep.value_or(0) < 0) return "hits per step: expected 0 or more";
+    return {};
+}
 
 ContactEvents::ContactEvents(const BodyReader& bodies, const ImpactSettings& settings)
     : bodies_(bodies)
@@ -68,6 +70,7 @@ std::int32_t ContactEvents::know(std::int32_t slot, const BodyFacts& body) {
 SetResult ContactEvents::set(std::uint64_t fixture, const BodyFacts& body, Vector2 centre, const HapticFixture& values,
                              std::int32_t id) {
     if (const std::string_view fault = faultOf(values); !fault.empty()) return {-1, fault};
+    if (id < FixtureTable::none) return {-1, "id: expected a number from 0 on"};
     const std::int32_t given = table_.set(know(fixture, body), values, centre, id);
     if (given == FixtureTable::none) return {-1, "id: expected one that no other fixture has"};
     return {given, {}};
@@ -122,6 +125,7 @@ void ContactEvents::beginStep(std::int64_t endNs, Vector2 gravity, double larges
               settings_.handMassKg.value_or(std::max(largestMassKg, table_.largestStaticMassKg(bodies_))), settings_.driveGain};
     catcher_.beginStep(span_);
     isConcluded_ = false;
+    counts_.hasStepped = true;
 }
 
 void ContactEvents::conclude() {
@@ -137,6 +141,8 @@ void ContactEvents::endStep() {
 void ContactEvents::finish() {
     if (std::exchange(isConcluded_, true)) return;
     catcher_.settle();
+    for (const Blow& blow : catcher_.blows())
+        if (!span_.isStrike(blow.impulse(), blow.lighterMassKg, blow.gravityScale)) catcher_.passOver(blow.a, blow.b);
     impacts_.clear();
     if (settings_.timing == ImpactTiming::onset)
         onset_.collect(span_, impacts_);
@@ -160,7 +166,18 @@ void ContactEvents::keepStrongest(std::size_t count) {
 void ContactEvents::addImpacts() {
     if (impacts_.empty()) return;
     const FieldFrame field(settings_);
-    for (const Impact& impact : impacts_) addEvents(impact, table_, pairs_, bodies_, model_, settings_, field, held_);
+    for (const Impact& impact : impacts_) addEvents(impact, table_, pairs_, bodies_, model_, settings_, field, held_, counts_);
+}
+
+ContactCounts ContactEvents::counts() const noexcept {
+    ContactCounts counts = counts_;
+    counts.contacts = catcher_.contacts();
+    counts.belowThreshold = catcher_.tooSlow();
+    counts.withoutSource = catcher_.withoutSource();
+    counts.dropped = drops() + overBudget_;
+    counts.thresholdMetresPerSecond = span_.thresholdMetresPerSecond(1.0F);
+    counts.hasSources = table_.hasCameras();
+    return counts;
 }
 
 void ContactEvents::take(std::vector<CollisionEvent>& events) {

@@ -3,6 +3,7 @@
 #pragma once
 #include "Contacts/BodyReader.h"
 #include "Contacts/CollisionCatcher.h"
+#include "Contacts/ContactCounts.h"
 #include "Contacts/ContactGraph.h"
 #include "Contacts/EventSorter.h"
 #include "Contacts/FixtureTable.h"
@@ -99,6 +100,9 @@ public:
     /// Grains of rough surfaces that were passed and left out so far, their power being in the others.
     std::uint64_t thinned() const noexcept { return lasting_.thinned(); }
 
+    /// What became of all contacts so far; see explain().
+    ContactCounts counts() const noexcept;
+
     /// The constants of Eq. 5.4 in the last step begun.
     const ImpactModel& impactModel() const noexcept { return model_; }
 
@@ -123,6 +127,7 @@ private:
     std::vector<Impact> impacts_;
     PairSounds pairs_;
     std::uint64_t overBudget_ = 0;
+    ContactCounts counts_; // as far as others do not count
     bool isConcluded_ = true;
 };
 

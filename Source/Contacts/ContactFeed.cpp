@@ -83,6 +83,8 @@ std::string_view ContactFeed::faultOf(const FedContact& contact) {
     if (!isWithin(contact.gapFraction, 0.0, 1.0)) return "fraction of the gap: expected 0 to 1";
     for (const auto& along : {contact.alongAMetresPerSecond, contact.alongBMetresPerSecond})
         if (!isWithin(along.value_or(0.0), -most, most)) return "speed along a surface: expected a number of m/s";
+    if (contact.pointId < FedPoints::byPlace) return "point: expected a number from 0 on, -1 (none) or -2 (by place)";
+    if (contact.isImpulseOfPair && !contact.impulseNewtonSeconds) return "impulse: expected one, as it is said to be the pair's";
     return {};
 }
 
@@ -90,24 +92,26 @@ std::string_view ContactFeed::touch(const FedContact& contact) {
     if (const std::string_view fault = faultOf(contact); !fault.empty()) return fault;
     Pair& pair = know(contact, true);
     pair.isNamed = true;
-    if (pair.isNew)
-        strike(contact);
-    else
-        load(contact);
+    const bool isNewPoint = this->isNewPoint(pair, contact);
+    if (isNewPoint && !pair.isNew) events_.catcher().meet(pair.a, pair.b);
+    tell(pair, contact, pair.isNew || isNewPoint);
     return {};
 }
 
 std::string_view ContactFeed::begin(const FedContact& contact) {
     if (const std::string_view fault = faultOf(contact); !fault.empty()) return fault;
-    know(contact, false);
-    strike(contact);
+    Pair& pair = know(contact, false);
+    isNewPoint(pair, contact); // from now on it is old
+    tell(pair, contact, true);
     return {};
 }
 
 std::string_view ContactFeed::push(const FedContact& contact) {
     if (const std::string_view fault = faultOf(contact); !fault.empty()) return fault;
-    know(contact, false); // one that was there before anybody told
-    load(contact);
+    Pair& pair = know(contact, false); // perhaps one that was there before anybody told
+    const bool isNewPoint = this->isNewPoint(pair, contact) && !pair.isNew;
+    if (isNewPoint) events_.catcher().meet(pair.a, pair.b);
+    tell(pair, contact, isNewPoint);
     return {};
 }
 
@@ -115,18 +119,26 @@ std::string_view ContactFeed::end(std::int32_t a, std::int32_t b) {
     if (!bodies_.has(a) || !bodies_.has(b) || a == b) return unknownBody;
     const std::int32_t pair = pairOf_.find(pairKey(slotOf(a), slotOf(b)));
     if (pair == IntegerMap::none) return "contact: expected one that has begun";
+    if (pairs_[static_cast<std::size_t>(pair)].waiting != FedPoints::none) settle(pairs_[static_cast<std::size_t>(pair)]); // it has begun in this step
     drop(static_cast<std::size_t>(pair));
     return {};
 }
 
 std::string_view ContactFeed::endStep() {
     if (!events_.catcher().isStepping()) return outsideStep;
+    settleTogether();
     for (std::size_t i = pairs_.size(); i-- > 0;) {
-        if (pairs_[i].isAsked && !pairs_[i].isNamed)
+        Pair& pair = pairs_[i];
+        if (pair.isAsked && !pair.isNamed) {
             drop(i);
-        else
-            pairs_[i].isNew = pairs_[i].isNamed = false;
+            continue;
+        }
+        pair.isNew = pair.isNamed = false;
+        pair.points = {.before = pair.points.now};
+        pair.waiting = FedPoints::none;
     }
+    points_.endStep();
+    waiting_.clear();
     rubs_.endStep(events_.stepSeconds(), events_.lasting());
     events_.endStep();
     return {};
@@ -164,20 +176,127 @@ void ContactFeed::dropAllOf(std::int32_t slot) {
     rubs_.forget(slot);
 }
 
+// Points are followed even while nobody feels: who comes later must not take an old one for a new one.
+bool ContactFeed::isNewPoint(Pair& pair, const FedContact& contact) {
+    if (contact.pointId == FedPoints::none) return false;
+    constexpr double trembleMetres = 0.002;
+    const double slide = bodies_.slide(contact.a, contact.b, contact.point, contact.normal) * events_.stepSeconds();
+    return points_.isNew(pair.points, contact.pointId, contact.point, contact.normal, trembleMetres + 1.5 * slide) &&
+           (pair.isNew || speedOf(contact) > 0.0); // by an impulse alone nobody can tell a blow from a load that shifts
+}
+
+void ContactFeed::tell(Pair& pair, const FedContact& contact, bool isNew) {
+    if (!events_.catcher().isHearing()) return;
+    if (waits(contact)) {
+        waiting_.push_back({contact, isNew, pair.waiting});
+        pair.waiting = static_cast<std::int32_t>(waiting_.size()) - 1;
+        if (isNew || contact.isImpulseOfPair) return;
+    }
+    if (isNew)
+        strike(contact);
+    else
+        load(contact);
+}
+
+void ContactFeed::settleTogether() {
+    if (waiting_.empty()) return;
+    for (const Pair& pair : pairs_)
+        if (pair.waiting != FedPoints::none) settle(pair);
+}
+
+void ContactFeed::settle(const Pair& pair) {
+    together_.clear();
+    for (std::int32_t at = pair.waiting; at != FedPoints::none; at = waiting_[static_cast<std::size_t>(at)].next)
+        if (const Waiting& each = waiting_[static_cast<std::size_t>(at)]; each.isNew || pair.isAsked) together_.push_back(&each); // who tells may tell of one point twice
+    if (together_.empty()) return;
+    std::reverse(together_.begin(), together_.end());
+    const FedContact& first = together_.front()->contact;
+    const auto hasMass = [](const Waiting* each) { return each->contact.effectiveMassKg.has_value(); };
+    const auto isNew = [](const Waiting* each) { return each->isNew; };
+    if (std::ranges::none_of(together_, isNew)) { // the others have been loaded where they were told
+        if (first.isImpulseOfPair) load(first);
+        return;
+    }
+    if (together_.size() == 1 || std::ranges::any_of(together_, hasMass)) {
+        for (const Waiting* each : together_)
+            if (each->isNew) strike(each->contact);
+        return;
+    }
+    meeting_.clear();
+    for (const Waiting* each : together_) {
+        const FedContact& contact = each->contact;
+        const bool isTurned = contact.a != first.a;
+        meeting_.push_back({contact.point, isTurned ? -contact.normal : contact.normal, speedOf(contact), contact.restitution, each->isNew});
+    }
+    solve(bodies_, first.a, first.b, meeting_);
+    strikeTogether();
+}
+
+// A blow at several points: where and how hard is what they do together, when is when the first of them meets.
+void ContactFeed::strikeTogether() {
+    CollisionCatcher& catcher = events_.catcher();
+    const FedContact& first = together_.front()->contact;
+    const TouchingPairs::Name pair = nameOf(first);
+    double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = 1.0;
+    Vector2 point;
+    for (std::size_t i = 0; i < meeting_.size(); ++i) {
+        const MeetingPoint& each = meeting_[i];
+        all += each.newtonSeconds;
+        if (!each.isNew || !(each.newtonSeconds > 0.0)) continue;
+        ofNew += each.newtonSeconds;
+        point += static_cast<float>(each.newtonSeconds / ofNew) * (each.point - point);
+        fastest = std::max(fastest, each.approach);
+        fraction = std::min(fraction, fractionOf(together_[i]->contact, each.approach));
+    }
+    const float gravityScale = std::max(events_.fixtures()[pair.a].gravityScale(), events_.fixtures()[pair.b].gravityScale());
+    const double share = all > 0.0 ? ofNew / all : 0.0;
+    const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : ofNew;
+    const bool isBlow = impulse > 0.0 && std::isfinite(impulse) && catcher.isBlow(gravityScale, fastest);
+    if (!isBlow) catcher.passOver(pair.a, pair.b);
+    if (!isBlow && first.isImpulseOfPair) return load(first);
+    if (!isBlow) {
+        for (const Waiting* each : together_)
+            if (each->isNew && (each->contact.isSoft || speedOf(each->contact) > 0.0)) load(each->contact);
+        return;
+    }
+    Blow* blow = catcher.blow(pair);
+    const bool isFirst = blow == nullptr;
+    if (isFirst && (blow = catcher.strike(pair, fastest)) == nullptr) return;
+    const double sum = blow->normalImpulse + impulse;
+    blow->fraction = isFirst ? fraction : std::min(blow->fraction, fraction);
+    blow->point += static_cast<float>(impulse / sum) * (point - blow->point);
+    blow->normalImpulse = sum;
+    if (!first.isImpulseOfPair) return;
+    blow->tangentialImpulse += share * first.tangentialNewtonSeconds;
+    FedContact rest = first; // what old points push goes on as a load
+    rest.impulseNewtonSeconds = (1.0 - share) * *first.impulseNewtonSeconds;
+    rest.tangentialNewtonSeconds = (1.0 - share) * first.tangentialNewtonSeconds;
+    if (share < 1.0) load(rest);
+}
+
+double ContactFeed::speedOf(const FedContact& contact) const {
+    return contact.approachMetresPerSecond.value_or(bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
+}
+
 void ContactFeed::strike(const FedContact& contact) {
     CollisionCatcher& catcher = events_.catcher();
-    if (!catcher.isHearing()) return;
     const TouchingPairs::Name pair = nameOf(contact);
     const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
-    const double told = contact.approachMetresPerSecond.value_or(bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
+    const double told = speedOf(contact);
     const double mass = contact.effectiveMassKg.value_or(bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
     const bool isImpulseTold = contact.impulseNewtonSeconds && !contact.isSoft;
     const double impulse = isImpulseTold ? *contact.impulseNewtonSeconds : mass * std::max(0.0, told) * (1.0 + contact.restitution);
-    if (!(impulse > 0.0 && std::isfinite(impulse))) return contact.isSoft ? load(contact) : void(); // they part, or cannot be moved
+    if (!(impulse > 0.0 && std::isfinite(impulse))) { // they part, or cannot be moved
+        catcher.passOver(pair.a, pair.b);
+        return contact.isSoft ? load(contact) : void();
+    }
     // Of an impulse alone: what it changes of the lighter body's velocity, which is at least the speed before it.
     const bool isSpeedKnown = contact.approachMetresPerSecond || !isImpulseTold || told > 0.0;
     const double speed = isSpeedKnown ? told : impulse / std::min(a.movableMassKg(), b.movableMassKg());
-    if (!catcher.isBlow(std::max(a.gravityScale(), b.gravityScale()), speed)) return load(contact);
+    if (!catcher.isBlow(std::max(a.gravityScale(), b.gravityScale()), speed)) {
+        catcher.passOver(pair.a, pair.b);
+        return load(contact);
+    }
 
     Blow* blow = catcher.blow(pair);
     const bool isFirst = blow == nullptr;

@@ -3,7 +3,9 @@
 #pragma once
 #include "Contacts/ContactEvents.h"
 #include "Contacts/FedBodies.h"
+#include "Contacts/FedPoints.h"
 #include "Contacts/FedRubs.h"
+#include "Contacts/MeetingPoints.h"
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -37,11 +39,20 @@ struct FedContact {
     /// Of what goes on touching a rough surface (HapticFixture::texture), with its impulse: how fast the point of contact moves along
     /// each of the two surfaces, m/s. Rolling: both alike; sliding: 0 along what drags its own point. Both, or it is not felt.
     std::optional<double> alongAMetresPerSecond, alongBMetresPerSecond; ///< each along its own surface; nullopt: unknown
+
+    /// Which point of its pair it is: a number of the engine's (>= 0), `byPlace` for engines that do not number them, or `none` if
+    /// the pair is told as a whole. A point that was not there in the step before and nears fast is a blow even while its pair touches
+    /// (a pole that topples, a crate that rocks).
+    std::int32_t pointId = FedPoints::none;
+
+    /// The impulses are those of the whole pair, told with each of its points: what new points have of it follows from their speeds.
+    bool isImpulseOfPair = false;
 };
 
 /// The catcher for engines that we do not know; bodies are numbers (>= 0), and stand in events as such. Each step: beginStep,
 /// move() whatever moved (only where speeds, places or turning blows are to follow from it), touch() every pair that touches, or
-/// begin, push and end it, endStep; then take. Impulses as for Box2D (see CollisionCatcher), by onset. Nothing is changed by what
+/// begin, push and end it, endStep; then take. Impulses as for Box2D (see CollisionCatcher), by onset; points of a pair whose impulses
+/// are not told are solved together, so that a flat landing is one blow however many points it has. Nothing is changed by what
 /// is refused. All methods: the world's thread (M). None allocates once it has seen as much as it will, but where the caller's
 /// vector grows. None throws but for the constructor, configure and want of memory.
 class ContactFeed final {
@@ -88,6 +99,7 @@ public:
     std::uint64_t drops() const noexcept { return events_.drops(); } ///< Hits lost because more came in a step than there is room for.
     std::uint64_t overBudget() const noexcept { return events_.overBudget(); } ///< Hits left out by ImpactSettings::hitsPerStep.
     std::uint64_t thinned() const noexcept { return events_.thinned(); } ///< Grains left out, their power being in the others.
+    ContactCounts counts() const noexcept { return events_.counts(); } ///< What became of all contacts so far; see explain().
     const ImpactModel& impactModel() const noexcept { return events_.impactModel(); } ///< How hard a hit is felt.
 
 private:
@@ -95,7 +107,20 @@ private:
         std::int32_t a, b; // slots, the lower one first
         bool isAsked;      // touch() says when it ends
         bool isNew, isNamed;
+        FedPoints::Chain points{};             // of this step and the one before, where they are told apart
+        std::int32_t waiting = FedPoints::none; // the newest of its contacts that are settled at the end of the step
     };
+    struct Waiting {
+        FedContact contact;
+        bool isNew;
+        std::int32_t next;
+    };
+    static bool waits(const FedContact& contact) noexcept { return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds; }
+    bool isNewPoint(Pair& pair, const FedContact& contact);
+    void tell(Pair& pair, const FedContact& contact, bool isNew);
+    void settle(const Pair& pair);
+    void settleTogether();
+    double speedOf(const FedContact& contact) const;
     std::string_view faultOf(const FedContact& contact);
     std::int32_t slotOf(std::int32_t id) const noexcept { return events_.fixtures().find(FedBodies::nameOf(id)); }
     TouchingPairs::Name nameOf(const FedContact& contact);
@@ -103,6 +128,7 @@ private:
     void drop(std::size_t pair);
     void dropAllOf(std::int32_t slot);
     void strike(const FedContact& contact);
+    void strikeTogether();
     void load(const FedContact& contact);
     void rub(const FedContact& contact, const TouchingPairs::Name& pair);
     double fractionOf(const FedContact& contact, double approachMetresPerSecond) const noexcept;
@@ -110,6 +136,10 @@ private:
     FedBodies bodies_;
     ContactEvents events_;
     FedRubs rubs_;
+    FedPoints points_;
+    std::vector<Waiting> waiting_;
+    std::vector<const Waiting*> together_; // of one pair, in the order in which they were told
+    std::vector<MeetingPoint> meeting_;    // the same for the solver
     std::vector<Pair> pairs_;
     IntegerMap pairOf_;
     double lastStepSeconds_ = 0.0;

@@ -43,6 +43,14 @@ public:
     /// How fast B comes towards A at a point, m/s, by the motions told; the normal points from A to B.
     double approach(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
 
+    /// How fast the point at which they touch may move along the two surfaces, m/s, at most: the sum of what each of the bodies moves
+    /// and turns across the normal.
+    double slide(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
+
+    /// By how much an impulse of 1 N s at one point, along its normal, changes the speed along the other normal at the other point, 1/kg;
+    /// both normals point from A to B.
+    double coupling(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal, Vector2 otherPoint, Vector2 otherNormal) const;
+
     /// Mass that a blow there has to do with, kg: the impulse by the change of the speed at which the surfaces meet. Infinite if
     /// neither can be moved.
     double effectiveMassKg(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;

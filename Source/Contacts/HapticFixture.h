@@ -33,15 +33,22 @@ struct HapticFixture {
     std::optional<double> handMassKg{}; ///< m_h of Eq. 5.4 for this camera, instead of the settings'
 };
 
+/// True if an impact could never be played with it: it would not fade, or hold a coil at nearly direct current. Any thread.
+constexpr bool isEndless(double frequencyHz, double decayPerSecond) noexcept {
+    return frequencyHz > 0.0 && !(decayPerSecond > 0.0 && (frequencyHz >= limits::slowestToneHz || decayPerSecond >= limits::slowDecayPerSecond));
+}
+
 /// What is wrong with values, and what was expected; empty if they can be used. Any thread.
 inline std::string_view faultOf(const HapticFixture& values) noexcept {
     constexpr auto isWithin = [](double value, double most) { return value >= 0.0 && value <= most; }; // not NaN
     if (!isWithin(values.frequencyHz, limits::maxFrequencyHz)) return "frequency: expected 0 to 20000 Hz";
     if (!isWithin(values.decayPerSecond, limits::maxDecayPerSecond)) return "decay: expected 0 to 2000 per second";
+    if (isEndless(values.frequencyHz, values.decayPerSecond)) return "decay: expected more than 0 per second (below 5 Hz at least 1), else the frequency is never felt";
     if (!isWithin(values.staticMassKg, 1.0e12)) return "mass: expected 0 to 10^12 kg";
     for (const Overtone& mode : values.overtones) {
         if (!isWithin(mode.frequencyHz, limits::maxFrequencyHz)) return "overtone's frequency: expected 0 to 20000 Hz";
         if (!isWithin(mode.decayPerSecond, limits::maxDecayPerSecond)) return "overtone's decay: expected 0 to 2000 per second";
+        if (isEndless(mode.frequencyHz, mode.decayPerSecond)) return "overtone's decay: expected more than 0 per second (below 5 Hz at least 1), else it is never felt";
         if (!isWithin(mode.relativeAmplitude, 1000.0)) return "overtone's amplitude: expected 0 to 1000 of the first mode's";
     }
     if (!isWithin(values.gain, 1.0e6)) return "gain: expected 0 to 10^6";
@@ -50,7 +57,7 @@ inline std::string_view faultOf(const HapticFixture& values) noexcept {
 }
 
 /// What became of values that were given to a fixture.
-struct SetResult {
+struct [[nodiscard]] SetResult {
     std::int32_t id = -1;     ///< of the fixture in events; -1: refused, and nothing has changed
     std::string_view refusal; ///< why; empty: they are set
     explicit operator bool() const noexcept { return refusal.empty(); } ///< Done.

@@ -8,12 +8,17 @@ namespace {
 
 /// Of a HapticFixture or a PairSound.
 template <class Sound>
-void push(CollisionEvent event, const Sound& sound, EventSorter& events) {
+void push(CollisionEvent event, const Sound& sound, EventSorter& events, ContactCounts& counts) {
     const double amplitude = event.amplitude;
     const auto add = [&](double frequencyHz, double decayPerSecond) {
         event.frequencyHz = frequencyHz;
         event.decayPerSecond = decayPerSecond;
-        if (isPlayable(event)) events.push(event);
+        if (!isPlayable(event)) {
+            ++counts.unplayable;
+            return;
+        }
+        events.push(event);
+        ++counts.events;
     };
     add(sound.frequencyHz, sound.decayPerSecond);
     for (const Overtone& mode : sound.overtones) {
@@ -40,9 +45,12 @@ double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyRe
 }
 
 void addEvents(const Impact& impact, const FixtureTable& table, const PairSounds& pairs, const BodyReader& bodies, const ImpactModel& model,
-               const ImpactSettings& settings, const FieldFrame& field, EventSorter& events) {
+               const ImpactSettings& settings, const FieldFrame& field, EventSorter& events, ContactCounts& counts) {
     const KnownFixture& camera = table[impact.camera];
-    if (settings.isMuted || camera.values.gain == 0.0) return;
+    if (settings.isMuted || camera.values.gain == 0.0) {
+        ++counts.muted;
+        return;
+    }
     const KnownFixture* other = impact.other == FixtureTable::none ? nullptr : &table[impact.other];
     const bool isAtContact = settings.location == ImpactLocation::contact;
     const Vector2 place = field.toField(isAtContact ? impact.point : bodies.toWorld(camera.body.body, camera.centre));
@@ -57,12 +65,12 @@ void addEvents(const Impact& impact, const FixtureTable& table, const PairSounds
 
     if (const PairSound* pair = other == nullptr ? nullptr : pairs.find(camera.values.surface, other->values.surface)) {
         event.amplitude *= pair->gain;
-        return push(event, *pair, events);
+        return push(event, *pair, events, counts);
     }
     const Voice voice = camera.values.voice;
     const bool othersSounds = voice != Voice::own && other != nullptr && other->values.frequencyHz > 0.0;
-    if (voice != Voice::other || !othersSounds) push(event, camera.values, events);
-    if (othersSounds) push(event, other->values, events);
+    if (voice != Voice::other || !othersSounds) push(event, camera.values, events, counts);
+    if (othersSounds) push(event, other->values, events, counts);
 }
 
 } // namespace physvib

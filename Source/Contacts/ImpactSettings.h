@@ -3,6 +3,7 @@
 #pragma once
 #include "Contacts/Vector2.h"
 #include <optional>
+#include <string_view>
 
 namespace physvib {
 
@@ -45,5 +46,8 @@ struct ImpactSettings {
     Vector2 fieldOrigin{};
     float fieldRadians = 0.0F; ///< counter-clockwise
 };
+
+/// What is wrong with settings, and what was expected; empty if they can be used. Any thread.
+std::string_view faultOf(const ImpactSettings& settings) noexcept;
 
 } // namespace physvib

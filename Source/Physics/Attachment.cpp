@@ -26,8 +26,9 @@ void keepForEver(std::unique_ptr<WorldListener> listener) {
 
 Attachment::Attachment(b2World& world, const ImpactSettings& settings)
     : world_(&world)
+    , bodies_(world, sweeps_)
     , events_(bodies_, settings)
-    , listener_(std::make_unique<WorldListener>(events_, sweeps_)) {
+    , listener_(std::make_unique<WorldListener>(events_, sweeps_, bodies_)) {
     for (const b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
         listener_->finder().begin(*contact);
     listener_->install(world);
@@ -66,8 +67,8 @@ void Attachment::remove(const b2Fixture& fixture) {
 void Attachment::step(float stepSeconds, int velocityIterations, int positionIterations) {
     if (!(stepSeconds >= 0.0F) || world_ == nullptr) return;
     beginStep(static_cast<double>(stepSeconds));
-    world_->Step(stepSeconds, velocityIterations, positionIterations);
-    endStep();
+    world_->Step(stepSeconds, velocityIterations, positionIterations); // within it nothing can be destroyed
+    finishStep();
 }
 
 void Attachment::beginStep(double stepSeconds) {
@@ -82,10 +83,16 @@ void Attachment::beginStepUntil(std::int64_t endNs) {
     listener_->install(*world_);
     const double stepSeconds = static_cast<double>(std::max<std::int64_t>(0, endNs - timeNs())) * 1.0e-9;
     sweeps_.beginStep(*world_, stepSeconds);
+    bodies_.doubt();
     events_.beginStep(endNs, toVector(world_->GetGravity()), sweeps_.largestMassKg());
 }
 
 void Attachment::endStep() {
+    bodies_.doubt();
+    finishStep();
+}
+
+void Attachment::finishStep() {
     if (world_ == nullptr) return;
     if (!listener_->isInstalled(*world_)) releaseUnseen();
     events_.endStep();
@@ -95,10 +102,9 @@ void Attachment::endStep() {
 // What was destroyed while nobody told us. Not often: a game has set a listener of its own.
 void Attachment::releaseUnseen() {
     listener_->finder().forgetContacts();
-    IntegerMap bodies;
-    for (const b2Body* body = world_->GetBodyList(); body != nullptr; body = body->GetNext()) bodies.set(nameOf(*body), 0);
+    bodies_.doubt();
     for (std::int32_t slot = 0; slot < events_.fixtures().size(); ++slot)
-        if (const KnownFixture& known = events_.fixtures()[slot]; known.isUsed() && bodies.find(known.body.body) == IntegerMap::none)
+        if (const KnownFixture& known = events_.fixtures()[slot]; known.isUsed() && !bodies_.has(known.body.body))
             events_.release(slot);
 }
 

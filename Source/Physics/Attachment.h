@@ -10,6 +10,7 @@
 #include <box2d/box2d.h>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace physvib {
 /// is the same to the bit, and its contact and destruction listeners are called as before, also those that are set, or
 /// taken away, while the attachment is there. Bodies and fixtures may come and go between steps, or between the parts
 /// of one. Only a fixture destroyed by b2Body::DestroyFixture should be named to remove() first: Box2D tells nobody, and
-/// the next fixture of that body may take its address, and so its values.
+/// the next fixture of that body may take its address, and so its values. Who forgets that loses values, and no memory.
 ///
 /// World and attachment may end in any order. A world outlived by its attachment is not touched any more; an attachment
 /// outlived by its world leaves a listener there that hands on calls, unless it has been detached.
@@ -44,7 +45,7 @@ public:
 
     /// Gives a fixture its values, at first or again (the camera may come and go). Its id in events is `id` (>= 0), if
     /// given (a number of the game's own for it), else 0, 1, 2... in order of first calls, never used twice. Refused, told by the result, are values that
-    /// cannot be played, a fixture of another world, and an id that another fixture has.
+    /// cannot be played, a fixture of another world, an id below 0, and one that another fixture has.
     SetResult set(const b2Fixture& fixture, const HapticFixture& values, std::int32_t id = FixtureTable::none);
 
     /// How two kinds of surfaces sound together (HapticFixture::surface), in any order, whatever the voice of the camera is.
@@ -88,15 +89,20 @@ public:
     /// Hits left out so far because they were more than ImpactSettings::hitsPerStep.
     std::uint64_t overBudget() const noexcept { return events_.overBudget(); }
 
+    /// What became of all contacts so far, and why nothing is felt, in one sentence.
+    ContactCounts counts() const noexcept { return events_.counts(); }
+    std::string explain() const { return physvib::explain(counts()); }
+
     /// The constants of Eq. 5.4 in the last step begun.
     const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }
 
 private:
     void releaseUnseen();
+    void finishStep();
 
     b2World* world_; // nullptr: detached
     BodySweeps sweeps_;
-    WorldBodies bodies_{sweeps_};
+    WorldBodies bodies_;
     ContactEvents events_;
     std::unique_ptr<WorldListener> listener_;
 };

@@ -126,10 +126,15 @@ void BlowFinder::look(const b2Contact& contact, const b2Manifold& before) {
     double fastest = 0.0;
     for (int i = 0; i < contact.GetManifold()->pointCount; ++i)
         if (isIn(fresh, i)) fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
-    if (!events_.catcher().isBlow(gravityScaleOf(contact), fastest)) return;
+    if (!events_.catcher().isBlow(gravityScaleOf(contact), fastest)) return passOver(contact);
     const Pair& pair = pairOf(know(contact));
     if (events_.catcher().blow(pair) != nullptr) return;
     if (Blow* blow = events_.catcher().strike(pair, fastest)) describe(contact, manifold, fresh, *blow);
+}
+
+void BlowFinder::passOver(const b2Contact& contact) {
+    if (!events_.catcher().mayBeHeard(nameOf(*contact.GetFixtureA()), nameOf(*contact.GetFixtureB()))) return;
+    if (const Known* const known = find(contact)) events_.catcher().passOver(known->pair.a, known->pair.b);
 }
 
 void BlowFinder::describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh, Blow& blow) const {

@@ -45,6 +45,7 @@ private:
     };
     Known* find(const b2Contact& contact);
     const Pair& pairOf(Known& known);
+    void passOver(const b2Contact& contact);
     std::int32_t know(const b2Fixture& fixture);
     Known& know(const b2Contact& contact);
     Known& remember(const b2Contact& contact, Pair pair);

@@ -27,6 +27,12 @@ void BodySweeps::beginStep(const b2World& world, double stepSeconds) {
     index();
 }
 
+std::uint64_t BodySweeps::censusOf(const b2World& world) noexcept {
+    std::uint64_t sum = static_cast<std::uint64_t>(world.GetBodyCount()) + 1; // never 0
+    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) sum = (sum ^ nameOf(*body)) * 0x9E3779B97F4A7C15U;
+    return sum;
+}
+
 void BodySweeps::index() {
     indices_.clear();
     for (std::size_t i = 0; i < sweeps_.size(); ++i) indices_.set(nameOf(*sweeps_[i].body), static_cast<std::int32_t>(i));

@@ -27,6 +27,9 @@ public:
     /// In BeginContact, PreSolve and EndContact: 0 (start) to 1 (end of the step), how far this body has come.
     double fraction(const b2Body& body) const noexcept;
 
+    /// A number of the bodies that a world has and of their order (2^-64 of lists that differ have the same).
+    static std::uint64_t censusOf(const b2World& world) noexcept;
+
     /// Velocity before the step; of a body that came later, its own.
     BodyMotion start(const b2Body& body) const noexcept;
 

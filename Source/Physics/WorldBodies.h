@@ -1,29 +1,49 @@
 // SPDX-License-Identifier: MIT
 // The bodies of a b2World, as Contacts asks for them.
 #pragma once
+#include "Contacts/IntegerMap.h"
 #include "Physics/BodySweeps.h"
 #include "Physics/WorldNames.h"
+#include <array>
+#include <cstdint>
 
 namespace physvib {
 
-/// Bodies are named by their addresses. M only, within a step or right after it.
+/// Bodies are named by their addresses. Box2D says nothing of a body whose fixtures were destroyed before it, so an address
+/// that is still known may be of a body that is gone: it is looked up in the world's list before it is followed. A body that
+/// is gone is a static one without mass, disabled, at the origin. M only, within a step or right after it.
 class WorldBodies final : public BodyReader {
 public:
-    explicit WorldBodies(const BodySweeps& sweeps) noexcept
-        : sweeps_(sweeps) {}
+    WorldBodies(const b2World& world, const BodySweeps& sweeps) noexcept
+        : world_(world)
+        , sweeps_(sweeps) {}
 
-    BodyFacts facts(std::uint64_t body) const override { return factsOf(bodyOf(body)); }
-    BodyMotion motion(std::uint64_t body) const override { return motionOf(bodyOf(body)); }
-    BodyMotion motionBefore(std::uint64_t body) const override { return sweeps_.start(bodyOf(body)); }
-    Vector2 centre(std::uint64_t body) const override { return toVector(bodyOf(body).GetWorldCenter()); }
-    Vector2 toWorld(std::uint64_t body, Vector2 ofBody) const override { return toVector(bodyOf(body).GetWorldPoint({ofBody.x, ofBody.y})); }
-    double inertia(std::uint64_t body) const override {
-        const b2Body& of = bodyOf(body);
-        return of.GetInertia() - of.GetMass() * of.GetLocalCenter().LengthSquared();
+    /// The world's owner may have destroyed bodies since; the two named, if any, are certainly still there. The next question
+    /// about another one costs a walk along the world's list, and only one.
+    void doubt(const b2Body* one = nullptr, const b2Body* other = nullptr) noexcept {
+        isCertain_ = false;
+        present_ = {one, other};
     }
+    bool has(std::uint64_t body) const;
+
+    BodyFacts facts(std::uint64_t body) const override { return has(body) ? factsOf(bodyOf(body)) : BodyFacts{body, 0.0, 1.0F, false, false}; }
+    BodyMotion motion(std::uint64_t body) const override { return has(body) ? motionOf(bodyOf(body)) : BodyMotion{}; }
+    BodyMotion motionBefore(std::uint64_t body) const override { return has(body) ? sweeps_.start(bodyOf(body)) : BodyMotion{}; }
+    Vector2 centre(std::uint64_t body) const override { return has(body) ? toVector(bodyOf(body).GetWorldCenter()) : Vector2{}; }
+    Vector2 toWorld(std::uint64_t body, Vector2 ofBody) const override {
+        return has(body) ? toVector(bodyOf(body).GetWorldPoint({ofBody.x, ofBody.y})) : ofBody;
+    }
+    double inertia(std::uint64_t body) const override;
 
 private:
+    void look() const;
+
+    const b2World& world_;
     const BodySweeps& sweeps_;
+    std::array<const b2Body*, 2> present_{};
+    mutable bool isCertain_ = false;
+    mutable std::uint64_t census_ = 0; // of the list when it was last written down
+    mutable IntegerMap bodies_;        // that are there
 };
 
 } // namespace physvib

@@ -36,7 +36,11 @@ void WorldListener::BeginContact(b2Contact* contact) {
 void WorldListener::EndContact(b2Contact* contact) {
     const Call call{*this, contact};
     if (!call) return;
-    if (finder_) finder_->end(*contact);
+    if (finder_) {
+        const b2Body &a = *contact->GetFixtureA()->GetBody(), &b = *contact->GetFixtureB()->GetBody();
+        if (!a.GetWorld()->IsLocked()) bodies_.doubt(&a, &b); // cut by the game, which may have destroyed others unheard
+        finder_->end(*contact);
+    }
     if (chained_ != nullptr) chained_->EndContact(contact);
 }
 
@@ -66,6 +70,7 @@ void WorldListener::SayGoodbye(b2Fixture* fixture) {
     if (!call) return;
     if (const std::int32_t slot = finder_ ? finder_->find(*fixture) : FixtureTable::none; slot != FixtureTable::none) {
         finder_->forgetContacts();
+        bodies_.doubt(fixture->GetBody());
         events_.vanish(slot);
     }
     if (chainedEnds_ != nullptr) chainedEnds_->SayGoodbye(fixture);

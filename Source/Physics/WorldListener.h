@@ -2,6 +2,7 @@
 // Box2D's callbacks: taken by the attachment, and handed on to the game's own listeners as they are.
 #pragma once
 #include "Physics/BlowFinder.h"
+#include "Physics/WorldBodies.h"
 #include <box2d/box2d.h>
 #include <memory>
 
@@ -14,8 +15,9 @@ namespace physvib {
 /// on calls. M only.
 class WorldListener final : public b2ContactListener, public b2DestructionListener {
 public:
-    WorldListener(ContactEvents& events, BodySweeps& sweeps)
+    WorldListener(ContactEvents& events, BodySweeps& sweeps, WorldBodies& bodies)
         : events_(events)
+        , bodies_(bodies)
         , finder_(std::make_unique<BlowFinder>(events, sweeps)) {}
     WorldListener(const WorldListener&) = delete;
     WorldListener& operator=(const WorldListener&) = delete;
@@ -49,6 +51,7 @@ private:
     bool isReachedBy(Listener* found, Listener* WorldListener::*next) const;
 
     ContactEvents& events_;
+    WorldBodies& bodies_;
     std::unique_ptr<BlowFinder> finder_; // none: deaf
     b2ContactListener* chained_ = nullptr;
     bool isAlone_ = false; // nothing to hand on: there is no other, or only Box2D's own, which does nothing

@@ -194,12 +194,138 @@ TEST(Calls, AnOlderProgramsStructureIsTakenAndANewerOneRefused) {
     }
 }
 
+/// Struck by nothing but its program's older structure, which ended at is_soft and what fills it up to a whole number of doubles.
+TEST(Calls, AnOlderProgramsContactHasNoPointOfItsOwn) {
+    constexpr std::size_t older = offsetof(physvib_contact, point_id);
+    static_assert(older == offsetof(physvib_contact, is_soft) + 2 * sizeof(int));
+    const physvib_world world = worldOfABall();
+    physvib_contact contact;
+    std::memset(&contact, 0, sizeof contact); // what it does not know is anything
+    contact.point_id = -77;
+    ASSERT_EQ(physvib_contact_init(&contact, older), PHYSVIB_OK);
+    contact.a = 0, contact.b = 1, contact.impulse_n_s = 6.0;
+    ASSERT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
+    EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
+    EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    physvib_event events[4];
+    EXPECT_EQ(physvib_world_take(world, events, 4, 1), 1);
+    physvib_world_free(world);
+}
+
+physvib_world_counts countsOf(physvib_world world) {
+    physvib_world_counts counts;
+    physvib_world_counts_init(&counts, sizeof counts);
+    EXPECT_EQ(physvib_world_get_counts(world, &counts), PHYSVIB_OK) << physvib_error();
+    return counts;
+}
+
+std::string explained(physvib_world world) {
+    char text[256];
+    EXPECT_GT(physvib_world_explain(world, text, sizeof text), 20);
+    return text;
+}
+
+TEST(Calls, EveryReasonWhyNothingIsFeltIsCountedAndSaid) {
+    const physvib_world world = worldOfABall();
+    EXPECT_NE(explained(world).find("No step"), std::string::npos);
+    physvib_world_begin_step(world, 0.01, 9.81);
+    physvib_world_end_step(world);
+    EXPECT_NE(explained(world).find("No contact"), std::string::npos);
+    EXPECT_EQ(land(world, 0.01), PHYSVIB_OK); // 5 mm/s
+    EXPECT_EQ(countsOf(world).contacts, 1);
+    EXPECT_EQ(countsOf(world).below_threshold, 1);
+    EXPECT_NEAR(countsOf(world).threshold_m_per_s, 0.15, 1e-9);
+    EXPECT_NE(explained(world).find("threshold of 0.15 m/s"), std::string::npos);
+
+    physvib_world_settings muted;
+    physvib_world_settings_init(&muted, sizeof muted);
+    muted.is_muted = 1;
+    ASSERT_EQ(physvib_world_configure(world, &muted), PHYSVIB_OK);
+    for (int i = 0; i < 2; ++i) {
+        physvib_world_begin_step(world, 0.01, 9.81);
+        physvib_world_end_step(world); // apart
+        EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
+    }
+    EXPECT_EQ(countsOf(world).muted, 2);
+    EXPECT_NE(explained(world).find("muted"), std::string::npos);
+
+    physvib_body silent;
+    physvib_body_init(&silent, sizeof silent);
+    silent.mass_kg = 2.0;
+    silent.is_camera = 1;
+    ASSERT_EQ(physvib_world_set_body(world, 1, &silent), PHYSVIB_OK);
+    ASSERT_EQ(physvib_world_configure(world, nullptr), PHYSVIB_OK);
+    for (int i = 0; i < 3; ++i) {
+        physvib_world_begin_step(world, 0.01, 9.81);
+        physvib_world_end_step(world);
+        EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
+    }
+    EXPECT_EQ(countsOf(world).unplayable, 3);
+    EXPECT_NE(explained(world).find("frequency"), std::string::npos);
+    silent.is_camera = 0;
+    ASSERT_EQ(physvib_world_set_body(world, 1, &silent), PHYSVIB_OK);
+    physvib_world_begin_step(world, 0.01, 9.81);
+    physvib_world_end_step(world);
+    EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
+    EXPECT_EQ(countsOf(world).no_source, 1);
+    EXPECT_NE(explained(world).find("is_camera"), std::string::npos);
+    EXPECT_EQ(countsOf(world).events, 0);
+    EXPECT_EQ(physvib_world_explain(world, nullptr, 5), PHYSVIB_ERROR_ARGUMENT);
+    physvib_world_free(world);
+}
+
+TEST(Calls, ValuesThatCanNeverBeFeltAreRefusedWithTheWordThatIsMissing) {
+    const physvib_world world = worldOfABall();
+    physvib_body body;
+    physvib_body_init(&body, sizeof body);
+    body.is_camera = 1;
+    body.mass_kg = 1.0;
+    body.frequency_hz = 200.0;
+    EXPECT_EQ(physvib_world_set_body(world, 3, &body), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(std::string(physvib_error()).rfind("decay:", 0), 0U) << physvib_error();
+    body.decay_per_s = 0.5;
+    EXPECT_EQ(physvib_world_set_body(world, 3, &body), PHYSVIB_OK);
+    body.overtone_hz[1] = 400.0;
+    EXPECT_EQ(physvib_world_set_body(world, 3, &body), PHYSVIB_ERROR_ARGUMENT);
+    body.overtone_hz[1] = 0.0;
+    body.frequency_hz = 3.0; // a coil would be held at nearly direct current
+    EXPECT_EQ(physvib_world_set_body(world, 3, &body), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_world_set_body(world, -2, &body), PHYSVIB_ERROR_ARGUMENT);
+    physvib_world_settings settings;
+    physvib_world_settings_init(&settings, sizeof settings);
+    settings.threshold_m_per_s = -1.0;
+    EXPECT_EQ(physvib_world_configure(world, &settings), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_STREQ(physvib_error(), "threshold: expected 0 m/s or more");
+    physvib_world none = nullptr;
+    EXPECT_EQ(physvib_world_create(&settings, &none), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(none, nullptr);
+    physvib_world_free(world);
+}
+
+TEST(Calls, LayoutsAndListsAreReadFromTextAsFromFiles) {
+    physvib_layout layout, again;
+    ASSERT_EQ(physvib_layout_preset("phone4", &layout), PHYSVIB_OK);
+    ASSERT_EQ(physvib_layout_parse(R"({"name": "two", "extent_m": [0.2, 0.1], "enchanters": [{"label": "A", "x_m": 0, "y_m": 0}, {"label": "B", "x_m": 0.2, "y_m": 0}]})", &again), PHYSVIB_OK)
+        << physvib_error();
+    EXPECT_EQ(again.count, 2);
+    EXPECT_EQ(again.x_m[1], 0.2);
+    EXPECT_EQ(physvib_layout_parse("{", &again), PHYSVIB_ERROR_ARGUMENT);
+    EXPECT_EQ(physvib_layout_parse(nullptr, &again), PHYSVIB_ERROR_ARGUMENT);
+    const char* const list = "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,200,30,0.5,0,0\n0.2,200,30,0.25,0,0\n";
+    physvib_event events[4];
+    ASSERT_EQ(physvib_events_parse(list, events, 4), 2) << physvib_error();
+    EXPECT_EQ(events[1].time_ns, 200'000'000);
+    EXPECT_EQ(physvib_events_parse(list, nullptr, 0), 2);
+    EXPECT_EQ(physvib_events_parse("time_s\n1", events, 4), PHYSVIB_ERROR_ARGUMENT);
+}
+
 TEST(Calls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
     test::expectBegunWithin(physvib_renderer_settings_init);
     test::expectBegunWithin(physvib_renderer_status_init);
     test::expectBegunWithin(physvib_world_settings_init);
     test::expectBegunWithin(physvib_body_init);
     test::expectBegunWithin(physvib_contact_init);
+    test::expectBegunWithin(physvib_world_counts_init);
     const physvib_renderer one = renderer();
     physvib_renderer_status status;
     std::memset(&status, 0xAB, sizeof status);

@@ -6,6 +6,8 @@ love = {physics = {getMeter = function() return metre end}}
 local function fixture(kind, mass, motion)
     local body = {getType = function() return kind end, getMass = function() return mass end, getGravityScale = function() return 1 end,
                   getPosition = function() return 0.3 * metre, -(motion.height or 0) * metre end,
+                  getWorldCenter = function() return 0.3 * metre, -(motion.height or 0) * metre end, getAngularVelocity = function() return 0 end,
+                  getLinearVelocity = function() return 0, motion.speed * metre end,
                   getLinearVelocityFromWorldPoint = function() return 0, motion.speed * metre end}
     return {getBody = function() return body end, isSensor = function() return false end}
 end
@@ -52,5 +54,10 @@ world:setCallbacks(nil, nil, nil, function() later = later + 1 end) -- others, w
 for _ = 1, 100 do haptics:update(0.01) end
 assert(later > 0 and #haptics:take({}, true) > 0, "callbacks that were set later")
 assert(not pcall(physvib.call, "world_end_step", haptics.name), "an error is one of Lua")
+assert(haptics:counts().events >= #events and haptics:drops() == 0, "counts")
+assert(haptics:explain():find("event"), haptics:explain())
+haptics:configure({is_muted = 1})
+for _ = 1, 300 do haptics:update(0.01) end
+assert(#haptics:take({}, true) == 0, "muted")
 physvib.save_wav(arg[1], events, 1.5, {field_width_m = 1, field_height_m = 1})
 print(#events .. " hits, the first at " .. tonumber(events[1].time_ns) * 1e-9 .. " s: " .. arg[1])

@@ -100,6 +100,42 @@ class Package(unittest.TestCase):
         with self.assertRaises(physvib.PhysVibError):
             closed.take()
 
+    def test_why_nothing_is_felt_is_counted_and_said(self) -> None:
+        world = physvib.World(normalisation_s_per_m=1.0, hand_mass_kg=0.0)
+        world.set_body(0)
+        self.assertIn("No step", world.explain())
+        with self.assertRaises(physvib.PhysVibError) as caught:
+            world.set_body(1, mass_kg=1.0, is_camera=True, frequency_hz=200.0)
+        self.assertTrue(str(caught.exception).startswith("decay:"))
+        world.set_body(1, mass_kg=1.0, is_camera=True, frequency_hz=200.0, decay_per_s=30.0, overtones=[(410.0, 60.0, 0.5)])
+        for muted in (False, True):
+            world.configure(is_muted=muted)
+            with world.step(0.01):
+                world.touch(0, 1, impulse_n_s=2.0)
+            with world.step(0.01):
+                pass
+        events = world.take(at_once=True)
+        self.assertEqual(list(events["frequency_hz"]), [200.0, 410.0])
+        self.assertEqual(list(events["amplitude"]), [2.0, 1.0])
+        self.assertEqual((world.counts.contacts, world.counts.events, world.counts.muted, world.drops), (2, 2, 1, 0))
+        self.assertIn("2 contacts, 2 events", repr(world))
+
+    def test_a_flat_landing_at_two_corners_is_the_landing(self) -> None:
+        world = physvib.World(normalisation_s_per_m=1.0, hand_mass_kg=0.0)
+        world.set_body(0)
+        world.set_body(1, mass_kg=0.5, inertia_kg_m2=0.05, is_camera=True, frequency_hz=200.0, decay_per_s=30.0)
+        world.move(1, 0.0, 0.25, vy_m_per_s=-2.426)
+        with world.step(0.01):
+            for x in (-0.5, 0.5):
+                world.touch(0, 1, x_m=x, point_id=physvib.POINT_BY_PLACE, is_soft=True)
+        self.assertAlmostEqual(float(world.take(at_once=True)["impulse_n_s"][0]), 1.213, delta=0.01)
+
+    def test_layouts_and_lists_are_read_from_text(self) -> None:
+        layout = physvib.Layout.parse('{"name": "one", "extent_m": [0.2, 0.1], "enchanters": [{"label": "A", "x_m": 0.1, "y_m": 0}]}')
+        self.assertEqual(repr(layout), "Layout([(0.1, 0.0)], extent_m=(0.2, 0.1))")
+        events = physvib.parse_events("time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.5,200,30,0.5,0,0\n")
+        self.assertEqual(list(events["time_ns"]), [500_000_000])
+
     def test_every_public_name_is_described_and_has_types(self) -> None:
         functions = {name: getattr(physvib, name) for name in physvib.__all__ if callable(getattr(physvib, name))}
         for owner, what in list(functions.items()):

@@ -36,7 +36,7 @@ struct Balls {
         b2Fixture& floor = *world.CreateBody(&def)->CreateFixture(&edge, 0.0F);
         HapticFixture rough{250.0, 60.0, true, 340.0, Voice::own};
         rough.texture.grainMetres = grainMetres;
-        attachment.set(floor, rough);
+        (void)attachment.set(floor, rough);
         for (int i = 0; i < count; ++i) {
             b2BodyDef ball;
             ball.type = b2_dynamicBody;

@@ -89,8 +89,8 @@ void stepOfAShakenBox(benchmark::State& state) {
     ShakenBox plain(bodies), felt(bodies);
     const auto cameras = state.range(1);
     Attachment attachment(felt.world, {.fieldWidthMetres = 6.4, .timing = state.range(2) != 0 ? ImpactTiming::release : ImpactTiming::onset});
-    for (b2Fixture* fixture : felt.walls) attachment.set(*fixture, {349.0, 107.0, cameras > 0, 340.0, Voice::own});
-    for (b2Fixture* fixture : felt.objects) attachment.set(*fixture, {200.0, 30.0, cameras > 4, 0.0, Voice::own});
+    for (b2Fixture* fixture : felt.walls) (void)attachment.set(*fixture, {349.0, 107.0, cameras > 0, 340.0, Voice::own});
+    for (b2Fixture* fixture : felt.objects) (void)attachment.set(*fixture, {200.0, 30.0, cameras > 4, 0.0, Voice::own});
 
     std::vector<double> without, with;
     std::vector<CollisionEvent> events;
@@ -170,7 +170,7 @@ void stepAmongTiles(benchmark::State& state) {
     settings.timing = state.range(2) != 0 ? ImpactTiming::release : ImpactTiming::onset;
     Attachment attachment(felt.world, settings);
     for (b2Fixture* fixture : felt.fixtures)
-        if (state.range(1) != 0 || fixture->GetBody()->GetType() == b2_dynamicBody) attachment.set(*fixture, wall);
+        if (state.range(1) != 0 || fixture->GetBody()->GetType() == b2_dynamicBody) (void)attachment.set(*fixture, wall);
     std::vector<double> without, with;
     std::vector<CollisionEvent> events;
     for (auto _ : state) {

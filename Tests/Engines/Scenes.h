@@ -9,6 +9,7 @@
 namespace scenes {
 
 constexpr double gravity = 9.81, radius = 0.1, massKg = 1.0;
+constexpr int floorBody = 100; ///< where 0 is no number; else it is body 0
 
 /// Balls of 1 kg and 0.1 m; ball i is body i + 1, the floor is body 0 with its surface at 0.
 struct Engine {
@@ -22,6 +23,7 @@ struct Engine {
     int camera = 0;                            ///< the body that feels
     bool movesFirst = false;                   ///< by the velocity that it has, before gravity changes it
     bool landsLate = false;                    ///< by its slop, so perhaps a step later, and faster by what gravity adds
+    int subSteps = 1;                          ///< in each of which gravity changes the velocity
     double restitution = 0.5;
     physvib_world world = nullptr;
 };
@@ -38,6 +40,7 @@ inline physvib_world worldOf(int balls, int camera) {
     physvib_body body;
     physvib_body_init(&body, sizeof body);
     physvib_world_set_body(world, 0, &body);
+    physvib_world_set_body(world, floorBody, &body);
     for (int i = 1; i <= balls; ++i) {
         physvib_body_init(&body, sizeof body);
         body.mass_kg = massKg;
@@ -62,15 +65,16 @@ inline bool drop(const char* name, Engine& engine, int rate) {
     const double dt = 1.0 / rate, h = 0.8, v = std::sqrt(2.0 * gravity * h), t = std::sqrt(2.0 * h / gravity);
     engine.world = worldOf(1, engine.camera = 1);
     engine.begin(dt, gravity, engine.restitution, true);
-    engine.ball(0.0, radius + h, 0.0, engine.movesFirst ? -0.5 * gravity * dt : 0.5 * gravity * dt); // ends of steps lie on the parabola
+    engine.ball(0.0, radius + h, 0.0, (engine.movesFirst ? -0.5 : 0.5) * gravity * dt / engine.subSteps); // ends of steps lie on the parabola
     double onsets[2] = {}, speeds[2] = {};
     int hits = 0;
     for (int step = 0; step < 2 * rate && hits < 2; ++step) {
-        const double gap = engine.height(0) - radius, falling = (engine.movesFirst ? 0.0 : gravity * dt) - engine.speed(0);
+        const double gap = engine.height(0) - radius, now = -engine.speed(0), atFloor = std::sqrt(std::fmax(0.0, now * now + 2.0 * gravity * gap));
+        const double falling = engine.subSteps > 1 ? 0.5 * (now + atFloor) : (engine.movesFirst ? 0.0 : gravity * dt) + now; // on the way to the floor
         const bool isNext = hits == 0 || step * dt > onsets[0] + 0.05; // some land in two steps
         if (isNext && falling > 1.0 && gap > 0.0 && gap <= falling * dt) {
             onsets[hits] = step * dt + gap / falling;
-            speeds[hits++] = falling;
+            speeds[hits++] = engine.subSteps > 1 ? atFloor : falling;
         }
         engine.step();
     }

@@ -31,7 +31,7 @@ struct Box2d final : scenes::Engine {
         b2Fixture* fixture = balls.back()->CreateFixture(&disc, static_cast<float>(scenes::massKg) / (b2_pi * disc.m_radius * disc.m_radius));
         fixture->SetRestitution(elasticity);
         fixture->SetFriction(0.0F);
-        if (static_cast<int>(balls.size()) == camera) haptics->set(*fixture, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true});
+        if (static_cast<int>(balls.size()) == camera) (void)haptics->set(*fixture, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true});
     }
     void step() override { haptics->step(dt, 30); }
     std::vector<physvib_event> take() override {

@@ -16,7 +16,7 @@ struct Chipmunk final : scenes::Engine {
         cpSpaceSetIterations(space, 30);
         cpSpaceSetCollisionSlop(space, 0.001);
         balls.clear();
-        if (hasFloor) shape(cpSegmentShapeNew(cpSpaceGetStaticBody(space), cpv(-5, 0), cpv(5, 0), 0), 0);
+        if (hasFloor) shape(cpSegmentShapeNew(cpSpaceGetStaticBody(space), cpv(-5, 0), cpv(5, 0), 0), scenes::floorBody);
         physvib_chipmunk_attach(space, world);
     }
     void ball(double x, double y, double vx, double vy) override {
@@ -27,10 +27,12 @@ struct Chipmunk final : scenes::Engine {
         shape(cpCircleShapeNew(body, scenes::radius, cpvzero), static_cast<int>(balls.size()));
     }
     void shape(cpShape* added, int id) {
-        cpShapeSetElasticity(cpSpaceAddShape(space, added), id == 0 ? 1.0 : elasticity); // a pair's is the product
+        cpShapeSetElasticity(cpSpaceAddShape(space, added), id == scenes::floorBody ? 1.0 : elasticity); // a pair's is the product
         cpShapeSetUserData(added, reinterpret_cast<void*>(static_cast<std::intptr_t>(id)));
     }
-    void step() override { physvib_chipmunk_step(space, world, dt); }
+    void step() override {
+        if (physvib_chipmunk_step(space, world, dt) != PHYSVIB_OK) std::printf("%s\n", physvib_chipmunk_error);
+    }
     double height(int i) const override { return cpBodyGetPosition(balls[static_cast<std::size_t>(i)]).y; }
     double speed(int i) const override {
         const cpVect v = cpBodyGetVelocity(balls[static_cast<std::size_t>(i)]);

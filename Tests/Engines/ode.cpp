@@ -16,7 +16,7 @@ struct Ode final : scenes::Engine {
         dWorldSetGravity(ode, 0, -g, 0);
         balls.clear();
         haptics.world = world, haptics.count = 0;
-        if (hasFloor) dGeomSetData(dCreatePlane(space, 0, 1, 0, 0), nullptr);
+        if (hasFloor) dGeomSetData(dCreatePlane(space, 0, 1, 0, 0), reinterpret_cast<void*>(static_cast<std::intptr_t>(scenes::floorBody)));
     }
     void ball(double x, double y, double vx, double vy) override {
         dMass mass;
@@ -41,7 +41,7 @@ struct Ode final : scenes::Engine {
     }
     void step() override {
         dSpaceCollide(space, this, near);
-        physvib_ode_step(&haptics, ode, dt);
+        if (physvib_ode_step(&haptics, ode, dt) != PHYSVIB_OK) std::printf("%s\n", haptics.error);
         dJointGroupEmpty(joints);
     }
     double height(int i) const override { return dBodyGetPosition(balls[static_cast<std::size_t>(i)])[1]; }

@@ -25,7 +25,7 @@ int main() {
 
     // PhysVib: how the ball vibrates, and four enchanters on the corners of a field of 1 m x 1 m.
     physvib::Attachment haptics(world);
-    haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true});
+    if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return 1; // refused: it says why
     physvib::EnchanterLayout layout;
     physvib::layoutPreset("phone4", layout);
     const auto renderer = std::make_unique<physvib::HapticRenderer>();

@@ -26,8 +26,8 @@ set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stde
 set(bad "")
 foreach(room Core Wire Io Contacts Physics Scene Study Formats Measure Pictures Api Api/Live Session Jobs Host Host/Osc Plugin Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
-    if(room STREQUAL "Api") # a room of its own, under another licence
-        list(FILTER files EXCLUDE REGEX "/Api/Live/")
+    if(room STREQUAL "Api") # Live: a room of its own, under another licence; Engines: headers for engines of the user
+        list(FILTER files EXCLUDE REGEX "/Api/(Live|Engines)/")
     elseif(room STREQUAL "Host") # so is this, and without JUCE
         list(FILTER files EXCLUDE REGEX "/Host/Osc/")
     endif()

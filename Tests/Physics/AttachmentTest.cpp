@@ -79,8 +79,8 @@ std::vector<CollisionEvent> step(Attachment& attachment, int steps, float stepSe
 TEST(Attachment, ForeignWorldIsFeltAndKeepsItsCallsAndUserData) {
     Foreign alone, felt;
     Attachment attachment(felt.world, unity());
-    attachment.set(*felt.floor, camera);
-    attachment.set(*felt.ball, object);
+    (void)attachment.set(*felt.floor, camera);
+    (void)attachment.set(*felt.ball, object);
     const auto events = step(attachment, 120);
     for (int i = 0; i < 120; ++i) alone.world.Step(1.0F / 60.0F, 8, 3);
     EXPECT_GE(events.size(), 3U);
@@ -136,7 +136,7 @@ TEST(Attachment, AttachesToAWorldInWhichBodiesTouchAlready) {
     foreign.ball->SetRestitution(0.0F);
     for (int i = 0; i < 30; ++i) foreign.world.Step(1.0F / 60.0F, 8, 3); // the ball lies, the other falls
     Attachment attachment(foreign.world, unity());
-    attachment.set(*foreign.floor, camera);
+    (void)attachment.set(*foreign.floor, camera);
     EXPECT_EQ(step(attachment, 60).size(), 1U); // handed on by the one that lies
 }
 
@@ -164,19 +164,19 @@ protected:
 };
 
 TEST_P(DestroyedInContact, CameraFeelsItsLastHitIfItIsKept) {
-    attachment.set(*foreign.floor, object);
-    attachment.set(*foreign.ball, camera);
+    (void)attachment.set(*foreign.floor, object);
+    (void)attachment.set(*foreign.ball, camera);
     EXPECT_EQ(runAndDestroy().size(), GetParam() ? 1U : 0U);
 }
 
 TEST_P(DestroyedInContact, PartnerTakesItsHitAlongUnlessItIsKept) {
-    attachment.set(*foreign.floor, camera);
-    attachment.set(*foreign.ball, object);
+    (void)attachment.set(*foreign.floor, camera);
+    (void)attachment.set(*foreign.ball, object);
     EXPECT_EQ(runAndDestroy().size(), GetParam() ? 1U : 0U);
 }
 
 TEST_P(DestroyedInContact, PartnerWithoutValuesDoesSoToo) {
-    attachment.set(*foreign.floor, camera);
+    (void)attachment.set(*foreign.floor, camera);
     EXPECT_EQ(runAndDestroy().size(), GetParam() ? 1U : 0U);
 }
 INSTANTIATE_TEST_SUITE_P(KeepsHits, DestroyedInContact, testing::Bool());
@@ -184,11 +184,11 @@ INSTANTIATE_TEST_SUITE_P(KeepsHits, DestroyedInContact, testing::Bool());
 TEST(Attachment, SurvivesFixturesThatVanishUnnoticed) {
     Foreign foreign;
     Attachment attachment(foreign.world, unity());
-    attachment.set(*foreign.floor, camera);
+    (void)attachment.set(*foreign.floor, camera);
     foreign.world.SetDestructionListener(nullptr); // nobody tells
     for (int i = 0; i < 40; ++i) {
         b2Fixture& ball = foreign.add(0.5F);
-        attachment.set(ball, camera);
+        (void)attachment.set(ball, camera);
         step(attachment, 17); // most lie on the floor by then
         if (i % 2 == 0)
             foreign.world.DestroyBody(ball.GetBody());
@@ -203,7 +203,7 @@ TEST(Attachment, SurvivesFixturesThatVanishUnnoticed) {
 TEST(Attachment, FixtureRemovedBeforeItIsDestroyedLeavesNothingToItsHeir) {
     Foreign foreign;
     Attachment attachment(foreign.world, unity());
-    attachment.set(*foreign.floor, object);
+    (void)attachment.set(*foreign.floor, object);
     const std::int32_t id = attachment.set(*foreign.ball, camera).id;
     b2Body& body = *foreign.ball->GetBody();
     attachment.remove(*foreign.ball);
@@ -218,7 +218,7 @@ TEST(Attachment, FixtureRemovedBeforeItIsDestroyedLeavesNothingToItsHeir) {
 TEST(Attachment, RemovedFixtureTakesItsEventsAlong) {
     Foreign foreign;
     Attachment attachment(foreign.world, unity());
-    attachment.set(*foreign.floor, camera);
+    (void)attachment.set(*foreign.floor, camera);
     while (foreign.game.begins == 0) attachment.step(1.0F / 60.0F);
     attachment.remove(*foreign.floor);
     EXPECT_TRUE(step(attachment, 10).empty());
@@ -227,8 +227,8 @@ TEST(Attachment, RemovedFixtureTakesItsEventsAlong) {
 TEST(Attachment, BodiesOfDestructionsBetweenStepAndEndAreSafe) {
     Foreign foreign;
     Attachment attachment(foreign.world, unity());
-    attachment.set(*foreign.floor, camera);
-    attachment.set(*foreign.ball, camera);
+    (void)attachment.set(*foreign.floor, camera);
+    (void)attachment.set(*foreign.ball, camera);
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 60; ++i) {
         attachment.beginStep(1.0 / 60.0);
@@ -245,7 +245,7 @@ TEST(Attachment, BodiesOfDestructionsBetweenStepAndEndAreSafe) {
 TEST(Attachment, ContactsAtTheAddressOfDestroyedOnesAreFelt) {
     Foreign foreign;
     Attachment attachment(foreign.world, unity());
-    attachment.set(*foreign.floor, camera);
+    (void)attachment.set(*foreign.floor, camera);
     foreign.world.DestroyBody(foreign.ball->GetBody());
     for (int round = 0; round < 4; ++round) {
         std::vector<b2Body*> balls;
@@ -271,8 +271,8 @@ TEST(Attachment, AttachmentsOfTwoWorldsDoNotDisturbEachOther) {
     Attachment first(one.world, unity()), second(two.world, unity()), alone(reference.world, unity());
     two.ball->SetRestitution(0.2F);
     for (const auto& [attachment, world] : {std::pair{&first, &one}, {&second, &two}, {&alone, &reference}}) {
-        attachment->set(*world->floor, camera);
-        attachment->set(*world->ball, object);
+        (void)attachment->set(*world->floor, camera);
+        (void)attachment->set(*world->ball, object);
     }
     std::vector<CollisionEvent> firstEvents, secondEvents;
     for (int i = 0; i < 120; ++i) {
@@ -290,7 +290,7 @@ TEST(Attachment, TwoOfTheSameWorldFeelTheSame) {
     Foreign foreign;
     Attachment inner(foreign.world, unity());
     Attachment outer(foreign.world, unity());
-    for (Attachment* attachment : {&inner, &outer}) attachment->set(*foreign.floor, camera);
+    for (Attachment* attachment : {&inner, &outer}) (void)attachment->set(*foreign.floor, camera);
     std::vector<CollisionEvent> innerEvents, outerEvents;
     for (int i = 0; i < 60; ++i) {
         for (Attachment* attachment : {&inner, &outer}) attachment->beginStep(1.0 / 60.0);
@@ -306,8 +306,8 @@ TEST(Attachment, TwoOfTheSameWorldFeelTheSame) {
 TEST(Attachment, StepsOfDifferentLengthsAddUpToTheTime) {
     Foreign foreign;
     Attachment attachment(foreign.world, unity());
-    attachment.set(*foreign.floor, camera);
-    attachment.set(*foreign.ball, object);
+    (void)attachment.set(*foreign.floor, camera);
+    (void)attachment.set(*foreign.ball, object);
     std::vector<CollisionEvent> events;
     std::int64_t expected = 0;
     for (int i = 0; events.empty() && i < 200; ++i) {
@@ -326,8 +326,8 @@ TEST(Attachment, StepsOfDifferentLengthsAddUpToTheTime) {
 TEST_F(AttachedWorld, HitsOfTwoMovingBodiesAreTimedInStepsOfAnyLength) {
     constexpr int count = 40;
     for (int i = 0; i < count; ++i) {
-        attachment.set(ball(-2.0F - 0.01F * static_cast<float>(i), static_cast<float>(i), 3.0F, 0.0F), camera, i);
-        attachment.set(ball(2.0F, static_cast<float>(i), -2.0F, 0.0F), object, count + i);
+        (void)attachment.set(ball(-2.0F - 0.01F * static_cast<float>(i), static_cast<float>(i), 3.0F, 0.0F), camera, i);
+        (void)attachment.set(ball(2.0F, static_cast<float>(i), -2.0F, 0.0F), object, count + i);
     }
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 80; ++i) attachment.step(i % 2 == 0 ? 0.004F : 0.033F);
@@ -360,7 +360,7 @@ TEST(Attachment, EventsAreHandedOutSortedAndOnceSettled) {
     for (int i = 2; i < 30; ++i) foreign.add(static_cast<float>(i));
     Attachment attachment(foreign.world, unity());
     for (b2Body* body = foreign.world.GetBodyList(); body != nullptr; body = body->GetNext())
-        attachment.set(*body->GetFixtureList(), camera);
+        (void)attachment.set(*body->GetFixtureList(), camera);
     std::int64_t latest = 0;
     std::size_t count = 0;
     for (int i = 0; i < 600; ++i) {
@@ -383,7 +383,7 @@ TEST(Attachment, NormalisationFollowsTheWorldUnlessItIsGiven) {
     step(attachment, 1);
     EXPECT_DOUBLE_EQ(attachment.impactModel().normalisation, 0.1); // Eq. 5.7
     EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, massKg(*foreign.ball));
-    attachment.set(*foreign.floor, camera); // 10 kg
+    (void)attachment.set(*foreign.floor, camera); // 10 kg
     step(attachment, 1);
     EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, 10.0);
     b2Fixture& heavy = foreign.add(4.0F);
@@ -412,7 +412,7 @@ TEST(Attachment, IdsAreInOrderOrTheCallers) {
     Foreign foreign;
     Attachment attachment(foreign.world);
     EXPECT_EQ(attachment.set(*foreign.floor, camera).id, 0);
-    attachment.set(*foreign.ball, object, 7);
+    (void)attachment.set(*foreign.ball, object, 7);
     EXPECT_EQ(attachment.set(*foreign.floor, object).id, 0);
     EXPECT_EQ(attachment.set(foreign.add(3.0F), object).id, 8);
     ASSERT_NE(attachment.find(*foreign.ball), nullptr);

@@ -9,8 +9,8 @@ namespace {
 using CollisionCatcherWorld = AttachedWorld;
 
 TEST_F(CollisionCatcherWorld, TwoMovingCamerasMeetAtTheRightMoment) {
-    attachment.set(ball(-1.0F, 1.0F, 3.0F, 0.0F), camera);
-    attachment.set(ball(1.0F, 1.0F, -4.0F, 0.0F), camera);
+    (void)attachment.set(ball(-1.0F, 1.0F, 3.0F, 0.0F), camera);
+    (void)attachment.set(ball(1.0F, 1.0F, -4.0F, 0.0F), camera);
     const auto events = run(50);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].source.fixture, 0);
@@ -22,8 +22,8 @@ TEST_F(CollisionCatcherWorld, TwoMovingCamerasMeetAtTheRightMoment) {
 }
 
 TEST_F(CollisionCatcherWorld, HitsOfTheTimeOfImpactPassAreTimedWithinTheirStep) {
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 2.0F, 0.0F, -13.7F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 2.0F, 0.0F, -13.7F), object);
     const auto events = run(30);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_NEAR(seconds(events[0]), 1.75 / 13.7, 1.0e-5);
@@ -31,11 +31,11 @@ TEST_F(CollisionCatcherWorld, HitsOfTheTimeOfImpactPassAreTimedWithinTheirStep) 
 
 TEST_F(CollisionCatcherWorld, SecondImpactWithinOneStepIsTimedToo) {
     // Into the corner of floor and wall at 15 and 12 m/s: both touched between 100 and 110 ms.
-    attachment.set(floor(), camera);
-    attachment.set(edge({0.0F, -100.0F}, {0.0F, 100.0F}), camera);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(edge({0.0F, -100.0F}, {0.0F, 100.0F}), camera);
     b2Fixture& fast = ball(0.25F + 12.0F * 0.1075F, 0.25F + 15.0F * 0.1025F, -12.0F, -15.0F);
     fast.SetFriction(0.0F);
-    attachment.set(fast, object);
+    (void)attachment.set(fast, object);
     const auto events = run(30);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].source.fixture, 0);
@@ -45,9 +45,9 @@ TEST_F(CollisionCatcherWorld, SecondImpactWithinOneStepIsTimedToo) {
 }
 
 TEST_F(CollisionCatcherWorld, FrictionIsPartOfTheImpulse) {
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     b2Fixture& sliding = ball(0.0F, 0.5F, 5.0F, -5.0F);
-    attachment.set(sliding, object);
+    (void)attachment.set(sliding, object);
     const b2Vec2 before = sliding.GetBody()->GetLinearVelocity();
     const auto events = run(10);
     ASSERT_EQ(events.size(), 1U);
@@ -58,9 +58,9 @@ TEST_F(CollisionCatcherWorld, FrictionIsPartOfTheImpulse) {
 }
 
 TEST_F(CollisionCatcherWorld, FlatLandingSumsBothPointsAndIsFeltInTheMiddle) {
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     b2Fixture& landing = box(0.5F, 0.0F, 5.0F);
-    attachment.set(landing, object);
+    (void)attachment.set(landing, object);
     const auto events = run(20);
     ASSERT_EQ(events.size(), 1U);
     const double expected = landing.GetBody()->GetMass() * 5.0 * 1.5;
@@ -69,11 +69,11 @@ TEST_F(CollisionCatcherWorld, FlatLandingSumsBothPointsAndIsFeltInTheMiddle) {
 }
 
 TEST_F(CollisionCatcherWorld, TiltedLandingIsTimedByTheLowerCorner) {
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     for (const float tilt : {0.003F, -0.003F}) {
         const double start = static_cast<double>(attachment.timeNs()) * 1.0e-9;
         b2Fixture& landing = box(0.48F, tilt, 5.0F);
-        attachment.set(landing, object);
+        (void)attachment.set(landing, object);
         const auto events = run(12);
         ASSERT_GE(events.size(), 1U);
         EXPECT_NEAR(seconds(events[0]) - start, 0.096, 2.0e-4);
@@ -82,8 +82,8 @@ TEST_F(CollisionCatcherWorld, TiltedLandingIsTimedByTheLowerCorner) {
 }
 
 TEST_F(CollisionCatcherWorld, PassesOfAStepAreOneHit) {
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.26F, 0.0F, -5.0F, 0.0F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.26F, 0.0F, -5.0F, 0.0F), object);
     ASSERT_EQ(run(1).size(), 1U);
     b2Contact* contact = world.GetContactList();
     b2ContactListener& catcher = *world.GetContactManager().m_contactListener;
@@ -103,8 +103,8 @@ TEST_F(CollisionCatcherWorld, PassesOfAStepAreOneHit) {
 }
 
 TEST_F(CollisionCatcherWorld, BodiesThatStartInEachOtherHitAtTimeZero) {
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.2F, 0.0F, -1.0F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.2F, 0.0F, -1.0F), object);
     const auto events = run(5);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].timeNs, 0);
@@ -112,30 +112,30 @@ TEST_F(CollisionCatcherWorld, BodiesThatStartInEachOtherHitAtTimeZero) {
 
 TEST_F(CollisionCatcherWorld, HitsLieAtMostOneStepInThePast) {
     run(9);
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.2F, 0.0F, -1.0F), object); // put 50 ms deep into the floor
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.2F, 0.0F, -1.0F), object); // put 50 ms deep into the floor
     const auto events = run(5);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].timeNs, 90'000'000);
 }
 
 TEST_F(CollisionCatcherWorld, HitsBelowTheThresholdAreNoStrikes) {
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.26F, 0.0F, -0.14F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.26F, 0.0F, -0.14F), object);
     EXPECT_TRUE(run(100).empty());
 }
 
 TEST_F(CollisionCatcherWorld, HitsAboveTheThresholdAreStrikes) {
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.26F, 0.0F, -0.16F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.26F, 0.0F, -0.16F), object);
     EXPECT_EQ(run(100).size(), 1U);
 }
 
 TEST_F(CollisionCatcherWorld, RestingBallStrikesOnce) {
     world.SetGravity({0.0F, -10.0F});
     world.SetAllowSleeping(false);
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.27F, 0.0F, -0.5F), object); // too slow for Box2D to bounce
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.27F, 0.0F, -0.5F), object); // too slow for Box2D to bounce
     EXPECT_EQ(run(1000).size(), 1U);
 }
 
@@ -144,15 +144,15 @@ TEST_F(CollisionCatcherWorld, ThresholdCountsTheLighterBody) {
     b2Fixture& heavy = ball(0.0F, 1.0F, 0.0F, 0.0F);
     heavy.SetDensity(1.0e5F);
     heavy.GetBody()->ResetMassData();
-    attachment.set(light, object);
-    attachment.set(heavy, camera);
+    (void)attachment.set(light, object);
+    (void)attachment.set(heavy, camera);
     const auto events = run(100);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_EQ(events[0].source.fixture, 1);
 }
 
 TEST_F(CollisionCatcherWorld, UnknownFixturesAreFeltButNotNamed) {
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     ball(0.0F, 0.5F, 0.0F, -5.0F);
     const auto events = run(20);
     ASSERT_EQ(events.size(), 1U);
@@ -163,16 +163,16 @@ TEST_F(CollisionCatcherWorld, UnknownFixturesAreFeltButNotNamed) {
 TEST_F(CollisionCatcherWorld, SensorsAreNotHit) {
     b2Fixture& sensor = floor();
     sensor.SetSensor(true);
-    attachment.set(sensor, camera);
-    attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    (void)attachment.set(sensor, camera);
+    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
     EXPECT_TRUE(run(50).empty());
 }
 
 TEST_F(CollisionCatcherWorld, WeakestContactsAreLeftOutWhereThereIsNoRoomAndCounted) {
     constexpr int balls = static_cast<int>(CollisionCatcher::maxDirectBlows) + 10;
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     for (int i = 0; i < balls; ++i)
-        attachment.set(ball(-90.0F + 0.16F * static_cast<float>(i), 0.24F, 0.0F, i % 100 == 7 && i / 100 < 10 ? -1.0F : -2.0F), object);
+        (void)attachment.set(ball(-90.0F + 0.16F * static_cast<float>(i), 0.24F, 0.0F, i % 100 == 7 && i / 100 < 10 ? -1.0F : -2.0F), object);
     b2Filter apart;
     apart.groupIndex = -1;
     for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
@@ -190,8 +190,8 @@ TEST_F(CollisionCatcherWorld, ContactsOfOthersDoNotTakeTheRoomOfCameras) {
         ball(x, y, 0.5F, 0.0F);
         ball(x + 0.4F, y, 0.0F, 0.0F);
     }
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.24F, 0.0F, -1.0F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.24F, 0.0F, -1.0F), object);
     EXPECT_EQ(run(0).size(), 0U); // not final before the next step
     EXPECT_EQ(attachment.drops(), 10U);
     EXPECT_EQ(run(0).size(), 1U);
@@ -199,10 +199,10 @@ TEST_F(CollisionCatcherWorld, ContactsOfOthersDoNotTakeTheRoomOfCameras) {
 
 TEST_F(CollisionCatcherWorld, GravityRaisesTheThresholdOverWhatRestingContactsGet) {
     world.SetGravity({0.0F, -40.0F}); // 0.4 m/s in every step
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.249F, 0.0F, 0.0F), object); // begins to touch, and rests
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.249F, 0.0F, 0.0F), object); // begins to touch, and rests
     EXPECT_TRUE(run(100).empty());
-    attachment.set(ball(5.0F, 0.5F, 0.0F, -2.0F), object);
+    (void)attachment.set(ball(5.0F, 0.5F, 0.0F, -2.0F), object);
     EXPECT_FALSE(run(100).empty());
 }
 

@@ -20,7 +20,7 @@ public:
         const b2Vec2 corners[] = {{0.0F, 0.0F}, {0.0F, 4.0F}, {4.0F, 4.0F}, {4.0F, 0.0F}}; // clockwise: they stay inside
         b2ChainShape chain;
         chain.CreateLoop(corners, 4);
-        attachment_.set(*world_.CreateBody(&ground)->CreateFixture(&chain, 0.0F), {300.0, 50.0, true, 100.0, Voice::both}, next_++);
+        (void)attachment_.set(*world_.CreateBody(&ground)->CreateFixture(&chain, 0.0F), {300.0, 50.0, true, 100.0, Voice::both}, next_++);
         for (int i = 0; i < 20; ++i) add(0.3F + 0.17F * static_cast<float>(i), 0.5F);
     }
 
@@ -60,7 +60,7 @@ private:
         b2Body& body = *world_.CreateBody(&def);
         b2Fixture& fixture = *body.CreateFixture(&circle, 10.0F);
         fixture.SetRestitution(0.4F);
-        attachment_.set(fixture, {200.0, 40.0, next_ % 2 == 0, 0.0, Voice::own}, next_);
+        (void)attachment_.set(fixture, {200.0, 40.0, next_ % 2 == 0, 0.0, Voice::own}, next_);
         ++next_;
         return body;
     }

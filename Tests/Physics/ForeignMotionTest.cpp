@@ -94,7 +94,7 @@ TEST(ForeignMotion, IsTheSameToTheBitInTwoHundredRandomWorlds) {
             felt.play();
             const float seconds = stands ? 0.0F : 0.01F;
             for (const b2Body* body = felt.world.GetBodyList(); body != nullptr; body = body->GetNext())
-                if (!attachment.find(*body->GetFixtureList())) attachment.set(*body->GetFixtureList(), camera);
+                if (!attachment.find(*body->GetFixtureList())) (void)attachment.set(*body->GetFixtureList(), camera);
             plain.world.Step(seconds, 8, 3);
             if (step % 11 == 10) {
                 felt.world.Step(seconds, 8, 3); // not told

@@ -22,16 +22,16 @@ TEST_F(ForeignWorld, WithoutAListenerIsFeltAsWell) {
     bare.SetContactListener(nullptr);
     Attachment onBare(bare, unity());
     onBare.step(0.01F);
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
     world.SetContactListener(nullptr);
     EXPECT_EQ(run(20).size(), 1U);
 }
 
 TEST_F(ForeignWorld, ListenerSetLaterIsCalledAndTheWorldIsFelt) {
     Listener later;
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
     world.SetContactListener(&later);
     world.SetDestructionListener(&later);
     EXPECT_EQ(run(20).size(), 1U);
@@ -54,19 +54,19 @@ public:
 
 TEST_F(ForeignWorld, ListenerThatHandsCallsBackIsCalledOnce) {
     Forwarding game(world);
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
     EXPECT_EQ(run(20).size(), 1U);
     EXPECT_EQ(game.begins, 1);
 }
 
 TEST_F(ForeignWorld, FixtureMadeBetweenBeginAndStepIsFelt) {
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     run(3);
     attachment.beginStep(0.01);
     std::vector<b2Fixture*> late;
     for (int i = 0; i < 100; ++i) late.push_back(&ball(0.6F * static_cast<float>(i), 0.26F, 0.0F, -5.0F));
-    for (const b2Fixture* each : late) attachment.set(*each, camera);
+    for (const b2Fixture* each : late) (void)attachment.set(*each, camera);
     world.Step(0.01F, 8, 3);
     attachment.endStep();
     std::size_t count = 0;
@@ -81,11 +81,11 @@ TEST_P(DestroyedBeforeTheEnd, FixturesAndBodiesAreFeltByWhatTheStepKnew) {
     settings.location = ImpactLocation::fixture;
     settings.timing = GetParam();
     attachment.configure(settings);
-    attachment.set(floor(), object);
+    (void)attachment.set(floor(), object);
     Listener own;
     for (int round = 0; round < 3; ++round) {
         b2Fixture& struck = ball(0.0F, 0.26F, 0.0F, -5.0F);
-        attachment.set(struck, camera);
+        (void)attachment.set(struck, camera);
         attachment.beginStep(0.01);
         world.Step(0.01F, 8, 3);
         if (round == 0) struck.GetBody()->DestroyFixture(&struck);
@@ -131,25 +131,25 @@ TEST(ForeignWorldLife, AttachmentsMayEndInAnyOrderAndTheGameIsStillCalled) {
 }
 
 TEST_F(ForeignWorld, OriginMovesAndEventsStayInTheField) {
-    attachment.set(floor(), camera);
-    attachment.set(ball(2.0F, 0.26F, 0.0F, -5.0F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(2.0F, 0.26F, 0.0F, -5.0F), object);
     attachment.step(0.01F); // struck, and not yet final
     attachment.shiftOrigin({1000.0F, 0.0F});
     const auto events = run(2);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_NEAR(events[0].x, 2.0, 0.01);
-    attachment.set(ball(-995.0F, 0.26F, 0.0F, -5.0F), object);
+    (void)attachment.set(ball(-995.0F, 0.26F, 0.0F, -5.0F), object);
     const auto later = run(2);
     ASSERT_EQ(later.size(), 1U);
     EXPECT_NEAR(later[0].x, 5.0, 0.01);
 }
 
 TEST_F(ForeignWorld, FieldMayLieAnywhereAndMove) {
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     ImpactSettings settings = unity();
     settings.fieldOrigin = {-41.0F, -1.0F};
     attachment.configure(settings);
-    attachment.set(ball(-41.0F, 0.26F, 0.0F, -5.0F), object);
+    (void)attachment.set(ball(-41.0F, 0.26F, 0.0F, -5.0F), object);
     auto events = run(2);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_NEAR(events[0].x, 0.0, 0.01);
@@ -157,18 +157,18 @@ TEST_F(ForeignWorld, FieldMayLieAnywhereAndMove) {
     settings.fieldOrigin = {3.0F, 0.0F};
     settings.fieldRadians = 0.5F * b2_pi; // the device lies on its side
     attachment.configure(settings);
-    attachment.set(ball(3.0F, 0.26F, 0.0F, -5.0F), object);
-    attachment.set(ball(8.0F, 0.26F, 0.0F, -5.0F), object);
+    (void)attachment.set(ball(3.0F, 0.26F, 0.0F, -5.0F), object);
+    (void)attachment.set(ball(8.0F, 0.26F, 0.0F, -5.0F), object);
     events = run(2);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_NEAR(std::min(events[0].y, events[1].y), -5.0, 0.01);
 }
 
 TEST_F(ForeignWorld, AddressUsedAgainInheritsNothing) {
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     for (int i = 0; i < 50; ++i) {
         b2Fixture& first = ball(0.0F, 5.0F, 0.0F, 0.0F);
-        attachment.set(first, {100.0, 10.0, true, 0.0, Voice::own});
+        (void)attachment.set(first, {100.0, 10.0, true, 0.0, Voice::own});
         world.SetDestructionListener(nullptr);
         if (i % 2 == 0) run(0); // notices what happened to the listener, or not
         b2Body* const body = first.GetBody();
@@ -195,8 +195,8 @@ TEST_F(ForeignWorld, RefusesWhatCannotBePlayed) {
 }
 
 TEST_F(ForeignWorld, FlushGivesEventsAtOnce) {
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.26F, 0.0F, -5.0F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.26F, 0.0F, -5.0F), object);
     std::vector<CollisionEvent> events;
     attachment.step(0.01F);
     attachment.take(events);

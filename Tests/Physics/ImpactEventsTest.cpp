@@ -10,9 +10,9 @@ namespace {
 class ImpactEventsWorld : public AttachedWorld {
 protected:
     std::vector<CollisionEvent> hit(Voice voice, const HapticFixture& other, double ownHz = 250.0) {
-        attachment.set(edge({-1.0F, 0.0F}, {3.0F, 0.0F}), {ownHz, 20.0, true, 10.0, voice});
+        (void)attachment.set(edge({-1.0F, 0.0F}, {3.0F, 0.0F}), {ownHz, 20.0, true, 10.0, voice});
         b2Fixture& falling = ball(2.0F, 0.5F, 0.0F, -5.0F);
-        if (other.frequencyHz > 0.0) attachment.set(falling, other);
+        if (other.frequencyHz > 0.0) (void)attachment.set(falling, other);
         return run(20);
     }
 };
@@ -74,8 +74,8 @@ TEST_F(ImpactEventsWorld, IsFeltAtTheCentreOfTheCamerasFixtureOnDemand) {
 }
 
 TEST_F(ImpactEventsWorld, CameraWithoutAnyMassIsSilent) {
-    attachment.set(floor(), {250.0, 20.0, true, 0.0, Voice::own}); // m_i + m_h = 0 in Eq. 5.4
-    attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    (void)attachment.set(floor(), {250.0, 20.0, true, 0.0, Voice::own}); // m_i + m_h = 0 in Eq. 5.4
+    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
     EXPECT_TRUE(run(20).empty());
 }
 

@@ -28,7 +28,7 @@ protected:
         b2Fixture& fixture = edge({-20.0F * std::cos(angle), -20.0F * std::sin(angle)}, {80.0F * std::cos(angle), 80.0F * std::sin(angle)});
         along = {std::cos(angle), std::sin(angle)};
         fixture.SetFriction(1.0F);
-        attachment.set(fixture, values);
+        (void)attachment.set(fixture, values);
         return fixture;
     }
     /// A ball of 0.25 m that touches the slope at its origin.
@@ -194,7 +194,7 @@ TEST_F(Lasting, RoughBallIsFeltOnASmoothFloorOnceARevolution) {
     b2Fixture& ball = ballOnSlope(1.0F);
     HapticFixture rough = object;
     rough.texture.grainMetres = 0.01;
-    attachment.set(ball, rough);
+    (void)attachment.set(ball, rough);
     ball.GetBody()->SetLinearVelocity({1.0F, 0.0F});
     ball.GetBody()->SetAngularVelocity(-4.0F);
     const std::vector<CollisionEvent> events = lasting(157); // once around
@@ -223,7 +223,7 @@ TEST_F(Lasting, SeamsOfAChainAreNotHeard) {
     shape.CreateChain(links.data(), static_cast<int>(links.size()), {0.3F, 0.0F}, {-6.1F, 0.0F});
     const b2BodyDef def;
     b2Fixture& chain = *world.CreateBody(&def)->CreateFixture(&shape, 0.0F);
-    attachment.set(chain, rough(0.005, GrainPattern::regular));
+    (void)attachment.set(chain, rough(0.005, GrainPattern::regular));
     b2Fixture& ball = this->ball(0.0F, 0.25F + b2_polygonRadius, -1.0F, 0.0F, 0.0F);
     ball.SetFriction(0.0F);
     const std::vector<CollisionEvent> events = lasting(500);

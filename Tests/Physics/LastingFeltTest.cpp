@@ -27,7 +27,7 @@ protected:
         along = {std::cos(angle), std::sin(angle)};
         const b2Vec2 top{0.0F, static_cast<float>(fieldHeight)};
         b2Fixture& ground = edge(top - 20.0F * along, top + 80.0F * along);
-        attachment.set(ground, values);
+        (void)attachment.set(ground, values);
         b2Fixture& fixture = ball(top.x - 0.25F * along.y, top.y + 0.25F * along.x, 0.0F, 0.0F, 0.0F);
         for (b2Fixture* each : {&ground, &fixture}) each->SetFriction(friction);
         return fixture;

@@ -30,14 +30,14 @@ Dropped drop(ImpactTiming timing, float height, float stepSeconds) {
     b2EdgeShape edge;
     edge.SetTwoSided({-1.0F, 0.0F}, {1.0F, 0.0F});
     edge.m_radius = 0.0F;
-    attachment.set(*world.CreateBody(&def)->CreateFixture(&edge, 0.0F), camera);
+    (void)attachment.set(*world.CreateBody(&def)->CreateFixture(&edge, 0.0F), camera);
     def.type = b2_dynamicBody;
     def.position = {0.0F, height + 0.15F};
     b2CircleShape circle;
     circle.m_radius = 0.15F;
     b2Fixture& ball = *world.CreateBody(&def)->CreateFixture(&circle, 120.0F);
     ball.SetRestitution(0.688F);
-    attachment.set(ball, object);
+    (void)attachment.set(ball, object);
     std::vector<CollisionEvent> events;
     while (events.empty() && attachment.timeNs() < 2'000'000'000) {
         attachment.step(stepSeconds);
@@ -64,9 +64,9 @@ TEST_P(DropHeights, ReleaseIsWithinTwoPercentOfItAndLater) {
 INSTANTIATE_TEST_SUITE_P(Metres, DropHeights, testing::Values(1.0F, 2.0F, 3.0F));
 
 TEST_F(ReleaseImpactsWorld, BallThatStaysIsReleasedAfterFiftyMilliseconds) {
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     b2Fixture& landing = ball(0.0F, 0.75F, 0.0F, -5.0F, 0.0F);
-    attachment.set(landing, object);
+    (void)attachment.set(landing, object);
     const auto events = run(50);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_NEAR(seconds(events[0]), 0.1 + 0.05, 1.0e-3);
@@ -74,12 +74,12 @@ TEST_F(ReleaseImpactsWorld, BallThatStaysIsReleasedAfterFiftyMilliseconds) {
 }
 
 TEST_F(ReleaseImpactsWorld, ImmovableCameraSumsOverWhatTouchesItEachBodyOnce) {
-    attachment.set(floor(), camera);
+    (void)attachment.set(floor(), camera);
     b2Fixture& landing = box(0.5F, 0.0F, 5.0F);
-    attachment.set(landing, object);
+    (void)attachment.set(landing, object);
     b2CircleShape second; // of the same body, touching at the same time
     second.m_radius = 0.25F + b2_polygonRadius;
-    attachment.set(*landing.GetBody()->CreateFixture(&second, 0.0F), object);
+    (void)attachment.set(*landing.GetBody()->CreateFixture(&second, 0.0F), object);
     const double expected = massKg(landing) * 5.0 * 1.5;
     const auto events = run(50);
     ASSERT_GE(events.size(), 1U);
@@ -88,9 +88,9 @@ TEST_F(ReleaseImpactsWorld, ImmovableCameraSumsOverWhatTouchesItEachBodyOnce) {
 }
 
 TEST_F(ReleaseImpactsWorld, SpinCountsOnTopAsInTheThesis) {
-    attachment.set(floor(), object);
+    (void)attachment.set(floor(), object);
     b2Fixture& sliding = ball(0.0F, 0.5F, 5.0F, -5.0F);
-    attachment.set(sliding, camera);
+    (void)attachment.set(sliding, camera);
     const auto events = run(20);
     ASSERT_EQ(events.size(), 1U);
     const b2Body& body = *sliding.GetBody();
@@ -108,10 +108,10 @@ TEST_F(ReleaseImpactsWorld, SpinCountsOnTopAsInTheThesis) {
 
 TEST_F(ReleaseImpactsWorld, LastBallOfARowFeelsItsOwnImpulseOnce) {
     for (int i = 0; i < 4; ++i)
-        attachment.set(ball(0.499F * static_cast<float>(i), 0.0F, 0.0F, 0.0F, 0.0F), object);
+        (void)attachment.set(ball(0.499F * static_cast<float>(i), 0.0F, 0.0F, 0.0F, 0.0F), object);
     b2Fixture& last = ball(0.499F * 4.0F, 0.0F, 0.0F, 0.0F, 0.0F);
-    attachment.set(last, camera);
-    attachment.set(ball(-1.0F, 0.0F, 3.0F, 0.0F, 0.0F), object);
+    (void)attachment.set(last, camera);
+    (void)attachment.set(ball(-1.0F, 0.0F, 3.0F, 0.0F, 0.0F), object);
     const auto events = run(100);
     ASSERT_EQ(events.size(), 1U);
     const double own = massKg(last) * static_cast<double>(last.GetBody()->GetLinearVelocity().Length());
@@ -122,17 +122,17 @@ TEST_F(ReleaseImpactsWorld, FallingNeighboursFeelNothing) {
     world.SetGravity({0.0F, -10.0F});
     b2Fixture& struck = ball(0.499F, 0.0F, 0.0F, 0.0F, 0.0F);
     struck.SetFriction(0.0F);
-    attachment.set(ball(0.0F, 0.0F, 0.0F, 0.0F), camera);
-    attachment.set(struck, object);
-    attachment.set(ball(0.499F, 0.8F, 0.0F, -3.0F, 0.0F), object); // from above, while all fall, and stays
+    (void)attachment.set(ball(0.0F, 0.0F, 0.0F, 0.0F), camera);
+    (void)attachment.set(struck, object);
+    (void)attachment.set(ball(0.499F, 0.8F, 0.0F, -3.0F, 0.0F), object); // from above, while all fall, and stays
     EXPECT_TRUE(run(30).empty());
 }
 
 TEST_F(ReleaseImpactsWorld, RestingBallStrikesOnce) {
     world.SetGravity({0.0F, -10.0F});
     world.SetAllowSleeping(false);
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.27F, 0.0F, -0.5F), object);
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.27F, 0.0F, -0.5F), object);
     EXPECT_EQ(run(1000).size(), 1U);
 }
 
@@ -142,9 +142,9 @@ TEST_F(ReleaseImpactsWorld, PartnerDestroyedBeforeTheReleaseTakesTheEventAlong) 
         settings.keepsHitsOfDestroyed = keeps;
         attachment.configure(settings);
         b2Fixture& ground = floor();
-        attachment.set(ground, camera);
+        (void)attachment.set(ground, camera);
         b2Fixture& landing = ball(0.0F, 0.26F, 0.0F, -5.0F, 0.0F);
-        attachment.set(landing, object);
+        (void)attachment.set(landing, object);
         attachment.step(0.01F);
         attachment.step(0.01F);
         world.DestroyBody(landing.GetBody());
@@ -156,8 +156,8 @@ TEST_F(ReleaseImpactsWorld, PartnerDestroyedBeforeTheReleaseTakesTheEventAlong) 
 }
 
 TEST_F(ReleaseImpactsWorld, AnotherTimingForgetsWhatIsUnderWay) {
-    attachment.set(floor(), camera);
-    attachment.set(ball(0.0F, 0.26F, 0.0F, -5.0F, 0.0F), object); // stays for longer than 50 ms
+    (void)attachment.set(floor(), camera);
+    (void)attachment.set(ball(0.0F, 0.26F, 0.0F, -5.0F, 0.0F), object); // stays for longer than 50 ms
     run(1);
     attachment.configure(unity());
     run(1);

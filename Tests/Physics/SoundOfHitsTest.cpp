@@ -9,7 +9,7 @@ namespace {
 
 class SoundOfHits : public AttachedWorld {
 protected:
-    SoundOfHits() { attachment.set(floor(), object); }
+    SoundOfHits() { (void)attachment.set(floor(), object); }
 
     /// Events of a ball that strikes the floor, a camera.
     std::vector<CollisionEvent> hit(const HapticFixture& values) {
@@ -42,10 +42,10 @@ TEST_F(SoundOfHits, PairsHaveASoundOfTheirOwnInAnyOrder) {
     skate.surface = 3;
     ice.surface = 7;
     skate.voice = Voice::both; // a pair's sound is one, whatever the voice
-    attachment.set(edge({-100.0F, -2.0F}, {100.0F, -2.0F}), ice);
+    (void)attachment.set(edge({-100.0F, -2.0F}, {100.0F, -2.0F}), ice);
     EXPECT_EQ(attachment.setPair(7, 3, {.frequencyHz = 77.0, .decayPerSecond = 7.0, .overtones = {{{154.0, 9.0, 0.5}}}, .gain = 2.0}), "");
     b2Fixture& onIce = ball(0.0F, -1.74F, 0.0F, -5.0F);
-    attachment.set(onIce, skate);
+    (void)attachment.set(onIce, skate);
     const auto events = run(1);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].frequencyHz, 77.0);
@@ -85,7 +85,7 @@ TEST_F(SoundOfHits, MutedAttachmentIsSilentAndRightAtOnceWhenItIsNotAnyMore) {
     ImpactSettings settings = unity();
     settings.isMuted = true;
     attachment.configure(settings);
-    for (int i = 0; i < 3; ++i) attachment.set(ball(0.0F, 0.26F + 0.51F * static_cast<float>(i), 0.0F, -2.0F, 0.0F), camera);
+    for (int i = 0; i < 3; ++i) (void)attachment.set(ball(0.0F, 0.26F + 0.51F * static_cast<float>(i), 0.0F, -2.0F, 0.0F), camera);
     EXPECT_TRUE(run(100).empty());
     settings.isMuted = false;
     attachment.configure(settings);
@@ -97,7 +97,7 @@ TEST_F(SoundOfHits, BudgetKeepsTheStrongestHitsOfAStep) {
     ImpactSettings settings = unity();
     settings.hitsPerStep = 3;
     attachment.configure(settings);
-    for (int i = 0; i < 8; ++i) attachment.set(ball(static_cast<float>(i), 0.24F, 0.0F, -1.0F - static_cast<float>((5 * i) % 8)), camera);
+    for (int i = 0; i < 8; ++i) (void)attachment.set(ball(static_cast<float>(i), 0.24F, 0.0F, -1.0F - static_cast<float>((5 * i) % 8)), camera);
     const auto events = run(1);
     ASSERT_EQ(events.size(), 3U);
     for (const CollisionEvent& event : events) EXPECT_GT(event.amplitude, 1.5 * 5.9); // m v (1 + e) of 6, 7 and 8 m/s

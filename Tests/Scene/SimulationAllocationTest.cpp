@@ -55,7 +55,7 @@ protected:
         b2EdgeShape edge;
         for (int i = 0; i < 4; ++i) {
             edge.SetTwoSided(corners[i], corners[(i + 1) % 4]);
-            attachment.set(*world.CreateBody(&ground)->CreateFixture(&edge, 0.0F),
+            (void)attachment.set(*world.CreateBody(&ground)->CreateFixture(&edge, 0.0F),
                            {300.0, 50.0, true, 100.0, Voice::both});
         }
         b2BodyDef def;
@@ -65,7 +65,7 @@ protected:
         for (int i = 0; i < 100; ++i) {
             def.position = {0.2F + 0.36F * static_cast<float>(i % 10),
                             0.2F + 0.36F * static_cast<float>(i / 10)};
-            attachment.set(*world.CreateBody(&def)->CreateFixture(&circle, 10.0F),
+            (void)attachment.set(*world.CreateBody(&def)->CreateFixture(&circle, 10.0F),
                            {200.0, 40.0, true, 0.0, Voice::own});
         }
     }

@@ -74,6 +74,11 @@ private:
         contact_.gap_m = number();
         if (byte() % 2 == 0) contact_.impulse_n_s = number();
         if (byte() % 2 == 0) contact_.approach_m_per_s = number();
+        if (const std::uint8_t more = byte(); more % 4 == 0) {
+            contact_.point_id = more / 4 % 8 - 3;
+            contact_.is_impulse_of_pair = more / 32 % 2;
+            contact_.is_soft = more / 64 % 2;
+        }
         return values;
     }
     physvib_event* event() {

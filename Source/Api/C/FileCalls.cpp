@@ -32,6 +32,13 @@ struct ListSource {
     }
 };
 
+/// As many as there is room for; how many there are.
+physvib_int64 listTo(physvib_event* events, physvib_int64 capacity, const std::vector<CollisionEvent>& list) {
+    const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(list));
+    std::transform(list.begin(), list.begin() + count, events, [](const CollisionEvent& e) { return eventOf(e); });
+    return std::ssize(list);
+}
+
 } // namespace
 
 const char* physvib_version(void) { return PHYSVIB_VERSION; }
@@ -73,8 +80,11 @@ int physvib_contact_init(physvib_contact* contact, size_t size) {
     values.a = values.b = -1;
     values.normal_y = 1.0;
     values.impulse_n_s = values.approach_m_per_s = values.effective_mass_kg = values.fraction = values.along_a_m_per_s = values.along_b_m_per_s = PHYSVIB_UNKNOWN;
+    values.point_id = PHYSVIB_POINT_NONE;
     return begin(contact, size, values);
 }
+
+int physvib_world_counts_init(physvib_world_counts* counts, size_t size) { return begin(counts, size, zeroed<physvib_world_counts>()); }
 
 int physvib_layout_preset(const char* name, physvib_layout* layout) {
     EnchanterLayout preset;
@@ -96,6 +106,16 @@ int physvib_layout_load(const char* path, physvib_layout* layout) {
     });
 }
 
+int physvib_layout_parse(const char* text, physvib_layout* layout) {
+    return guarded([&] {
+        if (text == nullptr || layout == nullptr) return nothingThere("layout: expected a text and a place for it, found NULL");
+        const auto read = readLayout(text, "layout");
+        if (!read) return fail(PHYSVIB_ERROR_ARGUMENT, read.error);
+        *layout = layoutOf(read.value.geometry);
+        return PHYSVIB_OK;
+    });
+}
+
 int physvib_layout_save(const char* path, const char* name, const physvib_layout* layout) {
     return guarded([&] {
         if (path == nullptr || name == nullptr || layout == nullptr) return nothingThere("layout: expected a path, a name and a layout, found NULL");
@@ -112,9 +132,16 @@ physvib_int64 physvib_events_load(const char* path, physvib_event* events, physv
         if (path == nullptr || capacity < 0 || (capacity > 0 && events == nullptr)) return nothingThere("events: expected a path and a place for them");
         const auto loaded = loadEventsCsv(path);
         if (!loaded) return fail(PHYSVIB_ERROR_FILE, loaded.error);
-        const auto count = std::min<std::ptrdiff_t>(capacity, std::ssize(loaded.value));
-        std::transform(loaded.value.begin(), loaded.value.begin() + count, events, [](const CollisionEvent& e) { return eventOf(e); });
-        return std::ssize(loaded.value);
+        return listTo(events, capacity, loaded.value);
+    });
+}
+
+physvib_int64 physvib_events_parse(const char* text, physvib_event* events, physvib_int64 capacity) {
+    return guarded([&]() -> physvib_int64 {
+        if (text == nullptr || capacity < 0 || (capacity > 0 && events == nullptr)) return nothingThere("events: expected a text and a place for them");
+        const auto read = readEventsCsv(text, "events");
+        if (!read) return fail(PHYSVIB_ERROR_ARGUMENT, read.error);
+        return listTo(events, capacity, read.value);
     });
 }
 

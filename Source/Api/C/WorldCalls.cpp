@@ -84,6 +84,8 @@ FedContact contactOf(const physvib_contact& from) {
     contact.alongAMetresPerSecond = optional(from.along_a_m_per_s);
     contact.alongBMetresPerSecond = optional(from.along_b_m_per_s);
     contact.isSoft = from.is_soft != 0;
+    contact.pointId = from.point_id;
+    contact.isImpulseOfPair = from.is_impulse_of_pair != 0;
     return contact;
 }
 
@@ -110,6 +112,7 @@ int physvib_world_create(const physvib_world_settings* settings, physvib_world* 
         *world = nullptr;
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        if (const std::string_view fault = faultOf(wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         const std::uintptr_t name = worlds().add(std::make_unique<World>(wanted));
         if (name == 0) return fail(PHYSVIB_ERROR_FULL, "worlds: expected at most 256");
         *world = reinterpret_cast<physvib_world>(name);
@@ -123,6 +126,7 @@ int physvib_world_configure(physvib_world name, const physvib_world_settings* se
     return in(name, [&](World& world) {
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        if (const std::string_view fault = faultOf(wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault); // builds without exceptions would keep the lock
         world.feed.configure(wanted);
         return PHYSVIB_OK;
     });
@@ -206,4 +210,34 @@ physvib_int64 physvib_world_thinned(physvib_world name) {
 
 physvib_int64 physvib_world_drops(physvib_world name) {
     return in(name, [&](World& world) -> physvib_int64 { return static_cast<physvib_int64>(world.feed.drops()); });
+}
+
+int physvib_world_get_counts(physvib_world name, physvib_world_counts* counts) {
+    return in(name, [&](World& world) {
+        const ContactCounts now = world.feed.counts();
+        physvib_world_counts taken;
+        if (!take(counts, taken, physvib_world_counts_init)) return PHYSVIB_ERROR_ARGUMENT;
+        const std::size_t size = counts->size; // of the caller's version
+        const auto number = [](std::uint64_t count) { return static_cast<physvib_int64>(count); };
+        taken.contacts = number(now.contacts);
+        taken.below_threshold = number(now.belowThreshold);
+        taken.no_source = number(now.withoutSource);
+        taken.unplayable = number(now.unplayable);
+        taken.muted = number(now.muted);
+        taken.dropped = number(now.dropped);
+        taken.events = number(now.events);
+        taken.threshold_m_per_s = now.thresholdMetresPerSecond;
+        return begin(counts, size, taken);
+    });
+}
+
+int physvib_world_explain(physvib_world name, char* text, size_t size) {
+    return in(name, [&](World& world) {
+        if (text == nullptr || size == 0) return nothingThere("text: expected a place for it");
+        const std::string sentence = explain(world.feed.counts());
+        const std::size_t length = std::min(sentence.size(), size - 1);
+        std::copy_n(sentence.data(), length, text);
+        text[length] = '\0';
+        return static_cast<int>(sentence.size());
+    });
 }

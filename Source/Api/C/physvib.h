@@ -34,6 +34,12 @@ typedef long long physvib_int64; /**< of 64 bits */
 #define PHYSVIB_API
 #endif
 
+#if defined(__GNUC__)
+#define PHYSVIB_UNUSED __attribute__((unused)) /**< of functions in headers of engines, of which a program may call a few */
+#else
+#define PHYSVIB_UNUSED
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -161,6 +167,9 @@ typedef struct physvib_body {
     int is_ridged;    /**< 1: grains at equal distances, a tone (0) */
 } physvib_body;
 
+#define PHYSVIB_POINT_NONE (-1)     /**< of point_id: not told apart */
+#define PHYSVIB_POINT_BY_PLACE (-2) /**< of point_id: told apart by place; physvib_world_move tells how far a point may have slid */
+
 /** Two bodies touch. Tell the impulse, or how fast they near each other, or neither if physvib_world_move tells the motions. */
 typedef struct physvib_contact {
     size_t size;               /**< set by init */
@@ -183,7 +192,25 @@ typedef struct physvib_contact {
     double along_b_m_per_s;    /**< the same along b's (PHYSVIB_UNKNOWN) */
     int is_soft;               /**< 1: what the engine pushes in one step is no measure of a blow, which is told by speed and restitution;
                                   the impulse is what a pair that goes on touching hands on (0) */
+    int unused;                /**< 0 */
+    int point_id;              /**< which point of its pair it is: a number of yours, from 0 on, or PHYSVIB_POINT_BY_PLACE. A point that was not
+                                  there in the step before and nears fast is a blow even while its pair touches (PHYSVIB_POINT_NONE: the pair is
+                                  told as a whole) */
+    int is_impulse_of_pair;    /**< 1: the impulses are the whole pair's, told with each of its points (0) */
 } physvib_contact;
+
+/** What became of contacts, since the world was made. */
+typedef struct physvib_world_counts {
+    size_t size;                   /**< set by init */
+    physvib_int64 contacts;        /**< pairs that began to touch, and new points of pairs */
+    physvib_int64 below_threshold; /**< of haptic sources (is_camera): slower than the threshold */
+    physvib_int64 no_source;       /**< neither of the two bodies is a haptic source */
+    physvib_int64 unplayable;      /**< impacts without a frequency, a mass, or outside of what can be played */
+    physvib_int64 muted;           /**< by is_muted, or a gain of 0 */
+    physvib_int64 dropped;         /**< more in a step than there is room for, or than hits_per_step */
+    physvib_int64 events;          /**< made */
+    double threshold_m_per_s;      /**< in effect: threshold_m_per_s, and at least 1.5 times what gravity adds in the last step */
+} physvib_world_counts;
 
 /** "0.1.0". Any thread. */
 PHYSVIB_API const char *physvib_version(void);
@@ -195,7 +222,7 @@ PHYSVIB_API const char *physvib_law_name(int law);
  * nothing: it returns its code alone. Any thread. */
 PHYSVIB_API const char *physvib_error(void);
 
-/** As it begins, in brackets above; `size`: sizeof *settings. Any thread, as the four that follow. */
+/** As it begins, in brackets above; `size`: sizeof *settings. Any thread, as the five that follow. */
 PHYSVIB_API int physvib_renderer_settings_init(physvib_renderer_settings *settings, size_t size);
 /** Empty; `size`: sizeof *status. */
 PHYSVIB_API int physvib_renderer_status_init(physvib_renderer_status *status, size_t size);
@@ -205,6 +232,8 @@ PHYSVIB_API int physvib_world_settings_init(physvib_world_settings *settings, si
 PHYSVIB_API int physvib_body_init(physvib_body *body, size_t size);
 /** As it begins; `size`: sizeof *contact. */
 PHYSVIB_API int physvib_contact_init(physvib_contact *contact, size_t size);
+/** Empty; `size`: sizeof *counts. */
+PHYSVIB_API int physvib_world_counts_init(physvib_world_counts *counts, size_t size);
 
 /* ---- Layouts and files. Any thread; they allocate, and read or write files. ---- */
 
@@ -212,12 +241,16 @@ PHYSVIB_API int physvib_contact_init(physvib_contact *contact, size_t size);
 PHYSVIB_API int physvib_layout_preset(const char *name, physvib_layout *layout);
 /** Layout files (JSON), see README.md. `path` is UTF-8. */
 PHYSVIB_API int physvib_layout_load(const char *path, physvib_layout *layout);
+/** The same from text in memory, which ends with 0. */
+PHYSVIB_API int physvib_layout_parse(const char *text, physvib_layout *layout);
 /** The same; PHYSVIB_ERROR_ARGUMENT if nobody could load it. */
 PHYSVIB_API int physvib_layout_save(const char *path, const char *name, const physvib_layout *layout);
 
 /** Event lists (CSV), see Docs/events.md. How many there are; the first `capacity` of them are written to `events`, which may be NULL if
  * that is 0. */
 PHYSVIB_API physvib_int64 physvib_events_load(const char *path, physvib_event *events, physvib_int64 capacity);
+/** The same from text in memory, which ends with 0. */
+PHYSVIB_API physvib_int64 physvib_events_parse(const char *text, physvib_event *events, physvib_int64 capacity);
 /** Playable events, in time order. */
 PHYSVIB_API int physvib_events_save(const char *path, const physvib_event *events, physvib_int64 count);
 
@@ -305,6 +338,11 @@ PHYSVIB_API physvib_int64 physvib_world_take(physvib_world world, physvib_event 
 PHYSVIB_API physvib_int64 physvib_world_send(physvib_world world, physvib_renderer renderer, physvib_int64 later_ns, int at_once);
 /** Hits lost so far because more came in a step than there is room for. */
 PHYSVIB_API physvib_int64 physvib_world_drops(physvib_world world);
+/** What became of all contacts so far. */
+PHYSVIB_API int physvib_world_get_counts(physvib_world world, physvib_world_counts *counts);
+/** Why nothing, or not everything, is felt: the most likely reason, one sentence, to `text` (its 0 included, at most `size`, 1 or more: 256 are
+ * enough). How long the sentence is. */
+PHYSVIB_API int physvib_world_explain(physvib_world world, char *text, size_t size);
 /** Grains passed so far and left out, because they were more than 2,000 a second at one contact, or 50,000 in all; their power is in the others. */
 PHYSVIB_API physvib_int64 physvib_world_thinned(physvib_world world);
 

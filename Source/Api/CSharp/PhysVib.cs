@@ -37,6 +37,12 @@ public struct Layout {
         Native.Check(Native.physvib_layout_load(Native.Utf8(path), ref layout));
         return layout;
     }
+    /// <summary>The same from text in memory.</summary>
+    public static Layout Parse(string text) {
+        var layout = new Layout();
+        Native.Check(Native.physvib_layout_parse(Native.Utf8(text), ref layout));
+        return layout;
+    }
     public void Save(string path, string name) { Native.Check(Native.physvib_layout_save(Native.Utf8(path), Native.Utf8(name), ref this)); }
 }
 
@@ -104,11 +110,28 @@ public struct Contact {
     public int A, B;
     public double X_m, Y_m, NormalX, NormalY, Impulse_Ns, Tangential_Ns, ApproachMPerS, Restitution, EffectiveMassKg, Fraction, Gap_m, GapFraction, AlongAMPerS, AlongBMPerS;
     public int IsSoft;
+    int unused;
+    /// <summary>A number of yours, ByPlace, or -1: the pair is told as a whole.</summary>
+    public int PointId, IsImpulseOfPair;
+    public const int ByPlace = -2;
     public static Contact Create(int a, int b) {
         var made = new Contact();
         Native.Check(Native.physvib_contact_init(ref made, Native.SizeOf(made)));
         made.A = a;
         made.B = b;
+        return made;
+    }
+}
+
+/// <summary>What became of contacts, since the world was made; see physvib_world_counts.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct WorldCounts {
+    UIntPtr size;
+    public long Contacts, BelowThreshold, NoSource, Unplayable, Muted, Dropped, Events;
+    public double ThresholdMPerS;
+    internal static WorldCounts Create() {
+        var made = new WorldCounts();
+        Native.Check(Native.physvib_world_counts_init(ref made, Native.SizeOf(made)));
         return made;
     }
 }
@@ -147,6 +170,20 @@ public sealed class World : IDisposable {
     public void EndStep() { Native.Check(Native.physvib_world_end_step(name)); }
     public long TimeNs { get { return Native.Check(Native.physvib_world_time_ns(name)); } }
     public long Drops { get { return Native.Check(Native.physvib_world_drops(name)); } }
+    public long Thinned { get { return Native.Check(Native.physvib_world_thinned(name)); } }
+    public WorldCounts Counts {
+        get {
+            var counts = WorldCounts.Create();
+            Native.Check(Native.physvib_world_get_counts(name, ref counts));
+            return counts;
+        }
+    }
+    /// <summary>Why nothing, or not everything, is felt: the most likely reason, one sentence.</summary>
+    public string Explain() {
+        var text = new byte[512];
+        Native.Check(Native.physvib_world_explain(name, text, (UIntPtr)(uint)text.Length));
+        return System.Text.Encoding.UTF8.GetString(text, 0, Array.IndexOf(text, (byte)0));
+    }
     /// <summary>Into an array of yours, so that nothing is allocated in a frame; how many.</summary>
     public int Take(Event[] events, bool atOnce = false) { return (int)Native.Check(Native.physvib_world_take(name, events, events.Length, atOnce ? 1 : 0)); }
     public int Send(Renderer renderer, long laterNs, bool atOnce = false) {
@@ -204,6 +241,14 @@ public static class Haptics {
         if (count != events.Length) Array.Resize(ref events, (int)Math.Min(count, events.Length)); // another file by now
         return events;
     }
+    /// <summary>The same from text in memory.</summary>
+    public static Event[] ParseEvents(string text) {
+        var events = new Event[Native.Check(Native.physvib_events_parse(Native.Utf8(text), null, 0))];
+        Native.Check(Native.physvib_events_parse(Native.Utf8(text), events, events.Length));
+        return events;
+    }
+    /// <summary>Of a law of panning, as they are counted from 0.</summary>
+    public static string LawName(int law) { return Marshal.PtrToStringAnsi(Native.physvib_law_name(law)); }
     public static void SaveEvents(string path, Event[] events) { Native.Check(Native.physvib_events_save(Native.Utf8(path), events, events.Length)); }
 }
 
@@ -224,6 +269,10 @@ static class Native {
     [DllImport(Library)] internal static extern int physvib_world_settings_init(ref WorldSettings settings, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_body_init(ref Body body, UIntPtr size);
     [DllImport(Library)] internal static extern int physvib_contact_init(ref Contact contact, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_world_counts_init(ref WorldCounts counts, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_layout_parse(byte[] text, ref Layout layout);
+    [DllImport(Library)] internal static extern long physvib_events_parse(byte[] text, [Out] Event[] events, long capacity);
+    [DllImport(Library)] internal static extern IntPtr physvib_law_name(int law);
     [DllImport(Library)] internal static extern int physvib_layout_preset(byte[] name, ref Layout layout);
     [DllImport(Library)] internal static extern int physvib_layout_load(byte[] path, ref Layout layout);
     [DllImport(Library)] internal static extern int physvib_layout_save(byte[] path, byte[] name, ref Layout layout);
@@ -260,6 +309,9 @@ static class Native {
     [DllImport(Library)] internal static extern long physvib_world_take(IntPtr world, [Out] Event[] events, long capacity, int atOnce);
     [DllImport(Library)] internal static extern long physvib_world_send(IntPtr world, IntPtr renderer, long laterNs, int atOnce);
     [DllImport(Library)] internal static extern long physvib_world_drops(IntPtr world);
+    [DllImport(Library)] internal static extern long physvib_world_thinned(IntPtr world);
+    [DllImport(Library)] internal static extern int physvib_world_get_counts(IntPtr world, ref WorldCounts counts);
+    [DllImport(Library)] internal static extern int physvib_world_explain(IntPtr world, [Out] byte[] text, UIntPtr size);
 }
 
 }

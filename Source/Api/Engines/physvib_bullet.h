@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Bullet 3: attach, give bodies their numbers (setUserIndex, from 0 on); stepSimulation is as before. The field is the plane x, y.
+// Bullet 3: attach, give bodies their numbers (setUserIndex, from 0 on); stepSimulation is as before. The field is the plane x, y. C++17 and later.
 #pragma once
 #include <algorithm>
 #include <btBulletDynamicsCommon.h>
 #include <physvib/physvib.h>
+#include <string>
 
 /// For as long as the world steps. One callback of each kind is Bullet's limit: call physvib's from yours.
 class PhysVibBullet {
@@ -14,19 +15,23 @@ public:
         world.setInternalTickCallback([](btDynamicsWorld* w, btScalar dt) { self(w).begin(*w, dt); }, this, true);
         world.setInternalTickCallback([](btDynamicsWorld* w, btScalar) { self(w).end(*w); }, this, false);
     }
+    /// The first thing that was refused so far, such as a body that touches without a number; empty: nothing.
+    const std::string& error() const { return error_; }
+
     /// Before Bullet's step: velocities with which surfaces have met.
     void begin(btDynamicsWorld& world, double dt) {
-        physvib_world_begin_step(name_, dt, world.getGravity().length());
+        check(physvib_world_begin_step(name_, dt, world.getGravity().length()));
         for (int i = 0; i < world.getNumCollisionObjects(); ++i)
-            if (const btRigidBody* body = btRigidBody::upcast(world.getCollisionObjectArray()[i])) {
+            if (const btRigidBody* body = btRigidBody::upcast(world.getCollisionObjectArray()[i]); body != nullptr && body->getUserIndex() >= 0) {
                 const btVector3 &at = body->getCenterOfMassPosition(), &v = body->getLinearVelocity();
-                physvib_world_move(name_, body->getUserIndex(), at.x(), at.y(), v.x(), v.y(), body->getAngularVelocity().z());
+                check(physvib_world_move(name_, body->getUserIndex(), at.x(), at.y(), v.x(), v.y(), body->getAngularVelocity().z()));
             }
     }
     /// Behind it: what touches.
     void end(btDynamicsWorld& world) {
         for (int i = 0; i < world.getDispatcher()->getNumManifolds(); ++i) {
             const btPersistentManifold& manifold = *world.getDispatcher()->getManifoldByIndexInternal(i);
+            if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse()) continue; // a trigger
             for (int p = 0; p < manifold.getNumContacts(); ++p) {
                 const btManifoldPoint& point = manifold.getContactPoint(p);
                 if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue; // near, and not yet there
@@ -34,18 +39,29 @@ public:
                 physvib_contact_init(&contact, sizeof contact);
                 contact.a = manifold.getBody0()->getUserIndex(), contact.b = manifold.getBody1()->getUserIndex();
                 contact.x_m = point.getPositionWorldOnB().x(), contact.y_m = point.getPositionWorldOnB().y();
-                contact.normal_x = -point.m_normalWorldOnB.x(), contact.normal_y = -point.m_normalWorldOnB.y();
+                const btVector3 normal = inPlane(-point.m_normalWorldOnB);
+                if (normal.isZero()) continue; // across the field
+                contact.normal_x = normal.x(), contact.normal_y = normal.y();
                 contact.impulse_n_s = point.getAppliedImpulse();
                 contact.restitution = std::clamp(static_cast<double>(point.m_combinedRestitution), 0.0, 1.0);
                 contact.gap_m = point.getDistance(); // at the start of the step
                 contact.is_soft = 1; // its impulse also pushes overlaps apart, or lets gaps be closed
-                physvib_world_touch(name_, &contact);
+                contact.point_id = PHYSVIB_POINT_BY_PLACE;
+                check(physvib_world_touch(name_, &contact));
             }
         }
-        physvib_world_end_step(name_);
+        check(physvib_world_end_step(name_));
     }
 
 private:
     static PhysVibBullet& self(btDynamicsWorld* world) { return *static_cast<PhysVibBullet*>(world->getWorldUserInfo()); }
+    static btVector3 inPlane(const btVector3& normal) {
+        const btVector3 flat(normal.x(), normal.y(), 0);
+        return flat.length2() < btScalar(0.25) ? btVector3(0, 0, 0) : flat.normalized();
+    }
+    void check(int code) {
+        if (code < 0 && error_.empty()) error_ = physvib_error();
+    }
     physvib_world name_;
+    std::string error_;
 };

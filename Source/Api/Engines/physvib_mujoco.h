@@ -7,17 +7,17 @@
 #include <mujoco/mujoco.h>
 #include <physvib/physvib.h>
 
-static void physvib_mujoco_move(const mjModel *m, const mjData *d, physvib_world world, int body) {
+PHYSVIB_UNUSED static int physvib_mujoco_move(const mjModel *m, const mjData *d, physvib_world world, int body) {
     mjtNum v[6];
     mj_objectVelocity(m, d, mjOBJ_BODY, body, v, 0);
-    physvib_world_move(world, body, d->xipos[3 * body], d->xipos[3 * body + 2], v[3], v[5], -v[1]);
+    return physvib_world_move(world, body, d->xipos[3 * body], d->xipos[3 * body + 2], v[3], v[5], -v[1]);
 }
 
-static void physvib_mujoco_touch(const mjModel *m, const mjData *d, physvib_world world, int index, double restitution) {
+PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel *m, const mjData *d, physvib_world world, int index, double restitution) {
     const mjContact *found = &d->contact[index];
     mjtNum force[6];
     physvib_contact contact;
-    if (found->dist > 0) return; /* near, and not yet there */
+    if (found->dist > 0) return PHYSVIB_OK; /* near, and not yet there */
     physvib_contact_init(&contact, sizeof contact);
     contact.a = m->geom_bodyid[found->geom1], contact.b = m->geom_bodyid[found->geom2];
     contact.x_m = found->pos[0], contact.y_m = found->pos[2], contact.normal_x = found->frame[0], contact.normal_y = found->frame[2];
@@ -26,16 +26,21 @@ static void physvib_mujoco_touch(const mjModel *m, const mjData *d, physvib_worl
     contact.restitution = restitution;
     contact.gap_m = found->dist; /* at the start of the step */
     contact.is_soft = 1;
-    physvib_world_touch(world, &contact);
+    contact.point_id = PHYSVIB_POINT_BY_PLACE;
+    return physvib_world_touch(world, &contact);
 }
 
-static void physvib_mujoco_step(const mjModel *m, mjData *d, physvib_world world, double restitution) {
-    int i;
+PHYSVIB_UNUSED static int physvib_mujoco_step(const mjModel *m, mjData *d, physvib_world world, double restitution) {
+    int i, code, refused = PHYSVIB_OK;
     mj_step1(m, d); /* contacts where bodies are now, velocities with which they came there */
-    physvib_world_begin_step(world, m->opt.timestep, sqrt(mju_dot3(m->opt.gravity, m->opt.gravity)));
-    for (i = 1; i < m->nbody; ++i) physvib_mujoco_move(m, d, world, i);
+    code = physvib_world_begin_step(world, m->opt.timestep, sqrt(mju_dot3(m->opt.gravity, m->opt.gravity)));
+    if (code < 0) refused = code;
+    for (i = 1; i < m->nbody; ++i)
+        if ((code = physvib_mujoco_move(m, d, world, i)) < 0) refused = code;
     mj_step2(m, d);
-    for (i = 0; i < d->ncon; ++i) physvib_mujoco_touch(m, d, world, i, restitution);
-    physvib_world_end_step(world);
+    for (i = 0; i < d->ncon; ++i)
+        if ((code = physvib_mujoco_touch(m, d, world, i, restitution)) < 0) refused = code;
+    code = physvib_world_end_step(world);
+    return code < 0 ? code : refused; /* PHYSVIB_OK, or an error: physvib_error() says more */
 }
 #endif

@@ -13,33 +13,54 @@ typedef struct physvib_world_name *physvib_world;
 typedef struct { int64_t time_ns, duration_ns; double frequency_hz, decay_per_s, amplitude, x_m, y_m, impulse_n_s, mass_kg; int fixture, other, kind, unused; } physvib_event;
 typedef struct { double extent_width_m, extent_height_m, x_m[64], y_m[64]; int count; } physvib_layout;
 typedef struct { size_t size; int rate_hz, channels, law, limiter; double exponent, field_width_m, field_height_m; physvib_layout layout; } physvib_renderer_settings;
+typedef struct { size_t size; int live_modes, pending; int64_t frames, played, late, rejected, refused; } physvib_renderer_status;
 typedef struct { size_t size; int is_muted, hits_per_step, at_body, drops_hits_of_removed; double field_width_m, field_x_m, field_y_m, field_radians,
     normalisation_s_per_m, hand_mass_kg, drive_gain, threshold_m_per_s; } physvib_world_settings;
 typedef struct { size_t size; int is_camera, voice, surface; double mass_kg, inertia_kg_m2, gravity_scale, frequency_hz, decay_per_s, static_mass_kg, gain,
     hand_mass_kg, overtone_hz[3], overtone_decay_per_s[3], overtone_amplitude[3], grain_m, roughness, rolling; int is_ridged; } physvib_body;
 typedef struct { size_t size; int a, b; double x_m, y_m, normal_x, normal_y, impulse_n_s, tangential_n_s, approach_m_per_s, restitution, effective_mass_kg,
-    fraction, gap_m, gap_fraction, along_a_m_per_s, along_b_m_per_s; int is_soft; } physvib_contact;
+    fraction, gap_m, gap_fraction, along_a_m_per_s, along_b_m_per_s; int is_soft, unused, point_id, is_impulse_of_pair; } physvib_contact;
+typedef struct { size_t size; int64_t contacts, below_threshold, no_source, unplayable, muted, dropped, events; double threshold_m_per_s; } physvib_world_counts;
 const char *physvib_version(void);
 const char *physvib_error(void);
 int physvib_renderer_settings_init(physvib_renderer_settings *, size_t);
 int physvib_world_settings_init(physvib_world_settings *, size_t);
 int physvib_body_init(physvib_body *, size_t);
 int physvib_contact_init(physvib_contact *, size_t);
+int physvib_world_counts_init(physvib_world_counts *, size_t);
+const char *physvib_law_name(int);
+int physvib_renderer_status_init(physvib_renderer_status *, size_t);
 int physvib_layout_preset(const char *, physvib_layout *);
 int physvib_layout_load(const char *, physvib_layout *);
+int physvib_layout_parse(const char *, physvib_layout *);
+int physvib_layout_save(const char *, const char *, const physvib_layout *);
+int64_t physvib_events_load(const char *, physvib_event *, int64_t);
+int64_t physvib_events_parse(const char *, physvib_event *, int64_t);
 int physvib_events_save(const char *, const physvib_event *, int64_t);
 int physvib_wav_save(const char *, const float *, int, int64_t, int);
 int physvib_render(const physvib_renderer_settings *, const physvib_event *, int64_t, int64_t, float *);
 int physvib_renderer_create(const physvib_renderer_settings *, physvib_renderer *);
 int physvib_renderer_free(physvib_renderer);
 int physvib_renderer_strike(physvib_renderer, const physvib_event *);
+int physvib_renderer_pull(physvib_renderer, float *const *, int, int);
 int physvib_renderer_pull_interleaved(physvib_renderer, float *, int, int);
+int physvib_renderer_set_gain(physvib_renderer, int64_t, int, double);
+int physvib_renderer_set_mute(physvib_renderer, int64_t, int, int);
+int physvib_renderer_set_level(physvib_renderer, int64_t, double);
+int physvib_renderer_set_layout(physvib_renderer, int64_t, const physvib_renderer_settings *);
+int physvib_renderer_latency_frames(physvib_renderer);
+int physvib_renderer_get_status(physvib_renderer, physvib_renderer_status *);
+int64_t physvib_play_out_ns(int, int, int, double);
 int physvib_renderer_silence(physvib_renderer, int64_t, int64_t);
 int physvib_world_create(const physvib_world_settings *, physvib_world *);
 int physvib_world_free(physvib_world);
+int physvib_world_configure(physvib_world, const physvib_world_settings *);
 int physvib_world_set_body(physvib_world, int, const physvib_body *);
 int physvib_world_remove_body(physvib_world, int);
+int physvib_world_move(physvib_world, int, double, double, double, double, double);
+int physvib_world_pair(physvib_world, int, int, double, double, double);
 int physvib_world_begin_step(physvib_world, double, double);
+int physvib_world_touch(physvib_world, const physvib_contact *);
 int physvib_world_begin(physvib_world, const physvib_contact *);
 int physvib_world_push(physvib_world, const physvib_contact *);
 int physvib_world_end(physvib_world, int, int);
@@ -47,6 +68,10 @@ int physvib_world_end_step(physvib_world);
 int64_t physvib_world_time_ns(physvib_world);
 int64_t physvib_world_take(physvib_world, physvib_event *, int64_t, int);
 int64_t physvib_world_send(physvib_world, physvib_renderer, int64_t, int);
+int64_t physvib_world_drops(physvib_world);
+int64_t physvib_world_thinned(physvib_world);
+int physvib_world_get_counts(physvib_world, physvib_world_counts *);
+int physvib_world_explain(physvib_world, char *, size_t);
 
 typedef struct physvib_live_name *physvib_live;
 typedef struct { size_t size; int rate_hz, block_frames, steps_per_s; double longest_gap_s, level_db; char save[1024]; } physvib_live_settings;
@@ -140,7 +165,7 @@ function Attachment:tell(fixture, id, values)
     call("world_set_body", self.name, id, known)
 end
 
--- To be called when a fixture is destroyed, not within update.
+-- A fixture that is to be felt no more, not within update. One that is destroyed, alone or with its body, need not be named.
 function Attachment:remove(fixture)
     if self.ids[fixture] then call("world_remove_body", self.name, self.ids[fixture]) end
     self.ids[fixture], self.starts[fixture] = nil, nil
@@ -192,35 +217,70 @@ function Attachment:finish(a, b)
     if touch.is_told then call("world_end", self.name, self.ids[a], self.ids[b]) end
 end
 
--- Before the solver: how fast the bodies near each other where they meet.
+-- Before the solver: how fast the bodies near each other at each of the (one or two) points where they meet.
 function Attachment:look(a, b, contact)
     local touch = self.touching[pair(self:id(a), self:id(b))]
-    if not (touch and touch.is_new) then return end
-    local x, y = contact:getPositions()
+    if not (touch and (touch.is_new or self.starts[a] or self.starts[b])) then return end
     local nx, ny = contact:getNormal()
-    if not x then return end
-    local ax, ay = a:getBody():getLinearVelocityFromWorldPoint(x, y)
-    local bx, by = b:getBody():getLinearVelocityFromWorldPoint(x, y)
-    local speed = (ax - bx) * nx + (ay - by) * ny
-    touch.approach = speed / self.metre
-    touch.fraction = speed > 0 and self.dt > 0 and math.max(0, math.min(1, (self:way(a, nx, ny) - self:way(b, nx, ny)) / (speed * self.dt))) or 0
+    local xs = {contact:getPositions()}
+    touch.approach, touch.fraction = {}, 0
+    local fastest = 0
+    for i = 1, #xs, 2 do
+        local ax, ay = a:getBody():getLinearVelocityFromWorldPoint(xs[i], xs[i + 1])
+        local bx, by = b:getBody():getLinearVelocityFromWorldPoint(xs[i], xs[i + 1])
+        local speed = (ax - bx) * nx + (ay - by) * ny
+        touch.approach[#touch.approach + 1] = speed / self.metre
+        fastest = math.max(fastest, speed)
+    end
+    if fastest > 0 and self.dt > 0 then
+        touch.fraction = math.max(0, math.min(1, (self:way(a, nx, ny) - self:way(b, nx, ny)) / (fastest * self.dt)))
+    end
+    self:move(a)
+    self:move(b)
 end
 
--- LÖVE tells impulses in kg pixels/s: one or two points, normal and tangential.
+-- How far points may slide in a step.
+function Attachment:move(fixture)
+    local body = fixture:getBody()
+    if body:getType() == "static" then return end
+    local x, y = body:getWorldCenter()
+    local vx, vy = body:getLinearVelocity()
+    call("world_move", self.name, self.ids[fixture], x / self.metre, y / self.metre, vx / self.metre, vy / self.metre, body:getAngularVelocity())
+end
+
+-- LÖVE tells impulses in kg pixels/s: one or two points, normal and tangential. A point that was not there in the step before is a blow if it
+-- nears fast, also of bodies that touch already (a pole that topples).
 function Attachment:push(a, b, contact, n1, t1, n2, t2)
     local ia, ib = self:id(a), self:id(b)
     local touch = self.touching[pair(ia, ib)]
     local x, y, x2, y2 = contact:getPositions()
     if not (touch and x) then return end
-    if x2 then x, y = (x + x2) / 2, (y + y2) / 2 end
     local told = self.contact
-    told.a, told.b, told.x_m, told.y_m = ia, ib, x / self.metre, y / self.metre
+    told.a, told.b = ia, ib
     told.normal_x, told.normal_y = contact:getNormal()
-    told.impulse_n_s, told.tangential_n_s = (n1 + (n2 or 0)) / self.metre, (t1 + (t2 or 0)) / self.metre
-    told.approach_m_per_s = touch.is_new and touch.approach or -1e300
-    told.fraction = touch.is_new and touch.fraction or -1e300
-    call(touch.is_new and "world_begin" or "world_push", self.name, told)
-    touch.is_new, touch.is_told = false, true
+    told.point_id = -2 -- by place
+    for i = 1, x2 and 2 or 1 do
+        told.x_m, told.y_m = (i == 1 and x or x2) / self.metre, (i == 1 and y or y2) / self.metre
+        told.impulse_n_s, told.tangential_n_s = (i == 1 and n1 or n2 or 0) / self.metre, (i == 1 and t1 or t2 or 0) / self.metre
+        told.approach_m_per_s = touch.approach and touch.approach[i] or -1e300
+        told.fraction = touch.approach and touch.fraction or -1e300
+        call(touch.is_new and "world_begin" or "world_push", self.name, told)
+    end
+    touch.is_new, touch.is_told, touch.approach = false, true, nil
+end
+
+-- What a fixture was is forgotten when it has been destroyed, with its body too: a few are looked at in each step, cameras always.
+function Attachment:sweep()
+    for fixture in pairs(self.starts) do
+        if fixture.isDestroyed and fixture:isDestroyed() then self:remove(fixture) end
+    end
+    for _ = 1, 32 do
+        if self.looked and self.ids[self.looked] == nil then self.looked = nil end
+        local fixture = next(self.ids, self.looked)
+        self.looked = fixture
+        if not fixture then break end
+        if fixture.isDestroyed and fixture:isDestroyed() then self:remove(fixture) end
+    end
 end
 
 -- world:update(dt), and what is felt of it.
@@ -229,6 +289,7 @@ function Attachment:update(dt)
     for i = 1, 4 do
         if now[i] ~= self.ours[i] then self:listen() break end -- the game has set others
     end
+    self:sweep()
     for fixture, start in pairs(self.starts) do
         start.x, start.y = fixture:getBody():getPosition()
     end
@@ -237,6 +298,26 @@ function Attachment:update(dt)
     call("world_begin_step", self.name, dt, math.sqrt(gx * gx + gy * gy) / self.metre)
     self.world:update(dt)
     call("world_end_step", self.name)
+end
+
+-- Its settings from the next step on (is_muted, drive_gain...): all of them, those that are not given as at first.
+function Attachment:configure(settings) call("world_configure", self.name, filled("world_settings", settings)) end
+-- How two kinds of surfaces (`surface` of their values, above 0) sound together.
+function Attachment:pair(surface, other, frequency_hz, decay_per_s, gain) call("world_pair", self.name, surface, other, frequency_hz, decay_per_s, gain or 1) end
+-- Hits lost so far because more came in a step than there is room for; grains left out, their power being in the others.
+function Attachment:drops() return call("world_drops", self.name) end
+function Attachment:thinned() return call("world_thinned", self.name) end
+-- What became of all contacts so far: contacts, below_threshold, no_source, unplayable, muted, dropped, events, threshold_m_per_s.
+function Attachment:counts()
+    local told = filled("world_counts")
+    call("world_get_counts", self.name, told)
+    return told
+end
+-- Why nothing, or not everything, is felt: one sentence.
+function Attachment:explain()
+    local text = ffi.new("char[512]")
+    call("world_explain", self.name, text, 512)
+    return ffi.string(text)
 end
 
 local room = ffi.new("physvib_event[256]")

@@ -36,7 +36,8 @@ ImpactSettings settingsOf(const Scene& scene, ImpactTiming timing, ImpactLocatio
 }
 
 HapticFixture hapticOf(const SceneWorld::FixtureNow& now) {
-    HapticFixture values{now.material.frequencyHz, now.material.decayPerSecond, now.description.isCamera, now.body.massKg,
+    const bool isSilent = isEndless(now.material.frequencyHz, now.material.decayPerSecond); // controls may take its decay away
+    HapticFixture values{isSilent ? 0.0 : now.material.frequencyHz, now.material.decayPerSecond, now.description.isCamera, now.body.massKg,
                          now.description.voice};
     values.texture = now.material.texture();
     return values;
@@ -54,7 +55,7 @@ Simulation::Simulation(const Scene& scene, std::uint32_t seed, int stepsPerSecon
 
 void Simulation::takeFixtures() {
     world_.forAllFixtures([this](const SceneWorld::FixtureNow& now) {
-        attachment_.set(now.fixture, hapticOf(now), static_cast<std::int32_t>(now.number));
+        (void)attachment_.set(now.fixture, hapticOf(now), static_cast<std::int32_t>(now.number));
     });
 }
 

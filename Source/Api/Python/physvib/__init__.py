@@ -7,12 +7,12 @@
 >>> physvib.save_wav("hit.wav", samples)
 """
 from ._library import EVENT, HIT, ROLL, SLIDE, PhysVibError, version
-from .files import events, load_events, render, save_events, save_wav
+from .files import events, load_events, parse_events, render, save_events, save_wav
 from .layout import Layout
 from .live import Live, LiveStatus
 from .renderer import Renderer, Status, play_out_s
 from .session import Session
-from .world import World
+from .world import POINT_BY_PLACE, Counts, World
 
 __version__ = version()
-__all__ = ["EVENT", "HIT", "Layout", "Live", "LiveStatus", "PhysVibError", "ROLL", "Renderer", "SLIDE", "Session", "Status", "World", "events", "load_events", "play_out_s", "render", "save_events", "save_wav"]
+__all__ = ["Counts", "EVENT", "HIT", "Layout", "Live", "LiveStatus", "POINT_BY_PLACE", "PhysVibError", "ROLL", "Renderer", "SLIDE", "Session", "Status", "World", "events", "load_events", "parse_events", "play_out_s", "render", "save_events", "save_wav"]

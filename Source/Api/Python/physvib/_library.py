@@ -62,7 +62,12 @@ class CContact(Structure):
                 *[(name, c_double) for name in ("x_m", "y_m", "normal_x", "normal_y", "impulse_n_s", "tangential_n_s", "approach_m_per_s",
                                                 "restitution", "effective_mass_kg", "fraction", "gap_m", "gap_fraction", "along_a_m_per_s",
                                                 "along_b_m_per_s")],
-                ("is_soft", c_int)]
+                ("is_soft", c_int), ("unused", c_int), ("point_id", c_int), ("is_impulse_of_pair", c_int)]
+
+
+class CWorldCounts(Structure):
+    _fields_ = [("size", c_size_t), *[(name, c_int64) for name in ("contacts", "below_threshold", "no_source", "unplayable", "muted", "dropped", "events")],
+                ("threshold_m_per_s", c_double)]
 
 
 def _load() -> ctypes.CDLL:
@@ -80,6 +85,9 @@ _signatures = {
     "version": (c_char_p,), "error": (c_char_p,), "law_name": (c_char_p, c_int),
     "renderer_settings_init": (c_int, POINTER(CRendererSettings), c_size_t), "renderer_status_init": (c_int, POINTER(CRendererStatus), c_size_t),
     "world_settings_init": (c_int, POINTER(CWorldSettings), c_size_t), "body_init": (c_int, POINTER(CBody), c_size_t), "contact_init": (c_int, POINTER(CContact), c_size_t),
+    "world_counts_init": (c_int, POINTER(CWorldCounts), c_size_t), "world_get_counts": (c_int, _handle, POINTER(CWorldCounts)),
+    "world_explain": (c_int, _handle, c_char_p, c_size_t), "layout_parse": (c_int, c_char_p, POINTER(CLayout)),
+    "events_parse": (c_int64, c_char_p, _events, c_int64),
     "layout_preset": (c_int, c_char_p, POINTER(CLayout)), "layout_load": (c_int, c_char_p, POINTER(CLayout)),
     "layout_save": (c_int, c_char_p, c_char_p, POINTER(CLayout)),
     "events_load": (c_int64, c_char_p, _events, c_int64), "events_save": (c_int, c_char_p, _events, c_int64),

@@ -42,6 +42,13 @@ def load_events(path: str | os.PathLike[str]) -> NDArray[np.void]:
     return made
 
 
+def parse_events(text: str) -> NDArray[np.void]:
+    """The text of an event list (CSV): dtype EVENT, shape (n,)."""
+    made = np.zeros(call("events_parse", text.encode(), None, 0), dtype=EVENT)
+    call("events_parse", text.encode(), made.ctypes.data, len(made))
+    return made
+
+
 def save_events(path: str | os.PathLike[str], list_of: NDArray[np.void]) -> None:
     """An event list (CSV) of events in time order; load_events gives them back to the bit."""
     array = checked(list_of)

@@ -35,6 +35,16 @@ class Layout:
         call("layout_load", encoded(path), ctypes.byref(c))
         return cls._of(c)
 
+    @classmethod
+    def parse(cls, text: str) -> Layout:
+        """The text of a layout file (JSON)."""
+        c = CLayout()
+        call("layout_parse", text.encode(), ctypes.byref(c))
+        return cls._of(c)
+
+    def __repr__(self) -> str:
+        return f"Layout({self.places_m}, extent_m={self.extent_m})"
+
     def save(self, path: str | os.PathLike[str], name: str) -> None:
         """A layout file (JSON) of that name."""
         call("layout_save", encoded(path), name.encode(), ctypes.byref(self._c()))

@@ -4,16 +4,32 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+from collections.abc import Sequence
 from ctypes import c_void_p
-from typing import Iterator
+from typing import Iterator, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._library import EVENT, CBody, CContact, CWorldSettings, Owned, PhysVibError, call, filled
+from ._library import EVENT, CBody, CContact, CWorldCounts, CWorldSettings, Owned, PhysVibError, call, filled
 from .renderer import Renderer
 
 VOICES = ("own", "other", "both")
+
+#: Of `point_id`: the points of a pair are told apart by their places.
+POINT_BY_PLACE = -2
+
+
+class Counts(NamedTuple):
+    """What became of contacts, since the world was made."""
+    contacts: int         #: pairs that began to touch, and new points of pairs
+    below_threshold: int  #: of haptic sources (is_camera): slower than the threshold
+    no_source: int        #: neither of the two bodies is a haptic source
+    unplayable: int       #: impacts without a frequency, a mass, or outside of what can be played
+    muted: int            #: by is_muted, or a gain of 0
+    dropped: int          #: more in a step than there is room for, or than hits_per_step
+    events: int           #: made
+    threshold_m_per_s: float  #: in effect
 
 
 class World(Owned):
@@ -23,22 +39,45 @@ class World(Owned):
 
     def __init__(self, *, field_width_m: float | None = None, field_x_m: float | None = None, field_y_m: float | None = None, field_radians: float | None = None,
                  normalisation_s_per_m: float | None = None, hand_mass_kg: float | None = None, drive_gain: float | None = None,
-                 threshold_m_per_s: float | None = None, hits_per_step: int | None = None, at_body: bool = False) -> None:
+                 threshold_m_per_s: float | None = None, hits_per_step: int | None = None, at_body: bool = False, is_muted: bool = False,
+                 drops_hits_of_removed: bool = False) -> None:
         self._handle = c_void_p()
-        chosen = filled(CWorldSettings, "world_settings_init", field_width_m=field_width_m, field_x_m=field_x_m, field_y_m=field_y_m, field_radians=field_radians,
-                        normalisation_s_per_m=normalisation_s_per_m, hand_mass_kg=hand_mass_kg, drive_gain=drive_gain,
-                        threshold_m_per_s=threshold_m_per_s, hits_per_step=hits_per_step, at_body=int(at_body))
-        call("world_create", ctypes.byref(chosen), ctypes.byref(self._handle))
+        self._chosen = {"field_width_m": field_width_m, "field_x_m": field_x_m, "field_y_m": field_y_m, "field_radians": field_radians,
+                        "normalisation_s_per_m": normalisation_s_per_m, "hand_mass_kg": hand_mass_kg, "drive_gain": drive_gain,
+                        "threshold_m_per_s": threshold_m_per_s, "hits_per_step": hits_per_step, "at_body": int(at_body), "is_muted": int(is_muted),
+                        "drops_hits_of_removed": int(drops_hits_of_removed)}
+        call("world_create", ctypes.byref(filled(CWorldSettings, "world_settings_init", **self._chosen)), ctypes.byref(self._handle))
+
+    def configure(self, **changed: float | bool | None) -> None:
+        """Changes settings of the constructor from the next step on; the others stay."""
+        unknown = changed.keys() - self._chosen.keys()
+        if unknown:
+            raise TypeError(f"configure: unknown {', '.join(sorted(unknown))}")
+        chosen = {**self._chosen, **{name: int(value) if isinstance(value, bool) else value for name, value in changed.items()}}
+        call("world_configure", self._handle, ctypes.byref(filled(CWorldSettings, "world_settings_init", **chosen)))
+        self._chosen = chosen
+
+    def __repr__(self) -> str:
+        if not self._handle:
+            return "<physvib.World, closed>"
+        counts = self.counts
+        return f"<physvib.World at {self.time_ns * 1e-9:.3f} s: {counts.contacts} contacts, {counts.events} events>"
 
     def set_body(self, body: int, *, mass_kg: float = 0.0, is_camera: bool = False, frequency_hz: float = 0.0, decay_per_s: float = 0.0, voice: str = "own",
                  surface: int = 0, inertia_kg_m2: float = 0.0, gravity_scale: float = 1.0, static_mass_kg: float = 0.0, gain: float = 1.0,
-                 hand_mass_kg: float | None = None, grain_m: float = 0.0, roughness: float = 1.0, rolling: float = 0.2, is_ridged: bool = False) -> None:
-        """A body, at first or again; a mass of 0 is a floor or a wall: what strikes it does not move it. Grains: see `touch`."""
+                 hand_mass_kg: float | None = None, grain_m: float = 0.0, roughness: float = 1.0, rolling: float = 0.2, is_ridged: bool = False,
+                 overtones: Sequence[tuple[float, float, float]] = ()) -> None:
+        """A body, at first or again; a mass of 0 is a floor or a wall: what strikes it does not move it. Grains: see `touch`. `overtones`: at most three
+        of (frequency_hz, decay_per_s, amplitude relative to the first mode)."""
+        if len(overtones) > 3:
+            raise PhysVibError("overtones: expected at most 3", -2)
         if voice not in VOICES:
             raise PhysVibError(f"voice: expected one of {', '.join(VOICES)}", -2)
         values = filled(CBody, "body_init", mass_kg=mass_kg, is_camera=int(is_camera), frequency_hz=frequency_hz, decay_per_s=decay_per_s,
                         voice=VOICES.index(voice), surface=surface, inertia_kg_m2=inertia_kg_m2, gravity_scale=gravity_scale,
                         static_mass_kg=static_mass_kg, gain=gain, hand_mass_kg=hand_mass_kg, grain_m=grain_m, roughness=roughness, rolling=rolling, is_ridged=int(is_ridged))
+        for i, (overtone_hz, overtone_decay, amplitude) in enumerate(overtones):
+            values.overtone_hz[i], values.overtone_decay_per_s[i], values.overtone_amplitude[i] = overtone_hz, overtone_decay, amplitude
         call("world_set_body", self._handle, body, ctypes.byref(values))
 
     def remove_body(self, body: int) -> None:
@@ -66,7 +105,7 @@ class World(Owned):
         """Two bodies touch in this step. A pair that did not in the step before begins; one that is not named again has ended.
 
         `more`: normal_x, normal_y (from a to b), impulse_n_s, tangential_n_s, or approach_m_per_s with restitution and effective_mass_kg;
-        fraction, or gap_m with gap_fraction; is_soft; along_a_m_per_s and along_b_m_per_s of what rolls or slides over grains: see physvib.h."""
+        fraction, or gap_m with gap_fraction; is_soft; point_id (a number, or POINT_BY_PLACE) of points that are told apart, with is_impulse_of_pair; along_a_m_per_s and along_b_m_per_s of what rolls or slides over grains: see physvib.h."""
         self._tell("world_touch", a, b, x_m, y_m, more)
 
     def begin(self, a: int, b: int, x_m: float = 0.0, y_m: float = 0.0, **more: float) -> None:
@@ -99,6 +138,24 @@ class World(Owned):
     def time_ns(self) -> int:
         """After the steps done."""
         return call("world_time_ns", self._handle)
+
+    @property
+    def drops(self) -> int:
+        """Hits lost so far because more came in a step than there is room for."""
+        return call("world_drops", self._handle)
+
+    @property
+    def counts(self) -> Counts:
+        """What became of all contacts so far."""
+        told = filled(CWorldCounts, "world_counts_init")
+        call("world_get_counts", self._handle, ctypes.byref(told))
+        return Counts(*[getattr(told, name) for name in Counts._fields])
+
+    def explain(self) -> str:
+        """Why nothing, or not everything, is felt: the most likely reason, one sentence."""
+        text = ctypes.create_string_buffer(512)
+        call("world_explain", self._handle, text, len(text))
+        return text.value.decode()
 
     @property
     def thinned(self) -> int:

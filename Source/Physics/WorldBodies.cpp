@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// One walk along the list of bodies, where something may have gone unheard.
+#include "Physics/WorldBodies.h"
+
+namespace physvib {
+
+bool WorldBodies::has(std::uint64_t body) const {
+    if (!isCertain_) {
+        for (const b2Body* const present : present_)
+            if (present != nullptr && nameOf(*present) == body) return true;
+        look();
+    }
+    return bodies_.find(body) != IntegerMap::none;
+}
+
+// The same addresses in the same order: those that were written down are there, whoever lives at them by now.
+void WorldBodies::look() const {
+    isCertain_ = true;
+    const std::uint64_t census = BodySweeps::censusOf(world_);
+    if (census == census_) return;
+    census_ = census;
+    bodies_.clear();
+    for (const b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext()) bodies_.set(nameOf(*body), 0);
+}
+
+double WorldBodies::inertia(std::uint64_t body) const {
+    if (!has(body)) return 0.0;
+    const b2Body& of = bodyOf(body);
+    return of.GetInertia() - of.GetMass() * of.GetLocalCenter().LengthSquared();
+}
+
+} // namespace physvib

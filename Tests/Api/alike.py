@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: MIT
+"""What C can, Python, Lua and C# can: every function of physvib.h is called, and every field of its structures stands, in each of them.
+alike.py ROOT. What a language leaves out is named below, with its reason."""
+import re
+import sys
+from pathlib import Path
+
+root = Path(sys.argv[1])
+header = re.sub(r"/\*.*?\*/", "", (root / "Source/Api/C/physvib.h").read_text(), flags=re.S)
+
+LEFT_OUT = {
+    "Python": {"renderer_pull_interleaved"},  # numpy arrays are a row per channel
+    "Lua": set(),
+    "C#": {"renderer_pull"},  # Unity and Godot take frame by frame
+}
+UNUSED = {"size", "unused"}  # sizes are told, and what fills up is nobody's
+
+
+def structures() -> "dict[str, list[str]]":
+    found = {}
+    for body, name in re.findall(r"typedef struct \w+ \{(.*?)\} physvib_(\w+);", header, flags=re.S):
+        fields = []
+        for declaration in body.split(";"):
+            field = re.match(r"\s*(?:const )?[\w]+ (\w+)(?:\[\w+\])?\s*$", declaration)
+            if field:
+                fields.append(field[1])
+        found[name] = fields
+    return found
+
+
+functions = re.findall(r"PHYSVIB_API [^;]*?physvib_(\w+)\(", header)
+python = "\n".join(path.read_text() for path in (root / "Source/Api/Python/physvib").glob("*.py") if "live" not in path.name)
+lua = (root / "Source/Api/Lua/physvib.lua").read_text()
+sharp = (root / "Source/Api/CSharp/PhysVib.cs").read_text()
+faults = []
+
+
+def plain(name: str) -> str:
+    """frequency_hz, FrequencyHz and X_m alike."""
+    return name.replace("_", "").lower()
+
+
+def demand(language: str, kind: str, name: str, is_there: bool) -> None:
+    if not is_there and name not in LEFT_OUT[language]:
+        faults.append(f"{language}: {kind} {name} of physvib.h is missing")
+    if is_there and name in LEFT_OUT[language]:
+        faults.append(f"{language}: {name} is there, and stands among what is left out")
+
+
+for name in functions:
+    called_in_python = re.search(rf'"{name}"[,)\n]|physvib_{name}\b', python.replace(f'"{name}": (', "")) is not None
+    demand("Python", "function", name, called_in_python)
+    demand("Lua", "function", name, re.search(rf"physvib_{name}\(", lua) is not None)
+    demand("C#", "function", name, len(re.findall(rf"physvib_{name}\(", sharp)) > 1)  # declared and called
+
+
+def section(text: str, begin: str, end: str) -> str:
+    start = text.find(begin)
+    return "" if start < 0 else text[start:text.find(end, start)]
+
+
+for structure, fields in structures().items():
+    camel = structure.title().replace("_", "")
+    parts = {
+        "Python": 'EVENT = np.dtype' if structure == "event" else f"class C{camel}(Structure)",
+        "C#": f"public struct {camel} {{",
+    }
+    in_python = section(python, parts["Python"], "\n\n\n" if structure != "event" else "])")
+    in_sharp = section(sharp, parts["C#"], "\n}")
+    in_lua = ""
+    for line in re.findall(rf"typedef struct \{{[^}}]*\}} physvib_{structure};", lua, flags=re.S):
+        in_lua = line
+    for language, text in (("Python", in_python), ("Lua", in_lua), ("C#", in_sharp)):
+        words = {plain(word) for word in re.findall(r"\w+", text)}
+        for field in fields:
+            if field not in UNUSED and plain(field) not in words:
+                faults.append(f"{language}: field {structure}.{field} of physvib.h is missing")
+        if language != "C#":
+            order = [word for word in re.findall(r"\w+", text) if word in fields]
+            if order != [field for field in fields if field in order]:
+                faults.append(f"{language}: fields of {structure} stand in another order than in physvib.h")
+
+print("\n".join(faults) or f"{len(functions)} functions and {len(structures())} structures are alike")
+sys.exit(1 if faults else 0)

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// Points of pairs: what is new while its pair touches is a blow, and what is told at several points is solved together.
+#include "Contacts/ContactFeed.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+constexpr std::int32_t ground = 0, body = 1;
+constexpr double g = 9.81, dt = 0.01;
+
+class ContactPoints : public testing::Test {
+protected:
+    ContactPoints() { EXPECT_EQ(feed.set(ground, {}, {}), ""); }
+    void set(double massKg, double inertia) {
+        EXPECT_EQ(feed.set(body, {massKg, inertia}, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true}), "");
+    }
+    void move(Vector2 centre, Vector2 velocity, float spin = 0.0F) { EXPECT_EQ(feed.move(body, centre, {velocity, spin}), ""); }
+    void begin() { EXPECT_EQ(feed.beginStep(feed.timeNs() + 10'000'000, g), ""); }
+    void end() { EXPECT_EQ(feed.endStep(), ""); }
+    static FedContact at(float x, std::int32_t id) {
+        FedContact contact;
+        contact.a = ground;
+        contact.b = body;
+        contact.point = {x, 0.0F};
+        contact.pointId = id;
+        return contact;
+    }
+    void touch(const FedContact& contact) { EXPECT_EQ(feed.touch(contact), ""); }
+    std::vector<CollisionEvent> events() {
+        std::vector<CollisionEvent> all;
+        feed.flush(all);
+        return all;
+    }
+    static ImpactSettings unity() {
+        ImpactSettings settings;
+        settings.normalisation = 1.0;
+        settings.handMassKg = 0.0;
+        return settings;
+    }
+    ContactFeed feed{unity()};
+};
+
+/// A box of 0.5 kg, 1 x 0.5 m, flat at 2.426 m/s; with and without its inertia, at corners and between them.
+class FlatLandings : public ContactPoints, public testing::WithParamInterface<int> {};
+
+TEST_P(FlatLandings, AreTheLandingAtHoweverManyPoints) {
+    constexpr double massKg = 0.5, speed = 2.426;
+    for (const double inertia : {0.0, massKg * (1.0 + 0.25) / 12.0, 0.001})
+        for (const double restitution : {0.0, 0.5})
+            for (const bool isSoft : {true, false}) {
+                SCOPED_TRACE(inertia);
+                set(massKg, inertia);
+                move({0.0F, 0.25F}, {0.0F, -static_cast<float>(speed)});
+                begin();
+                for (int i = 0; i < GetParam(); ++i) {
+                    FedContact contact = at(-0.5F + static_cast<float>(i) / static_cast<float>(GetParam() - 1), i);
+                    contact.isSoft = isSoft;
+                    contact.restitution = restitution;
+                    if (isSoft) contact.impulseNewtonSeconds = 0.1; // what a spring pushes in its first step
+                    touch(contact);
+                }
+                end();
+                begin(); // apart again
+                end();
+                const auto felt = events();
+                ASSERT_EQ(felt.size(), 1U);
+                const double whole = massKg * speed * (1.0 + restitution);
+                EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, whole, 0.01 * whole);
+                EXPECT_NEAR(felt[0].x, 0.0, 0.01);
+            }
+}
+INSTANTIATE_TEST_SUITE_P(Points, FlatLandings, testing::Values(2, 3, 4));
+
+/// A pole of 2 m and 3 kg topples about the foot that stands, and its head comes down at 7 m/s: rigid bodies that hold at the foot
+/// stop with m/3 of that speed.
+class ToppledPoles : public ContactPoints, public testing::WithParamInterface<std::int32_t> {
+protected:
+    void topple(double impulseOfPair) {
+        set(3.0, 3.0 * 4.0 / 12.0);
+        move({1.0F, 0.0F}, {0.0F, -3.5F}, -3.5F); // about the foot at 0
+        for (int step = 0; step < 3; ++step) { // it stands
+            begin();
+            FedContact foot = at(0.0F, GetParam() == FedPoints::byPlace ? FedPoints::byPlace : 4);
+            foot.approachMetresPerSecond = 0.0;
+            touch(foot);
+            end();
+        }
+        EXPECT_TRUE(events().empty());
+        begin();
+        for (const bool isHead : {false, true}) {
+            FedContact contact = at(isHead ? 2.0F : 0.0F, GetParam() == FedPoints::byPlace ? FedPoints::byPlace : isHead ? 9 : 4);
+            if (impulseOfPair > 0.0) {
+                contact.impulseNewtonSeconds = impulseOfPair;
+                contact.isImpulseOfPair = true;
+            }
+            touch(contact);
+        }
+        end();
+    }
+};
+
+TEST_P(ToppledPoles, AreFeltAtTheirHead) {
+    topple(0.0);
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, 3.0 / 3.0 * 7.0, 0.01);
+    EXPECT_NEAR(felt[0].x, 2.0, 1.0e-6);
+}
+
+// The foot holds with half as much as the head, upwards: m/3 v and m/6 v of m/2 v.
+TEST_P(ToppledPoles, HaveTheShareOfTheirHeadWhereTheEngineTellsOnlyThePairs) {
+    topple(12.0);
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, 12.0 * 2.0 / 3.0, 0.02);
+}
+INSTANTIATE_TEST_SUITE_P(Points, ToppledPoles, testing::Values(0, FedPoints::byPlace));
+
+TEST_F(ContactPoints, ABallThatRollsHasOnePointWhereverItIs) {
+    set(2.0, 0.0125);
+    for (int step = 0; step < 100; ++step) {
+        move({3.0F * 0.01F * static_cast<float>(step), 0.1F}, {3.0F, -0.1F}, -30.0F);
+        begin();
+        FedContact contact = at(3.0F * 0.01F * static_cast<float>(step), FedPoints::byPlace);
+        contact.approachMetresPerSecond = step == 0 ? 0.1 : 2.0; // whatever it says: nothing new touches
+        touch(contact);
+        end();
+    }
+    EXPECT_TRUE(events().empty());
+}
+
+TEST_F(ContactPoints, ANewPointIsNoBlowWhereOnlyAnImpulseIsTold) {
+    set(2.0, 0.0);
+    for (int step = 0; step < 4; ++step) {
+        begin();
+        for (std::int32_t id = 0; id <= step; ++id) {
+            FedContact contact = at(0.2F * static_cast<float>(id), id);
+            contact.impulseNewtonSeconds = step == 0 ? 2.0 * g * dt : 3.0; // leans, loaded
+            touch(contact);
+        }
+        end();
+    }
+    EXPECT_TRUE(events().empty());
+}
+
+TEST_F(ContactPoints, APointThatGoesAndComesBackIsNew) {
+    set(2.0, 0.0);
+    for (int step = 0; step < 6; ++step) {
+        begin();
+        FedContact resting = at(0.0F, 0), rocking = at(1.0F, 1);
+        resting.approachMetresPerSecond = 0.0;
+        rocking.approachMetresPerSecond = 1.0;
+        touch(resting);
+        if (step % 2 == 1) touch(rocking);
+        end();
+    }
+    EXPECT_EQ(events().size(), 3U);
+}
+
+TEST_F(ContactPoints, WhatBeginsAndEndsWithinAStepIsFelt) {
+    set(2.0, 0.0);
+    begin();
+    FedContact contact = at(0.0F, FedPoints::none);
+    contact.approachMetresPerSecond = 2.0;
+    EXPECT_EQ(feed.begin(contact), "");
+    EXPECT_EQ(feed.end(ground, body), "");
+    end();
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 4.0);
+}
+
+TEST_F(ContactPoints, OfNumbersBelowTwoAndImpulsesThatAreMissingAreRefused) {
+    set(2.0, 0.0);
+    begin();
+    EXPECT_EQ(feed.touch(at(0.0F, -3)), "point: expected a number from 0 on, -1 (none) or -2 (by place)");
+    FedContact contact = at(0.0F, 0);
+    contact.isImpulseOfPair = true;
+    EXPECT_EQ(feed.touch(contact), "impulse: expected one, as it is said to be the pair's");
+    end();
+    EXPECT_TRUE(events().empty());
+}
+
+} // namespace
+} // namespace physvib

@@ -1,0 +1,27 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Fuzzed worlds whose owners break the rules, under the address sanitizer, with Box2D compiled from Debian's source and an allocator that
+# gives every block back at once (PlainMemoryTest.cpp): 200 of 1,500 steps, or as many as are told. Needs a network for the source.
+# Usage: freed.sh [SEEDS [STEPS]]
+set -eu
+root=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$(mktemp -d)
+[ -n "${KEEP:-}" ] || trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+version=$(dpkg-query -W -f='${Version}' libbox2d-dev)
+. /etc/os-release
+echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian $VERSION_CODENAME main" >source.list
+mkdir -p lists/partial
+apt() { apt-get -qq -o Dir::Etc::sourcelist="$folder/source.list" -o Dir::Etc::sourceparts=/dev/null -o Dir::State::Lists="$folder/lists" -o APT::Sandbox::User=root "$@"; }
+apt update
+apt --download-only --only-source source "box2d=$version"
+mkdir box2d
+tar -xf box2d_*.orig.tar.* -C box2d --strip-components=1
+flags="-std=c++20 -O1 -g -fsanitize=address -I$folder/box2d/include"
+# Box2D's own allocator is left out: the tests have another.
+find box2d/src -name '*.cpp' ! -name b2_block_allocator.cpp | xargs -P2 -I{} sh -c "c++ $flags -I$folder/box2d/src -w -c {} -o \$(echo {} | tr / _).o"
+find "$root/Source/Contacts" "$root/Source/Physics" -name '*.cpp' |
+    xargs -P2 -I{} sh -c "c++ $flags -ffp-contract=off -I$root/Source -c {} -o $folder/\$(echo {} | tr / _).o"
+c++ $flags -I"$root/Source" -I"$root/Tests" "$root/Tests/Physics/BrokenRulesTest.cpp" "$root/Tests/Physics/PlainMemoryTest.cpp" ./*.o \
+    -lgtest -lgtest_main -o freed
+PHYSVIB_SEEDS=${1:-200} PHYSVIB_STEPS=${2:-1500} ./freed
