@@ -11,8 +11,16 @@ namespace physvib {
 constexpr double leastStudyFullScaleG = 1.122018454301963 * RenderingMethod::fixedLevelG;
 
 /// A preset, or the layout file at that path. study1 is phone1 on an enchanter of 2 g: an assumption, to be replaced by a layout of what is there.
+/// dualsense is its two coils, left and right grip: how far they are apart and their full scale of 1 g are assumed (Docs/pads.md).
 inline Result<LayoutDescription> layoutNamed(const std::string& name) {
     constexpr double studyFullScaleG = 2.0;
+    if (name == "dualsense") {
+        LayoutDescription grips = presetLayout("phone2");
+        grips.name = name;
+        grips.geometry = {0.11, 0.05, 2, {}};
+        grips.geometry.places[0] = {0.0, 0.025}, grips.geometry.places[1] = {0.11, 0.025};
+        return grips;
+    }
     if (name != "study1") return findLayout(name);
     LayoutDescription layout = presetLayout("phone1");
     layout.name = name;

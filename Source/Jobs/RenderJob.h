@@ -35,6 +35,7 @@ struct RenderJob {
     SceneSettings settings; ///< the scene's variables
     std::string fromEvents; ///< path of an event list
     std::string wavPath, eventsPath, picturePath, patternPath; ///< empty: not wanted
+    std::string pad;             ///< profile of a game controller, whose motors' commands `wavPath` then holds; empty: samples
     double threshold = 0.1;      ///< of the pattern, in full scale
     double interfaceVolts = 0.0; ///< what a sample of 1 in the WAV becomes; 0: no matter
     double seconds = 10.0;

@@ -15,6 +15,7 @@ constexpr std::size_t maxTakeBodies = 1'000'000;          // of all takes of a s
 constexpr std::int64_t maxSessionNs = 1'000'000'000'000'000; // 11.6 days: the most that a number of a file, a double, tells to the nanosecond
 constexpr std::size_t maxMaterialsFileBytes = 1'000'000;  // 256 materials fill about 40 kB
 constexpr std::size_t maxActuatorFileBytes = 100'000;    // a profile fills less than 1 kB
+constexpr std::size_t maxPadFileBytes = 100'000;         // as of an actuator
 constexpr std::size_t maxRecordingSets = 1024;            // different ones of a session; each is resampled
 constexpr std::size_t maxVariables = 16;                  // of a scene; a study has three
 constexpr std::size_t maxChoices = 64;                    // of a variable

@@ -57,6 +57,7 @@ struct LoadedRender {
     std::vector<std::string> namedInputs() const {
         auto paths = session ? recordingPaths(session->log) : std::vector<std::string>{};
         for (const EnchanterDescription& enchanter : layout.enchanters) paths.push_back(enchanter.actuator);
+        if (isJsonPath(options.pad)) paths.push_back(options.pad);
         return paths;
     }
     int channels() const { return keepsLayouts() ? session->channels : layout.geometry.count; }

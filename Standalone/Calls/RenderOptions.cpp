@@ -16,7 +16,7 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
     addSettings(command, o.settings);
     command.add("--seconds", o.seconds, "length of the render").in(0.001, 86400.0, " s");
     command.add("--seed", o.seed, "seed of the scene").in(0u, 4294967295u);
-    command.add("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file");
+    command.add("--layout", o.layout, listedByNumber(layoutPresetNames) + ", study1, dualsense or a layout file");
     addField(command, o.field);
     addLaw(command, o.law);
     command.add("--exponent", o.exponent, "exponent of the law").in(0.01, 100.0);
@@ -46,6 +46,7 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
     declareSceneOptions(command, o);
     command.add("--from-events", o.fromEvents, "render this event list instead of a scene").as("EVENTS.csv");
     command.add("--out", o.wavPath, "32-bit float WAV, one channel per enchanter").written("FILE.wav");
+    command.add("--pad", o.pad, "with --out MOTORS.csv: what the motors of that game controller would get instead of samples; a profile (pad-generic, pad-xbox, pad-dualshock) or its file").as("PROFILE");
     command.add("--events", o.eventsPath, "the collisions as an event list").written("FILE.csv");
     command.add("--picture", o.picturePath, "world, waveforms and event marks").written("FILE.png");
     command.add("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel").written("FILE.csv");

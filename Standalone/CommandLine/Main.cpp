@@ -14,13 +14,13 @@
 namespace physvib {
 
 Command scenesCommand(), renderCommand(), sweepCommand(), exportCommand(), beatsCommand(), playCommand(), analyseCommand(), reportCommand(), stimulusCommand(), boardCommand(), studyCommand(),
-    materialCommand(), attenuationCommand(), couplingCommand(), actuatorsCommand(), devicesCommand(), calibrateCommand();
+    materialCommand(), attenuationCommand(), couplingCommand(), actuatorsCommand(), devicesCommand(), padsCommand(), calibrateCommand();
 
 namespace {
 
 /// In the order of --help; each is in a file of its own.
 constexpr Command (*commands[])() = {scenesCommand,   renderCommand, sweepCommand, exportCommand,   beatsCommand,       playCommand,     analyseCommand,   reportCommand,  stimulusCommand,
-                                     boardCommand,    studyCommand,  materialCommand, attenuationCommand, couplingCommand, actuatorsCommand, devicesCommand, calibrateCommand};
+                                     boardCommand,    studyCommand,  materialCommand, attenuationCommand, couplingCommand, actuatorsCommand, devicesCommand, padsCommand, calibrateCommand};
 
 int writeOwnReference(const OptionTable& app, const char* folder) {
     const std::string error = writeReference(app, folder);

@@ -69,7 +69,7 @@ compare(sources listed_sources)
 # The built-in scenes, materials, actuators, protocols and words, in the order of their listing.
 include(${ROOT}/Source/built-in.cmake)
 set(embedded "")
-foreach(folder Scene/Scenes Scene/Materials Scene/Actuators Study/Protocols Study/Words)
+foreach(folder Scene/Scenes Scene/Materials Scene/Actuators Scene/Pads Study/Protocols Study/Words)
     physvib_built_in(files ${folder})
     list(TRANSFORM files REPLACE "^${ROOT}/" "")
     list(APPEND embedded ${files})

@@ -3,6 +3,7 @@
 #include "Host/Devices/SinkTable.h"
 #include "Core/Limits.h"
 #include "Host/Devices/NoDevice.h"
+#include "Pads/PadOutput.h"
 #include "Session/BoardOutput.h"
 #include <algorithm>
 #include <array>
@@ -21,6 +22,10 @@ const std::array sinkKinds{
     SinkKind{"BOARD", limits::board::channels, "board: expected at most four enchanters",
              [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
                  return std::make_unique<BoardOutput>(where, panner);
+             }},
+    SinkKind{"PAD", 0, {},
+             [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
+                 return std::make_unique<PadOutput>(where, panner);
              }},
 };
 

@@ -3,6 +3,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Music/BeatOptions.h"
+#include "CommandLine/Pads/DualSenseDevice.h"
 #include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
 #include "Calls/JobSession.h"
@@ -12,6 +13,7 @@
 #include "Io/Disk/FileClash.h"
 #include "Host/Devices/AudioOutput.h"
 #include "Host/Osc/OscPort.h"
+#include "Pads/DualSense.h"
 #include "Scene/SceneEdits.h"
 #include "Session/SerialLine.h"
 #include <algorithm>
@@ -26,6 +28,7 @@ struct PlayOptions {
     RenderJob scene;
     std::string device;
     std::string board;              ///< serial port of a four-channel board, alone or beside a device
+    std::vector<std::string> pads;  ///< game controllers: auto or a name, with a profile behind @; beside what there is, or alone
     std::string map;                ///< "1,2,3,4": device outputs from 1, in the order of the enchanters
     std::string onOff;              ///< enchanters from 1 that are motors, on or off; empty: none
     double threshold = OnOffSteps::thesisThreshold; ///< of these, in full scale
@@ -76,10 +79,26 @@ SessionSetup setupOf(const PlayOptions& o, const LoadedRender& job) {
     return setup;
 }
 
+/// The device's real name, its coils' outputs unless others were asked for, and the report that they need. An exit code.
+int takeDualSense(AudioOutputSettings& settings, int channels) {
+    if (settings.channelMap.empty() && channels != 2)
+        return leave(exitUsage, "--device " + settings.device + ": it has two coils, this layout " + std::to_string(channels) + "; try --layout dualsense, or --map");
+    if (settings.device == dualSenseDeviceName) {
+        const juce::ScopedJuceInitialiser_GUI juce;
+        auto device = dualSenseDevice(listAudioDevices());
+        if (!device) return leave(exitFailed, device.error);
+        settings.device = std::move(device.value);
+    }
+    if (settings.channelMap.empty()) settings.channelMap = {dualsense::leftCoil, dualsense::rightCoil};
+    if (const std::string note = giveCoilsToSound(); !note.empty()) tell(note);
+    return exitDone;
+}
+
 void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     declareSceneOptions(command, o.scene);
     command.add("--device", o.device, "output device (see physvib devices)");
     command.add("--board", o.board, "four-channel board: serial port, or auto; alone, or together with a device").as("PORT");
+    command.add("--pad", o.pads, "game controller: its name or part of it, or auto, then, if wanted, @ and a profile; alone, or together with a device or a board; may be repeated (see physvib pads)").as("NAME").single();
     command.add("--map", o.map, "device outputs of the enchanters, from 1").as("1,2,3,4");
     command.add("--driver", o.driver, "who steps the world: message or thread").oneOf({"message", "thread"});
     command.add("--level", o.levelDb, "master level in dB").in(-90.0, 0.0);
@@ -109,12 +128,15 @@ int runPlay(PlayOptions& o) {
     OutputNames outputs{o.device};
     o.device = outputs.device;
     if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
-    if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, or both");
+    for (const std::string& pad : o.pads) outputs.sinks.push_back({"PAD", pad});
+    if (o.device.empty() && !o.pads.empty()) o.device = OutputNames{"PAD:"}.device; // controllers follow a clock then
+    if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, --pad, or several of them");
+    const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
     if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
     const bool isPlain = o.scene.method.fixesNothing() && !o.scene.playsRecordings && o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 && !o.scene.isWeighted;
-    if (!outputs.sinks.empty() && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
-    if (o.isDirect && !outputs.sinks.empty()) return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
+    if (hasBoard && !isPlain) return leave(exitUsage, "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator; render --events, then board PORT play, has them");
+    if (o.isDirect && hasBoard) return leave(exitUsage, "--direct: a board has to know of a strike earlier; expected no --board");
     LoadedRender job{o.scene, {}, {}, {}, {}};
     if (const int code = takeScene(job); code != exitDone) return code;
     if (o.hasHands) job.scene = sceneForHands(std::move(*job.scene));
@@ -144,6 +166,9 @@ int runPlay(PlayOptions& o) {
     if (auto clash = fileClash(written, job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
     if (!parseMap(o.map, settings.channelMap)) return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
+    if (dualsense::isDevice(o.device)) {
+        if (const int code = takeDualSense(settings, job.channels()); code != exitDone) return code;
+    }
     if (!parseMap(o.onOff, settings.onOff) || std::ranges::any_of(settings.onOff, [&](int j) { return j >= job.channels(); }))
         return leave(exitUsage, "--on-off: expected enchanters like 1,2, of " + std::to_string(job.channels()) + ", found \"" + o.onOff + "\"");
     settings.onOffThreshold = o.threshold;

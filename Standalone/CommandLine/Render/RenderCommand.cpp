@@ -92,6 +92,7 @@ RenderStatus renderMarked(const LoadedRender& job, OfflineSettings settings, Ren
 RenderStatus renderEvents(const LoadedRender& job, RenderOutputs& outputs) {
     SessionRecordings again{job.session ? job.session->log : SessionLog{}, job.sessionRecordings, job.options.sampleRateHz};
     const auto controls = again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{});
+    outputs.takeMotors(controls);
     const RenderStatus status = renderMarked(job, settingsOf(job, controls, again.beside(job.feltRecordings())), outputs);
     if (!job.options.contactSound.empty()) renderContactSound(job, controls, outputs);
     return status;
@@ -121,6 +122,7 @@ std::string render(LoadedRender& job, RenderListener* listener) {
 int runRender(const RenderJob& options, RenderListener* listener) {
     LoadedRender job{options, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;
+    if (job.clip && !options.pad.empty()) return leave(exitUsage, "--pad: expected a scene, a session or events; a clip has samples alone");
     if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");

@@ -37,12 +37,24 @@ RenderOutputs::RenderOutputs(const LoadedRender& job, RenderListener* listener)
 
 std::string RenderOutputs::open() {
     const RenderJob& o = job_.options;
-    std::string error = physvib::open(wav_, o.wavPath, job_.channels(), o.sampleRateHz, provenanceText());
+    std::string error = o.pad.empty() ? std::string{} : openMotors();
+    if (error.empty()) error = physvib::open(wav_, o.pad.empty() ? o.wavPath : "", job_.channels(), o.sampleRateHz, provenanceText());
     if (error.empty()) error = physvib::open(contactWav_, o.contactSound, 1, o.sampleRateHz, provenanceText() + " heard=contact_sound");
     if (error.empty()) error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz, provenanceText() + " marked=" + std::string{nameOf(o.marked)});
     for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}})
         if (error.empty()) error = physvib::open(*file, *path);
     return error;
+}
+
+std::string RenderOutputs::openMotors() {
+    auto pad = findPad(job_.options.pad);
+    if (!pad) return "--pad: " + pad.error;
+    pad_ = std::move(pad.value);
+    return physvib::open(motorsFile_, job_.options.wavPath);
+}
+
+void RenderOutputs::takeMotors(const std::vector<RenderControl>& controls) {
+    if (motorsFile_) motors_ = padCommands(pad_.law, job_.made.events, controls, job_.panner(), job_.endNs());
 }
 
 void RenderOutputs::begin() {
@@ -91,9 +103,10 @@ std::string RenderOutputs::finish() {
     if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
+    if (error.empty() && motorsFile_) error = motorsFile_->write(motorsCsv(motors_, provenance()));
     for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
         if (error.empty() && wav) error = wav->finish();
-    for (auto* file : {&eventsFile_, &pictureFile_, &patternFile_})
+    for (auto* file : {&eventsFile_, &pictureFile_, &patternFile_, &motorsFile_})
         if (error.empty() && *file) error = (*file)->commit();
     return error;
 }
@@ -108,6 +121,7 @@ Provenance RenderOutputs::provenance() const {
         p.entries.emplace_back("sound", numberText(hz) + '=' + std::filesystem::path{path}.filename().string() + (o.matchesStrength ? ":rms" : ""));
     if (o.actuator != "none") p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());
     if (o.actuator != "none" && !o.isEqualised) p.entries.emplace_back("equalise", "off");
+    if (!o.pad.empty()) p.entries.emplace_back("pad", pad_.name);
     if (o.interfaceVolts > 0.0) p.entries.emplace_back("interface_volts", numberText(o.interfaceVolts));
     if (o.isRemapped) p.entries.emplace_back("remap", "on");
     if (!o.coupling.empty()) p.entries.emplace_back("coupling", std::filesystem::path{o.coupling}.filename().string());
@@ -171,6 +185,7 @@ void RenderOutputs::summarise(std::ostream& out) const {
         out << o.wavPath << "  " << job_.channels() << (job_.channels() == 1 ? " channel, " : " channels, ") << job_.seconds() << " s at "
             << o.sampleRateHz << " Hz, " << peakWords(job_, whole_) << '\n';
     }
+    if (motorsFile_) out << o.wavPath << "  what two motors of " << pad_.name << " would get: " << motors_.size() << " commands\n";
     if (eventsFile_) out << o.eventsPath << "  " << collisionWords(job_) << '\n';
     if (patternFile_) out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
     if (contactWav_) out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale " << numberText(o.contactSoundDb) << " dBFS\n";

@@ -6,6 +6,8 @@
 #include "CommandLine/Render/RenderListener.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/EventsCsv.h"
+#include "Scene/PadCommands.h"
+#include "Scene/PadFile.h"
 #include "Io/Wav/WavSink.h"
 #include "Pictures/WaveformEnvelope.h"
 #include <iosfwd>
@@ -27,6 +29,9 @@ public:
     /// The events are known now: the picture enlarges the strongest.
     void begin();
 
+    /// The events and these controls become commands of a game controller, if those are wanted.
+    void takeMotors(const std::vector<RenderControl>& controls);
+
     /// The next frames; false after an error.
     bool take(const float* const* channels, int frames);
 
@@ -45,6 +50,7 @@ public:
     void summarise(std::ostream& out) const;
 
 private:
+    std::string openMotors();
     Provenance provenance() const;
     Provenance inputProvenance() const;
     std::string provenanceText() const;
@@ -54,7 +60,9 @@ private:
 
     const LoadedRender& job_;
     RenderListener* listener_;
-    std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_;
+    std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_, motorsFile_;
+    PadProfile pad_;
+    std::vector<PadCommand> motors_;
     std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;
     std::vector<std::vector<float>> scaled_; // for the interface's voltage
     std::string markWords_;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Profiles of game controllers as JSON: what their motors do, and from where that is known.
+#pragma once
+#include "Core/Pads/PadLaw.h"
+#include "Io/Result.h"
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace physvib {
+
+/// The version of the format that is written, and the newest that is read.
+constexpr int padFormatVersion = 1;
+
+struct PadProfile {
+    std::string name;
+    std::string description;
+    std::string source; ///< where the figures are from
+    PadLaw law;
+    bool operator==(const PadProfile&) const = default;
+};
+
+/// The profile that `text` describes; or, of the first thing that is wrong, one line
+/// `name: low.half: expected a number from ...`. Every field must be there; unknown and repeated fields are errors. Any thread.
+Result<PadProfile> readPad(std::string_view text, std::string_view name);
+
+/// `profile` as JSON; readPad gives it back bit for bit. Any thread.
+std::string padJson(const PadProfile& profile);
+
+/// Those that come with PhysVib, in the order of their listing. Built on first use; any thread.
+const std::vector<PadProfile>& builtInPads();
+
+/// A built-in profile by its name, else that of the file (NAME.json, or a path). M only.
+Result<PadProfile> findPad(const std::string& nameOrPath);
+
+} // namespace physvib

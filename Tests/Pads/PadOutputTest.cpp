@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// A session on controllers that SDL makes up: what their motors are told is the model, to the command.
+#include "Pads/PadOutput.h"
+#include "Pads/VirtualPad.h"
+#include "Scene/PadCommands.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+
+PhantomPanner phone() {
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    return {layout, PanningLaw::linear, 1.0, 1.0, 1.0};
+}
+
+CollisionEvent hit(std::int64_t timeNs, double frequencyHz, double amplitude, double x) {
+    CollisionEvent event;
+    event.timeNs = timeNs;
+    event.frequencyHz = frequencyHz;
+    event.decayPerSecond = 20.0;
+    event.amplitude = amplitude;
+    event.x = x;
+    event.y = 0.5;
+    return event;
+}
+
+/// A device that asks for a block every 5 ms, of a session that began with it.
+class PacedDevice final : public FeltOutput {
+public:
+    PacedDevice() { setLevel(1.0f); }
+    std::int64_t sessionNs() const { return now() - beganNs_; }
+    void block() { tell({sessionNs(), now(), 40 * ms, 48000}); }
+    /// `atBlock(sessionNs)` at each.
+    template <class AtBlock>
+    void run(std::int64_t untilNs, AtBlock atBlock) {
+        for (; sessionNs() < untilNs; std::this_thread::sleep_for(std::chrono::milliseconds{5})) {
+            block();
+            atBlock(sessionNs());
+        }
+    }
+    void run(std::int64_t untilNs) { run(untilNs, [](std::int64_t) {}); }
+
+private:
+    static std::int64_t now() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+    const std::int64_t beganNs_ = now();
+};
+
+const std::function<bool()> always = [] { return true; };
+
+class Pads : public testing::Test {
+protected:
+    GamePads pads{}; // before any virtual one
+};
+
+TEST_F(Pads, WhatTheMotorsAreToldIsTheModelToTheCommand) {
+    VirtualPad pad{"first"};
+    PadOutput output{"first@pad-generic", phone()};
+    ASSERT_EQ(output.awaitReady(always), "");
+    EXPECT_DOUBLE_EQ(output.latencySeconds(), 0.03);
+    PacedDevice device;
+    device.block();
+    output.follow(&device);
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < 12; ++i) events.push_back(hit((200 + 90 * i) * ms, i % 2 ? 50.0 : 220.0, 0.05 * (1 + i % 7 * 3), i / 11.0));
+    std::size_t made = 0;
+    device.run(1800 * ms, [&](std::int64_t ns) {
+        for (; made < events.size() && events[made].timeNs < ns + 100 * ms; ++made) output.made(events[made]);
+    });
+    output.follow(nullptr);
+    const auto model = padCommands(builtInPads().front().law, events, {}, phone(), 1800 * ms);
+    const auto told = pad.told();
+    const PadCounts counts = output.counts();
+    EXPECT_EQ(counts.events, events.size());
+    EXPECT_EQ(counts.refused, 0u);
+    // A machine that is busy sends a command too late for it to count; everything else is there, in order.
+    std::size_t at = 1;
+    for (const auto& one : told) {
+        const auto isIt = [&](const PadCommand& c) { return std::abs(c.low - one.low) < 1e-4 && std::abs(c.high - one.high) < 1e-4; };
+        while (at < model.size() && !isIt(model[at])) ++at;
+        ASSERT_LT(at, model.size()) << "not the model's: " << one.low << ' ' << one.high;
+        ++at;
+    }
+    EXPECT_GE(told.size() + counts.late + 1, model.size());
+    EXPECT_GE(told.size(), 15u);
+    EXPECT_TRUE(pad.isAtRest());
+}
+
+TEST_F(Pads, SilenceAndLevelZeroAreRestAtOnceAndWhatRingsComesBack) {
+    VirtualPad pad{"quiet"};
+    PadOutput output{"quiet", phone()};
+    ASSERT_EQ(output.awaitReady(always), "");
+    PacedDevice device;
+    device.block();
+    output.follow(&device);
+    CollisionEvent tone = hit(100 * ms, 60.0, 1.0, 0.5);
+    tone.decayPerSecond = 0.0;
+    tone.durationNs = 60'000 * ms;
+    output.made(tone);
+    EXPECT_TRUE(soon([&] { device.block(); return !pad.isAtRest(); }));
+    device.setSilent(true);
+    EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
+    device.run(device.sessionNs() + 100 * ms);
+    EXPECT_TRUE(pad.isAtRest());
+    device.setSilent(false);
+    EXPECT_TRUE(soon([&] { return !pad.isAtRest(); }));
+    device.setLevel(0.0f);
+    EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
+    device.setLevel(1.0f);
+    EXPECT_TRUE(soon([&] { return !pad.isAtRest(); }));
+    RenderControl stop;
+    stop.timeNs = device.sessionNs();
+    output.posted(stop);
+    EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
+}
+
+TEST_F(Pads, NothingIsFeltWhenNobodyIsFollowedAndWhenTheSinkEnds) {
+    VirtualPad pad{"short"};
+    PacedDevice device;
+    device.block();
+    const auto ringing = [&](PadOutput& output) {
+        output.follow(&device);
+        device.block();
+        CollisionEvent tone = hit(device.sessionNs(), 60.0, 1.0, 0.5);
+        tone.decayPerSecond = 0.1;
+        output.made(tone);
+        return soon([&] { return !pad.isAtRest(); });
+    };
+    {
+        PadOutput output{"short", phone()};
+        ASSERT_EQ(output.awaitReady(always), "");
+        EXPECT_TRUE(ringing(output));
+        output.follow(nullptr);
+        EXPECT_TRUE(pad.isAtRest());
+        EXPECT_TRUE(ringing(output));
+    }
+    EXPECT_TRUE(pad.isAtRest());
+}
+
+TEST_F(Pads, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {
+    VirtualPad pad{"loose"};
+    PadOutput output{"loose", phone()};
+    ASSERT_EQ(output.awaitReady(always), "");
+    PacedDevice device;
+    device.block();
+    output.follow(&device);
+    pad.detach();
+    EXPECT_TRUE(soon([&] { return !output.state().isReady; }));
+    EXPECT_EQ(output.state().trouble, "loose is gone; it is looked for");
+    output.made(hit(device.sessionNs(), 60.0, 1.0, 0.5)); // lost on nobody's account: no controller is there
+    pad.attach();
+    EXPECT_TRUE(soon([&] { return output.state().isReady; }));
+    EXPECT_EQ(output.state().trouble, "");
+    const auto before = pad.told().size();
+    device.block();
+    output.made(hit(device.sessionNs() + 50 * ms, 60.0, 1.0, 0.5));
+    EXPECT_TRUE(soon([&] { return pad.told().size() > before; }));
+    EXPECT_EQ(output.counts().connections, 2u);
+}
+
+TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
+    VirtualPad one{"one"}, two{"two"};
+    PadOutput first{anyPad, phone()}, second{anyPad, phone()};
+    ASSERT_EQ(first.awaitReady(always), "");
+    ASSERT_EQ(second.awaitReady(always), "");
+    PadOutput third{anyPad, phone()};
+    EXPECT_EQ(third.awaitReady([] { return false; }), "no game controller with motors is there (see physvib pads)");
+    EXPECT_EQ((PadOutput{"three", phone()}.awaitReady([] { return false; })), "no game controller with motors is called \"three\" (see physvib pads)");
+    EXPECT_EQ((PadOutput{"one@pad-atari", phone()}.awaitReady(always)).rfind("no controller profile \"pad-atari\"", 0), 0u);
+}
+
+TEST_F(Pads, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // a command is over after 200 ms unless it is sent again
+    VirtualPad pad{"long"};
+    PadOutput output{"long", phone()};
+    ASSERT_EQ(output.awaitReady(always), "");
+    PacedDevice device;
+    device.block();
+    output.follow(&device);
+    CollisionEvent tone = hit(50 * ms, 60.0, 1.0, 0.5);
+    tone.decayPerSecond = 0.0;
+    tone.durationNs = 800 * ms;
+    output.made(tone);
+    device.run(1200 * ms);
+    std::int64_t zeroNs = 0;
+    for (const auto& told : pad.told())
+        if (told.low == 0.0) zeroNs = told.steadyNs;
+    EXPECT_GE(zeroNs - pad.told().front().steadyNs, 750 * ms);
+    EXPECT_GE(output.counts().repeats, 4u);
+    EXPECT_TRUE(pad.isAtRest());
+}
+
+} // namespace
+} // namespace physvib
