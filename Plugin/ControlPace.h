@@ -6,17 +6,27 @@
 
 namespace physvib {
 
-/// Controls wait for L in a store of fixed size: at most `onTheWay` of one kind are in it. What comes faster is left out,
-/// but for the newest. In frames of the session; R only.
+/// At most one control of a kind in so many frames of session time; of what comes faster the value then present goes. The same whatever the block
+/// and L are, so that a bounce in blocks of another size is the same samples. In frames of the session; R only.
 class ControlPace {
 public:
-    static constexpr int onTheWay = 48; // of two kinds, beside 32 others, in Session's room of 128
+    static constexpr int perSecond = 1500; // every 32 frames at 48 kHz: gains move in ramps of 10 ms, worlds in steps of 1 ms at least
+
+    /// The frames between two. Any thread.
+    static constexpr int framesAt(int sampleRateHz) noexcept { return std::max(1, sampleRateHz / perSecond); }
+
+    /// Nothing has gone. M, or R.
+    void reset(int sampleRateHz) noexcept {
+        frames_ = framesAt(sampleRateHz);
+        next_ = 0;
+    }
 
     /// The first frame from `from` on at which the next may go.
     std::int64_t nextFrom(std::int64_t from) const noexcept { return std::max(from, next_); }
-    void wentAt(std::int64_t frame, std::int64_t playOutFrames) noexcept { next_ = frame + playOutFrames / onTheWay + 1; }
+    void wentAt(std::int64_t frame) noexcept { next_ = frame + frames_; }
 
 private:
+    int frames_ = 1;
     std::int64_t next_ = 0;
 };
 

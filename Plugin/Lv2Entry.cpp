@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LV2's entry: JUCE's (which CMake compiles as juceLv2Descriptor; the Projucer cannot, and does without this file), and the
-// two things that it leaves out. It prepares for the largest block a host can ever send, not for the usual one, and takes
-// no notice of deactivate and activate.
+// three things that it leaves out. It prepares for the largest block a host can ever send, not for the usual one, takes
+// no notice of deactivate and activate, and of what sets a parameter within a block it knows no frame.
 #ifdef PHYSVIB_LV2_ENTRY
 #include "Entry.h"
 #include "PluginProcessor.h"
+#include <array>
+#include <atomic>
 #include <cstring>
 #include <lv2/atom/atom.h>
+#include <lv2/atom/util.h>
 #include <lv2/buf-size/buf-size.h>
 #include <lv2/core/lv2.h>
 #include <lv2/options/options.h>
+#include <lv2/patch/patch.h>
 #include <lv2/urid/urid.h>
-#include <map>
 #include <mutex>
+#include <string>
 #include <utility>
 
 extern "C" const LV2_Descriptor* juceLv2Descriptor(uint32_t index);
@@ -21,30 +25,100 @@ namespace physvib {
 
 namespace {
 
+/// What names a parameter's value in a block's events, as the host numbers it.
+struct Names {
+    LV2_URID object = 0, set = 0, subject = 0, property = 0, value = 0, urid = 0, number = 0, plugin = 0;
+    std::array<LV2_URID, parameterCount> parameters{};
+};
+
+Names namesOf(const LV2_URID_Map& map) {
+    const auto idOf = [&map](const std::string& uri) { return map.map(map.handle, uri.c_str()); };
+    Names names{idOf(LV2_ATOM__Object), idOf(LV2_PATCH__Set), idOf(LV2_PATCH__subject), idOf(LV2_PATCH__property), idOf(LV2_PATCH__value), idOf(LV2_ATOM__URID), idOf(LV2_ATOM__Float), idOf(JucePlugin_LV2URI), {}};
+    for (std::size_t p = 0; p < parameterCount; ++p) names.parameters[p] = idOf(JucePlugin_LV2URI ":" + std::string{allParameters()[p].id});
+    return names;
+}
+
+/// The events of a block that set parameters. R, wait-free.
+class Lv2Points final : public PointSource {
+public:
+    Lv2Points(const LV2_Atom_Sequence& events, const Names& names, PluginProcessor& processor) noexcept
+        : events_{events}
+        , names_{names}
+        , processor_{processor} {
+        at_.fill(lv2_atom_sequence_begin(&events.body));
+    }
+    bool next(std::size_t parameter, ParameterPoint& point) noexcept override {
+        for (auto*& at = at_[parameter]; !lv2_atom_sequence_is_end(&events_.body, events_.atom.size, at);) {
+            const auto* const event = std::exchange(at, lv2_atom_sequence_next(at));
+            if (sets(*event, parameter, point)) return true;
+        }
+        return false;
+    }
+    int lastOfLine(std::size_t) noexcept override { return -1; }
+
+private:
+    bool sets(const LV2_Atom_Event& event, std::size_t parameter, ParameterPoint& point) noexcept {
+        const auto& object = reinterpret_cast<const LV2_Atom_Object&>(event.body);
+        if (event.body.type != names_.object || object.body.otype != names_.set) return false;
+        const LV2_Atom *subject = nullptr, *property = nullptr, *value = nullptr;
+        LV2_Atom_Object_Query query[]{{names_.subject, &subject}, {names_.property, &property}, {names_.value, &value}, LV2_ATOM_OBJECT_QUERY_END};
+        lv2_atom_object_query(&object, query);
+        const auto idOf = [this](const LV2_Atom* atom) { return atom && atom->type == names_.urid ? reinterpret_cast<const LV2_Atom_URID*>(atom)->body : 0; };
+        if (subject && idOf(subject) != names_.plugin) return false;
+        if (idOf(property) != names_.parameters[parameter] || !value || value->type != names_.number) return false;
+        point.frame = static_cast<int>(event.time.frames);
+        point.normal = processor_.parameter(static_cast<Parameter>(parameter)).convertTo0to1(reinterpret_cast<const LV2_Atom_Float*>(value)->body);
+        return true;
+    }
+    const LV2_Atom_Sequence& events_;
+    const Names& names_;
+    PluginProcessor& processor_;
+    std::array<const LV2_Atom_Event*, parameterCount> at_{};
+};
+
 struct Instance {
     PluginProcessor* processor = nullptr;
     bool wasDeactivated = false;
+    Names names{};
+    const LV2_Atom_Sequence* events = nullptr; // of the port, which the host may connect anew before each block
 };
 
-/// All that live, by JUCE's handles; a host may make and end them on several threads. Never asked by run.
+/// All that live, by JUCE's handles; a host may make and end them on several threads, and runs them on others. A place is used again, and never freed.
 class Instances {
 public:
-    void add(LV2_Handle handle, PluginProcessor* processor) {
+    void add(LV2_Handle handle, const Instance& instance) {
         const std::lock_guard lock{mutex_};
-        byHandle_[handle] = {processor, false};
+        Place* place = first_;
+        while (place && place->handle != nullptr) place = place->next;
+        const bool isNew = !place;
+        if (isNew) {
+            place = new Place;
+            place->next = first_;
+        }
+        place->instance = instance;
+        place->handle = handle;
+        if (isNew) first_ = place; // from here on it is found
     }
-    Instance& operator[](LV2_Handle handle) { // stays where it is, and is its caller's: LV2 has one thread at a time for each
-        const std::lock_guard lock{mutex_};
-        return byHandle_.at(handle);
+    /// Of one that lives; it stays where it is, and is its caller's: LV2 has one thread at a time for each. Wait-free.
+    Instance& operator[](LV2_Handle handle) noexcept {
+        Place* place = first_;
+        while (place->handle != handle) place = place->next;
+        return place->instance;
     }
     void remove(LV2_Handle handle) {
         const std::lock_guard lock{mutex_};
-        byHandle_.erase(handle);
+        for (Place* place = first_; place; place = place->next)
+            if (place->handle == handle) place->handle = nullptr;
     }
 
 private:
-    std::mutex mutex_;
-    std::map<LV2_Handle, Instance> byHandle_;
+    struct Place {
+        std::atomic<LV2_Handle> handle{nullptr};
+        Instance instance;
+        Place* next = nullptr;
+    };
+    std::mutex mutex_; // who adds or removes
+    std::atomic<Place*> first_{nullptr};
 };
 Instances& instances() {
     static Instances all;
@@ -71,20 +145,37 @@ LV2_Handle instantiate(const LV2_Descriptor*, double rate, const char* bundle, c
     making() = {usualBlockOf(features), nullptr};
     const auto* const juces = juceLv2Descriptor(0);
     const LV2_Handle handle = juces->instantiate(juces, rate, bundle, features);
-    if (handle) instances().add(handle, making().instance);
+    const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
+    if (handle) instances().add(handle, {making().instance, false, map ? namesOf(*map) : Names{}, nullptr});
     return handle;
+}
+
+// The events come behind the channels: inputs are none.
+void connect(LV2_Handle handle, std::uint32_t port, void* data) {
+    if (port == PHYSVIB_CHANNELS) instances()[handle].events = static_cast<const LV2_Atom_Sequence*>(data);
+    juceLv2Descriptor(0)->connect_port(handle, port, data);
+}
+
+void run(LV2_Handle handle, std::uint32_t frames) {
+    auto& instance = instances()[handle];
+    const auto* const juces = juceLv2Descriptor(0);
+    if (!instance.events) return juces->run(handle, frames);
+    Lv2Points points{*instance.events, instance.names, *instance.processor};
+    instance.processor->expectPoints(points);
+    juces->run(handle, frames);
 }
 
 // What is active is prepared: the scene starts at its seed, as in the other formats. The first time JUCE has done so.
 void activate(LV2_Handle handle) {
-    auto& [processor, wasDeactivated] = instances()[handle];
-    if (std::exchange(wasDeactivated, false)) processor->prepareToPlay(processor->getSampleRate(), processor->getBlockSize());
+    auto& instance = instances()[handle];
+    auto* const processor = instance.processor;
+    if (std::exchange(instance.wasDeactivated, false)) processor->prepareToPlay(processor->getSampleRate(), processor->getBlockSize());
 }
 
 void deactivate(LV2_Handle handle) {
-    auto& [processor, wasDeactivated] = instances()[handle];
-    wasDeactivated = true;
-    processor->releaseResources();
+    auto& instance = instances()[handle];
+    instance.wasDeactivated = true;
+    instance.processor->releaseResources();
 }
 
 void cleanup(LV2_Handle handle) {
@@ -94,6 +185,8 @@ void cleanup(LV2_Handle handle) {
 
 LV2_Descriptor completed(LV2_Descriptor juces) {
     juces.instantiate = instantiate;
+    juces.connect_port = connect;
+    juces.run = run;
     juces.activate = activate;
     juces.deactivate = deactivate;
     juces.cleanup = cleanup;

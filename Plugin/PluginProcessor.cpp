@@ -165,8 +165,9 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     const int usual = usualBlockFrames_ > 0 ? std::min(usualBlockFrames_, blockFrames) : blockFrames;
     blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, usual);
     outputs_ = BusMap{*this};
-    open_.prepare(rate, limits::channelRampSeconds, value(Parameter::bypass) > 0.5 ? 0.0f : 1.0f);
+    open_.prepare(rate, limits::channelRampSeconds, parameter(Parameter::bypass).value() > 0.5 ? 0.0f : 1.0f);
     transport_.reset();
+    points_.reset();
     measured_ = {};
     bend_.fill(0.0f);
     slide_.fill(0.0f);

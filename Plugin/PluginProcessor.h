@@ -10,6 +10,7 @@
 #include "Host/Devices/ChannelMeters.h"
 #include "HostParameter.h"
 #include "MidiMap.h"
+#include "ParameterPoints.h"
 #include "PluginSettings.h"
 #include "Takes.h"
 #include "Transport.h"
@@ -38,9 +39,14 @@ public:
     /// How many frames a block usually has where a host announces far more (LV2); 0: as announced. M, before prepareToPlay.
     void expectBlocksOf(int frames) noexcept { usualBlockFrames_ = frames; }
 
+    /// What the host says of parameters within the coming block; it outlives that. Parameters without points have their value all block long. R.
+    void expectPoints(PointSource& source) noexcept { source_ = &source; }
+
     HostParameter& parameter(Parameter which) noexcept { return *parameters_[static_cast<std::size_t>(which)]; }
     Takes& takes() noexcept { return takes_; }
     ChannelMeters meters() noexcept { return meters_.read(); } ///< one reader
+    /// Messages that a host sent for frames behind their block, which were played at its last one. Any thread.
+    std::uint64_t displacedMessages() const noexcept { return displaced_; }
 
     const juce::String getName() const override { return name_; }
     bool isBusesLayoutSupported(const BusesLayout& layout) const override { return isAccepted(plan_, wrapperType, layout); }
@@ -83,20 +89,21 @@ private:
     void take(PluginState state);
     void publish();
     void takeParameters(const PluginState& state);
-    double value(Parameter which) const noexcept { return parameters_[static_cast<std::size_t>(which)]->value(); }
 
     // R
+    double value(Parameter which) const noexcept { return denormalised(rowOf(which), normals_[static_cast<std::size_t>(which)]); }
     void render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept;
+    void readParameters() noexcept;
+    int renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message, const juce::MidiBuffer& midi, int first) noexcept;
     void followTransport(int frames) noexcept;
     void forgetControls() noexcept;
     bool hasNews(Parameter which) const noexcept;
     template <class Send>
     void send(std::initializer_list<Parameter> those, Send what) noexcept;
-    template <class Make>
-    bool sendAt(Session& session, ControlPace& pace, int first, int end, Make make) noexcept;
+    template <class Hold>
+    bool sendAt(ControlPace& pace, int first, int end, Hold hold) noexcept;
     void sendPaced(int first, int end) noexcept;
     void sendControls(int frame) noexcept;
-    RenderControl pannerControl() const noexcept;
     bool sendMaterial(Session& session, int frame) noexcept;
     void stopAll(int frame) noexcept;
     void silence(int frame) noexcept;
@@ -131,9 +138,14 @@ private:
     Transport transport_;
     int blockFrames_ = 0;
     GainRamp open_; // shut by bypass
+    bool isShut_ = false;
     ChannelMeters measured_;
-    std::array<double, parameterCount> sent_{}; // what the playing take has taken
-    ControlPace levelPace_, pannerPace_;
+    PointSource* source_ = nullptr;
+    ParameterPoints points_;
+    std::array<float, parameterCount> normals_{}; // at the frame that is being made
+    std::array<double, parameterCount> sent_{};   // what the playing take has taken
+    ControlPace levelPace_, pannerPace_, holdPace_, materialPace_;
+    std::atomic<std::uint64_t> displaced_{0};
     bool owesStop_ = false, owesSilence_ = false;
     std::array<float, 17> bend_{}, slide_{}; // per MIDI channel, from 1: shifts of the strikes, in parts of the field
 };

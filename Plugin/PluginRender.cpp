@@ -2,6 +2,7 @@
 // The render role's part: transport, controls, MIDI, samples. Nothing here allocates, locks or waits.
 #include "PluginProcessor.h"
 #include <limits>
+#include <utility>
 
 namespace physvib {
 
@@ -21,7 +22,7 @@ RenderControl controlOf(RenderControl::Kind kind, float value = 0.0f) {
 } // namespace
 
 void PluginProcessor::processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) {
-    render(buffer, midi, value(Parameter::bypass) > 0.5);
+    render(buffer, midi, false);
     midi.clear();
 }
 
@@ -30,33 +31,65 @@ void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juc
     midi.clear();
 }
 
+// In parts: some hosts exceed what they announced, and SILENCE closes at its frame.
 void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi, bool bypassed) noexcept {
     const int frames = buffer.getNumSamples();
-    if (blockFrames_ == 0 || frames == 0) return buffer.clear();
-    const auto mode = isNonRealtime() ? RenderMode::offline : RenderMode::realtime;
+    if (blockFrames_ == 0 || frames == 0) {
+        source_ = nullptr;
+        return buffer.clear();
+    }
+    points_.begin(std::exchange(source_, nullptr), frames);
+    readParameters();
     followTransport(frames);
     auto message = midi.begin();
     for (int first = 0; first < frames;) {
-        const int part = std::min(frames - first, blockFrames_); // some hosts exceed what they announced
-        if (takes_.begin(mode)) forgetControls();
-        sendControls(0);
-        int heard = 0; // what comes in goes by its frame
-        for (; message != midi.end() && (*message).samplePosition < first + part; ++message) {
-            const int frame = std::max(0, (*message).samplePosition - first);
-            hear(buffer, first, heard, frame);
-            heard = frame;
-            receive(*message, frame);
-        }
-        hear(buffer, first, heard, part);
-        buffer.clear(first, part);
-        sendPaced(0, part); // what controllers said faster than it may go
-        takes_.render(part, mode);
-        mix(buffer, first, part);
-        first += part;
+        const int end = renderPart(buffer, message, midi, first);
+        std::array<float*, limits::maxEnchanters> out{};
+        const int channels = std::min(buffer.getNumChannels(), limits::maxEnchanters);
+        for (int c = 0; c < channels; ++c) out[static_cast<std::size_t>(c)] = buffer.getWritePointer(c) + first;
+        open_.moveTo(bypassed || isShut_ ? 0.0f : 1.0f);
+        open_.apply(out.data(), channels, end - first);
+        first = end;
     }
-    open_.moveTo(bypassed ? 0.0f : 1.0f);
-    open_.apply(buffer.getArrayOfWritePointers(), buffer.getNumChannels(), frames);
+    points_.end();
     measure(buffer);
+}
+
+// What has no points in this block has its value from the beginning on.
+void PluginProcessor::readParameters() noexcept {
+    for (std::size_t p = 0; p < parameterCount; ++p)
+        if (points_.nextOf(static_cast<Parameter>(p)) == ParameterPoints::none) normals_[p] = parameters_[p]->getValue();
+}
+
+// From `first` on; where it ends. At each frame at which something comes: values first, then notes.
+int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBufferIterator& message, const juce::MidiBuffer& midi, int first) noexcept {
+    const int frames = buffer.getNumSamples();
+    const auto mode = isNonRealtime() ? RenderMode::offline : RenderMode::realtime;
+    const auto frameOf = [&](const juce::MidiMessageMetadata& m) { return std::clamp(m.samplePosition, first, frames - 1); };
+    int end = std::min(frames, first + blockFrames_);
+    if (takes_.begin(mode)) forgetControls();
+    for (int at = first; at < end;) {
+        points_.takeUntil(at, [this](std::size_t p, double normal) {
+            normals_[p] = static_cast<float>(normal);
+            parameters_[p]->setValue(normals_[p]);
+        });
+        if (at == first) isShut_ = value(Parameter::bypass) > 0.5;
+        end = std::min(end, points_.nextOf(Parameter::bypass));
+        sendControls(at - first);
+        for (; message != midi.end() && frameOf(*message) <= at; ++message) {
+            if ((*message).samplePosition >= frames) ++displaced_;
+            receive(*message, at - first);
+        }
+        int next = std::min(end, points_.next());
+        if (message != midi.end()) next = std::min(next, frameOf(*message));
+        hear(buffer, first, at - first, next - first); // what comes in goes by its frame
+        sendPaced(at - first, next - first);            // what was said faster than it may go
+        at = next;
+    }
+    buffer.clear(first, end - first);
+    takes_.render(end - first, mode);
+    mix(buffer, first, end - first);
+    return end;
 }
 
 void PluginProcessor::followTransport(int frames) noexcept {
@@ -78,7 +111,7 @@ void PluginProcessor::followTransport(int frames) noexcept {
 // A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
 void PluginProcessor::forgetControls() noexcept {
     beats_.forget();
-    levelPace_ = pannerPace_ = {};
+    for (auto* const pace : {&levelPace_, &pannerPace_, &holdPace_, &materialPace_}) pace->reset(static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)));
     owesStop_ = false;
     sent_.fill(std::numeric_limits<double>::quiet_NaN());
     for (const auto which : {Parameter::gravity, Parameter::tilt, Parameter::material}) {
@@ -99,43 +132,36 @@ void PluginProcessor::send(std::initializer_list<Parameter> those, Send what) no
 }
 
 // Within frames first to end of this block, as its pace allows; else later.
-template <class Make>
-bool PluginProcessor::sendAt(Session& session, ControlPace& pace, int first, int end, Make make) noexcept {
-    const std::int64_t now = session.timeline().framesRendered(), at = pace.nextFrom(now + first);
-    if (at >= now + end || !session.callback().control(make(), static_cast<int>(at - now))) return false;
-    pace.wentAt(at, session.timeline().playOutFrames());
+template <class Hold>
+bool PluginProcessor::sendAt(ControlPace& pace, int first, int end, Hold hold) noexcept {
+    const std::int64_t now = takes_.session()->timeline().framesRendered(), at = pace.nextFrom(now + first);
+    if (at >= now + end || !hold(static_cast<int>(at - now))) return false;
+    pace.wentAt(at);
     return true;
 }
 
+// Values as they are from frame `first` to `end`.
 void PluginProcessor::sendPaced(int first, int end) noexcept {
-    Session* const session = takes_.session();
-    if (!session) return;
+    Take* const take = takes_.take();
+    if (!take) return;
     send({Parameter::level}, [&] {
-        return sendAt(*session, levelPace_, first, end, [this] { return controlOf(RenderControl::Kind::level, static_cast<float>(gainOfLevel(value(Parameter::level)))); });
+        return sendAt(levelPace_, first, end, [&](int frame) { return take->holdLevel(gainOfLevel(value(Parameter::level)), frame); });
     });
-    send({Parameter::law, Parameter::exponent}, [&] { return sendAt(*session, pannerPace_, first, end, [this] { return pannerControl(); }); });
-}
-
-void PluginProcessor::sendControls(int frame) noexcept {
-    Session* const session = takes_.session();
-    if (!session) return;
-    if (owesStop_) stopAll(frame);
-    if (owesSilence_) silence(frame);
-    sendPaced(frame, frame + 1);
+    send({Parameter::law, Parameter::exponent}, [&] {
+        return sendAt(pannerPace_, first, end, [&](int frame) { return take->holdLaw(lawOf(value(Parameter::law)), value(Parameter::exponent), frame); });
+    });
     send({Parameter::gravity, Parameter::tilt}, [&] {
         RenderInput input;
         input.hold = {value(Parameter::gravity), juce::degreesToRadians(value(Parameter::tilt))};
-        return session->callback().perform(input, frame);
+        return sendAt(holdPace_, first, end, [&](int frame) { return take->session.callback().perform(input, frame); });
     });
-    send({Parameter::material}, [&] { return sendMaterial(*session, frame); });
+    send({Parameter::material}, [&] { return sendAt(materialPace_, first, end, [&](int frame) { return sendMaterial(take->session, frame); }); });
 }
 
-RenderControl PluginProcessor::pannerControl() const noexcept {
-    const auto& settings = takes_.settings();
-    const auto law = lawOf(value(Parameter::law));
-    auto control = controlOf(RenderControl::Kind::panner);
-    control.panner = {settings.layout, law, value(Parameter::exponent), settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres()};
-    return control;
+void PluginProcessor::sendControls(int frame) noexcept {
+    if (owesStop_) stopAll(frame);
+    if (owesSilence_) silence(frame);
+    sendPaced(frame, frame + 1);
 }
 
 bool PluginProcessor::sendMaterial(Session& session, int frame) noexcept {
@@ -204,7 +230,8 @@ void PluginProcessor::control(int channel, int controller, int value, int frame)
     if (controller == allSoundOff) return silence(frame);
     const int which = takes_.settings().midi.parameterOf(controller);
     if (which < 0) return;
-    parameters_[static_cast<std::size_t>(which)]->setByController(static_cast<float>(value) / 127.0f);
+    normals_[static_cast<std::size_t>(which)] = static_cast<float>(value) / 127.0f;
+    parameters_[static_cast<std::size_t>(which)]->setByController(normals_[static_cast<std::size_t>(which)]);
     sendControls(frame);
 }
 

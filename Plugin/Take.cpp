@@ -8,7 +8,8 @@ namespace physvib {
 Take::Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames)
     : session{order->setup}
     , order_{std::move(order)}
-    , sampleRateHz_{sampleRateHz} {
+    , sampleRateHz_{sampleRateHz}
+    , sliceFrames_{std::max(1, sampleRateHz / slicesPerSecond)} {
     out.assign(static_cast<std::size_t>(session.channels()), std::vector<float>(static_cast<std::size_t>(blockFrames)));
     rewind(leadFrames);
 }
@@ -25,6 +26,47 @@ void Take::rewind(std::int64_t leadFrames) {
     number = 0;
     isEnded = false;
     told_ = {};
+    levels_.forget();
+    panners_.forget();
+}
+
+void Take::Held::forget() noexcept {
+    for (HeldControl unplayed; queue.pop(unplayed);) {}
+    hasFirst = false;
+}
+
+bool Take::holdLevel(double gain, int frame) noexcept { return levels_.queue.push({session.timeline().framesRendered() + frame, gain, {}}); }
+
+bool Take::holdLaw(PanningLaw law, double exponent, int frame) noexcept {
+    return panners_.queue.push({session.timeline().framesRendered() + frame, exponent, law});
+}
+
+// What the session has no room for stays the first.
+template <class Make>
+void Take::release(Held& held, std::int64_t until, Make make) noexcept {
+    const std::int64_t now = session.timeline().framesRendered();
+    while (held.hasFirst || (held.hasFirst = held.queue.pop(held.first))) {
+        if (held.first.frame >= until || !session.callback().control(make(held.first), static_cast<int>(held.first.frame - now))) return;
+        held.hasFirst = false;
+    }
+}
+
+// What the renderer comes to within the next frames: it is as far behind them as what is born there is felt late, but for its own latency.
+void Take::releaseUntil(int frames) noexcept {
+    const auto& time = session.timeline();
+    const std::int64_t until = time.framesRendered() + frames - time.bornLatencyFrames() + HapticRenderer::latencyFramesAt(sampleRateHz_);
+    RenderControl control;
+    release(levels_, until, [&](const HeldControl& held) {
+        control.kind = RenderControl::Kind::level;
+        control.value = static_cast<float>(held.value);
+        return control;
+    });
+    release(panners_, until, [&](const HeldControl& held) {
+        const auto& settings = order_->settings;
+        control.kind = RenderControl::Kind::panner;
+        control.panner = {settings.layout, held.law, held.value, settings.midi.fieldWidthMetres(), settings.midi.fieldHeightMetres()};
+        return control;
+    });
 }
 
 bool Take::tell(std::span<const Strip> strips) {
@@ -57,7 +99,12 @@ void Take::standStill(int frames) noexcept {
 
 void Take::play(int first, int frames, RenderMode mode) noexcept {
     const auto at = from(first);
-    session.render(at.data(), frames, mode);
+    for (int done = 0; done < frames;) {
+        const int part = std::min(frames - done, sliceFrames_);
+        releaseUntil(part);
+        session.render(from(first + done).data(), part, mode);
+        done += part;
+    }
     fade(first, frames);
     for (std::size_t j = 0; j < out.size(); ++j) last_[j] = at[j][frames - 1];
     gap_.moveTo(1.0f);

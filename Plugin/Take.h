@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One run of a session from its seed on, with the settings it was made for, until it has played what is owed.
 #pragma once
+#include "ControlPace.h"
 #include "Core/Actuators/GainRamp.h"
+#include "Core/EventQueue.h"
 #include "Scene/Sessions/Mix.h"
 #include "Session/Session.h"
 #include "TakeSettings.h"
@@ -41,6 +43,11 @@ public:
     /// session goes on and nothing of it is played; what was to be felt comes so much later. R.
     void render(int frames, std::int64_t leadFrames, RenderMode mode) noexcept;
 
+    /// Level, law and exponent at a frame of the coming block, in the order of their frames and at ControlPace's pace. Kept here until the renderer
+    /// comes to them, L later, since its own room is small. False: there is no room. R, wait-free.
+    bool holdLevel(double gain, int frame) noexcept;
+    bool holdLaw(PanningLaw law, double exponent, int frame) noexcept;
+
     /// Plays what is owed and fades then. R.
     void end() noexcept;
     bool isOver() const noexcept { return over_; } ///< R
@@ -54,12 +61,30 @@ public:
 private:
     std::array<float*, limits::maxEnchanters> from(int frame) noexcept;
     void standStill(int frames) noexcept;
+    struct HeldControl {
+        std::int64_t frame = 0; // of the session
+        double value = 0.0;     // level, or exponent
+        PanningLaw law{};
+    };
+    // The longest L is a second and a block.
+    using HeldControls = EventQueue<HeldControl, 2048>;
+    static constexpr int slicesPerSecond = 48; // their frames hold 32 of each kind, beside whatever else comes
+    struct Held {
+        HeldControls queue;
+        HeldControl first;
+        bool hasFirst = false;
+        void forget() noexcept;
+    };
+    template <class Make>
+    void release(Held& held, std::int64_t until, Make make) noexcept;
+    void releaseUntil(int frames) noexcept;
     void play(int first, int frames, RenderMode mode) noexcept;
     void fade(int first, int frames) noexcept;
 
     std::shared_ptr<const TakeOrder> order_;
-    int sampleRateHz_;
+    int sampleRateHz_, sliceFrames_;
     std::array<ToldStrip, limits::maxEnchanters> told_{};
+    Held levels_, panners_;
     std::int64_t leadFrames_ = 0; // of prepare
     std::int64_t owed_ = -1;      // frames until it fades; -1: it is not ending
     GainRamp fade_, gap_;         // gap_ is shut while L grows

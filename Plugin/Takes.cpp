@@ -80,6 +80,7 @@ void Takes::exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Tak
     if (!take) return;
     take->tell(strips_);
     ticksPerSecond_ = TakePace::ticksPerSecond(order_->setup.stepsPerSecond);
+    idleSeconds_ = TakePace::idleSeconds(order_->setup.stepsPerSecond);
     playOutFrames_ = take->session.timeline().playOutFrames();
     directFrames_ = order_->setup.direct == Direct::born ? take->session.timeline().bornLatencyFrames() : 0;
     takes_.push_back(std::move(take));
@@ -116,15 +117,20 @@ void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds)
     tickedNs_ = nowNs(); // making it took longer than a gap
     stop_ = false;
     if (handNs_) return;
-    stepper_ = std::thread{[this] { step(); }};
     builder_ = std::thread{[this] { build(); }};
+    lock.unlock(); // who steps holds its own mutex first
+    stepper_.emplace();
+    (*stepper_)->add(*this);
 }
 
 void Takes::release() {
     stop_ = true; // first: who steps holds the mutex, and ends within a step
+    if (stepper_) {
+        (*stepper_)->remove(*this);
+        stepper_.reset();
+    }
     { const std::lock_guard lock{mutex_}; } // or the builder would sleep through it
     workToDo_.notify_all();
-    if (stepper_.joinable()) stepper_.join();
     if (builder_.joinable()) builder_.join();
     const std::lock_guard lock{mutex_};
     for (auto& take : takes_) drain(*take);
@@ -139,17 +145,6 @@ void Takes::release() {
 std::int64_t Takes::nowNs() const noexcept {
     using namespace std::chrono;
     return handNs_ ? handNs_->load() : duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
-}
-
-void Takes::step() {
-    using Clock = std::chrono::steady_clock;
-    for (auto deadline = Clock::now(); !stop_;) {
-        const std::chrono::nanoseconds period{1'000'000'000 / ticksPerSecond_};
-        deadline += period;
-        if (const auto now = Clock::now(); now > deadline + 10 * period) deadline = now; // after a stall: no burst of ticks
-        std::this_thread::sleep_until(deadline);
-        tick();
-    }
 }
 
 void Takes::tick() {

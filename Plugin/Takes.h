@@ -3,8 +3,8 @@
 //
 // Each take is a session of its own that begins at session time 0, so that takes with equal inputs are equal to the
 // bit. Those that are replaced play on for L frames - what happened before is owed to the host, which shifts our
-// output by L - and fade then. Two threads per instance: one steps the worlds and does nothing else; the other makes takes
-// ready, of ended ones where it can, and frees what is left over, beside it.
+// output by L - and fade then. One thread of the process steps the worlds of all instances and does nothing else (Stepper.h); another, of each
+// instance, makes takes ready, of ended ones where it can, and frees what is left over, beside it.
 //
 // Who owns what: `takes_` is under `mutex_` (the threads and M; R only in non-realtime blocks). R holds pointers to the
 // playing take, to the next one and to those that are ending; it gets one by taking `spare_`, and gives it up by
@@ -15,9 +15,11 @@
 // sees that (Session::framesMissing) and, if the steady clock says that the thread has been in time, lets L grow until the
 // world is there. The host is told, and later takes begin with it.
 #pragma once
+#include "Stepper.h"
 #include "Take.h"
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -30,6 +32,9 @@ struct TakePace {
     static constexpr double growthSeconds = 0.02; // L grows in steps: hosts stop and start to take it out again
     static constexpr double mostLeadSeconds = 1.0; // twice of what hosts are known to render ahead
     static int ticksPerSecond(int stepsPerSecond) noexcept { return stepsPerSecond > leastTicksPerSecond ? std::min(stepsPerSecond, 1000) : leastTicksPerSecond; }
+    /// While nothing is rendered: late by the gap and the step that may not have begun, the world is still in time with the first block.
+    static double idleSeconds(int stepsPerSecond) noexcept { return longestGapSeconds(stepsPerSecond) + 1.0 / stepsPerSecond - idleMarginSeconds; }
+    static constexpr double idleMarginSeconds = 0.003; // the thread's own lateness
     static double longestGapSeconds(int stepsPerSecond) noexcept { return 1.0 / ticksPerSecond(stepsPerSecond) + headroomSeconds; }
 };
 
@@ -50,14 +55,14 @@ struct TakesStatus {
     std::int64_t waitedFrames = 0;   ///< by which L has grown while something was played: since then all comes later
 };
 
-class Takes {
+class Takes final : private Stepped {
 public:
     Takes() = default;
     ~Takes() { release(); }
 
     /// For tests, before prepare: no threads; `tick` does what they do, and it is `nowNs`.
     void driveByHand(const std::atomic<std::int64_t>& nowNs) noexcept { handNs_ = &nowNs; }
-    void tick(); ///< steps the worlds
+    void tick() override; ///< steps the worlds
 
     /// What later takes play, and by what strips. While prepared, the playing take is replaced as soon as R comes by. Any
     /// thread but R; throws std::invalid_argument, and changes nothing, if the setup is not valid.
@@ -87,6 +92,7 @@ public:
     void stop() noexcept;
     bool isPlaying() const noexcept { return playing_ != nullptr; } ///< R
     Session* session() noexcept { return playing_ ? &playing_->session : nullptr; } ///< R: the playing take's
+    Take* take() noexcept { return playing_; } ///< R: the playing one
     const TakeSettings& settings() const noexcept { return playing_ ? playing_->settings() : newSettings_; } ///< R: the playing take's; none: the newest
 
     /// Before each part of a block; true if a take starts with it, which knows no controls yet. R, wait-free if realtime.
@@ -117,7 +123,9 @@ private:
     double gapSeconds(const SessionSetup& setup) const noexcept;
     void exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take);
     void tellAll();
-    void step();
+    int ticksPerSecond() const noexcept override { return ticksPerSecond_; }
+    double idleSeconds() const noexcept override { return idleSeconds_; }
+    std::uint64_t blocks() const noexcept override { return blocks_.load(std::memory_order_relaxed); }
     void build();
     void stepWorld(Take& take);
     void drain(Take& take);
@@ -155,7 +163,8 @@ private:
     std::atomic<bool> hasNext_{false}, stop_{false};
     std::atomic<std::int64_t> playOutFrames_{0}, directFrames_{0}, leadFrames_{0}, tickedNs_{0};
     std::atomic<double> leadSeconds_{0.0}; // what the host was seen to ask for at once, also before prepare
-    std::atomic<std::uint64_t> lost_{0}, made_{0};
+    std::atomic<std::uint64_t> lost_{0}, made_{0}, blocks_{0};
+    std::atomic<double> idleSeconds_{0.0};
     std::atomic<int> ticksPerSecond_{TakePace::leastTicksPerSecond};
     LatestValue<TakesStatus> status_;
     const std::atomic<std::int64_t>* handNs_ = nullptr;
@@ -171,7 +180,8 @@ private:
     std::uint64_t delayedBlocks_ = 0, lateBefore_ = 0;
     std::int64_t slippedBefore_ = 0, waitedFrames_ = 0;
 
-    std::thread stepper_, builder_;
+    std::optional<juce::SharedResourcePointer<Stepper>> stepper_; // while prepared
+    std::thread builder_;
 };
 
 } // namespace physvib

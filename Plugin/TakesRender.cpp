@@ -80,6 +80,7 @@ void Takes::letGoOfThoseOver() noexcept {
 }
 
 void Takes::render(int frames, RenderMode mode) noexcept {
+    blocks_.fetch_add(1, std::memory_order_relaxed);
     if (mode == RenderMode::realtime) coverBurst(frames);
     const std::int64_t lead = leadFrames_;
     forEachSounding([=](Take& take) { take.render(frames, lead, mode); });

@@ -3,11 +3,13 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <dlfcn.h>
 #include <lv2/atom/atom.h>
 #include <lv2/buf-size/buf-size.h>
 #include <lv2/core/lv2.h>
 #include <lv2/options/options.h>
+#include <lv2/patch/patch.h>
 #include <lv2/urid/urid.h>
 #include <string>
 #include <vector>
@@ -58,6 +60,8 @@ public:
         auto* const in = reinterpret_cast<LV2_Atom_Sequence*>(in_.data());
         auto* const sent = reinterpret_cast<LV2_Atom_Sequence*>(told_.data());
         *in = {{sizeof(LV2_Atom_Sequence_Body), idOf(LV2_ATOM__Sequence)}, {0, 0}};
+        for (const auto& [frame, parameter, value] : points) append(*in, frame, parameter, value);
+        points.clear();
         sent->atom = {static_cast<std::uint32_t>(sizeof told_ - sizeof(LV2_Atom)), idOf(LV2_ATOM__Chunk)};
         descriptor_->run(handle_, static_cast<std::uint32_t>(frames));
         return sent->atom.size - sizeof(LV2_Atom_Sequence_Body);
@@ -72,10 +76,37 @@ public:
         return signal;
     }
 
+    struct Point {
+        int frame;
+        std::string parameter; // id
+        float value;           // in its unit
+    };
+    std::vector<Point> points; ///< of the next block, in frame order
     std::array<std::vector<float>, channels> out;
     float latency = 0.0f, offline = 1.0f, enabled = 1.0f;
 
 private:
+    struct PatchSet { // as a forge would write it
+        LV2_Atom_Event event;
+        LV2_Atom_Object_Body object;
+        LV2_Atom_Property_Body property;
+        LV2_URID propertyId, pad;
+        LV2_Atom_Property_Body value;
+        float number;
+        std::uint32_t padToo;
+    };
+    void append(LV2_Atom_Sequence& to, int frame, const std::string& parameter, float value) {
+        PatchSet set{};
+        set.event.time.frames = frame;
+        set.event.body = {static_cast<std::uint32_t>(sizeof set - sizeof set.event), idOf(LV2_ATOM__Object)};
+        set.object = {0, idOf(LV2_PATCH__Set)};
+        set.property = {idOf(LV2_PATCH__property), 0, {sizeof(LV2_URID), idOf(LV2_ATOM__URID)}};
+        set.propertyId = idOf("urn:physvib:plugin:" + parameter);
+        set.value = {idOf(LV2_PATCH__value), 0, {sizeof(float), idOf(LV2_ATOM__Float)}};
+        set.number = value;
+        std::memcpy(reinterpret_cast<std::byte*>(&to) + sizeof(LV2_Atom) + to.atom.size, &set, sizeof set);
+        to.atom.size += static_cast<std::uint32_t>(sizeof set);
+    }
     LV2_URID idOf(const std::string& uri) {
         for (std::size_t i = 0; i < uris_.size(); ++i)
             if (uris_[i] == uri) return static_cast<LV2_URID>(i + 1);
@@ -87,7 +118,7 @@ private:
     std::array<LV2_Options_Option, 3> options_{};
     std::array<LV2_Feature, 3> features_{};
     std::int32_t largest_ = 0, nominal_ = 0;
-    alignas(8) std::array<std::byte, 16384> in_{}, told_{};
+    alignas(8) std::array<std::byte, 65536> in_{}, told_{};
     void* module_ = nullptr;
     const LV2_Descriptor* descriptor_ = nullptr;
     LV2_Handle handle_ = nullptr;

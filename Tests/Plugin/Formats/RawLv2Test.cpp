@@ -2,6 +2,7 @@
 // The LV2 module in a bare host: what JUCE's wrapper leaves out of LV2, and what it must not do.
 #include "Plugin/Formats/RawLv2.h"
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
@@ -65,6 +66,31 @@ TEST(RawLv2, TheHostsSwitchSilencesWithinABlockAndItsRamp) {
     const auto open = host.play(300, block);
     EXPECT_GT(*std::ranges::max_element(open), 0.001f);
     host.deactivate();
+}
+
+/// Level and tilt every 64 frames; what is played L later, by all channels together.
+std::vector<float> automated(int frames, std::int64_t length) {
+    RawLv2 host{4096, frames};
+    host.activate();
+    std::vector<float> signal;
+    const auto angle = [](std::int64_t frame) { return std::sin(1e-4f * static_cast<float>(frame)); };
+    for (std::int64_t at = 0; at < length + 4096 + latencyOf512; at += frames) {
+        for (std::int64_t f = (at + 63) / 64 * 64; f < at + frames; f += 64) {
+            host.points.push_back({static_cast<int>(f - at), "level", -12.0f + 10.0f * angle(f)});
+            host.points.push_back({static_cast<int>(f - at), "tilt", 90.0f * angle(3 * f)});
+        }
+        host.run(frames);
+        for (std::size_t n = 0; n < static_cast<std::size_t>(frames); ++n) signal.push_back(host.out[0][n] + host.out[1][n] + host.out[2][n] + host.out[3][n]);
+    }
+    const auto latency = static_cast<std::ptrdiff_t>(host.latency);
+    host.deactivate();
+    return {signal.begin() + latency, signal.begin() + latency + length};
+}
+
+TEST(RawLv2, WhatSetsAParameterActsAtItsFrameInBlocksOfAnySize) {
+    const auto expected = automated(512, 96000);
+    EXPECT_GT(*std::ranges::max_element(expected), 0.02f);
+    for (const int frames : {64, 100, 1000, 4096}) EXPECT_TRUE(automated(frames, 96000) == expected) << frames;
 }
 
 TEST(RawLv2, DescriptionsHaveFloatsAndNoEmptyAddresses) {

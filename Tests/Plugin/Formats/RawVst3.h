@@ -11,10 +11,15 @@
 #include <pluginterfaces/base/ipluginbase.h>
 #include <pluginterfaces/vst/ivstaudioprocessor.h>
 #include <pluginterfaces/vst/ivstcomponent.h>
+#include <pluginterfaces/vst/ivsteditcontroller.h>
 #include <pluginterfaces/vst/ivstevents.h>
+#include <pluginterfaces/vst/ivstmessage.h>
+#include <pluginterfaces/vst/ivstparameterchanges.h>
 #include <pluginterfaces/vst/ivstprocesscontext.h>
 #include <pluginterfaces/vst/vstspeaker.h>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace physvib::test {
@@ -73,6 +78,35 @@ struct Notes final : OnStack<vst::IEventList> {
     }
 };
 
+/// Of one parameter within a block.
+struct Queue final : OnStack<vst::IParamValueQueue> {
+    vst::ParamID id = 0;
+    std::vector<std::pair<Steinberg::int32, vst::ParamValue>> points;
+    vst::ParamID PLUGIN_API getParameterId() override { return id; }
+    Steinberg::int32 PLUGIN_API getPointCount() override { return static_cast<Steinberg::int32>(points.size()); }
+    Steinberg::tresult PLUGIN_API getPoint(Steinberg::int32 index, Steinberg::int32& frame, vst::ParamValue& value) override {
+        if (index < 0 || index >= getPointCount()) return Steinberg::kResultFalse;
+        std::tie(frame, value) = points[static_cast<std::size_t>(index)];
+        return Steinberg::kResultTrue;
+    }
+    Steinberg::tresult PLUGIN_API addPoint(Steinberg::int32 frame, vst::ParamValue value, Steinberg::int32& index) override {
+        points.emplace_back(frame, value);
+        index = getPointCount() - 1;
+        return Steinberg::kResultTrue;
+    }
+};
+
+struct Changes final : OnStack<vst::IParameterChanges> {
+    std::vector<Queue> queues;
+    Steinberg::int32 PLUGIN_API getParameterCount() override { return static_cast<Steinberg::int32>(queues.size()); }
+    vst::IParamValueQueue* PLUGIN_API getParameterData(Steinberg::int32 index) override { return &queues[static_cast<std::size_t>(index)]; }
+    vst::IParamValueQueue* PLUGIN_API addParameterData(const vst::ParamID& id, Steinberg::int32& index) override {
+        index = getParameterCount();
+        queues.emplace_back().id = id;
+        return &queues.back();
+    }
+};
+
 class RawVst3 {
 public:
     explicit RawVst3(const std::string& bundle, const std::string& name) {
@@ -88,6 +122,7 @@ public:
         }
         component->initialize(nullptr);
         component->queryInterface(vst::IAudioProcessor_iid, reinterpret_cast<void**>(&processor));
+        readParameters();
     }
     ~RawVst3() {
         if (!module_) return;
@@ -180,12 +215,24 @@ public:
         data.numOutputs = static_cast<Steinberg::int32>(outputs.size());
         data.outputs = outputs.data();
         data.inputEvents = &notes_;
+        data.inputParameterChanges = &changes;
         data.processContext = &context;
         const bool done = call(*processor, data) == kResultOk;
         notes_.events.clear();
+        changes.queues.clear();
         return done;
     }
 
+    /// Of the next block, in the order in which the module lists its parameters.
+    void point(std::size_t parameter, int frame, double value) {
+        const auto id = ids_[parameter];
+        const auto found = std::find_if(changes.queues.begin(), changes.queues.end(), [id](const Queue& queue) { return queue.id == id; });
+        Steinberg::int32 index = 0;
+        auto* const queue = found == changes.queues.end() ? changes.addParameterData(id, index) : &*found;
+        queue->addPoint(frame, value, index);
+    }
+
+    Changes changes; ///< of the next block
     vst::IComponent* component = nullptr;
     vst::IAudioProcessor* processor = nullptr;
     Steinberg::int32 mode = vst::kOffline;
@@ -194,6 +241,30 @@ public:
     std::vector<std::vector<std::vector<float>>> channels; ///< [bus][channel][frame] of the last block
 
 private:
+    void readParameters() {
+        Steinberg::TUID id;
+        vst::IEditController* controller = nullptr;
+        component->getControllerClassId(id);
+        factory_->createInstance(id, vst::IEditController_iid, reinterpret_cast<void**>(&controller));
+        controller->initialize(nullptr);
+        vst::IConnectionPoint *one = nullptr, *other = nullptr;
+        component->queryInterface(vst::IConnectionPoint_iid, reinterpret_cast<void**>(&one));
+        controller->queryInterface(vst::IConnectionPoint_iid, reinterpret_cast<void**>(&other));
+        one->connect(other);
+        other->connect(one);
+        for (Steinberg::int32 i = 0; i < controller->getParameterCount(); ++i) {
+            vst::ParameterInfo info;
+            controller->getParameterInfo(i, info);
+            ids_.push_back(info.id);
+        }
+        one->disconnect(other);
+        other->disconnect(one);
+        one->release();
+        other->release();
+        controller->terminate();
+        controller->release();
+    }
+    std::vector<vst::ParamID> ids_;
     void* module_ = nullptr;
     Steinberg::IPluginFactory* factory_ = nullptr;
     Notes notes_;

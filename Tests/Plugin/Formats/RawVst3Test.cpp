@@ -3,6 +3,7 @@
 #include "Plugin/PluginTesting.h"
 #include "RawVst3.h"
 #include "Support/BeatSong.h"
+#include <cmath>
 
 namespace physvib {
 namespace {
@@ -153,6 +154,32 @@ TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAsInTheProcessor) {
         EXPECT_GT(peak, 0.05f);
         host.stop();
     }
+}
+
+/// Level, tilt and strike level every 32 frames, and a note now and then, in blocks of that size; what is played L later.
+std::vector<std::vector<float>> automated(int block, std::int64_t frames) {
+    RawVst3 host{oneBus, "PhysVib"};
+    EXPECT_TRUE(host.setState(pluginStateJson(newPluginState())));
+    host.start(block);
+    std::vector<std::vector<float>> signal(4);
+    const auto latency = static_cast<std::int64_t>(host.processor->getLatencySamples());
+    for (std::int64_t at = 0; at < frames + latency; at += block) {
+        for (std::int64_t f = (at + 31) / 32 * 32; f < at + block; f += 32)
+            for (const std::size_t parameter : {std::size_t(Parameter::level), std::size_t(Parameter::tilt), std::size_t(Parameter::strikeLevel)})
+                host.point(parameter, static_cast<int>(f - at), 0.6 + 0.3 * std::sin(1e-4 * static_cast<double>(f) * static_cast<double>(parameter + 1)));
+        for (std::int64_t f = (at + 4999) / 5000 * 5000; f < at + block; f += 5000) host.note(60, static_cast<int>(f - at));
+        EXPECT_TRUE(host.process());
+        for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), host.channels[0][c].begin(), host.channels[0][c].end());
+    }
+    host.stop();
+    for (auto& c : signal) c = {c.begin() + latency, c.begin() + latency + frames};
+    return signal;
+}
+
+TEST(RawVst3, PointsOfParametersActAtTheirFramesInBlocksOfAnySize) {
+    const auto expected = automated(512, 48000);
+    EXPECT_GT(*std::max_element(expected[0].begin(), expected[0].end()), 0.02f);
+    for (const int block : {32, 64, 1000, 4096}) EXPECT_TRUE(automated(block, 48000) == expected) << block;
 }
 
 TEST(RawVst3, TwentyInstances) {

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every point of every parameter acts at its frame: what is played follows from what the host says, not from how it cuts its blocks.
+#include "PluginTesting.h"
+#include <array>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// What a host sends: per parameter, points at frames of the song.
+class PointSong final : public PointSource {
+public:
+    void add(Parameter which, std::int64_t frame, double normal) { points_[static_cast<std::size_t>(which)].push_back({frame, normal}); }
+
+    /// The block that begins at frame `at`.
+    void begin(std::int64_t at, int frames) {
+        first_ = at;
+        end_ = at + frames;
+        for (std::size_t p = 0; p < parameterCount; ++p)
+            while (next_[p] < points_[p].size() && points_[p][next_[p]].first < at) ++next_[p];
+    }
+    bool next(std::size_t p, ParameterPoint& point) noexcept override {
+        if (next_[p] >= points_[p].size() || points_[p][next_[p]].first >= end_) return false;
+        point = {static_cast<int>(points_[p][next_[p]].first - first_), points_[p][next_[p]].second};
+        ++next_[p];
+        return true;
+    }
+    int lastOfLine(std::size_t p) noexcept override {
+        int last = -1;
+        for (std::size_t i = next_[p]; i < points_[p].size() && points_[p][i].first < end_; ++i) last = static_cast<int>(points_[p][i].first - first_);
+        return last;
+    }
+
+private:
+    std::array<std::vector<std::pair<std::int64_t, double>>, parameterCount> points_;
+    std::array<std::size_t, parameterCount> next_{};
+    std::int64_t first_ = 0, end_ = 0;
+};
+
+struct TimedNote {
+    std::int64_t frame;
+    int number;
+};
+
+/// Blocks of these sizes, in turn, for so long.
+Samples playedTo(TestHost& host, PointSong song, const std::vector<TimedNote>& notes, const std::vector<int>& blocks, std::int64_t frames) {
+    Samples signal(static_cast<std::size_t>(host.buffer.getNumChannels()));
+    std::size_t note = 0;
+    for (std::int64_t at = 0, b = 0; at < frames; ++b) {
+        const int size = blocks[static_cast<std::size_t>(b) % blocks.size()];
+        song.begin(at, size);
+        host.plugin->expectPoints(song);
+        juce::MidiBuffer midi;
+        for (; note < notes.size() && notes[note].frame < at + size; ++note)
+            midi.addEvent(juce::MidiMessage::noteOn(1, notes[note].number, juce::uint8{100}), static_cast<int>(notes[note].frame - at));
+        const auto& out = host.block(size, midi);
+        for (int c = 0; c < out.getNumChannels(); ++c) signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(), out.getReadPointer(c), out.getReadPointer(c) + size);
+        at += size;
+    }
+    return later(signal, host.plugin->getLatencySamples());
+}
+
+/// All parameters but SILENCE, which is at once, each `every` frames; 0: at random frames, but for last ones of blocks of multiples of 8, where they
+/// would be the ends of lines.
+struct Automated {
+    PointSong song;
+    std::vector<TimedNote> notes;
+};
+
+Automated takeOf(std::int64_t frames, std::uint32_t seed, int every) {
+    Automated take;
+    Random random{seed};
+    for (const auto& row : allParameters()) {
+        if (row.parameter == Parameter::bypass || row.parameter == Parameter::material) continue;
+        double value = random.below(1000) * 1e-3;
+        for (std::int64_t at = 0; at < frames; at += every > 0 ? every : 1 + random.below(400)) {
+            value = std::clamp(value + (random.below(201) - 100) * 1e-3, 0.0, 1.0);
+            if (every > 0 || at % 8 != 7) take.song.add(row.parameter, at, value);
+        }
+    }
+    for (std::int64_t at = 0; at < frames; at += 4800 + random.below(4800)) take.song.add(Parameter::material, at, random.below(9) / 8.0);
+    for (std::int64_t at = 0; at < frames; at += 500 + random.below(3000)) take.notes.push_back({at, 36 + random.below(48)});
+    return take;
+}
+
+Samples bounceOf(const Automated& take, const PluginState& state, const std::vector<int>& blocks, std::int64_t frames) {
+    TestHost host;
+    EXPECT_TRUE(host.plugin->apply(state));
+    host.prepare(48000, *std::ranges::max_element(blocks));
+    return playedTo(host, take.song, take.notes, blocks, frames + host.plugin->getLatencySamples());
+}
+
+void expectEqual(const Samples& a, const Samples& b, std::int64_t frames, const std::string& what) {
+    for (std::size_t c = 0; c < a.size(); ++c) {
+        const auto end = a[c].begin() + frames;
+        const auto differs = std::mismatch(a[c].begin(), end, b[c].begin()).first;
+        EXPECT_EQ(differs - a[c].begin(), frames) << what << ", channel " << c;
+    }
+}
+
+void expectTheSameInBlocks(const Automated& take, const PluginState& state, std::int64_t frames, const std::vector<std::vector<int>>& all) {
+    const auto expected = bounceOf(take, state, {512}, frames);
+    EXPECT_GT(peakOf(expected), 0.02f);
+    for (const auto& blocks : all) expectEqual(expected, bounceOf(take, state, blocks, frames), frames, "blocks of " + std::to_string(blocks.front()));
+}
+
+const std::vector<std::vector<int>> manyBlocks{{32}, {64}, {480}, {1000}, {4096}, {8, 4096, 16, 32, 904}};
+
+TEST(Automation, PointsEvery32FramesAreTheSameSamplesInBlocksOfAnySize) { expectTheSameInBlocks(takeOf(72000, 3, 32), newPluginState(), 72000, manyBlocks); }
+
+TEST(Automation, PointsAtAnyFramesAreTheSameSamplesInBlocksOfAnySize) {
+    for (const std::uint32_t seed : {1u, 2u}) expectTheSameInBlocks(takeOf(48000, seed, 0), newPluginState(), 48000, manyBlocks);
+}
+
+TEST(Automation, InBlocksOfOneFrameAndOddOnesAsWell) { expectTheSameInBlocks(takeOf(12000, 5, 32), newPluginState(), 12000, {{1}, {2}, {3}, {31, 33, 7, 1}}); }
+
+TEST(Automation, WhereNotesAreDirectTooInBlocksOfOneSize) {
+    auto state = strikeAt(0, 4); // no world, which moves by the difference of the blocks
+    state.notes.clear();
+    state.isDirect = true;
+    expectTheSameInBlocks(takeOf(48000, 4, 32), state, 48000, manyBlocks);
+}
+
+// For hand and nightly runs: a minute each.
+TEST(Automation, DISABLED_TenMinutes) { expectTheSameInBlocks(takeOf(600 * 48000, 6, 32), newPluginState(), 600 * 48000, {{32}, {64}, {1000}, {4096}}); }
+
+TEST(Automation, ANoteHasTheLevelOfItsFrame) {
+    TestHost host;
+    auto state = strikeAt(0, 1);
+    state.limiterEnabled = false;
+    ASSERT_TRUE(host.plugin->apply(state));
+    host.prepare(48000, 4096);
+    PointSong song;
+    song.add(Parameter::strikeLevel, 0, 0.0);
+    song.add(Parameter::strikeLevel, 1000, 1.0);
+    song.add(Parameter::strikeLevel, 1001, 0.0);
+    for (const auto& [frame, isFelt] : {std::pair{999, false}, {1000, true}, {1001, false}}) {
+        host.prepare(48000, 4096);
+        const auto signal = playedTo(host, song, {{frame, 60}}, {4096}, 3 * 4096 + host.plugin->getLatencySamples());
+        EXPECT_EQ(peakOf(signal) > 0.0f, isFelt) << frame;
+    }
+}
+
+TEST(Automation, SilenceClosesAtItsFrame) {
+    TestHost host;
+    ASSERT_TRUE(host.plugin->apply(newPluginState()));
+    host.prepare(48000, 4096);
+    const auto open = playedTo(host, {}, {}, {4096}, 48000);
+    PointSong song;
+    const int latency = host.plugin->getLatencySamples(), from = 30000 + latency;
+    song.add(Parameter::bypass, from, 1.0);
+    host.prepare(48000, 4096);
+    const auto shut = playedTo(host, song, {}, {4096}, 48000);
+    for (std::size_t c = 0; c < open.size(); ++c) {
+        EXPECT_TRUE(std::equal(open[c].begin(), open[c].begin() + 30000, shut[c].begin()));
+        EXPECT_TRUE(std::all_of(shut[c].begin() + 30000 + 480, shut[c].end(), [](float x) { return x == 0.0f; }));
+    }
+    EXPECT_GT(peakOf(later(open, 30480)), 0.0f) << "there was something to silence";
+}
+
+/// A sine of the level that a host draws: a block's first and last frame, as VST3 lets it.
+Samples drawn(int block, std::int64_t frames) {
+    auto state = strikeAt(0, 1);
+    state.scene.materials[3].decayPerSecond = 0.05; // a held tone
+    state.limiterEnabled = false;
+    TestHost host;
+    EXPECT_TRUE(host.plugin->apply(state));
+    host.prepare(48000, block);
+    PointSong song;
+    const auto levelAt = [](std::int64_t at) { return 0.8 + 0.1 * std::sin(2.0 * 3.14159265358979 * 2.0 * static_cast<double>(at) / 48000.0); };
+    for (std::int64_t at = 0; at < frames + 40000; at += block) {
+        song.add(Parameter::level, at, levelAt(at));
+        song.add(Parameter::level, at + block - 1, levelAt(at + block - 1));
+    }
+    Samples signal = playedTo(host, song, {{0, 60}}, {block}, frames + host.plugin->getLatencySamples());
+    for (auto& c : signal) c.resize(static_cast<std::size_t>(frames));
+    return signal;
+}
+
+double differenceDb(const Samples& a, const Samples& b) {
+    double error = 0.0, power = 0.0;
+    for (std::size_t c = 0; c < a.size(); ++c)
+        for (std::size_t n = 0; n < a[c].size(); ++n) {
+            error += std::pow(static_cast<double>(a[c][n]) - b[c][n], 2);
+            power += std::pow(static_cast<double>(a[c][n]), 2);
+        }
+    return 10.0 * std::log10(error / power + 1e-30);
+}
+
+TEST(Automation, ALineThatAHostDrawsIsFollowedInLargeBlocksAsInSmallOnes) {
+    const auto fine = drawn(64, 96000);
+    for (const auto& [block, mostDb] : {std::pair{128, -50.0}, {512, -45.0}, {1024, -45.0}, {2048, -35.0}}) { // the last: chords of a 2 Hz sine, 43 ms long
+        const double db = differenceDb(fine, drawn(block, 96000));
+        RecordProperty("block" + std::to_string(block), std::to_string(db));
+        EXPECT_LT(db, mostDb) << block;
+    }
+}
+
+TEST(Automation, AMessageBehindTheBlocksEndIsPlayedAtItsLastFrameAndCounted) {
+    TestHost host, other;
+    for (auto* h : {&host, &other}) {
+        ASSERT_TRUE(h->plugin->apply(strikeAt(0, 1)));
+        h->prepare(48000, 256);
+    }
+    juce::MidiBuffer beyond, last;
+    beyond.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 256);
+    last.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 255);
+    Samples a, b;
+    host.block(256, beyond);
+    other.block(256, last);
+    host.play(9600, a);
+    other.play(9600, b);
+    EXPECT_TRUE(a == b);
+    EXPECT_GT(peakOf(a), 0.05f);
+    EXPECT_EQ(host.plugin->displacedMessages(), 1u);
+    EXPECT_EQ(other.plugin->displacedMessages(), 0u);
+}
+
+} // namespace
+} // namespace physvib
