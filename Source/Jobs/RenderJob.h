@@ -23,7 +23,7 @@ struct RenderJob {
     std::string scene;      ///< a built-in scene's name or the path of a scene file; empty with fromEvents
     std::vector<std::string> sets; ///< "NAME=VALUE" of the scene's variables
     std::string fromEvents; ///< path of an event list
-    std::string wavPath, eventsPath, picturePath, patternPath; ///< empty: not wanted
+    std::string wavPath, eventsPath, picturePath, moviePath, patternPath; ///< empty: not wanted
     double threshold = 0.1;      ///< of the pattern, in full scale
     double interfaceVolts = 0.0; ///< what a sample of 1 in the WAV becomes; 0: no matter
     double seconds = 10.0;
@@ -56,7 +56,7 @@ struct RenderJob {
     SceneSettings settings; ///< from `sets` by renderFault
     double fieldWidthMetres = 0.0, fieldHeightMetres = 0.0; ///< from `field` by renderFault; 0: not given
     PanningLaw panningLaw = PanningLaw::linear;             ///< from `law`
-    std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, patternPath, contactSound, marker}; } ///< of `render`
+    std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, moviePath, patternPath, contactSound, marker}; } ///< of `render`
     std::optional<MarkedOnsets> marks() const; ///< nullopt: not wanted
     bool playsRecordings() const { return method == "SV"; }
     std::vector<std::pair<double, std::string>> recordings; ///< from `sounds`: of which frequency, in which file
