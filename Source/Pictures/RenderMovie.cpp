@@ -44,7 +44,6 @@ struct RenderMovie::Parts {
         painter.fillAll(palette::ground);
         const Canvas canvas{painter, letters};
         canvas.text(cleanLine(input.title), header, Align::left, palette::text, largeText, true);
-        drawLegend(canvas, colours, header.withTrimmedLeft(header.width / 3).withTrimmedRight(110));
         drawStillLanes(canvas);
     }
 

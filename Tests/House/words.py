@@ -29,7 +29,7 @@ def sources():
             if page.parent.name == "decisions":  # records of what was thought; their titles stand in lists
                 written = next(line for line in written.split("\n") if line.startswith("# "))
             prose = re.sub(r"^```.*?^```$", lambda m: "\n" * m[0].count("\n"), written, flags=re.S | re.M)
-            yield page, re.sub(r"`[^`\n]*`|\]\([^)]*\)", " ", prose)
+            yield page, re.sub(r"`[^`\n]*`|\]\([^)]*\)|^    .*$", " ", prose, flags=re.M)
     for folder in ("Source", "Standalone", "Plugin"):
         for file in sorted([*(root / folder).glob("**/*.cpp"), *(root / folder).glob("**/*.h")]):
             lines = ("" if re.match(r"\s*(//|#include)", line) else " ".join(re.findall(r'"((?:[^"\\]|\\.)*)"', line)) for line in file.read_text().split("\n"))
