@@ -96,7 +96,7 @@ class Page:
 
     def sections(self):
         """(title, address, words) of each part, for the search."""
-        parts = re.split(r'<h[12] id="([^"]*)">(.*?)</h[12]>', self.body, flags=re.S)
+        parts = re.split(r'<h[1-3] id="([^"]*)">(.*?)</h[1-3]>', self.body, flags=re.S)
         for anchor, title, body in zip(parts[1::3], parts[2::3], parts[3::3]):
             name = plain(title)
             yield (name if name == self.title else f"{self.title}: {name}", f"{self.place}#{anchor}", " ".join(plain(body).split()))
