@@ -5,7 +5,7 @@
 physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core"
 # What the programs, the library and the plug-ins are made with, beside a compiler.
 physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
-    pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev liblo-dev libaubio-dev libsdl2-dev"
+    pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev liblo-dev libaubio-dev libsdl2-dev libwebp-dev"
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang libclang-rt-14-dev \
@@ -17,6 +17,8 @@ physvib_web_test_packages="$physvib_web_packages chromium python3"
 # Of Standalone/Packaging/release.sh, and of Tests/Release.
 physvib_release_packages="$physvib_build_packages g++ git debhelper dh-python python3 dpkg-dev"
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
+# Of Tests/CommandLine/movies.sh alone: what makes .gif and .mp4 of pictures.
+physvib_movie_packages="ffmpeg"
 # Of the library alone (preset "library"), for Tests/Benchmarks.
 physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libboost-dev libhwy-dev"
 # Of Tests/Osc/run.sh alone.

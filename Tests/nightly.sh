@@ -29,6 +29,7 @@ step() {
         sweep) Tests/Sweep/speed.sh $bin && Tests/Sweep/cluster.sh $bin ;;
         web) Tests/web.sh $bin/physvib ;;
         site) Tests/site.sh ;;
+        movies) Tests/CommandLine/movies.sh $bin/physvib ;;
         report) Tests/figures/report.sh $bin/physvib build/nightly/report ;;
         arm64) Tests/arm64.sh $bin/physvib-render ;;
         windows) Tests/windows.sh $bin/physvib-render ;;

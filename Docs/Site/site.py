@@ -33,7 +33,7 @@ def place_of(path):
         return ("pages.html" if path == LIST else path.removeprefix("Docs/").removesuffix(".md").lower() + ".html")
     if os.path.isdir(path):
         return path.removeprefix("Docs/") + "/index.html"
-    if re.search(r"\.(png|svg)$", path):
+    if re.search(r"\.(png|svg|webp)$", path):
         return path.removeprefix("Docs/")
     return "files/" + path + ".html"
 
@@ -96,7 +96,7 @@ class Page:
 
     def sections(self):
         """(title, address, words) of each part, for the search."""
-        parts = re.split(r'<h[12] id="([^"]*)">(.*?)</h[12]>', self.body, flags=re.S)
+        parts = re.split(r'<h[1-3] id="([^"]*)">(.*?)</h[1-3]>', self.body, flags=re.S)
         for anchor, title, body in zip(parts[1::3], parts[2::3], parts[3::3]):
             name = plain(title)
             yield (name if name == self.title else f"{self.title}: {name}", f"{self.place}#{anchor}", " ".join(plain(body).split()))
@@ -107,7 +107,7 @@ def all_pages():
     made, waiting = {}, pages()
     while waiting:
         path = waiting.pop()
-        if path in made or re.search(r"\.(png|svg)$", path):
+        if path in made or re.search(r"\.(png|svg|webp)$", path):
             continue
         made[path] = Page(path)
         waiting += [to for to, _, _ in made[path].links if not to.startswith("..") and os.path.exists(to)]
@@ -166,7 +166,7 @@ def main(into):
     for page in made.values():
         write(os.path.join(into, page.place), whole(page, groups))
         for to, _, _ in page.links:
-            if re.search(r"\.(png|svg)$", to):
+            if re.search(r"\.(png|svg|webp)$", to):
                 os.makedirs(os.path.dirname(os.path.join(into, place_of(to))), exist_ok=True)
                 shutil.copyfile(to, os.path.join(into, place_of(to)))
     parts = [part for path in sorted(made) if path.endswith(".md") for part in made[path].sections()]

@@ -13,6 +13,18 @@ std::string RenderJob::methodName() const {
     return playsRecordings ? "SV" : std::string{name.begin(), name.end()};
 }
 
+namespace {
+
+/// What is wrong with the movie's file or its length.
+std::string movieFault(const RenderJob& o) {
+    constexpr double longestMovieSeconds = 600.0; // its pictures wait in memory, or beside it on the disk
+    const auto& path = o.moviePath;
+    if (!path.ends_with(".webp") && !path.ends_with(".gif") && !path.ends_with(".mp4")) return "--movie: expected a name that ends in .webp, .gif or .mp4, found \"" + path + "\"";
+    return o.seconds <= longestMovieSeconds ? std::string{} : "--movie: expected --seconds of at most 600";
+}
+
+} // namespace
+
 std::string sceneFault(const RenderJob& o) {
     if (o.playsRecordings && o.sounds.empty()) return "--method SV: expected a --sound for each material";
     if (!o.playsRecordings && !o.sounds.empty() && o.contactSound.empty()) return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
@@ -28,6 +40,8 @@ std::string renderInputFault(const RenderJob& o) {
     if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
     if (!o.settings.empty() && o.scene.empty()) return "--set: only a scene has variables";
     if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";
+    if (!o.moviePath.empty())
+        if (const std::string fault = movieFault(o); !fault.empty()) return fault;
     if (!o.coupling.empty() && o.playsRecordings) return "--coupling: expected a --method of modes; a recording has no one frequency";
     return sceneFault(o);
 }
@@ -36,7 +50,7 @@ std::string renderFault(const RenderJob& o) {
     const std::string fault = renderInputFault(o);
     if (!o.pad.empty() && o.wavPath.empty()) return "--pad: expected --out MOTORS.csv";
     if (!fault.empty() || !std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return fault;
-    return "render: nothing to write; give --out, --events, --picture, --pattern, --contact-sound or --marker";
+    return "render: nothing to write; give --out, --events, --picture, --movie, --pattern, --contact-sound or --marker";
 }
 
 } // namespace physvib

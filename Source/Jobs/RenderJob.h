@@ -34,7 +34,7 @@ struct RenderJob {
     std::string scene;      ///< a built-in scene's name or the path of a scene file; empty with fromEvents
     SceneSettings settings; ///< the scene's variables
     std::string fromEvents; ///< path of an event list
-    std::string wavPath, eventsPath, picturePath, patternPath; ///< empty: not wanted
+    std::string wavPath, eventsPath, picturePath, moviePath, patternPath; ///< empty: not wanted
     std::string pad;             ///< profile of a game controller, whose motors' commands `wavPath` then holds; empty: samples
     double threshold = 0.1;      ///< of the pattern, in full scale
     double interfaceVolts = 0.0; ///< what a sample of 1 in the WAV becomes; 0: no matter
@@ -68,7 +68,7 @@ struct RenderJob {
     std::string coupling; ///< path of a measured coupling that drives shall make up for; empty: none
 
     std::set<std::string> given; ///< names of the options that were chosen, with their dashes: a session keeps its own where they are not
-    std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, patternPath, contactSound, marker}; } ///< of `render`
+    std::vector<std::string> writtenPaths() const { return {wavPath, eventsPath, picturePath, moviePath, patternPath, contactSound, marker}; } ///< of `render`
     std::optional<MarkedOnsets> marks() const { return marker.empty() ? std::nullopt : std::optional{marked}; } ///< nullopt: not wanted
     std::string methodName() const; ///< "AV-FV-DRV", or "SV"
 

@@ -18,6 +18,8 @@ public:
 
     int width() const noexcept { return width_; }
     int height() const noexcept { return height_; }
+    /// Red, green, blue of each pixel: 3 * width() bytes a row.
+    const std::uint8_t* rgb() const noexcept { return rgb_.data(); }
     Area bounds() const noexcept { return {0, 0, width_, height_}; }
     Colour at(int x, int y) const noexcept {
         const std::uint8_t* p = rgb_.data() + index(x, y);

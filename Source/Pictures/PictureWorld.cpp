@@ -4,21 +4,11 @@
 #include "Pictures/PictureLight.h"
 #include "Pictures/PictureParts.h"
 #include "Pictures/ShapeOutline.h"
+#include "Pictures/WorldParts.h"
 #include <algorithm>
 #include <cmath>
 
 namespace physvib::picture {
-namespace {
-
-/// Metres of the field, origin lower left, to pixels.
-struct FieldMap {
-    Box field;
-    double pixelsPerMetre;
-    Spot at(double xMetres, double yMetres) const {
-        return {field.x + length(xMetres), field.bottom() - length(yMetres)};
-    }
-    float length(double metres) const { return static_cast<float>(metres * pixelsPerMetre); }
-};
 
 FieldMap fitField(const PictureInput& input, Area room) {
     const double width = std::max(input.fieldWidthMetres, 1e-9),
@@ -36,6 +26,8 @@ Spot placeOf(const PictureInput& input, const FieldMap& map, int channel) {
 }
 
 // ---- bodies
+
+namespace {
 
 // What stands outside the field (walls, as a rule) shows as a frame of at most this width.
 constexpr float wallPixels = 12.0f;
@@ -70,6 +62,8 @@ void drawBody(const Canvas& canvas, const BodyDescription& body, const BodyPose&
         drawFixture(canvas, fixture, body.type == BodyType::dynamicBody, move, map);
 }
 
+} // namespace
+
 void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map) {
     if (input.scene == nullptr) return;
     const Painter::Saved whole(canvas.graphics);
@@ -84,6 +78,8 @@ void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap&
 }
 
 // ---- hits
+
+namespace {
 
 void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours& colours,
                const FieldMap& map, Area spill) {
@@ -185,6 +181,8 @@ void drawBadge(const Canvas& canvas, std::string_view label, Box badge, Colour c
     canvas.text(label, badge.rounded(), Align::centre, colour, smallText, true);
 }
 
+} // namespace
+
 // As large as the closest pair allows; too close for a label, it is a dot.
 void drawEnchanters(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel) {
     const float closest = closestPair(input, map), size = std::clamp(0.8f * closest, 7.0f, 32.0f);
@@ -200,6 +198,8 @@ void drawEnchanters(const Canvas& canvas, const PictureInput& input, const Field
              : drawDot(canvas, centre, 0.7f * size, palette::enchanter(c));
     }
 }
+
+namespace {
 
 std::string remarkOn(const PictureInput& input) {
     const std::string times = "\xc3\x97";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every task of a study once: its name, what its answer consists of, what a participant reads, and which analysis takes its trials.
-// Protocols, trial files, simulated observers, screens, analyses and reports read this table; Docs/studies.md is held against it.
+// Protocols, trial files, simulated observers, screens, analyses and reports read this table; Docs/protocols.md is held against it.
 #pragma once
 #include <array>
 #include <cstddef>

@@ -4,9 +4,8 @@
 #include "Scene/ActuatorFile.h"
 #include "Scene/SceneCatalogue.h"
 #include "Io/Text/NumberText.h"
-#include "Host/Devices/AudioOutput.h"
+#include "CommandLine/DeviceList.h"
 #include "Session/SerialLine.h"
-#include <juce_events/juce_events.h>
 
 namespace physvib {
 namespace {
@@ -36,8 +35,7 @@ int listActuators() {
 }
 
 int listDevices() {
-    const juce::ScopedJuceInitialiser_GUI juce;
-    for (const auto& device : listAudioDevices()) std::cout << device.type << ':' << device.name << "  " << device.channels << " outputs\n";
+    printDevices(std::cout, devicesOfThisMachine());
     for (const auto& port : listSerialPorts()) std::cout << port.path << "  " << port.description << '\n';
     return exitDone;
 }

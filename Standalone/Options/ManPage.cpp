@@ -2,6 +2,7 @@
 // A manual page: name, call, options, commands, exit codes.
 #include "Options/ManPage.h"
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 namespace physvib {
@@ -75,6 +76,33 @@ void writeCommands(std::ostream& out, const OptionTable& command) {
     }
 }
 
+/// What the program or command is for, beyond its line.
+struct Description {
+    std::string_view page, text;
+};
+constexpr auto descriptions = std::to_array<Description>({
+    {"physvib", "PhysVib turns physics collisions into vibrotactile signals. Each contact excites a decaying sinusoid, which is panned over 1 to 64 actuators so that it is felt at "
+                "the contact point. physvib renders and plays scenes, runs and analyses perception studies, and measures materials and actuators. Begin with \"physvib scenes\" and "
+                "\"physvib render shake-the-box --out box.wav\". Hands are attached to these motors: start with the amplifier at its lowest setting."},
+    {"physvib-mixer", "Shows a physics world, plays it on the actuators that are attached, and mixes them like the channels of an audio mixer. FILE.json is a session, a scene or a layout. "
+                      "Without a device the world still runs and can be recorded. Esc silences everything within a block. With two outputs and no actuators, the monitor plays what "
+                      "would be felt on headphones."},
+    {"physvib-render", "Simulates a scene, or reads an event list, a saved session or a haptic file, and writes what each actuator plays: a WAV file with one channel per actuator, an event "
+                       "list, a picture, a movie. It is faster than real time and repeatable: the same input and options give the same bytes. All files appear at the end, or none."},
+    {"physvib-play", "Plays a scene live on an audio device, a four-channel board, or both. A contact is felt one constant output latency later, which is printed. Without --device and "
+                     "--board it lists the devices and a call to type. Ctrl-C silences the output at once and ends the program."},
+    {"physvib-study", "Lists, shows and runs protocols of perception studies. In the mixer people answer; here a simulated observer does, to rehearse a protocol and its analysis. An "
+                      "interrupted run continues with the trial that was cut off."},
+    {"physvib-analyse", "Analyses tables of trials: confusion matrices and information transfer, perceptual resolution, choices, ratings, thresholds, and tests over participants. Trials of "
+                        "a training are left out."},
+    {"physvib-board", "Talks to the four-channel board over a serial port: its state, a self-test, and event lists to play. The port is a path, or auto."},
+});
+
+std::string_view descriptionOf(std::string_view page) {
+    const auto found = std::ranges::find(descriptions, page, &Description::page);
+    return found == descriptions.end() ? std::string_view{} : found->text;
+}
+
 } // namespace
 
 std::string pageName(const OptionTable& command) {
@@ -88,6 +116,7 @@ std::string manPage(const OptionTable& command, const std::vector<std::string>& 
     out << ".TH " << shown(capitals(pageName(command))) << " 1 \"\" \"PhysVib " << PHYSVIB_VERSION << "\" \"PhysVib\"\n.SH NAME\n"
         << shown(pageName(command)) << " \\- " << shown(command.meaning) << "\n.SH SYNOPSIS\n";
     writeCall(out, command);
+    if (const auto text = descriptionOf(pageName(command)); !text.empty()) out << ".SH DESCRIPTION\n" << shown(text) << '\n';
     if (std::ranges::any_of(command.options, [](const auto& option) { return !option.meaning.empty(); })) out << ".SH OPTIONS\n";
     writeOptions(out, command);
     writeCommands(out, command);

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace physvib {
 
@@ -55,6 +56,6 @@ bool isProcessRunning(int number) noexcept;
 
 /// Runs a program of that name, with what we have for standard streams, to its end: whether it said that all
 /// is well, or why it did not begin. M.
-Result<bool> runProgram(std::string name, std::string argument);
+Result<bool> runProgram(std::string name, std::vector<std::string> arguments);
 
 } // namespace physvib

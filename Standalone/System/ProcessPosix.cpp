@@ -69,8 +69,10 @@ int processNumber() noexcept { return getpid(); }
 
 bool isProcessRunning(int number) noexcept { return number > 0 && (kill(number, 0) == 0 || errno == EPERM); }
 
-Result<bool> runProgram(std::string name, std::string argument) {
-    std::array<char*, 3> words{name.data(), argument.data(), nullptr};
+Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
+    std::vector<char*> words{name.data()};
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
     pid_t child = 0;
     std::cout.flush();
     if (const int fault = posix_spawnp(&child, name.c_str(), nullptr, nullptr, words.data(), environ)) return Failure{name + ": " + std::generic_category().message(fault)};

@@ -70,10 +70,15 @@ bool isProcessRunning(int number) noexcept {
     return isRunning;
 }
 
-Result<bool> runProgram(std::string name, std::string argument) {
-    const std::wstring program = std::filesystem::path{name}.wstring(), quoted = L'"' + std::filesystem::path{argument}.wstring() + L'"';
+Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
+    const std::wstring program = std::filesystem::path{name}.wstring();
+    std::vector<std::wstring> quoted;
+    for (const std::string& argument : arguments) quoted.push_back(L'"' + std::filesystem::path{argument}.wstring() + L'"');
+    std::vector<const wchar_t*> words{program.c_str()};
+    for (const std::wstring& word : quoted) words.push_back(word.c_str());
+    words.push_back(nullptr);
     std::cout.flush();
-    const std::intptr_t code = _wspawnlp(_P_WAIT, program.c_str(), program.c_str(), quoted.c_str(), nullptr);
+    const std::intptr_t code = _wspawnvp(_P_WAIT, program.c_str(), words.data());
     if (code == -1) return Failure{name + ": " + std::generic_category().message(errno)};
     return code == 0;
 }

@@ -11,8 +11,18 @@ TEST_F(PlayCommand, ADeviceThatIsNotThereIsAFailureAndNothingElseIsPlayedOn) {
     refuses("play drop --device Nowhere --record a.wav", 1, "Nowhere: no such device (see physvib devices); nothing else is played on");
 }
 
+TEST_F(PlayCommand, WithoutADeviceItSaysWhatThereIsAndWhatToType) {
+    const auto left = call("play drop"), listed = call("devices");
+    EXPECT_EQ(left.exitCode, 2);
+    EXPECT_EQ(left.err, "physvib: play: expected --device, --board, or both\n");
+    const auto begin = left.out.find("physvib play drop --device \"");
+    ASSERT_NE(begin, std::string::npos) << left.out;
+    EXPECT_EQ(listed.out.rfind(left.out.substr(0, left.out.rfind('\n', begin) + 1), 0), 0u) << "the devices as `devices` lists them: " << left.out;
+    const std::string typed = left.out.substr(begin + 8, left.out.find('\n', begin) - begin - 8);
+    EXPECT_NE(call(typed + " --seconds 0.1").exitCode, 2) << typed; // it is a call, whether or not the device can be opened
+}
+
 TEST_F(PlayCommand, ThereHasToBeSomethingToPlayOn) {
-    refuses("play drop", 2, "play: expected --device, --board, or both");
     refuses("play drop --device Nowhere --board /dev/nowhere", 1, "/dev/nowhere: no such serial port");
     std::string five = R"({"name": "five", "extent_m": [1, 1], "enchanters": [)";
     for (int j = 0; j < 5; ++j) five += std::string{j > 0 ? ", " : ""} + R"({"label": ")" + std::string(1, static_cast<char>('A' + j)) + R"(", "x_m": 0.)" + std::to_string(j) + R"(, "y_m": 0})";

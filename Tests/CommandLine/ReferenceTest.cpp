@@ -65,6 +65,11 @@ TEST_F(Reference, HoldsAllThatHelpHolds) {
     }
 }
 
+TEST_F(Reference, ProgramsAreDescribed) {
+    for (const char* name : {"physvib", "physvib-render", "physvib-play", "physvib-study", "physvib-analyse", "physvib-board"})
+        EXPECT_NE(page(name).find("\n.SH DESCRIPTION\n"), std::string::npos) << name;
+}
+
 TEST_F(Reference, ProposesWhatMayFollow) {
     EXPECT_EQ(proposals("physvib rend"), "render\n");
     EXPECT_EQ(proposals("physvib render shake"), "shake-the-box\n");

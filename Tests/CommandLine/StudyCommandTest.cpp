@@ -38,6 +38,11 @@ TEST_F(Study, PatternsWhole) {
     EXPECT_NE(call("analyse icons patterns-P01.csv patterns-P02.csv --meanings 24").out.find("enough"), std::string::npos);
 }
 
+TEST_F(Study, ForAPersonItSaysWhereThatIsDone) {
+    for (const char* observer : {"", " --observer person"})
+        refuses(std::string{"study run magnitudes"} + observer, 2, "for a person type physvib-mixer, open the tab Studies and choose the protocol \"magnitudes\"");
+}
+
 TEST_F(Study, PhantomGridsWhole) {
     const std::string files = run("phantom-grids", 2, "--observer simulated-RING");
     EXPECT_NE(analyse("confusion", files).find("RING-5x5\n  trials: 500 (25 stimuli)\n"), std::string::npos);

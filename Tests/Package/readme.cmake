@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-# README shows the example as it is compiled, without the line of its licence.
+# README shows the short example as it is compiled, without the line of its licence.
 file(READ ${ROOT}/README.md readme)
-file(READ ${ROOT}/Tests/Example/main.cpp example)
+file(READ ${ROOT}/Tests/Example/impacts.cpp example)
 string(FIND "${example}" "\n" end)
-string(SUBSTRING "${example}" ${end} -1 example)
-string(FIND "${readme}" "```cpp${example}```" place)
+math(EXPR begin "${end} + 1")
+string(SUBSTRING "${example}" ${begin} -1 example)
+string(FIND "${readme}" "```cpp\n${example}```" place)
 if(place EQUAL -1)
-    message(FATAL_ERROR "README.md: expected a block with all of Tests/Example/main.cpp after its first line")
+    message(FATAL_ERROR "README.md: expected a block with all of Tests/Example/impacts.cpp after its first line")
 endif()

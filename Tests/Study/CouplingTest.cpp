@@ -112,7 +112,7 @@ TEST(Coupling, AKnownCouplingIsMadeUpForAndAMisjudgedOneInPart) {
                 EXPECT_LT(matched, (isWithinLimit ? 0.1 : 0.55) * before) << name;
                 EXPECT_LT(after, 0.7 * misjudged) << name;
             } else {
-                EXPECT_GT(matched, before) << "four that cancel each other out: 3 dB are not enough, Docs/actuators.md says so";
+                EXPECT_GT(matched, before) << "four that cancel each other out: 3 dB are not enough, Docs/coupling.md says so";
             }
         }
 }

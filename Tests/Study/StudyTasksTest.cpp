@@ -9,7 +9,7 @@ namespace physvib {
 namespace {
 
 TEST(StudyTasks, EachHasALineInTheTableOfProtocols) {
-    const auto studies = readFile(PHYSVIB_SOURCE_DIR "/Docs/studies.md", 1'000'000);
+    const auto studies = readFile(PHYSVIB_SOURCE_DIR "/Docs/protocols.md", 1'000'000);
     ASSERT_TRUE(studies) << studies.error;
     for (const auto& task : studyTasks) EXPECT_NE(studies.value.find("\n| `" + std::string{task.name} + "` | "), std::string::npos) << task.name;
 }

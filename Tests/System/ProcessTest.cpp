@@ -44,8 +44,8 @@ TEST(Processes, StandardInputIsReadAsItComesAndEnds) {
 
 TEST(Processes, AProgramSaysWhetherAllIsWell) {
     EXPECT_NE(self.find("physvib-system-tests"), std::string::npos);
-    const auto well = runProgram(self, threeWords), ill = runProgram(self, "--no-such-option"),
-               none = runProgram("physvib-no-such-program", "");
+    const auto well = runProgram(self, {threeWords}), ill = runProgram(self, {"--no-such-option"}),
+               none = runProgram("physvib-no-such-program", {""});
     EXPECT_TRUE(well && well.value) << well.error << ": its argument came as one";
     EXPECT_TRUE(ill && !ill.value) << ill.error;
     EXPECT_TRUE(none.error.starts_with("physvib-no-such-program: ")) << none.error;

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Prints the tables of Docs/drop.md: the hits of the scene "drop" beside free fall, restitution and Eq. 5.4/5.7.
+# Prints the tables of Docs/drop-figures.md: the hits of the scene "drop" beside free fall, restitution and Eq. 5.4/5.7.
 # Usage: drop.sh PHYSVIB
 set -eu
 physvib=$1
@@ -18,12 +18,12 @@ hits() {
 by_hand() {
     awk -F, -v pair="$1" -v size="$2" -v h="$3" -v what="$4" '
         BEGIN {
-            g = 9.8; width = 8; pi = 3.14159265358979
+            g = 9.8; width = 8; gain = 4.1; pi = 3.14159265358979
             scale = size == "small" ? 1 : size == "medium" ? 2 : 3
             circle = pi * 0.15 * 0.15 * scale * scale; can = 0.157 * 0.3 * scale * scale
-            if (pair == "rubber-concrete") { m = 120 * circle; e = 0.688; plate = 870; gain = 33 }
-            if (pair == "wood-wood") { m = 850 * circle; e = 0.603; plate = 739.5; gain = 4.1 }
-            if (pair == "steel-steel") { m = 1193 * can; e = 0.597; plate = 6803.4; gain = 38 }
+            if (pair == "rubber-concrete") { m = 120 * circle; e = 0.688; plate = 870 }
+            if (pair == "wood-wood") { m = 850 * circle; e = 0.603; plate = 739.5 }
+            if (pair == "steel-steel") { m = 1193 * can; e = 0.597; plate = 6803.4 }
             v = sqrt(2 * g * h); t = v / g
         }
         v > 1 {

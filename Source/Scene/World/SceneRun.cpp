@@ -2,6 +2,7 @@
 // Stepping a simulation until enough is settled.
 #include "Scene/World/SceneRun.h"
 #include "Scene/World/SceneCast.h"
+#include <algorithm>
 
 namespace physvib {
 
@@ -33,12 +34,24 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
 }
 
 std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs) {
+    std::vector<BodyPose> last;
+    timeNs = std::max<std::int64_t>(timeNs, 0);
+    followPoses(scene, run, std::max<std::int64_t>(timeNs, 1), timeNs + 1, [&](std::int64_t, std::span<const BodyPose> poses) {
+        last.assign(poses.begin(), poses.end());
+        return true;
+    });
+    return last;
+}
+
+void followPoses(const Scene& scene, const SceneRun& run, std::int64_t everyNs, std::int64_t endNs, const PoseWatch& see) {
     Simulation simulation{scene, run.seed, run.stepsPerSecond, run.timing, run.location};
     std::vector<CollisionEvent> unused;
-    while (simulation.timeNs() + 1'000'000'000 / run.stepsPerSecond <= timeNs) simulation.step(unused);
     std::vector<BodyPose> poses(sceneCast(scene).size(), BodyPose{0.0, 0.0, 0.0, false});
-    for (std::size_t i = 0; i < simulation.bodyCount(); ++i) poses[i] = simulation.pose(i);
-    return poses;
+    for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += everyNs) {
+        for (; simulation.timeNs() + 1'000'000'000 / run.stepsPerSecond <= timeNs; unused.clear()) simulation.step(unused);
+        for (std::size_t i = 0; i < simulation.bodyCount(); ++i) poses[i] = simulation.pose(i);
+        if (!see(timeNs, poses)) return;
+    }
 }
 
 } // namespace physvib

@@ -40,4 +40,10 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
 /// Poses of all bodies at the last step not after `timeNs`. M only; simulates from the start.
 std::vector<BodyPose> posesAt(const Scene& scene, const SceneRun& run, std::int64_t timeNs);
 
+/// Takes a time and the poses of all bodies at the last step not after it; false: that is enough.
+using PoseWatch = std::function<bool(std::int64_t timeNs, std::span<const BodyPose> poses)>;
+
+/// The same at 0, everyNs, 2 everyNs... before `endNs`, in one go. M only; simulates from the start. Throws what Simulation throws.
+void followPoses(const Scene& scene, const SceneRun& run, std::int64_t everyNs, std::int64_t endNs, const PoseWatch& see);
+
 } // namespace physvib

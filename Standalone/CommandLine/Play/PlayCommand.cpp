@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The options of `physvib play`, from words to a session's setup.
 #include "CommandLine/Command.h"
+#include "CommandLine/DeviceList.h"
 #include "CommandLine/Board/BoardCommand.h"
 #include "CommandLine/Music/BeatOptions.h"
 #include "CommandLine/Pads/DualSenseDevice.h"
@@ -124,13 +125,21 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     command.add("--osc-to", o.osc.receiver, "send each hit as it is felt, and the status once a second").as("HOST:PORT");
 }
 
+/// Nobody ends nowhere: what is there to play on, and a call that can be typed.
+int leaveWithoutDevice(const std::string& scene) {
+    const auto devices = devicesOfThisMachine();
+    printDevices(std::cout, devices);
+    std::cout << (devices.empty() ? "no audio device was found; for nobody, in time: " : "for example: ") << proposedCall(scene, devices) << '\n' << std::flush;
+    return leave(exitUsage, "play: expected --device, --board, or both");
+}
+
 int runPlay(PlayOptions& o) {
     OutputNames outputs{o.device};
     o.device = outputs.device;
     if (!o.board.empty()) outputs.sinks.push_back({"BOARD", o.board});
     for (const std::string& pad : o.pads) outputs.sinks.push_back({"PAD", pad});
     if (o.device.empty() && !o.pads.empty()) o.device = OutputNames{"PAD:"}.device; // controllers follow a clock then
-    if (o.device.empty() && o.board.empty()) return leave(exitUsage, "play: expected --device, --board, --pad, or several of them");
+    if (o.device.empty() && o.board.empty()) return leaveWithoutDevice(o.scene.scene);
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
     if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");

@@ -94,7 +94,7 @@ RenderStatus renderEvents(const LoadedRender& job, RenderOutputs& outputs) {
     const auto controls = again.with(job.session ? controlsOf(job.session->log, job.keepsLayouts(), job.channels()) : std::vector<RenderControl>{});
     outputs.takeMotors(controls);
     const RenderStatus status = renderMarked(job, settingsOf(job, controls, again.beside(job.feltRecordings())), outputs);
-    if (!job.options.contactSound.empty()) renderContactSound(job, controls, outputs);
+    if (outputs.wantsContactSound()) renderContactSound(job, controls, outputs);
     return status;
 }
 
@@ -126,6 +126,8 @@ int runRender(const RenderJob& options, RenderListener* listener) {
     if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     if (job.frames() > maxWavBytes / static_cast<std::int64_t>(sizeof(float)) / job.channels())
         return leave(exitUsage, "--seconds: too long; a WAV file holds at most 4 GB of samples");
+    if (!options.moviePath.empty() && job.session && (job.session->log.takes.size() != 1 || !job.session->log.takes.front().stalls.empty()))
+        return leave(exitUsage, "--movie: expected a session of one scene run without pauses");
     const std::string error = render(job, listener);
     return error.empty() ? exitDone : leave(exitFailed, error);
 }

@@ -43,6 +43,7 @@ std::string RenderOutputs::open() {
     if (error.empty()) error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz, provenanceText() + " marked=" + std::string{nameOf(o.marked)});
     for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath}, {&pictureFile_, &o.picturePath}, {&patternFile_, &o.patternPath}})
         if (error.empty()) error = physvib::open(*file, *path);
+    if (error.empty() && !o.moviePath.empty()) error = movie_.emplace(o.moviePath, o.sampleRateHz).error();
     return error;
 }
 
@@ -91,7 +92,8 @@ bool RenderOutputs::takeContactSound(const float* samples, int frames) {
     heard_.assign(samples, samples + frames);
     for (float& sample : heard_) sample *= gain;
     const float* const at = heard_.data();
-    return contactWav_->write(&at, frames);
+    if (movie_ && movie_->hasSound() && !movie_->takeSound(at, frames)) return false;
+    return !contactWav_ || contactWav_->write(&at, frames);
 }
 
 void RenderOutputs::tellMarks(const OnsetMarks& marks) { markWords_ = physvib::markWords(marks); }
@@ -104,10 +106,12 @@ std::string RenderOutputs::finish() {
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
     if (error.empty() && motorsFile_) error = motorsFile_->write(motorsCsv(motors_, provenance()));
+    if (error.empty() && movie_) error = movie_->draw(pictureInput(), sceneRun());
     for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
         if (error.empty() && wav) error = wav->finish();
     for (auto* file : {&eventsFile_, &pictureFile_, &patternFile_, &motorsFile_})
         if (error.empty() && *file) error = (*file)->commit();
+    if (error.empty() && movie_) error = movie_->commit();
     return error;
 }
 
@@ -148,7 +152,13 @@ std::string RenderOutputs::provenanceText() const {
     return text;
 }
 
-std::string RenderOutputs::writePictureFile() {
+SceneRun RenderOutputs::sceneRun() const {
+    SceneRun run = job_.run();
+    if (job_.session) run.seed = job_.session->log.takes.front().seed;
+    return run;
+}
+
+PictureInput RenderOutputs::pictureInput() const {
     const auto& events = job_.made.events;
     PictureInput picture;
     picture.title = job_.scene ? job_.scene->name : std::filesystem::path{job_.source()}.filename().string();
@@ -156,7 +166,6 @@ std::string RenderOutputs::writePictureFile() {
     picture.fieldWidthMetres = job_.fieldWidthMetres();
     picture.fieldHeightMetres = job_.fieldHeightMetres();
     picture.scene = job_.scene ? &*job_.scene : nullptr;
-    if (job_.scene) picture.bodies = bodiesAtStrongest(*job_.scene, job_.run(), events);
     picture.events = events;
     picture.layout = job_.layout.geometry;
     for (const auto& enchanter : job_.layout.enchanters) picture.labels.push_back(enchanter.label);
@@ -166,6 +175,12 @@ std::string RenderOutputs::writePictureFile() {
     picture.durationSeconds = job_.seconds();
     picture.law = std::string{nameOf(job_.options.law)} + " law";
     picture.provenance = provenanceText();
+    return picture;
+}
+
+std::string RenderOutputs::writePictureFile() {
+    PictureInput picture = pictureInput();
+    if (job_.scene) picture.bodies = bodiesAtStrongest(*job_.scene, sceneRun(), job_.made.events);
     return pictureFile_->write(picturePng(picture));
 }
 
@@ -190,6 +205,7 @@ void RenderOutputs::summarise(std::ostream& out) const {
     if (patternFile_) out << o.patternPath << "  on and off, above " << numberText(o.threshold) << " of full scale\n";
     if (contactWav_) out << o.contactSound << "  what is heard of each hit: 1 channel, at full scale " << numberText(o.contactSoundDb) << " dBFS\n";
     if (markerWav_) out << o.marker << "  a pulse at each onset: 1 channel, " << markWords_ << '\n';
+    if (movie_) out << o.moviePath << "  the world, its impacts and every channel in time, " << RenderMovie::picturesPerSecond << " pictures per second\n";
     if (pictureFile_) out << o.picturePath << (job_.clip ? "  every channel\n" : "  the world, every channel and every hit\n");
 }
 

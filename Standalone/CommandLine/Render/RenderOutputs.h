@@ -3,6 +3,7 @@
 #pragma once
 #include "CommandLine/Render/OnOffPattern.h"
 #include "Calls/LoadedRender.h"
+#include "CommandLine/Render/MovieOutput.h"
 #include "CommandLine/Render/RenderListener.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/EventsCsv.h"
@@ -35,6 +36,9 @@ public:
     /// The next frames; false after an error.
     bool take(const float* const* channels, int frames);
 
+    /// Whether somebody hears the contacts: --contact-sound, or a movie.
+    bool wantsContactSound() const noexcept { return contactWav_ || (movie_ && movie_->hasSound()); }
+
     /// The next frames of what is heard, if that is wanted; false after an error.
     bool takeContactSound(const float* samples, int frames);
 
@@ -54,6 +58,8 @@ private:
     Provenance provenance() const;
     Provenance inputProvenance() const;
     std::string provenanceText() const;
+    SceneRun sceneRun() const; ///< of the first scene that is drawn
+    PictureInput pictureInput() const;
     std::string writePictureFile();
     void showProgress();
     bool writeWav(const float* const* channels, int frames);
@@ -63,6 +69,7 @@ private:
     std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_, motorsFile_;
     PadProfile pad_;
     std::vector<PadCommand> motors_;
+    std::optional<MovieOutput> movie_;
     std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;
     std::vector<std::vector<float>> scaled_; // for the interface's voltage
     std::string markWords_;

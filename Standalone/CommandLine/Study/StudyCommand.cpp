@@ -65,9 +65,11 @@ std::string takeSounds(const RecordedSounds& sounds, Protocol& protocol) {
 }
 
 int run(const StudyOptions& o) {
-    if (o.observer.empty()) return leave(exitUsage, "study run: --observer: expected " + std::string(observerNames) + "; a person answers in the mixer");
+    const std::string expected = "study run: --observer: expected " + std::string(observerNames);
+    if (o.observer.empty() || o.observer == "person")
+        return leave(exitUsage, expected + "; for a person type physvib-mixer, open the tab Studies and choose the protocol " + inQuotes(o.protocol));
     const auto settings = observerNamed(o.observer);
-    if (!settings) return leave(exitUsage, "study run: --observer: expected " + std::string(observerNames) + ", found " + inQuotes(o.observer));
+    if (!settings) return leave(exitUsage, expected + ", found " + inQuotes(o.observer));
     if (!isStudyCode(o.participant)) return leave(exitUsage, "study run: --participant: expected at most 32 letters, digits, - and _, found " + inQuotes(o.participant));
     if (!o.participant.empty() && o.participants > 1) return leave(exitUsage, "study run: --participant: expected one participant with a code, found several");
     auto protocol = protocolNamed(o.protocol);

@@ -34,7 +34,7 @@ std::string slurmScript(const SlurmSweep& sweep) {
 }
 
 std::string submitToSlurm(const fs::path& script) {
-    const auto ran = runProgram("sbatch", script.string());
+    const auto ran = runProgram("sbatch", {script.string()});
     if (!ran) return ran.error + "; the script is " + script.string();
     return ran.value ? std::string{} : "sbatch did not take " + script.string();
 }

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// What does not move is drawn once; each picture is a copy of it with the world, the light of the last impacts and the time.
+#include "Pictures/RenderMovie.h"
+#include "Pictures/PictureLight.h"
+#include "Pictures/WorldParts.h"
+#include <algorithm>
+#include <cmath>
+
+namespace physvib {
+
+using namespace picture;
+
+namespace {
+
+constexpr int margin = 16, headerHeight = 40, lanesHeightPixels = 150;
+constexpr double glowSeconds = 0.5; // after which an impact's light is gone
+constexpr double fadePerSecond = 7.0;
+constexpr float floorDecibels = 40.0f; // below the loudest: no light
+
+std::string clock(double seconds) { return number(seconds, 2) + " s"; }
+
+} // namespace
+
+/// The panels, the still part of every picture, and what impacts are measured by.
+struct RenderMovie::Parts {
+    const PictureInput& input;
+    Letters letters;
+    HitColours colours;
+    Image still{width, height};
+    Area header, world, lanes;
+    Axis time;
+    double loudest = 0.0; // dB
+
+    explicit Parts(const PictureInput& picture)
+        : input{picture}
+        , colours{picture} {
+        Area page = still.bounds().reduced(margin, 0);
+        header = page.removeFromTop(headerHeight + 6).withTrimmedTop(6);
+        lanes = page.removeFromBottom(lanesHeightPixels + headingHeight + axisHeight + 12).withTrimmedBottom(8);
+        world = page.withTrimmedBottom(4);
+        if (const auto strongest = strongestEvent(input.events); strongest >= 0)
+            loudest = decibels(input.events[static_cast<std::size_t>(strongest)].amplitude);
+        Painter painter{still};
+        painter.fillAll(palette::ground);
+        const Canvas canvas{painter, letters};
+        canvas.text(cleanLine(input.title), header, Align::left, palette::text, largeText, true);
+        drawStillLanes(canvas);
+    }
+
+    void drawStillLanes(const Canvas& canvas) {
+        Area area = lanes;
+        const Area heading = area.removeFromTop(headingHeight), axisRow = area.removeFromBottom(axisHeight);
+        time = {0.0, input.durationSeconds, laneOf(canvas, input, area)};
+        const auto grid = ticks(0.0, input.durationSeconds, 10);
+        canvas.heading("ACTUATORS", input.waveform != nullptr ? fullHeight(*input.waveform) : "", heading);
+        if (input.waveform != nullptr) {
+            std::vector<int> channels(static_cast<std::size_t>(input.waveform->channels()));
+            for (std::size_t j = 0; j < channels.size(); ++j) channels[j] = static_cast<int>(j);
+            drawLanes(canvas, input, *input.waveform, channels, time, grid);
+        }
+        time.drawLabels(canvas, grid, "s", axisRow);
+    }
+
+    /// How strongly channel `c` vibrates then, from 0 to 1 for the loudest moment of all.
+    float levelAt(int c, double seconds) const {
+        if (input.waveform == nullptr || c >= input.waveform->channels() || input.waveform->peak() <= 0.0f) return 0.0f;
+        const double from = seconds / std::max(input.durationSeconds, 1e-9) * WaveformEnvelope::columns,
+                     columns = WaveformEnvelope::columns / std::max(input.durationSeconds, 1e-9) / picturesPerSecond;
+        float most = 0.0f;
+        for (int i = static_cast<int>(from - columns); i <= static_cast<int>(from); ++i) {
+            if (i < 0 || i >= WaveformEnvelope::columns) continue;
+            const SampleRange range = input.waveform->column(c, i);
+            most = std::max({most, std::abs(range.lowest), std::abs(range.highest)});
+        }
+        return std::min(1.0f, most / input.waveform->peak());
+    }
+
+    void drawHalos(const Canvas& canvas, const FieldMap& map, double seconds) const {
+        for (int c = 0; c < input.layout.count; ++c) {
+            const float level = std::sqrt(levelAt(c, seconds)), radius = 18.0f + 60.0f * level;
+            const Spot centre = placeOf(input, map, c);
+            const Colour colour = palette::enchanter(c);
+            canvas.graphics.setGradient({centre, radius, colour.withAlpha(0.7f * level), colour.withAlpha(0.0f)});
+            canvas.graphics.fillEllipse(boxAround(centre, 2.0f * radius, 2.0f * radius));
+        }
+    }
+
+    void drawImpacts(const Canvas& canvas, const FieldMap& map, std::int64_t momentNs) const {
+        Light light{world};
+        for (const CollisionEvent& event : input.events) {
+            const double age = static_cast<double>(momentNs - event.timeNs) * 1e-9;
+            if (age < 0.0 || age > glowSeconds) continue;
+            const float level = 1.0f + static_cast<float>(decibels(event.amplitude) - loudest) / floorDecibels;
+            if (level <= 0.0f) continue;
+            const auto fade = static_cast<float>(std::exp(-fadePerSecond * age));
+            light.add(map.at(event.x, event.y), (isHit(event) ? 10.0f : 5.0f) + 36.0f * level * level * fade, 1.8f * level * level * fade, colours.of(event));
+        }
+        light.draw(canvas.graphics);
+    }
+
+    void drawMoment(const Canvas& canvas, const PictureInput& moving, std::int64_t momentNs) const {
+        const double seconds = static_cast<double>(momentNs) * 1e-9;
+        const FieldMap map = fitField(moving, world.reduced(14, 14));
+        {
+            const Painter::Saved whole(canvas.graphics);
+            canvas.graphics.reduceClip(world);
+            canvas.well(map.field.rounded());
+            drawHalos(canvas, map, seconds);
+            drawBodies(canvas, moving, map);
+            drawImpacts(canvas, map, momentNs);
+            drawEnchanters(canvas, moving, map, world);
+        }
+        canvas.text(clock(seconds), header, Align::right, palette::now, mediumText, true);
+        const float x = time.x(std::min(seconds, time.to));
+        const Box lane = time.lane.toFloat();
+        canvas.graphics.setColour(palette::ground.withAlpha(0.72f)); // what is still to come
+        canvas.graphics.fillRect({x, lane.y, std::max(0.0f, lane.right() - x), lane.height});
+        canvas.graphics.setColour(palette::now);
+        canvas.graphics.fillRect({x - 1.0f, lane.y, 2.0f, lane.height});
+    }
+};
+
+RenderMovie::RenderMovie(const PictureInput& input)
+    : parts_{std::make_unique<Parts>(input)} {}
+RenderMovie::~RenderMovie() = default;
+
+std::int64_t RenderMovie::count() const noexcept {
+    return std::max<std::int64_t>(1, std::llround(std::ceil(parts_->input.durationSeconds * picturesPerSecond)));
+}
+
+Image RenderMovie::at(std::int64_t momentNs, std::span<const BodyPose> bodies) const {
+    Image image = parts_->still;
+    Painter painter{image};
+    PictureInput moving = parts_->input;
+    moving.bodies.assign(bodies.begin(), bodies.end());
+    parts_->drawMoment({painter, parts_->letters}, moving, momentNs);
+    return image;
+}
+
+} // namespace physvib

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The parts of a world's panel that a picture and a movie share.
+#pragma once
+#include "Pictures/PictureParts.h"
+
+namespace physvib::picture {
+
+/// Metres of the field, origin lower left, to pixels.
+struct FieldMap {
+    Box field;
+    double pixelsPerMetre;
+    Spot at(double xMetres, double yMetres) const {
+        return {field.x + length(xMetres), field.bottom() - length(yMetres)};
+    }
+    float length(double metres) const { return static_cast<float>(metres * pixelsPerMetre); }
+};
+
+/// The field to scale, in the middle of `room`.
+FieldMap fitField(const PictureInput& input, Area room);
+
+/// Where actuator `channel` stands, the layout being mapped on the field.
+Spot placeOf(const PictureInput& input, const FieldMap& map, int channel);
+
+/// All bodies that are present, at `input.bodies`; nothing without a scene.
+void drawBodies(const Canvas& canvas, const PictureInput& input, const FieldMap& map);
+
+/// A badge per actuator, within `panel`.
+void drawEnchanters(const Canvas& canvas, const PictureInput& input, const FieldMap& map, Area panel);
+
+} // namespace physvib::picture

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "CommandLine/Render/MovieOutput.h"
+#include "Pictures/WebpMovie.h"
+#include "System/Process.h"
+
+namespace physvib {
+
+namespace {
+
+/// Every picture in its order; false from `take` ends it.
+void forEachPicture(const RenderMovie& movie, const PictureInput& input, const SceneRun& run, const std::function<bool(std::int64_t momentNs, const picture::Image&)>& take) {
+    const std::int64_t endNs = RenderMovie::timeNs(movie.count());
+    if (input.scene != nullptr)
+        return followPoses(*input.scene, run, RenderMovie::timeNs(1), endNs, [&](std::int64_t timeNs, std::span<const BodyPose> bodies) { return take(timeNs, movie.at(timeNs, bodies)); });
+    for (std::int64_t timeNs = 0; timeNs < endNs; timeNs += RenderMovie::timeNs(1))
+        if (!take(timeNs, movie.at(timeNs, {}))) return;
+}
+
+} // namespace
+
+MovieOutput::MovieOutput(const std::string& path, int sampleRateHz)
+    : path_{path}
+    , sampleRateHz_{sampleRateHz}
+    , movie_{path} {
+    if (!path.ends_with(".webp")) pictures_.emplace(path + ".pictures");
+    if (hasSound()) sound_.emplace(path + ".sound");
+}
+
+bool MovieOutput::takeSound(const float* samples, int frames) {
+    const std::string_view bytes{reinterpret_cast<const char*>(samples), sizeof(float) * static_cast<std::size_t>(frames)};
+    if (!sound_->writeAt(soundBytes_, bytes)) return false;
+    soundBytes_ += static_cast<std::int64_t>(bytes.size());
+    return true;
+}
+
+std::string MovieOutput::draw(const PictureInput& picture, const SceneRun& run) {
+    const RenderMovie movie{picture};
+    return pictures_ ? drawByFfmpeg(movie, picture, run) : drawWebp(movie, picture, run);
+}
+
+std::string MovieOutput::drawWebp(const RenderMovie& movie, const PictureInput& picture, const SceneRun& run) {
+    WebpMovie webp{RenderMovie::width, RenderMovie::height};
+    forEachPicture(movie, picture, run, [&](std::int64_t momentNs, const picture::Image& image) {
+        webp.add(image, momentNs / 1'000'000);
+        return true;
+    });
+    return movie_.write(webp.bytes(RenderMovie::timeNs(movie.count()) / 1'000'000));
+}
+
+// ffmpeg reads files that are there, one PNG behind the other and 32-bit samples, and writes into ours, which is renamed at the end.
+std::string MovieOutput::drawByFfmpeg(const RenderMovie& movie, const PictureInput& picture, const SceneRun& run) {
+    forEachPicture(movie, picture, run, [&](std::int64_t, const picture::Image& image) {
+        const std::string png = image.png();
+        const bool isWritten = pictures_->writeAt(pictureBytes_, png);
+        pictureBytes_ += static_cast<std::int64_t>(png.size());
+        return isWritten;
+    });
+    if (!pictures_->error().empty()) return pictures_->error();
+    if (sound_ && !sound_->error().empty()) return sound_->error();
+    std::vector<std::string> words{"-v", "error", "-nostdin", "-y", "-f", "image2pipe", "-framerate", std::to_string(RenderMovie::picturesPerSecond), "-c:v", "png",
+                                   "-i", pictures_->temporaryPath().string()};
+    const auto add = [&words](std::initializer_list<const char*> more) { words.insert(words.end(), more.begin(), more.end()); };
+    if (sound_) {
+        add({"-f", "f32le", "-ac", "1", "-ar"});
+        words.push_back(std::to_string(sampleRateHz_));
+        words.insert(words.end(), {"-i", sound_->temporaryPath().string()});
+        add({"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-c:a", "aac", "-movflags", "+faststart", "-f", "mp4"});
+    } else
+        add({"-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none", "-f", "gif"});
+    words.push_back(movie_.temporaryPath().string());
+    const auto ran = runProgram("ffmpeg", words);
+    if (!ran) return path_ + ": .gif and .mp4 need the program ffmpeg, which did not start (" + ran.error + "); expected it on the path, or a name that ends in .webp";
+    return ran.value ? std::string{} : path_ + ": ffmpeg failed, for the reason above";
+}
+
+} // namespace physvib
