@@ -12,7 +12,7 @@ TEST_F(PlayCommand, ADeviceThatIsNotThereIsAFailureAndNothingElseIsPlayedOn) {
 }
 
 TEST_F(PlayCommand, ThereHasToBeSomethingToPlayOn) {
-    refuses("play drop", 2, "play: expected --device, --board, or both");
+    refuses("play drop", 2, "play: expected --device, --board, --pad, or several of them");
     refuses("play drop --device Nowhere --board /dev/nowhere", 1, "/dev/nowhere: no such serial port");
     std::string five = R"({"name": "five", "extent_m": [1, 1], "enchanters": [)";
     for (int j = 0; j < 5; ++j) five += std::string{j > 0 ? ", " : ""} + R"({"label": ")" + std::string(1, static_cast<char>('A' + j)) + R"(", "x_m": 0.)" + std::to_string(j) + R"(, "y_m": 0})";
