@@ -5,7 +5,7 @@
 set -eu
 bin=$1
 physvib=$bin/physvib
-. "$(dirname "$0")/../Live/jack.sh"
+. "$(dirname "$0")/jack.sh"
 serve 48000 256 2
 
 # coils INPUTS: the device, until close_coils, after which four peaks are the last line of "ready".
