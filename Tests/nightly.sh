@@ -35,6 +35,7 @@ step() {
         windows) Tests/windows.sh $bin/physvib-render ;;
         fresh) Tests/fresh-machine.sh ;;
         pages) Tests/fresh-machine.sh --pages ;;
+        pads) /usr/bin/python3 Tests/Pads/judge.py $bin/physvib build/release/Tests/Pads/libphysvib-plug-in.so 600 ;;
         packages) Tests/Release/bare-debian.sh ;;
         reproducible) Tests/Release/reproducible.sh ;;
         *) echo "no step of this name" && return 2 ;;

@@ -32,7 +32,7 @@ CollisionEvent hit(std::int64_t timeNs, double frequencyHz, double amplitude, do
 class PacedDevice final : public FeltOutput {
 public:
     PacedDevice() { setLevel(1.0f); }
-    std::int64_t sessionNs() const { return now() - beganNs_; }
+    std::int64_t sessionNs() const { return now() - beganNs; }
     void block() { tell({sessionNs(), now(), 40 * ms, 48000}); }
     /// `atBlock(sessionNs)` at each.
     template <class AtBlock>
@@ -44,9 +44,8 @@ public:
     }
     void run(std::int64_t untilNs) { run(untilNs, [](std::int64_t) {}); }
 
-private:
     static std::int64_t now() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
-    const std::int64_t beganNs_ = now();
+    const std::int64_t beganNs = now();
 };
 
 const std::function<bool()> always = [] { return true; };
@@ -82,6 +81,7 @@ TEST_F(Pads, WhatTheMotorsAreToldIsTheModelToTheCommand) {
         const auto isIt = [&](const PadCommand& c) { return std::abs(c.low - one.low) < 1e-4 && std::abs(c.high - one.high) < 1e-4; };
         while (at < model.size() && !isIt(model[at])) ++at;
         ASSERT_LT(at, model.size()) << "not the model's: " << one.low << ' ' << one.high;
+        EXPECT_GE(one.steadyNs, device.beganNs + model[at].timeNs - ms) << "before its time";
         ++at;
     }
     EXPECT_GE(told.size() + counts.late + 1, model.size());

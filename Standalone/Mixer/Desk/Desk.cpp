@@ -76,6 +76,7 @@ Desk::Desk(AudioDeviceTypes types, const DeviceChoice& device, Mix mix)
     exposure_.use(mix_.layout);
     session_.sinks().attach(signals_.tap());
     device_.connectBoard(device.board);
+    device_.connectPad(device.pad);
     open(device);
     told_.tell(session_, mix_);
     edits_ = 0;

@@ -8,7 +8,7 @@ namespace physvib {
 
 namespace {
 
-constexpr double maintainMs = 1000.0;
+constexpr double maintainMs = 1000.0, padPatienceMs = 3000.0; // by Bluetooth one takes a second to come
 
 } // namespace
 
@@ -45,6 +45,20 @@ void DeskDevice::close() {
     output_.close();
     if (board_) session_.sinks().detach(board_->sink());
     board_.reset();
+    if (pad_) session_.sinks().detach(*pad_);
+    pad_.reset();
+}
+
+void DeskDevice::connectPad(const std::string& name) {
+    if (name.empty()) return;
+    pad_ = std::make_unique<PadOutput>(name, mix_.panner());
+    padWantedAtMs_ = nowMs();
+    session_.sinks().attach(*pad_);
+}
+
+juce::String DeskDevice::padTrouble() const {
+    if (!pad_ || nowMs() - padWantedAtMs_ < padPatienceMs) return {};
+    return utf8(pad_->state().trouble);
 }
 
 void DeskDevice::maintain() {
@@ -56,8 +70,9 @@ void DeskDevice::maintain() {
 }
 
 juce::String DeskDevice::trouble() {
-    const auto board = board_ ? board_->trouble() : juce::String{};
-    return trouble_.isEmpty() || board.isEmpty() ? trouble_ + board : trouble_ + "; " + board;
+    juce::StringArray all{trouble_, board_ ? board_->trouble() : juce::String{}, padTrouble()};
+    all.removeEmptyStrings();
+    return all.joinIntoString("; ");
 }
 
 } // namespace physvib

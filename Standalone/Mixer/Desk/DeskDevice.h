@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The device that the desk is felt on, the board beside it, and what is wrong with either.
+// The device that the desk is felt on, the board and the controller beside it, and what is wrong with either.
 #pragma once
 #include "Mixer/Desk/DeskBoard.h"
 #include "Mixer/Desk/DeskListening.h"
+#include "Pads/PadOutput.h"
 #include <memory>
 
 namespace physvib {
@@ -38,17 +39,19 @@ public:
 
     /// What the four-channel board says, if one is wanted.
     std::optional<BoardLinkStatus> board() const { return board_ ? std::optional{board_->status()} : std::nullopt; }
-    /// The choice asks for a board, or for none: L is another then, so the session has to begin anew.
+    /// The choice asks for a board or a controller, or for none: L is another then, so the session has to begin anew.
     std::function<void(const DeviceChoice&)> onBoardWanted;
     void connectBoard(const std::string& port); ///< before open(); empty: there is none
-    void close();                               ///< both
+    void connectPad(const std::string& name);   ///< the same of a game controller
+    void close();                               ///< all
 
-    /// Looks after both, often; and one line on what is wrong.
+    /// Looks after them, often; and one line on what is wrong.
     void maintain();
     juce::String trouble();
 
 private:
     std::vector<int> outputMap() const;
+    juce::String padTrouble() const;
 
     AudioDeviceTypes types_;
     const Mix& mix_;
@@ -57,8 +60,9 @@ private:
     AudioOutput output_;
     DeskListening listening_;
     std::unique_ptr<DeskBoard> board_;
+    std::unique_ptr<PadOutput> pad_;
     juce::String trouble_; // the device's
-    double maintainedAtMs_ = 0.0;
+    double maintainedAtMs_ = 0.0, padWantedAtMs_ = 0.0;
 };
 
 } // namespace physvib

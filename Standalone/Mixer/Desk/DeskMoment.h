@@ -34,6 +34,7 @@ struct DeviceChoice {
     std::vector<int> monitor{}; ///< its outputs for the left and the right ear, from 0; empty: nobody listens
     double monitorDb = safeContactDb; ///< as ListeningSettings::contactDb
     int marker = -1;            ///< its output for marks, from 0; -1: none
+    std::string pad{};          ///< game controller beside it: anyPad or part of its name; empty: none
 };
 
 } // namespace physvib

@@ -2,6 +2,7 @@
 // Choices of a device, and what it says of itself.
 #include "Mixer/Output/OutputTab.h"
 #include "Host/Devices/NoDevice.h"
+#include "Pads/GamePads.h"
 #include "Session/SerialLine.h"
 #include "Mixer/Window/Parts.h"
 
@@ -40,6 +41,10 @@ OutputTab::OutputTab(Desk& desk)
     caption(rateName_, "Rate");
     caption(blockName_, "Block");
     caption(boardName_, "Four-channel board");
+    caption(padName_, "Game controller");
+    pad_.setTitle("Game controller");
+    pad_.setTooltip("Its two motors follow all hits, felt together with the device (Docs/pads.md)");
+    pad_.onChange = [this] { usePad(); };
     caption(monitorName_, "Monitor: what is felt, on headphones");
     caption(monitorLevelName_, "Its level");
     caption(marksName_, "Marks of onsets");
@@ -65,7 +70,7 @@ OutputTab::OutputTab(Desk& desk)
     scan_ = quietButton("Look again", "Look for devices again");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &oscName_, &osc_, &hitsName_, &hits_, &phoneName_, &phone_, &monitorName_, &monitor_, &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &padName_, &pad_, &oscName_, &osc_, &hitsName_, &hits_, &phoneName_, &phone_, &monitorName_, &monitor_, &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_}) addAndMakeVisible(c);
     takeMix();
 }
 
@@ -76,6 +81,7 @@ void OutputTab::visibilityChanged() {
 void OutputTab::scan() {
     found_ = listAudioDevices(desk_.device().types());
     listPorts();
+    listPads();
     isScanned_ = true;
     takeMix();
 }
@@ -96,6 +102,24 @@ void OutputTab::listPorts() {
     board_.addItem("another port" + juce::String::charToString(0x2026), otherPortId);
     const auto at = std::ranges::find(ports_, wanted);
     board_.setSelectedId(wanted.empty() ? noBoardId : wanted == anyBoard ? anyBoardId : firstPortId + static_cast<int>(at - ports_.begin()), juce::dontSendNotification);
+}
+
+// The one that is wanted stands there even if it does not.
+void OutputTab::listPads() {
+    const auto& wanted = desk_.device().choice().pad;
+    pads_ = {"", anyPad};
+    for (const GamePadInfo& info : GamePads{}.list())
+        if (std::ranges::find(pads_, info.name) == pads_.end()) pads_.push_back(info.name);
+    if (std::ranges::find(pads_, wanted) == pads_.end()) pads_.push_back(wanted);
+    pad_.clear(juce::dontSendNotification);
+    for (int id = 1; const auto& name : pads_) pad_.addItem(name.empty() ? juce::String{"none"} : name == anyPad ? juce::String{"the first that is there"} : utf8(name), id++);
+    pad_.setSelectedId(1 + static_cast<int>(std::ranges::find(pads_, wanted) - pads_.begin()), juce::dontSendNotification);
+}
+
+void OutputTab::usePad() {
+    DeviceChoice choice = desk_.device().choice();
+    choice.pad = pads_[static_cast<std::size_t>(std::max(0, pad_.getSelectedItemIndex()))];
+    if (choice.pad != desk_.device().choice().pad && desk_.device().onBoardWanted) desk_.device().onBoardWanted(choice);
 }
 
 void OutputTab::open() {
@@ -211,7 +235,7 @@ void OutputTab::takeMix() {
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
     listHeard();
     showOsc();
-    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &oscName_, &hitsName_, &phoneName_, &monitorName_, &monitorLevelName_, &marksName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
+    for (auto* label : {&deviceName_, &rateName_, &blockName_, &boardName_, &padName_, &oscName_, &hitsName_, &phoneName_, &monitorName_, &monitorLevelName_, &marksName_}) label->setColour(juce::Label::textColourId, shade(*this, Shade::muted));
 }
 
 void OutputTab::refresh(const DeskMoment& moment) {
@@ -247,8 +271,8 @@ void OutputTab::resized() {
     scan_->setBounds(row.removeFromRight(90));
     row.removeFromRight(gap);
     device_.setBounds(row);
-    const int all = area.getWidth() - 2 * gap, third = all / 3, quarter = all / 4, fifth = all / 5;
-    placeRow(area, {{rateName_, rate_, third}, {blockName_, block_, third}, {boardName_, board_, third}});
+    const int all = area.getWidth() - 2 * gap, quarter = all / 4, fifth = all / 5;
+    placeRow(area, {{rateName_, rate_, quarter}, {blockName_, block_, quarter}, {boardName_, board_, quarter}, {padName_, pad_, quarter - gap}});
     placeRow(area, {{oscName_, osc_, 2 * fifth}, {hitsName_, hits_, 2 * fifth - gap}, {phoneName_, phone_, fifth + gap}});
     placeRow(area, {{monitorName_, monitor_, 2 * quarter}, {monitorLevelName_, monitorLevel_, quarter}, {marksName_, marks_, quarter}});
     area.removeFromTop(12);

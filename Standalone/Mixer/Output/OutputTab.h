@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the enchanters are fed from: device, rate, block and the delay that follows from them; the board.
+// Where the enchanters are fed from: device, rate, block and the delay that follows from them; the board, a game controller.
 #pragma once
 #include "Mixer/Output/FactList.h"
 #include "Mixer/Window/TabPanel.h"
@@ -25,6 +25,8 @@ private:
     void askPort();
     void useBoard(const std::string& port);
     void listPorts();
+    void listPads();
+    void usePad();
     void prepareOsc();
     void listen();
     void chooseReceiver();
@@ -38,12 +40,12 @@ private:
     void chooseMarks();
     juce::String heardWords() const;
 
-    juce::ComboBox device_, rate_, block_, board_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
-    juce::Label deviceName_, rateName_, blockName_, boardName_, oscName_, hitsName_, phoneName_, monitorName_, monitorLevelName_, marksName_;
+    juce::ComboBox device_, rate_, block_, board_, pad_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
+    juce::Label deviceName_, rateName_, blockName_, boardName_, padName_, oscName_, hitsName_, phoneName_, monitorName_, monitorLevelName_, marksName_;
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;
-    std::vector<std::string> ports_;
+    std::vector<std::string> ports_, pads_;
     bool isScanned_ = false;
 };
 

@@ -32,6 +32,7 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     if (const int left = settings.getIntValue("monitor-left"), right = settings.getIntValue("monitor-right"); left > 0 && right > 0) device_.monitor = {left - 1, right - 1};
     device_.monitorDb = settings.getDoubleValue("monitor-db", safeContactDb);
     device_.marker = settings.getIntValue("marker") - 1;
+    device_.pad = settings.getValue("controller").toStdString();
     dragged_->setEnding(std::max(0, hitEndings().indexOf(settings.getValue("clip-ending"))));
     setUsingNativeTitleBar(true);
     start(file);
@@ -102,6 +103,7 @@ void MixerWindow::useBoard(const DeviceChoice& choice) {
     askThen([this, choice] {
         device_ = choice;
         files_.settings().setValue("board", utf8(choice.board));
+        files_.settings().setValue("controller", utf8(choice.pad));
         play(Mix{desk_->mix()}, document_);
         view_->tabs().choose("Output"); // where it was chosen
     });

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A game controller that is chosen in the mixer plays, is unplugged and plugged in again: each is seen.
+#include "Mixer/MixerTesting.h"
+#include "Mixer/Window/MixerWindow.h"
+#include "Pads/VirtualPad.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+TEST(DeskPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
+    GamePads pads; // before the virtual one
+    ASSERT_EQ(pads.fault(), "");
+    VirtualPad pad{"mixed"};
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    const double before = window.desk().device().playOutSeconds();
+    window.view().tabs().choose("Output");
+    auto* list = dynamic_cast<juce::ComboBox*>(find(window.view(), "Game controller"));
+    ASSERT_NE(list, nullptr);
+    ASSERT_EQ(list->getNumItems(), 3) << "none, the first that is there, and this one";
+    EXPECT_EQ(list->getItemText(2), "mixed");
+    list->setSelectedItemIndex(2);
+    ASSERT_TRUE(runUntil([&] { return window.desk().device().choice().pad == "mixed"; }));
+    EXPECT_NEAR(window.desk().device().playOutSeconds(), before + 0.03, 0.006) << "its lead, in the limiter's place";
+    ASSERT_TRUE(runUntil([&] { return !pad.told().empty(); })) << "shake the box shakes it";
+    window.desk().setSilent(true);
+    ASSERT_TRUE(runUntil([&] { return pad.isAtRest(); }));
+    window.desk().setSilent(false);
+
+    pad.detach();
+    ASSERT_TRUE(runUntil([&] { return window.desk().trouble().contains("mixed is gone; it is looked for"); })) << window.desk().trouble();
+    pad.attach();
+    ASSERT_TRUE(runUntil([&] { return window.desk().trouble().isEmpty(); })) << window.desk().trouble();
+}
+
+} // namespace
+} // namespace physvib
