@@ -4,8 +4,8 @@
 # What the first picture is made with: physvib-render, and nothing else (preset "first"; Tests/House/first-build.sh holds its size).
 physvib_first_packages="g++ cmake ninja-build libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libfreetype-dev libpng-dev fonts-dejavu-core"
 # What the programs, the library and the plug-ins are made with, beside a compiler.
-physvib_build_packages="cmake ninja-build juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
-    pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev liblo-dev libaubio-dev libwebp-dev"
+physvib_build_packages="cmake ninja-build libwebp-dev juce-modules-source libbox2d-dev nlohmann-json3-dev libcli11-dev libhwy-dev libeigen3-dev libboost-dev \
+    pkg-config libfreetype-dev libpng-dev libasound2-dev libjack-jackd2-dev libserialport-dev libsamplerate0-dev liblo-dev libaubio-dev"
 # Configuring covers the tests as well, so the mixer that run.sh opens needs their libraries too.
 physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgtest-dev libbenchmark-dev"
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang libclang-rt-14-dev \

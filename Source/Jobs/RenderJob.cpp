@@ -34,14 +34,6 @@ bool parseSettings(RenderJob& o) {
     return true;
 }
 
-/// What is wrong with the movie's file or its length.
-std::string movieFault(const RenderJob& o) {
-    constexpr double longestMovieSeconds = 600.0; // its pictures wait in memory, or beside it on the disk
-    const auto& path = o.moviePath;
-    if (!path.ends_with(".webp") && !path.ends_with(".gif") && !path.ends_with(".mp4")) return "--movie: expected a name that ends in .webp, .gif or .mp4, found \"" + path + "\"";
-    return o.seconds <= longestMovieSeconds ? std::string{} : "--movie: expected --seconds of at most 600";
-}
-
 } // namespace
 
 bool parseSounds(const std::vector<std::string>& sounds, std::vector<std::pair<double, std::string>>& recordings) {
@@ -79,8 +71,6 @@ std::string renderInputFault(RenderJob& o) {
     if (o.scene.empty() == o.fromEvents.empty()) return "render: give either a scene or --from-events EVENTS.csv";
     if (!o.sets.empty() && o.scene.empty()) return "--set: only a scene has variables";
     if (o.interfaceVolts > 0.0 && o.actuator == "none") return "--interface-volts: expected an --actuator, whose drive limit is to be met";
-    if (!o.moviePath.empty())
-        if (const std::string fault = movieFault(o); !fault.empty()) return fault;
     if (!o.coupling.empty() && o.playsRecordings()) return "--coupling: expected a --method of modes; a recording has no one frequency";
     return sceneFault(o);
 }

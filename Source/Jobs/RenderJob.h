@@ -23,12 +23,13 @@ struct RenderJob {
     std::string scene;      ///< a built-in scene's name or the path of a scene file; empty with fromEvents
     std::vector<std::string> sets; ///< "NAME=VALUE" of the scene's variables
     std::string fromEvents; ///< path of an event list
-    std::string wavPath, eventsPath, picturePath, moviePath, patternPath; ///< empty: not wanted
+    std::string wavPath, eventsPath, picturePath, patternPath; ///< empty: not wanted
     double threshold = 0.1;      ///< of the pattern, in full scale
     double interfaceVolts = 0.0; ///< what a sample of 1 in the WAV becomes; 0: no matter
     double seconds = 10.0;
     int sampleRateHz = 48000;
     int blockFrames = 256;
+    std::string moviePath; ///< empty: not wanted
     std::string instructions = "best"; ///< or "scalar"
     std::uint32_t seed = 1;
     int stepsPerSecond = 100;

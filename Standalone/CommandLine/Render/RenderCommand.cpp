@@ -117,9 +117,19 @@ std::string render(LoadedRender& job, RenderListener* listener) {
     return {};
 }
 
+/// What is wrong with a movie's file or its length, or empty.
+std::string movieFault(const RenderJob& o) {
+    constexpr double longestMovieSeconds = 600.0; // its pictures wait in memory, or beside it on the disk
+    const auto& path = o.moviePath;
+    if (path.empty()) return {};
+    if (!path.ends_with(".webp") && !path.ends_with(".gif") && !path.ends_with(".mp4")) return "--movie: expected a name that ends in .webp, .gif or .mp4, found " + inQuotes(path);
+    return o.seconds <= longestMovieSeconds ? std::string{} : "--movie: expected --seconds of at most 600";
+}
+
 } // namespace
 
 int runRender(const RenderJob& options, RenderListener* listener) {
+    if (const std::string fault = movieFault(options); !fault.empty()) return leave(exitUsage, fault);
     LoadedRender job{options, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;
     if (const std::string clash = fileClash(options.writtenPaths(), job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
