@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """What people read is whole: pages.py ROOT [PHYSVIB]. Every page of Docs stands on exactly one shelf of Docs/README.md, has at most 1,500 words
 (those of long-pages.txt: at most as many as it says), no placeholder and no dead link; README has at most 120 lines; programs shown in pages are those
-that are compiled. With PHYSVIB, the program: every call of it in a page names a command and options that exist. Prints what is wrong; exit code 1 if anything is."""
+that are compiled. With PHYSVIB, the program: every call of it in a page names a command and options that exist, and Docs/render.md has every option of `render`. Prints what is wrong; exit code 1 if anything is."""
 import re
 import subprocess
 import sys
@@ -129,8 +129,17 @@ def check_call(page: Path, program: str, words: list) -> None:
         expect(re.search(rf"{option}(?![\w-])", own) is not None, f"{name_of(page)}: physvib {words[0]}: there is no option {option}")
 
 
+def check_options(program: str) -> None:
+    """The page of render's options has all of them."""
+    page = (docs / "render.md").read_text()
+    for option in re.findall(r"^\s+(?:-\w,)?(--[a-z-]+)", help_of(program, ("render",)), re.M):
+        expect(option == "--help" or re.search(rf"{option}(?![\w-])", page) is not None, f"Docs/render.md: not a word of {option}")
+
+
 check_shelves()
 check_length()
+if len(sys.argv) > 2:
+    check_options(sys.argv[2])
 for page in [*front, *pages]:
     check_text(page)
     if len(sys.argv) > 2:

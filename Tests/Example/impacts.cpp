@@ -16,7 +16,7 @@ int main() {
     ball->SetRestitution(0.6f);
 
     physvib::Attachment haptics(world); // PhysVib: attach, say how the ball vibrates, step
-    haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true});
+    if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return 1;
     std::vector<physvib::CollisionEvent> impacts;
     for (int step = 0; step < 200; ++step) haptics.step(0.01f);
     haptics.take(impacts);

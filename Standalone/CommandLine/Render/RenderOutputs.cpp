@@ -103,10 +103,10 @@ std::string RenderOutputs::finish() {
     for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
         if (error.empty() && wav) error = wav->complete();
     if (error.empty() && eventsFile_) error = eventsFile_->write(eventsCsv(job_.made.events, provenance()));
+    if (error.empty() && movie_) error = movie_->draw(pictureInput(), sceneRun());
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
     if (error.empty() && motorsFile_) error = motorsFile_->write(motorsCsv(motors_, provenance()));
-    if (error.empty() && movie_) error = movie_->draw(pictureInput(), sceneRun());
     for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
         if (error.empty() && wav) error = wav->finish();
     for (auto* file : {&eventsFile_, &pictureFile_, &patternFile_, &motorsFile_})

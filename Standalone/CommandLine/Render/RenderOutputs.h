@@ -3,8 +3,8 @@
 #pragma once
 #include "CommandLine/Render/OnOffPattern.h"
 #include "Calls/LoadedRender.h"
-#include "CommandLine/Render/MovieOutput.h"
 #include "CommandLine/Render/RenderListener.h"
+#include "CommandLine/Render/MovieOutput.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/PadCommands.h"
@@ -69,13 +69,13 @@ private:
     std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_, motorsFile_;
     PadProfile pad_;
     std::vector<PadCommand> motors_;
-    std::optional<MovieOutput> movie_;
     std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;
     std::vector<std::vector<float>> scaled_; // for the interface's voltage
     std::string markWords_;
     std::vector<float> heard_;
     OnOffPattern pattern_;
     WaveformEnvelope whole_;
+    std::optional<MovieOutput> movie_;
     std::optional<WaveformEnvelope> zoom_;
     std::int64_t framesTaken_ = 0;
     int percentShown_ = -1;
