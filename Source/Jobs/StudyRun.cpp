@@ -54,6 +54,19 @@ StudyInProgress::StudyInProgress(StudyRun run)
     if (isOfToday_ && before_ > 0) exposureToday_ = log_.records().back().answer.exposure.value_or(0.0);
 }
 
+std::string StudyInProgress::apparatusFault(const Apparatus& now) const {
+    if (log_.records().empty() || !log_.records().back().answer.apparatus) return {};
+    const Apparatus& before = *log_.records().back().answer.apparatus;
+    const auto noiseWords = [](const Apparatus& with) { return with.noiseDb ? numberText(*with.noiseDb) + " dB" : std::string{"off"}; };
+    const auto differs = [&](const char* what, const std::string& was, const std::string& is) {
+        return path_.filename().string() + ": expected " + what + " as in the trials before, " + was + ", found " + is + "; set it so, or begin anew in another folder";
+    };
+    if (before.device != now.device) return differs("the device", inQuotes(before.device), inQuotes(now.device));
+    if (before.masterDb != now.masterDb) return differs("the master level", numberText(before.masterDb) + " dB", numberText(now.masterDb) + " dB");
+    if (before.noiseDb != now.noiseDb) return differs("the pink noise", noiseWords(before), noiseWords(now));
+    return {};
+}
+
 std::string StudyInProgress::keepComment(const std::string& words) const {
     AtomicFile file{std::filesystem::path{path_}.replace_extension(".comment.txt")};
     file.write(run_.protocol.closingQuestion + "\n\n" + words + "\n");

@@ -58,6 +58,14 @@ struct ConditionResolution {
     PerceptualResolution resolution;
 };
 
+/// How far chance alone moves the number of cells: responses are drawn again, with replacement, target by target.
+struct CellSpread {
+    double mean = 0.0, deviation = 0.0; ///< cells
+};
+
+/// Of trials whose normals have no fault. The same seed gives the same bits. Any thread (allocates).
+CellSpread cellSpread(const std::vector<LocationTrial>& trials, double thresholdPercent = defaultPercentThreshold, int draws = 200, std::uint64_t seed = 1);
+
 /// Any thread (allocates).
 ConditionResolution resolveCondition(std::string condition, const std::vector<LocationTrial>& trials,
                                      double thresholdPercent = defaultPercentThreshold);

@@ -34,6 +34,14 @@ struct FeltLevel {
     bool operator==(const FeltLevel&) const = default;
 };
 
+/// With what a trial was felt: the same for all trials of a participant, or they are not of one study.
+struct Apparatus {
+    std::string version, device;    ///< of the program; of the device, "JACK:system"
+    double masterDb = 0.0;          ///< the mixer's level
+    std::optional<double> noiseDb{}; ///< pink noise on headphones: its root mean square in dB of full scale; none: there was none
+    bool operator==(const Apparatus&) const = default;
+};
+
 constexpr double leastEstimate = 1e-12, mostEstimate = 1e12; // of how strong something was
 
 /// What a participant says. Each task uses some of it.
@@ -45,6 +53,8 @@ struct Answer {
     int plays = 1;                   ///< how often it was felt
     double seconds = 0.0;            ///< from the first feel to the answer
     std::vector<FeltLevel> felt{};       ///< per part, the last time; empty: nobody felt it on a device
+    std::optional<Apparatus> apparatus{}; ///< none: nobody felt it on a device
+    double limiterDb = 0.0;              ///< by how much the limiter lowered what was felt, at most
     std::optional<double> exposure{};    ///< of the participant up to here: A(8) in m/s^2; none: nobody measured it
     std::vector<std::string> sessions{}; ///< what was felt of worlds, in this order: saved sessions, beside the trial file
     bool operator==(const Answer&) const = default;

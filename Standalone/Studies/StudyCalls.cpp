@@ -6,7 +6,6 @@
 #include "Calls/StimulusOptions.h"
 #include "Core/Decibels.h"
 #include "Study/Files/ProtocolFile.h"
-#include "Studies/StudyCheck.h"
 #include "Jobs/LayoutNamed.h"
 #include "Jobs/MakeStimulus.h"
 #include "Jobs/StudyRun.h"
@@ -157,8 +156,7 @@ std::string protocolFault(const Protocol& protocol, const std::string& name) {
             return name + ": condition " + printable(condition.name) + ": expected as many enchanters as the layout has (" + std::to_string(layout.value.geometry.count) + "), found " +
                    std::to_string(patterns->enchanters);
     }
-    const std::string fault = limiterFault(protocol);
-    return fault.empty() ? fault : name + ": " + fault;
+    return {};
 }
 
 Result<FeltStimulus> feltStimulus(const TrialJob& job, int sampleRateHz, const std::string& folder) {

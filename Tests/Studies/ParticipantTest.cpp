@@ -454,6 +454,41 @@ TEST_F(ByAParticipant, HearsPinkNoiseOnTheChosenOutputsForAsLongAsTheStudyGoesOn
     EXPECT_TRUE(p->desk.device().listening().settings().noise.empty());
 }
 
+TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
+    const auto leave = [&] {
+        p->click("Leave the study; what was answered is kept");
+        ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    };
+    const auto setMaster = [&](double db) {
+        Mix mix = p->desk.mix();
+        mix.levelDb = db;
+        p->desk.edit("Master level", mix);
+        p->pump();
+    };
+    setMaster(0.0);
+    begin(R"({"name": "main", "task": "estimate", "repetitions": 3})", R"("stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g 0.1")");
+    passPage();
+    p->feel();
+    ASSERT_TRUE(p->canUse("Number"));
+    p->type("7");
+    p->enter();
+    leave();
+    EXPECT_EQ(column("master_db", "estimate"), Texts{"0"});
+    EXPECT_EQ(column("noise_db", "estimate"), Texts{"off"});
+    EXPECT_EQ(column("limiter_db", "estimate"), Texts{"0"});
+    EXPECT_EQ(column("version", "estimate"), Texts{PHYSVIB_VERSION});
+    setMaster(-12.0); // as after a crash
+    EXPECT_NE(p->tab().begin().find("expected the master level as in the trials before, 0 dB, found -12 dB"), std::string::npos);
+    EXPECT_EQ(p->screen(), nullptr);
+    setMaster(0.0);
+    p->tab().setNoise(p->tab().noiseChoices().front(), -35.0);
+    EXPECT_NE(p->tab().begin().find("expected the pink noise as in the trials before, off, found -35 dB"), std::string::npos);
+    EXPECT_TRUE(p->desk.device().listening().settings().noise.empty()) << "nothing is heard of a study that did not begin";
+    p->tab().setNoise({}, -35.0);
+    goOn();
+    leave();
+}
+
 TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
     const auto refusal = [&](const std::string& call) {
         const auto file = folder.getChildFile("short.json");

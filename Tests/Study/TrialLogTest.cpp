@@ -172,20 +172,36 @@ TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
     EXPECT_EQ(readFile(path, 1'000'000).value, "my diary");
 }
 
-TEST_F(TrialLogFiles, OfBeforeAnythingWasMeasuredGoOnInTheirOwnColumns) {
+TEST_F(TrialLogFiles, OfOlderVersionsGoOnInTheirOwnColumns) {
     const Protocol p = findProtocol("magnitudes").value;
-    std::string old;
-    std::istringstream lines{wholeFile(p)};
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t measured = line.find(",peak_g,rms_g,a8_m_per_s2");
-        if (measured != std::string::npos) line.resize(measured);
-        else if (line.ends_with(",,,")) line.resize(line.size() - 3);
-        old += line + "\n";
+    for (const auto& [newest, columns] : {std::pair{",peak_g,rms_g,a8_m_per_s2", std::size_t{8}}, {",limiter_db,master_db", std::size_t{5}}}) {
+        std::string old;
+        std::istringstream lines{wholeFile(p)};
+        for (std::string line; std::getline(lines, line);) {
+            const std::size_t at = line.find(newest);
+            if (at != std::string::npos) line.resize(at);
+            else if (line.ends_with(std::string(columns, ','))) line.resize(line.size() - columns);
+            old += line + "\n";
+        }
+        ASSERT_EQ(old.find(newest), std::string::npos);
+        std::ofstream{path, std::ios::binary} << old.substr(0, old.size() / 2);
+        goOn(p, [](Answer& answer) { answer.apparatus = Apparatus{"1.0", "JACK:system", -6.0}; });
+        EXPECT_EQ(readFile(path, 1'000'000).value, old) << newest;
     }
-    ASSERT_EQ(old.find("peak_g"), std::string::npos);
-    std::ofstream{path, std::ios::binary} << old.substr(0, old.size() / 2);
-    goOn(p, [](Answer& answer) { answer.exposure = 1.0; });
-    EXPECT_EQ(readFile(path, 1'000'000).value, old);
+}
+
+TEST_F(TrialLogFiles, SayWithWhatTrialsWereFelt) {
+    const Protocol p = findProtocol("magnitudes").value;
+    const Apparatus with{"1.0", "JACK:system", -6.0, -40.5};
+    goOn(p, [&](Answer& answer) { answer.apparatus = with, answer.limiterDb = 1.25; });
+    const std::string text = readFile(path, 1'000'000).value;
+    EXPECT_NE(text.find(",1.25,-6,-40.5,JACK:system,1.0\n"), std::string::npos) << text;
+    const auto log = readTrialLog(text, "t.csv", p, participant);
+    ASSERT_TRUE(log) << log.error;
+    for (const TrialRecord& record : log.value.records) {
+        EXPECT_EQ(record.answer.apparatus, with);
+        EXPECT_EQ(record.answer.limiterDb, 1.25);
+    }
 }
 
 TEST_F(TrialLogFiles, HaveOneWriterAtATime) {

@@ -40,6 +40,11 @@ void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolu
     out << "  sum " << fixedNumber(counts.sum(), 2) << " %, standard deviation " << fixedNumber(counts.standardDeviation(), 2) << '\n';
 }
 
+/// "21.6 +- 2.2 cells": what the same responses give when they are drawn again.
+std::string spreadWords(const CellSpread& spread) {
+    return fixedNumber(spread.mean, 1) + " +- " + fixedNumber(spread.deviation, 1) + " cells (responses drawn again 200 times): sizes that differ by less are no finding";
+}
+
 void exportMerged(ExportTable& table, const PercentCounts& counts, const PerceptualResolution& resolution) {
     if (resolution.ties.empty()) return;
     const PercentCounts grid = merged(counts, resolution.ties.front());
@@ -86,7 +91,10 @@ AnalysisReport analyseResolution(const AnalysisJob& o) {
         counts.push_back(one.counts);
         exportNormals(table, one);
     }
-    for (const auto& one : made) tell(out, one.counts, one.resolution, o.thresholdPercent);
+    for (std::size_t c = 0; c < made.size(); ++c) {
+        tell(out, made[c].counts, made[c].resolution, o.thresholdPercent);
+        if (!made[c].resolution.ties.empty()) out << "  by chance " << spreadWords(cellSpread(data.value.conditions[c].trials, o.thresholdPercent)) << '\n';
+    }
     Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
     if (data.value.isSimulated) provenance.entries.emplace_back("observer", "simulated");
     report.words = out.str();
@@ -108,6 +116,7 @@ AnalysisReport analysePercentCounts(const AnalysisJob& o) {
         warnOfSum(counts, report.warnings);
         made.push_back({counts.condition, {}, {}, counts, perceptualResolution(counts, o.thresholdPercent)});
         tell(out, counts, made.back().resolution, o.thresholdPercent);
+        out << "  by chance: shares do not say of how many responses they are; analyse resolution of the trials does\n";
         exportMerged(table, counts, made.back().resolution);
     }
     report.words = out.str();

@@ -72,14 +72,14 @@ std::string setWords(const StimulusSet& set) {
         return "phantoms on a grid of " + std::to_string(grid->columns) + " x " + std::to_string(grid->rows) + " (columns x rows), law " + std::string(nameOf(grid->law)) + ", " +
                numberText(grid->seconds) + " s";
     std::string words = "calls of physvib by";
-    if (const auto* calls = std::get_if<CallSet>(&set))
+    if (const auto* calls = callSetOf(set))
         for (const StudyFactor& factor : calls->factors) words += (words.ends_with(" by") ? " " : ", ") + factor.name + " (" + count(factor.values.size(), "level") + ")";
     return words;
 }
 
 std::string conditionWords(const ConditionPlan& condition) {
     std::string words = condition.name + (condition.group.empty() ? "" : " (group " + condition.group + ")") + ": " + setWords(condition.stimuli) + "; layout " + condition.layout;
-    if (!std::holds_alternative<CallSet>(condition.stimuli)) words += ", " + (condition.isAtResonance ? "the actuators' resonance" : numberText(condition.frequencyHz) + " Hz") + ", " + numberText(condition.levelG) + " g";
+    if (callSetOf(condition.stimuli) == nullptr) words += ", " + (condition.isAtResonance ? "the actuators' resonance" : numberText(condition.frequencyHz) + " Hz") + ", " + numberText(condition.levelG) + " g";
     return words;
 }
 
@@ -113,7 +113,7 @@ std::string sessionWords(const SessionPlan& session) {
 
 void tellProtocol(ReportPage& page, const Protocol& protocol) {
     page.paragraph("Protocol " + protocol.name + ": " + protocol.title + ". Every participant does each session in each condition; the order of conditions is " +
-                   std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + (protocol.hasPinkNoise ? "; pink noise on headphones" : "") + ".");
+                   std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + ".");
     page.subheading("Conditions");
     std::vector<std::string> conditions, sessions;
     for (const ConditionPlan& condition : protocol.conditions) conditions.push_back(conditionWords(condition));
@@ -224,6 +224,7 @@ void tellProcedure(ReportBuilder& report) {
     report.page.heading("Procedure");
     if (report.trials.protocol) tellProtocol(report.page, *report.trials.protocol);
     else report.page.note(report.trials.protocolNote);
+    tellApparatus(report);
     tellCalls(report);
     tellDoses(report);
 }

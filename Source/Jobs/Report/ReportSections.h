@@ -7,6 +7,7 @@ namespace physvib {
 
 void tellParticipants(ReportBuilder& report); ///< who, how many trials, who is left out
 void tellProcedure(ReportBuilder& report);    ///< in the protocol's own words, the calls that made the stimuli, levels, exposure
+void tellApparatus(ReportBuilder& report);   ///< device, levels, noise and limiter, as rows have them
 void tellProvenance(ReportBuilder& report);   ///< versions, seeds, files
 
 // What the trials say; each is for trials of one kind of task.

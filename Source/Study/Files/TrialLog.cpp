@@ -41,6 +41,15 @@ void addPlace(Cells& cells, const FieldPlace& place) {
     cells["y"] = numberText(place.y);
 }
 
+void addApparatus(Cells& cells, const Answer& answer) {
+    const Apparatus& with = *answer.apparatus;
+    cells[columns::limiterDb] = levelText(answer.limiterDb);
+    cells[columns::masterDb] = levelText(with.masterDb);
+    cells[columns::noiseDb] = with.noiseDb ? levelText(*with.noiseDb) : std::string{columns::noNoise};
+    cells[columns::device] = with.device;
+    cells[columns::version] = with.version;
+}
+
 Cells cellsOf(const Protocol& protocol, const Participant& participant, const TrialRecord& record) {
     const auto& [trial, answer] = record;
     const SessionPlan& session = protocol.sessions[trial.session];
@@ -68,6 +77,7 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
         appendPart(cells[columns::rmsG], levelText(felt.rmsG));
     }
     if (answer.exposure) cells[columns::exposure] = levelText(*answer.exposure);
+    if (answer.apparatus) addApparatus(cells, answer);
     for (std::size_t s = 0; s < answer.scores.size(); ++s) cells[session.scales[s]] = numberText(answer.scores[s]);
     return cells;
 }
@@ -81,10 +91,12 @@ std::string headerOf(const std::vector<std::string>& names) {
     return line + "\n";
 }
 
-/// The columns of the header `line`, with its end: all of `names`, or those without what is measured; none: others.
+/// The columns of the header `line`, with its end: all of `names`, or those that older versions had; none: others.
 std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
-    if (line == headerOf(names)) return names;
-    std::erase_if(names, [](const std::string& name) { return columns::isMeasured(name); });
+    for (const auto isNewer : {columns::isApparatus, columns::isMeasured}) {
+        if (line == headerOf(names)) return names;
+        std::erase_if(names, isNewer);
+    }
     return line == headerOf(names) ? names : std::vector<std::string>{};
 }
 
@@ -110,11 +122,21 @@ public:
         if (!cell(row, "x").empty()) record.answer.place = FieldPlace{rows_.number(row, rows_.required("x"), 0.0, 1.0), rows_.number(row, rows_.required("y"), 0.0, 1.0)};
         if (!cell(row, "value").empty()) record.answer.value = rows_.number(row, rows_.required("value"), -mostEstimate, mostEstimate);
         if (const auto exposure = rows_.optional(columns::exposure); exposure && !row.cells[*exposure].empty()) record.answer.exposure = rows_.number(row, *exposure, 0.0, 1e6);
+        readApparatus(row, record.answer);
         for (const auto& scale : session.scales) record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
         return record;
     }
 
 private:
+    void readApparatus(const CsvRow& row, Answer& answer) const {
+        if (!rows_.optional(columns::version) || cell(row, columns::version).empty()) return;
+        Apparatus& with = answer.apparatus.emplace();
+        with.version = cell(row, columns::version);
+        with.device = cell(row, columns::device);
+        with.masterDb = rows_.number(row, rows_.required(columns::masterDb), -1000.0, 1000.0);
+        if (cell(row, columns::noiseDb) != columns::noNoise) with.noiseDb = rows_.number(row, rows_.required(columns::noiseDb), -1000.0, 0.0);
+        answer.limiterDb = rows_.number(row, rows_.required(columns::limiterDb), 0.0, 1000.0);
+    }
     const std::string& cell(const CsvRow& row, std::string_view column) const { return row.cells[rows_.required(column)]; }
     template <class Item>
     std::size_t indexOf(const CsvRow& row, std::string_view column, const std::vector<Item>& items) const {
@@ -171,6 +193,7 @@ std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
     for (const auto& scale : scalesOf(protocol)) all.push_back(scale);
     if (std::ranges::any_of(protocol.sessions, [](const SessionPlan& s) { return s.quest.has_value(); })) all.emplace_back(columns::quest);
     all.insert(all.end(), columns::measured.begin(), columns::measured.end());
+    all.insert(all.end(), columns::apparatus.begin(), columns::apparatus.end());
     return all;
 }
 

@@ -6,6 +6,7 @@
 #include "Study/Files/ProtocolFile.h"
 #include "Io/Disk/ReadFile.h"
 #include "Host/Devices/NoDevice.h"
+#include "Studies/StudyCheck.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
 
@@ -243,6 +244,7 @@ std::string StudiesTab::begin() {
     if (code_.isEmpty()) return refuse("expected a participant's code");
     if (auto fault = faultOf(run()); !fault.empty()) return refuse(fault);
     if (auto fault = feltFault(*protocol_, desk_); !fault.empty()) return refuse(fault);
+    if (auto fault = limiterFault(*protocol_); !fault.empty()) return refuse(protocol_->name + ": " + fault);
     auto words = findWords(wordsPath_.empty() ? besideProtocol(protocol_->folder, protocol_->words) : wordsPath_);
     if (!words) return refuse(words.error);
     const auto typeface = typefaceFor(words.value);
@@ -250,6 +252,7 @@ std::string StudiesTab::begin() {
     auto study = std::make_unique<StudyInProgress>(run());
     if (!study->error().empty()) return refuse(study->error());
     if (auto fault = desk_.device().listening().hear(listening()); !fault.empty()) return refuse(fault);
+    if (auto fault = study->apparatusFault(apparatusOf(desk_)); !fault.empty()) return desk_.device().listening().endStudy(), refuse(fault);
     screen_ = std::make_unique<StudyScreen>(desk_, std::move(study), std::move(words.value), answersChoice_.getSelectedId() == answersElsewhereId);
     font_ = std::make_unique<StudyFont>(*typeface);
     screen_->onClose = [this] { end(); };

@@ -31,6 +31,13 @@ std::string jobFault(Desk& desk, const Protocol& protocol, const ConditionPlan& 
 
 } // namespace
 
+Apparatus apparatusOf(Desk& desk) {
+    const ListeningSettings& listening = desk.device().listening().settings();
+    Apparatus with{PHYSVIB_VERSION, desk.output().device(), desk.mix().levelDb};
+    if (!listening.noise.empty()) with.noiseDb = listening.noiseDb;
+    return with;
+}
+
 std::string feltFault(const Protocol& protocol, Desk& desk) {
     for (std::size_t c = 0; c < protocol.conditions.size(); ++c)
         for (std::size_t s = 0; s < protocol.sessions.size(); ++s)

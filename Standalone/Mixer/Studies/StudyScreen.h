@@ -89,6 +89,7 @@ private:
     std::vector<std::string> sessions_; // that were felt
     std::vector<FeltLevel> felt_; // per part
     std::size_t part_ = 0;
+    double limiterDb_ = 0.0; // by how much it lowered what was felt of the trial at hand, as far as it was looked at
     double counted_ = 0.0, firstFeltMs_ = 0.0, restEndsMs_ = 0.0;
 
     BigButton next_{"Next", "Next"}, pause_{"Pause", "Pause"};
@@ -98,6 +99,9 @@ private:
     juce::String shown_;
     juce::Rectangle<int> headArea_, questionArea_, bodyArea_, keysArea_;
 };
+
+/// With what a trial is felt now. M.
+Apparatus apparatusOf(Desk& desk);
 
 /// Why the study cannot be felt in this mixer, with what each condition begins with; empty if it can. M.
 std::string feltFault(const Protocol& protocol, Desk& desk);

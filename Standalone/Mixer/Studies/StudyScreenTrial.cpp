@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Through a trial: its parts are felt, its answer is given and kept.
+#include "Core/Decibels.h"
 #include "Mixer/Studies/StudyScreen.h"
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace physvib {
 
@@ -94,6 +97,8 @@ double StudyScreen::exposure() const { return dailyExposure(std::max(0.0, square
 void StudyScreen::take(Answer answer) {
     noteFelt();
     answer.felt = felt_;
+    answer.apparatus = apparatusOf(desk_);
+    answer.limiterDb = std::exchange(limiterDb_, 0.0);
     answer.exposure = exposure();
     answer.plays = std::max(1, progress_->plays());
     answer.seconds = std::round(nowMs() - firstFeltMs_) * 1e-3;
@@ -116,6 +121,7 @@ void StudyScreen::updateTrial() {
         counted_ = felt;
     }
     const bool wasFeeling = isFeeling();
+    if (wasFeeling) limiterDb_ = std::max(limiterDb_, -toDecibels(std::max(1e-6, static_cast<double>(desk_.session().status().render.limiterGain))));
     pane_.refresh();
     if (wasFeeling && !isFeeling()) resized();
     if (!pane_.world().fault().empty()) return fail(pane_.world().fault());
