@@ -4,6 +4,7 @@
 #include "Core/Actuators/HandWeighting.h"
 #include "Core/Actuators/PerceivedLevel.h"
 #include "Core/Decibels.h"
+#include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
 #include "Session/ContactSounds.h"
 #include "Session/OfflineRender.h"
@@ -67,7 +68,7 @@ CheckedStimulus checkStimulus(const Protocol& protocol, const PlannedStimulus& p
 std::string signedNumber(double number, int decimals) { return number < 0.0 ? fixedNumber(number, decimals) : std::string{"+"}.append(fixedNumber(number, decimals)); }
 
 std::string nameOf(const Protocol& protocol, const CheckedStimulus& s) {
-    std::string name = "condition " + printable(protocol.conditions[s.condition].name) + ", " + (s.label.empty() ? std::string{"any place"} : printable(s.label));
+    std::string name = "condition " + printable(protocol.conditions[s.condition].name) + ", " + (s.label.empty() ? std::string{"any place"} : cleanLine(s.label));
     if (!s.part.empty()) name += ", " + printable(s.part);
     return s.levelDb == 0.0 ? name : name + " at " + signedNumber(s.levelDb, 1) + " dB";
 }
@@ -88,8 +89,8 @@ void judge(const Protocol& protocol, const CheckedStimulus& s, StudyCheck& check
     if (!s.error.empty()) return void(check.errors.push_back(nameOf(protocol, s) + ": " + s.error));
     if (needsLimiter(s)) (s.isOpenEnded ? check.warnings : check.errors).push_back(limiterWords(protocol, s));
     if (s.peakG <= 0.0) check.warnings.push_back(nameOf(protocol, s) + ": nothing is felt");
-    else if (const double db = aboveThresholdDb(s) - s.levelDb; db < weakDb && !s.isOpenEnded)
-        check.warnings.push_back(nameOf(protocol, s) + ": weak: " + fixedNumber(1e3 * s.peakG / fromDecibels(s.levelDb), 1) + " mg at 0 dB, " + fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +
+    else if (const double db = aboveThresholdDb(s); db < weakDb && !s.isOpenEnded)
+        check.warnings.push_back(nameOf(protocol, s) + ": weak at its highest level: " + fixedNumber(1e3 * s.peakG, 1) + " mg, " + fixedNumber(std::abs(db), 1) + " dB " + (db < 0.0 ? "below" : "above") +
                                  " the threshold of detection at " + fixedNumber(s.frequencyHz, 0) + " Hz (assumed: " + fixedNumber(1e3 * detectionThresholdG(s.frequencyHz), 0) + " mg)");
 }
 
@@ -101,7 +102,7 @@ std::string lineOf(const CheckedStimulus& s) {
 std::string tableOf(const Protocol& protocol, const std::vector<CheckedStimulus>& stimuli) {
     std::string text = "condition\tstimulus\tpart\tlevel_db\tpeak_g\trms_g\tbelow_full_scale_db\tabove_threshold_db\tseconds\n";
     for (const CheckedStimulus& s : stimuli)
-        text += printable(protocol.conditions[s.condition].name) + "\t" + printable(s.label) + "\t" + printable(s.part) + "\t" + numberText(s.levelDb) + "\t" + lineOf(s) + "\n";
+        text += printable(protocol.conditions[s.condition].name) + "\t" + cleanLine(s.label) + "\t" + cleanLine(s.part) + "\t" + numberText(s.levelDb) + "\t" + lineOf(s) + "\n";
     return text;
 }
 

@@ -43,11 +43,11 @@ TEST_F(StudyCheckCommand, EveryConditionOfTheFallingObjectsKeepsItsDistancesBelo
     for (const char* pair : {"rubber-concrete", "wood-wood", "steel-steel"})
         for (const char* size : {"small", "medium", "large"})
             for (const std::string part : {"AV-FV-DRV", "SV"}) {
-                const auto at = [&](const char* height) { return toDecibels(peaks.at(std::string{pair} + " " + size + " " + height + " " + part)); };
+                const auto at = [&](const char* height) { return toDecibels(peaks.at(std::string{"pair="} + pair + " size=" + size + " height=" + height + " " + part)); };
                 EXPECT_NEAR(at("2") - at("1"), 3.01, 0.1) << pair << size << part; // Eq. 5.4: as the root of the height
                 EXPECT_NEAR(at("3") - at("1"), 4.77, 0.1) << pair << size << part;
             }
-    EXPECT_NE(outcome.out.find("warning: condition drop, rubber-concrete small 1"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("warning: condition drop, pair=rubber-concrete size=small height=1"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("below the threshold of detection at 80 Hz"), std::string::npos);
     EXPECT_NE(outcome.out.find("trials: 135"), std::string::npos);
 }
@@ -56,7 +56,7 @@ TEST_F(StudyCheckCommand, WhatNeedsTheLimiterIsRefusedWithWhatItWouldNeed) {
     change("model-or-sound", {{"\"level_db\": -8", "\"level_db\": 0"}});
     const auto outcome = call("study check mine.json");
     EXPECT_EQ(outcome.exitCode, 1);
-    EXPECT_NE(outcome.out.find("error: condition drop, wood-wood large 3, SV: peaks 7."), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("error: condition drop, pair=wood-wood size=large height=3, SV: peaks 7."), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("expected a layout of at least 4."), std::string::npos) << outcome.out;
     refuses("study run mine.json --observer simulated --out other", 1, "which the limiter would lower", 1);
 }
