@@ -77,7 +77,8 @@ std::string renderInputFault(RenderJob& o) {
 
 std::string renderFault(RenderJob& o) {
     const std::string fault = renderInputFault(o);
-    if (!fault.empty() || !std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return fault;
+    if (fault.empty() && o.explain && o.scene.empty()) return "--explain: expected a scene, whose contacts are counted";
+    if (!fault.empty() || o.explain || !std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return fault;
     return "render: nothing to write; give --out, --events, --picture, --pattern, --contact-sound or --marker";
 }
 

@@ -50,6 +50,7 @@ struct RenderJob {
     std::string markerOf = "all";    ///< of which
     std::string actuator = "none"; ///< or "layout", a profile's name, a profile's path
     std::string equalise = "on", remap = "off"; ///< with an actuator
+    bool explain = false; ///< tell what became of the scene's contacts
     std::string coupling; ///< path of a measured coupling that drives shall make up for; empty: none
 
     std::set<std::string> given; ///< names of the options that were chosen, with their dashes: a session keeps its own where they are not

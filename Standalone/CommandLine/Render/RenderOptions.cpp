@@ -48,6 +48,7 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
     command.add("--events", o.eventsPath, "the collisions as an event list").written("FILE.csv");
     command.add("--picture", o.picturePath, "world, waveforms and event marks").written("FILE.png");
     command.add("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel").written("FILE.csv");
+    command.add("--explain", o.explain, "count the scene's contacts, and say why nothing or not everything is felt");
     command.add("--threshold", o.threshold, "of the pattern, in full scale").in(0.0, 1.0);
     command.add("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
         .in(0.001, 1000.0, " V");
