@@ -22,6 +22,20 @@ std::string counted(std::uint64_t count, std::string_view what) { return std::to
 
 } // namespace
 
+ContactCounts& ContactCounts::operator+=(const ContactCounts& other) noexcept {
+    contacts += other.contacts;
+    belowThreshold += other.belowThreshold;
+    withoutSource += other.withoutSource;
+    unplayable += other.unplayable;
+    muted += other.muted;
+    dropped += other.dropped;
+    events += other.events;
+    thresholdMetresPerSecond = other.thresholdMetresPerSecond;
+    hasStepped = hasStepped || other.hasStepped;
+    hasSources = hasSources || other.hasSources;
+    return *this;
+}
+
 std::string explain(const ContactCounts& counts) {
     if (!counts.hasStepped) return "No step has been made: step the world through PhysVib.";
     if (counts.contacts == 0) return "No contact has begun: nothing has touched yet, or contacts are not told to PhysVib.";
@@ -39,9 +53,9 @@ std::string explain(const ContactCounts& counts) {
 
 std::string describe(const ContactCounts& counts) {
     const auto line = [](const std::string& name, std::uint64_t count) { return name + " " + std::to_string(count) + "\n"; };
-    return line("contacts", counts.contacts) + line("below the threshold of " + number(counts.thresholdMetresPerSecond) + " m/s:", counts.belowThreshold) +
+    return explain(counts) + "\n" + line("contacts", counts.contacts) + line("below the threshold of " + number(counts.thresholdMetresPerSecond) + " m/s:", counts.belowThreshold) +
            line("no haptic source:", counts.withoutSource) + line("unplayable:", counts.unplayable) + line("muted:", counts.muted) +
-           line("dropped:", counts.dropped) + line("events:", counts.events) + explain(counts) + "\n";
+           line("dropped:", counts.dropped) + line("events:", counts.events);
 }
 
 } // namespace physvib

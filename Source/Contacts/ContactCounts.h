@@ -18,12 +18,15 @@ struct ContactCounts {
     double thresholdMetresPerSecond = 0.0; ///< as it is in effect: at least 1.5 g dt of the last step
     bool hasStepped = false;          ///< any step was begun
     bool hasSources = false;          ///< any body is a haptic source now
+
+    /// Those of another world on top, whose threshold is the one that is shown.
+    ContactCounts& operator+=(const ContactCounts& other) noexcept;
 };
 
 /// The most likely reason why nothing, or not everything, is felt: one sentence in plain words. Any thread.
 std::string explain(const ContactCounts& counts);
 
-/// What `--explain` prints, a line per count and the sentence. Any thread.
+/// What `--explain` prints: the sentence, and a line per count. Any thread.
 std::string describe(const ContactCounts& counts);
 
 } // namespace physvib

@@ -47,6 +47,14 @@ std::string_view ContactFeed::move(std::int32_t id, Vector2 centre, const BodyMo
     return {};
 }
 
+std::string_view ContactFeed::moved(std::int32_t id, const BodyMotion& motion) {
+    if (!bodies_.has(id)) return unknownBody;
+    if (!events_.catcher().isStepping()) return outsideStep;
+    if (!isFinite(motion.metresPerSecond) || !std::isfinite(motion.radiansPerSecond)) return "velocity: expected numbers";
+    bodies_.moveAfter(id, motion);
+    return {};
+}
+
 std::string_view ContactFeed::remove(std::int32_t id) {
     if (!bodies_.has(id)) return unknownBody;
     if (events_.catcher().isStepping()) return withinStep;
@@ -119,7 +127,10 @@ std::string_view ContactFeed::end(std::int32_t a, std::int32_t b) {
     if (!bodies_.has(a) || !bodies_.has(b) || a == b) return unknownBody;
     const std::int32_t pair = pairOf_.find(pairKey(slotOf(a), slotOf(b)));
     if (pair == IntegerMap::none) return "contact: expected one that has begun";
-    if (pairs_[static_cast<std::size_t>(pair)].waiting != FedPoints::none) settle(pairs_[static_cast<std::size_t>(pair)]); // it has begun in this step
+    if (pairs_[static_cast<std::size_t>(pair)].waiting != FedPoints::none) { // it has begun in this step
+        momentum_.solve();
+        settle(pairs_[static_cast<std::size_t>(pair)]);
+    }
     drop(static_cast<std::size_t>(pair));
     return {};
 }
@@ -139,6 +150,7 @@ std::string_view ContactFeed::endStep() {
     }
     points_.endStep();
     waiting_.clear();
+    bodies_.endStep();
     rubs_.endStep(events_.stepSeconds(), events_.lasting());
     events_.endStep();
     return {};
@@ -188,9 +200,11 @@ bool ContactFeed::isNewPoint(Pair& pair, const FedContact& contact) {
 void ContactFeed::tell(Pair& pair, const FedContact& contact, bool isNew) {
     if (!events_.catcher().isHearing()) return;
     if (waits(contact)) {
-        waiting_.push_back({contact, isNew, pair.waiting});
+        const bool isByMomentum = this->isByMomentum(contact);
+        const auto momentum = isByMomentum ? static_cast<std::int32_t>(momentum_.add(bodies_, contact.a, contact.b, contact.point, contact.normal)) : FedPoints::none;
+        waiting_.push_back({contact, isNew, pair.waiting, momentum});
         pair.waiting = static_cast<std::int32_t>(waiting_.size()) - 1;
-        if (isNew || contact.isImpulseOfPair) return;
+        if (isNew || contact.isImpulseOfPair || isByMomentum) return;
     }
     if (isNew)
         strike(contact);
@@ -200,8 +214,28 @@ void ContactFeed::tell(Pair& pair, const FedContact& contact, bool isNew) {
 
 void ContactFeed::settleTogether() {
     if (waiting_.empty()) return;
+    momentum_.solve();
     for (const Pair& pair : pairs_)
         if (pair.waiting != FedPoints::none) settle(pair);
+    momentum_.clear();
+}
+
+FedContact ContactFeed::withMomentum(const Waiting& each) const {
+    FedContact contact = each.contact;
+    if (each.momentum == FedPoints::none) return contact;
+    contact.impulseNewtonSeconds = momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum));
+    contact.tangentialNewtonSeconds = 0.0;
+    return contact;
+}
+
+// The blow of a pair that is no spring is what its new points have changed.
+void ContactFeed::strikeByMomentum() {
+    meeting_.clear();
+    for (const Waiting* each : together_) {
+        const double newtonSeconds = each->isNew ? momentum_.newtonSeconds(static_cast<std::size_t>(each->momentum)) : 0.0;
+        meeting_.push_back({each->contact.point, each->contact.normal, speedOf(each->contact), 0.0, each->isNew, newtonSeconds});
+    }
+    strikeTogether();
 }
 
 void ContactFeed::settle(const Pair& pair) {
@@ -213,13 +247,17 @@ void ContactFeed::settle(const Pair& pair) {
     const FedContact& first = together_.front()->contact;
     const auto hasMass = [](const Waiting* each) { return each->contact.effectiveMassKg.has_value(); };
     const auto isNew = [](const Waiting* each) { return each->isNew; };
+    const bool isByMomentum = std::ranges::all_of(together_, [](const Waiting* each) { return each->momentum != FedPoints::none; });
+    for (const Waiting* each : together_)
+        if (isByMomentum && !each->isNew) load(withMomentum(*each));
+    if (isByMomentum && !first.isSoft && std::ranges::any_of(together_, isNew)) return strikeByMomentum();
     if (std::ranges::none_of(together_, isNew)) { // the others have been loaded where they were told
         if (first.isImpulseOfPair) load(first);
         return;
     }
     if (together_.size() == 1 || std::ranges::any_of(together_, hasMass)) {
         for (const Waiting* each : together_)
-            if (each->isNew) strike(each->contact);
+            if (each->isNew) strike(withMomentum(*each));
         return;
     }
     meeting_.clear();
@@ -256,7 +294,7 @@ void ContactFeed::strikeTogether() {
     if (!isBlow && first.isImpulseOfPair) return load(first);
     if (!isBlow) {
         for (const Waiting* each : together_)
-            if (each->isNew && (each->contact.isSoft || speedOf(each->contact) > 0.0)) load(each->contact);
+            if (each->isNew && (each->contact.isSoft || speedOf(each->contact) > 0.0)) load(withMomentum(*each));
         return;
     }
     Blow* blow = catcher.blow(pair);

@@ -6,6 +6,7 @@
 #include "Contacts/FedPoints.h"
 #include "Contacts/FedRubs.h"
 #include "Contacts/MeetingPoints.h"
+#include "Contacts/MomentumImpulses.h"
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -72,6 +73,11 @@ public:
     /// Centre of mass, and motion before the engine's solver.
     std::string_view move(std::int32_t id, Vector2 centre, const BodyMotion& motion);
 
+    /// Motion behind the engine's solver, within a step and before its contacts are told, for engines that do not tell impulses: where both bodies
+    /// of a soft contact, or of one without an impulse, tell it, the impulses follow from their momentum (a blow of a soft one from its speed, as ever). `move` has the velocity then that the body would have
+    /// without contacts, so with what gravity adds in the step.
+    std::string_view moved(std::int32_t id, const BodyMotion& motion);
+
     /// A body that goes: what it felt and gave so far stays, or not (ImpactSettings::keepsHitsOfDestroyed). Not within a step.
     std::string_view remove(std::int32_t id);
 
@@ -114,7 +120,11 @@ private:
         FedContact contact;
         bool isNew;
         std::int32_t next;
+        std::int32_t momentum; // its number there, or none
     };
+    bool isByMomentum(const FedContact& contact) const { return bodies_.isAnyAfter() && bodies_.hasAfter(contact.a) && bodies_.hasAfter(contact.b); }
+    void strikeByMomentum();
+    FedContact withMomentum(const Waiting& each) const;
     static bool waits(const FedContact& contact) noexcept { return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds; }
     bool isNewPoint(Pair& pair, const FedContact& contact);
     void tell(Pair& pair, const FedContact& contact, bool isNew);
@@ -138,6 +148,7 @@ private:
     FedRubs rubs_;
     FedPoints points_;
     std::vector<Waiting> waiting_;
+    MomentumImpulses momentum_;
     std::vector<const Waiting*> together_; // of one pair, in the order in which they were told
     std::vector<MeetingPoint> meeting_;    // the same for the solver
     std::vector<Pair> pairs_;

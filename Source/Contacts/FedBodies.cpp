@@ -21,7 +21,7 @@ void FedBodies::set(std::int32_t id, const FedBody& body) {
     if (slot == IntegerMap::none) {
         slot = static_cast<std::int32_t>(bodies_.size());
         slots_.set(nameOf(id), slot);
-        bodies_.push_back({id, {}, {}, {}});
+        bodies_.push_back({id, {}, {}, {}, {}});
     }
     Body& known = bodies_[static_cast<std::size_t>(slot)];
     forgetLargest(known);
@@ -33,6 +33,18 @@ void FedBodies::move(std::int32_t id, Vector2 centre, const BodyMotion& motion) 
     Body& body = bodies_[static_cast<std::size_t>(slots_.find(nameOf(id)))];
     body.centre = centre;
     body.motion = motion;
+}
+
+void FedBodies::moveAfter(std::int32_t id, const BodyMotion& motion) {
+    Body& body = bodies_[static_cast<std::size_t>(slots_.find(nameOf(id)))];
+    body.after = motion;
+    body.afterAge = age_;
+    isAnyAfter_ = true;
+}
+
+bool FedBodies::hasAfter(std::int32_t id) const {
+    const Body& body = at(nameOf(id));
+    return !(body.told.massKg > 0.0) || body.afterAge == age_;
 }
 
 void FedBodies::remove(std::int32_t id) {
@@ -63,6 +75,13 @@ double FedBodies::largestMassKg() {
 double FedBodies::approach(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const {
     const Body &bodyA = at(nameOf(a)), &bodyB = at(nameOf(b));
     const Vector2 nearing = velocityAt(bodyA.motion, point - bodyA.centre) - velocityAt(bodyB.motion, point - bodyB.centre);
+    return dot(nearing, normal);
+}
+
+double FedBodies::approachAfter(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const {
+    const auto after = [&](const Body& body) { return body.told.massKg > 0.0 ? body.after : body.motion; };
+    const Body &bodyA = at(nameOf(a)), &bodyB = at(nameOf(b));
+    const Vector2 nearing = velocityAt(after(bodyA), point - bodyA.centre) - velocityAt(after(bodyB), point - bodyB.centre);
     return dot(nearing, normal);
 }
 

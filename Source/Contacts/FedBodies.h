@@ -35,6 +35,13 @@ public:
     void set(std::int32_t id, const FedBody& body);
     void move(std::int32_t id, Vector2 centre, const BodyMotion& motion);
     void remove(std::int32_t id);
+    /// The motion behind the engine's solver, in this step.
+    void moveAfter(std::int32_t id, const BodyMotion& motion);
+    /// Whether it has been told in this step, or need not be.
+    bool hasAfter(std::int32_t id) const;
+    bool isAnyAfter() const noexcept { return isAnyAfter_; }
+    void endStep() noexcept { isAnyAfter_ = false, ++age_; }
+    const FedBody& told(std::int32_t id) const { return at(nameOf(id)).told; }
     bool has(std::int32_t id) const noexcept { return slots_.find(nameOf(id)) != IntegerMap::none; }
 
     /// The largest mass of a body that can be moved, kg (m_max of Eq. 5.7).
@@ -42,6 +49,9 @@ public:
 
     /// How fast B comes towards A at a point, m/s, by the motions told; the normal points from A to B.
     double approach(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
+
+    /// The same behind the solver.
+    double approachAfter(std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) const;
 
     /// How fast the point at which they touch may move along the two surfaces, m/s, at most: the sum of what each of the bodies moves
     /// and turns across the normal.
@@ -67,7 +77,8 @@ private:
         std::int32_t id;
         FedBody told;
         Vector2 centre;
-        BodyMotion motion;
+        BodyMotion motion, after;
+        std::uint64_t afterAge = 0; // the step in which `after` was told
     };
     const Body& at(std::uint64_t name) const { return bodies_[static_cast<std::size_t>(slots_.find(name))]; }
     void forgetLargest(const Body& body) noexcept;
@@ -76,6 +87,8 @@ private:
     IntegerMap slots_; // by name
     double largestMassKg_ = 0.0;
     bool isLargestKnown_ = true;
+    std::uint64_t age_ = 1;
+    bool isAnyAfter_ = false;
 };
 
 } // namespace physvib

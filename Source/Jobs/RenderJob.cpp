@@ -49,7 +49,8 @@ std::string renderInputFault(const RenderJob& o) {
 std::string renderFault(const RenderJob& o) {
     const std::string fault = renderInputFault(o);
     if (!o.pad.empty() && o.wavPath.empty()) return "--pad: expected --out MOTORS.csv";
-    if (!fault.empty() || !std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return fault;
+    if (fault.empty() && o.explains && o.scene.empty()) return "--explain: expected a scene, whose contacts are counted";
+    if (!fault.empty() || o.explains || !std::ranges::all_of(o.writtenPaths(), &std::string::empty)) return fault;
     return "render: nothing to write; give --out, --events, --picture, --movie, --pattern, --contact-sound or --marker";
 }
 

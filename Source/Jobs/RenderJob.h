@@ -65,6 +65,7 @@ struct RenderJob {
     MarkedOnsets marked = MarkedOnsets::all;
     std::string actuator = "none"; ///< or "layout", a profile's name, a profile's path
     bool isEqualised = true, isRemapped = false; ///< with an actuator
+    bool explains = false; ///< says what became of the scene's contacts
     std::string coupling; ///< path of a measured coupling that drives shall make up for; empty: none
 
     std::set<std::string> given; ///< names of the options that were chosen, with their dashes: a session keeps its own where they are not

@@ -51,6 +51,7 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
     command.add("--picture", o.picturePath, "world, waveforms and event marks").written("FILE.png");
     command.add("--movie", o.moviePath, "world, impacts and channels in time: .webp; with the program ffmpeg also .gif, and .mp4 with audio").written("FILE.webp");
     command.add("--pattern", o.patternPath, "when a motor that is only on or off would be on, per channel").written("FILE.csv");
+    command.add("--explain", o.explains, "count the scene's contacts, and say why nothing or not everything is felt");
     command.add("--threshold", o.threshold, "of the pattern, in full scale").in(0.0, 1.0);
     command.add("--interface-volts", o.interfaceVolts, "with an actuator: scale the WAV so that full scale becomes its drive limit on an interface of this peak voltage")
         .in(0.001, 1000.0, " V");

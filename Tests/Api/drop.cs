@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A ball of 0.2 kg falls from 0.8 m onto a floor and bounces, five seconds long: drop.wav, four channels.
+// A ball of 0.2 kg falls from 0.8 m onto a floor, bounces and comes to rest: drop.wav, three seconds, four channels.
 using System;
 using PhysVib;
 
 static class Drop {
     static void Main() {
-        const double g = 9.81, dt = 0.01, e = 0.7;
-        double height = 0.8, speed = 0.0;
+        const double g = 9.81, dt = 0.01, e = 0.6;
+        double height = 0.8, speed = -0.5 * g * dt; // between two steps
+        var how = WorldSettings.Create();
+        how.DriveGain = 0.5; // the hardest hit stays below full scale
         var events = new Event[100];
         int count;
-        using (var world = new World()) {
+        using (var world = new World(how)) {
             var body = Body.Create();
             world.SetBody(0, body); // the floor: no mass, so nothing moves it
             body.MassKg = 0.2;
@@ -20,14 +22,15 @@ static class Drop {
             var contact = Contact.Create(0, 1);
             contact.Restitution = e;
             contact.X_m = 0.3;
-            for (int step = 0; step < 500; ++step) { // your engine does this
+            for (int step = 0; step < 300; ++step) { // your engine does this
                 speed += g * dt;
                 world.BeginStep(dt, g);
                 if (height < speed * dt) {
                     contact.ApproachMPerS = speed;
                     contact.Gap_m = height;
                     world.Touch(contact);
-                    speed = -e * speed;
+                    if (speed > 0.3) speed = -e * speed;
+                    else speed = height = 0.0; // it rests
                 }
                 world.EndStep();
                 height -= speed * dt;
@@ -36,7 +39,7 @@ static class Drop {
         }
         var settings = RendererSettings.Create(); // 48 kHz, four enchanters on the corners of a phone
         settings.FieldWidth_m = settings.FieldHeight_m = 1.0;
-        Haptics.SaveWav("drop.wav", Haptics.Render(settings, events, count, 5 * 48000), 4, settings.RateHz);
+        Haptics.SaveWav("drop.wav", Haptics.Render(settings, events, count, 3 * 48000), 4, settings.RateHz);
         Console.WriteLine("{0} hits, the first at {1:F4} s: drop.wav", count, events[0].TimeNs * 1e-9);
     }
 }

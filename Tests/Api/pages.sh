@@ -20,3 +20,4 @@ paste() { # on a display of its own if it wants one
 }
 paste
 [ "$(head -c 4 drop.wav)" = RIFF ] && [ "$(wc -c <drop.wav)" -gt 100000 ]
+[ "$page" = lua.md ] || python3 "$root/Tests/Api/ends.py" drop.wav # LÖVE's is a game, which goes on

@@ -172,6 +172,62 @@ TEST_F(ContactPoints, WhatBeginsAndEndsWithinAStepIsFelt) {
     EXPECT_EQ(felt[0].source.impulseNewtonSeconds, 4.0);
 }
 
+/// Five balls of 1 kg in a row that touch, the last one feels; velocities before and after are all that is told.
+TEST_F(ContactPoints, ARowHandsOnByMomentumAlone) {
+    for (const std::int32_t id : {1, 2, 3, 4, 5})
+        ASSERT_EQ(feed.set(id, {.massKg = 1.0}, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = id == 5}), "");
+    const float after[] = {0.1F, 0.15F, 0.2F, 0.55F, 2.0F};
+    for (int step = 0; step < 8; ++step) {
+        begin();
+        for (const std::int32_t id : {1, 2, 3, 4, 5}) {
+            ASSERT_EQ(feed.move(id, {0.2F * static_cast<float>(id), 0.0F}, {{id == 1 ? 3.0F : 0.0F, 0.0F}, 0.0F}), "");
+            ASSERT_EQ(feed.moved(id, {{step == 5 ? after[id - 1] : id == 1 ? 3.0F : 0.0F, 0.0F}, 0.0F}), "");
+        }
+        for (const std::int32_t id : {1, 2, 3, 4}) {
+            if ((id == 1) != (step == 5) && id == 1) continue;
+            FedContact contact = at(0.0F, 0);
+            contact.a = id;
+            contact.b = id + 1;
+            contact.normal = {1.0F, 0.0F};
+            contact.isSoft = true;
+            contact.restitution = 0.9; // the blow is told by its speed, and is the most that can be handed on
+            contact.impulseNewtonSeconds = 77.0; // whatever the engine says
+            touch(contact);
+        }
+        end();
+    }
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, 2.0, 0.01); // its own momentum
+    EXPECT_EQ(felt[0].source.other, 4);
+}
+
+/// A ball of 1 kg at 3 m/s lands on a slab of 1 kg that lies on the ground, and all comes to rest: 3 N s, where two free bodies would
+/// have half of it.
+TEST_F(ContactPoints, ALandingOnWhatIsSupportedIsThatOfTheWhole) {
+    constexpr std::int32_t slab = 2;
+    set(1.0, 0.0);
+    ASSERT_EQ(feed.set(slab, {.massKg = 1.0}, {}), "");
+    for (int step = 0; step < 4; ++step) {
+        begin();
+        const float g0 = static_cast<float>(g * dt);
+        ASSERT_EQ(feed.move(body, {0.0F, 0.3F}, {{0.0F, -3.0F}, 0.0F}), "");
+        ASSERT_EQ(feed.moved(body, {{0.0F, step == 3 ? 0.0F : -3.0F}, 0.0F}), "");
+        ASSERT_EQ(feed.move(slab, {0.0F, 0.1F}, {{0.0F, -g0}, 0.0F}), "");
+        ASSERT_EQ(feed.moved(slab, {{0.0F, 0.0F}, 0.0F}), "");
+        FedContact rests = at(0.0F, 0), lands = at(0.0F, 0);
+        rests.b = slab;
+        lands.a = slab;
+        touch(rests);
+        if (step == 3) touch(lands);
+        end();
+    }
+    const auto felt = events();
+    ASSERT_EQ(felt.size(), 1U);
+    EXPECT_NEAR(felt[0].source.impulseNewtonSeconds, 3.0, 0.02);
+    EXPECT_EQ(feed.moved(body, {}), "step: expected to be within one");
+}
+
 TEST_F(ContactPoints, OfNumbersBelowTwoAndImpulsesThatAreMissingAreRefused) {
     set(2.0, 0.0);
     begin();

@@ -5,7 +5,7 @@
 #include <physvib/engines/physvib_box2d3.h>
 
 struct Box2d3 final : scenes::Engine {
-    Box2d3() { subSteps = 4; }
+    Box2d3() { subSteps = 4, slowest = 60, handedOnPart = 0.05; }
     ~Box2d3() override { end(); }
     void begin(double stepSeconds, double g, double e, bool hasFloor) override {
         end();
@@ -24,6 +24,16 @@ struct Box2d3 final : scenes::Engine {
         balls.push_back(body(x, y, vx, vy, true, [&](b2BodyId to, const b2ShapeDef& shape) { b2CreateCircleShape(to, &shape, &disc); }));
         number(balls.back(), static_cast<int>(balls.size()));
     }
+    bool box(double x, double y, double width, double height, double w) override {
+        const b2Polygon polygon = b2MakeBox(static_cast<float>(width / 2), static_cast<float>(height / 2));
+        friction = 1.0F, density = static_cast<float>(3.0 / (width * height));
+        balls.push_back(body(x, y, -w * y, 0.0, true, [&](b2BodyId to, const b2ShapeDef& shape) { b2CreatePolygonShape(to, &shape, &polygon); }));
+        friction = 0.0F, density = 0.0F;
+        b2Body_SetAngularVelocity(balls.back(), static_cast<float>(w));
+        number(balls.back(), 1);
+        return true;
+    }
+    double spin() const override { return static_cast<double>(b2Body_GetAngularVelocity(balls[0])); }
     template <class Make>
     b2BodyId body(double x, double y, double vx, double vy, bool falls, Make make) {
         b2BodyDef def = b2DefaultBodyDef();
@@ -31,11 +41,11 @@ struct Box2d3 final : scenes::Engine {
         def.position = {static_cast<float>(x), static_cast<float>(y)};
         def.linearVelocity = {static_cast<float>(vx), static_cast<float>(vy)};
         b2ShapeDef shape = b2DefaultShapeDef();
-        shape.density = static_cast<float>(scenes::massKg / (3.14159265358979 * scenes::radius * scenes::radius));
+        shape.density = density > 0.0F ? density : static_cast<float>(scenes::massKg / (3.14159265358979 * scenes::radius * scenes::radius));
 #if defined(b2_maxPolygonVertices)
-        shape.restitution = elasticity, shape.friction = 0;
+        shape.restitution = elasticity, shape.friction = falls ? friction : 1;
 #else
-        shape.material.restitution = elasticity, shape.material.friction = 0;
+        shape.material.restitution = elasticity, shape.material.friction = falls ? friction : 1;
 #endif
         const b2BodyId made = b2CreateBody(haptics.box2d, &def);
         make(made, shape);
@@ -64,7 +74,7 @@ struct Box2d3 final : scenes::Engine {
         return static_cast<double>(b2World_GetGravity(haptics.box2d).y < 0 ? v.y : v.x);
     }
     double dt = 0;
-    float elasticity = 0;
+    float elasticity = 0, friction = 0, density = 0;
     physvib_box2d3 haptics{};
     std::vector<b2BodyId> balls;
 };

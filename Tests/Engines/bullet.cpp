@@ -14,6 +14,17 @@ struct Bullet final : scenes::Engine {
         if (hasFloor) body(0.0, new btBoxShape({5, 1, 5}), vector(0, -1), vector(0, 0));
     }
     void ball(double x, double y, double vx, double vy) override { balls.push_back(body(scenes::massKg, new btSphereShape(real(scenes::radius)), vector(x, y), vector(vx, vy))); }
+    bool box(double x, double y, double width, double height, double w) override {
+        btRigidBody* made = body(3.0, new btBoxShape({real(width / 2), real(height / 2), real(0.5)}), vector(x, y), vector(-w * y, 0));
+        made->setAngularVelocity({0, 0, real(w)});
+        made->setAngularFactor({0, 0, 1});
+        made->setLinearFactor({1, 1, 0});
+        made->setFriction(1);
+        for (int i = 0; i < world->getNumCollisionObjects(); ++i) world->getCollisionObjectArray()[i]->setFriction(1);
+        balls.push_back(made);
+        return true;
+    }
+    double spin() const override { return at(0)->getAngularVelocity().z(); }
     static btScalar real(double value) { return static_cast<btScalar>(value); }
     static btVector3 vector(double x, double y) { return {real(x), real(y), 0}; }
     btRigidBody* body(double massKg, btCollisionShape* shape, const btVector3& place, const btVector3& velocity) {

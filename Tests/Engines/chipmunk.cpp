@@ -26,6 +26,17 @@ struct Chipmunk final : scenes::Engine {
         balls.push_back(body);
         shape(cpCircleShapeNew(body, scenes::radius, cpvzero), static_cast<int>(balls.size()));
     }
+    bool box(double x, double y, double width, double height, double w) override {
+        cpBody* body = cpSpaceAddBody(space, cpBodyNew(3.0, cpMomentForBox(3.0, width, height)));
+        cpBodySetPosition(body, cpv(x, y));
+        cpBodySetAngularVelocity(body, w);
+        cpBodySetVelocity(body, cpv(-w * y, 0)); // about its foot
+        balls.push_back(body);
+        shape(cpBoxShapeNew(body, width, height, 0), 1);
+        cpSpaceEachShape(space, [](cpShape* each, void*) { cpShapeSetFriction(each, 1.0); }, nullptr);
+        return true;
+    }
+    double spin() const override { return cpBodyGetAngularVelocity(balls[0]); }
     void shape(cpShape* added, int id) {
         cpShapeSetElasticity(cpSpaceAddShape(space, added), id == scenes::floorBody ? 1.0 : elasticity); // a pair's is the product
         cpShapeSetUserData(added, reinterpret_cast<void*>(static_cast<std::intptr_t>(id)));

@@ -149,6 +149,10 @@ int physvib_world_move(physvib_world name, int body, double x, double y, double 
     return in(name, [&](World& world) { return resultOf(world.feed.move(body, vectorOf(x, y), {vectorOf(vx, vy), static_cast<float>(spin)})); });
 }
 
+int physvib_world_moved(physvib_world name, int body, double vx, double vy, double spin) {
+    return in(name, [&](World& world) { return inOrder(world.feed.moved(body, {vectorOf(vx, vy), static_cast<float>(spin)})); });
+}
+
 int physvib_world_pair(physvib_world name, int surface, int other, double frequencyHz, double decayPerSecond, double gain) {
     return in(name, [&](World& world) { return resultOf(world.feed.setPair(surface, other, {frequencyHz, decayPerSecond, {}, gain})); });
 }

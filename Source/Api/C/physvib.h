@@ -314,6 +314,10 @@ PHYSVIB_API int physvib_world_set_body(physvib_world world, int body, const phys
 PHYSVIB_API int physvib_world_remove_body(physvib_world world, int body);
 /** Centre of mass, velocity and spin before the engine's solver. */
 PHYSVIB_API int physvib_world_move(physvib_world world, int body, double x_m, double y_m, double vx_m_per_s, double vy_m_per_s, double spin_rad_per_s);
+/** Velocity and spin behind the engine's solver, within a step and before its contacts are told, for engines that do not tell impulses: those of contacts
+ * that are soft, or have none, follow from the momentum of their two bodies. physvib_world_move has the velocity without contacts then, so with what
+ * gravity adds in the step. A row of bodies hands on by it, and what lands on what is supported is within 20 %; friction and joints are not known. */
+PHYSVIB_API int physvib_world_moved(physvib_world world, int body, double vx_m_per_s, double vy_m_per_s, double spin_rad_per_s);
 /** How two kinds of surfaces sound together, whatever the camera's voice is. */
 PHYSVIB_API int physvib_world_pair(physvib_world world, int surface, int other, double frequency_hz, double decay_per_s, double gain);
 

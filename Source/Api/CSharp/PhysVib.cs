@@ -159,6 +159,8 @@ public sealed class World : IDisposable {
     public void Move(int body, double x_m, double y_m, double vxMPerS, double vyMPerS, double spinRadPerS) {
         Native.Check(Native.physvib_world_move(name, body, x_m, y_m, vxMPerS, vyMPerS, spinRadPerS));
     }
+    /// <summary>Behind the engine's solver: impulses that contacts do not tell follow from momentum.</summary>
+    public void Moved(int body, double vxMPerS, double vyMPerS, double spinRadPerS) { Native.Check(Native.physvib_world_moved(name, body, vxMPerS, vyMPerS, spinRadPerS)); }
     public void Pair(int surface, int other, double frequencyHz, double decayPerS, double gain) {
         Native.Check(Native.physvib_world_pair(name, surface, other, frequencyHz, decayPerS, gain));
     }
@@ -298,6 +300,7 @@ static class Native {
     [DllImport(Library)] internal static extern int physvib_world_set_body(IntPtr world, int body, ref Body values);
     [DllImport(Library)] internal static extern int physvib_world_remove_body(IntPtr world, int body);
     [DllImport(Library)] internal static extern int physvib_world_move(IntPtr world, int body, double x, double y, double vx, double vy, double spin);
+    [DllImport(Library)] internal static extern int physvib_world_moved(IntPtr world, int body, double vx, double vy, double spin);
     [DllImport(Library)] internal static extern int physvib_world_pair(IntPtr world, int surface, int other, double frequencyHz, double decayPerS, double gain);
     [DllImport(Library)] internal static extern int physvib_world_begin_step(IntPtr world, double seconds, double gravity);
     [DllImport(Library)] internal static extern int physvib_world_touch(IntPtr world, ref Contact contact);

@@ -151,14 +151,23 @@ PHYSVIB_UNUSED static int physvib_box2d3_step(physvib_box2d3 *haptics, double se
     b2BodyEvents moved;
     int i;
     physvib_box2d3_fail(haptics, physvib_world_begin_step(haptics->world, seconds, sqrt((double)(g.x * g.x + g.y * g.y))), physvib_error());
+    for (i = 1; i < haptics->capacity; ++i) { /* as they would go on without contacts */
+        const b2BodyId body = haptics->numbers[i].body;
+        b2Vec2 v;
+        double pull;
+        if (!body.index1 || haptics->numbers[i].id < 0 || !b2Body_IsValid(body) || b2Body_GetType(body) == b2_staticBody || !b2Body_IsAwake(body)) continue;
+        v = b2Body_GetLinearVelocity(body);
+        pull = b2Body_GetType(body) == b2_dynamicBody ? seconds * (double)b2Body_GetGravityScale(body) : 0;
+        physvib_box2d3_fail(haptics, physvib_world_move(haptics->world, haptics->numbers[i].id, PHYSVIB_BOX2D3_CENTRE(body).x, PHYSVIB_BOX2D3_CENTRE(body).y,
+                                                        v.x + pull * (double)g.x, v.y + pull * (double)g.y, b2Body_GetAngularVelocity(body)), physvib_error());
+    }
     b2World_Step(haptics->box2d, (float)seconds, sub_steps);
     moved = b2World_GetBodyEvents(haptics->box2d);
-    for (i = 0; i < moved.moveCount; ++i) { /* where they are, for the levers of blows beside their centres */
+    for (i = 0; i < moved.moveCount; ++i) { /* what contacts pushed follows from momentum: what Box2D says of it differs from version to version */
         const b2BodyId body = moved.moveEvents[i].bodyId;
         const b2Vec2 v = b2Body_GetLinearVelocity(body);
         if (physvib_box2d3_id(haptics, body) < 0) continue;
-        physvib_box2d3_fail(haptics, physvib_world_move(haptics->world, physvib_box2d3_id(haptics, body), PHYSVIB_BOX2D3_CENTRE(body).x, PHYSVIB_BOX2D3_CENTRE(body).y, v.x, v.y,
-                                                        b2Body_GetAngularVelocity(body)), physvib_error());
+        physvib_box2d3_fail(haptics, physvib_world_moved(haptics->world, physvib_box2d3_id(haptics, body), v.x, v.y, b2Body_GetAngularVelocity(body)), physvib_error());
     }
     for (i = 0; i < moved.moveCount; ++i) physvib_box2d3_body(haptics, moved.moveEvents[i].bodyId, seconds);
     physvib_box2d3_fail(haptics, physvib_world_end_step(haptics->world), physvib_error());

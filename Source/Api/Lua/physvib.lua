@@ -58,6 +58,7 @@ int physvib_world_configure(physvib_world, const physvib_world_settings *);
 int physvib_world_set_body(physvib_world, int, const physvib_body *);
 int physvib_world_remove_body(physvib_world, int);
 int physvib_world_move(physvib_world, int, double, double, double, double, double);
+int physvib_world_moved(physvib_world, int, double, double, double);
 int physvib_world_pair(physvib_world, int, int, double, double, double);
 int physvib_world_begin_step(physvib_world, double, double);
 int physvib_world_touch(physvib_world, const physvib_contact *);

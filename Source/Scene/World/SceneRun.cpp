@@ -28,6 +28,7 @@ SceneEvents runTakes(std::span<const SceneTake> takes, const SceneRun& run, std:
             if (goesOn && !goesOn(originNs + world.timeNs())) return all;
         }
         all.drops += world.drops();
+        all.counts += world.counts();
     }
     std::erase_if(all.events, [endNs](const CollisionEvent& e) { return e.timeNs >= endNs; });
     return all;

@@ -25,6 +25,7 @@ struct SceneRun {
 struct SceneEvents {
     std::vector<CollisionEvent> events;
     std::uint64_t drops = 0;
+    ContactCounts counts{}; ///< of all takes
 };
 
 /// Asked before the first step of a take and after each step, with the session time that is reached; false: what has been made so far is enough.

@@ -61,6 +61,9 @@ public:
     /// Collisions lost so far because more began in one step, or lasted at once, than there is room for.
     std::uint64_t drops() const noexcept { return attachment_.drops() + world_.contactsRefused(); }
 
+    /// What became of all contacts so far; see explain().
+    ContactCounts counts() const noexcept { return attachment_.counts(); }
+
     /// The constants of Eq. 5.4 in the last step.
     const ImpactModel& impactModel() const noexcept { return attachment_.impactModel(); }
 

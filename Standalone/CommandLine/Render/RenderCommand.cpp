@@ -114,6 +114,7 @@ std::string render(LoadedRender& job, RenderListener* listener) {
     if (!job.coupling.note.empty()) tell(job.coupling.note);
     warn(status, job);
     outputs.summarise(std::cout);
+    if (job.options.explains) std::cout << describe(job.made.counts);
     return {};
 }
 

@@ -64,6 +64,32 @@ function onset()
     return worst
 end
 
+-- A pole of 2 m that stands, is pushed over, and whose body is destroyed then without a word: events, and the impulse of its head by that of a rigid
+-- pole that holds at its foot, m/3 of the head's speed.
+function pole()
+    local world = love.physics.newWorld(0, 9.81 * metre)
+    local floor = love.physics.newFixture(love.physics.newBody(world, 300, 600, "static"), love.physics.newRectangleShape(600, 20))
+    local body = love.physics.newBody(world, 300, 560, "dynamic") -- its foot at 590
+    local stick = love.physics.newFixture(body, love.physics.newRectangleShape(3, 2 * metre), 1)
+    stick:setFriction(1) floor:setFriction(1)
+    local haptics = physvib.attach(world, {field_width_m = 20, normalisation_s_per_m = 1, hand_mass_kg = 0})
+    haptics:set(stick, {frequency_hz = 200, decay_per_s = 30, is_camera = true})
+    for _ = 1, 30 do haptics:update(dt) end
+    body:setAngularVelocity(0.6)
+    body:setLinearVelocity(0.6 * metre, 0) -- about its foot
+    local standing, fastest, mass = #haptics:take({}, true), 0, body:getMass()
+    for _ = 1, 300 do
+        haptics:update(dt)
+        fastest = math.max(fastest, math.abs(body:getAngularVelocity()))
+    end
+    local events, hardest = haptics:take({}, true), 0
+    for _, event in ipairs(events) do hardest = math.max(hardest, event.impulse_n_s) end
+    body:destroy()
+    for _ = 1, 3 do haptics:update(dt) end
+    if haptics.ids[stick] or next(haptics.starts) then error("a body that was destroyed is still known") end
+    return standing, #events, hardest / (mass / 3 * 2 * fastest)
+end
+
 function love.load()
     love.physics.setMeter(metre)
     local plain, felt = room(), room()
@@ -105,5 +131,8 @@ function love.load()
     if worst > 0.002 then fail("expected 2 ms") end
     print(("%d events, %d of %d hard blows of LÖVE's among them; %d begins, %d solved"):format(#events, found, heard, felt.calls[1], felt.calls[4]))
     if heard < 3 or found ~= heard then fail("expected all blows") end
+    local standing, toppled, part = pole()
+    print(("pole: %d events while it stands, %d when it topples, %.2f of a rigid one's"):format(standing, toppled, part))
+    if standing > 0 or toppled == 0 or math.abs(part - 1) > 0.2 then fail("expected the pole's head") end
     love.event.quit(0)
 end

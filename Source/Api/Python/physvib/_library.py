@@ -103,7 +103,7 @@ _signatures = {
     "world_create": (c_int, POINTER(CWorldSettings), POINTER(_handle)), "world_free": (c_int, _handle),
     "world_configure": (c_int, _handle, POINTER(CWorldSettings)),
     "world_set_body": (c_int, _handle, c_int, POINTER(CBody)), "world_remove_body": (c_int, _handle, c_int),
-    "world_move": (c_int, _handle, c_int, *[c_double] * 5), "world_pair": (c_int, _handle, c_int, c_int, *[c_double] * 3),
+    "world_move": (c_int, _handle, c_int, *[c_double] * 5), "world_moved": (c_int, _handle, c_int, *[c_double] * 3), "world_pair": (c_int, _handle, c_int, c_int, *[c_double] * 3),
     "world_begin_step": (c_int, _handle, c_double, c_double), "world_end_step": (c_int, _handle),
     "world_touch": (c_int, _handle, POINTER(CContact)), "world_begin": (c_int, _handle, POINTER(CContact)),
     "world_push": (c_int, _handle, POINTER(CContact)), "world_end": (c_int, _handle, c_int, c_int),

@@ -88,6 +88,11 @@ class World(Owned):
         """Centre of mass and motion before the engine's solver."""
         call("world_move", self._handle, body, x_m, y_m, vx_m_per_s, vy_m_per_s, spin_rad_per_s)
 
+    def moved(self, body: int, vx_m_per_s: float, vy_m_per_s: float, spin_rad_per_s: float = 0.0) -> None:
+        """Motion behind the engine's solver, within a step and before its contacts: impulses that they do not tell follow from momentum. `move` has the
+        velocity without contacts then, so with what gravity adds in the step."""
+        call("world_moved", self._handle, body, vx_m_per_s, vy_m_per_s, spin_rad_per_s)
+
     def pair(self, surface: int, other: int, *, frequency_hz: float, decay_per_s: float, gain: float = 1.0) -> None:
         """How two kinds of surfaces sound together, whatever the camera's voice is."""
         call("world_pair", self._handle, surface, other, frequency_hz, decay_per_s, gain)

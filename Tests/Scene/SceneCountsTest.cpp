@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What becomes of a scene's contacts is counted while it runs.
+#include "Scene/SceneCatalogue.h"
+#include "Scene/World/SceneRun.h"
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+TEST(SceneCounts, AreThoseOfItsEventsAndItsContacts) {
+    const SceneEvents made = runScene(builtInScenes().front(), {}, 5'000'000'000);
+    EXPECT_GE(made.counts.events, made.events.size()); // those of the last step are still to come
+    EXPECT_LE(made.counts.events, made.events.size() + 20);
+    EXPECT_GT(made.events.size(), 20U);
+    EXPECT_GT(made.counts.contacts, made.counts.withoutSource);
+    EXPECT_EQ(made.counts.dropped, 0U);
+    EXPECT_EQ(made.counts.muted, 0U);
+    EXPECT_NEAR(made.counts.thresholdMetresPerSecond, 0.15, 1e-6);
+}
+
+} // namespace
+} // namespace physvib
