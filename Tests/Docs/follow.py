@@ -28,11 +28,13 @@ def environment():
                          "PYTHONDONTWRITEBYTECODE": "1"} | {name: str(file) for name, file in libraries.items() if file}
 
 
-def run(command, folder, source):
-    done = subprocess.run(command, cwd=folder, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, encoding="utf-8", timeout=540)
+def run(script, folder):
+    """In one shell, as a reader has one terminal; what is left running in it ends with it."""
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", "trap 'kill $(jobs -p) 2>/dev/null || true' EXIT\n" + script], cwd=folder, env=environment(), stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", timeout=300)
     sys.stdout.write(done.stdout)
     if done.returncode != 0:
-        sys.exit(f"{page}: exit code {done.returncode} of\n{source}")
+        sys.exit(f"{page}: exit code {done.returncode} of\n{script}")
 
 
 def follow(folder):
@@ -43,19 +45,20 @@ def follow(folder):
         (folder / "build/release").symlink_to(build)
     else:  # a page that builds something of its own in build/
         (folder / "installed").symlink_to(installed)
-    count = 0
+    count, script = 0, ""
     for info, body in blocks((root / page).read_text()):
         words = info.split()
         body = body.replace('"JACK:system"', '"None:no device"')
         if words == ["sh"]:
-            run(["bash", "-euo", "pipefail", "-c", body], folder, body)
+            script += body
         elif words == ["python"]:
-            run(["/usr/bin/python3", "-c", body], folder, body)
+            script += f"/usr/bin/python3 - <<'END_OF_PYTHON'\n{body}END_OF_PYTHON\n"
         elif len(words) == 2 and words[0] != "sh":
             (folder / words[1]).write_text(body)
         else:
             continue
         count += 1
+    run(script, folder)
     return count
 
 
