@@ -11,7 +11,7 @@ namespace physvib {
 namespace {
 
 constexpr std::size_t maxPoints = 16; // of a pair, in the plane; more of them lie between the others
-constexpr int maxSweeps = 200;
+constexpr int mostLandingSweeps = 200;
 
 /// What is asked of each point, and what each does to each.
 struct Problem {
@@ -74,7 +74,7 @@ void solve(const FedBodies& bodies, std::int32_t a, std::int32_t b, std::span<Me
     for (std::size_t i = 0; i < problem.count; ++i) // right at once where all of them do the same
         if (const double sum = problem.sumOf(i); sum > 0.0) problem.impulse[i] = std::max(0.0, problem.wanted[i] / sum);
     double whole = 0.0;
-    for (int sweep = 0; sweep < maxSweeps; ++sweep) {
+    for (int sweep = 0; sweep < mostLandingSweeps; ++sweep) {
         problem.levelSum();
         const double change = problem.sweep();
         whole = 0.0;

@@ -8,7 +8,7 @@ namespace physvib {
 
 namespace {
 
-constexpr int maxSweeps = 60;
+constexpr int mostMomentumSweeps = 60;
 constexpr double enough = 1.0e-4; // of the strongest impulse, as the change in a sweep
 
 double dot(Vector2 a, Vector2 b) noexcept { return static_cast<double>(a.x * b.x + a.y * b.y); }
@@ -70,7 +70,7 @@ void MomentumImpulses::push(const Point& point, double newtonSeconds) {
 }
 
 void MomentumImpulses::solve() {
-    for (int sweep = 0; sweep < maxSweeps; ++sweep) {
+    for (int sweep = 0; sweep < mostMomentumSweeps; ++sweep) {
         double change = 0.0, strongest = 0.0;
         for (Point& point : points_) {
             if (!(point.perNewtonSecond > 0.0)) continue;
