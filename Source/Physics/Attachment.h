@@ -91,7 +91,7 @@ public:
 
     /// What became of all contacts so far, and why nothing is felt, in one sentence.
     ContactCounts counts() const noexcept { return events_.counts(); }
-    std::string explain() const { return physvib::explain(counts()); }
+    std::string explain() const { return physvib::explain(counts()); } ///< The most likely reason.
 
     /// The constants of Eq. 5.4 in the last step begun.
     const ImpactModel& impactModel() const noexcept { return events_.impactModel(); }

@@ -40,7 +40,7 @@ void stepTheWorld() {
     physvib::ImpactSettings settings;
     settings.driveGain = 0.5; // a field of 1 m is crossed slowly: hits are hard in it
     physvib::Attachment haptics(world, settings);
-    if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return 1; // refused: it says why
+    if (!haptics.set(*ball, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true})) return; // refused: it says why
 
     const auto laterNs = static_cast<std::int64_t>(law.playOutSeconds() * 1.0e9);
     std::vector<physvib::CollisionEvent> events;

@@ -28,6 +28,28 @@ TEST_F(AttachedWorld, AStaticBodyThatWentUnheardWeighsNothing) {
     EXPECT_LT(attachment.impactModel().handMassKg, 10.0);
 }
 
+TEST_F(AttachedWorld, AnIdBelowZeroAndADecayThatIsMissingAreRefusedAndNothingIsChanged) {
+    b2Fixture& fixture = ball(0.0F, 0.0F, 0.0F, 0.0F);
+    EXPECT_EQ(attachment.set(fixture, camera, -5).refusal, "id: expected a number from 0 on");
+    EXPECT_EQ(attachment.set(fixture, {.frequencyHz = 200.0, .isCamera = true}).refusal.substr(0, 6), "decay:");
+    EXPECT_EQ(attachment.find(fixture), nullptr);
+    EXPECT_TRUE(attachment.set(fixture, camera, 5));
+}
+
+TEST_F(AttachedWorld, WhyNothingIsFeltIsSaid) {
+    b2Fixture& slow = ball(0.0F, 0.3F, 0.0F, -0.05F);
+    floor();
+    (void)run(150);
+    EXPECT_NE(attachment.explain().find("haptic source: set is_camera"), std::string::npos) << attachment.explain();
+    EXPECT_EQ(attachment.counts().withoutSource, attachment.counts().contacts);
+    (void)attachment.set(slow, camera);
+    slow.GetBody()->SetTransform({0.0F, 0.3F}, 0.0F);
+    slow.GetBody()->SetLinearVelocity({0.0F, -0.05F});
+    EXPECT_TRUE(run(150).empty());
+    EXPECT_EQ(attachment.counts().belowThreshold, 1U);
+    EXPECT_NE(attachment.explain().find("slower than the threshold of 0.15 m/s"), std::string::npos) << attachment.explain();
+}
+
 /// Everything is made, changed and destroyed at any time, told and untold.
 class Rampage {
 public:
