@@ -83,7 +83,7 @@ TEST_F(StrangersCall, NoOptionOfAnyCommandLetsADesignOrAProtocolWrite) {
             runs("render drop --seconds 0.1 --rate 8000 --" + option + " thesis.tex");
         if (made.contains(option)) runs("stimulus phantom --at 0.5,0.5 --seconds 0.1 " + word);
     }
-    EXPECT_EQ(refused, 6 + 6 + 2) << "render writes six files, stimulus two";
+    EXPECT_EQ(refused, 7 + 7 + 2) << "render writes seven files, stimulus two";
 }
 
 TEST_F(StrangersCall, AMarkerIsAFileAsWell) {
