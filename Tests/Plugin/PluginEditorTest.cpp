@@ -157,7 +157,7 @@ TEST(PluginEditor, OpensFilesAndSaysWhatIsWrong) {
 }
 
 TEST(PluginEditor, RulesAreSaidInWords) {
-    auto state = newPluginState();
+    auto state = shakenBox();
     NoteRule rule;
     rule.x = 0.25;
     EXPECT_EQ(wordsOf(rule, state.scene), "strikes " + juce::String{state.scene.materials[0].name} + " at 25 %, 50 %");

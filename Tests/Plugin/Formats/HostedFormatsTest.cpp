@@ -27,9 +27,8 @@ Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes) {
 }
 
 Samples expected(int width) {
-    TestHost host{{BusPlan::Kind::oneBus, width}};
-    host.plugin->parameter(Parameter::level).setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
-    return blocksOf(*host.plugin, 96'256, true);
+    PluginProcessor plugin{"PhysVib", {BusPlan::Kind::oneBus, width}};
+    return blocksOf(plugin, 96'256, true);
 }
 
 void expectTheProcessorsSamples(const Format& format, const juce::String& identifier, int width) {
