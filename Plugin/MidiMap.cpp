@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From rules to a table.
 #include "MidiMap.h"
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace physvib {
@@ -16,12 +18,25 @@ std::vector<int> vibratingMaterials(const Scene& scene) {
     return found;
 }
 
-NoteRule defaultRule(int note, const std::vector<int>& materials) {
-    NoteRule rule;
-    rule.note = note;
-    rule.material = materials[static_cast<std::size_t>(note / notesPerOctave) % materials.size()];
-    rule.x = (note % notesPerOctave) / (notesPerOctave - 1.0);
-    return rule;
+constexpr double lowestPitchHz = 20.0, highestPitchHz = 500.0;
+
+double pitchHz(int note) {
+    double frequencyHz = 440.0 * std::exp2((note - 69) / 12.0);
+    while (frequencyHz < lowestPitchHz) frequencyHz *= 2.0;
+    while (frequencyHz > highestPitchHz) frequencyHz /= 2.0;
+    return frequencyHz;
+}
+
+/// In parts of the field.
+Vector placeOf(int note, const PluginState& state) {
+    const EnchanterLayout& layout = state.layout.geometry;
+    const auto& place = layout.places[static_cast<std::size_t>(note % std::max(1, layout.count))];
+    switch (state.voice.places) {
+    case NotePlaces::octave: return {(note % notesPerOctave) / (notesPerOctave - 1.0), 0.5};
+    case NotePlaces::actuators: return {place.xMetres / layout.extentWidthMetres, place.yMetres / layout.extentHeightMetres};
+    case NotePlaces::middle: break;
+    }
+    return {0.5, 0.5};
 }
 
 CollisionEvent strikeBy(const NoteRule& rule, const Scene& scene) {
@@ -33,6 +48,23 @@ CollisionEvent strikeBy(const NoteRule& rule, const Scene& scene) {
     strike.amplitude = 1.0;
     strike.x = rule.x * scene.fieldWidthMetres;
     strike.y = rule.y * scene.fieldHeightMetres;
+    return strike;
+}
+
+// What no rule names; frequency 0: it strikes nothing.
+CollisionEvent strikeBy(int note, const PluginState& state, const std::vector<int>& materials) {
+    NoteRule rule;
+    const Vector place = placeOf(note, state);
+    rule.x = place.x;
+    rule.y = place.y;
+    rule.material = materials.empty() ? -1 : materials[static_cast<std::size_t>(note / notesPerOctave) % materials.size()];
+    CollisionEvent strike = strikeBy(rule, state.scene);
+    if (state.voice.pitch == NotePitch::material) return strike;
+    strike.frequencyHz = pitchHz(note);
+    strike.decayPerSecond = state.voice.decayPerSecond;
+    strike.amplitude = 1.0;
+    strike.x = rule.x * state.scene.fieldWidthMetres;
+    strike.y = rule.y * state.scene.fieldHeightMetres;
     return strike;
 }
 
@@ -74,16 +106,18 @@ std::vector<std::vector<Action>> actionGroups(const PluginState& state) {
 }
 
 MidiTable::MidiTable(const PluginState& state)
-    : width_{state.scene.fieldWidthMetres}
+    : voice_{state.voice}
+    , width_{state.scene.fieldWidthMetres}
     , height_{state.scene.fieldHeightMetres} {
     const auto materials = vibratingMaterials(state.scene);
-    for (int note = 0; note < 128 && !materials.empty(); ++note)
-        strikes_[static_cast<std::size_t>(note)] = strikeBy(defaultRule(note, materials), state.scene);
+    for (int note = 0; note < 128; ++note) strikes_[static_cast<std::size_t>(note)] = strikeBy(note, state, materials);
+    held_.fill(voice_.isHeld && voice_.pitch == NotePitch::note);
     groups_.fill(-1);
     materials_ = static_cast<int>(state.scene.materials.size());
     for (int group = materials_ + 1; const auto& rule : state.notes) {
         const auto note = static_cast<std::size_t>(rule.note & 127);
         if (rule.kind == NoteKind::strike) strikes_[note] = strikeBy(rule, state.scene);
+        held_[note] = false;
         groups_[note] = rule.kind == NoteKind::strike ? -1 : group;
         ++group;
     }

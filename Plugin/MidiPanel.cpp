@@ -47,7 +47,6 @@ MidiPanel::MidiPanel(MixHands hands)
     setTitle("Notes and controllers");
     title_.setText("Notes and controllers", juce::dontSendNotification);
     title_.setFont(juce::Font{text::medium, juce::Font::bold});
-    hint_.setText("Other notes strike: every octave is a material, every note a place from left (C) to right (B).", juce::dontSendNotification);
     hint_.setFont(juce::Font{text::small});
     list_.setRowHeight(rowPixels);
     addNote_.onClick = [this] {
@@ -64,6 +63,9 @@ MidiPanel::MidiPanel(MixHands hands)
 
 void MidiPanel::take(const PluginState& state) {
     state_ = state;
+    const juce::String sound = state.voice.pitch == NotePitch::material ? "every octave is a material" : state.voice.isHeld ? "each its own pitch, as long as its key is held" : "each its own pitch";
+    const juce::String place = state.voice.places == NotePlaces::octave ? "from left (C) to right (B)" : state.voice.places == NotePlaces::actuators ? "at one actuator after the other" : "in the middle";
+    hint_.setText("Other notes strike: " + sound + ", " + place + ".", juce::dontSendNotification);
     hint_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
     list_.updateContent();
     list_.repaint();

@@ -36,7 +36,7 @@ constexpr std::array<ParameterRow, parameterCount> table{{
     {Parameter::gravity, "gravity", "Gravity", "x", 0.0, 4.0, 1.0, linear, {}, 1, "Gravity, times the scene's"},
     {Parameter::tilt, "tilt", "Tilt", "deg", -180.0, 180.0, 0.0, linear, {}, 1, "How the device is held: gravity turns counter-clockwise"},
     {Parameter::material, "material", "Material", "", 0, 8, 0, choice, materialNames, 1, "Material of what is felt: the scene's own, or the n-th of its list"},
-    {Parameter::strikeLevel, "strike_level", "Strike level", "dB", silentDb, 12.0, -6.0, linear, {}, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
+    {Parameter::strikeLevel, "strike_level", "Strike level", "dB", silentDb, 12.0, 6.0, linear, {}, 1, "Amplitude of a MIDI strike at full velocity; the least is silence"},
     {Parameter::strikeX, "strike_x", "Strike shift x", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes to the right, in parts of the field's width"},
     {Parameter::strikeY, "strike_y", "Strike shift y", "%", -100.0, 100.0, 0.0, linear, {}, 1, "Shifts MIDI strikes upwards, in parts of the field's height"},
     {Parameter::bypass, "bypass", "Bypass", "", 0, 1, 0, toggle, switchNames, 1, "Silence; the world goes on"},

@@ -5,6 +5,7 @@
 #include "Scene/SceneCatalogue.h"
 #include "Host/Views/Palette.h"
 #include "OpenedFile.h"
+#include "Presets.h"
 
 namespace physvib {
 
@@ -74,8 +75,12 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     caption(seedName_, "seed");
     caption(stepsName_, "steps");
     status_.setFont(juce::Font{text::small});
+    firstSteps_.setText("Play a note: it is felt at its place.\nOther instruments, and worlds that move by themselves: the list at the upper left.\nSILENCE stops everything, at once.", juce::dontSendNotification);
+    firstSteps_.setFont(juce::Font{text::medium});
+    firstSteps_.setJustificationType(juce::Justification::centred);
+    firstSteps_.setInterceptsMouseClicks(false, false);
     open_.setButtonText(juce::String::fromUTF8("Open\xe2\x80\xa6"));
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &open_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_, &silence_, &direct_, &world_, &midiPanel_, &mix_, &status_})
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &open_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_, &silence_, &direct_, &shorten_, &world_, &firstSteps_, &midiPanel_, &mix_, &status_})
         addAndMakeVisible(c);
     fillGroups();
     fillChoices();
@@ -110,10 +115,15 @@ void PluginEditor::fillGroups() {
 }
 
 void PluginEditor::fillChoices() {
-    for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(words(scene.name), id++);
+    scene_.addSectionHeading("Instruments");
+    const auto& presets = presetNames();
+    const auto worlds = static_cast<int>(builtInScenes().size());
+    for (int i = worlds; i < static_cast<int>(presets.size()); ++i) scene_.addItem(words(presets[static_cast<std::size_t>(i)]), i + 1);
+    scene_.addSectionHeading("Worlds");
+    for (int i = 0; i < worlds; ++i) scene_.addItem(words(presets[static_cast<std::size_t>(i)]), i + 1);
     for (int id = 1; const auto name : layoutPresetNames) layout_.addItem(words(name), id++);
     for (const int steps : {50, 100, 200, 500, 1000}) steps_.addItem(juce::String{steps} + " /s", steps);
-    scene_.setTitle("Scene");
+    scene_.setTitle("Instrument or world");
     layout_.setTitle("Layout");
     steps_.setTitle("Steps per second");
     steps_.setTooltip("How often the world is stepped: more lets hits be felt sooner");
@@ -126,13 +136,20 @@ void PluginEditor::fillChoices() {
     restart_.setTooltip("The scene starts at its seed whenever the transport starts or jumps, and is silent while it stands");
     direct_.setClickingTogglesState(true);
     direct_.setTooltip("What notes strike is felt at once: the host is told of the limiter's latency only, and collisions are felt later than what it plays beside them");
+    shorten_.setTooltip("The output latency is longer than it has to be, as the host has asked ahead of time or stuttered: take that back now, in a moment of silence");
+    shorten_.onClick = [this] { plugin_.takes().giveBack(); };
     open_.setTooltip("A scene, a layout or a saved session of your own; files can be dropped here as well");
     midi_.setTooltip("What notes and controllers do");
     silence_.setClickingTogglesState(true);
     silence_.setTooltip(words(rowOf(Parameter::bypass).help));
     silence_.getProperties().set(stopProperty, true);
     scene_.onChange = [this] {
-        if (const int i = scene_.getSelectedItemIndex(); i >= 0) edit([i](PluginState& s) { takeScene(s, builtInScenes()[static_cast<std::size_t>(i)]); });
+        const int id = scene_.getSelectedId();
+        if (id == 0) return;
+        PluginState state = plugin_.state();
+        takePlugInPreset(state, id - 1);
+        news_.clear();
+        plugin_.open(std::move(state));
     };
     layout_.onChange = [this] {
         if (const int i = layout_.getSelectedItemIndex(); i >= 0) edit([i](PluginState& s) { takePreset(s, layoutPresetNames[static_cast<std::size_t>(i)]); });
@@ -226,6 +243,8 @@ void PluginEditor::refresh() {
     for (const auto& hit : hits) felt.push_back(hit.played.event);
     world_.update({std::move(poses), at, plugin_.takes().playOutFrames() * 1'000'000'000 / rate, felt, meters.peaks});
     mix_.update(meters);
+    shorten_.setVisible(status.burstFrames > 0);
+    firstSteps_.setVisible(state_.scene.bodies.empty() && status.session.render.played == 0 && world_.isVisible());
     auto trouble = plugin_.trouble();
     if (plugin_.keepsRefused()) trouble << " - the host's session keeps it until something is edited here";
     if (trouble.isEmpty()) trouble = news_;
@@ -241,12 +260,13 @@ juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMe
     juce::String line = "felt " + ms(plugin_.takes().playOutFrames()) + " after the contact";
     if (plugin_.takes().isDirect()) line << ", strikes " << ms(plugin_.takes().latencyFrames()) << " after the note (told to the host)";
     else line << " (told to the host)";
-    if (status.burstFrames > 0) line << ", " << ms(status.burstFrames) << " of it as the host asks ahead of time";
+    if (status.burstFrames > 0) line << ", " << ms(status.burstFrames) << " of it as the host asks ahead of time or stutters (given back when its transport stands, or by Shorten L)";
     if (status.waitedFrames > 0) line << ": it came during this run, which is not the bounce before that";
     if (meters.connected < enchanters) line << "   |   " << meters.connected << " of " << enchanters << " connected";
     if (const auto* music = plugin_.getBus(true, 0); music && !music->isEnabled() && plugin_.parameter(Parameter::beats).value() > 0.0) line << "   |   no beats: the side chain is off";
     line << "   |   take " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)} << " played, "
          << juce::String{static_cast<juce::int64>(status.late)} << " late, " << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";
+    if (const auto displaced = plugin_.displacedMessages(); displaced > 0) line << ", " << juce::String{static_cast<juce::int64>(displaced)} << " behind their block";
     if (status.slippedNs > 0) line << ", " << juce::String{static_cast<double>(status.slippedNs) * 1e-6, 1} << " ms of stalls";
     if (status.delayedBlocks > 0) line << ", " << juce::String{static_cast<juce::int64>(status.delayedBlocks)} << " blocks of delayed starts";
     return line;
@@ -268,6 +288,7 @@ void PluginEditor::resized() {
     auto bar = area.removeFromTop(barHeight).reduced(0, 10);
     auto foot = area.removeFromBottom(statusHeight);
     direct_.setBounds(foot.removeFromRight(76).reduced(0, 2));
+    shorten_.setBounds(foot.removeFromRight(92).reduced(4, 2));
     status_.setBounds(foot);
     const auto left = [&bar](juce::Component& c, int width, int space = panelGap) { c.setBounds(bar.removeFromLeft(width)), bar.removeFromLeft(space); };
     left(title_, 84);
@@ -297,6 +318,7 @@ void PluginEditor::resized() {
     mix_.setBounds(area.removeFromRight(std::min(mix_.wishedWidth(), area.getWidth() / 2)));
     area.removeFromRight(panelGap);
     world_.setBounds(area);
+    firstSteps_.setBounds(area.withSizeKeepingCentre(area.getWidth(), 90));
     midiPanel_.setBounds(area);
 }
 

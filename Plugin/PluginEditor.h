@@ -63,10 +63,10 @@ private:
     PluginProcessor& plugin_;
     Look look_;
     juce::TooltipWindow tooltips_{this};
-    juce::Label title_, status_, seedName_, stepsName_;
+    juce::Label title_, status_, seedName_, stepsName_, firstSteps_;
     juce::ComboBox scene_, layout_, steps_;
     juce::TextEditor seed_;
-    juce::TextButton restart_{"Restart on play"}, open_, midi_{"MIDI"}, silence_{"SILENCE"}, direct_{"Direct"};
+    juce::TextButton restart_{"Restart on play"}, open_, midi_{"MIDI"}, silence_{"SILENCE"}, direct_{"Direct"}, shorten_{"Shorten L"};
     juce::ButtonParameterAttachment silenceAttachment_;
     WorldView world_;
     MidiPanel midiPanel_;

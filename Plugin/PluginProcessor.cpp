@@ -2,7 +2,7 @@
 // The message thread's part: settings, buses, rates, latency.
 #include "PluginProcessor.h"
 #include "PluginEditor.h"
-#include "Scene/SceneCatalogue.h"
+#include "Presets.h"
 #include <algorithm>
 #include <stdexcept>
 
@@ -18,13 +18,6 @@ juce::String asString(std::string text) {
     return juce::String::fromUTF8(text.data(), static_cast<int>(text.size()));
 }
 
-// The built-in scene of that name, which may have been another when a session was saved; one's own are shown as the first.
-int programOf(const Scene& scene) {
-    const auto& scenes = builtInScenes();
-    const auto found = std::ranges::find(scenes, scene.name, &Scene::name);
-    return found == scenes.end() ? 0 : static_cast<int>(found - scenes.begin());
-}
-
 } // namespace
 
 PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
@@ -32,7 +25,9 @@ PluginProcessor::PluginProcessor(juce::String name, const BusPlan& plan)
     , name_{std::move(name)}
     , plan_{plan} {
     addParameters();
-    apply(newPluginState());
+    const auto state = newPluginState();
+    apply(state);
+    takeParameters(state);
     startTimerHz(20);
 }
 
@@ -78,7 +73,7 @@ bool PluginProcessor::apply(PluginState state) {
         return refuse(asString(error.what()));
     }
     tailSeconds_ = tailSeconds(state);
-    program_ = programOf(state.scene);
+    program_ = presetOf(state);
     take(std::move(state));
     publish();
     return true;
@@ -155,13 +150,17 @@ void PluginProcessor::parameterGestureChanged(int which, bool begins) {
 
 // Tells the host what it may have to know anew.
 void PluginProcessor::publish() {
-    if (const auto frames = static_cast<int>(takes_.latencyFrames()); frames > 0) setLatencySamples(frames);
+    if (const int rate = preparedRateHz(); rate > 0 && !isSampleRate(rate)) setLatencySamples(0); // nothing is played
+    else if (const auto frames = static_cast<int>(takes_.latencyFrames()); frames > 0) setLatencySamples(frames);
 }
 
 void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     sampleRateHz_ = sampleRateHz;
     const int rate = juce::roundToInt(sampleRateHz);
-    if (!isSampleRate(rate)) return releaseResources(); // silent, and trouble() says so
+    if (!isSampleRate(rate)) { // silent, and trouble() says so
+        releaseResources();
+        return publish();
+    }
     const int usual = usualBlockFrames_ > 0 ? std::min(usualBlockFrames_, blockFrames) : blockFrames;
     blockFrames_ = juce::jlimit(1, limits::maxBlockFrames, usual);
     outputs_ = BusMap{*this};
@@ -171,6 +170,8 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     measured_ = {};
     bend_.fill(0.0f);
     slide_.fill(0.0f);
+    pressure_.fill(0.0f);
+    held_.forget();
     const auto* sideChain = getBus(true, 0);
     beats_.prepare(rate, blockFrames_, sideChain != nullptr && sideChain->isEnabled() ? sideChain->getNumberOfChannels() : 0);
     takes_.prepare(rate, blockFrames_, beats_.delaySeconds());
@@ -189,21 +190,21 @@ void PluginProcessor::timerCallback() {
 
 juce::AudioProcessorEditor* PluginProcessor::createEditor() { return new PluginEditor{*this}; }
 
-// Factory presets are the built-in scenes.
-int PluginProcessor::getNumPrograms() { return static_cast<int>(builtInScenes().size()); }
+int PluginProcessor::getNumPrograms() { return static_cast<int>(presetNames().size()); }
 
 void PluginProcessor::setCurrentProgram(int index) {
     if (index < 0 || index >= getNumPrograms()) return;
     auto changed = state();
-    const auto& scene = builtInScenes()[static_cast<std::size_t>(index)];
-    if (changed.scene == scene) return; // hosts repeat themselves, and the world would start anew
-    takeScene(changed, scene);
-    apply(std::move(changed));
+    const auto before = changed;
+    takePlugInPreset(changed, index);
+    if (isSameTake(before, changed)) return; // hosts repeat themselves, and the world would start anew
+    apply(changed);
+    takeParameters(changed);
 }
 
 const juce::String PluginProcessor::getProgramName(int index) {
-    const auto& scenes = builtInScenes();
-    return index >= 0 && index < static_cast<int>(scenes.size()) ? juce::String{scenes[static_cast<std::size_t>(index)].name} : juce::String{};
+    const auto& names = presetNames();
+    return index >= 0 && index < static_cast<int>(names.size()) ? juce::String{names[static_cast<std::size_t>(index)]} : juce::String{};
 }
 
 void PluginProcessor::getStateInformation(juce::MemoryBlock& chunk) {

@@ -8,6 +8,7 @@
 #include "BusPlan.h"
 #include "ControlPace.h"
 #include "Host/Devices/ChannelMeters.h"
+#include "HeldNotes.h"
 #include "HostParameter.h"
 #include "MidiMap.h"
 #include "ParameterPoints.h"
@@ -109,6 +110,9 @@ private:
     void silence(int frame) noexcept;
     void receive(const juce::MidiMessageMetadata& message, int frame) noexcept;
     void strike(int channel, int note, int velocity, int frame) noexcept;
+    NoteSound soundOf(const HeldNotes::Note& note) const noexcept;
+    CollisionEvent placed(CollisionEvent strike, int channel) const noexcept;
+    void sustain(int first, int end) noexcept;
     void hear(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept;
     void strikeBeat(Session& session, const BandOnset& onset, int frame) noexcept;
     void control(int channel, int controller, int value, int frame) noexcept;
@@ -147,7 +151,8 @@ private:
     ControlPace levelPace_, pannerPace_, holdPace_, materialPace_;
     std::atomic<std::uint64_t> displaced_{0};
     bool owesStop_ = false, owesSilence_ = false;
-    std::array<float, 17> bend_{}, slide_{}; // per MIDI channel, from 1: shifts of the strikes, in parts of the field
+    HeldNotes held_;
+    std::array<float, 17> bend_{}, slide_{}, pressure_{}; // per MIDI channel, from 1: shifts of the strikes, in parts of the field; 0 to 1
 };
 
 } // namespace physvib

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The render role's part: transport, controls, MIDI, samples. Nothing here allocates, locks or waits.
 #include "PluginProcessor.h"
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -9,7 +11,9 @@ namespace physvib {
 namespace {
 
 constexpr int slideController = 74; // MPE's third dimension
-constexpr int allSoundOff = 120;    // All Notes Off does nothing: what notes strike rings out by itself, and the world is no note
+constexpr int sustainPedal = 64;
+constexpr int allSoundOff = 120;
+constexpr int allNotesOff = 123; // lets held ones go; what other notes strike rings out by itself, and the world is no note
 constexpr float peakFallDbPerSecond = 20.0f;
 
 RenderControl controlOf(RenderControl::Kind kind, float value = 0.0f) {
@@ -82,6 +86,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
         }
         int next = std::min(end, points_.next());
         if (message != midi.end()) next = std::min(next, frameOf(*message));
+        sustain(at - first, next - first);
         hear(buffer, first, at - first, next - first); // what comes in goes by its frame
         sendPaced(at - first, next - first);            // what was said faster than it may go
         at = next;
@@ -101,6 +106,7 @@ void PluginProcessor::followTransport(int frames) noexcept {
             if (const auto samples = position->getTimeInSamples()) at = *samples;
         }
     const auto change = transport_.follow(plays, at, frames);
+    takes_.transportStands(transport_.stands());
     const bool restarts = takes_.lookForNew() == TransportMode::restartOnPlay;
     if (restarts && change == Transport::Change::started) takes_.start();
     else if (restarts && !transport_.isPlaying()) takes_.stop();
@@ -111,6 +117,7 @@ void PluginProcessor::followTransport(int frames) noexcept {
 // A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
 void PluginProcessor::forgetControls() noexcept {
     beats_.forget();
+    held_.forget();
     for (auto* const pace : {&levelPace_, &pannerPace_, &holdPace_, &materialPace_}) pace->reset(static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)));
     owesStop_ = false;
     sent_.fill(std::numeric_limits<double>::quiet_NaN());
@@ -171,17 +178,26 @@ bool PluginProcessor::sendMaterial(Session& session, int frame) noexcept {
 }
 
 void PluginProcessor::stopAll(int frame) noexcept {
+    held_.forget();
     Session* const session = takes_.session();
     owesStop_ = session && !session->callback().control(controlOf(RenderControl::Kind::stopAll), frame);
 }
 
-void PluginProcessor::silence(int frame) noexcept { owesSilence_ = !takes_.silence(frame); }
+void PluginProcessor::silence(int frame) noexcept {
+    held_.forget();
+    owesSilence_ = !takes_.silence(frame);
+}
 
 void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int frame) noexcept {
-    if (message.numBytes < 3) return; // nothing that is shorter means anything to us
+    if (message.numBytes < 2) return;
     const int kind = message.data[0] & 0xf0, channel = (message.data[0] & 0x0f) + 1;
-    if (kind == 0x90 && message.data[2] > 0) strike(channel, message.data[1], message.data[2], frame);
-    if (kind == 0xe0) bend_[static_cast<std::size_t>(channel)] = static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f;
+    const auto one = static_cast<std::size_t>(channel);
+    if (kind == 0xd0) pressure_[one] = static_cast<float>(message.data[1]) / 127.0f;
+    if (message.numBytes < 3) return;
+    const bool isOn = kind == 0x90 && message.data[2] > 0;
+    if (isOn) strike(channel, message.data[1], message.data[2], frame);
+    if (!isOn && (kind == 0x80 || kind == 0x90)) held_.stop(channel, message.data[1]);
+    if (kind == 0xe0) bend_[one] = static_cast<float>((message.data[2] * 128 + message.data[1]) - 8192) / 16384.0f;
     if (kind == 0xb0) control(channel, message.data[1], message.data[2], frame);
 }
 
@@ -196,11 +212,58 @@ void PluginProcessor::strike(int channel, int note, int velocity, int frame) noe
     }
     CollisionEvent event = midi.strikeOf(note);
     if (event.frequencyHz <= 0.0) return;
+    const double exponent = midi.voice().velocityExponent, share = velocity / 127.0;
+    const double loudness = exponent == 1.0 ? share : std::pow(share, exponent);
+    if (midi.isHeld(note)) {
+        pressure_[static_cast<std::size_t>(channel)] = 0.0f; // a new touch
+        return held_.start({channel, note, loudness, session->timeline().framesRendered() + frame});
+    }
+    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * loudness;
+    session->callback().strike(placed(event, channel), frame);
+}
+
+// Where the strike's own place, shifts, bend and slide put it, and as loud as the voice wants it there.
+CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel) const noexcept {
+    const auto& settings = takes_.settings();
+    const auto& midi = settings.midi;
+    const double bend = bend_[static_cast<std::size_t>(channel)], semitones = midi.voice().bendSemitones;
     const auto shifted = [](double at, double by, double size) { return std::clamp(at + by * size, 0.0, size); };
-    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * velocity / 127.0;
-    event.x = shifted(event.x, value(Parameter::strikeX) * 0.01 + bend_[static_cast<std::size_t>(channel)], midi.fieldWidthMetres());
-    event.y = shifted(event.y, value(Parameter::strikeY) * 0.01 + slide_[static_cast<std::size_t>(channel)], midi.fieldHeightMetres());
-    session->callback().strike(event, frame);
+    if (semitones > 0.0) strike.frequencyHz = std::clamp(strike.frequencyHz * std::exp2(2.0 * bend * semitones / 12.0), limits::slowestToneHz, limits::maxFrequencyHz);
+    strike.x = shifted(strike.x, value(Parameter::strikeX) * 0.01 + (semitones > 0.0 ? 0.0 : bend), midi.fieldWidthMetres());
+    strike.y = shifted(strike.y, value(Parameter::strikeY) * 0.01 + slide_[static_cast<std::size_t>(channel)], midi.fieldHeightMetres());
+    if (!midi.voice().isLoudest) return strike;
+    PhantomPanner::Gains gains{};
+    PhantomPanner{settings.layout, lawOf(value(Parameter::law)), value(Parameter::exponent), midi.fieldWidthMetres(), midi.fieldHeightMetres()}.gainsAt(strike.x, strike.y, gains);
+    const double most = *std::max_element(gains.begin(), gains.begin() + settings.layout.count);
+    if (most > 0.0) strike.amplitude /= most;
+    return strike;
+}
+
+// A finger that presses is louder than the key was struck.
+NoteSound PluginProcessor::soundOf(const HeldNotes::Note& note) const noexcept {
+    CollisionEvent event = takes_.settings().midi.strikeOf(note.number);
+    event.amplitude = gainOfLevel(value(Parameter::strikeLevel)) * std::max(note.velocity, static_cast<double>(pressure_[static_cast<std::size_t>(note.channel)]));
+    event = placed(event, note.channel);
+    return {event.frequencyHz, event.amplitude, event.x, event.y};
+}
+
+// What of held notes begins from frame `first` to `end` of this part.
+void PluginProcessor::sustain(int first, int end) noexcept {
+    Session* const session = takes_.session();
+    if (!session || first >= end) return;
+    const std::int64_t now = session->timeline().framesRendered();
+    const double release = std::log(1000.0) / takes_.settings().midi.voice().releaseSeconds;
+    held_.advance(now + end, static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)), [this](const HeldNotes::Note& note) { return soundOf(note); },
+                  [&](const HeldNotes::Note& note, const NoteSound& sound, std::int64_t afterNs, std::int64_t durationNs) {
+                      CollisionEvent event;
+                      event.frequencyHz = sound.frequencyHz;
+                      event.amplitude = sound.amplitude;
+                      event.x = sound.x;
+                      event.y = sound.y;
+                      event.durationNs = durationNs;
+                      event.decayPerSecond = durationNs > 0 ? 0.0 : release;
+                      session->callback().strike(event, static_cast<int>(note.onsetFrame - now), afterNs);
+                  });
 }
 
 // Frames `from` to `to` of the part of the block that begins at `first`. The side chain's channels are the buffer's first ones, until what is
@@ -228,6 +291,8 @@ void PluginProcessor::strikeBeat(Session& session, const BandOnset& onset, int f
 void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {
     if (controller == slideController) slide_[static_cast<std::size_t>(channel)] = static_cast<float>(value - 64) / 128.0f;
     if (controller == allSoundOff) return silence(frame);
+    if (controller == sustainPedal) held_.pedal(channel, value >= 64);
+    if (controller == allNotesOff) held_.stopAll();
     const int which = takes_.settings().midi.parameterOf(controller);
     if (which < 0) return;
     normals_[static_cast<std::size_t>(which)] = static_cast<float>(value) / 127.0f;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panner, session, tail and parameters of a state.
 #include "PluginSettings.h"
-#include "Scene/SceneCatalogue.h"
 #include "Io/Text/NameList.h"
 #include "MidiMap.h"
 #include <algorithm>
@@ -10,13 +9,6 @@
 #include <utility>
 
 namespace physvib {
-
-PluginState newPluginState() {
-    PluginState state;
-    state.scene = builtInScenes().front();
-    state.layout = presetLayout("phone4");
-    return state;
-}
 
 void fitToLayout(PluginState& state) {
     resizeStrips(state.strips, enchantersOf(state));
@@ -46,7 +38,7 @@ void takeScene(PluginState& state, Scene scene) {
 
 bool isSameTake(const PluginState& a, const PluginState& b) {
     return a.seed == b.seed && a.stepsPerSecond == b.stepsPerSecond && a.limiterEnabled == b.limiterEnabled && a.transport == b.transport && a.isDirect == b.isDirect &&
-           isSame(a.layout.geometry, b.layout.geometry) && a.equalised == b.equalised && a.notes == b.notes && a.controllers == b.controllers && a.scene == b.scene;
+           isSame(a.layout.geometry, b.layout.geometry) && a.equalised == b.equalised && a.voice == b.voice && a.notes == b.notes && a.controllers == b.controllers && a.scene == b.scene;
 }
 
 PhantomPanner pannerOf(const PluginState& state, PanningLaw law, double exponent) noexcept {
@@ -73,6 +65,7 @@ double tailSeconds(const PluginState& state) noexcept {
     const bool spawns = std::ranges::any_of(state.notes, [](const NoteRule& rule) { return rule.kind == NoteKind::spawn; });
     if (!state.scene.bodies.empty() || !state.scene.script.empty() || spawns) return std::numeric_limits<double>::infinity();
     double least = limits::maxDecayPerSecond;
+    if (state.voice.pitch == NotePitch::note) least = state.voice.isHeld ? std::log(1000.0) / state.voice.releaseSeconds : state.voice.decayPerSecond;
     for (const auto& m : state.scene.materials)
         if (m.frequencyHz > 0.0 && m.decayPerSecond > 0.0) least = std::min(least, m.decayPerSecond);
     return limits::retireDecibels / 20.0 * std::log(10.0) / least;

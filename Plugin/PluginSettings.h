@@ -9,9 +9,6 @@
 
 namespace physvib {
 
-/// What a new instance plays: "shake the box" on four enchanters, running free. M only.
-PluginState newPluginState();
-
 inline int enchantersOf(const PluginState& state) noexcept { return state.layout.geometry.count; }
 
 /// As many strips as there are enchanters, and no equaliser beyond. Any thread.

@@ -78,6 +78,11 @@ void Take::end() noexcept {
 }
 
 void Take::render(int frames, std::int64_t leadFrames, RenderMode mode) noexcept {
+    if (const auto surplus = this->leadFrames() - leadFrames; surplus > 0) {
+        if (gap_.now() > 0.0f) return play(0, frames, mode, 0.0f);
+        skip(static_cast<int>(std::min<std::int64_t>(surplus, frames)));
+        return play(0, frames, mode, surplus > frames ? 0.0f : 1.0f);
+    }
     const int waits = static_cast<int>(std::clamp<std::int64_t>(leadFrames - this->leadFrames(), 0, frames));
     if (waits > 0) standStill(waits);
     if (waits < frames) play(waits, frames - waits, mode);
@@ -97,7 +102,13 @@ void Take::standStill(int frames) noexcept {
     gap_.apply(from(0).data(), session.channels(), frames);
 }
 
-void Take::play(int first, int frames, RenderMode mode) noexcept {
+void Take::skip(int frames) noexcept {
+    releaseUntil(frames);
+    session.wait(from(0).data(), frames);
+    if (owed_ > 0) owed_ = std::max<std::int64_t>(0, owed_ - frames);
+}
+
+void Take::play(int first, int frames, RenderMode mode, float gap) noexcept {
     const auto at = from(first);
     for (int done = 0; done < frames;) {
         const int part = std::min(frames - done, sliceFrames_);
@@ -107,7 +118,7 @@ void Take::play(int first, int frames, RenderMode mode) noexcept {
     }
     fade(first, frames);
     for (std::size_t j = 0; j < out.size(); ++j) last_[j] = at[j][frames - 1];
-    gap_.moveTo(1.0f);
+    gap_.moveTo(gap);
     gap_.apply(at.data(), session.channels(), frames);
 }
 

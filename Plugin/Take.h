@@ -40,7 +40,8 @@ public:
     std::int64_t leadFrames() const noexcept { return leadFrames_ + session.timeline().framesGrown(); }
 
     /// The next frames of every channel of the session, at most a block. While L covers less than `leadFrames`, it grows: the
-    /// session goes on and nothing of it is played; what was to be felt comes so much later. R.
+    /// session goes on and nothing of it is played; what was to be felt comes so much later. While it covers more, it shrinks: in silence as well, and
+    /// what was to be felt meanwhile is not. R.
     void render(int frames, std::int64_t leadFrames, RenderMode mode) noexcept;
 
     /// Level, law and exponent at a frame of the coming block, in the order of their frames and at ControlPace's pace. Kept here until the renderer
@@ -78,7 +79,8 @@ private:
     template <class Make>
     void release(Held& held, std::int64_t until, Make make) noexcept;
     void releaseUntil(int frames) noexcept;
-    void play(int first, int frames, RenderMode mode) noexcept;
+    void skip(int frames) noexcept;
+    void play(int first, int frames, RenderMode mode, float gap = 1.0f) noexcept;
     void fade(int first, int frames) noexcept;
 
     std::shared_ptr<const TakeOrder> order_;
@@ -87,7 +89,7 @@ private:
     Held levels_, panners_;
     std::int64_t leadFrames_ = 0; // of prepare
     std::int64_t owed_ = -1;      // frames until it fades; -1: it is not ending
-    GainRamp fade_, gap_;         // gap_ is shut while L grows
+    GainRamp fade_, gap_;         // gap_ is shut while L grows or shrinks
     std::array<float, limits::maxEnchanters> last_{};
     bool over_ = false;
 };

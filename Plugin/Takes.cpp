@@ -107,7 +107,11 @@ void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds)
     }
     sampleRateHz_ = sampleRateHz;
     blockFrames_ = blockFrames;
-    leadFrames_ = std::max<std::int64_t>(blockFrames, std::llround(leadSeconds_ * sampleRateHz));
+    if (!isAheadNeeded_ && runFrames_ > HostPace::calmNs * sampleRateHz / 1'000'000'000) leadSeconds_ = 0.0; // that run did without
+    leadFrames_ = aheadFrames_ = std::max<std::int64_t>(blockFrames, std::llround(leadSeconds_ * sampleRateHz));
+    isAheadNeeded_ = false;
+    runFrames_ = neededNs_ = 0;
+    hostPace_.reset();
     started_ = 0;
     delayedBlocks_ = lateBefore_ = 0;
     slippedBefore_ = waitedFrames_ = 0;

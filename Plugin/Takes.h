@@ -15,6 +15,7 @@
 // sees that (Session::framesMissing) and, if the steady clock says that the thread has been in time, lets L grow until the
 // world is there. The host is told, and later takes begin with it.
 #pragma once
+#include "HostPace.h"
 #include "Stepper.h"
 #include "Take.h"
 #include <condition_variable>
@@ -83,6 +84,10 @@ public:
     std::int64_t latencyFrames() const noexcept { return isDirect() ? directFrames_.load() : playOutFrames_.load(); }
     bool isDirect() const noexcept { return directFrames_ > 0; } ///< as latencyFrames
 
+    /// L is to be as short as it was at first: now, or when the transport stands and the host has been calm. Any thread; R.
+    void giveBack() noexcept { giveBack_ = true; }
+    void transportStands(bool stands) noexcept { stands_ = stands; }
+
     /// At the beginning of a block, first: lets new settings in. How they follow the transport. R, wait-free.
     TransportMode lookForNew() noexcept;
 
@@ -144,6 +149,8 @@ private:
     void letGo(Take*& take) noexcept;
     void letGoOfThoseOver() noexcept;
     void coverBurst(int frames) noexcept;
+    void heal(std::int64_t nowNs) noexcept;
+    void lead(std::int64_t frames) noexcept;
     void tell() noexcept;
 
     std::mutex setMutex_;      // one `set` at a time; taken first
@@ -160,9 +167,9 @@ private:
 
     std::atomic<Take*> spare_{nullptr};
     std::atomic<std::uint64_t> newest_{0}; // generation of the last settings, once they are in spare_
-    std::atomic<bool> hasNext_{false}, stop_{false};
+    std::atomic<bool> hasNext_{false}, stop_{false}, giveBack_{false};
     std::atomic<std::int64_t> playOutFrames_{0}, directFrames_{0}, leadFrames_{0}, tickedNs_{0};
-    std::atomic<double> leadSeconds_{0.0}; // what the host was seen to ask for at once, also before prepare
+    std::atomic<double> leadSeconds_{0.0}; // what a host that goes ahead was seen to ask for at once, also before prepare
     std::atomic<std::uint64_t> lost_{0}, made_{0}, blocks_{0};
     std::atomic<double> idleSeconds_{0.0};
     std::atomic<int> ticksPerSecond_{TakePace::leastTicksPerSecond};
@@ -179,6 +186,10 @@ private:
     int started_ = 0;
     std::uint64_t delayedBlocks_ = 0, lateBefore_ = 0;
     std::int64_t slippedBefore_ = 0, waitedFrames_ = 0;
+    HostPace hostPace_;
+    std::int64_t aheadFrames_ = 0; // part of leadFrames_ that a host needs which goes ahead of time; a block at least
+    std::int64_t runFrames_ = 0, neededNs_ = 0;
+    bool isAheadNeeded_ = false, stands_ = false;
 
     std::optional<juce::SharedResourcePointer<Stepper>> stepper_; // while prepared
     std::thread builder_;

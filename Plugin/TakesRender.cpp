@@ -43,7 +43,7 @@ bool Takes::begin(RenderMode mode) noexcept {
     hasNext_ = false;
     playing_->session.startLater(leadFrames_ - playing_->leadFrames()); // what the host asked for meanwhile
     playing_->number = ++started_;
-    playOutFrames_ = playing_->session.timeline().playOutFrames();
+    playOutFrames_ = playing_->session.timeline().playOutFrames() - std::max<std::int64_t>(0, playing_->leadFrames() - leadFrames_); // it may have been made for more
     return true;
 }
 
@@ -88,27 +88,54 @@ void Takes::render(int frames, RenderMode mode) noexcept {
 }
 
 // L grows if the world is not where the next frames need it though it has been stepped in time. If the thread itself was late,
-// more delay would not mend that: the world stands still for as long, as always.
+// more delay would not mend that: the world stands still for as long, as always. So it does for a host that was late for once.
 void Takes::coverBurst(int frames) noexcept {
-    const std::int64_t lead = leadFrames_;
+    const std::int64_t now = nowNs(), lead = leadFrames_;
+    hostPace_.ask(frames, now, sampleRateHz_);
+    runFrames_ += frames;
     std::int64_t needed = 0;
     bool isGrowing = false;
     forEachSounding([&](Take& take) {
         needed = std::max(needed, take.leadFrames() + take.session.framesMissing(frames));
         isGrowing = isGrowing || take.leadFrames() < lead;
     });
-    if (needed <= lead && !isGrowing) return;
-    const double spareSeconds = 1.0 / ticksPerSecond_ + TakePace::headroomSeconds - 1e-9 * static_cast<double>(nowNs() - tickedNs_.load(std::memory_order_acquire));
+    if (needed > blockFrames_) {
+        neededNs_ = now;
+        isAheadNeeded_ = isAheadNeeded_ || aheadFrames_ > blockFrames_;
+    }
+    if (needed <= lead && !isGrowing) return heal(now);
+    const double spareSeconds = 1.0 / ticksPerSecond_ + TakePace::headroomSeconds - 1e-9 * static_cast<double>(now - tickedNs_.load(std::memory_order_acquire));
     if (!isGrowing && spareSeconds < 0.0) return;
+    const bool goesAhead = hostPace_.goesAhead();
+    if (needed > lead && !goesAhead && !hostPace_.stuttersAgain(now) && !isGrowing) return;
     needed += static_cast<std::int64_t>(std::max(0.0, spareSeconds) * sampleRateHz_); // the thread may come so much later the next time
     if (needed <= lead) return;
     const auto step = static_cast<std::int64_t>(TakePace::growthSeconds * sampleRateHz_);
     const auto most = std::max(lead, static_cast<std::int64_t>(TakePace::mostLeadSeconds * sampleRateHz_));
-    const std::int64_t grown = std::min(lead + (needed - lead + step - 1) / step * step, most) - lead;
-    leadFrames_ = lead + grown;
-    leadSeconds_ = static_cast<double>(lead + grown) / sampleRateHz_;
-    playOutFrames_ += grown;
-    waitedFrames_ += grown;
+    this->lead(std::min(lead + (needed - lead + step - 1) / step * step, most));
+    if (!goesAhead) return;
+    isAheadNeeded_ = true;
+    aheadFrames_ = leadFrames_;
+    leadSeconds_ = static_cast<double>(aheadFrames_) / sampleRateHz_;
+}
+
+// What nobody has needed for a while: what stutters had made it, as soon as they are over; the rest, where the transport stands.
+void Takes::heal(std::int64_t nowNs) noexcept {
+    const bool isCalm = nowNs - neededNs_ > HostPace::calmNs;
+    const bool all = giveBack_.exchange(false) || (isCalm && stands_);
+    if (all) {
+        aheadFrames_ = blockFrames_;
+        leadSeconds_ = 0.0;
+    }
+    if ((all || isCalm) && leadFrames_ > aheadFrames_) lead(aheadFrames_);
+}
+
+// From now on; what is shorter by more than it has grown in this run was longer from its start.
+void Takes::lead(std::int64_t frames) noexcept {
+    const std::int64_t more = frames - leadFrames_;
+    leadFrames_ = frames;
+    playOutFrames_ += more;
+    waitedFrames_ = std::max<std::int64_t>(0, waitedFrames_ + more);
 }
 
 void Takes::tell() noexcept {

@@ -6,9 +6,9 @@
 
 namespace physvib {
 
-bool CallbackInputs::strike(CollisionEvent event, int frame) noexcept {
+bool CallbackInputs::strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept {
     event = shaping_(event);
-    event.timeNs = time_.nextBornNs(frame);
+    event.timeNs = time_.nextBornNs(frame) + afterNs;
     return strikes_.push(event);
 }
 

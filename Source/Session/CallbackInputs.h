@@ -18,7 +18,8 @@ public:
     /// Each `frame` frames into the block that is rendered next: it is felt L later like everything else, or the renderer's latency later where
     /// the session is direct, at an exact frame.
     /// False, and counted, if it found no room. R, wait-free.
-    bool strike(CollisionEvent event, int frame) noexcept;
+    bool strike(CollisionEvent event, int frame) noexcept { return strike(event, frame, 0); }
+    bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept; ///< so long after that frame, which may be past
     bool control(RenderControl control, int frame) noexcept;
     bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step
 

@@ -93,6 +93,16 @@ void Session::wait(int frames) noexcept {
     time_.waitFrames(frames);
 }
 
+void Session::wait(float* const* unfelt, int frames) noexcept {
+    const std::int64_t start = time_.playOutFrames() - renderer_->latencyFrames(), next = time_.framesRendered() - start;
+    if (next >= 0) { // else it has not begun
+        Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, next, time_.nowNs()};
+        renderer_->render(source, unfelt, frames);
+        channels_.render(unfelt, frames);
+    }
+    time_.lengthen(-frames);
+}
+
 // The renderer's own output lags by the limiter's frames, which are part of L: it starts that much earlier.
 void Session::render(float* const* out, int frames, RenderMode mode) noexcept {
     const bool begins = world_.beginBlock(mode);

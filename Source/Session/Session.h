@@ -56,6 +56,10 @@ public:
     /// meanwhile is the caller's. R, wait-free.
     void wait(int frames) noexcept;
 
+    /// The other way round, beside render: nobody feels the renderer's next frames, and L is shorter by as many. `unfelt` is written as by render. After
+    /// L has grown, or where the world has room for that. R, wait-free.
+    void wait(float* const* unfelt, int frames) noexcept;
+
     /// Before the first block: what is born is felt as soon as before, the world begins so much later. R, or M.
     void startLater(std::int64_t frames) noexcept;
 

@@ -49,7 +49,7 @@ public:
     bool isBornDirect() const noexcept { return isBornDirect_; } ///< as bornLatencyFrames
     std::int64_t bornLatencyFrames() const noexcept { return isBornDirect_ ? law_.limiterFrames : playOutFrames(); }
 
-    /// By how much L has grown since prepare. Any thread.
+    /// By how much L has grown since prepare, or is shorter. Any thread.
     std::int64_t framesGrown() const noexcept { return grownFrames_.load(std::memory_order_acquire); }
 
     /// Session time in frames, with the block that is being rendered. Any thread.
@@ -86,7 +86,7 @@ private:
 
     void setFrames(std::int64_t frames) noexcept { sessionFrames_ = frames; } ///< as set()
 
-    /// L is that much longer from the start. R or M, after prepare and before the first block.
+    /// L is that much longer from the start, or shorter. R or M, after prepare and before the first block; R, where as much of the renderer's time passes.
     void lengthen(std::int64_t frames) noexcept {
         playOutFrames_.fetch_add(frames, std::memory_order_relaxed);
         grownFrames_.fetch_add(frames, std::memory_order_release);

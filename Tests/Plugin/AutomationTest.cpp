@@ -107,13 +107,13 @@ void expectTheSameInBlocks(const Automated& take, const PluginState& state, std:
 
 const std::vector<std::vector<int>> manyBlocks{{32}, {64}, {480}, {1000}, {4096}, {8, 4096, 16, 32, 904}};
 
-TEST(Automation, PointsEvery32FramesAreTheSameSamplesInBlocksOfAnySize) { expectTheSameInBlocks(takeOf(72000, 3, 32), newPluginState(), 72000, manyBlocks); }
+TEST(Automation, PointsEvery32FramesAreTheSameSamplesInBlocksOfAnySize) { expectTheSameInBlocks(takeOf(72000, 3, 32), shakenBox(), 72000, manyBlocks); }
 
 TEST(Automation, PointsAtAnyFramesAreTheSameSamplesInBlocksOfAnySize) {
-    for (const std::uint32_t seed : {1u, 2u}) expectTheSameInBlocks(takeOf(48000, seed, 0), newPluginState(), 48000, manyBlocks);
+    for (const std::uint32_t seed : {1u, 2u}) expectTheSameInBlocks(takeOf(48000, seed, 0), shakenBox(), 48000, manyBlocks);
 }
 
-TEST(Automation, InBlocksOfOneFrameAndOddOnesAsWell) { expectTheSameInBlocks(takeOf(12000, 5, 32), newPluginState(), 12000, {{1}, {2}, {3}, {31, 33, 7, 1}}); }
+TEST(Automation, InBlocksOfOneFrameAndOddOnesAsWell) { expectTheSameInBlocks(takeOf(12000, 5, 32), shakenBox(), 12000, {{1}, {2}, {3}, {31, 33, 7, 1}}); }
 
 TEST(Automation, WhereNotesAreDirectTooInBlocksOfOneSize) {
     auto state = strikeAt(0, 4); // no world, which moves by the difference of the blocks
@@ -123,7 +123,7 @@ TEST(Automation, WhereNotesAreDirectTooInBlocksOfOneSize) {
 }
 
 // For hand and nightly runs: a minute each.
-TEST(Automation, DISABLED_TenMinutes) { expectTheSameInBlocks(takeOf(600 * 48000, 6, 32), newPluginState(), 600 * 48000, {{32}, {64}, {1000}, {4096}}); }
+TEST(Automation, DISABLED_TenMinutes) { expectTheSameInBlocks(takeOf(600 * 48000, 6, 32), shakenBox(), 600 * 48000, {{32}, {64}, {1000}, {4096}}); }
 
 TEST(Automation, ANoteHasTheLevelOfItsFrame) {
     TestHost host;
@@ -144,7 +144,7 @@ TEST(Automation, ANoteHasTheLevelOfItsFrame) {
 
 TEST(Automation, SilenceClosesAtItsFrame) {
     TestHost host;
-    ASSERT_TRUE(host.plugin->apply(newPluginState()));
+    ASSERT_TRUE(host.plugin->apply(shakenBox()));
     host.prepare(48000, 4096);
     const auto open = playedTo(host, {}, {}, {4096}, 48000);
     PointSong song;

@@ -17,7 +17,7 @@ juce::MidiBuffer onlyNote(int frame) {
 }
 
 PluginState directState(bool hasWorld) {
-    PluginState s = hasWorld ? newPluginState() : strikeAt(0, 2);
+    PluginState s = hasWorld ? shakenBox() : strikeAt(0, 2);
     s.isDirect = true;
     return s;
 }

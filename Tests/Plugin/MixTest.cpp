@@ -23,7 +23,7 @@ Strip strip(double gainDb, double delayMs, double ceilingDb, bool inverted = fal
 
 /// A new instance with something of everything.
 PluginState mixedState() {
-    PluginState s = newPluginState();
+    PluginState s = shakenBox();
     s.strips = {strip(0.0, 0.0, 0.0), strip(6.0, 0.0, -12.0), strip(-3.0, 2.5, 0.0, true), strip(6.0, 50.0, -30.0)}; // C and D are struck first
     s.strips[0].isMuted = true;
     const auto actuator = findActuator("lra-205");
@@ -173,7 +173,7 @@ TEST(PluginMix, ANewInstanceAndAChunkOfVersion1SoundAsWithoutAMix) {
     host.plugin->setStateInformation(text.value.data(), static_cast<int>(text.value.size()));
     ASSERT_EQ(host.plugin->trouble(), "");
     host.plugin->parameter(Parameter::level).setValue(1.0f);
-    auto old = host.plugin->state(), fresh = newPluginState();
+    auto old = host.plugin->state(), fresh = shakenBox();
     old.transport = TransportMode::free;
     for (auto& state : {old, fresh}) {
         ASSERT_TRUE(host.plugin->apply(state));

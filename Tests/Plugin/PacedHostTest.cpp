@@ -13,7 +13,7 @@ using namespace test;
 /// A host on a clock that the test moves: the worlds are stepped every 5 ms of it, whatever the host asks for.
 class PacedHost : public TestHost {
 public:
-    explicit PacedHost(const PluginState& state = newPluginState()) {
+    explicit PacedHost(const PluginState& state = shakenBox()) {
         EXPECT_TRUE(plugin->apply(state));
         plugin->takes().driveByHand(nowNs_);
     }
@@ -57,7 +57,7 @@ Samples bounced(const PluginState& state, int block, std::int64_t frames) {
 
 /// The scene struck all the time, so that a block that is not the bounce's shows.
 PluginState busy() {
-    auto state = newPluginState();
+    auto state = shakenBox();
     state.limiterEnabled = false;
     return state;
 }
@@ -216,6 +216,106 @@ TEST(PacedHost, AThreadThatComesLateIsAStallAndNoBurst) {
     EXPECT_GT(host.status().slippedNs, 0);
     EXPECT_EQ(host.plugin->takes().playOutFrames(), before);
     host.plugin->releaseResources();
+}
+
+/// Blocks in time for so long.
+void playInTime(PacedHost& host, double seconds, Samples& signal) {
+    for (std::int64_t done = 0; done < static_cast<std::int64_t>(seconds * 48000); done += 512) {
+        host.play(512, signal);
+        host.waitFrames(512);
+    }
+}
+
+/// The host does not come for so long, and makes up for it.
+void stutter(PacedHost& host, int ms, Samples& signal) {
+    host.wait(ms * 1'000'000);
+    host.play(48 * ms / 512 * 512, signal);
+}
+
+TEST(PacedHost, AStutterLeavesLAsItIs) {
+    PacedHost host{busy()};
+    host.prepare(48000, 512, false);
+    const int latency = host.plugin->getLatencySamples();
+    Samples signal;
+    playInTime(host, 1.0, signal);
+    for (const int ms : {40, 80, 120, 160}) {
+        stutter(host, ms, signal);
+        playInTime(host, 1.2, signal);
+        EXPECT_EQ(host.plugin->takes().playOutFrames(), latency) << ms;
+    }
+    EXPECT_GT(host.status().slippedNs, 0) << "counted";
+    EXPECT_EQ(host.status().session.render.late, 0u);
+}
+
+/// When a note is felt that comes now: the first sample of its own.
+std::int64_t delayOfNote(PacedHost& host) {
+    juce::MidiBuffer midi;
+    midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{127}), 0);
+    std::int64_t waited = 0;
+    for (auto* out = &host.block(512, midi); waited < 48000; waited += 512) {
+        for (int n = 0; n < 512; ++n)
+            if (out->getSample(0, n) != 0.0f) return waited + n;
+        host.waitFrames(512);
+        out = &host.block(512);
+    }
+    return -1;
+}
+
+TEST(PacedHost, StuttersThatComeAgainLengthenLUntilItIsCalm) {
+    PacedHost host{strikeAt(0, 1)};
+    host.prepare(48000, 512, false);
+    const int latency = host.plugin->getLatencySamples();
+    Samples signal;
+    playInTime(host, 1.0, signal);
+    for (int i = 0; i < 4; ++i) {
+        stutter(host, 100, signal);
+        playInTime(host, 0.3, signal);
+    }
+    const auto grown = host.plugin->takes().playOutFrames();
+    EXPECT_GT(grown, latency);
+    EXPECT_EQ(host.status().burstFrames, grown - latency);
+    EXPECT_NEAR(static_cast<double>(delayOfNote(host)), static_cast<double>(grown), 2.0);
+    playInTime(host, 4.0, signal);
+    EXPECT_EQ(host.plugin->takes().playOutFrames(), latency);
+    EXPECT_EQ(host.status().burstFrames, 0);
+    EXPECT_NEAR(static_cast<double>(delayOfNote(host)), latency, 2.0) << "a key is felt as soon as before";
+    host.prepare(48000, 512, false);
+    EXPECT_EQ(host.plugin->getLatencySamples(), latency);
+}
+
+TEST(PacedHost, AHostThatWentAheadHasTheShortLAgainWhereItsTransportStands) {
+    for (const bool byHand : {false, true}) {
+        PacedHost host{strikeAt(0, 1)};
+        host.prepare(48000, 512, false);
+        const int latency = host.plugin->getLatencySamples();
+        host.playHead.isThere = host.playHead.isPlaying = true;
+        Samples signal;
+        host.playBursts(96000, 512, [](int) { return 20; });
+        const auto grown = host.plugin->takes().playOutFrames();
+        EXPECT_GT(grown, latency);
+        playInTime(host, 4.0, signal);
+        EXPECT_EQ(host.plugin->takes().playOutFrames(), grown) << "while it plays";
+        if (byHand) host.plugin->takes().giveBack();
+        else host.playHead.isPlaying = false;
+        playInTime(host, 1.0, signal);
+        EXPECT_EQ(host.plugin->takes().playOutFrames(), latency);
+        EXPECT_NEAR(static_cast<double>(delayOfNote(host)), latency, 2.0);
+        host.prepare(48000, 512, false);
+        EXPECT_EQ(host.plugin->getLatencySamples(), latency);
+    }
+}
+
+TEST(PacedHost, WhatARunDidWithoutIsGivenBackAtTheNextStart) {
+    PacedHost host{busy()};
+    host.prepare(48000, 512, false);
+    const int latency = host.plugin->getLatencySamples();
+    Samples signal;
+    host.playBursts(96000, 512, [](int) { return 20; });
+    host.prepare(48000, 512, false);
+    EXPECT_GT(host.plugin->getLatencySamples(), latency) << "it may do so again";
+    playInTime(host, 4.0, signal);
+    host.prepare(48000, 512, false);
+    EXPECT_EQ(host.plugin->getLatencySamples(), latency);
 }
 
 TEST(PacedHost, RestartsInBurstsAreTheBounceToo) {

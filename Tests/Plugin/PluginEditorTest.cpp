@@ -30,6 +30,36 @@ TEST(PluginEditor, OpensFiftyTimesWhileItPlays) {
     }
 }
 
+juce::Label* labelWith(juce::Component& in, const juce::String& text) {
+    for (auto* child : in.getChildren()) {
+        if (auto* label = dynamic_cast<juce::Label*>(child); label && label->getText().contains(text)) return label;
+        if (auto* found = labelWith(*child, text)) return found;
+    }
+    return nullptr;
+}
+
+TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
+    TestHost host;
+    host.plugin->setCurrentProgram(static_cast<int>(builtInScenes().size()));
+    host.prepare(48000, 512);
+    auto editor = openEditor(*host.plugin);
+    host.block(512);
+    editor->refresh();
+    auto* const words = labelWith(*editor, "Play a note");
+    ASSERT_NE(words, nullptr);
+    EXPECT_TRUE(words->isVisible());
+    if (const char* folder = std::getenv("PHYSVIB_PICTURES")) { // to look at
+        juce::FileOutputStream file{juce::File{folder}.getChildFile("plugin-editor-first.png")};
+        juce::PNGImageFormat{}.writeImageToStream(pictureOf(*editor), file);
+    }
+    juce::MidiBuffer midi;
+    midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 0);
+    host.block(512, midi);
+    for (int b = 0; b < 20; ++b) host.block(512);
+    editor->refresh();
+    EXPECT_FALSE(words->isVisible());
+}
+
 TEST(PluginEditor, ShowsTheWorldMoving) {
     TestHost host;
     host.prepare(48000, 480);
@@ -157,7 +187,7 @@ TEST(PluginEditor, OpensFilesAndSaysWhatIsWrong) {
 }
 
 TEST(PluginEditor, RulesAreSaidInWords) {
-    auto state = newPluginState();
+    auto state = shakenBox();
     NoteRule rule;
     rule.x = 0.25;
     EXPECT_EQ(wordsOf(rule, state.scene), "strikes " + juce::String{state.scene.materials[0].name} + " at 25 %, 50 %");

@@ -92,6 +92,7 @@ TEST(PluginProcessor, ARateThatCannotBeRenderedIsSaidAndSilent) {
         Samples signal;
         host.play(static_cast<std::int64_t>(rate), signal);
         EXPECT_EQ(peakOf(signal), 0.0f) << rate;
+        EXPECT_EQ(host.plugin->getLatencySamples(), 0) << "none of another rate is told";
         EXPECT_TRUE(host.plugin->trouble().startsWith("the host runs at " + juce::String{static_cast<int>(rate)} + " Hz; expected 5000 to 192000")) << host.plugin->trouble();
     }
     host.prepare(48000, 512);

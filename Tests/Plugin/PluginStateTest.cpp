@@ -161,15 +161,15 @@ TEST(PluginChunk, ComesAndGoesOnAnyThreadWhileItPlays) {
     EXPECT_EQ(host.plugin->trouble(), "");
 }
 
-TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenes) {
+TEST(PluginChunk, FactoryPresetsAreTheBuiltInScenesAndBehindThemInstruments) {
     TestHost host;
-    const int count = static_cast<int>(builtInScenes().size());
-    ASSERT_EQ(host.plugin->getNumPrograms(), count);
+    const int worlds = static_cast<int>(builtInScenes().size()), count = host.plugin->getNumPrograms();
+    ASSERT_EQ(count, worlds + 12);
     ASSERT_EQ(host.plugin->getProgramName(4), "box-study"); // saved projects know them by their places: new ones come at the end
     for (int i = 0; i < count; ++i) {
         host.plugin->setCurrentProgram(i);
         EXPECT_EQ(host.plugin->getProgramName(i).toStdString(), host.plugin->state().scene.name);
-        EXPECT_EQ(host.plugin->getTailLengthSeconds(), std::numeric_limits<double>::infinity()) << "a world goes on by itself";
+        EXPECT_EQ(host.plugin->getTailLengthSeconds() == std::numeric_limits<double>::infinity(), i < worlds) << "a world goes on by itself";
     }
     host.plugin->setCurrentProgram(99);
     EXPECT_EQ(host.plugin->getCurrentProgram(), count - 1);
@@ -200,7 +200,7 @@ TEST(PluginChunk, TheProgramIsTheSceneThatPlays) {
     editTo(builtInScenes()[3]);
     EXPECT_EQ(host.plugin->getCurrentProgram(), 3);
     EXPECT_EQ(listener.programs, 1) << "the host's menu shows it";
-    host.plugin->apply(newPluginState());
+    host.plugin->apply(shakenBox());
     EXPECT_EQ(host.plugin->getCurrentProgram(), 0);
     Scene own = builtInScenes()[3];
     own.gravityMetresPerSecond2.y *= 0.5;

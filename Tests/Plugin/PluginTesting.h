@@ -3,6 +3,8 @@
 #pragma once
 #include "Host/MessageManagerForTests.h"
 #include "PluginProcessor.h"
+#include "Presets.h"
+#include "Scene/SceneCatalogue.h"
 #include "Support/ClosedForm.h"
 #include <gtest/gtest.h>
 #include <thread>
@@ -24,12 +26,23 @@ struct TestPlayHead final : juce::AudioPlayHead {
 
 using Samples = std::vector<std::vector<float>>; // [channel][frame]
 
+/// As instances began before notes had a voice: "shake the box" on four enchanters, running free.
+inline PluginState shakenBox() {
+    PluginState state;
+    state.scene = builtInScenes().front();
+    state.layout = presetLayout("phone4");
+    return state;
+}
+
 class TestHost {
 public:
     explicit TestHost(BusPlan plan = {}) {
         plugin = std::make_unique<PluginProcessor>("PhysVib", plan);
         plugin->setPlayHead(&playHead);
+        EXPECT_TRUE(plugin->apply(shakenBox()));
+        for (const auto& row : allParameters()) plugin->parameter(row.parameter).setValue(static_cast<float>(normalised(row, row.initial)));
         plugin->parameter(Parameter::level).setValue(1.0f); // 0 dB, to compare with renders
+        plugin->parameter(Parameter::strikeLevel).setValue(54.0f / 72.0f); // -6 dB
     }
     ~TestHost() { plugin->setPlayHead(nullptr); }
 
@@ -67,7 +80,7 @@ public:
 
 /// Nothing but n enchanters in a line; note 60 strikes at enchanter j.
 inline PluginState strikeAt(int j, int n) {
-    PluginState s = newPluginState();
+    PluginState s = shakenBox();
     s.scene.bodies.clear();
     s.scene.joints.clear();
     s.scene.script.clear();

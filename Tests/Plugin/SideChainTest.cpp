@@ -152,9 +152,9 @@ TEST(SideChain, StrikesAreTheSameLiveAndBouncedInBlocksOfAnySize) {
 }
 
 TEST(SideChain, SoIsAWorldBesideThem) {
-    const Samples once = feltIn(newPluginState(), {480}, false);
+    const Samples once = feltIn(shakenBox(), {480}, false);
     for (const int frames : {64, 1000, 4096})
-        for (const bool isLive : {false, true}) EXPECT_TRUE(feltIn(newPluginState(), {frames, isLive}, false) == once) << frames << isLive;
+        for (const bool isLive : {false, true}) EXPECT_TRUE(feltIn(shakenBox(), {frames, isLive}, false) == once) << frames << isLive;
 }
 
 TEST(SideChain, AutomationOfBeatsMovesNoHop) {

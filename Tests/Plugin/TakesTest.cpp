@@ -13,7 +13,7 @@ namespace {
 using namespace test;
 
 PluginState onPlay() {
-    auto state = newPluginState();
+    auto state = shakenBox();
     state.transport = TransportMode::restartOnPlay;
     state.limiterEnabled = false;
     return state;
@@ -146,7 +146,7 @@ TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
 
 /// Many discs in one place: steps that take long.
 PluginState heap(int discs) {
-    PluginState state = newPluginState();
+    PluginState state = shakenBox();
     Scene& scene = state.scene;
     scene.joints.clear();
     scene.script.clear();

@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 
 PluginState spawningState() {
-    PluginState state = newPluginState();
+    PluginState state = shakenBox();
     NoteRule spawn;
     spawn.note = 62;
     spawn.kind = NoteKind::spawn;

@@ -81,7 +81,7 @@ TEST(Transport, ALoopStartsEveryTime) {
 }
 
 PluginState restarting() {
-    PluginState s = newPluginState();
+    PluginState s = shakenBox();
     s.transport = TransportMode::restartOnPlay;
     return s;
 }

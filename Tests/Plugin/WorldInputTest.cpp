@@ -24,7 +24,7 @@ NoteRule rule(NoteKind kind, int note) {
 
 /// What is played in three seconds, of which the first second is left alone.
 template <class Change>
-std::vector<CollisionEvent> after(Change change, int block = 480, const PluginState& state = newPluginState()) {
+std::vector<CollisionEvent> after(Change change, int block = 480, const PluginState& state = shakenBox()) {
     TestHost host;
     EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
     host.prepare(48000, block);
@@ -51,7 +51,7 @@ auto play(int note, int velocity = 127) {
 }
 
 TEST(WorldInput, GravityTiltAndMaterialAreFeltAndRepeat) {
-    auto state = newPluginState();
+    auto state = shakenBox();
     state.scene.script.clear(); // which sets gravity itself
     state.scene.scriptPeriodSeconds = 0.0;
     const auto undisturbed = after(nothing, 480, state);
@@ -68,7 +68,7 @@ TEST(WorldInput, GravityTiltAndMaterialAreFeltAndRepeat) {
 }
 
 TEST(WorldInput, GravityAndTiltActOnWhatAScriptSets) {
-    auto scripted = newPluginState();
+    auto scripted = shakenBox();
     scripted.scene.script = {{1.5, 1, 0.0, GravityAction{{9.0, 9.0}}}};
     scripted.scene.scriptPeriodSeconds = 0.0;
     auto plain = scripted;
@@ -85,7 +85,7 @@ TEST(WorldInput, ThePresentGravityIsNoInput) {
 }
 
 TEST(WorldInput, AMaterialIsHeardInEverythingThatIsFelt) {
-    const auto scene = newPluginState().scene;
+    const auto scene = shakenBox().scene;
     const auto events = after(set(Parameter::material, 4.0f / 8.0f)); // the fourth: concrete wall
     std::set<double> later;
     for (const auto& e : events)
@@ -94,7 +94,7 @@ TEST(WorldInput, AMaterialIsHeardInEverythingThatIsFelt) {
 }
 
 TEST(WorldInput, APushMovesABodyByItsVelocity) {
-    auto state = newPluginState();
+    auto state = shakenBox();
     const auto body = std::ranges::find_if(state.scene.bodies, [](const auto& b) { return b.type == BodyType::dynamicBody; });
     ASSERT_NE(body, state.scene.bodies.end());
     auto push = rule(NoteKind::push, 60);
@@ -107,7 +107,7 @@ TEST(WorldInput, APushMovesABodyByItsVelocity) {
 }
 
 TEST(WorldInput, SpawnedDiscsAreFeltAndTheOldestMakeRoom) {
-    auto state = newPluginState();
+    auto state = shakenBox();
     auto spawn = rule(NoteKind::spawn, 61);
     spawn.material = 1;
     spawn.radiusMetres = 0.1;
@@ -140,7 +140,7 @@ TEST(WorldInput, RulesThatTheSceneDoesNotBearAreRefused) {
 
 TEST(WorldInput, EverySceneTakesEveryMaterial) {
     for (const auto& scene : builtInScenes()) {
-        auto state = newPluginState();
+        auto state = shakenBox();
         state.scene = scene;
         TestHost host;
         EXPECT_TRUE(host.plugin->apply(state)) << scene.name << ": " << host.plugin->trouble();

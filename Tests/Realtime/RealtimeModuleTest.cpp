@@ -20,7 +20,7 @@ void expectNoMemoryTaken(const std::string& name, std::size_t musicChannels) {
     SCOPED_TRACE(name + ", channels of music: " + std::to_string(musicChannels));
     RawVst3 host{PHYSVIB_PLUGINS "/" + name + ".vst3", name};
     ASSERT_TRUE(host.isLoaded());
-    auto state = newPluginState();
+    auto state = shakenBox();
     state.parameters = {{"beats", 100.0}};
     ASSERT_TRUE(host.setState(pluginStateJson(state)));
     if (musicChannels > 0) ASSERT_TRUE(host.hear(musicChannels, 256));

@@ -126,8 +126,8 @@ TEST(PluginState, OneThatKnowsNothingOfDirectStrikesHasNone) {
 
 TEST(PluginState, WhatIsWrongIsNamed) {
     const std::string text = pluginStateJson(sampleState());
-    EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 4", "\"physvib_plugin_state\": 5"),
-              "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 4, found 5");
+    EXPECT_EQ(refusal(text, "\"physvib_plugin_state\": 5", "\"physvib_plugin_state\": 6"),
+              "f: physvib_plugin_state: made for a newer PhysVib: expected a version up to 5, found 6");
     EXPECT_EQ(refusal(text, "\"x\": 0.1", "\"x\": 2"), "f: notes[0].x: expected a number from 0 to 1, found 2");
     EXPECT_EQ(refusal(text, "\"note\": 60", "\"note\": 128"), "f: notes[0].note: expected 0 to 127, found 128");
     EXPECT_EQ(refusal(text, "\"do\": \"push\", \"object\": \"" + sampleState().scene.bodies.front().name + "\"", "\"do\": \"push\", \"object\": \"nobody\""),

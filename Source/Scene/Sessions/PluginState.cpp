@@ -108,6 +108,38 @@ ControllerRule readController(const JsonField& field) {
     return {wholeNumberUpTo(field["controller"], 119), field["parameter"].text()};
 }
 
+double numberFrom(const JsonField& field, double least, double most) {
+    const double found = field.number();
+    if (!(found >= least && found <= most)) field.fail("expected " + numberText(least) + " to " + numberText(most) + ", found " + numberText(found));
+    return found;
+}
+
+NoteVoice readVoice(const JsonField& field) {
+    using Limits = NoteVoiceLimits;
+    field.expectObject({"pitch", "places", "held", "loudest", "decay_per_s", "release_s", "velocity_exponent", "bend_semitones"});
+    NoteVoice voice;
+    voice.pitch = static_cast<NotePitch>(field["pitch"].oneOf(notePitchNames));
+    voice.places = static_cast<NotePlaces>(field["places"].oneOf(notePlaceNames));
+    voice.isHeld = field["held"].truth();
+    voice.isLoudest = field["loudest"].truth();
+    voice.decayPerSecond = numberFrom(field["decay_per_s"], Limits::leastDecayPerSecond, Limits::mostDecayPerSecond);
+    voice.releaseSeconds = numberFrom(field["release_s"], Limits::leastReleaseSeconds, Limits::mostReleaseSeconds);
+    voice.velocityExponent = numberFrom(field["velocity_exponent"], Limits::leastExponent, Limits::mostExponent);
+    voice.bendSemitones = numberFrom(field["bend_semitones"], 0.0, Limits::mostSemitones);
+    return voice;
+}
+
+OrderedJson voiceJson(const NoteVoice& voice) {
+    return {{"pitch", std::string(notePitchNames[static_cast<std::size_t>(voice.pitch)])},
+            {"places", std::string(notePlaceNames[static_cast<std::size_t>(voice.places)])},
+            {"held", voice.isHeld},
+            {"loudest", voice.isLoudest},
+            {"decay_per_s", voice.decayPerSecond},
+            {"release_s", voice.releaseSeconds},
+            {"velocity_exponent", voice.velocityExponent},
+            {"bend_semitones", voice.bendSemitones}};
+}
+
 // What moves hands does not come unasked: nobody had chosen these.
 const std::vector<ControllerRule> controllersOfVersion1{{1, "tilt"}, {7, "level"}, {16, "gravity"}, {17, "exponent"}};
 
@@ -119,7 +151,7 @@ ParameterValue readParameter(const Json& value, const JsonField& field) {
 PluginState readStateRoot(const Json& json) {
     const JsonField root{json, {}};
     checkVersion(root, stateVersionField, pluginStateVersion);
-    root.expectObject({stateVersionField, "scene", "seed", "steps_per_second", "layout", "strips", "equalised", "limiter", "transport", "direct", "notes", "controllers", "editor_px", "parameters"});
+    root.expectObject({stateVersionField, "scene", "seed", "steps_per_second", "layout", "strips", "equalised", "limiter", "transport", "direct", "voice", "notes", "controllers", "editor_px", "parameters"});
     PluginState state;
     state.scene = readPart<Scene>(json, "scene", [](const std::string& text, const char* name) { return readScene(text, name); });
     state.layout = readPart<LayoutDescription>(json, "layout", readLayout);
@@ -132,6 +164,7 @@ PluginState readStateRoot(const Json& json) {
     state.limiterEnabled = root["limiter"].truth();
     state.transport = static_cast<TransportMode>(root["transport"].oneOf(transportNames));
     state.isDirect = root.has("direct") && root["direct"].truth();
+    if (root.has("voice")) state.voice = readVoice(root["voice"]);
     const JsonField notes = root["notes"], controllers = root["controllers"], parameters = root["parameters"];
     for (std::size_t i = 0, n = sizeUpTo(notes, mostNotes); i < n; ++i) state.notes.push_back(readNote(notes.item(i), state.scene));
     for (std::size_t i = 0, n = sizeUpTo(controllers, mostControllers); i < n; ++i) state.controllers.push_back(readController(controllers.item(i)));
@@ -182,6 +215,7 @@ std::string pluginStateJson(const PluginState& state) {
     root["limiter"] = state.limiterEnabled;
     root["transport"] = std::string(transportNames[static_cast<std::size_t>(state.transport)]);
     root["direct"] = state.isDirect;
+    root["voice"] = voiceJson(state.voice);
     root["notes"] = OrderedJson::array();
     for (const NoteRule& rule : state.notes) root["notes"].push_back(noteJson(rule, state.scene));
     root["controllers"] = OrderedJson::array();

@@ -18,8 +18,8 @@ namespace physvib {
 
 /// The version of the format that is written, and the newest that is read. A new field makes a new version.
 /// 2: choices by their words; what version 1 gave every instance as controllers is left out; strips, equalisers, the editor's size.
-/// 3: direct strikes. 4: the parameter `beats`.
-constexpr int pluginStateVersion = 4;
+/// 3: direct strikes. 4: the parameter `beats`. 5: the voice of notes; without one they are as they were.
+constexpr int pluginStateVersion = 5;
 
 enum class TransportMode {
     free,         ///< the scene runs whenever the host renders
@@ -47,6 +47,40 @@ struct NoteRule {
     bool operator==(const NoteRule&) const = default;
 };
 
+/// What a note sounds like that no rule names.
+enum class NotePitch {
+    material, ///< every octave is one of the scene's materials
+    note      ///< its own frequency, in the octave from which it is felt
+};
+inline constexpr std::array<std::string_view, 2> notePitchNames{"material", "note"}; // as NotePitch
+
+/// Where it is felt.
+enum class NotePlaces {
+    octave,    ///< from left (C) to right (B), at half height
+    actuators, ///< at one actuator after the other
+    middle     ///< in the middle of the field
+};
+inline constexpr std::array<std::string_view, 3> notePlaceNames{"octave", "actuators", "middle"}; // as NotePlaces
+
+/// How notes sound: those without a rule in all of it, struck materials in level and velocity.
+struct NoteVoice {
+    NotePitch pitch = NotePitch::material;
+    NotePlaces places = NotePlaces::octave;
+    bool isHeld = false;          ///< with a pitch of its own: it sounds until the key is let go; else it decays
+    bool isLoudest = false;       ///< the loudest actuator gets the strike level; else they share it
+    double decayPerSecond = 12.0; ///< of a note with a pitch of its own that is not held
+    double releaseSeconds = 0.2;  ///< of a held one, to -60 dB
+    double velocityExponent = 1.0; ///< of velocity / 127
+    double bendSemitones = 0.0;   ///< that a full bend of the wheel moves the pitch; 0: it moves the place
+    bool operator==(const NoteVoice&) const = default;
+};
+
+/// The limits of what a state says of a voice, 1/s, s, exponent, semitones.
+struct NoteVoiceLimits {
+    static constexpr double leastDecayPerSecond = 0.5, mostDecayPerSecond = 200.0, leastReleaseSeconds = 0.005, mostReleaseSeconds = 10.0;
+    static constexpr double leastExponent = 0.1, mostExponent = 10.0, mostSemitones = 96.0;
+};
+
 /// A controller that moves a parameter over its whole range.
 struct ControllerRule {
     int controller = 0; ///< 0 to 119: the others are channel modes
@@ -67,7 +101,8 @@ struct PluginState {
     bool limiterEnabled = true;
     TransportMode transport = TransportMode::free;
     bool isDirect = false; ///< strikes by notes are felt the limiter's latency later, not L as collisions are
-    std::vector<NoteRule> notes; ///< others: every octave is a material, every note a place from left (C) to right (B)
+    NoteVoice voice;
+    std::vector<NoteRule> notes; ///< others as the voice says
     std::vector<ControllerRule> controllers;
     int editorWidth = 0, editorHeight = 0; ///< in pixels; 0: as it comes
     std::vector<std::pair<std::string, ParameterValue>> parameters; ///< by their ids

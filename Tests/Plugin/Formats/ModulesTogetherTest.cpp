@@ -40,6 +40,7 @@ Samples expectedAt(double rate, int frames) {
 struct Both {
     Both(double rate, int block)
         : lv2{block, block, rate} {
+        vst3.setState(pluginStateJson(shakenBox()));
         vst3.start(block, true, rate);
         lv2.activate();
     }

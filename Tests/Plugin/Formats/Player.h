@@ -97,7 +97,7 @@ constexpr int panicController = 20;
 
 /// Loud, and with a controller that silences.
 inline PluginState playing(bool isSilenced = false) {
-    auto state = newPluginState();
+    auto state = shakenBox();
     state.controllers = {{panicController, "bypass"}};
     state.parameters = {{"level", 0.0}, {"bypass", isSilenced ? 1.0 : 0.0}};
     return state;

@@ -10,6 +10,7 @@
 #include <lv2/core/lv2.h>
 #include <lv2/options/options.h>
 #include <lv2/patch/patch.h>
+#include <lv2/state/state.h>
 #include <lv2/urid/urid.h>
 #include <string>
 #include <vector>
@@ -46,10 +47,25 @@ public:
         descriptor_->connect_port(handle_, latencyOut, &latency);
         descriptor_->connect_port(handle_, freeWheeling, &offline);
         descriptor_->connect_port(handle_, isEnabled, &enabled);
+        choose(0);
     }
     ~RawLv2() {
         if (handle_) descriptor_->cleanup(handle_);
         if (module_) dlclose(module_);
+    }
+    /// The preset of that number; the first is a world that moves by itself.
+    void choose(std::int32_t program) {
+        program_ = program;
+        const auto* const state = static_cast<const LV2_State_Interface*>(descriptor_->extension_data(LV2_STATE__interface));
+        const auto retrieve = [](LV2_State_Handle host, std::uint32_t key, std::size_t* size, std::uint32_t* type, std::uint32_t* flags) -> const void* {
+            auto& self = *static_cast<RawLv2*>(host);
+            if (key != self.idOf("urn:physvib:plugin:Program")) return nullptr;
+            *size = sizeof self.program_;
+            *type = self.idOf(LV2_ATOM__Int);
+            *flags = LV2_STATE_IS_POD;
+            return &self.program_;
+        };
+        state->restore(handle_, retrieve, this, 0, nullptr);
     }
     bool isLoaded() const { return handle_ != nullptr; }
     void activate() { descriptor_->activate(handle_); }
@@ -117,7 +133,7 @@ private:
     LV2_URID_Map map_{this, [](LV2_URID_Map_Handle host, const char* uri) { return static_cast<RawLv2*>(host)->idOf(uri); }};
     std::array<LV2_Options_Option, 3> options_{};
     std::array<LV2_Feature, 3> features_{};
-    std::int32_t largest_ = 0, nominal_ = 0;
+    std::int32_t largest_ = 0, nominal_ = 0, program_ = 0;
     alignas(8) std::array<std::byte, 65536> in_{}, told_{};
     void* module_ = nullptr;
     const LV2_Descriptor* descriptor_ = nullptr;

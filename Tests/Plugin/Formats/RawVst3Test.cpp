@@ -17,7 +17,7 @@ const std::string oneBus = folder + "/PhysVib.vst3", pairs = folder + "/PhysVib-
 /// The channel, counted over all buses, that carries a strike at enchanter j of n; -1: none.
 int channelOf(RawVst3& host, int j, int n) {
     auto state = strikeAt(j, n);
-    state.parameters = {{"level", 0.0}, {"exponent", 4.0}};
+    state.parameters = {{"level", 0.0}, {"exponent", 4.0}, {"strike_level", -6.0}};
     EXPECT_TRUE(host.setState(pluginStateJson(state)));
     host.start(512);
     host.note(60);
@@ -87,7 +87,7 @@ TEST(RawVst3, StateComesBackAndSuspensionRepeatsTheTake) {
     const std::string fresh = host.state();
     EXPECT_TRUE(host.setState("nonsense"));
     EXPECT_TRUE(host.state().starts_with("nonsense")) << "a chunk that cannot be read is what the next save gives back";
-    auto state = newPluginState();
+    auto state = shakenBox();
     state.seed = 42;
     EXPECT_TRUE(host.setState(pluginStateJson(state)));
     const std::string chunk = host.state();
@@ -124,7 +124,7 @@ TEST(RawVst3, TheSideChainIsAnAuxiliaryBusThatIsOff) {
 TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAsInTheProcessor) {
     const BeatSong song{2.0, 48000, 7};
     auto state = strikeAt(0, 4);
-    state.parameters = {{"level", 0.0}, {"beats", 50.0}};
+    state.parameters = {{"level", 0.0}, {"beats", 50.0}, {"strike_level", -6.0}};
     for (const std::size_t channels : {1u, 2u}) {
         RawVst3 host{oneBus, "PhysVib"};
         ASSERT_TRUE(host.setState(pluginStateJson(state)));
@@ -159,7 +159,7 @@ TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAsInTheProcessor) {
 /// Level, tilt and strike level every 32 frames, and a note now and then, in blocks of that size; what is played L later.
 std::vector<std::vector<float>> automated(int block, std::int64_t frames) {
     RawVst3 host{oneBus, "PhysVib"};
-    EXPECT_TRUE(host.setState(pluginStateJson(newPluginState())));
+    EXPECT_TRUE(host.setState(pluginStateJson(shakenBox())));
     host.start(block);
     std::vector<std::vector<float>> signal(4);
     const auto latency = static_cast<std::int64_t>(host.processor->getLatencySamples());
@@ -185,7 +185,10 @@ TEST(RawVst3, PointsOfParametersActAtTheirFramesInBlocksOfAnySize) {
 TEST(RawVst3, TwentyInstances) {
     std::vector<std::unique_ptr<RawVst3>> hosts;
     for (int i = 0; i < 20; ++i) hosts.push_back(std::make_unique<RawVst3>(oneBus, "PhysVib"));
-    for (auto& host : hosts) host->start(512);
+    for (auto& host : hosts) {
+        EXPECT_TRUE(host->setState(pluginStateJson(shakenBox())));
+        host->start(512);
+    }
     for (int b = 0; b < 200; ++b)
         for (auto& host : hosts) host->process();
     for (auto& host : hosts) EXPECT_TRUE(host->channels == hosts[0]->channels);

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Notes as an instrument: nothing moves until one is played, then at the level, place and pitch that the voice says, for as long as its key is held.
+#include "PluginTesting.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+using Message = juce::MidiMessage;
+
+struct TimedMessage {
+    std::int64_t frame;
+    Message message;
+};
+
+/// What is felt of that in blocks of one size, L taken out.
+Samples playedBy(const PluginState& state, const std::vector<TimedMessage>& messages, std::int64_t frames, int block = 512, float level = 1.0f) {
+    TestHost host;
+    EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
+    host.plugin->parameter(Parameter::level).setValue(level);
+    host.plugin->parameter(Parameter::strikeLevel).setValue(60.0f / 72.0f); // 0 dB
+    host.prepare(48000, block);
+    Samples signal(4);
+    const auto all = frames + host.plugin->getLatencySamples();
+    std::size_t next = 0;
+    for (std::int64_t at = 0; at < all; at += block) {
+        juce::MidiBuffer midi;
+        for (; next < messages.size() && messages[next].frame < at + block; ++next) midi.addEvent(messages[next].message, static_cast<int>(messages[next].frame - at));
+        const auto& out = host.block(block, midi);
+        for (int c = 0; c < std::min(4, out.getNumChannels()); ++c) signal[static_cast<std::size_t>(c)].insert(signal[static_cast<std::size_t>(c)].end(), out.getReadPointer(c), out.getReadPointer(c) + block);
+    }
+    signal = later(signal, host.plugin->getLatencySamples());
+    for (auto& c : signal) c.resize(static_cast<std::size_t>(frames));
+    return signal;
+}
+
+Message on(int note, int velocity = 127, int channel = 1) { return Message::noteOn(channel, note, static_cast<juce::uint8>(velocity)); }
+Message off(int note, int channel = 1) { return Message::noteOff(channel, note); }
+
+PluginState voiced(bool isHeld, NotePlaces places = NotePlaces::middle) {
+    auto state = strikeAt(0, 4);
+    state.notes.clear();
+    state.layout = presetLayout("phone4");
+    state.limiterEnabled = false;
+    state.voice.pitch = NotePitch::note;
+    state.voice.places = places;
+    state.voice.isHeld = isHeld;
+    state.voice.isLoudest = true;
+    return state;
+}
+
+float peakBetween(const Samples& signal, std::int64_t from, std::int64_t to, std::size_t channel = 0) {
+    float peak = 0.0f;
+    for (auto n = from; n < to; ++n) peak = std::max(peak, std::abs(signal[channel][static_cast<std::size_t>(n)]));
+    return peak;
+}
+
+/// Upward zero crossings per second.
+double pitchOf(const Samples& signal, std::int64_t from, std::int64_t to) {
+    int crossings = 0;
+    for (auto n = from + 1; n < to; ++n) crossings += signal[0][static_cast<std::size_t>(n - 1)] < 0.0f && signal[0][static_cast<std::size_t>(n)] >= 0.0f;
+    return crossings * 48000.0 / static_cast<double>(to - from);
+}
+
+TEST(Voice, ANewInstanceIsSilentUntilANoteWhichIsAtMinusSixDecibels) {
+    PluginProcessor plugin{"PhysVib", {}};
+    plugin.setNonRealtime(true);
+    plugin.setRateAndBufferSizeDetails(48000, 512);
+    plugin.prepareToPlay(48000, 512);
+    juce::AudioBuffer<float> buffer{std::max(plugin.getTotalNumInputChannels(), plugin.getTotalNumOutputChannels()), 512};
+    float before = 0.0f, after = 0.0f;
+    for (int b = 0; b < 400; ++b) {
+        juce::MidiBuffer midi;
+        if (b == 300) midi.addEvent(on(60), 0);
+        plugin.processBlock(buffer, midi);
+        (b < 300 ? before : after) = std::max(b < 300 ? before : after, buffer.getMagnitude(0, 512));
+    }
+    EXPECT_EQ(before, 0.0f);
+    EXPECT_NEAR(juce::Decibels::gainToDecibels(after), -6.0f, 1.0f);
+}
+
+TEST(Voice, EveryPitchHasItsFrequencyAndTheLoudestActuatorItsLevel) {
+    for (const auto& [note, hz] : {std::pair{33, 55.0}, {45, 110.0}, {57, 220.0}, {69, 440.0}, {81, 440.0}, {4, 20.6}}) {
+        const auto signal = playedBy(voiced(true), {{0, on(note)}}, 48000);
+        EXPECT_NEAR(pitchOf(signal, 0, 48000), hz, 1.1) << note;
+        for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(peakBetween(signal, 0, 48000, c), 1.0f, 1e-3f) << note;
+    }
+}
+
+TEST(Voice, AHeldNoteIsOneSineUntilItsKeyIsLetGo) {
+    auto state = voiced(true);
+    state.voice.releaseSeconds = 0.1;
+    const auto signal = playedBy(state, {{1000, on(45)}, {49000, off(45)}}, 72000);
+    for (std::int64_t n = 1000; n < 48900; ++n)
+        ASSERT_NEAR(signal[0][static_cast<std::size_t>(n)], std::sin(2.0 * 3.14159265358979 * 110.0 * static_cast<double>(n - 1000) / 48000.0), 2e-5) << n;
+    EXPECT_GT(peakBetween(signal, 49500, 50000), 0.1f);
+    EXPECT_LT(peakBetween(signal, 49000 + 6000, 72000), 0.001f) << "released";
+}
+
+TEST(Voice, TheSustainPedalHoldsWhatTheKeyHasLetGo) {
+    auto state = voiced(true);
+    state.voice.releaseSeconds = 0.05;
+    const auto signal = playedBy(state, {{0, on(45)}, {100, Message::controllerEvent(1, 64, 127)}, {200, off(45)}, {24000, Message::controllerEvent(1, 64, 0)}}, 36000);
+    EXPECT_NEAR(peakBetween(signal, 20000, 24000), 1.0f, 1e-3f);
+    EXPECT_LT(peakBetween(signal, 28000, 36000), 0.001f);
+    const auto ended = playedBy(state, {{0, on(45)}, {100, Message::controllerEvent(1, 64, 127)}, {200, off(45)}, {24000, Message::allNotesOff(1)}}, 36000);
+    EXPECT_LT(peakBetween(ended, 28000, 36000), 0.001f) << "All Notes Off";
+}
+
+TEST(Voice, BendPressureAndSlideMoveWhatSounds) {
+    auto state = voiced(true);
+    state.voice.bendSemitones = 12.0;
+    const auto signal = playedBy(state, {{0, on(45, 64, 2)}, {24000, Message::pitchWheel(2, 16383)}, {48000, Message::channelPressureChange(2, 127)}, {72000, Message::controllerEvent(2, 74, 127)}}, 96000);
+    EXPECT_NEAR(pitchOf(signal, 0, 24000), 110.0, 3.0);
+    EXPECT_NEAR(pitchOf(signal, 26000, 46000), 220.0, 5.0);
+    EXPECT_NEAR(peakBetween(signal, 26000, 46000), 64.0f / 127.0f, 1e-3f);
+    EXPECT_NEAR(peakBetween(signal, 50000, 70000), 1.0f, 1e-3f);
+    EXPECT_NEAR(peakBetween(signal, 74000, 96000, 0), 1.0f, 2e-2f) << "up";
+    EXPECT_LT(peakBetween(signal, 74000, 96000, 2), 0.05f) << "away from below";
+    float step = 0.0f;
+    for (std::size_t n = 1; n < signal[0].size(); ++n) step = std::max(step, std::abs(signal[0][n] - signal[0][n - 1]));
+    EXPECT_LT(step, 1.05 * 2.0 * 3.1416 * 220.0 / 48000.0) << "nothing clicks";
+}
+
+TEST(Voice, HeldNotesAreTheSameSamplesInBlocksOfAnySizeAndDirectToo) {
+    auto state = voiced(true, NotePlaces::octave);
+    state.voice.bendSemitones = 2.0;
+    std::vector<TimedMessage> messages;
+    Random random{4};
+    for (std::int64_t at = 0; at < 40000; at += 1 + random.below(700)) {
+        const int note = 40 + random.below(12);
+        const int kind = random.below(5);
+        messages.push_back({at, kind < 2 ? on(note, 1 + random.below(127)) : kind == 2 ? off(note) : kind == 3 ? Message::pitchWheel(1, random.below(16384)) : Message::channelPressureChange(1, random.below(128))});
+    }
+    for (const bool isDirect : {false, true}) {
+        state.isDirect = isDirect;
+        const auto expected = playedBy(state, messages, 48000);
+        EXPECT_GT(peakOf(expected), 0.5f);
+        for (const int block : {32, 100, 1000, 4096}) EXPECT_TRUE(playedBy(state, messages, 48000, block) == expected) << block << (isDirect ? ", direct" : "");
+    }
+}
+
+TEST(Voice, MoreNotesThanRoomReplaceTheOldest) {
+    std::vector<TimedMessage> messages;
+    for (int n = 0; n < 40; ++n) messages.push_back({n * 100, on(30 + n, 20)});
+    const auto signal = playedBy(voiced(true), messages, 24000);
+    EXPECT_GT(peakOf(signal), 0.1f);
+    std::vector<TimedMessage> silenced = messages;
+    silenced.push_back({12000, Message::allSoundOff(1)});
+    EXPECT_EQ(peakBetween(playedBy(voiced(true), silenced, 36000), 24000, 36000), 0.0f);
+}
+
+TEST(Voice, StatesWithoutOneSoundAsTheyDid) {
+    auto state = strikeAt(0, 4);
+    state.notes.clear();
+    EXPECT_EQ(state.voice, NoteVoice{});
+    auto text = pluginStateJson(state);
+    const auto from = text.find("\"voice\""), to = text.find("\"notes\"");
+    text.replace(text.find("\"physvib_plugin_state\": 5"), 25, "\"physvib_plugin_state\": 4");
+    text.erase(from, to - from);
+    const auto read = readPluginState(text, "state");
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(read.value.voice, NoteVoice{});
+    const auto signal = playedBy(state, {{0, on(60)}}, 24000);
+    EXPECT_TRUE(playedBy(read.value, {{0, on(60)}}, 24000) == signal);
+    EXPECT_GT(peakOf(signal), 0.1f);
+}
+
+TEST(Voice, AVoiceIsReadBackAndABadOneIsRefusedInALine) {
+    auto state = voiced(true, NotePlaces::actuators);
+    state.voice.releaseSeconds = 1.25;
+    const auto text = pluginStateJson(state);
+    const auto read = readPluginState(text, "state");
+    ASSERT_TRUE(read) << read.error;
+    EXPECT_EQ(read.value.voice, state.voice);
+    auto bad = text;
+    bad.replace(bad.find("\"release_s\": 1.25"), 17, "\"release_s\": -1.0");
+    const auto refused = readPluginState(bad, "state");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error, "state: voice.release_s: expected 0.005 to 10, found -1");
+}
+
+TEST(Voice, EveryInstrumentIsSilentUntilANoteAndFeltThen) {
+    TestHost names;
+    const int worlds = static_cast<int>(builtInScenes().size());
+    ASSERT_GE(names.plugin->getNumPrograms() - worlds, 12);
+    for (int program = worlds; program < names.plugin->getNumPrograms(); ++program) {
+        TestHost host;
+        host.plugin->setCurrentProgram(program);
+        const auto name = host.plugin->getProgramName(program);
+        EXPECT_EQ(host.plugin->getCurrentProgram(), program) << name;
+        EXPECT_NEAR(host.plugin->parameter(Parameter::strikeLevel).value(), 6.0, 1e-4) << name;
+        host.plugin->parameter(Parameter::level).setValue(0.8f); // -12 dB
+        host.prepare(48000, 512);
+        Samples silent, felt;
+        host.play(48000, silent);
+        EXPECT_EQ(peakOf(silent), 0.0f) << name;
+        juce::MidiBuffer midi;
+        const auto notes = host.plugin->state().notes;
+        midi.addEvent(on(notes.empty() ? 64 : notes.front().note), 0); // 64: of eight actuators the first
+        host.block(512, midi);
+        host.play(24000, felt);
+        EXPECT_NEAR(juce::Decibels::gainToDecibels(peakOf(felt)), -6.0f, 1.5f) << name;
+    }
+}
+
+} // namespace
+} // namespace physvib
