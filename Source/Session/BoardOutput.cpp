@@ -8,7 +8,7 @@
 namespace physvib {
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t secondNs = 1'000'000'000;
 constexpr std::int64_t mostLateNs = 40'000'000; // a whole leg: nothing of it can be felt
 constexpr std::int64_t spareNs = 2'000'000;     // with less to spare a leg is long, so that the next is not late
 
@@ -121,7 +121,7 @@ void BoardOutput::sendLeg(BoardPath& path) {
     takeLayouts(path.nextNs());
     for (const BoardPath& before : paths_) path.joinTo(before);
     const auto frameAt = [&](std::int64_t sinceNs) { return link_.frameAt(clock_.steadyAt(path.onsetNs() + sinceNs)); };
-    const BoardTime time{frameAt(0), frameAt(second) - frameAt(0)};
+    const BoardTime time{frameAt(0), frameAt(secondNs) - frameAt(0)};
     const bool isHurried = clock_.steadyAt(path.nextNs()) < link_.legReadyNs() + spareNs;
     const auto leg = path.next(time, [this](const auto&... at) { return gainsAt(at...); }, isHurried);
     if (!leg) return;

@@ -48,15 +48,15 @@ private:
     const Standard standard_;
 };
 
-class Voice {
+class ErrorVoice {
 public:
-    Voice() {
+    ErrorVoice() {
         std::cout.flush();
         out_ = std::cout.rdbuf(&outLines_);
         error_ = std::cerr.rdbuf(&errorLines_);
         std::cerr << std::nounitbuf;
     }
-    ~Voice() {
+    ~ErrorVoice() {
         std::cout.flush();
         std::cerr.flush();
         std::cout.rdbuf(out_);
@@ -71,12 +71,12 @@ private:
     std::streambuf *out_ = nullptr, *error_ = nullptr;
 };
 
-std::unique_ptr<Voice> voice; // changed by M alone, while nobody else speaks
+std::unique_ptr<ErrorVoice> voice; // changed by M alone, while nobody else speaks
 
 } // namespace
 
 void sayWithoutWaiting() {
-    if (!voice) voice = std::make_unique<Voice>();
+    if (!voice) voice = std::make_unique<ErrorVoice>();
 }
 
 std::uint64_t droppedLines(Standard standard) {

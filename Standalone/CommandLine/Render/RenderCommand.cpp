@@ -33,7 +33,7 @@ std::string tooHighFor(int rateHz, const std::vector<CollisionEvent>& events, co
 }
 
 // What was lost or altered must not go unseen.
-void warn(const RenderStatus& status, const LoadedRender& job) {
+void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
     const auto say = [](std::uint64_t count, const char* what) {
         if (count > 0) std::cerr << "physvib: warning: " << what << ": " << count << '\n';
     };
@@ -112,7 +112,7 @@ std::string render(LoadedRender& job, RenderListener* listener) {
     for (const std::string& line : warnings.value) tell("warning: " + line);
     for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) tell(line);
     if (!job.coupling.note.empty()) tell(job.coupling.note);
-    warn(status, job);
+    warnOfLosses(status, job);
     outputs.summarise(std::cout);
     if (job.options.explains) std::cout << describe(job.made.counts);
     return {};
