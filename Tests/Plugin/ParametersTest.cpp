@@ -73,7 +73,7 @@ TEST(Parameters, OutOfRangeIsClampedAndNonsenseIsTheDefault) {
 }
 
 TEST(Parameters, TheTableInTheDocsIsThisOne) {
-    std::ifstream file{PHYSVIB_SOURCE_DIR "/Docs/plugin.md"};
+    std::ifstream file{PHYSVIB_SOURCE_DIR "/Docs/plugin-reference.md"};
     const std::string docs{std::istreambuf_iterator<char>{file}, {}};
     for (const auto& row : allParameters()) {
         std::string range;
