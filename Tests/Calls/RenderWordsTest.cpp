@@ -25,6 +25,7 @@ std::string otherWord(const Option& option) {
     if (name == "--sound") return "200=hit.wav";
     if (name == "--method") return "AF-FV-DRF";
     if (name == "--law") return "energy";
+    if (std::holds_alternative<bool*>(option.target)) return "true";
     if (option.check == Option::Check::choice) return option.choices.front() == option.initial ? option.choices.back() : option.choices.front();
     if (option.check == Option::Check::range) return plainNumber(option.initial == plainNumber(option.low) ? option.high : option.low);
     return "other";
@@ -75,7 +76,7 @@ TEST(RenderWords, WhatDoesNotFitTogetherIsAFaultOfTheJob) {
     EXPECT_EQ(renderInputFault(job), "render: give either a scene or --from-events EVENTS.csv");
     job.scene = "drop";
     EXPECT_EQ(renderInputFault(job), "");
-    EXPECT_EQ(renderFault(job), "render: nothing to write; give --out, --events, --picture, --pattern, --contact-sound or --marker");
+    EXPECT_EQ(renderFault(job), "render: nothing to write; give --out, --events, --picture, --movie, --pattern, --contact-sound or --marker");
     job.isRemapped = true;
     EXPECT_EQ(sceneFault(job), "--remap: expected an --actuator, whose band is to be used");
     job = {};

@@ -111,7 +111,7 @@ TEST(TrialLog, WhatWasFeltIsKeptAndTheExposureComesBack) {
     answer.felt = {{0.25, 0.125}, {1.0 / 3.0, 0.2}};
     answer.exposure = 0.0123456789;
     const std::string text = trialHeader(p, participant, "0") + trialRow(p, participant, experiment.take(answer));
-    EXPECT_TRUE(text.ends_with(",0.25|0.333333,0.125|0.2,0.0123457\n")) << text;
+    EXPECT_TRUE(text.ends_with(",0.25|0.333333,0.125|0.2,0.0123457,,,,,\n")) << text;
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
     EXPECT_EQ(log.value.records.front().answer.exposure, 0.0123457);
@@ -254,9 +254,9 @@ TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
     EXPECT_EQ(read.value[0].kind, LevelTrial::Kind::quest);
     EXPECT_EQ(read.value[0].trials, 30u);
     EXPECT_NEAR(read.value[0].estimate, 0.674 * std::sqrt(2.0) * 2.0, read.value[0].halfInterval) << "75 % of comparisons with 2 dB of noise";
-    const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20,,,\n";
+    const std::string words = ",weibull guess 0.5 lapse 0.02 levels_db 0 0.5 12 widths_db 2 20,,,,,,,,\n";
     ASSERT_NE(text.rfind(words), std::string::npos);
-    text.replace(text.rfind(words), words.size(), ",weibull,,,\n");
+    text.replace(text.rfind(words), words.size(), ",weibull,,,,,,,,\n");
     EXPECT_EQ(summaries().error, "t.csv:32: column quest: expected the words of a QUEST+ session, found \"weibull\"");
 }
 
