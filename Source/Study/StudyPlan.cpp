@@ -9,18 +9,19 @@
 namespace physvib {
 namespace {
 
-/// The highest level of one of a session's alternatives.
+/// The highest level of one of a session's alternatives, as Experiment adds it up: what is being adjusted is felt at the level that is set.
 double highestOf(const Protocol& protocol, const SessionPlan& session, const Alternative& alternative) {
+    const auto moves = [&](const auto& plan) { return plan && plan->alternative == alternative.name; };
+    if (moves(session.adjustment)) return session.adjustment->mostDb;
     const auto from = std::ranges::find(protocol.sessions, session.levelsFrom, &SessionPlan::name);
-    const auto& adjustment = from != protocol.sessions.end() ? from->adjustment : session.adjustment;
-    if (adjustment && adjustment->alternative == alternative.name) return adjustment->mostDb;
-    if (session.staircase && session.staircase->alternative == alternative.name) return session.staircase->mostDb;
-    if (session.quest && session.quest->alternative == alternative.name) return session.quest->mostDb;
-    double highest = alternative.levelDb;
-    if (!session.levelsFile.empty())
+    double added = 0.0;
+    if (!session.levelsFrom.empty() && from != protocol.sessions.end() && moves(from->adjustment)) added = from->adjustment->mostDb;
+    else if (moves(session.staircase)) added = session.staircase->mostDb;
+    else if (moves(session.quest)) added = session.quest->mostDb;
+    else if (!session.levelsFile.empty())
         for (const StimulusLevel& level : protocol.levels)
-            if (level.alternative == alternative.name) highest = std::max(highest, level.levelDb);
-    return highest;
+            if (level.alternative == alternative.name) added = std::max(added, level.levelDb);
+    return alternative.levelDb + added;
 }
 
 /// The parts that a session's trials have, each with its highest level; one without a name where trials have none.

@@ -239,9 +239,9 @@ TEST_F(ByAParticipant, MatchesLevelsAndChoosesAtTheMatchedOnes) {
 }
 
 TEST_F(ByAParticipant, FeelsRecordingsAgainstTheModelAtTheLevelThatWasMatched) {
-    begin(R"({"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV"}],
-              "adjustment": {"alternative": "AV-FV-DRV", "step_db": 2, "least_db": -30, "most_db": 10}},
-             {"name": "main", "task": "choose", "both_orders": true, "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV"}], "levels_from": "matching"})",
+    begin(R"({"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV", "level_db": -12}],
+              "adjustment": {"alternative": "AV-FV-DRV", "start_db": -12, "step_db": 2, "least_db": -30, "most_db": -6}},
+             {"name": "main", "task": "choose", "both_orders": true, "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV", "level_db": -12}], "levels_from": "matching"})",
           R"("layout": "phone1", "stimuli": "calls", "factors": [{"name": "pair", "values": ["wood-wood"]}],
              "call": "render drop --set pair={pair} --seconds 1 --layout phone1 --method {alternative} --sound-match rms --level-db {level_db}")",
           R"(, "sounds": [{"frequency_hz": 349, "file": "synthetic-5"}])");
@@ -265,8 +265,8 @@ TEST_F(ByAParticipant, FeelsRecordingsAgainstTheModelAtTheLevelThatWasMatched) {
         EXPECT_EQ(log.recordings[i].files.size(), (i + 1) % 2) << "the recording and the model in turn, at last the desk's own modes";
     EXPECT_EQ(log.recordings.front().files.front().path, "synthetic-5");
     for (const auto& calls : column("render", "choose")) {
-        EXPECT_NE(calls.find("--method AV-FV-DRV --sound-match rms --level-db -2"), std::string::npos) << calls;
-        EXPECT_NE(calls.find("--method SV --sound-match rms --level-db 0 --sound 349=synthetic-5"), std::string::npos) << calls;
+        EXPECT_NE(calls.find("--method AV-FV-DRV --sound-match rms --level-db -14"), std::string::npos) << calls;
+        EXPECT_NE(calls.find("--method SV --sound-match rms --level-db -12 --sound 349=synthetic-5"), std::string::npos) << calls;
     }
 }
 

@@ -136,9 +136,9 @@ constexpr const char* fallingObjects = R"({"physvib_protocol": 1, "name": "short
   {"frequency_hz": 349, "file": "synthetic-1"}, {"frequency_hz": 430, "file": "synthetic-1"}], "closing_question": "How did you choose?",
   "conditions": [{"name": "drop", "layout": "phone1", "stimuli": "world", "factors": [{"name": "pair", "values": ["wood-wood"]}, {"name": "height", "values": ["1"]}],
     "call": "render drop --set pair={pair} --set height={height} --set falls=once --seconds 0.8 --layout phone1 --method {alternative} --sound-match rms --level-db {level_db}"}],
-  "sessions": [{"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV"}],
-                "adjustment": {"alternative": "AV-FV-DRV", "step_db": 2, "least_db": -30, "most_db": 10}},
-               {"name": "main", "task": "choose", "both_orders": true, "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV"}], "levels_from": "matching"}]})";
+  "sessions": [{"name": "matching", "training": true, "task": "adjust", "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV", "level_db": -12}],
+                "adjustment": {"alternative": "AV-FV-DRV", "start_db": -12, "step_db": 2, "least_db": -30, "most_db": -6}},
+               {"name": "main", "task": "choose", "both_orders": true, "alternatives": [{"name": "AV-FV-DRV"}, {"name": "SV", "level_db": -12}], "levels_from": "matching"}]})";
 
 TEST_F(AWorldInAStudy, FallsIsFeltAndChosenAndEveryLogRendersWhatWasFelt) {
     begin(fallingObjects);
@@ -178,7 +178,7 @@ TEST_F(AWorldInAStudy, FallsIsFeltAndChosenAndEveryLogRendersWhatWasFelt) {
     EXPECT_EQ(all.front(), "render short-P01.felt/trial-0001-1.json");
     const auto softer = loadSession(folder.getChildFile("short-P01.felt/trial-0001-3.json").getFullPathName().toStdString());
     ASSERT_TRUE(softer) << softer.error;
-    EXPECT_NEAR(softer.value.shaping.gain, std::pow(10.0, -2.0 / 20.0), 1e-12) << "at the level that was set";
+    EXPECT_NEAR(softer.value.shaping.gain, std::pow(10.0, -14.0 / 20.0), 1e-12) << "at the level that was set";
     expectFelt(all);
 }
 

@@ -33,6 +33,17 @@ TEST(StudyPlan, EveryPartOfEveryStimulusIsPlannedAtItsHighestLevel) {
     EXPECT_EQ(plannedStimuli(builtIn("eight-methods")).size(), 24u);
 }
 
+TEST(StudyPlan, LevelsAddUpAsAnExperimentAddsThem) {
+    Protocol protocol = builtIn("model-or-sound");
+    for (Alternative& alternative : protocol.sessions[1].alternatives) alternative.levelDb = 3.0;
+    for (const PlannedStimulus& s : plannedStimuli(protocol)) {
+        EXPECT_EQ(s.highestDb, s.part == "SV" ? 3.0 : 1.0) << s.part; // 3 dB, and -2 dB that may have been set
+        EXPECT_EQ(s.session, 1u);
+    }
+    const StaircasePlan staircase = *builtIn("level-steps").sessions[0].staircase;
+    for (const PlannedStimulus& s : plannedStimuli(builtIn("level-steps"))) EXPECT_EQ(s.highestDb, s.part == staircase.alternative ? staircase.mostDb : 0.0);
+}
+
 TEST(StudyPlan, TrialsAreThoseOfTheProtocol) {
     const auto second = [](std::size_t, const std::string&, const std::string&) { return 1.0; };
     const PlannedTime time = plannedTime(builtIn("model-or-sound"), second);
