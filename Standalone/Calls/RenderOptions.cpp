@@ -39,13 +39,13 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
     command.add("--actuator", o.actuator, "none, layout (those it names), or one for all: a name (see physvib actuators) or a profile's file");
     command.addSwitch("--equalise", o.isEqualised, "with an actuator: make it flat within its band (on or off)");
     command.addSwitch("--remap", o.isRemapped, "with an actuator: move all frequencies into its band, in their order (on or off)");
-    command.add("--coupling", o.coupling, "measured coupling of the layout's enchanters, made up for with at most 3 dB more drive (render)").as("FILE.json");
+    command.add("--coupling", o.coupling, "measured coupling of the layout's actuators, made up for with at most 3 dB more drive (render)").as("FILE.json");
 }
 
 void declareRenderOptions(OptionTable& command, RenderJob& o) {
     declareSceneOptions(command, o);
     command.add("--from-events", o.fromEvents, "render this event list instead of a scene").as("EVENTS.csv");
-    command.add("--out", o.wavPath, "32-bit float WAV, one channel per enchanter").written("FILE.wav");
+    command.add("--out", o.wavPath, "32-bit float WAV, one channel per actuator").written("FILE.wav");
     command.add("--pad", o.pad, "with --out MOTORS.csv: what the motors of that game controller would get instead of samples; a profile (pad-generic, pad-xbox, pad-dualshock) or its file").as("PROFILE");
     command.add("--events", o.eventsPath, "the collisions as an event list").written("FILE.csv");
     command.add("--picture", o.picturePath, "world, waveforms and event marks").written("FILE.png");
@@ -63,7 +63,7 @@ void declareRenderOptions(OptionTable& command, RenderJob& o) {
         .in(1, limits::maxBlockFrames, " frames");
     command.addOneOf<InstructionSet>("--instructions", o.instructions, {{"best", InstructionSet::best}, {"scalar", InstructionSet::scalar}},
                                      "best: the fastest here; scalar: the same bytes of the same hits on every machine");
-    command.add("--patience", o.patienceSeconds, "a world that is simulated slower than it lasts is given up after so many seconds of processor time more")
+    command.add("--patience", o.patienceSeconds, "time-out: processor time, beyond its own length, that a world may take to simulate")
         .in(0.0, 1e7, " s");
 }
 

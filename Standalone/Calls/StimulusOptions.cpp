@@ -58,11 +58,11 @@ void declareCarrier(OptionTable& command, StimulusOptions& o) {
 
 void declareStimulus(OptionTable& command, StimulusOptions& o) {
     OptionTable& pattern = command.addCommand("pattern", "a spatiotemporal pattern of pulses");
-    OptionTable& phantom = command.addCommand("phantom", "a stationary phantom between the enchanters");
+    OptionTable& phantom = command.addCommand("phantom", "a stationary phantom between the actuators");
     OptionTable& wav = command.addCommand("wav", "a recording or a haptic file as a phantom, at its own rate");
     wav.alias = "clip";
     OptionTable& all = command.addCommand("list", "the labels of all patterns, one per line");
-    pattern.add("pattern", o.pattern.label, "enchanters in the order of the pulses, and a pulse's ms").required().as("ABA-250");
+    pattern.add("pattern", o.pattern.label, "actuators in the order of the pulses, and a pulse's ms").required().as("ABA-250");
     pattern.add(words::gap, o.pattern.gapSeconds, "silence between pulses, s").in(ranges::gapSeconds.least, ranges::gapSeconds.most);
     wav.add("recording", o.phantom.recording, "one channel").required().as("FILE.wav");
     phantom.add(words::seconds, o.phantom.seconds, "length").in(ranges::seconds.least, ranges::seconds.most);
@@ -72,8 +72,8 @@ void declareStimulus(OptionTable& command, StimulusOptions& o) {
     for (OptionTable* const one : {&pattern, &phantom, &wav}) {
         one->add(words::layout, o.job.layout, listedByNumber(layoutPresetNames) + ", study1 or a layout file");
         one->add(words::levelG, o.job.levelG, "peak acceleration at gain 1, in g").in(ranges::levelG.least, ranges::levelG.most);
-        one->add("--out", o.wavPath, "32-bit float WAV, one channel per enchanter, 1 = its full scale").written("FILE.wav");
-        one->add("--picture", o.picturePath, "what each enchanter plays").written("FILE.png");
+        one->add("--out", o.wavPath, "32-bit float WAV, one channel per actuator, 1 = its full scale").written("FILE.wav");
+        one->add("--picture", o.picturePath, "what each actuator plays").written("FILE.png");
     }
 }
 

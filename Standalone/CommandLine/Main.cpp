@@ -28,7 +28,7 @@ int writeOwnReference(const OptionTable& app, const char* folder) {
 }
 
 int run(int argc, char** argv) {
-    OptionTable app{"physvib", "PhysVib: collisions one can feel, on every enchanter you attach."};
+    OptionTable app{"physvib", "PhysVib: physics collisions as vibration, on 1 to 64 actuators."};
     app.addVersion("physvib " PHYSVIB_VERSION);
     std::map<const OptionTable*, std::function<int()>> runs;
     for (const auto make : commands) {

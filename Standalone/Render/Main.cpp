@@ -192,7 +192,7 @@ void declare(CLI::App& app, Options& o) {
         ->check(
             CLI::IsMember(std::vector<std::string>(instructionSetNames.begin(), instructionSetNames.end())))
         ->capture_default_str();
-    app.add_option("--out", o.wavPath, "32-bit float WAV, one channel per enchanter")->type_name("FILE.wav");
+    app.add_option("--out", o.wavPath, "32-bit float WAV, one channel per actuator")->type_name("FILE.wav");
     app.add_option("--events", o.eventsPath, "the collisions as an event list")->type_name("FILE.csv");
 #if PHYSVIB_PICTURES
     app.add_option("--picture", o.picturePath, "the world, every channel and every hit")

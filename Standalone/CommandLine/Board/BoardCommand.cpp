@@ -112,7 +112,7 @@ void declareBoardOptions(OptionTable& command, BoardOptions& o) {
     command.add("port", o.port, "serial port, or auto: the first on which a board answers").required();
     command.add("action", o.action, "info, play or test").required().oneOf({"info", "play", "test"});
     command.add("events", o.eventsPath, "event list to play").as("EVENTS.csv");
-    command.add("--layout", o.layout, "layout of at most four enchanters: preset or file");
+    command.add("--layout", o.layout, "layout of at most four actuators: preset or file");
     command.add("--level", o.levelDb, "master level of play in dB").in(-90.0, 0.0);
 }
 

@@ -117,7 +117,7 @@ std::string fault(const CalibrateOptions& o) {
 
 void declareCalibrate(OptionTable& command, CalibrateOptions& o) {
     command.add("--device", o.device, "device that plays and records (see physvib devices)");
-    command.add("--channel", o.channel, "output of the enchanter, from 1").in(1, 256);
+    command.add("--channel", o.channel, "output of the actuator, from 1").in(1, 256);
     command.add("--input", o.input, "input of the accelerometer or microphone, from 1").in(1, 256);
     command.add("--rate", o.sampleRateHz, "sample rate; left out: as the device stands, 48000 for a file").in(limits::minSampleRateHz, limits::maxSampleRateHz);
     command.add("--played", o.playedPath, "what was played elsewhere").as("FILE.wav");

@@ -75,8 +75,8 @@ Result<MeasuredCoupling> couplingIn(const std::string& folder, const LayoutDescr
 }
 
 void declareCoupling(OptionTable& command, CouplingOptions& o) {
-    command.add("folder", o.folder, "recordings, a channel per enchanter's accelerometer, and " + std::string(RecordingList::fileName) + ": file,driven,frequency_hz").as("FOLDER").required();
-    command.add("--layout", o.layout, "whose enchanters they are: labels and full scales").required();
+    command.add("folder", o.folder, "recordings, a channel per actuator's accelerometer, and " + std::string(RecordingList::fileName) + ": file,driven,frequency_hz").as("FOLDER").required();
+    command.add("--layout", o.layout, "whose actuators they are: labels and full scales").required();
     command.add("--out", o.outPath, "the coupling, for render --coupling").written("FILE.json").required();
 }
 
@@ -97,6 +97,6 @@ int runCoupling(const CouplingOptions& o) {
 
 } // namespace
 
-Command couplingCommand() { return commandOf("coupling", "what enchanters make of each other's vibration, from recordings, for render --coupling", declareCoupling, runCoupling); }
+Command couplingCommand() { return commandOf("coupling", "what actuators make of each other's vibration, from recordings, for render --coupling", declareCoupling, runCoupling); }
 
 } // namespace physvib

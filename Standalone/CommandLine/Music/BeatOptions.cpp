@@ -11,7 +11,7 @@ namespace physvib {
 void declareBeatOptions(OptionTable& command, BeatOptions& o) {
     for (std::size_t band = 0; band < beatBands.size(); ++band) {
         const BeatBand& b = beatBands[band];
-        command.add("--" + std::string{b.name}, o.enchanters[band], "enchanters that feel beats of " + numberText(b.lowHz) + " to " + numberText(b.highHz) + " Hz; none: \"\"").as("AB").under("Beats");
+        command.add("--" + std::string{b.name}, o.enchanters[band], "actuators that feel beats of " + numberText(b.lowHz) + " to " + numberText(b.highHz) + " Hz; none: \"\"").as("AB").under("Beats");
     }
     command.add("--sensitivity", o.sensitivity, "to beats: 0 for the strongest alone, to 1 for all that stirs").in(0.0, 1.0).under("Beats");
     command.add("--strike-level", o.level, "of the strongest beats, in shares of full scale").in(0.0, 1.0).under("Beats");

@@ -193,7 +193,7 @@ int runThrough(const BeatsOptions& o, const LayoutDescription& layout) {
 void declareBeats(OptionTable& command, BeatsOptions& o) {
     command.add("music", o.music, "WAV, FLAC or Ogg Vorbis, of up to a day").required().as("MUSIC.wav");
     command.add("--out", o.eventsPath, "its beats as an event list").written("EVENTS.csv");
-    command.add("--render", o.wavPath, "what is felt, a channel per enchanter, as long as the music and at its rate").written("FILE.wav");
+    command.add("--render", o.wavPath, "what is felt, a channel per actuator, as long as the music and at its rate").written("FILE.wav");
     command.add("--through", o.isThrough, "not its beats but the music itself, between the slopes of --band");
     command.add("--band", o.band, "Hz that the actuators render, with --through: 50-500 unless told").as("LO-HI");
     command.add("--enchanters", o.enchanters, "who feels it, with --through: all unless told").as("AC");
@@ -211,6 +211,6 @@ int runBeats(const BeatsOptions& o) {
 
 } // namespace
 
-Command beatsCommand() { return commandOf("beats", "music as strikes on enchanters, or what of it they can render", declareBeats, runBeats); }
+Command beatsCommand() { return commandOf("beats", "music as strikes on actuators, or what of it they can render", declareBeats, runBeats); }
 
 } // namespace physvib
