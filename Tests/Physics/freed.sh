@@ -8,15 +8,9 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(mktemp -d)
 [ -n "${KEEP:-}" ] || trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-version=$(dpkg-query -W -f='${Version}' libbox2d-dev)
-. /etc/os-release
-echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian $VERSION_CODENAME main" >source.list
-mkdir -p lists/partial
-apt() { apt-get -qq -o Dir::Etc::sourcelist="$folder/source.list" -o Dir::Etc::sourceparts=/dev/null -o Dir::State::Lists="$folder/lists" -o APT::Sandbox::User=root "$@"; }
-apt update
-apt --download-only --only-source source "box2d=$version"
-mkdir box2d
-tar -xf box2d_*.orig.tar.* -C box2d --strip-components=1
+. "$root/.ci/packages.sh"
+from_debian "$folder" source box2d
+mv box2d-*/ box2d
 flags="-std=c++20 -O1 -g -fsanitize=address -I$folder/box2d/include"
 # Box2D's own allocator is left out: the tests have another.
 find box2d/src -name '*.cpp' ! -name b2_block_allocator.cpp | xargs -P2 -I{} sh -c "c++ $flags -I$folder/box2d/src -w -c {} -o \$(echo {} | tr / _).o"
