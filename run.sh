@@ -13,9 +13,9 @@ mkdir -p out
 name=out/shake-the-box
 build/first/bin/physvib-render shake-the-box --out $name.wav --events $name.csv --picture $name.png >build/render.log
 cat <<'END'
-out/shake-the-box.wav  four channels of vibration, one per enchanter: play it on a four-channel interface, one actuator each
-out/shake-the-box.csv  every collision that is in it: when, where, how hard; out/shake-the-box.png is the picture to look at
-Next: build/first/bin/physvib-render --help; your own list of hits: build/first/bin/physvib-render HITS.csv --out FELT.wav
+out/shake-the-box.wav  four channels of vibration, one per actuator: play it on a four-channel interface
+out/shake-the-box.csv  every impact in it: when, where, how hard; out/shake-the-box.png is the picture to look at
+Next: build/first/bin/physvib-render --help; your own list of impacts: build/first/bin/physvib-render HITS.csv --out FELT.wav
 END
 [ -n "${DISPLAY:-}" ] || exit 0
 say "there is a display: now the mixer, with all that it needs (a quarter of an hour on two slow cores)"
