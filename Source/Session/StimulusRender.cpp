@@ -9,8 +9,6 @@
 namespace physvib {
 namespace {
 
-constexpr double fullScaleSlack = 1e-6; // a sine's peak at a rounded level
-
 double peakOf(const std::vector<float>& samples) {
     double peak = 0.0;
     for (const float s : samples) peak = std::max(peak, static_cast<double>(std::abs(s)));

@@ -8,6 +8,8 @@
 
 namespace physvib {
 
+constexpr double fullScaleSlack = 1e-6; ///< beyond full scale: a sine's peak at a rounded level
+
 /// 1 is an enchanter's full scale.
 using StimulusSound = SampledSound;
 

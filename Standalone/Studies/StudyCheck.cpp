@@ -8,6 +8,7 @@
 #include "Io/Text/NumberText.h"
 #include "Session/ContactSounds.h"
 #include "Session/OfflineRender.h"
+#include "Session/StimulusRender.h"
 #include "Studies/StudyCalls.h"
 #include "Study/StudyPlan.h"
 #include <algorithm>
@@ -18,7 +19,6 @@ namespace physvib {
 namespace {
 
 constexpr int checkRateHz = 48000;
-constexpr double fullScaleSlack = 1e-6; // a sine's peak at a rounded level
 constexpr double longestWithoutBreakSeconds = 30.0 * 60.0;
 constexpr double weakDb = 6.0;          // above the threshold of detection: what most people feel at once
 

@@ -50,6 +50,19 @@ public:
 
 const std::function<bool()> always = [] { return true; };
 
+/// A sink that is ready, and follows a device.
+struct Following {
+    explicit Following(const std::string& wish)
+        : output{wish, phone()}
+        , fault{output.awaitReady(always)} {
+        device.block();
+        output.follow(&device);
+    }
+    PacedDevice device;
+    PadOutput output; // before the device it ends
+    std::string fault;
+};
+
 class Pads : public testing::Test {
 protected:
     GamePads pads{}; // before any virtual one
@@ -57,12 +70,11 @@ protected:
 
 TEST_F(Pads, WhatTheMotorsAreToldIsTheModelToTheCommand) {
     VirtualPad pad{"first"};
-    PadOutput output{"first@pad-generic", phone()};
-    ASSERT_EQ(output.awaitReady(always), "");
+    Following following{"first@pad-generic"};
+    ASSERT_EQ(following.fault, "");
+    PacedDevice& device = following.device;
+    PadOutput& output = following.output;
     EXPECT_DOUBLE_EQ(output.latencySeconds(), 0.03);
-    PacedDevice device;
-    device.block();
-    output.follow(&device);
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 12; ++i) events.push_back(hit((200 + 90 * i) * ms, i % 2 ? 50.0 : 220.0, 0.05 * (1 + i % 7 * 3), i / 11.0));
     std::size_t made = 0;
@@ -91,11 +103,10 @@ TEST_F(Pads, WhatTheMotorsAreToldIsTheModelToTheCommand) {
 
 TEST_F(Pads, SilenceAndLevelZeroAreRestAtOnceAndWhatRingsComesBack) {
     VirtualPad pad{"quiet"};
-    PadOutput output{"quiet", phone()};
-    ASSERT_EQ(output.awaitReady(always), "");
-    PacedDevice device;
-    device.block();
-    output.follow(&device);
+    Following following{"quiet"};
+    ASSERT_EQ(following.fault, "");
+    PacedDevice& device = following.device;
+    PadOutput& output = following.output;
     CollisionEvent tone = hit(100 * ms, 60.0, 1.0, 0.5);
     tone.decayPerSecond = 0.0;
     tone.durationNs = 60'000 * ms;
@@ -142,11 +153,10 @@ TEST_F(Pads, NothingIsFeltWhenNobodyIsFollowedAndWhenTheSinkEnds) {
 
 TEST_F(Pads, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {
     VirtualPad pad{"loose"};
-    PadOutput output{"loose", phone()};
-    ASSERT_EQ(output.awaitReady(always), "");
-    PacedDevice device;
-    device.block();
-    output.follow(&device);
+    Following following{"loose"};
+    ASSERT_EQ(following.fault, "");
+    PacedDevice& device = following.device;
+    PadOutput& output = following.output;
     pad.detach();
     EXPECT_TRUE(soon([&] { return !output.state().isReady; }));
     EXPECT_EQ(output.state().trouble, "loose is gone; it is looked for");
@@ -174,11 +184,10 @@ TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
 
 TEST_F(Pads, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // a command is over after 200 ms unless it is sent again
     VirtualPad pad{"long"};
-    PadOutput output{"long", phone()};
-    ASSERT_EQ(output.awaitReady(always), "");
-    PacedDevice device;
-    device.block();
-    output.follow(&device);
+    Following following{"long"};
+    ASSERT_EQ(following.fault, "");
+    PacedDevice& device = following.device;
+    PadOutput& output = following.output;
     CollisionEvent tone = hit(50 * ms, 60.0, 1.0, 0.5);
     tone.decayPerSecond = 0.0;
     tone.durationNs = 800 * ms;
