@@ -8,8 +8,6 @@ namespace physvib {
 
 namespace {
 
-double dot(Vector2 a, Vector2 b) noexcept { return static_cast<double>(a.x * b.x + a.y * b.y); }
-
 Vector2 velocityAt(const BodyMotion& motion, Vector2 arm) noexcept {
     return motion.metresPerSecond + motion.radiansPerSecond * arm.turnedLeft();
 }

@@ -11,8 +11,6 @@ namespace {
 constexpr int mostMomentumSweeps = 60;
 constexpr double enough = 1.0e-4; // of the strongest impulse, as the change in a sweep
 
-double momentumDot(Vector2 a, Vector2 b) noexcept { return static_cast<double>(a.x * b.x + a.y * b.y); }
-
 } // namespace
 
 void MomentumImpulses::clear() {
@@ -31,7 +29,7 @@ std::int32_t MomentumImpulses::know(const FedBodies& bodies, std::int32_t id) {
 }
 
 std::size_t MomentumImpulses::add(const FedBodies& bodies, std::int32_t a, std::int32_t b, Vector2 point, Vector2 normal) {
-    const auto lever = [&](std::int32_t id) { return momentumDot((point - bodies.centre(FedBodies::nameOf(id))).turnedLeft(), normal); };
+    const auto lever = [&](std::int32_t id) { return dot((point - bodies.centre(FedBodies::nameOf(id))).turnedLeft(), normal); };
     Point made{know(bodies, a), know(bodies, b), static_cast<double>(normal.x), static_cast<double>(normal.y), lever(a), lever(b), 0.0, 0.0, 0.0};
     const auto ease = [&](std::int32_t body, double arm) {
         if (body == none) return 0.0;

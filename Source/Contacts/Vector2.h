@@ -13,6 +13,7 @@ struct Vector2 {
     friend Vector2 operator-(Vector2 a, Vector2 b) noexcept { return {a.x - b.x, a.y - b.y}; }
     friend Vector2 operator-(Vector2 a) noexcept { return {-a.x, -a.y}; }
     friend Vector2 operator*(float s, Vector2 a) noexcept { return {s * a.x, s * a.y}; }
+    friend double dot(Vector2 a, Vector2 b) noexcept { return static_cast<double>(a.x * b.x + a.y * b.y); }
     Vector2& operator+=(Vector2 other) noexcept { return *this = *this + other; }
 
     float lengthSquared() const noexcept { return x * x + y * y; }
