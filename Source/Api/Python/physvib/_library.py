@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 """The shared library, its structures and its errors: physvib.h, line by line."""
+from __future__ import annotations
+
 import contextlib
 import ctypes
 import os
 from ctypes import POINTER, Structure, c_char_p, c_double, c_float, c_int, c_int64, c_size_t, c_void_p
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TypeVar
 
 import numpy as np
@@ -70,16 +73,27 @@ class CWorldCounts(Structure):
                 ("threshold_m_per_s", c_double)]
 
 
-def _load() -> ctypes.CDLL:
+def load(path: str, signatures: dict[str, tuple], long: frozenset[str]) -> SimpleNamespace:
+    """The functions of a library. Those that are `long` let other threads of Python run. The others take microseconds and keep the interpreter: to have it
+    back from three busy threads takes up to 15 ms (sys.getswitchinterval for each), three times in every step of a world."""
+    lets_go, keeps = ctypes.CDLL(path), ctypes.PyDLL(path)
+    functions = {}
+    for name, (result, *arguments) in signatures.items():
+        function = getattr(lets_go if name in long else keeps, "physvib_" + name)
+        function.restype, function.argtypes = result, arguments
+        functions["physvib_" + name] = function
+    return SimpleNamespace(path=path, **functions)
+
+
+def _path() -> str:
     here = Path(__file__).parent
     beside = here / "libhwy.so.1"  # of a wheel, for a machine that lacks it
     if beside.exists():
         ctypes.CDLL(str(beside), mode=ctypes.RTLD_GLOBAL)
     own = here / "libphysvib.so.0"
-    return ctypes.CDLL(os.environ.get("PHYSVIB_LIBRARY") or (str(own) if own.exists() else "libphysvib.so.0"))
+    return os.environ.get("PHYSVIB_LIBRARY") or (str(own) if own.exists() else "libphysvib.so.0")
 
 
-library = _load()
 _handle, _time, _events, _samples = c_void_p, c_int64, c_void_p, c_void_p
 _signatures = {
     "version": (c_char_p,), "error": (c_char_p,), "law_name": (c_char_p, c_int),
@@ -110,9 +124,8 @@ _signatures = {
     "world_time_ns": (c_int64, _handle), "world_take": (c_int64, _handle, _events, c_int64, c_int),
     "world_send": (c_int64, _handle, _handle, c_int64, c_int), "world_drops": (c_int64, _handle), "world_thinned": (c_int64, _handle),
 }
-for _name, (_result, *_arguments) in _signatures.items():
-    _function = getattr(library, "physvib_" + _name)
-    _function.restype, _function.argtypes = _result, _arguments
+_long = frozenset({"layout_load", "layout_save", "events_load", "events_save", "wav_save", "render", "renderer_create", "renderer_pull"})
+library = load(_path(), _signatures, _long)
 
 
 def call(name: str, *arguments: object) -> int:

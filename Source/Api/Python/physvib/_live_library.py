@@ -2,13 +2,13 @@
 """The library with devices, boards and sessions, which is GPL: physvib-live.h, line by line. It is loaded when something of it is first wanted."""
 from __future__ import annotations
 
-import ctypes
 import functools
 import os
 from ctypes import POINTER, Structure, c_char, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
 from pathlib import Path
+from types import SimpleNamespace
 
-from ._library import CRendererSettings, PhysVibError, library
+from ._library import CRendererSettings, PhysVibError, library, load
 
 
 class CLiveSettings(Structure):
@@ -36,17 +36,14 @@ _signatures = {
     "session_length_ns": (c_int64, _handle), "session_get_renderer": (c_int, _handle, POINTER(CRendererSettings)),
     "session_events": (c_int64, _handle, c_int64, c_void_p, c_int64), "session_render": (c_int, _handle, c_int, c_int64, c_void_p),
 }
+_long = frozenset({"live_open", "live_close", "session_load", "session_save", "session_create", "session_render"})
 
 
 @functools.lru_cache(maxsize=None)
-def live_library() -> ctypes.CDLL:
+def live_library() -> SimpleNamespace:
     """PHYSVIB_LIVE_LIBRARY, or libphysvib-live.so.0 beside the other one or where the system finds it."""
-    beside = Path(library._name).parent / "libphysvib-live.so.0"
-    found = ctypes.CDLL(os.environ.get("PHYSVIB_LIVE_LIBRARY") or (str(beside) if beside.exists() else "libphysvib-live.so.0"))
-    for name, (result, *arguments) in _signatures.items():
-        function = getattr(found, "physvib_" + name)
-        function.restype, function.argtypes = result, arguments
-    return found
+    beside = Path(library.path).parent / "libphysvib-live.so.0"
+    return load(os.environ.get("PHYSVIB_LIVE_LIBRARY") or (str(beside) if beside.exists() else "libphysvib-live.so.0"), _signatures, _long)
 
 
 def live_call(name: str, *arguments: object) -> int:
