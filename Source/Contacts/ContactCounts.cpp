@@ -46,7 +46,7 @@ std::string explain(const ContactCounts& counts) {
     if (most == 0) return "Contacts of haptic sources have begun, but none of them was told with a speed or an impulse that strikes.";
     if (most == counts.muted) return "Impacts were muted: by is_muted (C++: isMuted), or by a gain of 0 of the haptic source.";
     if (most == counts.unplayable) return "Impacts have no sound: set the frequency and the decay of the haptic source (or its voice to that of what strikes it), and its mass.";
-    if (most == counts.dropped) return "Impacts were left out: more came in a step than hits_per_step (C++: hitsPerStep) or the room allows.";
+    if (most == counts.dropped) return "Impacts were left out: more came in a step than hits_per_step (C++: hitsPerStep) or there is memory for.";
     return "Contacts of haptic sources were slower than the threshold of " + number(counts.thresholdMetresPerSecond) +
            " m/s: lower it, or make smaller steps (it is at least 1.5 times what gravity adds in a step).";
 }

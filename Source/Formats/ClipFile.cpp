@@ -70,7 +70,7 @@ std::vector<std::string> hmpgLosses(const Clip& clip, const Facts& facts) {
 
 std::vector<std::string> monoLosses(const Facts& facts, const FrequencyScale& scale) {
     std::vector<std::string> losses{"where a hit was is not carried"};
-    if (facts.overlaps) losses.push_back("what rings at once is one envelope, at the mean of its frequencies");
+    if (facts.overlaps) losses.push_back("modes that sound at once become one envelope, at the mean of their frequencies");
     const auto outside = std::ranges::count_if(facts.frequenciesHz, [&](double hz) { return hz < scale.lowHz || hz > scale.highHz; });
     if (outside > 0) losses.push_back(std::to_string(outside) + " of " + std::to_string(facts.frequenciesHz.size()) + " frequencies lie outside " + fixedNumber(scale.lowHz, 0) + " to " + fixedNumber(scale.highHz, 0) + " Hz and become its ends");
     if (facts.peak > 1.0) losses.push_back("what is above full scale is cut to it: the strongest is " + fixedNumber(facts.peak, 2));

@@ -11,7 +11,7 @@ namespace {
 Result<double> resonanceOf(const LayoutDescription& layout) {
     std::optional<double> found;
     for (const auto& enchanter : layout.enchanters) {
-        const auto fail = [&](const std::string& why) { return Failure{std::string{stimulusWords::frequency} + " " + stimulusWords::resonance + ": enchanter " + enchanter.label + ": " + why}; };
+        const auto fail = [&](const std::string& why) { return Failure{std::string{stimulusWords::frequency} + " " + stimulusWords::resonance + ": actuator " + enchanter.label + ": " + why}; };
         if (enchanter.actuator == "none") return fail("expected an actuator, found none");
         const auto profile = findActuator(enchanter.actuator);
         if (!profile) return fail(profile.error);
@@ -31,7 +31,7 @@ std::string layoutFault(const StimulusJob& job, const LayoutDescription& layout)
     const auto pattern = named != nullptr ? parsePatternLabel(named->label) : std::nullopt;
     for (int k = 0; pattern && k < pattern->count; ++k)
         if (pattern->enchanters[static_cast<std::size_t>(k)] >= layout.geometry.count)
-            return "expected enchanters among the " + std::to_string(layout.geometry.count) + " of the layout, found " + inQuotes(named->label);
+            return "expected actuators among the " + std::to_string(layout.geometry.count) + " of the layout, found " + inQuotes(named->label);
     return {};
 }
 

@@ -60,9 +60,9 @@ EnchanterDescription readEnchanter(const JsonField& field, const std::vector<Enc
 void readEnchanters(const JsonField& list, LayoutDescription& layout) {
     EnchanterLayout& geometry = layout.geometry;
     const std::size_t count = list.arraySize();
-    if (count == 0) list.fail("expected at least 1 enchanter, found none");
+    if (count == 0) list.fail("expected at least 1 actuator, found none");
     if (count > geometry.places.size())
-        list.fail("expected at most " + std::to_string(geometry.places.size()) + " enchanters, found " +
+        list.fail("expected at most " + std::to_string(geometry.places.size()) + " actuators, found " +
                   std::to_string(count));
     for (std::size_t j = 0; j < count; ++j) {
         const JsonField enchanter = list.item(j);

@@ -31,7 +31,7 @@ std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
          s.thinned + s.refused > 0}};
     if (s.legs > 0)
         facts.push_back({"What moves",
-                         count(s.legs) + " legs sent, " + count(s.coarseLegs) + " of them coarse",
+                         count(s.legs) + " segments sent, " + count(s.coarseLegs) + " of them coarse",
                          s.coarseLegs > 0});
     facts.push_back(
         {"On board",
@@ -63,7 +63,7 @@ std::string boardSummary(const BoardLink& link, const wire::Telemetry& before,
     const auto& t = s.telemetry;
     std::string lines;
     if (s.legs > 0)
-        lines = count(s.legs) + " legs of what moves, " + count(s.coarseLegs) +
+        lines = count(s.legs) + " segments of moving strikes, " + count(s.coarseLegs) +
                 " of them longer than their law asks for, as the line was full\n";
     return lines + "felt " + fixedNumber(s.playOutMs, 1) + " ms after the call; " + count(s.sent) +
            " strikes sent, " + count(s.thinned) + " thinned, " + count(s.refused) +

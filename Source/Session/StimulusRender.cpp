@@ -21,7 +21,7 @@ std::string scaleToEnchanters(StimulusSound& sound, const LayoutDescription& lay
         const auto& enchanter = layout.enchanters[j];
         const double peakG = peakOf(sound.channels[j]);
         if (!std::isfinite(peakG) || peakG > enchanter.fullScaleG * (1.0 + fullScaleSlack))
-            return "enchanter " + enchanter.label + ": expected at most its full scale of " + numberText(enchanter.fullScaleG) + " g, found " + fixedNumber(peakG, 3) + " g";
+            return "actuator " + enchanter.label + ": expected at most its full scale of " + numberText(enchanter.fullScaleG) + " g, found " + fixedNumber(peakG, 3) + " g";
         for (float& s : sound.channels[j]) s = static_cast<float>(s / enchanter.fullScaleG);
     }
     return {};

@@ -23,7 +23,7 @@ Result<std::vector<ActuatorProfile>> profilesOf(const RenderJob& o, const Layout
         const bool isNamedThere = o.actuator == "layout";
         const std::string& name = isNamedThere ? enchanter.actuator : o.actuator;
         auto profile = name == "none" ? Result<ActuatorProfile>{ActuatorProfile{}} : findActuator(name);
-        if (!profile) return Failure{(isNamedThere ? o.layout + ": enchanter " + enchanter.label : "--actuator") + ": " + profile.error};
+        if (!profile) return Failure{(isNamedThere ? o.layout + ": actuator " + enchanter.label : "--actuator") + ": " + profile.error};
         profiles.push_back(std::move(profile.value));
     }
     return profiles;
@@ -47,7 +47,7 @@ Result<FrequencyBand> commonBand(const std::vector<ActuatorProfile>& profiles) {
 std::string scaleVoltages(const std::vector<ActuatorProfile>& profiles, double interfaceVolts, ActuatorChoice& choice) {
     for (std::size_t j = 0; j < profiles.size(); ++j) {
         const ActuatorProfile& p = profiles[j];
-        if (!p.driveLimitVolts) return (p.name.empty() ? "an enchanter without an actuator" : p.name) + ": drive_limit_v is not known: no voltage to scale to";
+        if (!p.driveLimitVolts) return (p.name.empty() ? "a place without an actuator profile" : p.name) + ": drive_limit_v is not known: no voltage to scale to";
         if (*p.driveLimitVolts > interfaceVolts)
             return p.name + ": expected an interface of at least " + numberText(*p.driveLimitVolts) + " V, found --interface-volts " + numberText(interfaceVolts);
         choice.voltageScale[j] = *p.driveLimitVolts / interfaceVolts;

@@ -24,7 +24,7 @@ Result<CouplingChoice> chooseCoupling(const std::string& path, const LayoutDescr
     const auto measured = loadCoupling(path);
     if (!measured) return Failure{measured.error};
     if (const std::size_t found = measured.value.enchanters(), wanted = layout.enchanters.size(); found != wanted)
-        return Failure{path + ": expected as many enchanters as the layout has, " + std::to_string(wanted) + ", found " + std::to_string(found)};
+        return Failure{path + ": expected as many actuators as the layout has, " + std::to_string(wanted) + ", found " + std::to_string(found)};
     return CouplingChoice{CouplingDrives{measured.value}, noteOf(measured.value)};
 }
 

@@ -119,11 +119,11 @@ inline std::string fixedLevelFault(const LoadedRender& job) {
     if (!job.method().fixesAmplitude) return {};
     for (const auto& enchanter : job.layout.enchanters)
         if (enchanter.fullScaleG != job.fullScaleG())
-            return job.options.layout + ": --method " + job.options.methodName() + ": expected one full_scale_g for all enchanters, found " +
+            return job.options.layout + ": --method " + job.options.methodName() + ": expected one full_scale_g for all actuators, found " +
                    numberText(job.fullScaleG()) + " and " + numberText(enchanter.fullScaleG);
     if (job.method().fixedAmplitude > 1.0)
         std::cerr << "physvib: warning: --method " << job.options.methodName() << ": the fixed level of " << numberText(RenderingMethod::fixedLevelG)
-                  << " g is above the enchanters' full scale of " << numberText(job.fullScaleG()) << " g"
+                  << " g is above the actuators' full scale of " << numberText(job.fullScaleG()) << " g"
                   << (job.isLimited() ? "; the limiter lowers it\n" : "\n");
     return {};
 }

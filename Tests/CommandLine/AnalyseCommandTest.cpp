@@ -157,7 +157,7 @@ TEST_F(Analyse, IconsAreThePatternsThatAreConfusedLeast) {
     write("c.csv", text);
     const auto outcome = call("analyse icons c.csv --meanings 3 --picture i.png");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_EQ(outcome.out, "3 meanings need 1.58 bit\nall trials: 4 patterns on 2 enchanters, 1.73 bit: enough\n  A-100  100.0 % correct\n"
+    EXPECT_EQ(outcome.out, "3 meanings need 1.58 bit\nall trials: 4 patterns on 2 actuators, 1.73 bit: enough\n  A-100  100.0 % correct\n"
                            "  AB-100  100.0 % correct\n  B-100  100.0 % correct\n");
     refuses("analyse icons c.csv --meanings 1", 2, "--meanings", 2);
 }

@@ -96,7 +96,7 @@ TEST_F(BeatsCommand, RefusesInOneLineAndLeavesNothing) {
     refuses("beats none.wav --out beats.csv", 1, "none.wav: cannot be read", 4);
     refuses("beats silence.wav", 2, "give --out or --render", 4);
     refuses("beats silence.wav --out silence.wav", 2, "silence.wav", 4);
-    refuses("beats silence.wav --out beats.csv --low E", 2, "--low: expected letters of the 4 enchanters", 4);
+    refuses("beats silence.wav --out beats.csv --low E", 2, "--low: expected letters of the 4 actuators", 4);
     refuses("beats silence.wav --out beats.csv --strike-hz 1,2", 2, "--strike-hz: expected one frequency or three", 4);
     refuses("beats silence.wav --out beats.csv --band 50-500", 2, "expected with --through", 4);
     refuses("beats silence.wav --render felt.wav --through --band 500", 2, "--band: expected LO-HI", 4);

@@ -143,7 +143,7 @@ TEST_F(CouplingCommand, TellsWhatIsLeftAndWhereTheDriveCameFrom) {
 
 TEST_F(CouplingCommand, RefusesInOneLineWhatDoesNotFit) {
     refuses(render + "--coupling none.json", 1, "none.json: cannot be read", 3);
-    refuses("render --from-events hits.csv --layout phone2 --out a.wav --coupling c.json", 1, "c.json: expected as many enchanters as the layout has, 2, found 4", 3);
+    refuses("render --from-events hits.csv --layout phone2 --out a.wav --coupling c.json", 1, "c.json: expected as many actuators as the layout has, 2, found 4", 3);
     refuses(render + "--coupling hits.csv", 1, "hits.csv: ", 3);
     refuses(render + "--coupling c.json --method SV --sound 200=b.wav", 2, "--coupling: expected a --method of modes", 3);
     refuses("play drop --device ALSA:null --coupling c.json", 2, "--coupling: not yet live; render has it", 3);

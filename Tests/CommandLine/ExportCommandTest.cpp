@@ -166,7 +166,7 @@ TEST_F(ExportCommand, WritesAFileForEachEnchanterWhereAFormatHasOneChannel) {
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(files().size(), 4u);
     for (const char* label : {"A", "B", "C", "D"}) EXPECT_NE(read("box-" + std::string(label) + ".ahap").find("HapticContinuous"), std::string::npos);
-    EXPECT_NE(outcome.err.find("a file for each enchanter"), std::string::npos);
+    EXPECT_NE(outcome.err.find("a file for each actuator"), std::string::npos);
     EXPECT_NE(outcome.err.find("where a hit was is not carried"), std::string::npos);
     EXPECT_NE(outcome.out.find("box-D.ahap  1 channel, "), std::string::npos);
 }
@@ -212,7 +212,7 @@ TEST_F(ExportCommand, FeelsChannelsWithoutPlacesOneOnEachEnchanter) {
     EXPECT_EQ(two[0].size(), 24000u);
     EXPECT_NEAR(*std::ranges::max_element(two[0]), 0.5, 1e-3);
     EXPECT_NEAR(*std::ranges::max_element(two[1]), 0.0, 1e-6);
-    refuses("render two.hjif --layout ring3 --out three.wav", 1, "two.hjif: expected one channel, places, or as many channels as the layout has enchanters, 3, found 2", 2);
+    refuses("render two.hjif --layout ring3 --out three.wav", 1, "two.hjif: expected one channel, places, or as many channels as the layout has actuators, 3, found 2", 2);
 }
 
 TEST_F(ExportCommand, RefusesInOneLine) {

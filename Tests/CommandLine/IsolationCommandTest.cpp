@@ -102,10 +102,10 @@ TEST_F(Isolation, TheCouplingOfALayoutIsWrittenFromRecordings) {
     EXPECT_EQ(call("render drop --layout two.json --seconds 1 --coupling c.json --out drop.wav").exitCode, 0);
     std::filesystem::remove(folder_ / "drop.wav");
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,A,205\n");
-    refuses("coupling rec --layout two.json --out d.json", 1, "expected a recording with enchanter B driven at 205 Hz, found none", 3);
+    refuses("coupling rec --layout two.json --out d.json", 1, "expected a recording with actuator B driven at 205 Hz, found none", 3);
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,C,205\n");
-    refuses("coupling rec --layout two.json --out d.json", 1, "column driven: expected the label of an enchanter of the layout, found \"C\"", 3);
-    refuses("coupling rec --layout phone4 --out d.json", 1, "rec/a1.wav: expected a channel per enchanter of the layout, 4, found 2", 3);
+    refuses("coupling rec --layout two.json --out d.json", 1, "column driven: expected the label of an actuator of the layout, found \"C\"", 3);
+    refuses("coupling rec --layout phone4 --out d.json", 1, "rec/a1.wav: expected a channel per actuator of the layout, 4, found 2", 3);
 }
 
 } // namespace

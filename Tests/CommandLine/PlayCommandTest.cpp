@@ -31,7 +31,7 @@ TEST_F(PlayCommand, ThereHasToBeSomethingToPlayOn) {
 }
 
 TEST_F(PlayCommand, CeilingsAreOneForAllOrOneForEach) {
-    const std::string found = "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (4), found ";
+    const std::string found = "--ceiling: expected one number of dB from -60 to 0, or one per actuator (4), found ";
     for (const char* ceilings : {"3", "-61", "-6,-6,-6", "-6,-6,-6,-6,-6", "-6,,-6,-6", "-6dB", "-6,-6,-6,", "nan", "-inf"})
         refuses(std::string{"play drop --device Nowhere --ceiling="} + ceilings, 2, found + "\"" + ceilings + "\"");
     for (const char* ceilings : {"-6", "-6,-12,0,-60", "-0.5"})
@@ -41,7 +41,7 @@ TEST_F(PlayCommand, CeilingsAreOneForAllOrOneForEach) {
 TEST_F(PlayCommand, AMapNamesEachOutputOnce) {
     for (const char* map : {"0,1", "1,2,", "1:2", "a"})
         refuses(std::string{"play drop --device Nowhere --map "} + map, 2, "--map: expected outputs like 1,2,3,4");
-    refuses("play drop --device Nowhere --map 1,2,2", 1, "output 2 is given to two enchanters; expected one each");
+    refuses("play drop --device Nowhere --map 1,2,2", 1, "output 2 is given to two actuators; expected one each");
 }
 
 } // namespace

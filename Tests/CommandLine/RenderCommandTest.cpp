@@ -206,7 +206,7 @@ TEST_F(Render, MethodsFixWhatTheirNamesSay) {
     EXPECT_EQ(read("b.csv"), read("a.csv"));
     const auto outcome = call("render drop --seconds 3 --method AF-FF-DRF --out c.wav --events c.csv");
     ASSERT_EQ(outcome.exitCode, 0);
-    EXPECT_NE(outcome.err.find("fixed level of 1.5 g is above the enchanters' full scale of 1 g; the limiter lowers it"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("fixed level of 1.5 g is above the actuators' full scale of 1 g; the limiter lowers it"), std::string::npos) << outcome.err;
     const auto varied = readEventsCsv(read("a.csv"), "a.csv"), fixed = readEventsCsv(read("c.csv"), "c.csv");
     ASSERT_EQ(fixed.value.size(), varied.value.size());
     ASSERT_FALSE(fixed.value.empty());
@@ -232,7 +232,7 @@ TEST_F(Render, AFixedLevelIsInG) {
     const CollisionEvent& first = events.value.front();
     const double omega = 2.0 * std::numbers::pi * first.frequencyHz, peakAt = std::atan(omega / first.decayPerSecond) / omega;
     EXPECT_NEAR(first.amplitude * std::sin(omega * peakAt) * std::exp(-first.decayPerSecond * peakAt), 0.5, 1e-9); // 1.5 g of 3
-    refuses("render drop --method AF-FV-DRV --layout mixed.json --out b.wav", 1, "mixed.json: --method AF-FV-DRV: expected one full_scale_g for all enchanters, found 3 and 1", 3);
+    refuses("render drop --method AF-FV-DRV --layout mixed.json --out b.wav", 1, "mixed.json: --method AF-FV-DRV: expected one full_scale_g for all actuators, found 3 and 1", 3);
     EXPECT_EQ(call("render drop --seconds 1 --method AV-FF-DRF --layout mixed.json --events b.csv").exitCode, 0);
     refuses("render drop --method AF --out b.wav", 2, "--method: expected a name from AV-FV-DRV to AF-FF-DRF, or SV, found \"AF\"", 4);
     refuses("play drop --board /dev/none --method AF-FF-DRF", 2, "--board: not yet with --method", 4);

@@ -85,7 +85,7 @@ TEST_F(StimulusCommand, WhatLiesBelow5HzInARecordingIsTakenAwayAndTold) {
 TEST_F(StimulusCommand, LevelsAreInG) {
     write("weak.json", R"({"extent_m":[1,1],"enchanters":[{"label":"L","x_m":0,"y_m":0.5,"full_scale_g":0.5},{"label":"R","x_m":1,"y_m":0.5}]})");
     EXPECT_EQ(call("stimulus pattern A-100 --layout weak.json --level-g 0.5 --out a.wav").exitCode, 0);
-    refuses("stimulus pattern A-100 --layout weak.json --out b.wav", 1, "enchanter L: expected at most its full scale of 0.5 g, found 1.000 g", 2);
+    refuses("stimulus pattern A-100 --layout weak.json --out b.wav", 1, "actuator L: expected at most its full scale of 0.5 g, found 1.000 g", 2);
     EXPECT_EQ(call("stimulus pattern B-100 --layout weak.json --out a.wav").exitCode, 0);
 }
 

@@ -191,7 +191,7 @@ TEST_F(SweepCommand, ATaskThatFailsIsToldAndTheOthersAreKept) {
     const Outcome outcome = call("sweep mixed.json --out s --jobs 2");
     EXPECT_EQ(outcome.exitCode, 1);
     EXPECT_EQ(outcome.err, "physvib: 1 task failed, the first: render drop --seed=1 --layout=odd.json --method=AF-FF-DRF --rate=8000 --seconds=0.2: odd.json: --method AF-FF-DRF: expected one full_scale_g for "
-                           "all enchanters, found 1 and 2\n");
+                           "all actuators, found 1 and 2\n");
     EXPECT_EQ(below("s/tasks", ".csv").size(), 3u);
     EXPECT_FALSE(fs::exists(folder_ / "s/index.csv"));
     EXPECT_TRUE(below("s", ".part").empty());

@@ -317,7 +317,7 @@ TEST(ClipFile, TellsWhatIsLost) {
     EXPECT_EQ(clipLosses(clip, ClipFormat::hjif), (std::vector<std::string>{"places are moved by up to 0.70 mm, onto a grid of at most 127 points", "MPEG's own decoder cuts frequencies to whole Hz, as of 80.50 Hz; ours does not"}));
     EXPECT_EQ(clipLosses(clip, ClipFormat::hmpg), (std::vector<std::string>{"amplitudes have 8 bits: each wave is within 0.00784 of what it was, in shares of full scale",
                                                                         "places are moved by up to 0.70 mm, onto a grid of at most 127 points", "frequencies are whole Hz: they are moved by up to 0.50 Hz"}));
-    EXPECT_EQ(clipLosses(clip, ClipFormat::ahap), (std::vector<std::string>{"where a hit was is not carried", "what rings at once is one envelope, at the mean of its frequencies",
+    EXPECT_EQ(clipLosses(clip, ClipFormat::ahap), (std::vector<std::string>{"where a hit was is not carried", "modes that sound at once become one envelope, at the mean of their frequencies",
                                                                         "1 of 2 frequencies lie outside 65 to 300 Hz and become its ends", "what is above full scale is cut to it: the strongest is 2.00"}));
 }
 

@@ -304,7 +304,7 @@ TEST(AudioOutput, OutputsThatAreMissingAreToldAndTheOthersPlayAsEver) {
     rig.interface.outputs = 2;
     ASSERT_EQ(rig.open(), "");
     ASSERT_EQ(whole.open(), "");
-    EXPECT_EQ(rig.output.maintain(), "Fake:hands: 6 of 8 enchanters have no output there");
+    EXPECT_EQ(rig.output.maintain(), "Fake:hands: 6 of 8 actuators have no output there");
     EXPECT_EQ(whole.output.maintain(), "");
     const auto few = rig.play(8.0, 64), all = whole.play(8.0, 64);
     ASSERT_EQ(few.size(), 2u);
@@ -320,7 +320,7 @@ TEST(AudioOutput, EnchantersGoWhereTheMapSaysThoughUnconnectedOutputsAreLeftOut)
     ASSERT_EQ(rig.open({7, 1, 3, 2}), ""); // enchanter 1 on output 8, ... ; outputs 2 and 7 are not connected
     ASSERT_EQ(plain.open(), "");
     EXPECT_EQ(rig.interface.opened.toInteger(), 0b10001110) << "no output is opened that nobody wants";
-    EXPECT_EQ(rig.output.maintain(), "Fake:hands: 5 of 8 enchanters have no output there");
+    EXPECT_EQ(rig.output.maintain(), "Fake:hands: 5 of 8 actuators have no output there");
     const auto mapped = rig.play(8.0, 64), all = plain.play(8.0, 64);
     ASSERT_EQ(mapped.size(), 3u); // outputs 3, 4, 8
     EXPECT_TRUE(mapped[0] == all[3] && mapped[1] == all[2] && mapped[2] == all[0]);
@@ -329,7 +329,7 @@ TEST(AudioOutput, EnchantersGoWhereTheMapSaysThoughUnconnectedOutputsAreLeftOut)
 
 TEST(AudioOutput, TwoEnchantersOnOneOutputAreRefused) {
     Rig rig;
-    EXPECT_EQ(rig.open({0, 2, 2}), "output 3 is given to two enchanters; expected one each");
+    EXPECT_EQ(rig.open({0, 2, 2}), "output 3 is given to two actuators; expected one each");
     EXPECT_EQ(rig.open({100}), "hands: has none of the outputs that are wanted");
     EXPECT_FALSE(rig.output.status().isRunning);
 }

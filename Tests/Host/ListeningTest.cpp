@@ -196,14 +196,14 @@ TEST(Listening, NoneOfManyStopsIsLost) {
 
 TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
     Rig rig{setupOn("phone4", false)};
-    EXPECT_EQ(rig.open(noiseOn({3}, -40.0)), "output 4 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(rig.open(noiseOn({3}, -40.0)), "output 4 is an actuator's; expected another one to listen to");
     EXPECT_EQ(rig.open(noiseOn({8}, -40.0)), "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
     EXPECT_EQ(rig.open(contactsOn({5}, -20.0)), "expected a session that makes contact sounds, found none");
     EXPECT_EQ(rig.open(noiseOn({0, 1, 2, 3, 4, 5, 6, 7, 8}, -40.0)), "expected at most 8 outputs to listen to, found 9");
     EXPECT_EQ(rig.interface.timesStarted, 0) << "nothing half-done";
     ASSERT_EQ(rig.open(noiseOn({4}, -40.0)), "");
-    EXPECT_EQ(rig.output.assign({0, 1, 2, 4}, 4), "output 5 is an enchanter's; expected another one to listen to");
-    EXPECT_EQ(rig.output.hear(noiseOn({2}, -40.0)), "output 3 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(rig.output.assign({0, 1, 2, 4}, 4), "output 5 is an actuator's; expected another one to listen to");
+    EXPECT_EQ(rig.output.hear(noiseOn({2}, -40.0)), "output 3 is an actuator's; expected another one to listen to");
     EXPECT_EQ(rig.output.hear(noiseOn({11}, -40.0)), "Fake:hands: has 8 outputs; expected one of them to listen to or for marks, found output 12");
     rig.play(3.0);
     EXPECT_NEAR(rmsDb(rig.play(6.0)[felt], 0), -40.0, 0.5) << "all is as before";
@@ -298,14 +298,14 @@ TEST(Listening, WhatIsSilencedIsNotMarkedAndNoPulseBeginsInItsMiddle) {
 
 TEST(Listening, MarksAreNeitherFeltNorHeard) {
     Rig rig{marked()}, without{setupOn("phone1", false)};
-    EXPECT_EQ(rig.open(marksOn({0})), "output 1 is an enchanter's; expected another one for marks");
+    EXPECT_EQ(rig.open(marksOn({0})), "output 1 is an actuator's; expected another one for marks");
     auto both = noiseOn({4}, -40.0);
     both.marks = {4};
     EXPECT_EQ(rig.open(both), "output 5 is listened to; expected another one for marks");
     EXPECT_EQ(without.open(marksOn({4})), "expected a session that marks its onsets, found none");
     EXPECT_EQ(rig.open(marksOn({8})), "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
     ASSERT_EQ(rig.open(marksOn({4})), "");
-    EXPECT_EQ(rig.output.assign({4}, 1), "output 5 is an enchanter's; expected another one for marks");
+    EXPECT_EQ(rig.output.assign({4}, 1), "output 5 is an actuator's; expected another one for marks");
 }
 
 TEST(Listening, BeginsAndEndsWhileItPlays) {

@@ -32,7 +32,7 @@ TEST(SinkTable, ADeviceAndAnyNumberOfSinksAreNamedInOneLine) {
 TEST(SinkTable, MoreEnchantersThanASinkHasAreRefused) {
     const OutputNames names{"BOARD:auto"};
     EXPECT_EQ(channelFault(names.sinks, 4), "");
-    EXPECT_EQ(channelFault(names.sinks, 5), "board: expected at most four enchanters");
+    EXPECT_EQ(channelFault(names.sinks, 5), "board: expected at most four actuators");
     EXPECT_EQ(channelFault({}, 64), "");
 }
 

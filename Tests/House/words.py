@@ -20,6 +20,13 @@ def old_words():
         yield re.compile(row[0].replace("\\|", "|"), re.I), row[1]
 
 
+def sentences(line):
+    """The string literals of a line that are more than a name, without the options and fields that they name."""
+    for text in re.findall(r'"((?:[^"\\]|\\.)*)"', line):
+        if " " in text:
+            yield re.sub(r'--[\w-]+|\\"\w+\\"', " ", text)
+
+
 def sources():
     """(path, text) of what people read: pages, help texts and error lines. Of C++, the string literals only."""
     pages = [*(root / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md")), *sorted((root / "Docs").glob("**/*.md"))]
@@ -32,8 +39,8 @@ def sources():
             yield page, re.sub(r"`[^`\n]*`|\]\([^)]*\)|^    .*$", " ", prose, flags=re.M)
     for folder in ("Source", "Standalone", "Plugin"):
         for file in sorted([*(root / folder).glob("**/*.cpp"), *(root / folder).glob("**/*.h")]):
-            lines = ("" if re.match(r"\s*(//|#include)", line) else " ".join(re.findall(r'"((?:[^"\\]|\\.)*)"', line)) for line in file.read_text().split("\n"))
-            yield file, "\n".join(text if " " in text else "" for text in lines)
+            lines = ("" if re.match(r"\s*(//|#include)", line) else " ".join(sentences(line)) for line in file.read_text().split("\n"))
+            yield file, "\n".join(lines)
 
 
 def main():

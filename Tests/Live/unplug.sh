@@ -20,7 +20,7 @@ sleep 3
 kill -9 "$server"
 expect "no such device (see physvib devices); nothing else is played on"
 serve 44100 128 2
-expect "2 of 4 enchanters have no output there"
+expect "2 of 4 actuators have no output there"
 wait "$playing"
 playing=
 cat "$folder/report" "$folder/told"

@@ -174,8 +174,8 @@ TEST(Desk, TheMonitorIsHeardWhereNoEnchanterIsAndGivesWayToOne) {
     EXPECT_TRUE(desk.trouble().isEmpty()) << desk.trouble() << ": an enchanter is there, and is felt";
     EXPECT_TRUE(desk.device().listening().settings().contacts.empty());
     EXPECT_TRUE(desk.device().listening().settings().marks.empty());
-    EXPECT_EQ(desk.device().listening().monitor({4, 3}, -20.0), "output 4 is an enchanter's; expected another one to listen to");
-    EXPECT_EQ(desk.device().listening().mark(2), "output 3 is an enchanter's; expected another one for marks");
+    EXPECT_EQ(desk.device().listening().monitor({4, 3}, -20.0), "output 4 is an actuator's; expected another one to listen to");
+    EXPECT_EQ(desk.device().listening().mark(2), "output 3 is an actuator's; expected another one for marks");
     ASSERT_EQ(desk.device().listening().monitor({4, 5}, -10.0), "");
     EXPECT_EQ(desk.device().listening().mark(5), "output 6 is listened to; expected another one for marks");
     desk.change("Output", [](Mix& mix) { mix.strips[1].output = 6; });
@@ -223,7 +223,7 @@ TEST(Desk, OnTwoOutputsOneListensInsteadOfFeeling) {
     FakeInterface speakers;
     speakers.outputs = 2;
     Desk desk{fakeTypes({&speakers}), {"Fake:hands", 0, 0}};
-    EXPECT_EQ(desk.device().listening().monitor({0, 1}, -20.0), "output 1 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(desk.device().listening().monitor({0, 1}, -20.0), "output 1 is an actuator's; expected another one to listen to");
     ASSERT_EQ(desk.monitorInstead({0, 1}, -20.0), "");
     EXPECT_EQ(desk.mix().strips[0].output, -1);
     EXPECT_EQ(desk.mix().strips[1].output, -1);

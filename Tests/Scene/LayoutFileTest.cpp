@@ -157,7 +157,7 @@ TEST(LayoutFile, SixtyFourEnchantersAreLabelledLikeColumns) {
     EXPECT_EQ(labels[63], "BL");
     EXPECT_EQ(std::set<std::string>(labels.begin(), labels.end()).size(), 64u);
     EXPECT_EQ(errorOf(layoutWith(list + R"(,{"x_m": 0, "y_m": 0})")),
-              "my.json: enchanters: expected at most 64 enchanters, found 65");
+              "my.json: enchanters: expected at most 64 actuators, found 65");
 }
 
 TEST(LayoutFile, NamesTheFieldOfAnEnchanter) {
@@ -199,7 +199,7 @@ TEST(LayoutFile, NamesTheFieldOfTheLayout) {
         {"{}", "field \"extent_m\" is missing"},
         {R"({"extent_m": [1, 1]})", "field \"enchanters\" is missing"},
         {R"({"extent_m": [1, 1], "enchanters": []})",
-         "enchanters: expected at least 1 enchanter, found none"},
+         "enchanters: expected at least 1 actuator, found none"},
         {R"({"extent_m": [1, 1], "enchanters": {}})", "enchanters: expected an array, found an object"},
         {R"({"extent_m": [1, 1], "enchanters": [7]})", "enchanters[0]: expected an object, found a number"},
         {R"({"extent_m": [1], )" + list + "}", "extent_m: expected [width, height], found 1 items"},

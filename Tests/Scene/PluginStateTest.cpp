@@ -135,7 +135,7 @@ TEST(PluginState, WhatIsWrongIsNamed) {
     EXPECT_EQ(refusal(text, "\"radius_m\": 0.25", "\"radius_m\": 0"), "f: notes[3].radius_m: expected at least 0.01");
     EXPECT_EQ(refusal(text, "\"ceiling_db\": -6", "\"ceiling_db\": 6"), "f: strips[0].ceiling_db: expected -60 to 0, found 6");
     EXPECT_EQ(refusal(text, "\"q\": 12", "\"q\": -1"), "f: equalised[1].q: expected 0.05 to 1000, found -1");
-    EXPECT_EQ(refusal(text, "\"strips\": [", "\"strips\": [ { \"gain_db\": 0 },"), "f: strips: expected one strip per enchanter, 3");
+    EXPECT_EQ(refusal(text, "\"strips\": [", "\"strips\": [ { \"gain_db\": 0 },"), "f: strips: expected one strip per actuator, 3");
     EXPECT_EQ(refusal(text, "\"controller\": 1", "\"controller\": 120"), "f: controllers[0].controller: expected 0 to 119, found 120");
     EXPECT_EQ(refusal(text, "restart-on-play", "sometimes"), "f: transport: expected one of free, restart-on-play, found \"sometimes\"");
     EXPECT_EQ(refusal(text, "\"steps_per_second\": 500", "\"steps_per_second\": 1"), "f: steps_per_second: expected 10 to 10000, found 1");

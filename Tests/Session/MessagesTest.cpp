@@ -171,9 +171,9 @@ TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
         {R"({"message": "strike", "frequency_hz": 2, "decay_per_s": 0.001})", "strike: frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
         {R"({"message": "phantom", "levle": 3})", "phantom: has no \"levle\""},
         {R"({"message": "phantom", "place": "Q"})", "phantom: place: expected letters from A to D, found \"Q\""},
-        {R"({"message": "phantom", "place": [1, 2, 3]})", "phantom: place: expected x and y in metres, or an enchanter's letter"},
+        {R"({"message": "phantom", "place": [1, 2, 3]})", "phantom: place: expected x and y in metres, or an actuator's letter"},
         {R"({"message": "phantom", "law": "flat"})", "phantom: law: expected one of " + listed(spreadNames) + ", found \"flat\""},
-        {R"({"message": "pattern", "pattern": "AB"})", "pattern: pattern: expected one like ABA-250 (one to three enchanters, then milliseconds), found \"AB\""},
+        {R"({"message": "pattern", "pattern": "AB"})", "pattern: pattern: expected one like ABA-250 (one to three actuators, then milliseconds), found \"AB\""},
         {R"({"message": "path", "places": "A"})", "path: places: expected 2 to 64 places, found 1"},
         {R"({"message": "path", "places": "AA"})", "path: places: expected places that are not all the same"},
         {R"({"message": "path", "places": "AB", "times_s": [1]})", "path: times_s: expected 2 times, one per place, found 1"},
@@ -345,7 +345,7 @@ TEST(Messages, ClipsAreBounded) {
     EXPECT_EQ(clip("a.1", {}), "clip: file: expected no clips here: no folder was given to read them from");
     EXPECT_EQ(clip("a", clipOf), "clip: file: a: cannot be read");
     EXPECT_EQ(router.take(messageOf(R"({"message": "clip"})"), nullptr, clipOf).error, "clip: file: expected a file's name");
-    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "a.3"})"), nullptr, clipOf).error, "clip: file: expected one channel, places, or as many channels as enchanters, 4, found 3");
+    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "a.3"})"), nullptr, clipOf).error, "clip: file: expected one channel, places, or as many channels as actuators, 4, found 3");
     for (int i = 0; i < 7; ++i) EXPECT_EQ(clip(std::to_string(i) + ".4", clipOf), "");
     EXPECT_EQ(clip("3.4", clipOf), "") << "it is kept already";
     EXPECT_EQ(clip("x.5", clipOf), "clip: file: expected no more than 32 channels of clips in a session, and 32000000 samples");

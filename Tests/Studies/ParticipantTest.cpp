@@ -448,7 +448,7 @@ TEST_F(ByAParticipant, HearsPinkNoiseOnTheChosenOutputsForAsLongAsTheStudyGoesOn
     begin(R"({"name": "main", "task": "identify"})", R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)", R"(, "pink_noise": true, "pink_noise_db": -35)");
     EXPECT_EQ(p->desk.device().listening().settings().noise, (std::vector<int>{6, 7}));
     EXPECT_EQ(p->desk.device().listening().settings().noiseDb, -35.0) << "the protocol's level, as it was chosen later";
-    EXPECT_EQ(p->desk.device().listening().hear({{3}, -40.0, {}, 0.0}), "output 4 is an enchanter's; expected another one to listen to");
+    EXPECT_EQ(p->desk.device().listening().hear({{3}, -40.0, {}, 0.0}), "output 4 is an actuator's; expected another one to listen to");
     p->click("Leave the study; what was answered is kept");
     ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
     EXPECT_TRUE(p->desk.device().listening().settings().noise.empty());

@@ -146,7 +146,7 @@ std::string AudioOutput::maintain(Clock::time_point now) {
     const std::string changed = follow();
     if (!changed.empty() || map_.unfelt() == 0) return changed;
     return settings_.device + ": " + std::to_string(map_.unfelt()) + " of " +
-           std::to_string(map_.enchanters()) + " enchanters have no output there";
+           std::to_string(map_.enchanters()) + " actuators have no output there";
 }
 
 // Some drivers say so; JUCE's ALSA thread just ends.

@@ -15,7 +15,7 @@ std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) 
         if (outputs.size() > OutputMap::mostHeard) return "expected at most " + std::to_string(OutputMap::mostHeard) + " outputs to listen to, found " + std::to_string(outputs.size());
         for (const int output : outputs)
             if (output >= 0 && std::ranges::find(felt, output) != felt.end())
-                return "output " + std::to_string(output + 1) + " is an enchanter's; expected another one to listen to";
+                return "output " + std::to_string(output + 1) + " is an actuator's; expected another one to listen to";
     }
     return {};
 }
@@ -27,7 +27,7 @@ std::string marksFault(const std::vector<int>& felt, const HeardOutputs& heard) 
     if (marks.size() > OutputMap::mostHeard) return "expected at most " + std::to_string(OutputMap::mostHeard) + " outputs for marks, found " + std::to_string(marks.size());
     for (const int output : marks) {
         const bool isFelt = output >= 0 && has(felt, output), isHeard = has(heard[static_cast<std::size_t>(Heard::noise)], output) || has(heard[static_cast<std::size_t>(Heard::contacts)], output);
-        if (isFelt || isHeard) return "output " + std::to_string(output + 1) + " is " + (isFelt ? "an enchanter's" : "listened to") + "; expected another one for marks";
+        if (isFelt || isHeard) return "output " + std::to_string(output + 1) + " is " + (isFelt ? "an actuator's" : "listened to") + "; expected another one for marks";
     }
     return {};
 }
@@ -40,7 +40,7 @@ std::string OutputMap::want(int enchanters, const std::vector<int>& wanted, int 
     else std::copy_n(wanted.begin(), std::min(wanted.size(), outputs.size()), outputs.begin());
     for (const int output : outputs)
         if (output >= 0 && std::count(outputs.begin(), outputs.end(), output) > 1)
-            return "output " + std::to_string(output + 1) + " is given to two enchanters; expected one each";
+            return "output " + std::to_string(output + 1) + " is given to two actuators; expected one each";
     if (auto fault = heardFault(outputs, heard); !fault.empty()) return fault;
     if (auto fault = marksFault(outputs, heard); !fault.empty()) return fault;
     wanted_ = std::move(outputs);

@@ -19,7 +19,7 @@ struct SinkKind {
 };
 
 const std::array sinkKinds{
-    SinkKind{"BOARD", limits::board::channels, "board: expected at most four enchanters",
+    SinkKind{"BOARD", limits::board::channels, "board: expected at most four actuators",
              [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
                  return std::make_unique<BoardOutput>(where, panner);
              }},

@@ -37,7 +37,7 @@ Result<ClipDevice> deviceOf(const HitExport& hits, const EnchanterDescription& e
     const std::string& name = hits.actuator.empty() ? enchanter.actuator : hits.actuator;
     if (name == "none") return device;
     const auto profile = findActuator(name);
-    if (!profile) return Failure{hits.layoutName + ": enchanter " + enchanter.label + ": " + profile.error};
+    if (!profile) return Failure{hits.layoutName + ": actuator " + enchanter.label + ": " + profile.error};
     const FrequencyBand band = profile.value.bandOrNone();
     return ClipDevice{band.lowHz, band.highHz, profile.value.resonanceHz.value_or(0.0), enchanter.fullScaleG};
 }

@@ -97,7 +97,7 @@ std::string patternsOf(const ConfusionMatrix& matrix) {
         if (!pattern) return std::to_string(matrix.stimuli()) + " stimuli";
         for (int k = 0; k < pattern->count; ++k) enchanters = std::max(enchanters, pattern->enchanters[static_cast<std::size_t>(k)] + 1);
     }
-    return std::to_string(matrix.stimuli()) + " patterns on " + std::to_string(enchanters) + (enchanters == 1 ? " enchanter" : " enchanters");
+    return std::to_string(matrix.stimuli()) + " patterns on " + std::to_string(enchanters) + (enchanters == 1 ? " actuator" : " actuators");
 }
 
 std::string nameOr(const std::string& name, const char* other) { return name.empty() ? other : name; }

@@ -31,7 +31,7 @@ PhantomPanner readPanner(const JsonField& json, int channels) {
     json.expectObject({"layout", "law", "exponent", "field_m"});
     const auto layout = readLayoutFields(json["layout"]).geometry;
     if (layout.count > channels)
-        json["layout"].fail("expected at most " + std::to_string(channels) + " enchanters, as many as there are channels");
+        json["layout"].fail("expected at most " + std::to_string(channels) + " actuators, as many as there are channels");
     const JsonField field = json["field_m"];
     if (field.arraySize() != 2) field.fail("expected [width, height]");
     return {layout, panningLaws[json["law"].oneOf(panningLawNames)].law, json["exponent"].numberWithin(leastExponent, mostExponent),

@@ -29,7 +29,7 @@ Strip readStrip(const JsonField& json, Outputs outputs) {
 } // namespace
 
 std::vector<Strip> readStrips(const JsonField& list, int enchanters, Outputs outputs) {
-    if (list.arraySize() != static_cast<std::size_t>(enchanters)) list.fail("expected one strip per enchanter, " + std::to_string(enchanters));
+    if (list.arraySize() != static_cast<std::size_t>(enchanters)) list.fail("expected one strip per actuator, " + std::to_string(enchanters));
     std::vector<Strip> strips;
     for (std::size_t j = 0; j < list.arraySize(); ++j) {
         strips.push_back(readStrip(list.item(j), outputs));

@@ -78,7 +78,7 @@ std::vector<CollisionEvent> patternStrikes(const MessageValues& values, const st
     if (values.has("enchanters")) return pulses(values, "enchanters", values.word("enchanters"), values.number("pulse_s"), shaping);
     const std::string label = values.word("pattern");
     const auto pattern = parsePatternLabel(label);
-    if (!pattern) values.fail("pattern", "expected one like ABA-250 (one to three enchanters, then milliseconds), found " + inQuotes(label));
+    if (!pattern) values.fail("pattern", "expected one like ABA-250 (one to three actuators, then milliseconds), found " + inQuotes(label));
     return pulses(values, "pattern", label.substr(0, static_cast<std::size_t>(pattern->count)), pattern->pulseSeconds, shaping);
 }
 
@@ -187,7 +187,7 @@ EnchanterPlace placeOfChannel(std::size_t j, const MessageValues& values, const 
     const EnchanterLayout& layout = panner.layout();
     if (clip.channels.size() == 1) return values.place();
     if (static_cast<int>(clip.channels.size()) != layout.count)
-        values.fail("file", "expected one channel, places, or as many channels as enchanters, " + std::to_string(layout.count) + ", found " + std::to_string(clip.channels.size()));
+        values.fail("file", "expected one channel, places, or as many channels as actuators, " + std::to_string(layout.count) + ", found " + std::to_string(clip.channels.size()));
     return onField(layout.places[j].xMetres / layout.extentWidthMetres, layout.places[j].yMetres / layout.extentHeightMetres);
 }
 

@@ -73,7 +73,7 @@ inline constexpr std::array strike{
     MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0", "after which it is cut, at a zero crossing; 0: when it has decayed"},
     law};
 inline constexpr std::array pattern{
-    MessageArgument{"pattern", Type::word, 0.0, 0.0, "", "one to three enchanters and a pulse's ms: `ABA-250`"},
+    MessageArgument{"pattern", Type::word, 0.0, 0.0, "", "one to three actuators and a pulse's ms: `ABA-250`"},
     MessageArgument{"enchanters", Type::word, 0.0, 0.0, "", "instead of it, letters of up to 64 pulses: `ABCDDCBA`"},
     MessageArgument{"pulse_s", Type::number, 0.001, 10.0, "0.25", "length of each of those"},
     MessageArgument{"gap_s", Type::number, 0.0, 10.0, "0.1", "silence between two pulses"},
@@ -93,7 +93,7 @@ inline constexpr std::array path{
 
 inline constexpr std::array clip{
     MessageArgument{"file", Type::word, 0.0, 0.0, "", "WAV, FLAC, Ogg Vorbis, `.hjif`, `.hmpg`, `.haptic` or `.ahap`, in the folder that the door reads from"},
-    MessageArgument{"place", Type::place, 0.0, 0.0, "", "where; left out: its own places, or one channel per enchanter, or the middle of the field"},
+    MessageArgument{"place", Type::place, 0.0, 0.0, "", "where; left out: its own places, or one channel per actuator, or the middle of the field"},
     MessageArgument{"level", Type::number, 0.0, 1.0, "1", "of what is in the file, at gain 1"},
     law};
 
@@ -104,13 +104,13 @@ MessageDescription::Answer statusAnswer, layoutAnswer, latencyAnswer;
 
 inline constexpr auto messageTable = std::to_array<MessageDescription>({
     {"strike", "a vibration that decays, or is cut", messages::strike, strikeStrikes},
-    {"pattern", "pulses, each on one enchanter alone", messages::pattern, patternStrikes},
+    {"pattern", "pulses, each on one actuator alone", messages::pattern, patternStrikes},
     {"phantom", "a vibration that stays at a place", messages::phantom, phantomStrikes},
     {"path", "a vibration that moves", messages::path, pathStrikes},
     {"clip", "a recording or a haptic file", messages::clip, MessageDescription::Clip{}},
     {"stop", "what sounds fades out within 10 ms; what was asked for before and has not begun is forgotten", {}, MessageDescription::Stop{}},
     {"status", "answers session time, strikes that wait, bodies, collisions lost, and time given up in stalls", {}, statusAnswer},
-    {"layout", "answers the law, the field, and the enchanters' places in metres of the field", {}, layoutAnswer},
+    {"layout", "answers the law, the field, and the actuators' places in metres of the field", {}, layoutAnswer},
     {"latency", "answers the play-out delay: how long after its time each vibration is felt", {}, latencyAnswer},
 });
 

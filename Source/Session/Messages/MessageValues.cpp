@@ -107,7 +107,7 @@ EnchanterPlace MessageValues::place() const {
     if (value == nullptr) return {0.5 * panner_.fieldWidthMetres(), 0.5 * panner_.fieldHeightMetres()};
     if (const auto* letter = std::get_if<std::string>(value); letter != nullptr && letter->size() == 1) return enchanter("place", letter->front());
     const auto* const found = std::get_if<std::vector<double>>(value);
-    if (found == nullptr || found->size() != 2 || !std::ranges::all_of(*found, isOnSomeField)) fail("place", "expected x and y in metres, or an enchanter's letter");
+    if (found == nullptr || found->size() != 2 || !std::ranges::all_of(*found, isOnSomeField)) fail("place", "expected x and y in metres, or an actuator's letter");
     return {(*found)[0], (*found)[1]};
 }
 

@@ -30,7 +30,7 @@ Result<Told> ofRecording(const std::string& path, const Scrape& scrape) {
     std::string about = fixedNumber(f.grainsPerSecond, 1) + " grains a second, ";
     about += f.counted > 0 ? std::to_string(f.counted) + " counted, " + fixedNumber(100.0 * f.lostShare, 1) + " % taken to be hidden" : "by their tone alone";
     about += f.strength > 0.0 ? "; " + fixedNumber(100.0 * f.strength, 2) + " % of full scale each; roughness as if recorded at 1 for 1 N s on 1 kg, for " + conditions(scrape)
-                              : "; what rings and how rough it is are not told at this speed: scrape slower";
+                              : "; modes and roughness cannot be measured at this speed: scrape more slowly";
     return Told{f, std::move(about)};
 }
 

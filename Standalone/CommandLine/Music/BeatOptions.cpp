@@ -24,7 +24,7 @@ Result<BeatVoices> beatVoicesOf(const BeatOptions& o, int enchanters) {
     voices.enchanters = usualBeatEnchanters(enchanters);
     for (std::size_t band = 0; band < beatBands.size(); ++band)
         if (o.enchanters[band] && !parseEnchanters(*o.enchanters[band], enchanters, voices.enchanters[band]))
-            return Failure{"--" + std::string{beatBands[band].name} + ": expected letters of the " + std::to_string(enchanters) + " enchanters, each once, like A, found " + inQuotes(*o.enchanters[band])};
+            return Failure{"--" + std::string{beatBands[band].name} + ": expected letters of the " + std::to_string(enchanters) + " actuators, each once, like A, found " + inQuotes(*o.enchanters[band])};
     std::vector<double> hz;
     if (parseNumbers(o.frequencies, hz) && hz.size() == 1) hz.resize(beatBands.size(), hz[0]);
     const auto isFrequency = [](double f) { return f >= 1.0 && f <= limits::maxFrequencyHz; };

@@ -182,7 +182,7 @@ int runThrough(const BeatsOptions& o, const LayoutDescription& layout) {
     EnchanterSet felt;
     felt.set();
     if (!o.enchanters.empty() && !parseEnchanters(o.enchanters, count, felt))
-        return leave(exitUsage, "--enchanters: expected letters of the " + std::to_string(count) + " enchanters, each once, like AC, found " + inQuotes(o.enchanters));
+        return leave(exitUsage, "--enchanters: expected letters of the " + std::to_string(count) + " actuators, each once, like AC, found " + inQuotes(o.enchanters));
     ThroughTaker through{o.wavPath, count, felt, *band, static_cast<float>(o.beats.level), provenanceLine(provenanceOf(o))};
     if (const std::string fault = streamRecording(o.music, through); !fault.empty()) return leave(exitFailed, fault);
     if (const std::string error = through.finish(); !error.empty()) return leave(exitFailed, error);

@@ -31,7 +31,7 @@ void summariseOsc(const OscStatus& osc) {
 void OscReport::tellWrong(const OscCounts& counts) {
     const std::uint64_t wrong = counts.wrong() + counts.late + counts.lost + counts.held;
     if (std::exchange(told_, wrong) == wrong) return;
-    tell(std::string("OSC: ").append(summary(counts)).append(counts.fault.empty() ? "" : "; the last fault: ").append(counts.fault));
+    tell(std::string("OSC: ").append(summary(counts)).append(counts.fault.empty() ? "" : "; the last error: ").append(counts.fault));
 }
 
 } // namespace physvib

@@ -179,7 +179,7 @@ int runPlay(PlayOptions& o) {
         if (const int code = takeDualSense(settings, job.channels()); code != exitDone) return code;
     }
     if (!parseMap(o.onOff, settings.onOff) || std::ranges::any_of(settings.onOff, [&](int j) { return j >= job.channels(); }))
-        return leave(exitUsage, "--on-off: expected enchanters like 1,2, of " + std::to_string(job.channels()) + ", found \"" + o.onOff + "\"");
+        return leave(exitUsage, "--on-off: expected actuators like 1,2, of " + std::to_string(job.channels()) + ", found \"" + o.onOff + "\"");
     settings.onOffThreshold = o.threshold;
     settings.listening.noiseDb = o.noiseDb;
     settings.listening.contactDb = o.scene.contactSoundDb;
@@ -192,7 +192,7 @@ int runPlay(PlayOptions& o) {
     if (!voices) return leave(exitUsage, voices.error);
     SessionSetup setup = setupOf(o, job);
     if (!parseCeilings(o.ceilings, setup.channels, setup.ceilings))
-        return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per enchanter (" + std::to_string(setup.channels) + "), found \"" +
+        return leave(exitUsage, "--ceiling: expected one number of dB from -60 to 0, or one per actuator (" + std::to_string(setup.channels) + "), found \"" +
                                     o.ceilings + "\"");
     OscSettings osc = o.osc;
     osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;

@@ -33,7 +33,7 @@ std::string faultOf(const LoadedRender& job) {
     const Clip& clip = *job.clip;
     const auto channels = clip.channels.size();
     if (!hasPlaces(clip) && channels != 1 && static_cast<int>(channels) != job.layout.geometry.count)
-        return "expected one channel, places, or as many channels as the layout has enchanters, " + std::to_string(job.layout.geometry.count) + ", found " + std::to_string(channels);
+        return "expected one channel, places, or as many channels as the layout has actuators, " + std::to_string(job.layout.geometry.count) + ", found " + std::to_string(channels);
     return soundFault({job.options.sampleRateHz, static_cast<std::int64_t>(channels), static_cast<std::int64_t>(clip.seconds() * job.options.sampleRateHz)});
 }
 

@@ -43,7 +43,7 @@ Result<Clip> clipOf(const LoadedRender& job, double error) {
 
 void tellLosses(const LoadedRender& job, const std::vector<ClipPart>& parts, ClipFormat format, const FrequencyScale& usual) {
     for (const std::string& loss : lossesOf(parts, format, usual)) tell("warning: " + loss);
-    if (parts.size() > 1) tell("warning: a file for each enchanter; for one file of all hits: --layout phone1");
+    if (parts.size() > 1) tell("warning: a file for each actuator; for one file of all hits: --layout phone1");
     if (job.session && !job.session->log.channels.empty()) tell("warning: gains, mutes and stops of the session are not carried: hits are as they were struck");
     if (job.made.drops > 0) tell("warning: collisions lost because too many began in one physics step: " + std::to_string(job.made.drops));
 }
