@@ -4,6 +4,7 @@
 #include "System/Process.h"
 #include "Host/Devices/DeviceThread.h"
 #include "Host/Devices/NoDevice.h"
+#include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Mixer/Window/Shots.h"
 #include "Options/Reference.h"
@@ -17,6 +18,8 @@ constexpr int exitFailed = 1, exitUsage = 2;
 constexpr const char* usage =
     R"(physvib-mixer [SESSION.json | SCENE.json | LAYOUT.json] [--device TYPE:NAME] [--summary]
     --summary: at the end, what the last session played, late and dropped
+physvib-mixer --study PROTOCOL [--participant CODE] [--number N] [--out FOLDER]
+    opens the tab Studies with these, for a person who answers
 physvib-mixer --shot FILE.png [--state NAME]   a picture of the window, without a display
 physvib-mixer --states | --help | --version
 )";
@@ -27,6 +30,20 @@ juce::String valueOf(const juce::ArgumentList& arguments, juce::StringRef option
     return at < 0 ? juce::String{} : arguments[at + 1].text;
 }
 
+StudyCall studyCallOf(const juce::ArgumentList& arguments) {
+    return {valueOf(arguments, "--study"), valueOf(arguments, "--participant"), valueOf(arguments, "--number").getIntValue(), valueOf(arguments, "--out")};
+}
+
+/// The word that is neither an option nor an option's value.
+juce::File fileOf(const juce::ArgumentList& arguments) {
+    static const juce::StringArray valued{"--device", "--study", "--participant", "--number", "--out"};
+    juce::File file;
+    for (int k = 0; k < arguments.size(); ++k)
+        if (!arguments[k].isOption() && (k == 0 || !valued.contains(arguments[k - 1].text)))
+            file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[k].text);
+    return file;
+}
+
 /// What the command line wants, apart from a window; an exit code, or none.
 std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     if (arguments.containsOption("--help|-h")) return std::cout << usage, 0;
@@ -34,7 +51,7 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     if (arguments.containsOption("--states"))
         return std::cout << shotStates().joinIntoString("\n") << '\n', 0;
     if (const auto folder = valueOf(arguments, referenceWord); folder.isNotEmpty()) {
-        OptionTable program{"physvib-mixer", "see a world, feel it, and mix what each enchanter plays"};
+        OptionTable program{"physvib-mixer", "see a world, feel it, and mix what each actuator plays"};
         addUsage(program, usage);
         const std::string error = writeReference(program, folder.toStdString());
         return error.empty() ? 0 : (std::cerr << "physvib-mixer: " << error << '\n', exitFailed);
@@ -72,11 +89,8 @@ public:
         const juce::ArgumentList arguments{"physvib-mixer", getCommandLineParameterArray()};
         const auto device = valueOf(arguments, "--device");
         hasSummary_ = arguments.containsOption("--summary");
-        juce::File file;
-        for (int k = 0; k < arguments.size(); ++k)
-            if (!arguments[k].isOption() && (k == 0 || arguments[k - 1].text != "--device"))
-                file = juce::File::getCurrentWorkingDirectory().getChildFile(arguments[k].text);
-        window_ = std::make_unique<MixerWindow>(audioDeviceTypesAndNone, device, file);
+        window_ = std::make_unique<MixerWindow>(audioDeviceTypesAndNone, device, fileOf(arguments));
+        if (arguments.containsOption("--study")) chooseStudy(window_->view(), studyCallOf(arguments));
         heedInterrupts();
         startTimer(milliseconds);
     }

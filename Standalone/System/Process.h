@@ -58,4 +58,10 @@ bool isProcessRunning(int number) noexcept;
 /// is well, or why it did not begin. M.
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments);
 
+/// Whether a window can be opened here. Any thread but R.
+bool hasDisplay() noexcept;
+
+/// A program of ours: the one that lies beside this one, else the one that the system finds by its name. M.
+std::string ownProgram(const std::string& name);
+
 } // namespace physvib

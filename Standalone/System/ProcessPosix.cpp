@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <filesystem>
 #include <initializer_list>
 #include <iostream>
 #include <poll.h>
@@ -79,6 +80,21 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+bool hasDisplay() noexcept {
+#if defined(__APPLE__)
+    return true;
+#else
+    const char* const display = std::getenv("DISPLAY");
+    return display != nullptr && *display != '\0';
+#endif
+}
+
+std::string ownProgram(const std::string& name) {
+    std::error_code none;
+    const auto beside = std::filesystem::read_symlink("/proc/self/exe", none).replace_filename(name);
+    return !none && std::filesystem::exists(beside, none) ? beside.string() : name;
 }
 
 } // namespace physvib

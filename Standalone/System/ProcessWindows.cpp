@@ -83,5 +83,10 @@ Result<bool> runProgram(std::string name, std::vector<std::string> arguments) {
     return code == 0;
 }
 
+bool hasDisplay() noexcept { return true; }
+
+// The folder of the running program is where Windows looks first.
+std::string ownProgram(const std::string& name) { return name; }
+
 } // namespace physvib
 #endif

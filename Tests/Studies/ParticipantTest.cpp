@@ -440,6 +440,18 @@ TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
     EXPECT_EQ(column("response", "identify"), Texts{"1,1"});
 }
 
+TEST_F(ByAParticipant, BeginsWithWhatTheCallOfTheProgramChose) {
+    p->view.tabs().choose("Materials");
+    const auto file = folder.getChildFile("short.json");
+    file.replaceWithText(R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05}], "sessions": [{"name": "main", "task": "identify"}]})");
+    chooseStudy(p->view, {file.getFullPathName(), "Q7", 7, folder.getChildFile("rows").getFullPathName()});
+    folder.getChildFile("rows").createDirectory();
+    test::pump();
+    ASSERT_TRUE(p->tab().isShowing());
+    ASSERT_EQ(p->tab().begin(), "");
+    EXPECT_EQ(p->screen()->study().path().filename(), "short-Q7.csv");
+}
+
 TEST_F(ByAParticipant, HearsPinkNoiseOnTheChosenOutputsForAsLongAsTheStudyGoesOn) {
     const auto choices = p->tab().noiseChoices();
     ASSERT_FALSE(choices.empty());

@@ -64,13 +64,26 @@ std::string takeSounds(const RecordedSounds& sounds, Protocol& protocol) {
     return {};
 }
 
+/// A person reads and answers in the mixer's window: it opens with all that was given here.
+int runForPerson(const StudyOptions& o) {
+    if (o.participants > 1) return leave(exitUsage, "study run: --participants: expected one at a time where a person answers");
+    if (!hasDisplay())
+        return leave(exitUsage, "study run: expected --observer, or a display where physvib-mixer shows a person what to answer; its tab Studies has the protocol " + inQuotes(o.protocol));
+    std::vector<std::string> words{"--study", o.protocol, "--participant", codeOf(o, o.number), "--number", std::to_string(o.number)};
+    if (!o.folder.empty()) words.insert(words.end(), {"--out", o.folder});
+    tell("opening physvib-mixer, where a person answers; --observer simulated is answered by the computer");
+    const auto ran = runProgram(ownProgram("physvib-mixer"), std::move(words));
+    if (!ran) return leave(exitFailed, ran.error + "; expected the package of the mixer to be installed");
+    return ran.value ? exitDone : exitFailed;
+}
+
 int run(const StudyOptions& o) {
     const std::string expected = "study run: --observer: expected " + std::string(observerNames);
-    if (o.observer.empty() || o.observer == "person")
-        return leave(exitUsage, expected + "; for a person type physvib-mixer, open the tab Studies and choose the protocol " + inQuotes(o.protocol));
-    const auto settings = observerNamed(o.observer);
-    if (!settings) return leave(exitUsage, expected + ", found " + inQuotes(o.observer));
+    const bool isPerson = o.observer.empty() || o.observer == "person";
+    const auto settings = isPerson ? std::optional<ObserverSettings>{} : observerNamed(o.observer);
+    if (!isPerson && !settings) return leave(exitUsage, expected + ", found " + inQuotes(o.observer));
     if (!isStudyCode(o.participant)) return leave(exitUsage, "study run: --participant: expected at most 32 letters, digits, - and _, found " + inQuotes(o.participant));
+    if (isPerson) return runForPerson(o);
     if (!o.participant.empty() && o.participants > 1) return leave(exitUsage, "study run: --participant: expected one participant with a code, found several");
     auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);

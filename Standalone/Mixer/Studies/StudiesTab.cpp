@@ -347,4 +347,13 @@ void StudiesTab::resized() {
     wordsArea_ = row.withTrimmedLeft(gap);
 }
 
+void chooseStudy(MixerView& view, const StudyCall& call) {
+    view.setHint(false);
+    view.tabs().choose("Studies");
+    auto& tab = static_cast<StudiesTab&>(*view.tabs().find("Studies"));
+    if (call.folder.isNotEmpty()) tab.setFolder(juce::File::getCurrentWorkingDirectory().getChildFile(call.folder));
+    if (call.participant.isNotEmpty()) tab.setParticipant(call.participant, std::max(1, call.number));
+    tab.chooseProtocol(call.protocol.toStdString());
+}
+
 } // namespace physvib

@@ -10,6 +10,13 @@ namespace physvib {
 
 class MixerView;
 
+/// What a call of the program chooses in the tab; empty, 0: as it is.
+struct StudyCall {
+    juce::String protocol, participant;
+    int number = 0;
+    juce::String folder;
+};
+
 class StudiesTab final : public Tab {
 public:
     explicit StudiesTab(Desk& desk);
@@ -77,5 +84,8 @@ private:
     std::unique_ptr<AnalysisScreen> analysis_;
     std::vector<juce::Component::SafePointer<juce::Component>> hidden_; // while the screen covers them
 };
+
+/// Shows the tab with what was chosen; what is wrong with the protocol stands there. M.
+void chooseStudy(MixerView& view, const StudyCall& call);
 
 } // namespace physvib
