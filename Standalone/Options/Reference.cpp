@@ -3,6 +3,7 @@
 #include "Options/Reference.h"
 #include "Options/Completions.h"
 #include "Options/ManPage.h"
+#include "Options/MarkdownPage.h"
 #include "Io/Disk/AtomicFile.h"
 #include <system_error>
 
@@ -28,6 +29,7 @@ std::string writePages(const OptionTable& program, const std::filesystem::path& 
 
 std::string writeReference(const OptionTable& program, const std::filesystem::path& folder) {
     if (auto error = writePages(program, folder / "man1"); !error.empty()) return error;
+    if (auto error = writeInto(folder / "md", program.words + ".md", markdownPage(program)); !error.empty()) return error;
     if (auto error = writeInto(folder / "bash", program.words, bashCompletion(program)); !error.empty()) return error;
     if (auto error = writeInto(folder / "zsh", "_" + program.words, zshCompletion(program)); !error.empty()) return error;
     return writeInto(folder / "fish", program.words + ".fish", fishCompletion(program));

@@ -10,7 +10,7 @@ namespace physvib {
 /// The word that asks a program for it, before a folder; it is told nowhere else, since a build says it, not a person.
 inline constexpr const char* referenceWord = "--reference";
 
-/// Writes man1/, bash/, zsh/ and fish/ into the folder. Empty, or one line with the reason. M.
+/// Writes man1/, md/ (Docs/commands.md), bash/, zsh/ and fish/ into the folder. Empty, or one line with the reason. M.
 std::string writeReference(const OptionTable& program, const std::filesystem::path& folder);
 
 } // namespace physvib
