@@ -29,13 +29,20 @@ tried="fresh machine: $commands"
 make_machine "$mirror"
 [ -z "$(git status --porcelain)" ] || say "changes that are not committed stay out"
 git clone --quiet . "$machine/root/PhysVib"
+# Processor seconds of all that this script has waited for, in $worked; `times` knows them in this shell alone, and in no $( ).
+count_work() {
+    times >"$machine/times"
+    worked=$(sed 's/[ms]/ /g' "$machine/times" | awk 'NR == 2 { print int(60 * ($1 + $3) + $2 + $4) }')
+}
 packages() { in_machine dpkg-query -W -f '.' | wc -c; }
 for command in $commands; do
     before=$(packages)
-    started=$(date +%s)
+    count_work
+    started=$(date +%s) before_work=$worked
     in_machine "/root/PhysVib/$command"
     seconds=$(($(date +%s) - started))
-    say "$command took $((seconds / 60)):$(printf %02d $((seconds % 60))) min, with $(($(packages) - before)) packages beyond the $before that were there"
+    count_work
+    say "$command took $((seconds / 60)):$(printf %02d $((seconds % 60))) min and $(((worked - before_work) / 60)) processor minutes, with $(($(packages) - before)) packages beyond the $before that were there"
 done
 [ "$commands" != Tests/Api/ten-minutes.sh ] || exit 0
 for file in shake-the-box.wav shake-the-box.csv shake-the-box.png; do
