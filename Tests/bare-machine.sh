@@ -4,9 +4,18 @@
 
 # Namespaces of its own: mounts and processes end with the command, so nothing is ever mounted when a folder is removed.
 apart() { unshare --mount --pid --fork --kill-child "$@"; }
+# It has pseudo-terminals and shared memory, as every booted system; $cache, if it says something, is its compiler cache.
+# shellcheck disable=SC2016 # of the inner shell
 in_machine() {
-    apart --mount-proc="$machine/proc" chroot "$machine" env -i HOME=/root TERM=dumb \
-        PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin ${http_proxy:+http_proxy="$http_proxy"} "$@"
+    apart --mount-proc="$machine/proc" sh -ec '
+        machine=$1 cache=$2
+        shift 2
+        mkdir -p "$machine/dev/pts" "$machine/dev/shm"
+        mount -t devpts -o ptmxmode=0666,newinstance devpts "$machine/dev/pts"
+        mount -t tmpfs -o mode=1777 tmpfs "$machine/dev/shm"
+        [ -z "$cache" ] || { mkdir -p "$machine/ccache" && mount --bind "$cache" "$machine/ccache"; }
+        exec chroot "$machine" env -i HOME=/root TERM=dumb PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
+            ${http_proxy:+http_proxy="$http_proxy"} ${cache:+CCACHE_DIR=/ccache} "$@"' sh "$machine" "${cache:-}" "$@"
 }
 
 # shellcheck disable=SC2016 # apt's own variable

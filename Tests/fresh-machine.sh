@@ -4,6 +4,7 @@
 #   --run-only      run.sh alone
 #   --pages         instead of them, what the pages of C, Python, Lua and C# say
 #   --keep          leave the folder behind
+#   --cache FOLDER  a compiler cache to use: tries everything sooner, and says less about times
 #   --mirror URL    instead of the mirror in this system's apt sources
 set -eu
 cd "$(dirname "$0")/.."
@@ -13,13 +14,15 @@ cd "$(dirname "$0")/.."
 commands="run.sh test.sh"
 keep=""
 mirror=""
+cache=""
 while [ $# -gt 0 ]; do
     case $1 in
         --run-only) commands="run.sh" ;;
         --pages) commands="Tests/Api/ten-minutes.sh" ;;
         --keep) keep=yes ;;
+        --cache) cache=$(realpath "${2:?"--cache needs a folder"}") && shift ;;
         --mirror) mirror=${2:?"--mirror needs a URL"} && shift ;;
-        *) say "expected --run-only, --pages, --keep or --mirror URL, not $1" && exit 2 ;;
+        *) say "expected --run-only, --pages, --keep, --cache FOLDER or --mirror URL, not $1" && exit 2 ;;
     esac
     shift
 done
