@@ -4,7 +4,8 @@
 
 # Namespaces of its own: mounts and processes end with the command, so nothing is ever mounted when a folder is removed.
 apart() { unshare --mount --pid --fork --kill-child "$@"; }
-# It has pseudo-terminals and shared memory, as every booted system; $cache, if it says something, is its compiler cache.
+# It has pseudo-terminals and shared memory, as every booted system; $cache, if it says something, is its compiler cache,
+# whose entries know in which language a compiler complains.
 # shellcheck disable=SC2016 # of the inner shell
 in_machine() {
     apart --mount-proc="$machine/proc" sh -ec '
@@ -15,7 +16,7 @@ in_machine() {
         mount -t tmpfs -o mode=1777 tmpfs "$machine/dev/shm"
         [ -z "$cache" ] || { mkdir -p "$machine/ccache" && mount --bind "$cache" "$machine/ccache"; }
         exec chroot "$machine" env -i HOME=/root TERM=dumb PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-            ${http_proxy:+http_proxy="$http_proxy"} ${cache:+CCACHE_DIR=/ccache} "$@"' sh "$machine" "${cache:-}" "$@"
+            ${http_proxy:+http_proxy="$http_proxy"} ${cache:+CCACHE_DIR=/ccache LANG="${LANG:-}"} "$@"' sh "$machine" "${cache:-}" "$@"
 }
 
 # shellcheck disable=SC2016 # apt's own variable
