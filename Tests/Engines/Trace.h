@@ -35,6 +35,8 @@ inline int trace(Engine& engine, const char* path) {
     std::map<int, Body> moving;
     std::string word;
     int steps = 0;
+    bool isFalling = false;
+    double kick = 0.0; // ends of steps lie on the parabola
     while (file >> word) {
         if (word == "world") {
             double rate = 0, friction = 0, elasticity = 0, seconds = 0;
@@ -42,10 +44,12 @@ inline int trace(Engine& engine, const char* path) {
             steps = static_cast<int>(rate * seconds);
             engine.world = plainWorld();
             engine.begin(1.0 / rate, gravity, elasticity, friction);
+            kick = (engine.movesFirst ? -0.5 : 0.5) * gravity / rate / engine.subSteps;
         } else if (word == "ball" || word == "box") {
             Body body;
             body.isBox = word == "box";
             file >> body.id >> body.x >> body.y >> body.angle >> body.width >> body.height >> body.massKg >> body.vx >> body.vy >> body.spin >> body.isSource;
+            if (isFalling) body.vy += kick;
             engine.add(body);
             if (body.massKg > 0) moving.emplace(body.id, body);
         } else if (word == "pin") {
@@ -57,6 +61,8 @@ inline int trace(Engine& engine, const char* path) {
             int body = 0;
             file >> body;
             engine.oneWay(body);
+        } else if (word == "falling") { // those that follow
+            isFalling = true;
         } else if (word == "floor") {
             engine.floor();
         } else if (word == "tiles") {
@@ -65,7 +71,7 @@ inline int trace(Engine& engine, const char* path) {
             file >> left >> right >> count;
             engine.tiles(left, right, count);
         } else {
-            return std::fprintf(stderr, "%s: %s: expected world, ball, box, pin, oneway, floor or tiles\n", path, word.c_str()), 1;
+            return std::fprintf(stderr, "%s: %s: expected world, ball, box, pin, oneway, falling, floor or tiles\n", path, word.c_str()), 1;
         }
     }
     printMotions(engine, moving, 0);

@@ -25,7 +25,7 @@ struct Box2d final : scenes::Engine, b2ContactListener {
     }
     void tiles(double left, double right, int count) override {
         std::vector<b2Vec2> points;
-        for (int i = count; i >= 0; --i) points.push_back({static_cast<float>(left + (right - left) * i / count), -2 * b2_polygonRadius});
+        for (int i = count; i >= 0; --i) points.push_back({static_cast<float>(left + (right - left) * i / count), -b2_polygonRadius});
         b2ChainShape chain;
         chain.CreateChain(points.data(), count + 1, {points[0].x + 1, points[0].y}, {points.back().x - 1, points[0].y});
         number(ground().CreateFixture(&chain, 0.0F), scenes::floorBody, false);

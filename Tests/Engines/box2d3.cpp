@@ -85,12 +85,18 @@ struct Box2d3 final : scenes::Engine {
     }
     void oneWay(int body) override {
         platform = bodies[body];
-        b2World_SetPreSolveCallback(haptics.box2d, pre, this);
-    }
-#if defined(b2_maxPolygonVertices) || !defined(B2_NULL_INDEX)
-    static bool pre(b2ShapeId a, b2ShapeId b, b2Manifold*, void* self) { return static_cast<Box2d3*>(self)->isSolid(a, b); }
+#if defined(B2_NULL_INDEX)
+        b2World_SetPreSolveCallback(haptics.box2d, pre, nullptr, this);
 #else
-    static bool pre(b2ShapeId a, b2ShapeId b, b2Pos, b2Vec2, void* self) { return static_cast<Box2d3*>(self)->isSolid(a, b); }
+        b2World_SetPreSolveCallback(haptics.box2d, pre, this);
+#endif
+    }
+#if defined(B2_NULL_INDEX)
+    static void pre(b2ShapeId a, b2ShapeId b, b2Manifold* manifold, void* self) {
+        if (!static_cast<Box2d3*>(self)->isSolid(a, b)) manifold->pointCount = 0;
+    }
+#else
+    static bool pre(b2ShapeId a, b2ShapeId b, b2Manifold*, void* self) { return static_cast<Box2d3*>(self)->isSolid(a, b); }
 #endif
     bool isSolid(b2ShapeId one, b2ShapeId two) const {
         const b2BodyId a = b2Shape_GetBody(one), b = b2Shape_GetBody(two);

@@ -23,5 +23,6 @@ for version in "$@"; do
         -L"$build/lib" -lphysvib "-Wl,-rpath,$build/lib" -lm -o "$folder/run"
     "$folder/run" | sed "s/^/$version: /" | tee "$folder/log"
     ! grep -q FAILED "$folder/log" || failed=1
+    python3 "$root/Tests/Engines/worlds.py" "$version=$folder/run" || failed=1
 done
 exit $failed

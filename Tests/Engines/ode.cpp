@@ -63,7 +63,7 @@ struct Ode final : scenes::Engine {
         const int count = dCollide(a, b, 8, &contacts[0].geom, sizeof(dContact));
         for (int i = 0; i < count; ++i) {
             dContact& contact = contacts[i];
-            contact.surface.mode = dContactBounce;
+            contact.surface.mode = dContactBounce | dContactApprox1; // friction in parts of what presses
             contact.surface.bounce = engine.elasticity;
             contact.surface.mu = engine.friction;
             const dJointID joint = dJointCreateContact(engine.ode, engine.joints, &contact);

@@ -170,6 +170,10 @@ typedef struct physvib_body {
 #define PHYSVIB_POINT_NONE (-1)     /**< of point_id: not told apart */
 #define PHYSVIB_POINT_BY_PLACE (-2) /**< of point_id: told apart by place; physvib_world_move tells how far a point may have slid */
 
+#define PHYSVIB_SOFT 1       /**< of is_soft: the impulse of one step is a load, and no measure of an impact */
+#define PHYSVIB_SOFT_WHOLE 2 /**< of is_soft: the same, but it is all that the bodies were given in the step. Where it is clearly more than speed and
+                                  masses say (what is struck is supported, or hangs in joints), it is the impact */
+
 /** Two bodies touch. Tell the impulse, or how fast they near each other, or neither if physvib_world_move tells the motions. */
 typedef struct physvib_contact {
     size_t size;               /**< set by init */
@@ -190,7 +194,7 @@ typedef struct physvib_contact {
     double along_a_m_per_s;    /**< of what goes on touching a rough body, with its impulse: how fast the point moves along a's surface. Rolling: as
                                   along b's; sliding: 0 along what drags its own point (PHYSVIB_UNKNOWN) */
     double along_b_m_per_s;    /**< the same along b's (PHYSVIB_UNKNOWN) */
-    int is_soft;               /**< 1: what the engine pushes in one step is no measure of a blow, which is told by speed and restitution;
+    int is_soft;               /**< PHYSVIB_SOFT or PHYSVIB_SOFT_WHOLE: what the engine pushes in one step is no measure of a blow, which is told by speed and restitution;
                                   the impulse is what a pair that goes on touching hands on (0) */
     int unused;                /**< 0 */
     int point_id;              /**< which point of its pair it is: a number of yours, from 0 on, or PHYSVIB_POINT_BY_PLACE. A point that was not

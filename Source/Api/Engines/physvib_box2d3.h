@@ -13,16 +13,19 @@
 
 /* What changed its name from version to version. */
 #if defined(b2_maxPolygonVertices) /* 3.0 */
-#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse)
+#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse) /* of a sub-step: at least so much */
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetInertiaTensor(body)
 #else
-#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->totalNormalImpulse)
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetRotationalInertia(body)
 #endif
 #if defined(B2_NULL_INDEX) /* after 3.1 */
+#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->totalNormalImpulse)
 #define PHYSVIB_BOX2D3_CENTRE(body) b2Body_GetWorldCenter(body)
 #else
 #define PHYSVIB_BOX2D3_CENTRE(body) b2Body_GetWorldCenterOfMass(body)
+#endif
+#if !defined(PHYSVIB_BOX2D3_PUSHED) /* 3.1 counts each sub-step twice: as it is solved, and as it is relaxed */
+#define PHYSVIB_BOX2D3_PUSHED(point) (0.5 * (double)(point)->totalNormalImpulse)
 #endif
 
 /** A body of Box2D and its number. */
@@ -121,8 +124,8 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3 *haptics, const b
     contact.approach_m_per_s = meets;
     contact.restitution = haptics->mix_restitution ? haptics->mix_restitution(one, other) : fmax(one, other);
     contact.restitution = speed > least ? fmin(1, fmax(0, contact.restitution)) : 0;
-    contact.impulse_n_s = impulse; /* of all its sub-steps: a load, and no measure of a blow */
-    contact.is_soft = 1;
+    contact.impulse_n_s = impulse;
+    contact.is_soft = PHYSVIB_SOFT_WHOLE;
     contact.point_id = point->id;
     if (gap > 0 && speed + meets > 0) contact.fraction = fmin(1, 2 * gap / (speed + meets) / seconds);
     else contact.gap_m = point->separation; /* they overlapped before */

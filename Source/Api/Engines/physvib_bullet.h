@@ -45,7 +45,7 @@ public:
                 contact.impulse_n_s = point.getAppliedImpulse();
                 contact.restitution = std::clamp(static_cast<double>(point.m_combinedRestitution), 0.0, 1.0);
                 contact.gap_m = point.getDistance(); // at the start of the step
-                contact.is_soft = 1; // its impulse also pushes overlaps apart, or lets gaps be closed
+                contact.is_soft = PHYSVIB_SOFT_WHOLE; // it also pushes overlaps apart, or lets gaps be closed
                 contact.point_id = PHYSVIB_POINT_BY_PLACE;
                 check(physvib_world_touch(name_, &contact));
             }
