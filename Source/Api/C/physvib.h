@@ -103,7 +103,8 @@ typedef struct physvib_renderer_settings {
     size_t size;  /**< set by init */
     int rate_hz;  /**< 5,000 to 192,000 (48,000) */
     int channels; /**< 0: as many as the layout has enchanters; more are silent, to PHYSVIB_MAX_ENCHANTERS */
-    int law;      /**< (PHYSVIB_LAW_LINEAR) */
+    int law;      /**< (PHYSVIB_LAW_LINEAR; with it and exponent 1, events of kind PHYSVIB_ROLL and PHYSVIB_SLIDE are panned by
+                       PHYSVIB_LAW_ENERGY, so that what travels is felt where it is; any other law is that of all) */
     int limiter;  /**< (1); 0: samples may exceed 1 */
     double exponent;        /**< of the law (1) */
     double field_width_m;   /**< that x spans; 0: the layout's extent (0) */
