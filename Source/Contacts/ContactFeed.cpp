@@ -70,6 +70,7 @@ std::string_view ContactFeed::beginStep(std::int64_t endNs, double gravityMetres
     if (endNs < timeNs() || endNs > limits::maxTimeNs) return "time: expected not to go back, and less than 10^17 ns";
     if (!isWithin(gravityMetresPerSecond2, 0.0, 1.0e6)) return "gravity: expected 0 to 10^6 m/s^2";
     lastStepSeconds_ = events_.stepSeconds();
+    gravity_ = gravityMetresPerSecond2;
     events_.beginStep(endNs, {0.0F, -static_cast<float>(gravityMetresPerSecond2)}, bodies_.largestMassKg());
     return {};
 }
@@ -228,6 +229,22 @@ FedContact ContactFeed::withMomentum(const Waiting& each) const {
     return contact;
 }
 
+double ContactFeed::pushed(const Waiting& each) const {
+    const FedContact& contact = each.contact;
+    if (!contact.isSoft) return 0.0;
+    const double told = contact.isPushWhole ? contact.impulseNewtonSeconds.value_or(0.0) : 0.0;
+    return each.momentum == FedPoints::none ? told : std::max(told, momentum_.newtonSeconds(static_cast<std::size_t>(each.momentum)));
+}
+
+// What is struck may stand on something, hang in joints or carry others: then the engine pushes more in one step than the speed and the mass of the
+// two bodies say. What gravity adds after they met is a load.
+double ContactFeed::supported(double bySpeed, double pushed, double gainedMetresPerSecond, double fraction) const {
+    constexpr double clearly = 1.2; // pushes of one step also move overlaps apart
+    const double falls = gravity_ * events_.stepSeconds() * (1.0 - std::clamp(fraction, 0.0, 1.0));
+    const double ofBlow = pushed * gainedMetresPerSecond / (gainedMetresPerSecond + falls);
+    return ofBlow > clearly * bySpeed ? ofBlow : bySpeed;
+}
+
 // The blow of a pair that is no spring is what its new points have changed.
 void ContactFeed::strikeByMomentum() {
     meeting_.clear();
@@ -257,7 +274,7 @@ void ContactFeed::settle(const Pair& pair) {
     }
     if (together_.size() == 1 || std::ranges::any_of(together_, hasMass)) {
         for (const Waiting* each : together_)
-            if (each->isNew) strike(withMomentum(*each));
+            if (each->isNew) strike(withMomentum(*each), hasMass(each) ? 0.0 : pushed(*each));
         return;
     }
     meeting_.clear();
@@ -275,11 +292,12 @@ void ContactFeed::strikeTogether() {
     CollisionCatcher& catcher = events_.catcher();
     const FedContact& first = together_.front()->contact;
     const TouchingPairs::Name pair = nameOf(first);
-    double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = 1.0;
+    double all = 0.0, ofNew = 0.0, fastest = 0.0, fraction = 1.0, ofPush = 0.0;
     Vector2 point;
     for (std::size_t i = 0; i < meeting_.size(); ++i) {
         const MeetingPoint& each = meeting_[i];
         all += each.newtonSeconds;
+        if (each.isNew) ofPush += pushed(*together_[i]);
         if (!each.isNew || !(each.newtonSeconds > 0.0)) continue;
         ofNew += each.newtonSeconds;
         point += static_cast<float>(each.newtonSeconds / ofNew) * (each.point - point);
@@ -288,6 +306,7 @@ void ContactFeed::strikeTogether() {
     }
     const float gravityScale = std::max(events_.fixtures()[pair.a].gravityScale(), events_.fixtures()[pair.b].gravityScale());
     const double share = all > 0.0 ? ofNew / all : 0.0;
+    if (ofPush > 0.0 && fastest > 0.0) ofNew = supported(ofNew, ofPush, (1.0 + first.restitution) * fastest, fraction);
     const double impulse = first.isImpulseOfPair ? share * *first.impulseNewtonSeconds : ofNew;
     const bool isBlow = impulse > 0.0 && std::isfinite(impulse) && catcher.isBlow(gravityScale, fastest);
     if (!isBlow) catcher.passOver(pair.a, pair.b);
@@ -316,14 +335,15 @@ double ContactFeed::speedOf(const FedContact& contact) const {
     return contact.approachMetresPerSecond.value_or(bodies_.approach(contact.a, contact.b, contact.point, contact.normal));
 }
 
-void ContactFeed::strike(const FedContact& contact) {
+void ContactFeed::strike(const FedContact& contact, double pushed) {
     CollisionCatcher& catcher = events_.catcher();
     const TouchingPairs::Name pair = nameOf(contact);
     const KnownFixture &a = events_.fixtures()[pair.a], &b = events_.fixtures()[pair.b];
     const double told = speedOf(contact);
     const double mass = contact.effectiveMassKg.value_or(bodies_.effectiveMassKg(contact.a, contact.b, contact.point, contact.normal));
     const bool isImpulseTold = contact.impulseNewtonSeconds && !contact.isSoft;
-    const double impulse = isImpulseTold ? *contact.impulseNewtonSeconds : mass * std::max(0.0, told) * (1.0 + contact.restitution);
+    double impulse = isImpulseTold ? *contact.impulseNewtonSeconds : mass * std::max(0.0, told) * (1.0 + contact.restitution);
+    if (pushed > 0.0 && told > 0.0) impulse = supported(impulse, pushed, told * (1.0 + contact.restitution), fractionOf(contact, told));
     if (!(impulse > 0.0 && std::isfinite(impulse))) { // they part, or cannot be moved
         catcher.passOver(pair.a, pair.b);
         return contact.isSoft ? load(contact) : void();

@@ -36,6 +36,9 @@ struct FedContact {
     /// Of an engine whose contacts take several steps to turn a body round, or push overlaps apart: what it pushes in a step is no
     /// measure of a blow. Speed and restitution are; the impulse is what a pair that goes on touching hands on.
     bool isSoft = false;
+    /// Of a soft one: all that the engine gave the bodies in this step is told as its impulse. Where that is clearly more than speed and masses say
+    /// (what is struck stands on something, hangs in joints, or carries others), it is the blow.
+    bool isPushWhole = false;
 
     /// Of what goes on touching a rough surface (HapticFixture::texture), with its impulse: how fast the point of contact moves along
     /// each of the two surfaces, m/s. Rolling: both alike; sliding: 0 along what drags its own point. Both, or it is not felt.
@@ -125,6 +128,8 @@ private:
     bool isByMomentum(const FedContact& contact) const { return bodies_.isAnyAfter() && bodies_.hasAfter(contact.a) && bodies_.hasAfter(contact.b); }
     void strikeByMomentum();
     FedContact withMomentum(const Waiting& each) const;
+    double pushed(const Waiting& each) const;
+    double supported(double bySpeed, double pushed, double gainedMetresPerSecond, double fraction) const;
     static bool waits(const FedContact& contact) noexcept { return contact.isSoft || contact.isImpulseOfPair || !contact.impulseNewtonSeconds; }
     bool isNewPoint(Pair& pair, const FedContact& contact);
     void tell(Pair& pair, const FedContact& contact, bool isNew);
@@ -137,7 +142,7 @@ private:
     Pair& know(const FedContact& contact, bool isAsked);
     void drop(std::size_t pair);
     void dropAllOf(std::int32_t slot);
-    void strike(const FedContact& contact);
+    void strike(const FedContact& contact, double pushed = 0.0);
     void strikeTogether();
     void load(const FedContact& contact);
     void rub(const FedContact& contact, const TouchingPairs::Name& pair);
@@ -153,7 +158,7 @@ private:
     std::vector<MeetingPoint> meeting_;    // the same for the solver
     std::vector<Pair> pairs_;
     IntegerMap pairOf_;
-    double lastStepSeconds_ = 0.0;
+    double lastStepSeconds_ = 0.0, gravity_ = 0.0;
 };
 
 } // namespace physvib

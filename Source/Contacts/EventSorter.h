@@ -32,14 +32,23 @@ public:
 private:
     struct Place {
         std::int64_t timeNs;
-        std::uint64_t tie; // fixture, then place in held_
-        std::uint32_t index() const noexcept { return static_cast<std::uint32_t>(tie); }
-        friend bool operator<(const Place& a, const Place& b) noexcept { return a.timeNs != b.timeNs ? a.timeNs < b.timeNs : a.tie < b.tie; }
+        std::int32_t fixture;
+        std::uint32_t slot; // of held_
+        std::uint64_t arrival;
+        friend bool operator<(const Place& a, const Place& b) noexcept {
+            if (a.timeNs != b.timeNs) return a.timeNs < b.timeNs;
+            return a.fixture != b.fixture ? a.fixture < b.fixture : a.arrival < b.arrival;
+        }
     };
+    void sort();
+    void forget(std::size_t place) noexcept;
+
     std::size_t capacity_;
-    std::uint64_t drops_ = 0;
-    std::vector<CollisionEvent> held_; // in the order of arrival
-    std::vector<Place> order_;
+    std::uint64_t drops_ = 0, arrivals_ = 0;
+    std::vector<CollisionEvent> held_; // an event stays in its slot until it goes
+    std::vector<std::uint32_t> free_;  // slots
+    std::vector<Place> waiting_;       // in the order of arrival
+    std::vector<Place> order_, other_; // of those that go
 };
 
 } // namespace physvib

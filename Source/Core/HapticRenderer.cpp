@@ -117,7 +117,7 @@ bool HapticRenderer::strike(const CollisionEvent& event, FramePosition onset) no
 }
 
 bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onset, std::int64_t closeFrame) noexcept {
-    panner_.gainsAt(event.x, event.y, event.course.spread, gains_);
+    panner_.gainsAt(event, event.x, event.y, gains_);
     std::fill(gains_.begin() + panner_.channels(), gains_.begin() + channels_, 0.0);
     Strike s{event.frequencyHz, event.decayPerSecond, event.amplitude, onset, closeFrame};
     if (event.course.sinceNs > 0) {
@@ -132,7 +132,7 @@ bool HapticRenderer::strikeStill(const CollisionEvent& event, FramePosition onse
 
 MovingTones::Drive HapticRenderer::driveAt(const CollisionEvent& event, double x, double y) noexcept {
     MovingTones::Drive drive;
-    panner_.gainsAt(x, y, event.course.spread, gains_);
+    panner_.gainsAt(event, x, y, gains_);
     if (isCoupled()) settings_.drives.apply(event.frequencyHz, gains_.data(), drive.inPhase.data(), drive.ahead.data());
     else std::copy_n(gains_.begin(), panner_.channels(), drive.inPhase.begin());
     return drive;

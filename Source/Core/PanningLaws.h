@@ -43,6 +43,12 @@ constexpr std::string_view nameOf(PanningLaw law) noexcept {
     return describe(law).name;
 }
 
+/// Where between two enchanters (0 to 1) an impact is felt that is meant at `share` of the way: the centroid of intensity. Any thread.
+inline double centroidOf(PanningLaw law, double share) noexcept {
+    const double near = describe(law).factor(share), far = describe(law).factor(1.0 - share);
+    return far * far / (near * near + far * far);
+}
+
 /// Names of the laws, in their order.
 inline constexpr auto panningLawNames = [] {
     std::array<std::string_view, panningLaws.size()> names{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Phantom sensations: from the place of a hit to one gain per enchanter (thesis Eq. 4.2, 4.3, 6.2).
 #pragma once
+#include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
 #include "Core/PanningLaws.h"
 #include "Core/Spread.h"
@@ -24,6 +25,16 @@ public:
 
     /// The same, spread otherwise. Any thread.
     void gainsAt(double x, double y, Spread spread, Gains& gains) const noexcept;
+
+    /// For an event that is there now: as the event asks; grains, if it asks nothing, by grains(). Any thread.
+    void gainsAt(const CollisionEvent& event, double x, double y, Gains& gains) const noexcept {
+        const bool isGrain = event.source.kind != ContactKind::hit && event.course.spread == Spread::layout;
+        gainsAt(x, y, isGrain ? grains_ : event.course.spread, gains);
+    }
+
+    /// Grains of surfaces travel: by `spread`, so that the centroid of what is felt follows them; Spread::layout, as at first: by the law.
+    void setGrains(Spread spread) noexcept { grains_ = spread; }
+    Spread grains() const noexcept { return grains_; } ///< As it was set. Any thread.
 
     int channels() const noexcept { return layout_.count; } ///< Enchanters.
 
@@ -54,6 +65,7 @@ private:
 
     EnchanterLayout layout_;
     PanningLaw law_ = PanningLaw::linear;
+    Spread grains_ = Spread::layout;
     double exponent_ = 1.0;
     double fieldWidthMetres_ = 0.0, fieldHeightMetres_ = 0.0;
     double scaleX_ = 1.0, scaleY_ = 1.0; // field metres to layout metres

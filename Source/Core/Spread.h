@@ -21,6 +21,9 @@ constexpr Spread spreadBy(PanningLaw law) noexcept {
     return static_cast<Spread>(1 + static_cast<std::size_t>(law));
 }
 
+/// Of grains, where nobody asked for another: the centroid of their intensity is where they are (Docs/panning.md).
+inline constexpr Spread grainSpread = spreadBy(PanningLaw::energy);
+
 /// In their order.
 inline constexpr auto spreadNames = [] {
     std::array<std::string_view, panningLaws.size() + 3> names{"layout"};

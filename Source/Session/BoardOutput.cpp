@@ -150,7 +150,7 @@ void BoardOutput::takeLayouts(std::int64_t timeNs) {
 
 PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event, double x, double y) const noexcept {
     PhantomPanner::Gains gains{};
-    panner_.gainsAt(x, y, event.course.spread, gains);
+    panner_.gainsAt(event, x, y, gains);
     return {gains[0], gains[1], gains[2], gains[3]};
 }
 

@@ -109,7 +109,9 @@ struct LoadedRender {
     double fullScaleG() const { return layout.enchanters.front().fullScaleG; }
     PhantomPanner panner() const {
         if (keepsLayouts()) return session->panner;
-        return {layout.geometry, options.law, options.exponent, fieldWidthMetres(), fieldHeightMetres()};
+        PhantomPanner made{layout.geometry, options.law, options.exponent, fieldWidthMetres(), fieldHeightMetres()};
+        if (!options.given.contains("--law") && !options.given.contains("--exponent")) made.setGrains(grainSpread);
+        return made;
     }
 };
 

@@ -32,6 +32,9 @@ functions = re.findall(r"PHYSVIB_API [^;]*?physvib_(\w+)\(", header)
 python = "\n".join(path.read_text() for path in (root / "Source/Api/Python/physvib").glob("*.py") if "live" not in path.name)
 lua = (root / "Source/Api/Lua/physvib.lua").read_text()
 sharp = (root / "Source/Api/CSharp/PhysVib.cs").read_text()
+live_header = re.sub(r"/\*.*?\*/", "", (root / "Source/Api/Live/physvib-live.h").read_text(), flags=re.S)
+live_python = (root / "Source/Api/Python/physvib/live.py").read_text()
+live_sharp = (root / "Source/Api/CSharp/PhysVibLive.cs").read_text()
 faults = []
 
 
@@ -52,6 +55,16 @@ for name in functions:
     demand("Python", "function", name, called_in_python)
     demand("Lua", "function", name, re.search(rf"physvib_{name}\(", lua) is not None)
     demand("C#", "function", name, len(re.findall(rf"physvib_{name}\(", sharp)) > 1)  # declared and called
+
+
+# Session files are Python's and C's; live_send of Lua is follow's and strike's.
+for name in re.findall(r"PHYSVIB_API [^;]*?physvib_(live_\w+)\(", live_header):
+    if name != "live_error" and f'"{name}"' not in live_python:
+        faults.append(f"Python: function {name} of physvib-live.h is missing")
+    if len(re.findall(rf"physvib_{name}\(", live_sharp)) < 2:
+        faults.append(f"C#: function {name} of physvib-live.h is missing")
+    if name != "live_send" and f"physvib_{name}(" not in lua:
+        faults.append(f"Lua: function {name} of physvib-live.h is missing")
 
 
 def section(text: str, begin: str, end: str) -> str:

@@ -47,6 +47,19 @@ class Package(unittest.TestCase):
             physvib.save_events(self.folder / "events.csv", events)
             self.assertEqual(physvib.load_events(self.folder / "events.csv").tobytes(), events.tobytes())
 
+    def test_tables_of_pandas_come_back_to_the_bit(self) -> None:
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("no pandas here")
+        events = many(100)
+        events["kind"], events["fixture"], events["impulse_n_s"] = np.arange(100) % 3, np.arange(100), 0.5
+        self.assertEqual(physvib.events_of(physvib.frame(events)).tobytes(), events.tobytes())
+        physvib.save_events(self.folder / "events.csv", physvib.frame(events))
+        self.assertEqual(physvib.events_of(pandas.read_csv(self.folder / "events.csv", comment="#")).tobytes(), events.tobytes())
+        with self.assertRaisesRegex(physvib.PhysVibError, "x_m: expected this column"):
+            physvib.render(physvib.frame(events).drop(columns="x_m"), 0.1)
+
     def test_layouts_come_back(self) -> None:
         layout = physvib.Layout([(0.0, 0.0), (0.1, 0.05)], (0.1, 0.05))
         layout.save(self.folder / "mine.json", "mine")

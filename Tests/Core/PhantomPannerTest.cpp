@@ -128,6 +128,42 @@ TEST(PhantomPanner, EveryLawFallsFromOneToZero) {
     }
 }
 
+/// Where between the left and the right edge an event is felt: the centroid of intensity.
+double centroidOf(const PhantomPanner& panner, const CollisionEvent& event) {
+    PhantomPanner::Gains gains{};
+    panner.gainsAt(event, event.x, event.y, gains);
+    double sum = 0.0, moment = 0.0;
+    for (int j = 0; j < panner.channels(); ++j) {
+        const auto i = static_cast<std::size_t>(j);
+        sum += gains[i] * gains[i];
+        moment += gains[i] * gains[i] * panner.layout().places[i].xMetres / panner.layout().extentWidthMetres;
+    }
+    return moment / sum;
+}
+
+TEST(PhantomPanner, GrainsAreFeltWhereTheyAre) {
+    for (const char* name : {"phone2", "phone4"}) {
+        PhantomPanner panner{preset(name), PanningLaw::linear, 1.0, W, H};
+        CollisionEvent grain;
+        grain.y = 0.5 * H;
+        grain.source.kind = ContactKind::roll;
+        grain.x = 0.3 * W;
+        EXPECT_NEAR(centroidOf(panner, grain), 0.16, 0.005) << name << ": as everything, before anybody says otherwise";
+        EXPECT_NEAR(centroidOf(panner, grain), centroidOf(PanningLaw::linear, 0.3), 1e-9) << name;
+        panner.setGrains(grainSpread);
+        for (double share = 0.0; share <= 1.0; share += 0.05) {
+            grain.x = share * W;
+            EXPECT_NEAR(centroidOf(panner, grain), share, 0.01) << name;
+        }
+        grain.x = 0.3 * W;
+        grain.course.spread = spreadBy(PanningLaw::linear);
+        EXPECT_NEAR(centroidOf(panner, grain), 0.16, 0.005) << name << ": what an event asks for stands";
+        grain.course.spread = Spread::layout;
+        grain.source.kind = ContactKind::hit;
+        EXPECT_NEAR(centroidOf(panner, grain), 0.16, 0.005) << name << ": hits go by the law";
+    }
+}
+
 // Every law has a row in Docs/panning.md, in this order, with the gains that its formula has at 1/4, 1/2 and 3/4.
 TEST(PhantomPanner, ThePageHasTheTableOfLaws) {
     std::ifstream page{PHYSVIB_SOURCE_DIR "/Docs/panning.md"};

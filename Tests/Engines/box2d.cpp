@@ -2,52 +2,71 @@
 // Box2D through its attachment, in the scenes of the others.
 #include "Scenes.h"
 #include "Physics/Attachment.h"
+#include <map>
 #include <memory>
 
-struct Box2d final : scenes::Engine {
+struct Box2d final : scenes::Engine, b2ContactListener {
     Box2d() { landsLate = true; }
-    void begin(double stepSeconds, double g, double e, bool hasFloor) override {
-        dt = static_cast<float>(stepSeconds), elasticity = static_cast<float>(e);
-        haptics.reset(), balls.clear();
+    void begin(double stepSeconds, double g, double e, double mu) override {
+        dt = static_cast<float>(stepSeconds), elasticity = static_cast<float>(e), friction = static_cast<float>(mu);
+        haptics.reset(), bodies.clear(), platform = nullptr;
         box2d = std::make_unique<b2World>(b2Vec2{0.0F, static_cast<float>(-g)});
         box2d->SetAllowSleeping(false);
+        box2d->SetContactListener(this);
         physvib::ImpactSettings settings;
         settings.normalisation = 1.0;
         settings.handMassKg = 0.0;
         haptics = std::make_unique<physvib::Attachment>(*box2d, settings);
-        b2EdgeShape floor;
-        floor.SetTwoSided({-5.0F, -b2_polygonRadius}, {5.0F, -b2_polygonRadius}); // its skin is at 0
-        const b2BodyDef ground;
-        if (hasFloor) box2d->CreateBody(&ground)->CreateFixture(&floor, 0.0F);
     }
-    void ball(double x, double y, double vx, double vy) override {
-        b2BodyDef body;
-        body.type = b2_dynamicBody;
-        body.position.Set(static_cast<float>(x), static_cast<float>(y));
-        body.linearVelocity.Set(static_cast<float>(vx), static_cast<float>(vy));
+    void floor() override {
+        b2EdgeShape surface;
+        surface.SetTwoSided({-20.0F, -b2_polygonRadius}, {20.0F, -b2_polygonRadius}); // its skin is at 0
+        number(ground().CreateFixture(&surface, 0.0F), scenes::floorBody, false);
+    }
+    void tiles(double left, double right, int count) override {
+        std::vector<b2Vec2> points;
+        for (int i = count; i >= 0; --i) points.push_back({static_cast<float>(left + (right - left) * i / count), -b2_polygonRadius});
+        b2ChainShape chain;
+        chain.CreateChain(points.data(), count + 1, {points[0].x + 1, points[0].y}, {points.back().x - 1, points[0].y});
+        number(ground().CreateFixture(&chain, 0.0F), scenes::floorBody, false);
+    }
+    b2Body& ground() {
+        const b2BodyDef still;
+        return *(bodies[0] = box2d->CreateBody(&still));
+    }
+    void add(const scenes::Body& from) override {
+        b2BodyDef def;
+        def.type = from.massKg > 0 ? b2_dynamicBody : b2_staticBody;
+        def.position.Set(static_cast<float>(from.x), static_cast<float>(from.y));
+        def.angle = static_cast<float>(from.angle);
+        def.linearVelocity.Set(static_cast<float>(from.vx), static_cast<float>(from.vy));
+        def.angularVelocity = static_cast<float>(from.spin);
         b2CircleShape disc;
-        disc.m_radius = static_cast<float>(scenes::radius);
-        balls.push_back(box2d->CreateBody(&body));
-        b2Fixture* fixture = balls.back()->CreateFixture(&disc, static_cast<float>(scenes::massKg) / (b2_pi * disc.m_radius * disc.m_radius));
+        disc.m_radius = static_cast<float>(from.width / 2);
+        b2PolygonShape polygon;
+        polygon.SetAsBox(static_cast<float>(from.width / 2) - b2_polygonRadius, static_cast<float>(from.height / 2) - b2_polygonRadius); // with its skin as large as told
+        bodies[from.id] = box2d->CreateBody(&def);
+        const double area = from.isBox ? (from.width - 2 * b2_polygonRadius) * (from.height - 2 * b2_polygonRadius) : b2_pi * disc.m_radius * disc.m_radius;
+        number(bodies[from.id]->CreateFixture(from.isBox ? static_cast<b2Shape*>(&polygon) : &disc, static_cast<float>(from.massKg / area)), from.id, from.isSource);
+    }
+    void number(b2Fixture* fixture, int id, bool isSource) {
         fixture->SetRestitution(elasticity);
-        fixture->SetFriction(0.0F);
-        if (static_cast<int>(balls.size()) == camera) (void)haptics->set(*fixture, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true});
+        fixture->SetFriction(friction);
+        (void)haptics->set(*fixture, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = isSource}, id);
     }
-    bool box(double x, double y, double width, double height, double w) override {
-        b2BodyDef body;
-        body.type = b2_dynamicBody;
-        body.position.Set(static_cast<float>(x), static_cast<float>(y) + b2_polygonRadius);
-        body.linearVelocity.Set(static_cast<float>(-w * y), 0.0F);
-        body.angularVelocity = static_cast<float>(w);
-        b2PolygonShape shape;
-        shape.SetAsBox(static_cast<float>(width / 2), static_cast<float>(height / 2));
-        balls.push_back(box2d->CreateBody(&body));
-        b2Fixture* fixture = balls.back()->CreateFixture(&shape, static_cast<float>(3.0 / (width * height)));
-        fixture->SetFriction(1.0F);
-        (void)haptics->set(*fixture, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true});
-        return true;
+    void pin(int a, int b, double x, double y) override {
+        b2RevoluteJointDef def;
+        def.Initialize(bodies[a], b > 0 ? bodies[b] : &ground(), {static_cast<float>(x), static_cast<float>(y)});
+        box2d->CreateJoint(&def);
     }
-    double spin() const override { return static_cast<double>(at(0).GetAngularVelocity()); }
+    void oneWay(int body) override { platform = bodies[body]; }
+    void PreSolve(b2Contact* contact, const b2Manifold*) override {
+        const b2Body *a = contact->GetFixtureA()->GetBody(), *b = contact->GetFixtureB()->GetBody();
+        if (platform == nullptr || (a != platform && b != platform)) return;
+        const b2Body& other = a == platform ? *b : *a;
+        const double top = contact->GetFixtureA()->GetBody() == platform ? contact->GetFixtureA()->GetAABB(0).upperBound.y : contact->GetFixtureB()->GetAABB(0).upperBound.y;
+        if (scenes::passes(top, other.GetPosition().y, other.GetLinearVelocity().y)) contact->SetEnabled(false);
+    }
     void step() override { haptics->step(dt, 30); }
     std::vector<physvib_event> take() override {
         std::vector<physvib::CollisionEvent> told;
@@ -55,24 +74,24 @@ struct Box2d final : scenes::Engine {
         std::vector<physvib_event> events;
         for (const auto& e : told) {
             physvib_event event{};
-            event.time_ns = e.timeNs, event.amplitude = e.amplitude, event.x_m = e.x, event.impulse_n_s = e.source.impulseNewtonSeconds;
+            event.time_ns = e.timeNs, event.amplitude = e.amplitude, event.x_m = e.x, event.y_m = e.y, event.impulse_n_s = e.source.impulseNewtonSeconds;
+            event.fixture = e.source.fixture, event.other = e.source.other;
             events.push_back(event);
         }
         return events;
     }
-    const b2Body& at(int i) const { return *balls[static_cast<std::size_t>(i)]; }
-    double height(int i) const override { return static_cast<double>(at(i).GetPosition().y); }
-    double speed(int i) const override {
-        const b2Vec2 v = at(i).GetLinearVelocity();
-        return static_cast<double>(box2d->GetGravity().y < 0.0F ? v.y : v.x);
+    scenes::Motion motion(int body) const override {
+        const b2Body& it = *bodies.at(body);
+        return {it.GetWorldCenter().x, it.GetWorldCenter().y, it.GetLinearVelocity().x, it.GetLinearVelocity().y, it.GetAngularVelocity()};
     }
-    float dt = 0.0F, elasticity = 0.0F;
+    float dt = 0.0F, elasticity = 0.0F, friction = 0.0F;
     std::unique_ptr<b2World> box2d;
     std::unique_ptr<physvib::Attachment> haptics; // ends before its world
-    std::vector<b2Body*> balls;
+    std::map<int, b2Body*> bodies;
+    b2Body* platform = nullptr;
 };
 
-int main() {
+int main(int count, char** words) {
     Box2d engine;
-    return scenes::run("Box2D", engine, true);
+    return scenes::run("Box2D", engine, count, words);
 }

@@ -2,84 +2,130 @@
 // Box2D 3 through its adapter, in the scenes of the others. No Debian package has it: Tests/Engines/box2d3.sh compiles it.
 #include "Scenes.h"
 #include <cstdint>
+#include <map>
 #include <physvib/engines/physvib_box2d3.h>
 
 struct Box2d3 final : scenes::Engine {
     Box2d3() { subSteps = 4, slowest = 60, handedOnPart = 0.05; }
     ~Box2d3() override { end(); }
-    void begin(double stepSeconds, double g, double e, bool hasFloor) override {
+    void begin(double stepSeconds, double g, double e, double mu) override {
         end();
-        dt = stepSeconds, elasticity = static_cast<float>(e);
+        dt = stepSeconds, elasticity = static_cast<float>(e), friction = static_cast<float>(mu);
         b2WorldDef def = b2DefaultWorldDef();
         def.gravity = {0, static_cast<float>(-g)};
         def.enableSleep = false;
         haptics = {};
         haptics.world = world;
         haptics.box2d = b2CreateWorld(&def);
-        const b2Polygon box = b2MakeBox(5, 1);
-        if (hasFloor) body(0.0, -1.0, 0.0, 0.0, false, [&](b2BodyId to, const b2ShapeDef& shape) { b2CreatePolygonShape(to, &shape, &box); });
     }
-    void ball(double x, double y, double vx, double vy) override {
-        const b2Circle disc = {{0, 0}, static_cast<float>(scenes::radius)};
-        balls.push_back(body(x, y, vx, vy, true, [&](b2BodyId to, const b2ShapeDef& shape) { b2CreateCircleShape(to, &shape, &disc); }));
-        number(balls.back(), static_cast<int>(balls.size()));
-    }
-    bool box(double x, double y, double width, double height, double w) override {
-        const b2Polygon polygon = b2MakeBox(static_cast<float>(width / 2), static_cast<float>(height / 2));
-        friction = 1.0F, density = static_cast<float>(3.0 / (width * height));
-        balls.push_back(body(x, y, -w * y, 0.0, true, [&](b2BodyId to, const b2ShapeDef& shape) { b2CreatePolygonShape(to, &shape, &polygon); }));
-        friction = 0.0F, density = 0.0F;
-        b2Body_SetAngularVelocity(balls.back(), static_cast<float>(w));
-        number(balls.back(), 1);
-        return true;
-    }
-    double spin() const override { return static_cast<double>(b2Body_GetAngularVelocity(balls[0])); }
-    template <class Make>
-    b2BodyId body(double x, double y, double vx, double vy, bool falls, Make make) {
-        b2BodyDef def = b2DefaultBodyDef();
-        def.type = falls ? b2_dynamicBody : b2_staticBody;
-        def.position = {static_cast<float>(x), static_cast<float>(y)};
-        def.linearVelocity = {static_cast<float>(vx), static_cast<float>(vy)};
-        b2ShapeDef shape = b2DefaultShapeDef();
-        shape.density = density > 0.0F ? density : static_cast<float>(scenes::massKg / (3.14159265358979 * scenes::radius * scenes::radius));
+    void floor() override { add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0}); }
+    void tiles(double left, double right, int count) override {
+        std::vector<b2Vec2> points;
+        for (int i = count + 1; i >= -1; --i) points.push_back({static_cast<float>(left + (right - left) * i / count), 0}); // two ghosts
+        const b2BodyDef still = b2DefaultBodyDef();
+        const b2BodyId ground = b2CreateBody(haptics.box2d, &still);
+        b2ChainDef chain = b2DefaultChainDef();
+        chain.points = points.data(), chain.count = count + 3;
 #if defined(b2_maxPolygonVertices)
-        shape.restitution = elasticity, shape.friction = falls ? friction : 1;
+        chain.friction = friction;
 #else
-        shape.material.restitution = elasticity, shape.material.friction = falls ? friction : 1;
+        b2SurfaceMaterial material = b2DefaultSurfaceMaterial();
+        material.friction = friction;
+        chain.materials = &material, chain.materialCount = 1;
 #endif
-        const b2BodyId made = b2CreateBody(haptics.box2d, &def);
-        make(made, shape);
-        if (!falls) number(made, 0);
-        return made;
+        b2CreateChain(ground, &chain);
+        number(ground, scenes::floorBody, false);
     }
-    void number(b2BodyId which, int id) {
+    void add(const scenes::Body& from) override {
+        b2BodyDef def = b2DefaultBodyDef();
+        def.type = from.massKg > 0 ? b2_dynamicBody : b2_staticBody;
+        def.position = {static_cast<float>(from.x), static_cast<float>(from.y)};
+        def.rotation = b2MakeRot(static_cast<float>(from.angle));
+        def.linearVelocity = {static_cast<float>(from.vx), static_cast<float>(from.vy)};
+        def.angularVelocity = static_cast<float>(from.spin);
+        const double area = from.isBox ? from.width * from.height : 3.14159265358979 * from.width * from.width / 4;
+        b2ShapeDef shape = b2DefaultShapeDef();
+        shape.density = static_cast<float>(from.massKg / area);
+        shape.enablePreSolveEvents = true;
+#if defined(b2_maxPolygonVertices)
+        shape.restitution = elasticity, shape.friction = friction;
+#else
+        shape.material.restitution = elasticity, shape.material.friction = friction;
+#endif
+        const b2BodyId body = bodies[from.id] = b2CreateBody(haptics.box2d, &def);
+        const b2Polygon box = b2MakeBox(static_cast<float>(from.width / 2), static_cast<float>(from.height / 2));
+        const b2Circle disc = {{0, 0}, static_cast<float>(from.width / 2)};
+        if (from.isBox) b2CreatePolygonShape(body, &shape, &box);
+        else b2CreateCircleShape(body, &shape, &disc);
+        number(body, from.id, from.isSource);
+    }
+    void number(b2BodyId which, int id, bool isSource) {
         physvib_body values;
         physvib_body_init(&values, sizeof values);
-        values.is_camera = id == camera;
+        values.is_camera = isSource;
         values.frequency_hz = 200.0;
         values.decay_per_s = 30.0;
-        if (physvib_box2d3_set(&haptics, which, id, values) != PHYSVIB_OK) std::printf("%s\n", physvib_error());
+        if (physvib_box2d3_set(&haptics, which, id, values) != PHYSVIB_OK) std::fprintf(stderr, "%s\n", physvib_error());
+    }
+    void pin(int a, int b, double x, double y) override {
+        const b2BodyDef still = b2DefaultBodyDef();
+        const b2BodyId first = bodies[a], second = b > 0 ? bodies[b] : b2CreateBody(haptics.box2d, &still);
+        b2RevoluteJointDef def = b2DefaultRevoluteJointDef();
+#if defined(B2_NULL_INDEX)
+        const b2Pos at = {static_cast<float>(x), static_cast<float>(y)};
+        def.base.bodyIdA = first, def.base.bodyIdB = second;
+        def.base.localFrameA.p = b2Body_GetLocalPoint(first, at), def.base.localFrameB.p = b2Body_GetLocalPoint(second, at);
+        def.base.constraintHertz = 240, def.base.constraintDampingRatio = 5; // pins that hold
+#else
+        const b2Vec2 at = {static_cast<float>(x), static_cast<float>(y)};
+        def.bodyIdA = first, def.bodyIdB = second;
+        def.localAnchorA = b2Body_GetLocalPoint(first, at), def.localAnchorB = b2Body_GetLocalPoint(second, at);
+#endif
+        b2CreateRevoluteJoint(haptics.box2d, &def);
+    }
+    void oneWay(int body) override {
+        platform = bodies[body];
+#if defined(B2_NULL_INDEX)
+        b2World_SetPreSolveCallback(haptics.box2d, pre, nullptr, this);
+#else
+        b2World_SetPreSolveCallback(haptics.box2d, pre, this);
+#endif
+    }
+#if defined(B2_NULL_INDEX)
+    static void pre(b2ShapeId a, b2ShapeId b, b2Manifold* manifold, void* self) {
+        if (!static_cast<Box2d3*>(self)->isSolid(a, b)) manifold->pointCount = 0;
+    }
+#else
+    static bool pre(b2ShapeId a, b2ShapeId b, b2Manifold*, void* self) { return static_cast<Box2d3*>(self)->isSolid(a, b); }
+#endif
+    bool isSolid(b2ShapeId one, b2ShapeId two) const {
+        const b2BodyId a = b2Shape_GetBody(one), b = b2Shape_GetBody(two);
+        if (!B2_ID_EQUALS(a, platform) && !B2_ID_EQUALS(b, platform)) return true;
+        const b2BodyId other = B2_ID_EQUALS(a, platform) ? b : a;
+        return !scenes::passes(b2Body_GetPosition(platform).y + 0.05, b2Body_GetPosition(other).y, b2Body_GetLinearVelocity(other).y);
     }
     void step() override {
-        if (physvib_box2d3_step(&haptics, dt, 4) != PHYSVIB_OK) std::printf("%s\n", haptics.error);
+        if (physvib_box2d3_step(&haptics, dt, 4) != PHYSVIB_OK) std::fprintf(stderr, "%s\n", haptics.error);
     }
     void end() {
         if (haptics.numbers != nullptr) b2DestroyWorld(haptics.box2d);
         physvib_box2d3_free(&haptics);
-        balls.clear();
+        bodies.clear();
     }
-    double height(int i) const override { return static_cast<double>(b2Body_GetPosition(balls[static_cast<std::size_t>(i)]).y); }
-    double speed(int i) const override {
-        const b2Vec2 v = b2Body_GetLinearVelocity(balls[static_cast<std::size_t>(i)]);
-        return static_cast<double>(b2World_GetGravity(haptics.box2d).y < 0 ? v.y : v.x);
+    scenes::Motion motion(int id) const override {
+        const b2BodyId body = bodies.at(id);
+        const auto at = b2Body_GetPosition(body);
+        const b2Vec2 v = b2Body_GetLinearVelocity(body);
+        return {static_cast<double>(at.x), static_cast<double>(at.y), v.x, v.y, b2Body_GetAngularVelocity(body)};
     }
     double dt = 0;
-    float elasticity = 0, friction = 0, density = 0;
+    float elasticity = 0, friction = 0;
     physvib_box2d3 haptics{};
-    std::vector<b2BodyId> balls;
+    std::map<int, b2BodyId> bodies;
+    b2BodyId platform{};
 };
 
-int main() {
+int main(int count, char** words) {
     Box2d3 engine;
-    return scenes::run("Box2D 3", engine, true);
+    return scenes::run("Box2D 3", engine, count, words);
 }

@@ -29,5 +29,6 @@ for version in "$@"; do
         (cd "$folder" && ./drop3) | sed "s/^/$version: Docs\/box2d3.md: /"
     fi
     ! grep -q FAILED "$folder/log" || failed=1
+    python3 "$root/Tests/Engines/worlds.py" "$version=$folder/run" || failed=1
 done
 exit $failed

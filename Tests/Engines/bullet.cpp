@@ -1,61 +1,80 @@
 // SPDX-License-Identifier: MIT
 // Bullet through its adapter.
 #include "Scenes.h"
-#include <physvib/engines/physvib_bullet.h>
+#include <map>
 #include <memory>
+#include <physvib/engines/physvib_bullet.h>
 
 struct Bullet final : scenes::Engine {
-    void begin(double stepSeconds, double g, double e, bool hasFloor) override {
-        dt = stepSeconds, elasticity = e;
-        balls.clear(), haptics.reset(), world.reset(), shapes.clear(); // in this order
-        world = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &solver, &configuration);
-        world->setGravity(vector(0, -g));
-        haptics = std::make_unique<PhysVibBullet>(*world, this->Engine::world);
-        if (hasFloor) body(0.0, new btBoxShape({5, 1, 5}), vector(0, -1), vector(0, 0));
+    ~Bullet() override { end(); }
+    void begin(double stepSeconds, double g, double e, double mu) override {
+        end();
+        dt = stepSeconds, elasticity = e, friction = mu;
+        bullet = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &solver, &configuration);
+        bullet->setGravity(vector(0, -g));
+        haptics = std::make_unique<PhysVibBullet>(*bullet, world);
     }
-    void ball(double x, double y, double vx, double vy) override { balls.push_back(body(scenes::massKg, new btSphereShape(real(scenes::radius)), vector(x, y), vector(vx, vy))); }
-    bool box(double x, double y, double width, double height, double w) override {
-        btRigidBody* made = body(3.0, new btBoxShape({real(width / 2), real(height / 2), real(0.5)}), vector(x, y), vector(-w * y, 0));
-        made->setAngularVelocity({0, 0, real(w)});
-        made->setAngularFactor({0, 0, 1});
-        made->setLinearFactor({1, 1, 0});
-        made->setFriction(1);
-        for (int i = 0; i < world->getNumCollisionObjects(); ++i) world->getCollisionObjectArray()[i]->setFriction(1);
-        balls.push_back(made);
-        return true;
+    void end() { bodies.clear(), joints.clear(), haptics.reset(), bullet.reset(), shapes.clear(), platform = nullptr; } // in this order
+    void floor() override { add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0}); }
+    void add(const scenes::Body& from) override {
+        tell(from);
+        if (from.isBox) shapes.push_back(std::make_unique<btBoxShape>(btVector3(real(from.width / 2), real(from.height / 2), real(0.5))));
+        else shapes.push_back(std::make_unique<btSphereShape>(real(from.width / 2)));
+        btVector3 inertia(0, 0, 0);
+        if (from.massKg > 0) shapes.back()->calculateLocalInertia(real(from.massKg), inertia);
+        if (from.isBox && from.massKg > 0) inertia.setZ(real(from.inertia()));
+        auto* body = new btRigidBody(real(from.massKg), nullptr, shapes.back().get(), inertia);
+        body->setWorldTransform(btTransform(btQuaternion(btVector3(0, 0, 1), real(from.angle)), vector(from.x, from.y)));
+        body->setInterpolationWorldTransform(body->getWorldTransform());
+        body->setLinearVelocity(vector(from.vx, from.vy));
+        body->setAngularVelocity({0, 0, real(from.spin)});
+        body->setLinearFactor({1, 1, 0});
+        body->setAngularFactor({0, 0, 1});
+        body->setRestitution(from.massKg > 0 ? real(elasticity) : 1); // a pair's are products
+        body->setFriction(real(std::sqrt(friction)));
+        body->setActivationState(DISABLE_DEACTIVATION);
+        body->setUserIndex(from.id);
+        bullet->addRigidBody(body);
+        bodies[from.id] = body;
     }
-    double spin() const override { return at(0)->getAngularVelocity().z(); }
+    void pin(int a, int b, double x, double y) override {
+        const btVector3 at = vector(x, y), inA = bodies[a]->getWorldTransform().inverse() * at, axis(0, 0, 1);
+        if (b > 0) joints.push_back(std::make_unique<btHingeConstraint>(*bodies[a], *bodies[b], inA, bodies[b]->getWorldTransform().inverse() * at, axis, axis));
+        else joints.push_back(std::make_unique<btHingeConstraint>(*bodies[a], inA, axis));
+        bullet->addConstraint(joints.back().get(), true);
+    }
+    void oneWay(int body) override {
+        platform = bodies[body];
+        dispatcher.setNearCallback([](btBroadphasePair& pair, btCollisionDispatcher& to, const btDispatcherInfo& how) {
+            const auto *a = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject), *b = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+            const btRigidBody* other = btRigidBody::upcast(a == platform ? b : a);
+            const bool isAsked = a == platform || b == platform;
+            if (isAsked && scenes::passes(platform->getWorldTransform().getOrigin().y() + 0.05, other->getWorldTransform().getOrigin().y(), other->getLinearVelocity().y())) return;
+            btCollisionDispatcher::defaultNearCallback(pair, to, how);
+        });
+    }
     static btScalar real(double value) { return static_cast<btScalar>(value); }
     static btVector3 vector(double x, double y) { return {real(x), real(y), 0}; }
-    btRigidBody* body(double massKg, btCollisionShape* shape, const btVector3& place, const btVector3& velocity) {
-        shapes.emplace_back(shape);
-        btVector3 inertia(0, 0, 0);
-        if (massKg > 0) shape->calculateLocalInertia(real(massKg), inertia);
-        auto* added = new btRigidBody(real(massKg), nullptr, shape, inertia);
-        added->setWorldTransform(btTransform(btQuaternion::getIdentity(), place));
-        added->setLinearVelocity(velocity);
-        added->setRestitution(massKg > 0 ? real(elasticity) : 1); // a pair's is the product
-        added->setActivationState(DISABLE_DEACTIVATION);
-        added->setUserIndex(massKg > 0 ? static_cast<int>(balls.size()) + 1 : 0);
-        world->addRigidBody(added);
-        return added;
+    void step() override { bullet->stepSimulation(real(dt), 0); }
+    scenes::Motion motion(int id) const override {
+        const btRigidBody& body = *bodies.at(id);
+        const btVector3 &at = body.getWorldTransform().getOrigin(), &v = body.getLinearVelocity();
+        return {at.x(), at.y(), v.x(), v.y(), body.getAngularVelocity().z()};
     }
-    void step() override { world->stepSimulation(real(dt), 0); }
-    double height(int i) const override { return at(i)->getWorldTransform().getOrigin().y(); }
-    double speed(int i) const override { return world->getGravity().y() < 0 ? at(i)->getLinearVelocity().y() : at(i)->getLinearVelocity().x(); }
-    const btRigidBody* at(int i) const { return balls[static_cast<std::size_t>(i)]; }
-    double dt = 0, elasticity = 0;
+    double dt = 0, elasticity = 0, friction = 0;
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
     btDbvtBroadphase broadphase;
     btSequentialImpulseConstraintSolver solver;
-    std::unique_ptr<btDiscreteDynamicsWorld> world;
+    std::unique_ptr<btDiscreteDynamicsWorld> bullet;
     std::unique_ptr<PhysVibBullet> haptics;
-    std::vector<btRigidBody*> balls;
+    std::map<int, btRigidBody*> bodies; // Bullet's, until the process ends
     std::vector<std::unique_ptr<btCollisionShape>> shapes;
+    std::vector<std::unique_ptr<btTypedConstraint>> joints;
+    static inline btRigidBody* platform = nullptr; // Bullet's callback has no data
 };
 
-int main() {
+int main(int count, char** words) {
     Bullet engine;
-    return scenes::run("Bullet", engine, true);
+    return scenes::run("Bullet", engine, count, words);
 }

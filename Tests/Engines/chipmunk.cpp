@@ -3,58 +3,79 @@
 #include "Scenes.h"
 #include <chipmunk/chipmunk.h>
 #include <cstdint>
+#include <map>
 extern "C" {
 #include <physvib/engines/physvib_chipmunk.h>
 }
 
 struct Chipmunk final : scenes::Engine {
     Chipmunk() { movesFirst = true; }
-    void begin(double stepSeconds, double g, double e, bool hasFloor) override {
-        dt = stepSeconds, elasticity = e;
+    void begin(double stepSeconds, double g, double e, double mu) override {
+        dt = stepSeconds, elasticity = e, friction = mu, platform = nullptr;
         space = cpSpaceNew(); // the tests' process ends before it matters
         cpSpaceSetGravity(space, cpv(0, -g));
         cpSpaceSetIterations(space, 30);
         cpSpaceSetCollisionSlop(space, 0.001);
-        balls.clear();
-        if (hasFloor) shape(cpSegmentShapeNew(cpSpaceGetStaticBody(space), cpv(-5, 0), cpv(5, 0), 0), scenes::floorBody);
+        bodies.clear();
+        bodies[0] = cpSpaceGetStaticBody(space);
         physvib_chipmunk_attach(space, world);
     }
-    void ball(double x, double y, double vx, double vy) override {
-        cpBody* body = cpSpaceAddBody(space, cpBodyNew(scenes::massKg, cpMomentForCircle(scenes::massKg, 0, scenes::radius, cpvzero)));
-        cpBodySetPosition(body, cpv(x, y));
-        cpBodySetVelocity(body, cpv(vx, vy));
-        balls.push_back(body);
-        shape(cpCircleShapeNew(body, scenes::radius, cpvzero), static_cast<int>(balls.size()));
+    void floor() override { shape(cpSegmentShapeNew(bodies[0], cpv(-20, 0), cpv(20, 0), 0), scenes::floorBody, false); }
+    void tiles(double left, double right, int count) override {
+        const double width = (right - left) / count;
+        for (int i = 0; i < count; ++i) {
+            const cpVect from = cpv(left + i * width, 0), to = cpv(left + (i + 1) * width, 0);
+            cpShape* tile = cpSegmentShapeNew(bodies[0], from, to, 0);
+            cpSegmentShapeSetNeighbors(tile, cpv(from.x - width, 0), cpv(to.x + width, 0));
+            shape(tile, scenes::floorBody, false);
+        }
     }
-    bool box(double x, double y, double width, double height, double w) override {
-        cpBody* body = cpSpaceAddBody(space, cpBodyNew(3.0, cpMomentForBox(3.0, width, height)));
-        cpBodySetPosition(body, cpv(x, y));
-        cpBodySetAngularVelocity(body, w);
-        cpBodySetVelocity(body, cpv(-w * y, 0)); // about its foot
-        balls.push_back(body);
-        shape(cpBoxShapeNew(body, width, height, 0), 1);
-        cpSpaceEachShape(space, [](cpShape* each, void*) { cpShapeSetFriction(each, 1.0); }, nullptr);
-        return true;
+    void add(const scenes::Body& from) override {
+        tell(from);
+        cpBody* body = from.massKg > 0 ? cpBodyNew(from.massKg, from.inertia()) : cpBodyNewStatic();
+        cpSpaceAddBody(space, body);
+        cpBodySetPosition(body, cpv(from.x, from.y));
+        cpBodySetAngle(body, from.angle);
+        if (from.massKg > 0) cpBodySetVelocity(body, cpv(from.vx, from.vy)), cpBodySetAngularVelocity(body, from.spin);
+        bodies[from.id] = body;
+        shape(from.isBox ? cpBoxShapeNew(body, from.width, from.height, 0) : cpCircleShapeNew(body, from.width / 2, cpvzero), from.id, from.massKg > 0);
     }
-    double spin() const override { return cpBodyGetAngularVelocity(balls[0]); }
-    void shape(cpShape* added, int id) {
-        cpShapeSetElasticity(cpSpaceAddShape(space, added), id == scenes::floorBody ? 1.0 : elasticity); // a pair's is the product
+    void shape(cpShape* added, int id, bool moves) { // a pair's are products
+        cpShapeSetElasticity(cpSpaceAddShape(space, added), moves ? elasticity : 1.0);
+        cpShapeSetFriction(added, std::sqrt(friction));
         cpShapeSetUserData(added, reinterpret_cast<void*>(static_cast<std::intptr_t>(id)));
     }
+    void pin(int a, int b, double x, double y) override {
+        cpConstraintSetCollideBodies(cpSpaceAddConstraint(space, cpPivotJointNew(bodies[a], bodies[b], cpv(x, y))), cpFalse);
+    }
+    void oneWay(int body) override {
+        platform = bodies[body];
+        cpCollisionHandler* handler = cpSpaceAddDefaultCollisionHandler(space);
+        handler->userData = this;
+        handler->preSolveFunc = [](cpArbiter* arbiter, cpSpace* in, cpDataPointer data) {
+            const Chipmunk& self = *static_cast<Chipmunk*>(data);
+            CP_ARBITER_GET_BODIES(arbiter, a, b);
+            cpBody* other = a == self.platform ? b : a;
+            if ((a == self.platform || b == self.platform) && scenes::passes(cpBodyGetPosition(self.platform).y + 0.05, cpBodyGetPosition(other).y, cpBodyGetVelocity(other).y)) return cpArbiterIgnore(arbiter);
+            return physvib_chipmunk_look(arbiter, in, self.world);
+        };
+        handler->postSolveFunc = [](cpArbiter* arbiter, cpSpace* in, cpDataPointer data) { physvib_chipmunk_push(arbiter, in, static_cast<Chipmunk*>(data)->world); };
+    }
     void step() override {
-        if (physvib_chipmunk_step(space, world, dt) != PHYSVIB_OK) std::printf("%s\n", physvib_chipmunk_error);
+        if (physvib_chipmunk_step(space, world, dt) != PHYSVIB_OK) std::fprintf(stderr, "%s\n", physvib_chipmunk_error);
     }
-    double height(int i) const override { return cpBodyGetPosition(balls[static_cast<std::size_t>(i)]).y; }
-    double speed(int i) const override {
-        const cpVect v = cpBodyGetVelocity(balls[static_cast<std::size_t>(i)]);
-        return cpSpaceGetGravity(space).y < 0 ? v.y : v.x;
+    scenes::Motion motion(int id) const override {
+        const cpBody* body = bodies.at(id);
+        const cpVect at = cpBodyGetPosition(body), v = cpBodyGetVelocity(body);
+        return {at.x, at.y, v.x, v.y, cpBodyGetAngularVelocity(body)};
     }
-    double dt = 0, elasticity = 0;
+    double dt = 0, elasticity = 0, friction = 0;
     cpSpace* space = nullptr;
-    std::vector<cpBody*> balls;
+    cpBody* platform = nullptr;
+    std::map<int, cpBody*> bodies;
 };
 
-int main() {
+int main(int count, char** words) {
     Chipmunk engine;
-    return scenes::run("Chipmunk", engine, true);
+    return scenes::run("Chipmunk", engine, count, words);
 }

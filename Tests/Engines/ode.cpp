@@ -2,6 +2,7 @@
 // ODE through its adapter.
 #include "Scenes.h"
 #include <cstdint>
+#include <map>
 #include <physvib/engines/physvib_ode.h>
 
 struct Ode final : scenes::Engine {
@@ -9,48 +10,60 @@ struct Ode final : scenes::Engine {
         dInitODE();
         joints = dJointGroupCreate(0);
     }
-    void begin(double stepSeconds, double g, double e, bool hasFloor) override {
-        dt = stepSeconds, elasticity = e;
+    void begin(double stepSeconds, double g, double e, double mu) override {
+        dt = stepSeconds, elasticity = e, friction = mu, platform = nullptr;
         space = dSimpleSpaceCreate(nullptr); // the tests' process ends before it matters
         ode = dWorldCreate();
         dWorldSetGravity(ode, 0, -g, 0);
-        balls.clear(), friction = 0;
+        bodies.clear();
         haptics.world = world, haptics.count = 0;
-        if (hasFloor) dGeomSetData(dCreatePlane(space, 0, 1, 0, 0), reinterpret_cast<void*>(static_cast<std::intptr_t>(scenes::floorBody)));
     }
-    void ball(double x, double y, double vx, double vy) override {
+    void floor() override { dGeomSetData(dCreatePlane(space, 0, 1, 0, 0), reinterpret_cast<void*>(static_cast<std::intptr_t>(scenes::floorBody))); }
+    void add(const scenes::Body& from) override {
+        tell(from);
+        const dGeomID geom = from.isBox ? dCreateBox(space, from.width, from.height, 1.0) : dCreateSphere(space, from.width / 2);
+        dMatrix3 turned;
+        dRFromAxisAndAngle(turned, 0, 0, 1, from.angle);
+        dGeomSetData(geom, reinterpret_cast<void*>(static_cast<std::intptr_t>(from.id)));
+        if (from.massKg > 0) fall(from, geom);
+        dGeomSetPosition(geom, from.x, from.y, 0);
+        dGeomSetRotation(geom, turned);
+        geoms[from.id] = geom;
+    }
+    void fall(const scenes::Body& from, dGeomID geom) {
         dMass mass;
-        dMassSetSphereTotal(&mass, scenes::massKg, scenes::radius);
-        balls.push_back(dBodyCreate(ode));
-        dBodySetMass(balls.back(), &mass);
-        dBodySetPosition(balls.back(), x, y, 0);
-        dBodySetLinearVel(balls.back(), vx, vy, 0);
-        const dGeomID geom = dCreateSphere(space, scenes::radius);
-        dGeomSetBody(geom, balls.back());
-        dGeomSetData(geom, reinterpret_cast<void*>(balls.size()));
+        if (from.isBox) dMassSetBoxTotal(&mass, from.massKg, from.width, from.height, 1.0);
+        else dMassSetSphereTotal(&mass, from.massKg, from.width / 2);
+        const dBodyID body = bodies[from.id] = dBodyCreate(ode);
+        dBodySetMass(body, &mass);
+        dGeomSetBody(geom, body);
+        dBodySetLinearVel(body, from.vx, from.vy, 0);
+        dBodySetAngularVel(body, 0, 0, from.spin);
+        const dJointID plane = dJointCreatePlane2D(ode, nullptr);
+        dJointAttach(plane, body, nullptr);
     }
-    bool box(double x, double y, double width, double height, double w) override {
-        dMass mass;
-        dMassSetBoxTotal(&mass, 3.0, width, height, 1.0);
-        balls.push_back(dBodyCreate(ode));
-        dBodySetMass(balls.back(), &mass);
-        dBodySetPosition(balls.back(), x, y, 0);
-        dBodySetLinearVel(balls.back(), -w * y, 0, 0);
-        dBodySetAngularVel(balls.back(), 0, 0, w);
-        const dGeomID geom = dCreateBox(space, width, height, 1.0);
-        dGeomSetBody(geom, balls.back());
-        dGeomSetData(geom, reinterpret_cast<void*>(1));
-        friction = 1.0;
-        return true;
+    void pin(int a, int b, double x, double y) override {
+        const dJointID hinge = dJointCreateHinge(ode, nullptr);
+        dJointAttach(hinge, bodies[a], b > 0 ? bodies[b] : nullptr);
+        dJointSetHingeAnchor(hinge, x, y, 0);
+        dJointSetHingeAxis(hinge, 0, 0, 1);
     }
-    double spin() const override { return dBodyGetAngularVel(balls[0])[2]; }
+    void oneWay(int body) override { platform = geoms[body]; }
+    bool isPassed(dGeomID a, dGeomID b) const {
+        const dBodyID a1 = dGeomGetBody(a), b1 = dGeomGetBody(b);
+        if (a1 != nullptr && b1 != nullptr && dAreConnected(a1, b1)) return true; // by a pin
+        if (platform == nullptr || (a != platform && b != platform)) return false;
+        const dBodyID other = a == platform ? b1 : a1;
+        return scenes::passes(dGeomGetPosition(platform)[1] + 0.05, dBodyGetPosition(other)[1], dBodyGetLinearVel(other)[1]);
+    }
     static void near(void* self, dGeomID a, dGeomID b) {
         Ode& engine = *static_cast<Ode*>(self);
-        dContact contacts[4]{};
-        const int count = dCollide(a, b, 4, &contacts[0].geom, sizeof(dContact));
+        if ((dGeomGetBody(a) == nullptr && dGeomGetBody(b) == nullptr) || engine.isPassed(a, b)) return;
+        dContact contacts[8]{};
+        const int count = dCollide(a, b, 8, &contacts[0].geom, sizeof(dContact));
         for (int i = 0; i < count; ++i) {
             dContact& contact = contacts[i];
-            contact.surface.mode = dContactBounce;
+            contact.surface.mode = dContactBounce | dContactApprox1; // friction in parts of what presses
             contact.surface.bounce = engine.elasticity;
             contact.surface.mu = engine.friction;
             const dJointID joint = dJointCreateContact(engine.ode, engine.joints, &contact);
@@ -60,24 +73,25 @@ struct Ode final : scenes::Engine {
     }
     void step() override {
         dSpaceCollide(space, this, near);
-        if (physvib_ode_step(&haptics, ode, dt) != PHYSVIB_OK) std::printf("%s\n", haptics.error);
+        if (physvib_ode_step(&haptics, ode, dt) != PHYSVIB_OK) std::fprintf(stderr, "%s\n", haptics.error);
         dJointGroupEmpty(joints);
     }
-    double height(int i) const override { return dBodyGetPosition(balls[static_cast<std::size_t>(i)])[1]; }
-    double speed(int i) const override {
-        dVector3 g;
-        dWorldGetGravity(ode, g);
-        return dBodyGetLinearVel(balls[static_cast<std::size_t>(i)])[g[1] < 0 ? 1 : 0];
+    scenes::Motion motion(int id) const override {
+        const dBodyID body = bodies.at(id);
+        const dReal *at = dBodyGetPosition(body), *v = dBodyGetLinearVel(body);
+        return {at[0], at[1], v[0], v[1], dBodyGetAngularVel(body)[2]};
     }
     double dt = 0, elasticity = 0, friction = 0;
     dWorldID ode = nullptr;
     dSpaceID space = nullptr;
     dJointGroupID joints = nullptr;
+    dGeomID platform = nullptr;
     physvib_ode haptics{};
-    std::vector<dBodyID> balls;
+    std::map<int, dBodyID> bodies;
+    std::map<int, dGeomID> geoms;
 };
 
-int main() {
+int main(int count, char** words) {
     Ode engine;
-    return scenes::run("ODE", engine, true);
+    return scenes::run("ODE", engine, count, words);
 }

@@ -53,6 +53,17 @@ std::string refusalOf(std::string_view line) {
     return router.take(messageOf(line)).error;
 }
 
+TEST(Messages, APathThatLagsSaysSo) {
+    Session session{quietSetup()};
+    session.prepare(hostRate, 512);
+    MessageRouter router{session};
+    EXPECT_EQ(router.take(messageOf(R"({"message": "path", "places": "AB"})")).value.name, "") << "equal follows";
+    EXPECT_EQ(router.take(messageOf(R"({"message": "path", "places": "AB", "law": "energy"})")).value.name, "");
+    const auto note = router.take(messageOf(R"({"message": "path", "places": "AB", "law": "linear"})")).value;
+    ASSERT_EQ(note.name, "path");
+    EXPECT_NE(answerLine(note).find("law: linear lags: felt at 0.16 of the way between two actuators where 0.3 is meant"), std::string::npos) << answerLine(note);
+}
+
 TEST(Messages, AStrikeIsOfAMaterialOrOfNumbers) {
     const auto ofMaterial = strikesOfLine(R"({"message": "strike", "material": "bell", "place": "A", "level": 0.25})");
     ASSERT_EQ(ofMaterial.size(), 1u);

@@ -84,6 +84,7 @@ FedContact contactOf(const physvib_contact& from) {
     contact.alongAMetresPerSecond = optional(from.along_a_m_per_s);
     contact.alongBMetresPerSecond = optional(from.along_b_m_per_s);
     contact.isSoft = from.is_soft != 0;
+    contact.isPushWhole = from.is_soft == PHYSVIB_SOFT_WHOLE;
     contact.pointId = from.point_id;
     contact.isImpulseOfPair = from.is_impulse_of_pair != 0;
     return contact;

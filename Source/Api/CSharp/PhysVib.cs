@@ -254,8 +254,52 @@ public static class Haptics {
     public static void SaveEvents(string path, Event[] events) { Native.Check(Native.physvib_events_save(Native.Utf8(path), events, events.Length)); }
 }
 
+/// <summary>How the library is called on each system. Unity finds it by its bare name, and Mono by the name that Linux has.</summary>
+public static class LibraryNames {
+    /// <summary>The names that are tried for "libphysvib.so.0", in their order; PHYSVIB_LIBRARY (or PHYSVIB_LIVE_LIBRARY) comes first.</summary>
+    public static string[] Of(string library, PlatformID system, bool isMac) {
+        var bare = library.Replace("lib", "").Replace(".so.0", "");
+        if (isMac) return new[] { "lib" + bare + ".0.dylib", "lib" + bare + ".dylib" };
+        if (system == PlatformID.Win32NT) return new[] { "lib" + bare + ".dll", bare + ".dll" };
+        return new[] { library, "lib" + bare + ".so" };
+    }
+
+    static bool isFollowed;
+
+    /// <summary>.NET asks us which file is meant (NativeLibrary.SetDllImportResolver); Mono has no such question, and nothing happens.</summary>
+    internal static void Follow() {
+        var loader = Type.GetType("System.Runtime.InteropServices.NativeLibrary");
+        if (loader == null || isFollowed) return;
+        isFollowed = true;
+        var set = loader.GetMethod("SetDllImportResolver");
+        var question = set.GetParameters()[1].ParameterType;
+        var answer = typeof(LibraryNames).GetMethod("Find", System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Static);
+        var search = question.GetMethod("Invoke").GetParameters()[2].ParameterType; // DllImportSearchPath?
+        set.Invoke(null, new object[] { typeof(LibraryNames).Assembly, Delegate.CreateDelegate(question, answer.MakeGenericMethod(search)) });
+    }
+
+    static IntPtr Find<T>(string library, System.Reflection.Assembly asking, T search) {
+        var loader = Type.GetType("System.Runtime.InteropServices.NativeLibrary");
+        var load = loader.GetMethod("TryLoad", new[] { typeof(string), typeof(System.Reflection.Assembly), typeof(T), typeof(IntPtr).MakeByRefType() });
+        var chosen = Environment.GetEnvironmentVariable(library.Contains("live") ? "PHYSVIB_LIVE_LIBRARY" : "PHYSVIB_LIBRARY");
+        var isMac = System.IO.File.Exists("/System/Library/CoreServices/SystemVersion.plist");
+        var names = new System.Collections.Generic.List<string>(Of(library, Environment.OSVersion.Platform, isMac));
+        if (!string.IsNullOrEmpty(chosen)) names.Insert(0, chosen);
+        foreach (var name in names) {
+            var values = new object[] { name, asking, search, IntPtr.Zero };
+            if ((bool)load.Invoke(null, values)) return (IntPtr)values[3];
+        }
+        return IntPtr.Zero;
+    }
+}
+
 static class Native {
+#if UNITY_5_3_OR_NEWER
+    const string Library = "physvib";
+#else
     const string Library = "libphysvib.so.0";
+#endif
+    static Native() { LibraryNames.Follow(); }
 
     internal static long Check(long result) {
         if (result < 0) throw new PhysVibException((int)result, Marshal.PtrToStringAnsi(physvib_error()));

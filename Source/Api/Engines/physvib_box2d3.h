@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Box2D 3 (3.0, 3.1 and its state of August 2026): physvib_box2d3_set gives a body its number (from 0 on) and its values; instead of
- * b2World_Step call physvib_box2d3_step. No flag of a shape and no threshold of Box2D's matters: contacts are read after the step, so
- * landings slower than hitEventThreshold are felt as well. C and C++; one world, one thread. */
+/* Box2D 3 (3.0, 3.1 and its state of August 2026): physvib_box2d3_set gives a body its number (from 0 on) and its values; call
+ * physvib_box2d3_step instead of b2World_Step. Shapes need no hit events, and no threshold of Box2D's matters: contacts are read after the step, so
+ * landings slower than hitEventThreshold are felt, too. C and C++; one world, one thread. */
 #ifndef PHYSVIB_BOX2D3_H
 #define PHYSVIB_BOX2D3_H
 #include <box2d/box2d.h>
@@ -9,32 +9,35 @@
 #include <physvib/physvib.h>
 #include <stdlib.h>
 #include <string.h>
-#define PHYSVIB_BOX2D3_MOST 64 /**< contacts of a body in a step; what is beyond is not felt, and told */
+#define PHYSVIB_BOX2D3_MOST 64 /**< contacts of a body in a step; more are an error */
 
 /* What changed its name from version to version. */
 #if defined(b2_maxPolygonVertices) /* 3.0 */
-#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse)
+#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->maxNormalImpulse) /* of a sub-step: at least so much */
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetInertiaTensor(body)
 #else
-#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->totalNormalImpulse)
 #define PHYSVIB_BOX2D3_INERTIA(body) b2Body_GetRotationalInertia(body)
 #endif
 #if defined(B2_NULL_INDEX) /* after 3.1 */
+#define PHYSVIB_BOX2D3_PUSHED(point) ((double)(point)->totalNormalImpulse)
 #define PHYSVIB_BOX2D3_CENTRE(body) b2Body_GetWorldCenter(body)
 #else
 #define PHYSVIB_BOX2D3_CENTRE(body) b2Body_GetWorldCenterOfMass(body)
 #endif
+#if !defined(PHYSVIB_BOX2D3_PUSHED) /* 3.1 counts each sub-step twice: as it is solved, and as it is relaxed */
+#define PHYSVIB_BOX2D3_PUSHED(point) (0.5 * (double)(point)->totalNormalImpulse)
+#endif
 
 /** A body of Box2D and its number. */
 typedef struct physvib_box2d3_number {
-    b2BodyId body; /**< as it was when it got its number */
-    int id;        /**< -1: taken away */
+    b2BodyId body; /**< when it got its number */
+    int id;        /**< -1: removed */
 } physvib_box2d3_number;
 
-/** What is kept between two steps; zero it, and set `world` and `box2d`. */
+/** State between two steps; zero it, and set `world` and `box2d`. */
 typedef struct physvib_box2d3 {
-    physvib_world world; /**< that feels */
-    b2WorldId box2d;     /**< that moves */
+    physvib_world world; /**< of PhysVib */
+    b2WorldId box2d;     /**< of Box2D */
     double restitution_threshold; /**< of box2d, m/s; 0: 1, as b2DefaultWorldDef has it */
     double (*mix_restitution)(double, double); /**< of two shapes; NULL: the larger, as Box2D has it */
     int code;            /**< the first error so far, or PHYSVIB_OK */
@@ -66,7 +69,7 @@ PHYSVIB_UNUSED static int physvib_box2d3_grow(physvib_box2d3 *haptics, int index
     return 1;
 }
 
-/* At the end; the world that feels is yours to free. */
+/* At the end; `world` is yours to free. */
 PHYSVIB_UNUSED static void physvib_box2d3_free(physvib_box2d3 *haptics) {
     free(haptics->numbers);
     haptics->numbers = NULL, haptics->capacity = 0;
@@ -108,7 +111,7 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3 *haptics, const b
     const double root = speed * speed + 2 * pull * gap, least = haptics->restitution_threshold > 0 ? haptics->restitution_threshold : 1;
     double one = b2Shape_GetRestitution(found->shapeIdA), other = b2Shape_GetRestitution(found->shapeIdB), meets, impulse = PHYSVIB_BOX2D3_PUSHED(point);
     physvib_contact contact;
-    if (impulse <= 0 && point->separation > 0) return; /* near, and not yet there */
+    if (impulse <= 0 && point->separation > 0) return; /* close, but not touching yet */
     meets = speed > 0 && root > 0 ? sqrt(root) : speed; /* Box2D's speed is that at the start of the step; gravity goes on until they meet */
     physvib_contact_init(&contact, sizeof contact);
     contact.a = physvib_box2d3_id(haptics, a), contact.b = physvib_box2d3_id(haptics, b);
@@ -121,8 +124,8 @@ PHYSVIB_UNUSED static void physvib_box2d3_point(physvib_box2d3 *haptics, const b
     contact.approach_m_per_s = meets;
     contact.restitution = haptics->mix_restitution ? haptics->mix_restitution(one, other) : fmax(one, other);
     contact.restitution = speed > least ? fmin(1, fmax(0, contact.restitution)) : 0;
-    contact.impulse_n_s = impulse; /* of all its sub-steps: a load, and no measure of a blow */
-    contact.is_soft = 1;
+    contact.impulse_n_s = impulse;
+    contact.is_soft = PHYSVIB_SOFT_WHOLE;
     contact.point_id = point->id;
     if (gap > 0 && speed + meets > 0) contact.fraction = fmin(1, 2 * gap / (speed + meets) / seconds);
     else contact.gap_m = point->separation; /* they overlapped before */

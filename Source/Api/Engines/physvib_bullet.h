@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Bullet 3: attach, give bodies their numbers (setUserIndex, from 0 on); stepSimulation is as before. The field is the plane x, y. C++17 and later.
+// Bullet 3: attach, number the bodies (setUserIndex, from 0 on); call stepSimulation as before. The field is the plane x, y. C++17 and later.
 #pragma once
 #include <algorithm>
 #include <btBulletDynamicsCommon.h>
 #include <physvib/physvib.h>
 #include <string>
 
-/// For as long as the world steps. One callback of each kind is Bullet's limit: call physvib's from yours.
+/// Keep it while the world steps. Bullet has one tick callback of each kind: if you have your own, call begin and end from them.
 class PhysVibBullet {
 public:
-    /// Both outlive it; bodies of `name` have the numbers of theirs.
+    /// Both must outlive it; `name` has bodies of the same numbers.
     PhysVibBullet(btDynamicsWorld& world, physvib_world name)
         : name_(name) {
         world.setInternalTickCallback([](btDynamicsWorld* w, btScalar dt) { self(w).begin(*w, dt); }, this, true);
         world.setInternalTickCallback([](btDynamicsWorld* w, btScalar) { self(w).end(*w); }, this, false);
     }
-    /// The first thing that was refused so far, such as a body that touches without a number; empty: nothing.
+    /// The first error so far, such as a body that touches without a number; empty: none.
     const std::string& error() const { return error_; }
 
-    /// Before Bullet's step: velocities with which surfaces have met.
+    /// Before Bullet's step: the velocities with which surfaces meet.
     void begin(btDynamicsWorld& world, double dt) {
         check(physvib_world_begin_step(name_, dt, world.getGravity().length()));
         for (int i = 0; i < world.getNumCollisionObjects(); ++i)
@@ -27,14 +27,14 @@ public:
                 check(physvib_world_move(name_, body->getUserIndex(), at.x(), at.y(), v.x(), v.y(), body->getAngularVelocity().z()));
             }
     }
-    /// Behind it: what touches.
+    /// After it: what touches.
     void end(btDynamicsWorld& world) {
         for (int i = 0; i < world.getDispatcher()->getNumManifolds(); ++i) {
             const btPersistentManifold& manifold = *world.getDispatcher()->getManifoldByIndexInternal(i);
             if (!manifold.getBody0()->hasContactResponse() || !manifold.getBody1()->hasContactResponse()) continue; // a trigger
             for (int p = 0; p < manifold.getNumContacts(); ++p) {
                 const btManifoldPoint& point = manifold.getContactPoint(p);
-                if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue; // near, and not yet there
+                if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue; // close, but not touching yet
                 physvib_contact contact;
                 physvib_contact_init(&contact, sizeof contact);
                 contact.a = manifold.getBody0()->getUserIndex(), contact.b = manifold.getBody1()->getUserIndex();
@@ -45,7 +45,7 @@ public:
                 contact.impulse_n_s = point.getAppliedImpulse();
                 contact.restitution = std::clamp(static_cast<double>(point.m_combinedRestitution), 0.0, 1.0);
                 contact.gap_m = point.getDistance(); // at the start of the step
-                contact.is_soft = 1; // its impulse also pushes overlaps apart, or lets gaps be closed
+                contact.is_soft = PHYSVIB_SOFT_WHOLE; // it also pushes overlaps apart, or lets gaps be closed
                 contact.point_id = PHYSVIB_POINT_BY_PLACE;
                 check(physvib_world_touch(name_, &contact));
             }

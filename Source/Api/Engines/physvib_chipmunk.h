@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Chipmunk 7: attach, give shapes their numbers (cpShapeSetUserData, as integers from 1 on), and step by physvib_chipmunk_step. A shape that
+/* Chipmunk 7: attach, number the shapes (cpShapeSetUserData, integers from 1 on), and step with physvib_chipmunk_step. A shape that
  * touches without a number is an error, which names it. Numbers from 0 on, as before: define PHYSVIB_NUMBERS_FROM_0; then a shape without one is
  * body 0. C99 and later, C++11 and later. */
 #ifndef PHYSVIB_CHIPMUNK_H
@@ -31,11 +31,11 @@ PHYSVIB_UNUSED static int physvib_chipmunk_is_numbered(const cpShape *shape) {
 
 PHYSVIB_UNUSED static void physvib_chipmunk_move(physvib_world world, const cpShape *shape, const cpBody *body) {
     const cpVect at = cpBodyLocalToWorld(body, cpBodyGetCenterOfGravity(body)), v = cpBodyGetVelocity(body);
-    if (!physvib_chipmunk_is_numbered(shape)) return; /* it is told where it touches */
+    if (!physvib_chipmunk_is_numbered(shape)) return; /* reported where it touches */
     physvib_chipmunk_check(physvib_world_move(world, physvib_chipmunk_id(shape), at.x, at.y, v.x, v.y, cpBodyGetAngularVelocity(body)), physvib_error());
 }
 
-/* Before the solver: the velocities with which surfaces have met. */
+/* Before the solver: the velocities with which the surfaces met. */
 PHYSVIB_UNUSED static cpBool physvib_chipmunk_look(cpArbiter *arbiter, cpSpace *space, cpDataPointer world) {
     CP_ARBITER_GET_SHAPES(arbiter, a, b);
     physvib_chipmunk_move((physvib_world)world, a, cpShapeGetBody(a));
@@ -43,7 +43,7 @@ PHYSVIB_UNUSED static cpBool physvib_chipmunk_look(cpArbiter *arbiter, cpSpace *
     return (void)space, cpTrue;
 }
 
-/* What gravity adds to what is pushed in this step: a load, and no part of a blow. */
+/* What gravity adds to what is pushed in this step: a load, and not part of an impact. */
 PHYSVIB_UNUSED static double physvib_chipmunk_load(cpSpace *space, cpBody *a, cpBody *b, cpVect normal) {
     const double pull = cpvdot(cpSpaceGetGravity(space), normal) * cpSpaceGetCurrentTimeStep(space);
     const int falls_a = cpBodyGetType(a) == CP_BODY_TYPE_DYNAMIC, falls_b = cpBodyGetType(b) == CP_BODY_TYPE_DYNAMIC;
@@ -54,7 +54,7 @@ PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter *arbiter, cpSpace *sp
     CP_ARBITER_GET_SHAPES(arbiter, a, b);
     const cpVect normal = cpArbiterGetNormal(arbiter);
     const cpContactPointSet points = cpArbiterGetContactPointSet(arbiter);
-    double impulse = cpfabs(cpvdot(cpArbiterTotalImpulse(arbiter), normal)); /* whichever of the two it is told of */
+    double impulse = cpfabs(cpvdot(cpArbiterTotalImpulse(arbiter), normal)); /* of either of the two */
     int i;
     if (!physvib_chipmunk_is_numbered(a) || !physvib_chipmunk_is_numbered(b)) {
         physvib_chipmunk_check(PHYSVIB_ERROR_ARGUMENT, "shape: expected a number (cpShapeSetUserData, from 1 on) of every shape that touches");
@@ -67,10 +67,10 @@ PHYSVIB_UNUSED static void physvib_chipmunk_push(cpArbiter *arbiter, cpSpace *sp
         contact.a = physvib_chipmunk_id(a), contact.b = physvib_chipmunk_id(b);
         contact.x_m = points.points[i].pointA.x, contact.y_m = points.points[i].pointA.y, contact.normal_x = normal.x, contact.normal_y = normal.y;
         contact.impulse_n_s = impulse;
-        contact.is_impulse_of_pair = 1; /* Chipmunk tells no other */
+        contact.is_impulse_of_pair = 1; /* Chipmunk reports no other */
         contact.restitution = cpfclamp01(cpArbiterGetRestitution(arbiter));
         contact.gap_m = points.points[i].distance;
-        contact.gap_fraction = 1.0; /* Chipmunk moves first, then looks */
+        contact.gap_fraction = 1.0; /* Chipmunk moves bodies first, then finds contacts */
         contact.point_id = PHYSVIB_POINT_BY_PLACE;
         physvib_chipmunk_check(physvib_world_touch((physvib_world)world, &contact), physvib_error());
     }

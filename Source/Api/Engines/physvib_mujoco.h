@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* MuJoCo 2: bodies are its body ids (0: the world); instead of mj_step call physvib_mujoco_step. The field is the plane x, z. Integrators: all
- * but RK4. Contacts are soft: what they push comes over many steps, so a blow is told by its speed and a restitution of your own. */
+ * but RK4. Contacts are soft: their impulse is spread over many steps, so an impact follows from its speed and from a restitution that you choose. */
 #ifndef PHYSVIB_MUJOCO_H
 #define PHYSVIB_MUJOCO_H
 #include <math.h>
@@ -17,7 +17,7 @@ PHYSVIB_UNUSED static int physvib_mujoco_touch(const mjModel *m, const mjData *d
     const mjContact *found = &d->contact[index];
     mjtNum force[6];
     physvib_contact contact;
-    if (found->dist > 0) return PHYSVIB_OK; /* near, and not yet there */
+    if (found->dist > 0) return PHYSVIB_OK; /* close, but not touching yet */
     physvib_contact_init(&contact, sizeof contact);
     contact.a = m->geom_bodyid[found->geom1], contact.b = m->geom_bodyid[found->geom2];
     contact.x_m = found->pos[0], contact.y_m = found->pos[2], contact.normal_x = found->frame[0], contact.normal_y = found->frame[2];

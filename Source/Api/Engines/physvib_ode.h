@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ODE: give geoms their numbers (dGeomSetData, as integers from 1 on); tell each contact joint from your near callback, then step. A geom that
+/* ODE: number the geoms (dGeomSetData, integers from 1 on); call physvib_ode_touch for each contact joint in your near callback, then step. A geom that
  * touches without a number is an error, which names it. Numbers from 0 on, as before: define PHYSVIB_NUMBERS_FROM_0; then a geom without one is
  * body 0. C99 and later, C++11 and later. */
 #ifndef PHYSVIB_ODE_H
@@ -11,10 +11,10 @@
 #include <string.h>
 #define PHYSVIB_ODE_MOST 1024 /**< joints in a step */
 
-/** What is told between two steps; zero it, and set `world`. */
+/** State between two steps; zero it, and set `world`. */
 typedef struct physvib_ode {
-    physvib_world world; /**< that feels */
-    int count; /**< of joints in this step; what is beyond the most is not felt */
+    physvib_world world; /**< of PhysVib */
+    int count; /**< of joints in this step; those beyond PHYSVIB_ODE_MOST are ignored */
     dJointFeedback feedback[PHYSVIB_ODE_MOST]; /**< of each joint */
     physvib_contact contact[PHYSVIB_ODE_MOST]; /**< of each joint */
     double pull_kg[PHYSVIB_ODE_MOST]; /**< of what falls onto another kind: its mass, towards the first geom or from it */
@@ -94,7 +94,7 @@ PHYSVIB_UNUSED static int physvib_ode_step(physvib_ode *ode, dWorldID world, dou
         const dReal *f = ode->feedback[i].f1;
         const double pull = -ode->pull_kg[i] * (g[0] * contact->normal_x + g[1] * contact->normal_y);
         contact->impulse_n_s = seconds * fabs(f[0] * contact->normal_x + f[1] * contact->normal_y); /* of either of the two */
-        /* What gravity adds in this step is a load, and no part of a blow. */
+        /* What gravity adds in this step is a load, and not part of an impact. */
         if (contact->approach_m_per_s > 0.1 && pull > 0) contact->impulse_n_s -= seconds * pull;
         physvib_ode_check(ode, physvib_world_touch(ode->world, contact), physvib_error());
     }

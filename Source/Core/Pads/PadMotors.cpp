@@ -12,7 +12,7 @@ constexpr double nearEnough = 0.03; // of full strength: nobody feels it, and it
 /// 0: all of it in the left grip, 1: in the right one.
 double sideOf(const CollisionEvent& event, double x, double y, const PhantomPanner& grips) noexcept {
     PhantomPanner::Gains gains{};
-    grips.gainsAt(x, y, event.course.spread, gains);
+    grips.gainsAt(event, x, y, gains);
     const double left = gains[0] * gains[0], right = gains[1] * gains[1];
     return left + right > 0.0 ? right / (left + right) : 0.5;
 }

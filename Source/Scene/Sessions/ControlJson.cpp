@@ -28,14 +28,16 @@ void expectFields(const JsonField& json, std::vector<std::string_view> known, st
 } // namespace
 
 PhantomPanner readPanner(const JsonField& json, int channels) {
-    json.expectObject({"layout", "law", "exponent", "field_m"});
+    json.expectObject({"layout", "law", "exponent", "field_m", "grain_law"});
     const auto layout = readLayoutFields(json["layout"]).geometry;
     if (layout.count > channels)
         json["layout"].fail("expected at most " + std::to_string(channels) + " actuators, as many as there are channels");
     const JsonField field = json["field_m"];
     if (field.arraySize() != 2) field.fail("expected [width, height]");
-    return {layout, panningLaws[json["law"].oneOf(panningLawNames)].law, json["exponent"].numberWithin(leastExponent, mostExponent),
-            field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres), field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
+    PhantomPanner panner{layout, panningLaws[json["law"].oneOf(panningLawNames)].law, json["exponent"].numberWithin(leastExponent, mostExponent),
+                         field.item(0).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres), field.item(1).numberWithin(limits::leastExtentMetres, limits::mostExtentMetres)};
+    if (json.has("grain_law")) panner.setGrains(spreadBy(panningLaws[json["grain_law"].oneOf(panningLawNames)].law)); // missing: as all else
+    return panner;
 }
 
 RenderControl readControl(const JsonField& json, int channels, std::string_view otherField) {
@@ -58,10 +60,12 @@ RenderControl readControl(const JsonField& json, int channels, std::string_view 
 }
 
 OrderedJson pannerJson(const PhantomPanner& panner) {
-    return {{"layout", OrderedJson::parse(layoutJson(describeLayout("", panner.layout())))},
-            {"law", nameOf(panner.law())},
-            {"exponent", panner.exponent()},
-            {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
+    OrderedJson json{{"layout", OrderedJson::parse(layoutJson(describeLayout("", panner.layout())))},
+                     {"law", nameOf(panner.law())},
+                     {"exponent", panner.exponent()},
+                     {"field_m", {panner.fieldWidthMetres(), panner.fieldHeightMetres()}}};
+    if (panner.grains() != Spread::layout) json["grain_law"] = nameOf(panner.grains());
+    return json;
 }
 
 OrderedJson controlJson(const RenderControl& control) {

@@ -66,7 +66,11 @@ struct Mix {
     double dragNewtonSecondsPerScreenMetre = thesisDrag; ///< that a drag in the world pushes with
 
     int count() const noexcept { return layout.geometry.count; }
-    PhantomPanner panner() const noexcept { return {layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres}; }
+    PhantomPanner panner() const noexcept {
+        PhantomPanner made{layout.geometry, law, exponent, scene->fieldWidthMetres, scene->fieldHeightMetres};
+        if (law == PanningLaw::linear && exponent == 1.0) made.setGrains(grainSpread); // nothing else was asked for
+        return made;
+    }
 
     void resizeStrips() { physvib::resizeStrips(strips, count()); } ///< as many as there are enchanters
     bool isSilent(int strip) const noexcept { return physvib::isSilent(strips, static_cast<std::size_t>(strip)); }

@@ -16,6 +16,17 @@ namespace {
 
 constexpr std::int64_t frameNs = 1'000'000'000 / limits::minSampleRateHz; // of any rate: what is that much later has a later frame
 
+/// Of a path whose law the felt place does not follow; else empty.
+std::string lagNote(Spread spread, const PhantomPanner& panner) {
+    constexpr double meant = 0.3, nobodyFeels = 0.05;
+    for (const auto& one : panningLaws) {
+        if (spread != spreadBy(one.law) && !(spread == Spread::layout && panner.law() == one.law)) continue;
+        const double felt = centroidOf(one.law, meant);
+        if (std::abs(felt - meant) > nobodyFeels) return "law: " + std::string(one.name) + " lags: felt at " + fixedNumber(felt, 2) + " of the way between two actuators where " + fixedNumber(meant, 1) + " is meant; equal and energy do not";
+    }
+    return {};
+}
+
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 } // namespace
@@ -74,6 +85,7 @@ Result<PlainMessage> MessageRouter::take(const PlainMessage& message, MessageTag
 std::vector<CollisionEvent> MessageRouter::strikesOf(const MessageDescription& description, const MessageValues& values, const ClipSource& clips, const PhantomPanner& panner, std::string& note) {
     if (std::holds_alternative<MessageDescription::Clip>(description.act)) return clip(values, clips, panner, note);
     const auto* const strikes = std::get_if<MessageDescription::Strikes*>(&description.act);
+    if (strikes != nullptr && *strikes == pathStrikes) note = lagNote(values.spread(), panner);
     return strikes == nullptr ? std::vector<CollisionEvent>{} : (*strikes)(values, session_.world().state().scene->materials, session_.shaping());
 }
 

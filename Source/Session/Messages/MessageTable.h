@@ -88,7 +88,7 @@ inline constexpr std::array path{
     MessageArgument{"speed_m_per_s", Type::number, 1e-6, 1e6, "", "instead of `seconds`"},
     MessageArgument{"times_s", Type::numbers, 0.0, mostSeconds, "", "instead of `seconds`: when each place is reached"},
     MessageArgument{"strokes", Type::number, 0.0, 64.0, "0", "so many still vibrations along it, timed as Tactile Brush does; 0: one that moves"},
-    MessageArgument{"law", Type::word, 0.0, 0.0, "equal", "as of a strike; `equal` is felt equally strong all the way"},
+    MessageArgument{"law", Type::word, 0.0, 0.0, "equal", "as of a strike; `equal` is felt where it is, and equally strong all the way; `linear`, `log` and `log-outer` lag behind (linear: 0.16 where 0.3 is meant)"},
     frequency, level};
 
 inline constexpr std::array clip{

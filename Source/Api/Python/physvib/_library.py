@@ -87,9 +87,9 @@ def load(path: str, signatures: dict[str, tuple], long: frozenset[str]) -> Simpl
 
 def _path() -> str:
     here = Path(__file__).parent
-    beside = here / "libhwy.so.1"  # of a wheel, for a machine that lacks it
-    if beside.exists():
-        ctypes.CDLL(str(beside), mode=ctypes.RTLD_GLOBAL)
+    for beside in sorted(here.glob("lib*.so.*")):  # of a wheel, for a machine that lacks them
+        if not beside.name.startswith("libphysvib"):
+            ctypes.CDLL(str(beside), mode=ctypes.RTLD_GLOBAL)
     own = here / "libphysvib.so.0"
     return os.environ.get("PHYSVIB_LIBRARY") or (str(own) if own.exists() else "libphysvib.so.0")
 

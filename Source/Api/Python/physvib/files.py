@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,11 +28,48 @@ def events(time_s: ArrayLike, *, frequency_hz: ArrayLike, decay_per_s: ArrayLike
     return made[np.argsort(made["time_ns"], kind="stable")]
 
 
+#: Columns of an event list, as files have them (Docs/events.md), and the fields they are. `impulse_ns` is N s.
+COLUMNS = {"time_s": "time_ns", "frequency_hz": "frequency_hz", "decay_per_s": "decay_per_s", "amplitude": "amplitude", "x_m": "x_m", "y_m": "y_m",
+           "duration_s": "duration_ns", "fixture": "fixture", "other": "other", "impulse_ns": "impulse_n_s", "mass_kg": "mass_kg", "kind": "kind"}
+KINDS = ("hit", "roll", "slide")
+
+
+def frame(list_of: NDArray[np.void]) -> Any:
+    """Events as a pandas.DataFrame, with the columns of event lists; needs pandas."""
+    import pandas
+
+    array = checked(list_of)
+    columns = {column: array[field] * 1e-9 if field.endswith("_ns") else array[field] for column, field in COLUMNS.items()}
+    columns["kind"] = np.array(KINDS)[array["kind"]]
+    return pandas.DataFrame(columns)
+
+
+def events_of(table: Any) -> NDArray[np.void]:
+    """Events (dtype EVENT, sorted) of a pandas.DataFrame with columns of event lists, as pandas.read_csv reads one; the first six must be there."""
+    missing = [name for name in list(COLUMNS)[:6] if name not in table.columns]
+    if missing:
+        raise PhysVibError(f"{missing[0]}: expected this column", -2)
+    unknown = [str(name) for name in table.columns if name not in COLUMNS]
+    if unknown:
+        raise PhysVibError(f"{unknown[0]}: expected columns among {', '.join(COLUMNS)}", -2)
+    column = {name: table[name].to_numpy() for name in table.columns}
+    kind = column.get("kind", np.full(len(table), "hit"))
+    if not np.isin(kind, KINDS).all():
+        raise PhysVibError(f"kind: expected one of {', '.join(KINDS)}", -2)
+    made = events(column["time_s"], duration_s=column.get("duration_s", 0.0), kind=np.array([KINDS.index(word) for word in kind], dtype=np.int32),
+                  **{name: column[name] for name in ("frequency_hz", "decay_per_s", "amplitude", "x_m", "y_m")})
+    order = np.argsort(np.rint(np.asarray(column["time_s"], dtype=np.float64) * 1e9), kind="stable")
+    for name in ("fixture", "other", "impulse_ns", "mass_kg"):
+        if name in column:
+            made[COLUMNS[name]] = column[name][order]
+    return made
+
+
 def checked(list_of: ArrayLike) -> NDArray[np.void]:
     """Events that the library can read where they are."""
-    array = np.ascontiguousarray(list_of)
+    array = np.ascontiguousarray(events_of(list_of) if hasattr(list_of, "columns") else list_of)
     if array.dtype != EVENT:
-        raise PhysVibError("events: expected an array of physvib.EVENT", -2)
+        raise PhysVibError("events: expected an array of physvib.EVENT, or a DataFrame with the columns of event lists", -2)
     return array.reshape(-1)
 
 

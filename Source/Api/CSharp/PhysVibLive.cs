@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// A device or a board from C#, beside PhysVib.cs: one file over libphysvib-live (GPL, since it has JUCE in it). Units, threads and errors: physvib-live.h.
+using System;
+using System.Runtime.InteropServices;
+
+namespace PhysVib {
+
+/// <summary>Begin with Create(), and change what you like; see physvib_live_settings.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct LiveSettings {
+    UIntPtr size;
+    public int RateHz, BlockFrames, StepsPerS;
+    public double LongestGapS, LevelDb;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 1024)] byte[] save;
+    /// <summary>A session file (.json) of all that is struck, written while it plays; "": none.</summary>
+    public string Save {
+        get { return System.Text.Encoding.UTF8.GetString(save, 0, Math.Max(0, Array.IndexOf(save, (byte)0))); }
+        set {
+            var path = System.Text.Encoding.UTF8.GetBytes(value);
+            if (path.Length >= 1024) throw new ArgumentException("Save: expected a path of at most 1023 bytes");
+            save = new byte[1024];
+            path.CopyTo(save, 0);
+        }
+    }
+    public static LiveSettings Create() {
+        var made = new LiveSettings();
+        LiveNative.Check(LiveNative.physvib_live_settings_init(ref made, Native.SizeOf(made)));
+        return made;
+    }
+}
+
+/// <summary>What it does, and what is wrong; see physvib_live_status.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public struct LiveStatus {
+    UIntPtr size;
+    public int IsRunning, IsSilent, RateHz, BlockFrames, LiveModes, Losses, Xruns;
+    public double Load, WorstLoad;
+    public long Played, Late, Rejected;
+    [MarshalAs(UnmanagedType.ByValArray, SizeConst = 256)] byte[] trouble;
+    public int Board;
+    int unused;
+    public long BoardSent, BoardLost;
+    /// <summary>What is missing, one line; "": nothing.</summary>
+    public string Trouble { get { return System.Text.Encoding.UTF8.GetString(trouble, 0, Math.Max(0, Array.IndexOf(trouble, (byte)0))); } }
+    internal static LiveStatus Create() {
+        var made = new LiveStatus();
+        LiveNative.Check(LiveNative.physvib_live_status_init(ref made, Native.SizeOf(made)));
+        return made;
+    }
+}
+
+/// <summary>A device ("JACK:system"), a board ("BOARD:auto"), or both ("JACK:system+BOARD:auto"). One at a time; strikes from any thread.</summary>
+public sealed class Live : IDisposable {
+    IntPtr name;
+    long start;
+    public Live(string device) : this(device, RendererSettings.Create(), LiveSettings.Create()) {}
+    public Live(string device, RendererSettings renderer, LiveSettings settings) {
+        LiveNative.Check(LiveNative.physvib_live_open(Native.Utf8(device), ref renderer, ref settings, out name));
+    }
+    ~Live() {
+        if (name != IntPtr.Zero) LiveNative.physvib_live_close(name);
+    }
+    /// <summary>Silent within two blocks, then closed, also if it says that not all of the session is saved.</summary>
+    public void Dispose() {
+        var open = name;
+        name = IntPtr.Zero;
+        GC.SuppressFinalize(this);
+        if (open != IntPtr.Zero) LiveNative.Check(LiveNative.physvib_live_close(open));
+    }
+    /// <summary>Session time.</summary>
+    public long NowNs { get { return LiveNative.Check(LiveNative.physvib_live_now_ns(name)); } }
+    /// <summary>The output latency L: what is struck at session time t leaves for the device at t + L.</summary>
+    public long LatencyNs { get { return LiveNative.Check(LiveNative.physvib_live_latency_ns(name)); } }
+    /// <summary>Events at session times; those that are over, at once.</summary>
+    public void Strike(params Event[] events) { LiveNative.Check(LiveNative.physvib_live_strike(name, events, events.Length)); }
+    /// <summary>The events of a world whose time 0 is session time startNs. How many.</summary>
+    public int Send(World world, long startNs, bool atOnce = false) { return (int)LiveNative.Check(LiveNative.physvib_live_send(name, world.name, startNs, atOnce ? 1 : 0)); }
+    /// <summary>For a world that is stepped as time goes on, after each step: sends what is final. How many.</summary>
+    public int Follow(World world) {
+        LiveNative.Check(LiveNative.physvib_live_align(name, world.name, ref start));
+        return Send(world, start);
+    }
+    public void SetGain(int channel, double gain) { LiveNative.Check(LiveNative.physvib_live_set_gain(name, channel, gain)); }
+    public void SetMute(int channel, bool isMuted) { LiveNative.Check(LiveNative.physvib_live_set_mute(name, channel, isMuted ? 1 : 0)); }
+    public void SetLayout(RendererSettings renderer) { LiveNative.Check(LiveNative.physvib_live_set_layout(name, ref renderer)); }
+    public void SetLevel(double levelDb) { LiveNative.Check(LiveNative.physvib_live_set_level(name, levelDb)); }
+    public void Silence(bool isSilent = true) { LiveNative.Check(LiveNative.physvib_live_silence(name, isSilent ? 1 : 0)); }
+    public LiveStatus Status {
+        get {
+            var status = LiveStatus.Create();
+            LiveNative.Check(LiveNative.physvib_live_get_status(name, ref status));
+            return status;
+        }
+    }
+}
+
+static class LiveNative {
+#if UNITY_5_3_OR_NEWER
+    const string Library = "physvib-live";
+#else
+    const string Library = "libphysvib-live.so.0";
+#endif
+    static LiveNative() { LibraryNames.Follow(); }
+
+    internal static long Check(long result) {
+        if (result < 0) throw new PhysVibException((int)result, Marshal.PtrToStringAnsi(physvib_live_error()));
+        return result;
+    }
+
+    [DllImport(Library)] internal static extern IntPtr physvib_live_error();
+    [DllImport(Library)] internal static extern int physvib_live_settings_init(ref LiveSettings settings, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_live_status_init(ref LiveStatus status, UIntPtr size);
+    [DllImport(Library)] internal static extern int physvib_live_open(byte[] device, ref RendererSettings renderer, ref LiveSettings settings, out IntPtr live);
+    [DllImport(Library)] internal static extern int physvib_live_close(IntPtr live);
+    [DllImport(Library)] internal static extern long physvib_live_now_ns(IntPtr live);
+    [DllImport(Library)] internal static extern long physvib_live_latency_ns(IntPtr live);
+    [DllImport(Library)] internal static extern int physvib_live_strike(IntPtr live, Event[] events, long count);
+    [DllImport(Library)] internal static extern int physvib_live_align(IntPtr live, IntPtr world, ref long startNs);
+    [DllImport(Library)] internal static extern long physvib_live_send(IntPtr live, IntPtr world, long startNs, int atOnce);
+    [DllImport(Library)] internal static extern int physvib_live_set_gain(IntPtr live, int channel, double gain);
+    [DllImport(Library)] internal static extern int physvib_live_set_mute(IntPtr live, int channel, int isMuted);
+    [DllImport(Library)] internal static extern int physvib_live_set_layout(IntPtr live, ref RendererSettings renderer);
+    [DllImport(Library)] internal static extern int physvib_live_set_level(IntPtr live, double levelDb);
+    [DllImport(Library)] internal static extern int physvib_live_silence(IntPtr live, int isSilent);
+    [DllImport(Library)] internal static extern int physvib_live_get_status(IntPtr live, ref LiveStatus status);
+}
+
+}

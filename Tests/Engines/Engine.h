@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// What scenes and worlds ask of an engine: bodies, joints, steps, and the events of its adapter.
+#pragma once
+#include <cmath>
+#include <physvib/physvib.h>
+#include <string>
+#include <vector>
+
+namespace scenes {
+
+constexpr double gravity = 9.81;
+constexpr int floorBody = 100; ///< its number; others are below
+
+/// A ball or a box.
+struct Body {
+    int id = 1;
+    bool isBox = false;
+    double x = 0, y = 0, angle = 0;
+    double width = 0.2, height = 0.2; ///< of a ball: both its diameter
+    double massKg = 1.0;              ///< 0: it stands still
+    double vx = 0, vy = 0, spin = 0;
+    bool isSource = false;
+    double inertia() const { return isBox ? massKg * (width * width + height * height) / 12.0 : massKg * width * width / 8.0; }
+};
+
+struct Motion {
+    double x, y, vx, vy, spin;
+};
+
+/// One engine and its adapter. Bodies that a pin joins do not touch each other.
+struct Engine {
+    virtual ~Engine() = default;
+    virtual void begin(double stepSeconds, double gravity, double restitution, double friction) = 0;
+    virtual void floor() = 0; ///< surface at 0
+    virtual void add(const Body& body) = 0;
+    virtual void pin(int /*a*/, int /*b; 0: the world*/, double /*x*/, double /*y*/) {}
+    virtual void oneWay(int /*body*/) {} ///< see passes()
+    /// A floor of so many parts, its surface at 0, without seams if the engine knows how.
+    virtual void tiles(double left, double right, int count) {
+        const double width = (right - left) / count;
+        for (int i = 0; i < count; ++i) add({.id = floorBody, .isBox = true, .x = left + (i + 0.5) * width, .y = -0.5, .width = width, .height = 1.0, .massKg = 0.0});
+    }
+    virtual void step() = 0;
+    virtual Motion motion(int body) const = 0;
+    virtual std::vector<physvib_event> take() { ///< all of them
+        std::vector<physvib_event> events(4096);
+        events.resize(static_cast<std::size_t>(physvib_world_take(world, events.data(), 4096, 1)));
+        return events;
+    }
+    /// The body's number and values, where the adapter does not give them.
+    void tell(const Body& body) const {
+        physvib_body values;
+        physvib_body_init(&values, sizeof values);
+        values.mass_kg = body.massKg;
+        values.inertia_kg_m2 = body.isBox ? body.inertia() : 0.0; // a ball's blows go through its centre
+        values.is_camera = body.isSource;
+        values.frequency_hz = 200.0;
+        values.decay_per_s = 30.0;
+        physvib_world_set_body(world, body.id, &values);
+    }
+    bool movesFirst = false;    ///< by the velocity that it has, before gravity changes it
+    bool landsLate = false;     ///< by its slop, so perhaps a step later, and faster by what gravity adds
+    int slowest = 50;           ///< steps/s
+    double handedOnPart = 0.02; ///< of what a row hands on
+    int subSteps = 1;           ///< in each of which gravity changes the velocity
+    double restitution = 0.5;
+    bool isRigid = true;        ///< a blow goes through a row at once, and not over many steps; boxes and joints are asked for
+    physvib_world world = nullptr;
+};
+
+/// A platform with its top there lets through what comes from below, or rises.
+inline bool passes(double top, double y, double vy) { return vy > 0.01 || y < top; }
+
+} // namespace scenes
