@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Builds the JavaScript package physvib: build/web/physvib-VERSION.tgz, which `npm install` takes. What compiles it comes from Debian; npm
+# Builds the JavaScript packages physvib and jspsych-physvib: build/web/physvib-VERSION.tgz and the like, which `npm install` takes. What compiles it comes from Debian; npm
 # (Node 20 or newer), which packs it, from you.
 # usage: Source/Api/JavaScript/build-package.sh
 set -eu
@@ -19,10 +19,13 @@ if ! { cmake -S Source/Api/JavaScript -B "$work" -G Ninja --toolchain "$PWD/Stan
     exit 1
 fi
 cp "$work/physvib.wasm" "$work/files.wasm" "$work/package"
-cp LICENSES/MIT.txt "$work/package/LICENSE"
-file=$(cd "$work/package" && npm pack --silent --pack-destination ..)
-mv "$work/$file" build/web/
+rm -f build/web/*.tgz
+for package in package jspsych; do
+    cp LICENSES/MIT.txt "$work/$package/LICENSE"
+    (cd "$work/$package" && npm pack --silent --pack-destination ../.. >/dev/null)
+done
 # What a page loads that reads no clips.
 bytes=$(tar -C "$work/package" --exclude=files.wasm -cz . | wc -c)
-say "build/web/$file: $(wc -c <"build/web/$file") bytes; without files.wasm, which is loaded when it is asked for: $bytes"
+file=$(ls build/web/physvib-*.tgz)
+say "$file: $(wc -c <"$file") bytes; without files.wasm, which is loaded when it is asked for: $bytes"
 [ "$bytes" -lt 150000 ] || { say "expected less than 150 KB"; exit 1; }

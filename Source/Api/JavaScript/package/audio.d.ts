@@ -21,6 +21,13 @@ export interface Output {
     /** Of the audio thread, four times a second: `late` counts events that came after their time. */
     readonly status: RendererStatus;
     readonly node: AudioWorkletNode;
+    readonly context: AudioContext;
+    readonly physvib: PhysVib;
+    readonly settings: RendererSettings;
+    /** Frames by which samples lag the events' times: the limiter's look-ahead. */
+    readonly latencyFrames: number;
+    /** Samples of yours, a channel per actuator, at the context's rate, from that time of the context (s) on. */
+    playSamples(channels: readonly Float32Array[], seconds?: number): AudioBufferSourceNode;
     follow(haptics: Haptics): () => void;
     strike(events: readonly HapticEvent[], laterNs?: Nanoseconds): void;
     setGain(channel: number, gain: number): void;

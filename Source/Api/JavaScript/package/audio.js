@@ -7,7 +7,9 @@ const nsPerSecond = 1e9;
 const firstLevel = 0.25; // 12 dB below full scale: hands and ears may be attached
 
 class Output {
-    #physvib; #context; #node; #level; #pans = []; #clock; #size; #ends = new Set(); #latencyNs;
+    #physvib; #context; #node; #mix; #level; #pans = []; #clock; #size; #ends = new Set(); #latencyNs;
+    /** Frames by which samples lag the events' times: the limiter's look-ahead. */
+    latencyFrames = 0;
     /** What the audio thread has done, four times a second. */
     status = { liveModes: 0, pending: 0, frames: 0, played: 0, late: 0, rejected: 0, refused: 0 };
 
@@ -26,10 +28,15 @@ class Output {
             this.#node.onprocessorerror = () => failed(new PhysVibError(-8, 'audio: the audio thread has ended'));
             this.#node.port.onmessage = ({ data }) => {
                 if (data.status) Object.assign(this.status, physvib.statusOf(data.status));
-                else if (data.isOpen) done(this);
+                else if (data.isOpen) {
+                    this.latencyFrames = data.latencyFrames;
+                    done(this);
+                }
                 else failed(new PhysVibError(-2, 'settings: expected some that can be rendered'));
             };
         });
+        this.#mix = new GainNode(context, { channelCount: Math.min(32, channels), channelCountMode: 'explicit', channelInterpretation: 'discrete' });
+        this.#node.connect(this.#mix);
         this.#level = new GainNode(context, { gain: level });
         this.#connect(settings.layout ?? 'phone4');
     }
@@ -38,6 +45,8 @@ class Output {
     get isDirect() { return this.#context.destination.maxChannelCount >= this.channels && this.channels > 2; }
     /** From a collision to its vibration, in seconds, before the device's own latency. */
     get latency() { return this.#latencyNs / nsPerSecond; }
+    get context() { return this.#context; }
+    get physvib() { return this.#physvib; }
     /** How often a game fell behind for longer than the latency, and was aligned anew. */
     get moves() { return this.#clock.moves; }
     /** What it plays, a channel per actuator, before level and monitor: to be recorded, or connected elsewhere. */
@@ -51,9 +60,9 @@ class Output {
         }
         Object.assign(this.#level, { channelCount: width, channelCountMode: 'explicit', channelInterpretation: isDirect ? 'discrete' : 'speakers' });
         this.#level.connect(destination);
-        if (isDirect) return this.#node.connect(this.#level);
+        if (isDirect) return this.#mix.connect(this.#level);
         const split = new ChannelSplitterNode(this.#context, { numberOfOutputs: this.channels });
-        this.#node.connect(split);
+        this.#mix.connect(split);
         this.#pans = [split];
         places.forEach(({ x }, j) => {
             const pan = new StereoPannerNode(this.#context, { pan: Math.max(-1, Math.min(1, 2 * x / extentWidth - 1)) });
@@ -81,6 +90,17 @@ class Output {
         this.#tell({ events: bytes });
     }
 
+    /** Samples of yours, a channel per actuator, at the context's rate, from that time of the context (s) on. */
+    playSamples(channels, seconds = this.#context.currentTime) {
+        if (channels.length !== this.channels) throw new PhysVibError(-2, `samples: expected ${this.channels} channels, found ${channels.length}`);
+        const buffer = new AudioBuffer({ numberOfChannels: channels.length, length: channels[0].length, sampleRate: this.#context.sampleRate });
+        channels.forEach((channel, j) => buffer.copyToChannel(channel, j));
+        const source = new AudioBufferSourceNode(this.#context, { buffer });
+        source.connect(this.#mix);
+        source.start(seconds);
+        return source;
+    }
+
     /** Of one channel, or of all, at once: gains glide for 10 ms. */
     setGain(channel, gain) { this.#tell({ call: 'set_gain', timeNs: this.#now(), values: [channel, gain] }); }
     setMute(channel, isMuted) { this.#tell({ call: 'set_mute', timeNs: this.#now(), values: [channel, isMuted ? 1 : 0] }); }
@@ -96,7 +116,7 @@ class Output {
         for (const end of this.#ends) end();
         this.#ends.clear();
         this.#tell({ close: true });
-        for (const node of [this.#node, this.#level, ...this.#pans]) node.disconnect();
+        for (const node of [this.#node, this.#mix, this.#level, ...this.#pans]) node.disconnect();
     }
 }
 

@@ -233,6 +233,8 @@ export class PhysVib {
     pad(profile?: string | PadProfile, settings?: { fieldWidth?: number; fieldHeight?: number }): Pad;
     /** Events, in the order of their times, to samples: an array per channel. */
     render(events: readonly HapticEvent[], settings: RendererSettings & { seconds: number }): Float32Array[];
+    /** What each actuator gets of a hit at a place of the field. */
+    gains(x: number, y: number, settings?: RendererSettings): number[];
     layout(name: string): Layout;
     /** L: see Docs/threads.md. */
     playOutNs(rate: number, blockFrames: number, stepsPerSecond: number, longestGapSeconds?: number): Nanoseconds;

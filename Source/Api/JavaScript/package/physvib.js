@@ -50,6 +50,12 @@ export class PhysVib {
         });
     }
 
+    /** What each actuator gets of a hit at a place of the field. */
+    gains(x, y, settings = {}) {
+        const module = this.#module;
+        return withSettings(module, settings, at => module.borrow(64 * 8, to => Array.from(module.doubles(to, module.check('js_gains', at, x, y, to)))));
+    }
+
     /** A preset by its name. */
     layout(name) {
         const module = this.#module;
