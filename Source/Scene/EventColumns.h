@@ -103,7 +103,7 @@ inline std::string readCell(const WholeColumn& column, std::string_view cell, Co
 }
 
 inline std::string readCell(const KindColumn& column, std::string_view cell, CollisionEvent& event) {
-    const auto* const found = std::ranges::find(contactKindNames, cell);
+    const auto found = std::ranges::find(contactKindNames, cell);
     if (found == contactKindNames.end()) return "hit, roll or slide";
     column.field(event) = static_cast<ContactKind>(found - contactKindNames.begin());
     return {};

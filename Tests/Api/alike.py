@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What C can, Python, Lua and C# can: every function of physvib.h is called, and every field of its structures stands, in each of them.
+"""What C can, Python, Lua, C# and JavaScript can: every function of physvib.h is called, and every field of its structures stands, in each of them.
 alike.py ROOT. What a language leaves out is named below, with its reason."""
 import re
 import sys
@@ -12,6 +12,7 @@ LEFT_OUT = {
     "Python": {"renderer_pull_interleaved"},  # numpy arrays are a row per channel
     "Lua": set(),
     "C#": {"renderer_pull"},  # Unity and Godot take frame by frame
+    "JavaScript": {"renderer_pull_interleaved", "layout_load", "layout_save", "events_load", "events_save", "wav_save"},  # an array per channel; a page has no files, but texts and bytes
 }
 UNUSED = {"size", "unused"}  # sizes are told, and what fills up is nobody's
 
@@ -35,6 +36,7 @@ sharp = (root / "Source/Api/CSharp/PhysVib.cs").read_text()
 live_header = re.sub(r"/\*.*?\*/", "", (root / "Source/Api/Live/physvib-live.h").read_text(), flags=re.S)
 live_python = (root / "Source/Api/Python/physvib/live.py").read_text()
 live_sharp = (root / "Source/Api/CSharp/PhysVibLive.cs").read_text()
+script = "\n".join(path.read_text() for path in sorted((root / "Source/Api/JavaScript/package").glob("*.js")))
 faults = []
 
 
@@ -54,6 +56,7 @@ for name in functions:
     called_in_python = re.search(rf'"{name}"[,)\n]|physvib_{name}\b', python.replace(f'"{name}": (', "")) is not None
     demand("Python", "function", name, called_in_python)
     demand("Lua", "function", name, re.search(rf"physvib_{name}\(", lua) is not None)
+    demand("JavaScript", "function", name, re.search(rf"(?:call|tell)\('{name}'|'physvib_{name}'|physvib_{name}\(", script) is not None or name.endswith("_init") and f"'{name[:-5]}'" in script)
     demand("C#", "function", name, len(re.findall(rf"physvib_{name}\(", sharp)) > 1)  # declared and called
 
 
@@ -83,12 +86,13 @@ for structure, fields in structures().items():
     in_lua = ""
     for line in re.findall(rf"typedef struct \{{[^}}]*\}} physvib_{structure};", lua, flags=re.S):
         in_lua = line
-    for language, text in (("Python", in_python), ("Lua", in_lua), ("C#", in_sharp)):
+    in_script = section(script, f"physvib_{structure}: {{", "}")
+    for language, text in (("Python", in_python), ("Lua", in_lua), ("C#", in_sharp), ("JavaScript", in_script)):
         words = {plain(word) for word in re.findall(r"\w+", text)}
         for field in fields:
             if field not in UNUSED and plain(field) not in words:
                 faults.append(f"{language}: field {structure}.{field} of physvib.h is missing")
-        if language != "C#":
+        if language in ("Python", "Lua"):  # C# has properties, JavaScript asks where they are
             order = [word for word in re.findall(r"\w+", text) if word in fields]
             if order != [field for field in fields if field in order]:
                 faults.append(f"{language}: fields of {structure} stand in another order than in physvib.h")

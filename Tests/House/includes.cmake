@@ -11,6 +11,7 @@ set(Formats_may "Formats/|Io/|Core/|nlohmann/")
 set(Measure_may "Measure/|Eigen/|unsupported/Eigen/|Io/(Result|Text/NumberText)\\.h|Contacts/(Grains|Texture)\\.h|Core/") # one line of words for what a recording lacks
 set(Api_may "Api/C/|Scene/|Io/|Contacts/|Core/")
 set(Api/Live_may "Api/|Host/|Session/|Scene/|Io/|Core/|juce_")
+set(Api/JavaScript_may "Api/(C|JavaScript)/|Members\\.inc|Formats/|Scene/|Io/|Core/")
 set(Session_may "Session/|Scene/|Io/|Physics/|Contacts/|Wire/|Study/|Core/")
 set(Standalone/Web_may "PageWorld\\.h|Scene/|Io/|Physics/|Contacts/|Core/")
 set(Standalone/Render_may "InRange\\.h|RenderedPicture\\.h|Pictures/|Session/OfflineRender\\.h|Scene/|Io/|Physics/|Contacts/|Core/")
@@ -25,10 +26,10 @@ set(Plugin_may "Host/|Session/|Scene/|Io/|Physics/|Contacts/|Wire/|Study/|Core/|
 set(Core_never "<(iostream|string|vector|map|memory|thread|mutex|functional|stdexcept|fstream|chrono)>")
 
 set(bad "")
-foreach(room Core Wire Io Contacts Physics Scene Study Formats Measure Pictures Api Api/Live Session Jobs Pads Host Host/Osc Plugin Standalone/Options Standalone/Render Standalone/Web)
+foreach(room Core Wire Io Contacts Physics Scene Study Formats Measure Pictures Api Api/JavaScript Api/Live Session Jobs Pads Host Host/Osc Plugin Standalone/Options Standalone/Render Standalone/Web)
     file(GLOB_RECURSE files ${ROOT}/Source/${room}/*.h ${ROOT}/Source/${room}/*.cpp ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
-    if(room STREQUAL "Api") # Live: a room of its own, under another licence; Engines: headers for engines of the user
-        list(FILTER files EXCLUDE REGEX "/Api/(Live|Engines)/")
+    if(room STREQUAL "Api") # Live: a room of its own, under another licence; JavaScript: with Formats; Engines: headers for engines of the user
+        list(FILTER files EXCLUDE REGEX "/Api/(Live|JavaScript|Engines)/")
     elseif(room STREQUAL "Host") # so is this, and without JUCE
         list(FILTER files EXCLUDE REGEX "/Host/Osc/")
     endif()

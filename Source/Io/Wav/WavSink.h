@@ -2,6 +2,7 @@
 // A WAVE file that grows block by block: 32-bit float, one channel per enchanter, who made it and from what.
 #pragma once
 #include "Io/Disk/AtomicFile.h"
+#include "Io/Wav/WavHead.h"
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -34,7 +35,6 @@ public:
     const std::string& finish() { return complete().empty() ? file_.commit() : error(); }
 
 private:
-    std::string head() const;
     void empty();
 
     AtomicFile file_;
@@ -45,10 +45,5 @@ private:
     std::int64_t dataBytes_ = 0;
     bool isComplete_ = false;
 };
-
-/// Whether a WAVE file can hold so much and be no RF64. Any thread.
-constexpr bool fitsWav(int channels, std::int64_t frames) noexcept {
-    return frames <= 0xffff'ff00 / (4 * channels);
-}
 
 } // namespace physvib

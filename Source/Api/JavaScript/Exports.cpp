@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// What the module has beside physvib.h: where exceptions end, where the members of its structures are.
+#include "Api/JavaScript/Exports.h"
+#include "Api/C/physvib.h"
+#include <cstddef>
+#include <cstdlib>
+#include <exception>
+#include <typeinfo>
+
+namespace physvib::js {
+
+extern "C" {
+[[noreturn]] void fail(const char* line) __attribute__((import_module("physvib"), import_name("fail")));
+
+// Exceptions end here: this C++ library has no way back to a handler. All of ours are std::exceptions.
+void* __cxa_allocate_exception(std::size_t bytes) noexcept { return std::malloc(bytes); }
+[[noreturn]] void __cxa_throw(void* thrown, std::type_info*, void (*)(void*)) { fail(static_cast<std::exception*>(thrown)->what()); }
+}
+
+std::string& text() noexcept {
+    static std::string all;
+    return all;
+}
+
+void refuse(std::string_view line) {
+    text() = line;
+    fail(text().c_str());
+}
+
+namespace {
+
+template <class T> struct Element { using Type = T; static constexpr int count = 1; };
+template <class T, std::size_t N> struct Element<T[N]> { using Type = T; static constexpr int count = static_cast<int>(N); };
+
+template <class T> constexpr char kind = 's'; // a structure
+template <> constexpr char kind<double> = 'd';
+template <> constexpr char kind<int> = 'i';
+template <> constexpr char kind<std::size_t> = 'u';
+template <> constexpr char kind<physvib_int64> = 'l';
+
+/// Four numbers of 32 bits, as JavaScript reads them.
+struct Member {
+    const char* name; // of the structure at its end
+    int at;           // its size there
+    int kind;         // 0 there
+    int count;
+};
+
+#define MEMBER(structure, member) \
+    {#member, offsetof(structure, member), kind<Element<decltype(structure::member)>::Type>, Element<decltype(structure::member)>::count},
+#define END(structure) {#structure, sizeof(structure), 0, 0},
+constexpr Member members[]{
+#include "Members.inc"
+    {nullptr, 0, 0, 0}};
+
+} // namespace
+
+extern "C" {
+
+const Member* PHYSVIB_JS(members)() { return members; }
+
+const char* PHYSVIB_JS(text)() { return text().data(); }
+int PHYSVIB_JS(text_bytes)() { return static_cast<int>(text().size()); }
+}
+
+} // namespace physvib::js

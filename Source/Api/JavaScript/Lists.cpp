@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Event lists as text, and the head of a sound file.
+#include "Api/JavaScript/Exports.h"
+#include "Api/C/Convert.h"
+#include "Io/Wav/WavHead.h"
+#include "Scene/EventsCsv.h"
+#include <physvib/Version.h>
+
+namespace physvib::js {
+
+extern "C" {
+
+/// An event list as text; an error as those of physvib.h.
+int PHYSVIB_JS(events_text)(const physvib_event* events, int count) {
+    const std::span list{events, static_cast<std::size_t>(count)};
+    if (const auto fault = api::faultOf(list); !fault.empty()) return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
+    std::vector<CollisionEvent> own;
+    own.reserve(list.size());
+    for (const physvib_event& event : list) own.push_back(api::eventOf(event));
+    text() = eventsCsv(own, {PHYSVIB_VERSION, {}});
+    return PHYSVIB_OK;
+}
+
+/// What stands before the samples of a WAVE file.
+void PHYSVIB_JS(wav_head)(int channels, int rateHz, double frames) {
+    text() = wavHead(channels, rateHz, static_cast<std::int64_t>(frames) * channels * 4, {});
+}
+}
+
+} // namespace physvib::js

@@ -1,0 +1,31 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Builds the JavaScript packages physvib and jspsych-physvib: build/web/physvib-VERSION.tgz and the like, which `npm install` takes. What compiles it comes from Debian; npm
+# (Node 20 or newer), which packs it, from you.
+# usage: Source/Api/JavaScript/build-package.sh
+set -eu
+cd "$(dirname "$0")/../../.."
+. .ci/packages.sh
+# shellcheck disable=SC2086 # a list of words
+ensure_packages $physvib_web_packages
+command -v npm >/dev/null || { say "expected npm, of Node 20 or newer, which Debian 12 does not have: https://nodejs.org"; exit 1; }
+
+work=build/web/javascript
+mkdir -p "$work"
+say "building the package (log: $work/build.log)"
+if ! { cmake -S Source/Api/JavaScript -B "$work" -G Ninja --toolchain "$PWD/Standalone/Web/toolchain.cmake" -DCMAKE_BUILD_TYPE=None &&
+    cmake --build "$work" ${PHYSVIB_WEB_JOBS:+-j "$PHYSVIB_WEB_JOBS"}; } >"$work/build.log" 2>&1; then
+    cat "$work/build.log" >&2
+    exit 1
+fi
+cp "$work/physvib.wasm" "$work/files.wasm" "$work/package"
+rm -f build/web/*.tgz
+for package in package jspsych; do
+    cp LICENSES/MIT.txt "$work/$package/LICENSE"
+    (cd "$work/$package" && npm pack --silent --pack-destination ../.. >/dev/null)
+done
+# What a page loads that reads no clips.
+bytes=$(tar -C "$work/package" --exclude=files.wasm -cz . | wc -c)
+file=$(ls build/web/physvib-*.tgz)
+say "$file: $(wc -c <"$file") bytes; without files.wasm, which is loaded when it is asked for: $bytes"
+[ "$bytes" -lt 150000 ] || { say "expected less than 150 KB"; exit 1; }

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// On the device of a page: a renderer in an AudioWorklet, each actuator on its own output where there are as many, else a stereo monitor.
+import { Clock, followed } from './clock.js';
+import { PhysVibError } from './physvib.js';
+
+const nsPerSecond = 1e9;
+const firstLevel = 0.25; // 12 dB below full scale: hands and ears may be attached
+
+class Output {
+    #physvib; #context; #node; #mix; #level; #pans = []; #clock; #size; #ends = new Set(); #latencyNs;
+    /** Frames by which samples lag the events' times: the limiter's look-ahead. */
+    latencyFrames = 0;
+    /** What the audio thread has done, four times a second. */
+    status = { liveModes: 0, pending: 0, frames: 0, played: 0, late: 0, rejected: 0, refused: 0 };
+
+    constructor(physvib, context, { worklet, latency = 0.06, level = firstLevel, ...settings }) {
+        const { bytes, channels } = physvib.settingsBytes({ ...settings, rate: context.sampleRate });
+        this.#physvib = physvib;
+        this.#context = context;
+        this.#latencyNs = latency * nsPerSecond;
+        this.#clock = new Clock(this.#latencyNs);
+        this.settings = settings;
+        this.channels = channels;
+        this.#size = physvib.sizes;
+        this.#node = new AudioWorkletNode(context, 'physvib', { numberOfInputs: 0, outputChannelCount: [Math.min(32, channels)],
+            processorOptions: { module: physvib.module, settings: bytes, channels, eventBytes: this.#size.event, statusBytes: this.#size.renderer_status } });
+        this.opened = new Promise((done, failed) => {
+            this.#node.onprocessorerror = () => failed(new PhysVibError(-8, 'audio: the audio thread has ended'));
+            this.#node.port.onmessage = ({ data }) => {
+                if (data.status) Object.assign(this.status, physvib.statusOf(data.status));
+                else if (data.isOpen) {
+                    this.latencyFrames = data.latencyFrames;
+                    done(this);
+                }
+                else failed(new PhysVibError(-2, 'settings: expected some that can be rendered'));
+            };
+        });
+        this.#mix = new GainNode(context, { channelCount: Math.min(32, channels), channelCountMode: 'explicit', channelInterpretation: 'discrete' });
+        this.#node.connect(this.#mix);
+        this.#level = new GainNode(context, { gain: level });
+        this.#connect(settings.layout ?? 'phone4');
+    }
+
+    /** Whether each actuator has an output of its own. */
+    get isDirect() { return this.#context.destination.maxChannelCount >= this.channels && this.channels > 2; }
+    /** From a collision to its vibration, in seconds, before the device's own latency. */
+    get latency() { return this.#latencyNs / nsPerSecond; }
+    get context() { return this.#context; }
+    get physvib() { return this.#physvib; }
+    /** How often a game fell behind for longer than the latency, and was aligned anew. */
+    get moves() { return this.#clock.moves; }
+    /** What it plays, a channel per actuator, before level and monitor: to be recorded, or connected elsewhere. */
+    get node() { return this.#node; }
+
+    #connect(layout) {
+        const { destination } = this.#context, { isDirect } = this, width = isDirect ? this.channels : 2, { places, extentWidth } = typeof layout === 'string' ? this.#physvib.layout(layout) : layout;
+        if (destination.maxChannelCount > 0 && 'channelCount' in destination) {
+            destination.channelCount = Math.min(width, destination.maxChannelCount);
+            destination.channelInterpretation = 'discrete';
+        }
+        Object.assign(this.#level, { channelCount: width, channelCountMode: 'explicit', channelInterpretation: isDirect ? 'discrete' : 'speakers' });
+        this.#level.connect(destination);
+        if (isDirect) return this.#mix.connect(this.#level);
+        const split = new ChannelSplitterNode(this.#context, { numberOfOutputs: this.channels });
+        this.#mix.connect(split);
+        this.#pans = [split];
+        places.forEach(({ x }, j) => {
+            const pan = new StereoPannerNode(this.#context, { pan: Math.max(-1, Math.min(1, 2 * x / extentWidth - 1)) });
+            split.connect(pan, j).connect(this.#level);
+            this.#pans.push(pan);
+        });
+    }
+
+    #now() { return this.#context.currentTime * nsPerSecond; }
+    #tell(message) { this.#node.port.postMessage(message); }
+
+    /** What `haptics` (of attach) feels from now on. What it returns ends that. */
+    follow(haptics) {
+        const end = followed(haptics, this.#clock, () => this.#now(), (events, startNs) => this.strike(events, startNs + this.#latencyNs));
+        this.#ends.add(end);
+        return () => {
+            this.#ends.delete(end);
+            end();
+        };
+    }
+
+    /** Events, `laterNs` after the times they have: as a rule, the context's time in ns. Late ones are played at once, and counted. */
+    strike(events, laterNs = this.#now()) {
+        const bytes = this.#physvib.eventBytes(events.map(event => ({ ...event, timeNs: Math.max(0, event.timeNs + laterNs) })));
+        this.#tell({ events: bytes });
+    }
+
+    /** Samples of yours, a channel per actuator, at the context's rate, from that time of the context (s) on. */
+    playSamples(channels, seconds = this.#context.currentTime) {
+        if (channels.length !== this.channels) throw new PhysVibError(-2, `samples: expected ${this.channels} channels, found ${channels.length}`);
+        const buffer = new AudioBuffer({ numberOfChannels: channels.length, length: channels[0].length, sampleRate: this.#context.sampleRate });
+        channels.forEach((channel, j) => buffer.copyToChannel(channel, j));
+        const source = new AudioBufferSourceNode(this.#context, { buffer });
+        source.connect(this.#mix);
+        source.start(seconds);
+        return source;
+    }
+
+    /** Of one channel, or of all, at once: gains glide for 10 ms. */
+    setGain(channel, gain) { this.#tell({ call: 'set_gain', timeNs: this.#now(), values: [channel, gain] }); }
+    setMute(channel, isMuted) { this.#tell({ call: 'set_mute', timeNs: this.#now(), values: [channel, isMuted ? 1 : 0] }); }
+    setLevel(gain) { this.#level.gain.setTargetAtTime(gain, this.#context.currentTime, 0.0015); }
+    setLayout(settings) {
+        Object.assign(this.settings, settings);
+        this.#tell({ call: 'set_layout', timeNs: this.#now(), settings: this.#physvib.settingsBytes(this.settings).bytes });
+    }
+    /** All that rings, and what has happened so far, is felt no more. */
+    silence() { this.#tell({ call: 'silence', timeNs: this.#now(), values: [this.#now() + this.#latencyNs] }); }
+
+    close() {
+        for (const end of this.#ends) end();
+        this.#ends.clear();
+        this.#tell({ close: true });
+        for (const node of [this.#node, this.#mix, this.#level, ...this.#pans]) node.disconnect();
+    }
+}
+
+/** `context`: an AudioContext, made or resumed by a click. `options`: those of a renderer, latency (s), level, worklet (where worklet.js is). */
+export async function play(physvib, context, options = {}) {
+    if (!context.audioWorklet) {
+        throw new PhysVibError(-3, globalThis.isSecureContext === false ? 'audio: this page came by http; browsers give sound of this kind to https and to localhost'
+            : 'audio: expected a browser with AudioWorklet');
+    }
+    await context.audioWorklet.addModule(options.worklet ?? new URL('./worklet.js', import.meta.url));
+    return new Output(physvib, context, options).opened;
+}

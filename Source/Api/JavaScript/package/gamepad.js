@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Every game controller that the browser has, and a phone's own motor. What is to be felt is summed as energy by the module (the arithmetic of the native
+// sink), so a weak hit never ends a strong one and none is left out because another sounds.
+import { Clock, followed } from './clock.js';
+
+const commandMs = 200; // one lasts as long, and is repeated before: motors stop soon if a page does
+const nsPerMs = 1e6;
+
+/** What a controller can do: its effects by name. */
+const effectsOf = ({ vibrationActuator: actuator }) => (actuator ? actuator.effects ?? (actuator.type ? [actuator.type] : ['dual-rumble']) : []);
+
+class Pads {
+    #motors; #clock; #timer = null; #ends = new Set(); #level; #now; #pads; #vibrate; #latencyNs; #setTimer; #clearTimer; #last = { low: 0, high: 0 };
+    /** Commands sent so far, and those that a controller has refused. */
+    commands = 0;
+    refused = 0;
+
+    constructor(physvib, { profile = 'pad-generic', latency = 0.06, level = 1, fieldWidth = 1, fieldHeight = 1, phone = true, ...system }) {
+        this.#motors = physvib.pad(profile, { fieldWidth, fieldHeight });
+        this.#latencyNs = latency * 1e9;
+        this.#clock = new Clock(this.#latencyNs);
+        this.#level = level;
+        this.#now = system.now ?? (() => performance.now());
+        this.#pads = system.getGamepads ?? (() => globalThis.navigator?.getGamepads?.() ?? []);
+        this.#vibrate = !phone ? undefined : system.vibrate ?? globalThis.navigator?.vibrate?.bind(globalThis.navigator);
+        this.#setTimer = system.setTimeout ?? ((call, ms) => setTimeout(call, ms));
+        this.#clearTimer = system.clearTimeout ?? (timer => clearTimeout(timer));
+    }
+
+    /** What `haptics` (of attach) feels from now on. What it returns ends that. */
+    follow(haptics) {
+        const end = followed(haptics, this.#clock, () => this.#now() * nsPerMs, (events, startNs) => this.strike(events, startNs + this.#latencyNs));
+        this.#ends.add(end);
+        return () => {
+            this.#ends.delete(end);
+            end();
+        };
+    }
+
+    /** Events, `laterNs` after the times they have: as a rule, now. */
+    strike(events, laterNs = this.#now() * nsPerMs) {
+        for (const event of events) this.#motors.strike({ ...event, timeNs: Math.max(0, event.timeNs + laterNs) });
+        this.#wait();
+    }
+
+    get lost() { return this.#motors.lost; }
+    setLevel(level) { this.#level = level; }
+    /** Everything stands still, now. */
+    stop() {
+        this.#motors.stop(this.#now() * nsPerMs);
+        this.#send({ low: 0, high: 0 });
+        this.#wait();
+    }
+    close() {
+        for (const end of this.#ends) end();
+        this.#ends.clear();
+        this.#clearTimer(this.#timer);
+        this.#send({ low: 0, high: 0 });
+        this.#motors.free();
+    }
+
+    // A timer per command: at rest there is none.
+    #wait() {
+        this.#clearTimer(this.#timer);
+        const { dueNs } = this.#motors;
+        if (dueNs === Infinity) return;
+        this.#timer = this.#setTimer(() => this.#act(), Math.max(0, Math.ceil(dueNs / nsPerMs - this.#now()))); // timers know whole milliseconds
+    }
+    #act() {
+        const nowNs = this.#now() * nsPerMs;
+        let command = null;
+        while (this.#motors.dueNs <= nowNs) command = this.#motors.next(this.#level); // a page that was busy passes over what is over
+        if (command) this.#send(command);
+        this.#wait();
+    }
+
+    #send({ low, high }) {
+        ++this.commands;
+        for (const pad of this.#pads()) if (pad?.connected !== false && pad?.vibrationActuator) this.#rumble(pad, low, high);
+        this.#buzz(Math.max(low, high));
+        this.#last = { low, high };
+    }
+
+    // Effects replace one another: triggers get what the grips get where a controller has motors there.
+    #rumble(pad, low, high) {
+        const effects = effectsOf(pad), triggers = effects.includes('trigger-rumble'), effect = triggers ? 'trigger-rumble' : 'dual-rumble', { vibrationActuator: actuator } = pad;
+        if (low === 0 && high === 0 && actuator.reset) return this.#count(actuator.reset());
+        this.#count(actuator.playEffect(effect, { startDelay: 0, duration: low === 0 && high === 0 ? 1 : commandMs, strongMagnitude: low, weakMagnitude: high,
+            ...(triggers ? { leftTrigger: low / 2, rightTrigger: high / 2 } : {}) }));
+    }
+    #count(answer) { answer?.then?.(result => { if (result !== 'complete' && result !== 'preempted') ++this.refused; }, () => { ++this.refused; }); }
+
+    // A phone's motor is on or off: the stronger, the longer within each interval; Android starts none for less than 10 ms.
+    #buzz(strength) {
+        if (!this.#vibrate || (strength === 0 && this.#last.low === 0 && this.#last.high === 0)) return;
+        this.#vibrate(strength === 0 ? 0 : Math.max(10, Math.round(strength * 1000 / this.#motors.commandsPerSecond)));
+    }
+}
+
+/** `options`: profile (a name, or a profile of Docs/pads.md), fieldWidth, fieldHeight (m), latency (s), level, phone: false. */
+export function rumble(physvib, options = {}) { return new Pads(physvib, options); }

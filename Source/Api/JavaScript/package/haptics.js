@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// What every attachment has: numbers of bodies, steps, events for who follows and for who takes. Inside, lengths are metres and y points up.
+const mostKept = 10000; // events that nobody takes
+
+export class Haptics {
+    #known = new Map(); #next = 0; #followers = new Set(); #waiting = [];
+    /** Events that nobody took, and that have made room for newer ones. */
+    forgotten = 0;
+
+    /** `engine`: what tells of bodies: keyOf(body), massesOf(body), isThere(body). */
+    constructor(physvib, engine, { metresPerUnit = 1, ...settings } = {}) {
+        this.engine = engine;
+        this.metresPerUnit = metresPerUnit;
+        this.world = physvib.world(settings);
+    }
+
+    /** How a body feels and sounds: { frequencyHz, decayPerSecond, isSource, ... }; its masses are the engine's. Its number in events. */
+    set(body, values = {}) {
+        const known = this.know(body);
+        const before = known.values;
+        Object.assign(known, { values, isGone: false });
+        try {
+            this.#tell(known, this.engine.massesOf(body));
+        } catch (error) {
+            known.values = before;
+            throw error;
+        }
+        return known.id;
+    }
+
+    /** The number of a body in events. */
+    id(body) { return this.know(body).id; }
+
+    /** A body that is to be felt no more, from the next step on. One that leaves the engine's world need not be named. */
+    remove(body) {
+        const known = this.#known.get(this.engine.keyOf(body));
+        if (known !== undefined) known.isGone = true;
+    }
+
+    /** What is known of a body; a body that has not been set gets a number when it first touches. */
+    know(body) {
+        const key = this.engine.keyOf(body);
+        let known = this.#known.get(key);
+        if (known === undefined) {
+            known = { id: this.#next++, body, values: {}, isStatic: true, x: 0, y: 0, vx: 0, vy: 0, spin: 0, isRound: false };
+            this.#known.set(key, known);
+            this.#tell(known, this.engine.massesOf(body));
+        }
+        return known;
+    }
+
+    // Masses may change while a game runs.
+    #tell(known, masses) {
+        this.world.setBody(known.id, { ...known.values, ...masses });
+        Object.assign(known, { massKg: masses.massKg, inertia: masses.inertia, gravityScale: masses.gravityScale, isStatic: !(masses.massKg > 0) });
+    }
+
+    /** All that are known. */
+    each() { return this.#known.values(); }
+
+    // Between steps: those that are gone go, masses are as they are now.
+    #sweep() {
+        for (const [key, known] of this.#known) {
+            if (known.isGone || !this.engine.isThere(known.body)) {
+                this.#known.delete(key);
+                this.world.removeBody(known.id);
+                continue;
+            }
+            const masses = this.engine.massesOf(known.body);
+            if (masses.massKg !== known.massKg || masses.inertia !== known.inertia || masses.gravityScale !== known.gravityScale) this.#tell(known, masses);
+        }
+    }
+
+    /** Motion as the solver finds it. */
+    move(known, x, y, vx, vy, spin) {
+        Object.assign(known, { x, y, vx, vy, spin });
+        this.world.move(known.id, x, y, vx, vy, spin);
+    }
+
+    begin(seconds, gravity) {
+        this.#sweep();
+        this.world.beginStep(seconds, gravity);
+    }
+
+    finish() {
+        this.world.endStep();
+        const events = this.world.take();
+        this.#waiting.push(...events);
+        if (this.#waiting.length > mostKept) this.forgotten += this.#waiting.splice(0, this.#waiting.length - mostKept).length;
+        for (const follower of this.#followers) follower(events, this.world);
+    }
+
+    /** `follower(events, world)` after each step; what it returns ends that. */
+    follow(follower) {
+        this.#followers.add(follower);
+        return () => this.#followers.delete(follower);
+    }
+
+    /** Events since the last take: final ones, a step late; or, `atOnce`, all. */
+    take(atOnce = false) {
+        const events = this.#waiting;
+        this.#waiting = [];
+        return atOnce ? [...events, ...this.world.take(true)] : events;
+    }
+
+    explain() { return this.world.explain(); }
+    get counts() { return this.world.counts; }
+
+    /** Ends it: the engine is as it was. */
+    free() {
+        this.detach?.();
+        this.#followers.clear();
+        this.world.free();
+    }
+}
+
+/** Of a point of contact of two known bodies, normal from a to b: how fast it closes, and how it runs along both surfaces. */
+export function motionAt(a, b, x, y, nx, ny) {
+    const ax = a.vx - a.spin * (y - a.y), ay = a.vy + a.spin * (x - a.x), bx = b.vx - b.spin * (y - b.y), by = b.vy + b.spin * (x - b.x);
+    // The point itself goes with a round body's centre, or with the corner of what moves.
+    const [ux, uy] = b.isRound ? [b.vx, b.vy] : a.isRound ? [a.vx, a.vy] : b.isStatic ? [ax, ay] : [bx, by];
+    const along = (vx, vy) => (ux - vx) * -ny + (uy - vy) * nx;
+    return { approach: (ax - bx) * nx + (ay - by) * ny, alongA: along(ax, ay), alongB: along(bx, by) };
+}
+
+/** How fast two surfaces meet that close with `speed` across a `gap`, while `pull` (m/s^2) draws them together; and when, in steps. */
+export function meeting(speed, gap, pull, seconds) {
+    const squared = speed * speed + 2 * pull * Math.max(0, gap), approach = speed > 0 && squared > 0 ? Math.sqrt(squared) : speed;
+    if (gap > 0 && speed + approach > 0) return { approach, fraction: Math.min(1, 2 * gap / (speed + approach) / seconds) };
+    return { approach, gap, gapFraction: 0 };
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Matter 0.19 and 0.20, and Phaser's. It moves first and looks then, its y points down, its velocities are pixels per millisecond here, and it tells no
+// impulses: they follow from masses and from velocities before and behind its solver. It steps itself; its events say when.
+import { Haptics, motionAt } from './haptics.js';
+
+const massesOf = unit => body => (body.isStatic || !Number.isFinite(body.mass)
+    ? { massKg: 0, inertia: 0, gravityScale: 1 }
+    : { massKg: body.mass, inertia: Number.isFinite(body.inertia) ? body.inertia * unit * unit : 0, gravityScale: body.ignoreGravity ? 0 : 1 });
+
+class MatterHaptics extends Haptics {
+    #engine; #handlers; #seconds = 0; #isStepping = false; #there = new Set();
+
+    constructor(physvib, engine, { metresPerUnit = 0.01, fieldHeight, fieldWidth = 1, fieldY, ...settings }) {
+        const height = fieldHeight ?? fieldWidth;
+        super(physvib, { keyOf: body => body.parent ?? body, massesOf: massesOf(metresPerUnit), isThere: body => this.#there.has(body) },
+            { metresPerUnit, fieldWidth, fieldHeight: height, fieldY: -(fieldY ?? height), ...settings });
+        this.#engine = engine;
+        this.#handlers = { beforeUpdate: event => this.#begin(event), beforeSolve: () => this.#look(), afterUpdate: () => this.#end() };
+        const events = engine.events ??= {};
+        for (const [name, handler] of Object.entries(this.#handlers)) events[name] = [...events[name] ?? [], handler];
+    }
+    detach() { for (const [name, handler] of Object.entries(this.#handlers)) this.#engine.events[name] = this.#engine.events[name].filter(other => other !== handler); }
+
+    /** Matter's events do the work. */
+    step(seconds, advance) { advance(seconds); }
+
+    #bodies(composite = this.#engine.world, all = new Set()) {
+        for (const body of composite.bodies) all.add(body);
+        for (const inner of composite.composites) this.#bodies(inner, all);
+        return all;
+    }
+
+    #stateOf({ body }) {
+        const unit = this.metresPerUnit, perSecond = 1000 / (body.deltaTime || 1000 / 60);
+        return [body.position.x * unit, -body.position.y * unit, (body.position.x - body.positionPrev.x) * unit * perSecond,
+            -(body.position.y - body.positionPrev.y) * unit * perSecond, -(body.angle - body.anglePrev) * perSecond];
+    }
+
+    #begin({ delta }) {
+        const { gravity, timing } = this.#engine;
+        this.#seconds = (delta ?? timing.lastDelta) / 1000;
+        this.#there = this.#bodies();
+        for (const body of this.#there) if (!body.isSensor) this.know(body); // what it will touch, too
+        this.begin(this.#seconds, this.#pull(gravity));
+        this.#isStepping = true;
+        for (const known of this.each()) this.#moveAs(known, this.#stateOf(known), known.body.ignoreGravity ? 0 : this.#seconds);
+    }
+    #pull({ x, y, scale }) { return Math.hypot(x, y) * scale * 1e6 * this.metresPerUnit; }
+
+    // What Matter's own damping takes of a step is left out where it does not say when it solves.
+    #moveAs(known, [x, y, vx, vy, spin], falls) {
+        const { gravity } = this.#engine, add = falls * gravity.scale * 1e6 * this.metresPerUnit, moves = !known.isStatic && !known.body.isSleeping;
+        known.isRound = known.body.circleRadius > 0;
+        this.move(known, x, y, moves ? vx + add * gravity.x : 0, moves ? vy - add * gravity.y : 0, moves ? spin : 0);
+    }
+
+    #look() {
+        for (const known of this.each()) this.#moveAs(known, this.#stateOf(known), 0);
+    }
+
+    #end() {
+        if (!this.#isStepping) return; // attached within a step
+        this.#isStepping = false;
+        const pairs = this.#engine.pairs.list.filter(pair => pair.isActive && !pair.isSensor).map(pair => ({ pair, a: this.know(pair.collision.parentA), b: this.know(pair.collision.parentB) }));
+        for (const known of this.each()) {
+            const [, , vx, vy, spin] = this.#stateOf(known);
+            if (!known.isStatic) this.world.moved(known.id, vx, vy, spin);
+        }
+        for (const { pair, a, b } of pairs) if (!(a.isStatic && b.isStatic)) this.#touch(pair, a, b);
+        this.finish();
+    }
+
+    #touch(pair, a, b) {
+        const unit = this.metresPerUnit, { normal, depth } = pair.collision, nx = -normal.x, ny = normal.y, isRound = a.isRound || b.isRound;
+        const contacts = pair.activeContacts ?? pair.contacts.slice(0, pair.contactCount);
+        for (const { vertex } of isRound ? contacts.slice(0, 1) : contacts) {
+            const x = vertex.x * unit, y = -vertex.y * unit, { alongA, alongB } = motionAt(a, b, x, y, nx, ny);
+            this.world.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, restitution: Math.min(1, Math.max(0, pair.restitution)), gap: -depth * unit, gapFraction: 1,
+                point: isRound ? 0 : 'place' });
+        }
+    }
+}
+
+/** `engine`: Matter's, or Phaser's `this.matter.world.engine`. Lengths of `options` are metres; the field's corner is (0, fieldHeight): a canvas' lower left. */
+export function attach(physvib, engine, options = {}) { return new MatterHaptics(physvib, engine, options); }

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// PhysVib: contacts of any physics engine in, vibration on several actuators out. Units are SI; times are nanoseconds, as Numbers.
+import * as files from './files.js';
+import { Module, PhysVibError } from './module.js';
+import { Pad } from './pad.js';
+import { Renderer, channelsOf, layoutAt, lawsOf, withSettings } from './renderer.js';
+import { World } from './world.js';
+
+export { PhysVibError };
+
+/** The library: one instance of the WebAssembly, one thread. Worlds and renderers go when they are freed, or collected. */
+export class PhysVib {
+    #module; #files; #forgotten = new FinalizationRegistry(free => { try { free(); } catch { /* an instance that has ended */ } });
+
+    /** `compiled`: a WebAssembly.Module of physvib.wasm, for example another instance's `module`. `files`: where files.wasm is, its bytes or module. */
+    constructor(compiled, files = new URL('files.wasm', import.meta.url)) {
+        this.#module = new Module(compiled);
+        this.#files = files;
+    }
+
+    /** Compiled, for workers and worklets: `new PhysVib(module)`. */
+    get module() { return this.#module.compiled; }
+    get version() { return this.#module.text(this.#module.run('physvib_version')); }
+    get laws() { return lawsOf(this.#module); }
+    get memoryBytes() { return this.#module.memoryBytes; }
+
+    #registry = (object, free) => {
+        const token = {};
+        this.#forgotten.register(object, free, token);
+        return () => {
+            if (this.#forgotten.unregister(token)) free();
+        };
+    };
+
+    world(settings) { return new World(this.#module, this.#registry, settings); }
+    renderer(settings) { return new Renderer(this.#module, this.#registry, settings); }
+    /** Two motors of a game controller; physvib/gamepad plays them. */
+    pad(profile, settings) { return new Pad(this.#module, this.#registry, profile, settings); }
+
+    /** Events, in the order of their times, to samples: a Float32Array per channel. */
+    render(events, { seconds, ...settings }) {
+        const module = this.#module;
+        return withSettings(module, settings, at => {
+            const frames = Math.round(seconds * module.get('renderer_settings', at).rate), channels = channelsOf(module, at);
+            if (!(frames >= 0)) throw new PhysVibError(-2, 'seconds: expected a number from 0 on');
+            return module.withEvents(events, (list, count) => module.borrow(4 * channels * frames, to => {
+                module.call('render', at, list, BigInt(count), BigInt(frames), to);
+                return Array.from({ length: channels }, (_, j) => module.floats(to + 4 * j * frames, frames).slice());
+            }));
+        });
+    }
+
+    /** What each actuator gets of a hit at a place of the field. */
+    gains(x, y, settings = {}) {
+        const module = this.#module;
+        return withSettings(module, settings, at => module.borrow(64 * 8, to => Array.from(module.doubles(to, module.check('js_gains', at, x, y, to)))));
+    }
+
+    /** A preset by its name. */
+    layout(name) {
+        const module = this.#module;
+        return module.borrow(module.sizeOf('layout'), at => {
+            module.withText(name, text => module.call('layout_preset', text, at));
+            return layoutAt(module, at);
+        });
+    }
+    // Loaded when it is needed first.
+    async #filesModule() { return this.#files = await compile(await this.#files); }
+    async parseLayout(text) { return files.parseLayout(await this.#filesModule(), text); }
+    async parseEvents(text) { return files.parseEvents(await this.#filesModule(), text); }
+    async eventsText(events) { return files.eventsText(await this.#filesModule(), events); }
+    async wav(channels, rate = 48000) { return files.wav(await this.#filesModule(), channels, rate); }
+    async readClip(data, name, { rate = 48000 } = {}) { return files.readClip(await this.#filesModule(), data, name, rate); }
+    async writeClip(events, name, settings = {}) { return files.writeClip(await this.#filesModule(), events, name, settings); }
+
+    playOutNs(rate, blockFrames, stepsPerSecond, longestGapSeconds = 0) {
+        return Number(this.#module.call('play_out_ns', rate, blockFrames, stepsPerSecond, longestGapSeconds));
+    }
+    /** Settings as the audio worklet hands them to its own instance. */
+    settingsBytes(settings) { return withSettings(this.#module, settings, (at, size) => ({ bytes: this.#module.bytes(at, size).slice(), channels: channelsOf(this.#module, at) })); }
+    /** Of structures that worklets are sent, in bytes. */
+    get sizes() { return { event: this.#module.sizeOf('event'), renderer_status: this.#module.sizeOf('renderer_status') }; }
+    statusOf(bytes) { return this.#module.withBytes(bytes, at => this.#module.get('renderer_status', at)); }
+    eventBytes(events) { return this.#module.withEvents(events, at => this.#module.bytes(at, events.length * this.#module.sizeOf('event')).slice()); }
+}
+
+async function bytesAt(place) {
+    const url = new URL(place, import.meta.url);
+    if (url.protocol !== 'file:') return fetch(url);
+    const { readFile } = await import(/* @vite-ignore */ /* webpackIgnore: true */ 'node:fs/promises'); // Node's fetch takes no files
+    return readFile(url);
+}
+
+async function compile(source) {
+    if (source instanceof WebAssembly.Module) return source;
+    const found = typeof source === 'string' || source instanceof URL ? await bytesAt(source) : await source;
+    return WebAssembly.compile(found instanceof ArrayBuffer || ArrayBuffer.isView(found) ? found : await found.arrayBuffer()); // whatever type a server gives it
+}
+
+/** `source`, `files`: where physvib.wasm and files.wasm are, if not beside this file; bytes, a Response, or a WebAssembly.Module. */
+export async function load(source = new URL('physvib.wasm', import.meta.url), { files } = {}) { return new PhysVib(await compile(source), files); }

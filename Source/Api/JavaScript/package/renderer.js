@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Events in, samples out.
+const nsOf = time => BigInt(Math.round(time));
+
+/** Renderer settings in memory, `use(at)`; a layout is a name or { extentWidth, extentHeight, places: [{ x, y }] }. */
+export function withSettings(module, { layout, law, limiter, ...settings }, use) {
+    return module.filled('renderer_settings', { ...settings, law: lawOf(module, law), limiter: limiter === undefined ? undefined : Boolean(limiter) }, (at, size) => {
+        const place = at + module.placeOf('renderer_settings', 'layout');
+        if (typeof layout === 'string') module.withText(layout, name => module.call('layout_preset', name, place));
+        else if (layout !== undefined) putLayout(module, place, layout);
+        return use(at, size);
+    });
+}
+
+function putLayout(module, at, { extentWidth, extentHeight, places }) {
+    module.put('layout', at, { extentWidth, extentHeight, x: places.map(place => place.x), y: places.map(place => place.y), count: places.length });
+}
+
+export function layoutAt(module, at) {
+    const { extentWidth, extentHeight, x, y, count } = module.get('layout', at);
+    return { extentWidth, extentHeight, places: Array.from({ length: count }, (_, j) => ({ x: x[j], y: y[j] })) };
+}
+
+export function lawsOf(module) {
+    const laws = [];
+    for (let at; (at = module.run('physvib_law_name', laws.length)) !== 0;) laws.push(module.text(at));
+    return laws;
+}
+function lawOf(module, law) {
+    if (typeof law !== 'string') return law;
+    const known = lawsOf(module).indexOf(law);
+    return known < 0 ? law : known; // a word that is none is refused as such
+}
+
+/** How many channels settings in memory ask for. */
+export function channelsOf(module, at) {
+    const { channels } = module.get('renderer_settings', at);
+    return channels || module.get('layout', at + module.placeOf('renderer_settings', 'layout')).count;
+}
+
+export class Renderer {
+    #module; #memory = { at: 0, frames: 0 }; #forget;
+
+    constructor(module, registry, settings = {}) {
+        this.#module = module;
+        const made = withSettings(module, settings, at => ({ channels: channelsOf(module, at), name: module.handleOf(to => module.call('renderer_create', at, to)) }));
+        Object.assign(this, made); // name: of this renderer in the module
+        const { name } = made, memory = this.#memory;
+        this.#forget = registry(this, () => {
+            module.call('renderer_free', name);
+            if (memory.at) module.free(memory.at);
+        });
+    }
+
+    strike(event) { this.#module.withEvents([event], at => this.#module.call('renderer_strike', this.name, at)); }
+
+    /** The next samples: so many frames, a Float32Array per channel; or into arrays of yours, which allocates nothing. */
+    pull(into) {
+        const isCount = typeof into === 'number', frames = isCount ? into : into[0].length, { channels } = this, module = this.#module;
+        if (frames > this.#memory.frames) this.#makeRoom(frames);
+        module.call('renderer_pull', this.name, this.#memory.at, channels, frames);
+        if (isCount) return Array.from({ length: channels }, (_, j) => module.floats(this.#samplesOf(j), frames).slice());
+        for (let j = 0; j < channels; ++j) into[j].set(module.floats(this.#samplesOf(j), frames));
+        return into;
+    }
+    #samplesOf(channel) { return this.#memory.at + 4 * this.channels + 4 * channel * this.#memory.frames; }
+    #makeRoom(frames) {
+        if (this.#memory.at) this.#module.free(this.#memory.at);
+        this.#memory.at = 0;
+        this.#memory.at = this.#module.room(4 * this.channels * (1 + frames));
+        this.#memory.frames = frames;
+        for (let j = 0; j < this.channels; ++j) this.#module.view.setUint32(this.#memory.at + 4 * j, this.#samplesOf(j), true);
+    }
+
+    setGain(timeNs, channel, gain) { this.#module.call('renderer_set_gain', this.name, nsOf(timeNs), channel, gain); }
+    setMute(timeNs, channel, isMuted) { this.#module.call('renderer_set_mute', this.name, nsOf(timeNs), channel, isMuted ? 1 : 0); }
+    setLevel(timeNs, gain) { this.#module.call('renderer_set_level', this.name, nsOf(timeNs), gain); }
+    setLayout(timeNs, settings) { withSettings(this.#module, settings, at => this.#module.call('renderer_set_layout', this.name, nsOf(timeNs), at)); }
+    silence(timeNs, untilNs) { this.#module.call('renderer_silence', this.name, nsOf(timeNs), nsOf(untilNs)); }
+    get latencyFrames() { return this.#module.call('renderer_latency_frames', this.name); }
+    get status() {
+        return this.#module.filled('renderer_status', {}, at => {
+            this.#module.call('renderer_get_status', this.name, at);
+            return this.#module.get('renderer_status', at);
+        });
+    }
+
+    free() { this.#forget(); }
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// The audio thread: one renderer in an instance of its own. It imports nothing, so that a bundler may copy it as it is. What it gets are structures in
+// bytes, as physvib.h has them, and calls by their names.
+class PhysVibProcessor extends AudioWorkletProcessor {
+    constructor({ processorOptions: { module, code, settings, channels, eventBytes, statusBytes } }) {
+        super();
+        const compiled = module ?? new WebAssembly.Module(code); // not every browser sends modules to this thread
+        const system = new Proxy({}, { get: () => () => 52 }), { exports } = new WebAssembly.Instance(compiled, { physvib: { fail: () => { throw new Error('internal'); } }, wasi_snapshot_preview1: system });
+        this.lib = exports;
+        this.lib._initialize();
+        this.channels = channels;
+        this.eventBytes = eventBytes;
+        this.quantum = 0; // frames that there is room for
+        const at = this.lib.malloc(4);
+        this.given(settings, from => this.lib.physvib_renderer_create(from, at));
+        this.renderer = new DataView(this.lib.memory.buffer).getUint32(at, true);
+        this.lib.free(at);
+        this.status = this.lib.malloc(statusBytes);
+        this.lib.physvib_renderer_status_init(this.status, statusBytes);
+        this.statusBytes = statusBytes;
+        this.firstFrame = null;
+        this.toldFrame = 0;
+        this.isOpen = this.renderer !== 0;
+        this.port.onmessage = ({ data }) => this.obey(data);
+        this.port.postMessage({ isOpen: this.isOpen, latencyFrames: this.isOpen ? this.lib.physvib_renderer_latency_frames(this.renderer) : 0 });
+    }
+
+    given(bytes, use) {
+        const at = this.lib.malloc(bytes.length);
+        new Uint8Array(this.lib.memory.buffer).set(bytes, at);
+        const result = use(at);
+        this.lib.free(at);
+        return result;
+    }
+
+    // Times are those of the context; the renderer counts from its first frame.
+    obey({ close, startFrame, events, call, timeNs, values = [], settings }) {
+        if (close) {
+            if (this.isOpen) this.lib.physvib_renderer_free(this.renderer);
+            this.isOpen = false;
+            return;
+        }
+        if (!this.isOpen) return;
+        this.firstFrame ??= startFrame ?? currentFrame;
+        const offset = BigInt(Math.round(this.firstFrame * 1e9 / sampleRate)), after = ns => { const time = BigInt(Math.round(ns)) - offset; return time > 0n ? time : 0n; };
+        if (events) this.given(events, at => this.strike(at, events.length / this.eventBytes, after));
+        else if (settings) this.given(settings, at => this.lib[`physvib_renderer_${call}`](this.renderer, after(timeNs), at));
+        else this.lib[`physvib_renderer_${call}`](this.renderer, after(timeNs), ...values.map(value => (call === 'silence' ? after(value) : value)));
+    }
+
+    strike(at, count, after) {
+        for (let i = 0; i < count; ++i) {
+            const event = at + i * this.eventBytes, view = new DataView(this.lib.memory.buffer);
+            view.setBigInt64(event, after(Number(view.getBigInt64(event, true))), true); // time_ns is the first member
+            this.lib.physvib_renderer_strike(this.renderer, event);
+        }
+    }
+
+    makeRoom(frames) {
+        if (this.quantum) this.lib.free(this.room);
+        this.quantum = frames;
+        this.room = this.lib.malloc(4 * this.channels * (1 + frames));
+        const view = new DataView(this.lib.memory.buffer);
+        for (let j = 0; j < this.channels; ++j) view.setUint32(this.room + 4 * j, this.room + 4 * (this.channels + j * frames), true);
+    }
+
+    process(inputs, [out]) {
+        if (!this.isOpen) return false;
+        const frames = out[0].length;
+        this.firstFrame ??= currentFrame;
+        if (frames !== this.quantum) this.makeRoom(frames);
+        this.lib.physvib_renderer_pull(this.renderer, this.room, this.channels, frames);
+        const samples = new Float32Array(this.lib.memory.buffer, this.room + 4 * this.channels, this.channels * frames);
+        for (let j = 0; j < out.length && j < this.channels; ++j) out[j].set(samples.subarray(j * frames, (j + 1) * frames));
+        if (currentFrame - this.toldFrame > sampleRate / 4) {
+            this.toldFrame = currentFrame;
+            this.lib.physvib_renderer_get_status(this.renderer, this.status);
+            this.port.postMessage({ status: new Uint8Array(this.lib.memory.buffer, this.status, this.statusBytes).slice() });
+        }
+        return true;
+    }
+}
+registerProcessor('physvib', PhysVibProcessor);

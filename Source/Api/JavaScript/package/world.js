@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Contacts in, events out.
+const eventsAtOnce = 64;
+
+export class World {
+    #module; #name; #contact; #contactBytes; #room; #forget;
+
+    constructor(module, registry, { fieldHeight, ...settings } = {}) {
+        this.#module = module;
+        this.fieldWidth = settings.fieldWidth ?? 1;
+        this.fieldHeight = fieldHeight ?? this.fieldWidth;
+        this.#name = module.filled('world_settings', settings, at => module.handleOf(to => module.call('world_create', at, to)));
+        this.#contactBytes = module.sizeOf('contact');
+        const name = this.#name, contact = this.#contact = module.room(this.#contactBytes), room = this.#room = module.room(eventsAtOnce * module.sizeOf('event'));
+        this.#forget = registry(this, () => {
+            module.call('world_free', name);
+            module.free(contact);
+            module.free(room);
+        });
+    }
+
+    configure({ fieldHeight, ...settings }) {
+        this.#module.filled('world_settings', settings, at => this.#module.call('world_configure', this.#name, at));
+        this.fieldWidth = settings.fieldWidth ?? 1;
+        this.fieldHeight = fieldHeight ?? this.fieldWidth;
+    }
+
+    setBody(body, values = {}) { this.#module.filled('body', values, at => this.#module.call('world_set_body', this.#name, body, at)); }
+    removeBody(body) { this.#module.call('world_remove_body', this.#name, body); }
+    move(body, x, y, vx, vy, spin = 0) { this.#module.call('world_move', this.#name, body, x, y, vx, vy, spin); }
+    moved(body, vx, vy, spin = 0) { this.#module.call('world_moved', this.#name, body, vx, vy, spin); }
+    pair(surface, other, { frequencyHz, decayPerSecond, gain = 1 }) { this.#module.call('world_pair', this.#name, surface, other, frequencyHz, decayPerSecond, gain); }
+
+    beginStep(seconds, gravity = 9.81) { this.#module.call('world_begin_step', this.#name, seconds, gravity); }
+    endStep() { this.#module.call('world_end_step', this.#name); }
+    step(seconds, gravity, contacts) {
+        this.beginStep(seconds, gravity);
+        try { contacts?.(); } finally { this.endStep(); }
+    }
+
+    #tell(call, a, b, contact) {
+        this.#module.call('contact_init', this.#contact, this.#contactBytes);
+        this.#module.put('contact', this.#contact, contact);
+        this.#module.put('contact', this.#contact, { a, b });
+        this.#module.call(call, this.#name, this.#contact);
+    }
+    touch(a, b, contact = {}) { this.#tell('world_touch', a, b, contact); }
+    begin(a, b, contact = {}) { this.#tell('world_begin', a, b, contact); }
+    push(a, b, contact = {}) { this.#tell('world_push', a, b, contact); }
+    end(a, b) { this.#module.call('world_end', this.#name, a, b); }
+
+    get timeNs() { return Number(this.#module.call('world_time_ns', this.#name)); }
+    take(atOnce = false) {
+        const all = [];
+        for (;;) {
+            const count = Number(this.#module.call('world_take', this.#name, this.#room, BigInt(eventsAtOnce), atOnce ? 1 : 0));
+            all.push(...this.#module.eventsAt(this.#room, count));
+            if (count < eventsAtOnce) return all;
+        }
+    }
+    send(renderer, laterNs = 0, atOnce = false) { return Number(this.#module.call('world_send', this.#name, renderer.name, BigInt(Math.round(laterNs)), atOnce ? 1 : 0)); }
+
+    get drops() { return Number(this.#module.call('world_drops', this.#name)); }
+    get thinned() { return Number(this.#module.call('world_thinned', this.#name)); }
+    get counts() {
+        return this.#module.filled('world_counts', {}, at => {
+            this.#module.call('world_get_counts', this.#name, at);
+            return this.#module.get('world_counts', at);
+        });
+    }
+    explain() {
+        const most = 512;
+        return this.#module.borrow(most, at => {
+            this.#module.call('world_explain', this.#name, at, most);
+            return this.#module.text(at);
+        });
+    }
+
+    free() { this.#forget(); }
+}

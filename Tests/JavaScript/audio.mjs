@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The audio thread's file in a stub of a page's: audio.mjs FOLDER. Its samples are those of render, at the times that the page gives them.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join, resolve } from 'node:path';
+import test from 'node:test';
+import vm from 'node:vm';
+import { load } from './installed.mjs';
+
+const folder = resolve(process.argv[2]), rate = 48000, quantum = 128;
+const physvib = await (await load(folder, 'physvib')).load(), { play } = await load(folder, 'physvib/audio');
+const code = readFileSync(createRequire(join(folder, 'index.js')).resolve('physvib/worklet.js'), 'utf8');
+
+/** An audio context whose quanta the test pulls. */
+class Context {
+    frame = 0; sampleRate = rate; recorded = [];
+    constructor(outputs) {
+        this.destination = { maxChannelCount: outputs, channelCount: 2 };
+        this.audioWorklet = { addModule: async () => { this.global = this.makeGlobal(); } };
+    }
+    get currentTime() { return this.frame / rate; }
+    makeGlobal() {
+        const context = this;
+        const global = vm.createContext({ WebAssembly, sampleRate: rate, AudioWorkletProcessor: class { constructor() { this.port = context.port; } },
+            registerProcessor: (name, processor) => { context.Processor = processor; }, get currentFrame() { return context.frame; } });
+        vm.runInContext(code, global);
+        return global;
+    }
+    run(quanta) {
+        for (let i = 0; i < quanta; ++i) {
+            const out = Array.from({ length: this.outputs }, () => new Float32Array(quantum));
+            this.isAlive = this.processor.process([], [out]);
+            out.forEach((channel, j) => (this.recorded[j] ??= []).push(...channel));
+            this.frame += quantum;
+        }
+    }
+}
+const told = [];
+class Node {
+    constructor(context) { this.context = context; this.gain = { setTargetAtTime: value => { this.level = value; } }; }
+    connect(to) { told.push([this.constructor.name, to.constructor.name]); return to; }
+    disconnect() {}
+}
+globalThis.GainNode = class GainNode extends Node {};
+globalThis.ChannelSplitterNode = class ChannelSplitterNode extends Node {};
+globalThis.StereoPannerNode = class StereoPannerNode extends Node { constructor(context, { pan }) { super(context); told.push(pan); } };
+globalThis.AudioWorkletNode = class AudioWorkletNode extends Node {
+    constructor(context, name, { outputChannelCount, processorOptions }) {
+        super(context);
+        const inside = { postMessage: data => queueMicrotask(() => this.port.onmessage({ data })) };
+        this.port = { postMessage: data => inside.onmessage({ data: structuredClone(data) }) };
+        context.port = inside;
+        [context.outputs] = outputChannelCount;
+        context.processor = new context.Processor({ processorOptions });
+    }
+};
+
+test('a game at a variable rate is felt with constant latency, as render has it', async () => {
+    told.length = 0;
+    const context = new Context(8), output = await play(physvib, context, { layout: 'phone4', fieldWidth: 1, fieldHeight: 1, latency: 0.08 }), followers = new Set(), world = physvib.world();
+    assert.ok(output.isDirect && output.channels === 4);
+    world.setBody(0);
+    world.setBody(1, { massKg: 1, isSource: true, frequencyHz: 200, decayPerSecond: 30 });
+    output.follow({ follow: follower => { followers.add(follower); return () => followers.delete(follower); } });
+    context.run(20);
+    const struck = [], steps = [8, 8, 4, 12, 6, 9, 3, 8, 14, 8, 8, 8, 8, 8, 8], nsOf = quanta => quanta * quantum / rate * 1e9, startNs = nsOf(20 + steps[0]) - Math.round(nsOf(steps[0]));
+    steps.forEach((quanta, i) => {
+        context.run(quanta); // the game's frame comes late or early; its step is what passed
+        world.step(quanta * quantum / rate, 9.81, () => (i % 4 === 1 ? world.touch(0, 1, { x: 0.2 + 0.1 * i, y: 0.5, approach: 0.5, fraction: 0.3 }) : undefined));
+        const events = world.take();
+        struck.push(...events);
+        for (const follower of followers) follower(events, world);
+    });
+    context.run(200);
+    assert.equal(output.moves, 0);
+    assert.ok(struck.length >= 3);
+    const shifted = struck.map(event => ({ ...event, timeNs: Math.round(event.timeNs + startNs + 80e6) }));
+    const wanted = physvib.render(shifted, { seconds: context.frame / rate, layout: 'phone4', fieldWidth: 1, fieldHeight: 1 }), late = physvib.renderer({ layout: 'phone4' }).latencyFrames;
+    wanted.forEach((channel, j) => {
+        const got = Float32Array.from(context.recorded[j]).subarray(late), off = got.reduce((most, sample, n) => Math.max(most, Math.abs(sample - channel[n])), 0);
+        assert.ok(off === 0, `channel ${j} is off by ${off}`);
+    });
+    await null;
+    assert.equal(output.status.late, 0);
+    output.strike([{ ...struck[0], timeNs: 0 }], 0); // long over
+    context.run(200);
+    await null;
+    assert.equal(output.status.late, 1);
+    output.close();
+    context.run(1);
+    assert.equal(context.isAlive, false);
+});
+
+test('two outputs: a stereo monitor, each actuator at its place; gains, mutes and silence arrive', async () => {
+    told.length = 0;
+    const context = new Context(2), output = await play(physvib, context, { layout: 'phone2', fieldWidth: 1, fieldHeight: 1 });
+    assert.ok(!output.isDirect && told.includes(-1) && told.includes(1), JSON.stringify(told));
+    context.run(1);
+    output.setMute(0, true);
+    output.strike([{ timeNs: 0, frequencyHz: 100, decayPerSecond: 20, amplitude: 0.5, x: 0.5, y: 0.5 }]);
+    context.run(100);
+    assert.ok(context.recorded[0].slice(1000).every(sample => sample === 0) && context.recorded[1].some(sample => sample !== 0));
+    output.silence();
+    context.run(20);
+    assert.ok(context.recorded[1].slice(-quantum).every(sample => sample === 0));
+    output.setLayout({ layout: 'phone1' });
+    output.setGain(1, 0.5);
+    context.run(1);
+});
+
+test('a page without audio worklets says why', async () => {
+    globalThis.isSecureContext = false;
+    await assert.rejects(play(physvib, {}), /https/);
+});

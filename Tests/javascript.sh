@@ -1,0 +1,23 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# The JavaScript package as its user gets it, beside CI: built, packed, installed in an empty folder, held against the native program; then with the
+# engines from npm. Needs Node 20 or newer with npm, and some minutes for the compiler. usage: Tests/javascript.sh [PATH/physvib]
+set -eu
+cd "$(dirname "$0")/.."
+physvib=$(realpath "${1:-build/release/bin/physvib}")
+. .ci/packages.sh
+Source/Api/JavaScript/build-package.sh
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+package=$(ls "$PWD"/build/web/physvib-*.tgz)
+jspsych=$(ls "$PWD"/build/web/jspsych-physvib-*.tgz)
+cd "$work"
+echo '{ "private": true }' >package.json
+npm install --silent --no-audit --no-fund "$package"
+cd "$OLDPWD"
+for test in package pads audio; do node "Tests/JavaScript/$test.mjs" "$work" "$physvib"; done
+say "taking the engines from npm"
+(cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 box2d3-wasm@5.2 jspsych@8 typescript@5)
+node Tests/JavaScript/jspsych.mjs "$work"
+node Tests/JavaScript/worlds.mjs "$work"
+node Tests/JavaScript/page.mjs "$work" Docs/javascript.md
