@@ -3,8 +3,10 @@
 #include "Study/StudyPlan.h"
 #include "Study/StudyOrder.h"
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -41,6 +43,28 @@ int trialsOf(const SessionPlan& session, std::size_t stimuli) {
     return count * session.repetitions * (session.bothOrders ? 2 : 1);
 }
 
+/// One session in one condition.
+struct PlannedSession {
+    std::size_t session = 0, condition = 0;
+    int trials = 0;
+    std::vector<PlannedTrials> felt; ///< every part of every stimulus
+};
+
+/// In the order of one participant to whom conditions are given as they are listed.
+std::vector<PlannedSession> plannedSessions(const Protocol& protocol) {
+    std::vector<PlannedSession> all;
+    for (std::size_t c = 0; c < protocol.conditions.size(); ++c) {
+        const auto items = stimuliOf(protocol.conditions[c]);
+        for (std::size_t s = 0; s < protocol.sessions.size(); ++s) {
+            PlannedSession& planned = all.emplace_back(PlannedSession{s, c, trialsOf(protocol.sessions[s], items.size()), {}});
+            const double each = static_cast<double>(planned.trials) / static_cast<double>(items.size());
+            for (const StimulusItem& item : items)
+                for (const auto& [part, db] : partsOf(protocol, protocol.sessions[s])) planned.felt.push_back({c, item.label, part, each});
+        }
+    }
+    return all;
+}
+
 } // namespace
 
 TrialJob PlannedStimulus::job(const Protocol& protocol) const {
@@ -71,37 +95,29 @@ std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol) {
 
 std::vector<PlannedTrials> plannedTrials(const Protocol& protocol) {
     std::vector<PlannedTrials> all;
-    for (std::size_t c = 0; c < protocol.conditions.size(); ++c) {
-        const auto items = stimuliOf(protocol.conditions[c]);
-        for (const SessionPlan& session : protocol.sessions)
-            for (const StimulusItem& item : items)
-                for (const auto& [part, db] : partsOf(protocol, session)) all.push_back({c, item.label, part, trialsOf(session, items.size()) / std::max(1, static_cast<int>(items.size()))});
-    }
+    for (PlannedSession& session : plannedSessions(protocol)) std::ranges::move(session.felt, std::back_inserter(all));
     return all;
 }
 
 PlannedTime plannedTime(const Protocol& protocol, const std::function<double(std::size_t, const std::string&, const std::string&)>& secondsOf) {
     PlannedTime time;
     double stretch = 0.0;
+    std::size_t condition = 0;
     const auto work = [&](double seconds) { time.seconds += seconds, time.longestStretchSeconds = std::max(time.longestStretchSeconds, stretch += seconds); };
     const auto rest = [&](double seconds) {
         if (seconds > 0.0) time.seconds += seconds, stretch = 0.0;
     };
-    for (std::size_t c = 0; c < protocol.conditions.size(); ++c) {
-        if (c > 0) rest(protocol.conditionBreakSeconds);
-        const auto items = stimuliOf(protocol.conditions[c]);
-        for (const SessionPlan& session : protocol.sessions) {
-            rest(session.breakBeforeSeconds);
-            double each = 0.0; // a trial of this session, on average
-            for (const StimulusItem& item : items)
-                for (const auto& [part, db] : partsOf(protocol, session)) each += std::max(session.leastSeconds, secondsOf(c, item.label, part)) / static_cast<double>(items.size());
-            const int trials = trialsOf(session, items.size());
-            for (int t = 0; t < trials; ++t) {
-                if (session.breakEvery > 0 && t > 0 && t % session.breakEvery == 0) rest(session.breakSeconds);
-                work(each + (session.answer() == AnswerKind::wish ? 0.0 : PlannedTime::answerSeconds));
-            }
-            time.trials += trials;
+    for (const PlannedSession& planned : plannedSessions(protocol)) {
+        const SessionPlan& session = protocol.sessions[planned.session];
+        if (std::exchange(condition, planned.condition) != planned.condition) rest(protocol.conditionBreakSeconds);
+        rest(session.breakBeforeSeconds);
+        double felt = 0.0; // in all of its trials
+        for (const PlannedTrials& one : planned.felt) felt += one.count * std::max(session.leastSeconds, secondsOf(one.condition, one.label, one.part));
+        for (int t = 0; t < planned.trials; ++t) {
+            if (session.breakEvery > 0 && t > 0 && t % session.breakEvery == 0) rest(session.breakSeconds);
+            work(felt / planned.trials + (session.answer() == AnswerKind::wish ? 0.0 : PlannedTime::answerSeconds));
         }
+        time.trials += planned.trials;
     }
     return time;
 }

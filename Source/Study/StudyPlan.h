@@ -25,7 +25,7 @@ std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol);
 struct PlannedTrials {
     std::size_t condition = 0;
     std::string label, part;
-    int count = 0;
+    double count = 0.0; ///< a share of a trial where 100 touches meet 35 places
 };
 
 /// Of all conditions and sessions. Where a level follows the answers, the most that there can be. Any thread (allocates).

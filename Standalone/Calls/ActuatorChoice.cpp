@@ -55,7 +55,33 @@ std::string scaleVoltages(const std::vector<ActuatorProfile>& profiles, double i
     return {};
 }
 
+/// Figures that a file has rounded are one.
+bool isAlmost(double g, double other) { return std::abs(g - other) <= 0.005 * std::max(g, other); }
+
 } // namespace
+
+Result<LayoutDescription> calibratedLayout(const RenderJob& o, LayoutDescription layout) {
+    if (o.actuator == "none" || o.actuator == "layout") return layout;
+    const auto profile = findActuator(o.actuator);
+    if (!profile) return Failure{"--actuator: " + profile.error};
+    if (!profile.value.fullScaleG) return layout;
+    for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = *profile.value.fullScaleG;
+    return layout;
+}
+
+std::vector<std::string> calibrationWarnings(const RenderJob& o, const LayoutDescription& layout) {
+    std::vector<std::string> warnings;
+    if (o.actuator != "layout") return warnings;
+    const auto profiles = profilesOf(o, layout);
+    for (std::size_t j = 0; j < profiles.value.size(); ++j) {
+        const auto& measured = profiles.value[j].fullScaleG;
+        const EnchanterDescription& enchanter = layout.enchanters[j];
+        if (measured && !isAlmost(*measured, enchanter.fullScaleG))
+            warnings.push_back(o.layout + ": actuator " + enchanter.label + ": levels are printed with full_scale_g " + numberText(enchanter.fullScaleG) + " of the layout; " + enchanter.actuator + " was measured as " +
+                               numberText(*measured));
+    }
+    return warnings;
+}
 
 Result<ActuatorChoice> chooseActuators(const RenderJob& o, const LayoutDescription& layout) {
     auto profiles = profilesOf(o, layout);

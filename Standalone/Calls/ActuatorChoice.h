@@ -23,6 +23,13 @@ struct ActuatorChoice {
 /// is unknown or lacks what is wanted of it. M only.
 Result<ActuatorChoice> chooseActuators(const RenderJob& options, const LayoutDescription& layout);
 
+/// The layout with the full scale that `--actuator PROFILE` was measured to have, so that every g that follows is the actuator's own. A profile that
+/// does not know it, and `--actuator layout`, leave the layout's. One line if the profile is unknown, or a layout cannot have its figure. M only.
+Result<LayoutDescription> calibratedLayout(const RenderJob& options, LayoutDescription layout);
+
+/// Lines for people on actuators that a layout names, but whose measured full scale it does not have (`--actuator layout`). M only.
+std::vector<std::string> calibrationWarnings(const RenderJob& options, const LayoutDescription& layout);
+
 /// Lines for people on what the choice costs: the highest level that is flat in the band, per distinct actuator.
 std::vector<std::string> levelNotes(const ActuatorChoice& choice, int sampleRateHz);
 

@@ -57,6 +57,23 @@ TEST_F(ActuatorCommand, RemapsEventsInOrderAndWarnsOfMaterialsThatBecomeOne) {
     EXPECT_EQ(whole.err.find("JND"), std::string::npos) << whole.err; // there is room
 }
 
+TEST_F(ActuatorCommand, AMeasuredFullScaleReachesEveryLevelInG) {
+    std::string measured = profile("12", "[180, 230]");
+    measured.replace(measured.find("\"full_scale_g\": null"), 20, "\"full_scale_g\": 5");
+    write("mine.json", measured);
+    const auto own = call(std::string{render} + "--equalise off"), calibrated = call(std::string{render} + "--equalise off --actuator mine.json");
+    ASSERT_EQ(calibrated.exitCode, 0) << calibrated.err;
+    EXPECT_NE(own.out.find("dBFS (0.0464 g)"), std::string::npos) << own.out;
+    EXPECT_NE(calibrated.out.find("dBFS (0.23 g)"), std::string::npos) << calibrated.out;
+    const std::string drop = "render drop --seconds 1 --out c.wav --events c.csv --layout phone1 --equalise off";
+    EXPECT_NE(call(drop).out.find("1 collision, 0.15 g to 0.15 g"), std::string::npos) << call(drop).out;
+    EXPECT_NE(call(drop + " --actuator mine.json").out.find("1 collision, 0.73 g to 0.73 g"), std::string::npos) << call(drop + " --actuator mine.json").out;
+    EXPECT_EQ(call(std::string{render} + "--equalise off --actuator mine.json --method AF-FV-DRV").err, "") << "1.5 g are within 5 g";
+    write("layout.json", R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "mine.json"}]})");
+    const auto other = call("render --from-events hits.csv --layout layout.json --actuator layout --equalise off --seconds 1 --out two.wav");
+    EXPECT_NE(other.err.find("layout.json: actuator A: levels are printed with full_scale_g 1 of the layout; mine.json was measured as 5"), std::string::npos) << other.err;
+}
+
 TEST_F(ActuatorCommand, LevelsAreToldInDecibelsAndInG) {
     write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,200,10,0.5,0,0\n0.8,200,10,0.007,0,0\n");
     write("layout.json", R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "full_scale_g": 1.4}]})");

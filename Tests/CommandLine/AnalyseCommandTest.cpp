@@ -20,6 +20,24 @@ const std::string publishedCounts = "condition,row,c1,c2,c3,c4,c5,c6,c7\n" // th
                                     "RING-LOGARITHM,4,1.65,1.78,3.04,3.44,3.12,2.29,2.97\n"
                                     "RING-LOGARITHM,5,2.62,3.56,2.29,3.90,3.24,4.05,3.45\n";
 
+TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
+    const auto expects = [&](const std::string& protocol, const std::string& asked, const std::string& words) {
+        ASSERT_EQ(call("study run " + protocol + " --observer simulated").exitCode, 0);
+        const auto outcome = call("analyse " + asked + " " + protocol + "-P01.csv");
+        EXPECT_EQ(outcome.exitCode, 1);
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    };
+    expects("phantom-places", "confusion", "expected trials of this kind, found none; the file has trials of the task locate, which `physvib analyse resolution` reads");
+    expects("phantom-places", "psychometric", "; the file has trials of the task locate, which `physvib analyse resolution` reads");
+    expects("magnitudes", "resolution", "; the file has trials of the task estimate, which `physvib analyse levels` reads");
+    expects("model-or-sound", "ratings", "; the file has trials of the task choose, which `physvib analyse choices` reads, and trials of the tasks adjust choose, which `physvib analyse levels` reads");
+    write("c.csv", "choice,participant\na,1\nb,1\n");
+    refuses("analyse confusion c.csv", 1, "c.csv: expected a column stimulus, found none; the file has the columns of another kind of trials, which `physvib analyse choices` reads", 4);
+    write("d.csv", "stimulus,participant,response\n,1,a\n");
+    const auto own = call("analyse confusion d.csv").err;
+    EXPECT_EQ(own.find("the file has"), std::string::npos) << "its own kind, with another fault: " << own;
+}
+
 TEST_F(Analyse, PublishedPercentCountsGiveThePublishedResolutions) {
     write("p.csv", publishedCounts);
     const auto outcome = call("analyse percent-counts p.csv --picture p.png --export merged.csv");

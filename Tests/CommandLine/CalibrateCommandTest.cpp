@@ -3,6 +3,7 @@
 #include "Calls.h"
 #include "Core/Actuators/SimulatedActuator.h"
 #include "Scene/ActuatorFile.h"
+#include "Scene/LayoutFile.h"
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -61,6 +62,23 @@ TEST_F(CalibrateCommand, WritesTheProfileOfWhatWasRecorded) {
     ASSERT_EQ(call(std::string{pair} + "--band 150-300").exitCode, 0);
     EXPECT_EQ(loadActuator(folder_ / "mine.json").value.bandOrNone(), (FrequencyBand{150, 300}));
     EXPECT_FALSE(loadActuator(folder_ / "mine.json").value.fullScaleG); // nobody said what a sample is
+}
+
+TEST_F(CalibrateCommand, WritesTheLayoutThatHasItsFullScale) {
+    record(felt());
+    const auto plain = call(std::string{pair} + "--g-per-unit 10");
+    EXPECT_NE(plain.out.find("full scale 5.0"), std::string::npos) << plain.out;
+    EXPECT_NE(plain.out.find("--layout-out FILE.json"), std::string::npos) << "it is offered: " << plain.out;
+    const auto outcome = call(std::string{pair} + "--g-per-unit 10 --layout phone4 --place B --layout-out four.json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto layout = loadLayout(folder_ / "four.json");
+    ASSERT_TRUE(layout) << layout.error;
+    EXPECT_NEAR(layout.value.enchanters[1].fullScaleG, 5.0, 0.25);
+    EXPECT_EQ(layout.value.enchanters[1].actuator, "mine.json");
+    EXPECT_EQ(layout.value.enchanters[0].fullScaleG, 1.0);
+    refuses(std::string{pair} + "--layout phone4 --layout-out five.json", 2, "--layout-out: expected --g-per-unit", 4);
+    refuses(std::string{pair} + "--g-per-unit 10 --layout phone4 --place Z --layout-out five.json", 1, "--place: phone4 has no actuator \"Z\"", 4);
+    refuses(std::string{pair} + "--g-per-unit 10 --layout phone4 --layout-out mine.json", 2, "mine.json", 4);
 }
 
 TEST_F(CalibrateCommand, BadRecordingsAreOneLineAndLeaveNoProfile) {

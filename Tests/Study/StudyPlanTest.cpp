@@ -50,9 +50,15 @@ TEST(StudyPlan, TrialsAreThoseOfTheProtocol) {
     EXPECT_EQ(time.trials, 27 + 108);
     EXPECT_NEAR(time.seconds, 135 * (2.0 + PlannedTime::answerSeconds) + 180.0, 1e-6);
     EXPECT_NEAR(time.longestStretchSeconds, (27 + 54) * (2.0 + PlannedTime::answerSeconds), 1e-6);
-    int trials = 0;
+    double trials = 0.0;
     for (const PlannedTrials& planned : plannedTrials(builtIn("model-or-sound"))) trials += planned.part == "SV" ? planned.count : 0;
-    EXPECT_EQ(trials, 135);
+    EXPECT_EQ(trials, 135.0);
+}
+
+TEST(StudyPlan, TouchesOfATrainingAreSharedByItsPlacesWithoutARest) {
+    double touches = 0.0;
+    for (const PlannedTrials& planned : plannedTrials(builtIn("phantom-places"))) touches += planned.count;
+    EXPECT_NEAR(touches, 4 * (100 + 175), 1e-9); // 35 places: 2.86 touches each, not 2
 }
 
 TEST(StudyPlan, AWorldWithHandsLastsAsLongAsTheSessionAsks) {

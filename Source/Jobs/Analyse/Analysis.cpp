@@ -37,6 +37,19 @@ constexpr Analysis analyses[] = {
 static_assert(std::ranges::all_of(studyTasks, [](const auto& task) { return task.analysis.empty() || std::ranges::find(analyses, task.analysis, &Analysis::name) != std::end(analyses); }),
               "every task's analysis is one of these");
 
+/// "trials of the task locate", or "columns of such trials" where a table names no task.
+std::string trialWordsOf(const CsvTable& table, const std::string& analysis) {
+    const auto task = table.column(trialColumns::task);
+    std::set<std::string> tasks;
+    for (const CsvRow& row : table.rows)
+        if (const StudyTaskDescription* const did = task ? studyTaskNamed(row.cells[*task]) : nullptr; did != nullptr && (did->analysis == analysis || (analysis == "levels" && did->answer == AnswerKind::choice)))
+            tasks.emplace(did->name);
+    if (tasks.empty()) return "the columns of another kind of trials";
+    std::string words = tasks.size() == 1 ? "trials of the task" : "trials of the tasks";
+    for (const std::string& one : tasks) words.append(" ").append(one);
+    return words;
+}
+
 } // namespace
 
 std::span<const Analysis> allAnalyses() noexcept { return analyses; }
@@ -69,9 +82,32 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
     return names;
 }
 
+namespace {
+
+/// Of a table that an analysis could not take: which trials it holds, and which call reads them. Empty if no analysis is known for them, or if
+/// it is this one's own kind and something else is wrong.
+std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
+    if (asked.kind == Analysis::Kind::test || job.files.empty() || job.made != nullptr) return {};
+    const auto text = readFile(job.files.front(), limits::maxTableBytes);
+    auto table = text ? readCsvTable(text.value, job.files.front(), job.columns.empty() ? CsvHeader::named : CsvHeader::loose) : Result<CsvTable>{Failure{text.error}};
+    std::size_t leftOut = 0;
+    if (!table || !takeColumns(table.value, job.columns, leftOut).empty()) return {};
+    std::string words;
+    for (const std::string& name : analysesFor(table.value)) {
+        if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels") || (asked.name == "icons" && name == "confusion")) return {};
+        words.append(words.empty() ? "; the file has " : ", and ").append(trialWordsOf(table.value, name)).append(", which `physvib analyse ").append(name).append("` reads");
+    }
+    return words;
+}
+
+} // namespace
+
 AnalysisReport analyse(const std::string& name, const AnalysisJob& job) {
     const auto found = std::ranges::find(analyses, name, &Analysis::name);
-    return found != std::end(analyses) ? found->run(job) : AnalysisReport{"no analysis " + inQuotes(name)};
+    if (found == std::end(analyses)) return AnalysisReport{"no analysis " + inQuotes(name)};
+    AnalysisReport report = found->run(job);
+    if (!report.error.empty()) report.error += otherKindWords(*found, job);
+    return report;
 }
 
 PictureWords pictureWords(const std::vector<std::string>& files, bool isSimulated) {

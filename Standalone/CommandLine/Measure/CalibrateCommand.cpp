@@ -3,8 +3,10 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/BandText.h"
 #include "Core/Decibels.h"
+#include "Jobs/LayoutNamed.h"
 #include "Scene/ActuatorFile.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
 #include "Host/Devices/AudioOutput.h"
@@ -12,7 +14,9 @@
 #include "Host/Recordings/ReadRecording.h"
 #include "Measure/ActuatorMeasurement.h"
 #include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -25,6 +29,8 @@ struct CalibrateOptions {
     std::string playedPath, recordedPath; ///< WAV pair, instead of a device
     std::string sweepPath;                ///< write the sweep and nothing else
     std::string profilePath;              ///< to write
+    std::string layout, layoutPath;       ///< a layout of such actuators, to write with the profile and its full scale; empty: none
+    std::string place;                    ///< label of the one actuator of it that was measured; empty: all are alike
     bool isLoopback = false;              ///< a cable instead of an actuator: its latency, no profile
     std::string name = "calibrated";
     std::string band;                     ///< "LO-HI" to declare; empty: within 10 dB of the peak
@@ -86,6 +92,33 @@ int writeSweep(const CalibrateOptions& o) {
 
 std::string sourceOf(const CalibrateOptions& o) { return o.device.empty() ? o.recordedPath : o.device; }
 
+/// The layout with the profile and its full scale at the place that was measured, or at all; one line if it cannot have them.
+Result<LayoutDescription> layoutWith(const CalibrateOptions& o, double fullScaleG) {
+    auto layout = layoutNamed(o.layout);
+    if (!layout) return layout;
+    bool isThere = false;
+    for (EnchanterDescription& enchanter : layout.value.enchanters) {
+        if (!o.place.empty() && enchanter.label != o.place) continue;
+        isThere = true;
+        enchanter.actuator = o.profilePath;
+        enchanter.fullScaleG = fullScaleG;
+    }
+    if (!isThere) return Failure{"--place: " + o.layout + " has no actuator " + inQuotes(o.place)};
+    const auto read = readLayout(layoutJson(layout.value), o.layoutPath);
+    return read ? layout : Failure{read.error};
+}
+
+/// What is wrong with the layout that is asked for, before anything vibrates; empty: nothing.
+std::string layoutFault(const CalibrateOptions& o) { return o.layout.empty() ? std::string{} : layoutWith(o, 1.0).error; }
+
+/// How the measured full scale reaches every level in g.
+void offerLayout(const CalibrateOptions& o, const ActuatorProfile& p) {
+    if (!p.fullScaleG) return void(std::cout << "full scale in g is not known: give --g-per-unit, the acceleration that a recorded sample of 1 stands for\n");
+    std::cout << "full scale " << fixedNumber(*p.fullScaleG, 3) << " g: ";
+    if (!o.layoutPath.empty()) std::cout << o.layoutPath << " has it\n";
+    else std::cout << "render and play use it with --actuator " << o.profilePath << "; for studies and the mixer write a layout that has it: --layout phone4 --layout-out FILE.json\n";
+}
+
 /// What was played and recorded, its faults told.
 Result<RecordedSweep> measureAndTell(const CalibrateOptions& o) {
     auto sweep = measure(o);
@@ -111,6 +144,10 @@ std::string fault(const CalibrateOptions& o) {
     if (isPair && (o.playedPath.empty() || o.recordedPath.empty())) return "calibrate: expected both --played and --recorded";
     if (o.isLoopback) return o.profilePath.empty() ? "" : "calibrate: --loopback measures a cable and writes no profile";
     if (o.profilePath.empty()) return "calibrate: expected --out FILE.json";
+    if (o.layoutPath.empty() != o.layout.empty()) return "calibrate: expected both --layout and --layout-out";
+    if (o.layoutPath.empty() && !o.place.empty()) return "--place: expected with --layout and --layout-out";
+    if (!o.layoutPath.empty() && o.gPerUnit <= 0.0) return "--layout-out: expected --g-per-unit, without which the full scale in g is not known";
+    if (!o.layoutPath.empty() && !o.layoutPath.ends_with(".json")) return "--layout-out: expected a name that ends with .json, found " + inQuotes(o.layoutPath);
     if (!o.profilePath.ends_with(".json")) return "--out: expected a name that ends with .json, found " + inQuotes(o.profilePath);
     return o.band.empty() || parseBand(o.band) ? std::string{} : "--band: expected LO-HI in Hz like 90-1000, found " + inQuotes(o.band);
 }
@@ -124,6 +161,9 @@ void declareCalibrate(OptionTable& command, CalibrateOptions& o) {
     command.add("--recorded", o.recordedPath, "what was recorded of it, begun at the same moment").as("FILE.wav");
     command.add("--sweep", o.sweepPath, "only write the sweep").written("FILE.wav");
     command.add("--out", o.profilePath, "the profile").written("FILE.json");
+    command.add("--layout", o.layout, "also write this layout with the profile and its full scale in g: a preset or a layout file");
+    command.add("--layout-out", o.layoutPath, "where that layout goes").written("FILE.json");
+    command.add("--place", o.place, "label of the one actuator of the layout that was measured; left out: all of them").as("LABEL");
     command.add("--loopback", o.isLoopback, "a cable from the output to the input: tell the latency of the loop");
     command.add("--name", o.name, "of the profile");
     command.add("--band", o.band, "to declare; left out: where it is within 10 dB of its peak").as("LO-HI");
@@ -137,19 +177,31 @@ int runCalibrate(const CalibrateOptions& o) {
     if (const auto why = fault(o); !why.empty()) return leave(exitUsage, why);
     if (!o.sweepPath.empty()) return writeSweep(o);
     if (o.isLoopback) return tellLoopback(o);
+    const std::vector<std::string> outputs{o.profilePath, o.layoutPath}, inputs{o.playedPath, o.recordedPath, o.layout};
+    if (const std::string clash = fileClash(outputs, inputs); !clash.empty()) return leave(exitUsage, clash);
     AtomicFile file(o.profilePath); // before anything vibrates
-    if (!file.error().empty()) return leave(exitFailed, file.error());
+    std::optional<AtomicFile> layoutFile;
+    if (!o.layoutPath.empty()) layoutFile.emplace(o.layoutPath);
+    for (const std::string& error : {file.error(), layoutFile ? layoutFile->error() : std::string{}, layoutFault(o)})
+        if (!error.empty()) return leave(exitFailed, error);
     const auto sweep = measureAndTell(o);
     if (!sweep) return leave(exitFailed, sweep.error);
     const auto measured = fitActuator(sweep.value.played, sweep.value.recorded, sweep.value.rateHz);
     if (!measured) return leave(exitFailed, sourceOf(o) + ": " + measured.error);
     const ActuatorProfile profile = profileOf(o, measured.value);
     if (const auto read = readActuator(actuatorJson(profile), o.profilePath); !read) return leave(exitFailed, read.error);
+    if (layoutFile) {
+        const auto layout = layoutWith(o, profile.fullScaleG.value_or(1.0));
+        if (!layout) return leave(exitFailed, layout.error);
+        layoutFile->write(layoutJson(layout.value));
+    }
     file.write(actuatorJson(profile));
-    if (const std::string& error = file.commit(); !error.empty()) return leave(exitFailed, error);
+    for (AtomicFile* const one : {&file, layoutFile ? &*layoutFile : nullptr})
+        if (one != nullptr && !one->commit().empty()) return leave(exitFailed, one->error());
     const MeasuredActuator& m = measured.value;
     std::cout << o.profilePath << "  " << fixedNumber(m.resonator.resonanceHz, 2) << " Hz, Q " << fixedNumber(m.resonator.q, 2) << ", gain " << fixedNumber(m.gain, 4) << ", delay "
               << fixedNumber(1e3 * m.delaySeconds, 2) << " ms; " << fixedNumber(100.0 * (1.0 - m.residualShare), 2) << " % explained\n";
+    offerLayout(o, profile);
     return exitDone;
 }
 

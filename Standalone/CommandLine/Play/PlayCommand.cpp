@@ -152,7 +152,9 @@ int runPlay(PlayOptions& o) {
     if (o.driver == "thread" && o.scene.stepsPerSecond > 1000) return leave(exitUsage, "--driver thread: at most 1000 steps per second");
     auto layout = layoutNamed(o.scene.layout);
     if (!layout) return leave(exitFailed, layout.error);
-    job.layout = std::move(layout.value);
+    auto calibrated = calibratedLayout(o.scene, std::move(layout.value));
+    if (!calibrated) return leave(exitFailed, calibrated.error);
+    job.layout = std::move(calibrated.value);
     if (!o.board.empty() && job.channels() > limits::board::channels)
         return leave(exitUsage, "--board: the board has four channels, this layout " + std::to_string(job.channels()));
     if (auto fault = channelFault(outputs.sinks, job.channels()); !fault.empty()) return leave(exitUsage, fault);
@@ -163,6 +165,7 @@ int runPlay(PlayOptions& o) {
     for (const std::string& line : remapWarnings(job.actuators.remap, soundsOf(*job.scene), job.layout, o.scene)) tell("warning: " + line);
     if (auto fault = takeRecordings(job, soundsOf(*job.scene), o.scene.scene); !fault.empty()) return leave(exitFailed, fault);
     for (const std::string& note : notesOf(job.recordings)) tell(note);
+    for (const std::string& line : calibrationWarnings(o.scene, job.layout)) tell("warning: " + line);
     for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
     if (o.device.empty() && !(o.noise.empty() && o.scene.contactSound.empty() && o.scene.marker.empty()))
         return leave(exitUsage, "--noise, --contact-sound, --marker: expected a --device that they leave by");

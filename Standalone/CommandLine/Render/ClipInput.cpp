@@ -74,6 +74,9 @@ int takeClip(LoadedRender& job) {
         if (!layout) return leave(exitFailed, layout.error);
         job.layout = std::move(layout.value);
     }
+    auto calibrated = calibratedLayout(o, std::move(job.layout));
+    if (!calibrated) return leave(exitFailed, calibrated.error);
+    job.layout = std::move(calibrated.value);
     auto actuators = chooseActuators(o, job.layout);
     if (!actuators) return leave(exitFailed, actuators.error);
     job.actuators = std::move(actuators.value);

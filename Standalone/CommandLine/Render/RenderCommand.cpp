@@ -110,6 +110,7 @@ std::string render(LoadedRender& job, RenderListener* listener) {
     const RenderStatus status = job.clip ? renderClip(job, outputs) : renderEvents(job, outputs);
     if (auto error = outputs.finish(); !error.empty()) return error;
     for (const std::string& line : warnings.value) tell("warning: " + line);
+    for (const std::string& line : calibrationWarnings(job.options, job.layout)) tell("warning: " + line);
     for (const std::string& line : levelNotes(job.actuators, job.options.sampleRateHz)) tell(line);
     if (!job.coupling.note.empty()) tell(job.coupling.note);
     warnOfLosses(status, job);

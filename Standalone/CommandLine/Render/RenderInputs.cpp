@@ -18,6 +18,9 @@ std::string readInputs(LoadedRender& job) {
         if (!layout) return layout.error;
         job.layout = std::move(layout.value);
     }
+    auto calibrated = calibratedLayout(job.options, std::move(job.layout));
+    if (!calibrated) return calibrated.error;
+    job.layout = std::move(calibrated.value);
     if (auto fault = fixedLevelFault(job); !fault.empty()) return fault;
     auto actuators = chooseActuators(job.options, job.layout);
     if (!actuators) return actuators.error;
