@@ -157,7 +157,7 @@ TEST(PluginEditor, HasBeatsWhereThereIsASideChainAndSaysWhereThatIsOff) {
     EXPECT_FALSE(editor->statusText().contains("side chain")) << "nobody wants any";
     host.plugin->parameter(Parameter::beats).setValue(0.5f);
     editor->refresh();
-    EXPECT_TRUE(editor->statusText().contains("no beats: the side chain is off"));
+    EXPECT_TRUE(editor->statusText().contains("no beats and no music: the side chain is off"));
     auto layout = host.plugin->getBusesLayout();
     layout.inputBuses.getReference(0) = juce::AudioChannelSet::stereo();
     ASSERT_TRUE(host.plugin->setBusesLayout(layout));
