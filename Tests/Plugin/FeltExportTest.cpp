@@ -192,8 +192,8 @@ TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
     EXPECT_EQ(opened.value.note, "Mine.json: lowered to this instance: master 0.0 to -12.0 dB; music");
     other.plugin->open(opened.value.state);
     EXPECT_EQ(other.plugin->state().voice, state.voice);
-    EXPECT_EQ(other.plugin->parameter(Parameter::level).value(), -12.0);
-    EXPECT_EQ(other.plugin->parameter(Parameter::music).value(), 0.0);
+    EXPECT_NEAR(other.plugin->parameter(Parameter::level).value(), -12.0, 1e-5);
+    EXPECT_NEAR(other.plugin->parameter(Parameter::music).value(), 0.0, 1e-5);
     EXPECT_NE(other.plugin->state().editorWidth, 1500);
     EXPECT_TRUE(files[0].replaceWithText(R"({"physvib_plugin_state": 5, "seed": "much"})"));
     EXPECT_FALSE(openFile(files[0].getFullPathName().toStdString(), now));

@@ -148,7 +148,7 @@ TEST_F(PluginFiles, WhatOfASessionIsNotPlayedIsSaid) {
 TEST_F(PluginFiles, WhatIsWrongIsNamed) {
     const auto state = host_.plugin->state();
     const auto other = write("other.json", "{ \"answer\": 42 }"), broken = write("scene.json", "{ \"physvib_scene\": 1 }");
-    EXPECT_EQ(openFile(other, state).error, other + ": expected a scene, a layout or a saved session");
+    EXPECT_EQ(openFile(other, state).error, other + ": expected a preset of the plug-in, a scene, a layout or a saved session");
     EXPECT_NE(openFile(broken, state).error.find(broken + ": "), std::string::npos);
 }
 

@@ -45,7 +45,7 @@ TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
     auto editor = openEditor(*host.plugin);
     host.block(512);
     editor->refresh();
-    auto* const words = labelWith(*editor, "Play a note");
+    auto* const words = labelWith(*editor, "Press a key below");
     ASSERT_NE(words, nullptr);
     EXPECT_TRUE(words->isVisible());
     if (const char* folder = std::getenv("PHYSVIB_PICTURES")) { // to look at
