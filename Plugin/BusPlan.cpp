@@ -41,7 +41,7 @@ juce::AudioChannelSet channelsInOrder(int channels, Processor::WrapperType forma
 }
 
 std::vector<OutputBus> busesOf(const BusPlan& plan, Processor::WrapperType format) {
-    if (plan.kind == BusPlan::Kind::oneBus) return {{"Enchanters", channelsInOrder(plan.channels, format), true}};
+    if (plan.kind == BusPlan::Kind::oneBus) return {{"Actuators", channelsInOrder(plan.channels, format), true}};
     std::vector<OutputBus> buses;
     for (int b = 0; b < BusPlan::busCount; ++b) {
         buses.push_back({labelOf(2 * b) + ", " + labelOf(2 * b + 1), Set::stereo(), b < BusPlan::busesOfANewInstance});
@@ -49,7 +49,7 @@ std::vector<OutputBus> busesOf(const BusPlan& plan, Processor::WrapperType forma
     return buses;
 }
 
-bool hasSideChain(Processor::WrapperType format) noexcept { return format != Processor::wrapperType_LV2; }
+bool hasSideChain(const BusPlan& plan, Processor::WrapperType format) noexcept { return plan.hasMusicPorts || format != Processor::wrapperType_LV2; }
 
 bool isAccepted(const BusPlan& plan, Processor::WrapperType format, const Processor::BusesLayout& layout) {
     if (!isSideChain(layout.inputBuses)) return false;

@@ -13,6 +13,7 @@ struct BusPlan {
     enum class Kind { oneBus, manyBuses };
     Kind kind = Kind::oneBus;
     int channels = 4; ///< of the one bus until the host asks for another width; LV2 cannot ask
+    bool hasMusicPorts = false; ///< of LV2, whose ports cannot be off: music comes in by two that are always on
 
     static constexpr int widestBus = 16;              // VST3 gives up to 19 speakers names; LV2 and hosts stop at 16
     static constexpr int busCount = 15;               // stereo: from 32 channels on JUCE takes memory in every block (decision 35)
@@ -32,8 +33,8 @@ struct OutputBus {
 /// The buses of a new instance. Any thread.
 std::vector<OutputBus> busesOf(const BusPlan& plan, juce::AudioProcessor::WrapperType format);
 
-/// Whether music can come in by a side chain, which is off until a host turns it on. LV2 has no ports that are off. Any thread.
-bool hasSideChain(juce::AudioProcessor::WrapperType format) noexcept;
+/// Whether music can come in: by a side chain, which is off until a host turns it on; in LV2, which has no ports that are off, by a build with ports for it. Any thread.
+bool hasSideChain(const BusPlan& plan, juce::AudioProcessor::WrapperType format) noexcept;
 
 /// Whether every channel of `layout` would arrive where it should. Any thread.
 bool isAccepted(const BusPlan& plan, juce::AudioProcessor::WrapperType format, const juce::AudioProcessor::BusesLayout& layout);

@@ -30,6 +30,11 @@ public:
         if (!toldToHost_.exchange(true)) sendValueChangedMessageToListeners(normal_);
     }
 
+    /// The short name where the long one has no room: cut off, those of strikes would be alike.
+    juce::String getName(int longest) const override {
+        const auto& fits = static_cast<int>(row_.name.size()) <= longest ? row_.name : row_.shortName;
+        return text(fits).substring(0, longest);
+    }
     float getValue() const override { return normal_; }
     void setValue(float normal) override { normal_ = std::isfinite(normal) ? juce::jlimit(0.0f, 1.0f, normal) : getDefaultValue(); }
     float getDefaultValue() const override { return static_cast<float>(normalised(row_, row_.initial)); }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LV2's entry: JUCE's (which CMake compiles as juceLv2Descriptor; the Projucer cannot, and does without this file), and the
-// three things that it leaves out. It prepares for the largest block a host can ever send, not for the usual one, takes
-// no notice of deactivate and activate, and of what sets a parameter within a block it knows no frame.
+// four things that it leaves out. It prepares for the largest block a host can ever send, not for the usual one, takes
+// no notice of deactivate and activate, and of what sets a parameter within a block it knows no frame, and has no control ports.
 #ifdef PHYSVIB_LV2_ENTRY
 #include "Entry.h"
 #include "PluginProcessor.h"
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <lv2/atom/atom.h>
 #include <lv2/atom/util.h>
@@ -76,11 +77,41 @@ private:
     std::array<const LV2_Atom_Event*, parameterCount> at_{};
 };
 
+// Ports in order: music, channels, and of JUCE's wrapper events, what is told, latency, free-wheeling, enabled; then a control port for each parameter (Lv2Ports.cpp).
+constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS, firstControl = eventPort + 5;
+
+/// Control ports beside the properties: what changes last counts. A port says something when its value is another than it was; after a state has been
+/// taken, which has the values of all parameters, what ports hold is what hosts have kept with it, and old.
+class Controls {
+public:
+    /// `stateCount`: the processor's, when it was made.
+    explicit Controls(std::uint64_t stateCount = 0) noexcept
+        : states_{stateCount} {
+        for (std::size_t p = 0; p < parameterCount; ++p) told_[p] = static_cast<float>(allParameters()[p].initial);
+    }
+    void connect(std::size_t parameter, const void* port) noexcept { ports_[parameter] = static_cast<const float*>(port); }
+
+    /// Before each block. R, wait-free.
+    void read(PluginProcessor& processor) noexcept {
+        const bool isOld = std::exchange(states_, processor.stateCount()) != states_;
+        for (std::size_t p = 0; p < parameterCount; ++p) {
+            if (!ports_[p] || !std::isfinite(*ports_[p]) || std::exchange(told_[p], *ports_[p]) == *ports_[p] || isOld) continue;
+            processor.parameter(static_cast<Parameter>(p)).setByController(static_cast<float>(normalised(allParameters()[p], *ports_[p])));
+        }
+    }
+
+private:
+    std::array<const float*, parameterCount> ports_{};
+    std::array<float, parameterCount> told_{};
+    std::uint64_t states_;
+};
+
 struct Instance {
     PluginProcessor* processor = nullptr;
     bool wasDeactivated = false;
     Names names{};
     const LV2_Atom_Sequence* events = nullptr; // of the port, which the host may connect anew before each block
+    Controls controls{};
 };
 
 /// All that live, by JUCE's handles; a host may make and end them on several threads, and runs them on others. A place is used again, and never freed.
@@ -146,19 +177,23 @@ LV2_Handle instantiate(const LV2_Descriptor*, double rate, const char* bundle, c
     const auto* const juces = juceLv2Descriptor(0);
     const LV2_Handle handle = juces->instantiate(juces, rate, bundle, features);
     const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
-    if (handle) instances().add(handle, {making().instance, false, map ? namesOf(*map) : Names{}, nullptr});
+    if (handle) instances().add(handle, {making().instance, false, map ? namesOf(*map) : Names{}, nullptr, Controls{making().instance->stateCount()}});
     return handle;
 }
 
-// The events come behind the channels: inputs are none.
 void connect(LV2_Handle handle, std::uint32_t port, void* data) {
-    if (port == PHYSVIB_CHANNELS) instances()[handle].events = static_cast<const LV2_Atom_Sequence*>(data);
+    if (port >= firstControl) {
+        if (port - firstControl < parameterCount) instances()[handle].controls.connect(port - firstControl, data);
+        return;
+    }
+    if (port == eventPort) instances()[handle].events = static_cast<const LV2_Atom_Sequence*>(data);
     juceLv2Descriptor(0)->connect_port(handle, port, data);
 }
 
 void run(LV2_Handle handle, std::uint32_t frames) {
     auto& instance = instances()[handle];
     const auto* const juces = juceLv2Descriptor(0);
+    instance.controls.read(*instance.processor);
     if (!instance.events) return juces->run(handle, frames);
     Lv2Points points{*instance.events, instance.names, *instance.processor};
     instance.processor->expectPoints(points);

@@ -125,7 +125,7 @@ juce::AlertWindow& MidiPanel::newForm(const juce::String& title) {
 }
 
 void MidiPanel::ask(std::function<void(juce::AlertWindow&)> use) {
-    form_->addButton("Take", 1, juce::KeyPress{juce::KeyPress::returnKey});
+    form_->addButton("OK", 1, juce::KeyPress{juce::KeyPress::returnKey});
     form_->addButton("Cancel", 0, juce::KeyPress{juce::KeyPress::escapeKey});
     form_->enterModalState(true, juce::ModalCallbackFunction::create([panel = juce::Component::SafePointer<MidiPanel>{this}, use = std::move(use)](int answer) {
         if (panel == nullptr || panel->form_ == nullptr) return;

@@ -27,7 +27,7 @@ MixStrip::MixStrip(const MixHands& hands, int strip, const juce::String& label)
     setTitle("Strip " + label);
     setUpFader(fader_, leastStripDb, mostStripDb, "Gain of " + label);
     fader_.onValueChange = [this] { change([this](Strip& s) { s.gainDb = fader_.getValue(); }); };
-    ceiling_.textFromValueFunction = [this](double db) { return "at most " + number(db, 1) + " dB, " + inG(fromDecibels(db) * enchanter_.fullScaleG) + " g"; };
+    ceiling_.textFromValueFunction = [this](double db) { return "ceiling " + number(db, 1) + " dB, " + inG(fromDecibels(db) * enchanter_.fullScaleG) + " g"; };
     ceiling_.onValueChange = [this] { change([this](Strip& s) { s.ceilingDb = ceiling_.getValue(); }); };
     const auto toggle = [&](juce::TextButton& button, const juce::String& name, juce::Colour tint, bool Strip::*what) {
         button.setTitle(name + " " + label);
@@ -41,7 +41,7 @@ MixStrip::MixStrip(const MixHands& hands, int strip, const juce::String& label)
     delay_.setTitle("Delay of " + label);
     delay_.onClick = [this] { askDelay(); };
     actuator_.setTitle("Actuator of " + label);
-    actuator_.setTooltip("What this enchanter is, and whether it is equalised");
+    actuator_.setTooltip("This actuator's profile, and whether it is equalised");
     actuator_.getProperties().set(quietProperty, true);
     actuator_.onClick = [this] { askActuator(); };
     level_.setFont(juce::Font{text::small, juce::Font::bold});
@@ -84,7 +84,7 @@ void MixStrip::update(float peak, bool isConnected) {
     level_.setText(isConnected ? inG(hold_ * enchanter_.fullScaleG) : juce::String{juce::CharPointer_UTF8{"\xe2\x80\x93"}}, juce::dontSendNotification);
     if (isConnected == isConnected_) return;
     isConnected_ = isConnected;
-    level_.setTooltip(isConnected ? juce::String{} : "The track has no channel for this enchanter");
+    level_.setTooltip(isConnected ? juce::String{} : "The track has no channel for this actuator");
     repaint();
 }
 
@@ -176,7 +176,7 @@ MixPanel::MixPanel(PluginProcessor& plugin, MixHands hands)
     viewport_.setScrollBarsShown(false, true);
     viewport_.setScrollBarThickness(8);
     limiter_.setTitle("Limiter");
-    limiter_.setTooltip("One gain for all enchanters: keeps each below its ceiling, and hits where they are");
+    limiter_.setTooltip("One gain for all actuators: keeps each below its ceiling, and each impact at its place");
     limiter_.onClick = [this] { hands_.edit([](PluginState& s) { s.limiterEnabled = !s.limiterEnabled; }); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{&viewport_, &level_, &limiter_}) addAndMakeVisible(c);
 }

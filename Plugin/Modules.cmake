@@ -5,12 +5,12 @@ set_source_files_properties(Lv2Entry.cpp PROPERTIES COMPILE_DEFINITIONS PHYSVIB_
 set(physvib_entry_points ${CMAKE_CURRENT_LIST_DIR}/entry-points.map)
 include(${CMAKE_CURRENT_LIST_DIR}/vst3-header.cmake)
 
-# physvib_plugin(TARGET NAME CODE LV2URI BUSES CHANNELS FORMATS...): NAME.vst3, NAME.lv2, NAME.component in plugins/
+# physvib_plugin(TARGET NAME CODE LV2URI BUSES CHANNELS MUSIC_PORTS FORMATS...): NAME.vst3, NAME.lv2, NAME.component in plugins/
 # (spaces of the name become hyphens).
 # A module shows hosts its format's entry points and nothing else, so that no two share a static. It stays loaded, as the
 # shared statics kept it: threads of JUCE and of X11's handlers may outlast the last instance.
 # CODE (four characters) and LV2URI are promises: hosts find our instances by them.
-function(physvib_plugin target name code lv2uri buses channels)
+function(physvib_plugin target name code lv2uri buses channels music_ports)
     string(REPLACE " " "-" file ${name})
     juce_add_plugin(${target}
         FORMATS ${ARGN}
@@ -28,7 +28,7 @@ function(physvib_plugin target name code lv2uri buses channels)
         VST3_CATEGORIES Instrument Generator
         AU_MAIN_TYPE kAudioUnitType_MusicDevice)
     target_sources(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Entry.cpp)
-    target_compile_definitions(${target} PUBLIC PHYSVIB_BUSES=${buses} PHYSVIB_CHANNELS=${channels} JUCE_VST3_CAN_REPLACE_VST2=0
+    target_compile_definitions(${target} PUBLIC PHYSVIB_BUSES=${buses} PHYSVIB_CHANNELS=${channels} PHYSVIB_MUSIC_PORTS=${music_ports} JUCE_VST3_CAN_REPLACE_VST2=0
         JucePlugin_LV2URI="${lv2uri}") # juce_add_plugin's own argument is lost in Debian's package
     target_link_libraries(${target} PUBLIC physvib-plugin)
     set(plugins ${CMAKE_BINARY_DIR}/plugins)
@@ -40,14 +40,16 @@ function(physvib_plugin target name code lv2uri buses channels)
     endforeach()
     if(TARGET ${target}_VST3)
         target_include_directories(${target}_VST3 SYSTEM BEFORE PRIVATE ${physvib_vst3_headers})
+        target_sources(${target}_VST3 PRIVATE ${physvib_vst3_wrapper})
         set_target_properties(${target}_VST3 PROPERTIES LIBRARY_OUTPUT_DIRECTORY
             $<IF:$<PLATFORM_ID:Linux>,${plugins}/${file}.vst3/Contents/${CMAKE_SYSTEM_PROCESSOR}-linux,${plugins}>)
     endif()
     if(TARGET ${target}_LV2)
         set_target_properties(${target}_LV2 PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY "${plugins}/${file}.lv2")
         target_sources(${target}_LV2 PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/Lv2Entry.cpp)
+        add_dependencies(${target}_LV2 physvib-lv2-ports)
         add_custom_command(TARGET ${target}_LV2 POST_BUILD VERBATIM # after JUCE's command, which writes it
-            COMMAND ${CMAKE_COMMAND} -DFOLDER=${plugins}/${file}.lv2 -P ${CMAKE_CURRENT_SOURCE_DIR}/lv2-description.cmake)
+            COMMAND ${CMAKE_COMMAND} -DFOLDER=${plugins}/${file}.lv2 -DPORTS=$<TARGET_FILE:physvib-lv2-ports> -P ${CMAKE_CURRENT_SOURCE_DIR}/lv2-description.cmake)
     endif()
     foreach(format vst3 lv2) # where hosts look
         string(TOUPPER ${format} module)
@@ -60,10 +62,14 @@ function(physvib_plugin target name code lv2uri buses channels)
     endif()
 endfunction()
 
+add_executable(physvib-lv2-ports EXCLUDE_FROM_ALL Lv2Ports.cpp Parameters.cpp)
+target_link_libraries(physvib-lv2-ports PRIVATE PhysVib::Core physvib-warnings)
+
 if(NOT PHYSVIB_SANITIZE) # a sanitized module would need a sanitized host
-    physvib_plugin(PhysVibPlugin "PhysVib" Phys urn:physvib:plugin oneBus 4 VST3 LV2 AU)
-    physvib_plugin(PhysVibPairs "PhysVib Pairs" Phyp urn:physvib:plugin:pairs manyBuses 2 VST3 AU) # hosts without wide buses
-    physvib_plugin(PhysVib2 "PhysVib 2" Phy2 urn:physvib:plugin:2 oneBus 2 LV2) # LV2 cannot be asked for another width
-    physvib_plugin(PhysVib8 "PhysVib 8" Phy8 urn:physvib:plugin:8 oneBus 8 LV2)
-    physvib_plugin(PhysVib16 "PhysVib 16" PhyG urn:physvib:plugin:16 oneBus 16 LV2)
+    physvib_plugin(PhysVibPlugin "PhysVib" Phys urn:physvib:plugin oneBus 4 0 VST3 LV2 AU)
+    physvib_plugin(PhysVibPairs "PhysVib Pairs" Phyp urn:physvib:plugin:pairs manyBuses 2 0 VST3 AU) # hosts without wide buses
+    physvib_plugin(PhysVib2 "PhysVib 2" Phy2 urn:physvib:plugin:2 oneBus 2 0 LV2) # LV2 cannot be asked for another width
+    physvib_plugin(PhysVib8 "PhysVib 8" Phy8 urn:physvib:plugin:8 oneBus 8 0 LV2)
+    physvib_plugin(PhysVib16 "PhysVib 16" PhyG urn:physvib:plugin:16 oneBus 16 0 LV2)
+    physvib_plugin(PhysVibMusic "PhysVib Music" PhyM urn:physvib:plugin:music oneBus 4 2 LV2) # nor has it ports that are off: decision 143
 endif()

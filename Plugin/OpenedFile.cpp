@@ -3,6 +3,8 @@
 #include "OpenedFile.h"
 #include "Scene/Sessions/DeskLimits.h"
 #include "Scene/FileKind.h"
+#include "Scene/SceneFileLimits.h"
+#include "Io/Disk/ReadFile.h"
 #include "Scene/SceneFile.h"
 #include "Scene/Sessions/SessionFile.h"
 #include "Parameters.h"
@@ -40,7 +42,7 @@ std::string lowerByChannel(const DeskLimits& limits, Mix& mix) {
     return lowered;
 }
 
-std::string noteOf(const std::filesystem::path& path, const std::string& lowered) { return lowered.empty() ? lowered : path.filename().string() + ": lowered to this desk: " + lowered; }
+std::string noteOf(const std::filesystem::path& path, const std::string& lowered) { return lowered.empty() ? lowered : path.filename().string() + ": lowered to this instance: " + lowered; }
 
 PluginState leftBy(const SavedSession& session, Mix mix, PluginState state) {
     takeScene(state, *mix.scene);
@@ -58,6 +60,43 @@ PluginState leftBy(const SavedSession& session, Mix mix, PluginState state) {
 
 bool isPlayedOtherwise(const SavedSession& session) {
     return session.shaping != EventShaping{} || !session.log.recordings.empty() || !session.log.clips.empty() || session.run.timing != ImpactTiming::onset || session.run.location != ImpactLocation::contact;
+}
+
+/// In the unit of that parameter, as a state has it or as it comes.
+double valueIn(const PluginState& state, Parameter which) {
+    const auto& row = rowOf(which);
+    const auto found = std::ranges::find(state.parameters, row.id, &std::pair<std::string, ParameterValue>::first);
+    return found == state.parameters.end() ? row.initial : valueOfState(row, found->second).value_or(row.initial);
+}
+
+/// A preset sounds as it is meant, up to the level, the strips and the limiter of this instance; strikes and music up to what they are here or what is usual.
+Result<OpenedFile> openPreset(const std::filesystem::path& path, const PluginState& now) {
+    const auto read = loadText(path, limits::maxSceneFileBytes, readPluginState);
+    if (!read) return Failure{read.error};
+    PluginState state = read.value;
+    if (const auto fault = faultOfParameters(state); !fault.empty()) return Failure{path.string() + ": " + fault};
+    fitToLayout(state);
+    Mix mix;
+    mix.layout = state.layout;
+    mix.strips = state.strips;
+    mix.levelDb = valueIn(state, Parameter::level);
+    std::string lowered = lowerByChannel(limitsOf(now), mix);
+    const auto also = [&lowered](const char* what) { lowered += (lowered.empty() ? "" : "; ") + std::string{what}; };
+    state.strips = std::move(mix.strips);
+    setParameter(state, Parameter::level, mix.levelDb);
+    for (const auto& [which, usual] : {std::pair{Parameter::strikeLevel, rowOf(Parameter::strikeLevel).initial}, {Parameter::music, 0.0}}) {
+        const double most = std::max(valueIn(now, which), usual);
+        if (valueIn(state, which) <= most) continue;
+        setParameter(state, which, most);
+        also(which == Parameter::music ? "music" : "the strike level");
+    }
+    if (now.limiterEnabled && !state.limiterEnabled) {
+        state.limiterEnabled = true;
+        also("the limiter stays on");
+    }
+    state.editorWidth = now.editorWidth;
+    state.editorHeight = now.editorHeight;
+    return OpenedFile{std::move(state), noteOf(path, lowered)};
 }
 
 } // namespace
@@ -95,9 +134,10 @@ Result<OpenedFile> openFile(const std::filesystem::path& path, PluginState state
         note += noteOf(path, lowered);
         return OpenedFile{leftBy(session.value, std::move(mix), std::move(state)), note};
     }
+    case FileKind::pluginState: return openPreset(path, state);
     case FileKind::unknown: break;
     }
-    return Failure{path.string() + ": expected a scene, a layout or a saved session"};
+    return Failure{path.string() + ": expected a preset of the plug-in, a scene, a layout or a saved session"};
 }
 
 } // namespace physvib

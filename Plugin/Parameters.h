@@ -12,7 +12,7 @@
 namespace physvib {
 
 /// In the order in which hosts list them. New ones go to the end, before `count`: hosts may number them.
-enum class Parameter { level, law, exponent, gravity, tilt, material, strikeLevel, strikeX, strikeY, bypass, beats, count };
+enum class Parameter { level, law, exponent, gravity, tilt, material, strikeLevel, strikeX, strikeY, bypass, beats, music, musicSides, count };
 constexpr auto parameterCount = static_cast<std::size_t>(Parameter::count);
 
 /// How a host's 0 to 1 runs over the range.
@@ -27,6 +27,7 @@ struct ParameterRow {
     Parameter parameter; ///< its number, which is its place in the table
     std::string_view id; ///< never changes: sessions of hosts hold on to it
     std::string_view name;
+    std::string_view shortName; ///< 8 letters at most, for small displays; its first four tell it from the others
     std::string_view unit;
     double least = 0.0;
     double most = 1.0;

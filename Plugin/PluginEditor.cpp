@@ -2,9 +2,7 @@
 // Places, choices, and what is asked of the processor 25 times a second.
 #include "PluginEditor.h"
 #include "EditorParts.h"
-#include "Scene/SceneCatalogue.h"
 #include "Host/Views/Palette.h"
-#include "OpenedFile.h"
 #include "Presets.h"
 
 namespace physvib {
@@ -25,7 +23,9 @@ void caption(juce::Label& label, const juce::String& shown) {
 
 } // namespace
 
-ParameterControl::ParameterControl(HostParameter& parameter) {
+ParameterControl::ParameterControl(HostParameter& parameter)
+    : parameter_{parameter} {
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&knob_, &list_, &name_}) c->addMouseListener(this, true);
     const auto& row = parameter.row();
     caption(name_, words(row.name));
     name_.setJustificationType(juce::Justification::centred);
@@ -48,6 +48,11 @@ ParameterControl::ParameterControl(HostParameter& parameter) {
     knob_.setDoubleClickReturnValue(true, parameter.convertFrom0to1(parameter.getDefaultValue()));
 }
 
+// Its parts pass on what they hear.
+void ParameterControl::mouseDown(const juce::MouseEvent& e) {
+    if (e.mods.isPopupMenu() && onMenu) onMenu(parameter_);
+}
+
 void ParameterControl::rename(int choice, const juce::String& text) {
     if (list_.getItemText(choice) == text) return;
     const bool isShown = list_.getSelectedItemIndex() == choice;
@@ -67,7 +72,8 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     , plugin_{plugin}
     , silenceAttachment_{plugin.parameter(Parameter::bypass), silence_}
     , midiPanel_{hands(true)}
-    , mix_{plugin, hands(false)} {
+    , mix_{plugin, hands(false)}
+    , keys_{[&plugin](int note, int velocity) { plugin.play(note, velocity); }} {
     setLookAndFeel(&look_);
     setOpaque(true);
     title_.setText("PhysVib", juce::dontSendNotification);
@@ -75,12 +81,12 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     caption(seedName_, "seed");
     caption(stepsName_, "steps");
     status_.setFont(juce::Font{text::small});
-    firstSteps_.setText("Play a note: it is felt at its place.\nOther instruments, and worlds that move by themselves: the list at the upper left.\nSILENCE stops everything, at once.", juce::dontSendNotification);
+    firstSteps_.setText("Press a key below, or play a note: you feel it at its place.\nChoose another instrument, or a world that moves by itself, at the upper left.\nPress SILENCE to stop everything at once.", juce::dontSendNotification);
     firstSteps_.setFont(juce::Font{text::medium});
     firstSteps_.setJustificationType(juce::Justification::centred);
     firstSteps_.setInterceptsMouseClicks(false, false);
-    open_.setButtonText(juce::String::fromUTF8("Open\xe2\x80\xa6"));
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &open_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_, &silence_, &direct_, &shorten_, &world_, &firstSteps_, &midiPanel_, &mix_, &status_})
+    files_.setButtonText("Files");
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&title_, &scene_, &layout_, &files_, &seedName_, &seed_, &stepsName_, &steps_, &restart_, &midi_, &silence_, &direct_, &shorten_, &world_, &firstSteps_, &midiPanel_, &mix_, &keys_, &status_})
         addAndMakeVisible(c);
     fillGroups();
     fillChoices();
@@ -109,18 +115,14 @@ void PluginEditor::fillGroups() {
             auto& controls = groups_.back().controls;
             controls.push_back(std::make_unique<ParameterControl>(plugin_.parameter(which)));
             addAndMakeVisible(*controls.back());
+            controls.back()->onMenu = [this](HostParameter& parameter) { showMenu(parameter); };
             if (which == Parameter::material) material_ = controls.back().get();
         }
     }
 }
 
 void PluginEditor::fillChoices() {
-    scene_.addSectionHeading("Instruments");
-    const auto& presets = presetNames();
-    const auto worlds = static_cast<int>(builtInScenes().size());
-    for (int i = worlds; i < static_cast<int>(presets.size()); ++i) scene_.addItem(words(presets[static_cast<std::size_t>(i)]), i + 1);
-    scene_.addSectionHeading("Worlds");
-    for (int i = 0; i < worlds; ++i) scene_.addItem(words(presets[static_cast<std::size_t>(i)]), i + 1);
+    fillPresets();
     for (int id = 1; const auto name : layoutPresetNames) layout_.addItem(words(name), id++);
     for (const int steps : {50, 100, 200, 500, 1000}) steps_.addItem(juce::String{steps} + " /s", steps);
     scene_.setTitle("Instrument or world");
@@ -135,10 +137,10 @@ void PluginEditor::fillChoices() {
     restart_.setClickingTogglesState(true);
     restart_.setTooltip("The scene starts at its seed whenever the transport starts or jumps, and is silent while it stands");
     direct_.setClickingTogglesState(true);
-    direct_.setTooltip("What notes strike is felt at once: the host is told of the limiter's latency only, and collisions are felt later than what it plays beside them");
-    shorten_.setTooltip("The output latency is longer than it has to be, as the host has asked ahead of time or stuttered: take that back now, in a moment of silence");
+    direct_.setTooltip("Low-latency mode for notes: the host is told the limiter's latency only. Collisions keep the output latency L, so they are felt later than the track beside them");
+    shorten_.setTooltip("The output latency L is longer than necessary, because the host has asked ahead of time or stuttered: shorten it now, in a moment of silence");
     shorten_.onClick = [this] { plugin_.takes().giveBack(); };
-    open_.setTooltip("A scene, a layout or a saved session of your own; files can be dropped here as well");
+    files_.setTooltip("Open a preset, a scene, a layout or a saved session of your own (or drop it here); save a preset; export what was felt");
     midi_.setTooltip("What notes and controllers do");
     silence_.setClickingTogglesState(true);
     silence_.setTooltip(words(rowOf(Parameter::bypass).help));
@@ -146,6 +148,7 @@ void PluginEditor::fillChoices() {
     scene_.onChange = [this] {
         const int id = scene_.getSelectedId();
         if (id == 0) return;
+        if (id >= firstOwnPreset) return open(presets_[static_cast<std::size_t>(id - firstOwnPreset)]);
         PluginState state = plugin_.state();
         takePlugInPreset(state, id - 1);
         news_.clear();
@@ -161,7 +164,7 @@ void PluginEditor::fillChoices() {
     seed_.onReturnKey = [this] { edit([this](PluginState& s) { s.seed = static_cast<std::uint32_t>(std::min<juce::int64>(seed_.getText().getLargeIntValue(), 0xffffffff)); }); };
     restart_.onClick = [this] { edit([this](PluginState& s) { s.transport = restart_.getToggleState() ? TransportMode::restartOnPlay : TransportMode::free; }); };
     direct_.onClick = [this] { edit([this](PluginState& s) { s.isDirect = direct_.getToggleState(); }); };
-    open_.onClick = [this] { askFile(); };
+    files_.onClick = [this] { showFiles(); };
     midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
 }
 
@@ -180,19 +183,6 @@ void PluginEditor::edit(const std::function<void(PluginState&)>& change) {
     change(state);
     news_.clear();
     plugin_.edit(std::move(state));
-}
-
-void PluginEditor::askFile() {
-    chooser_ = std::make_unique<juce::FileChooser>("A scene, a layout or a session", juce::File{}, "*.json");
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [this](const juce::FileChooser& chooser) {
-        if (const auto file = chooser.getResult(); file != juce::File{}) open(file);
-    });
-}
-
-void PluginEditor::open(const juce::File& file) {
-    auto opened = openFile(file.getFullPathName().toStdString(), plugin_.state());
-    report(opened ? words(opened.value.note) : words(opened.error));
-    if (opened) plugin_.open(std::move(opened.value.state));
 }
 
 void PluginEditor::showMidi(bool on) {
@@ -226,6 +216,7 @@ void PluginEditor::takeState() {
     world_.show(state_.scene);
     world_.show(state_.layout, {state_.layout.geometry, lawOf(value(Parameter::law)), value(Parameter::exponent), state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
     midiPanel_.take(state_);
+    keys_.take(state_);
     mix_.take(state_);
     nameMaterials();
     if (!getLocalBounds().isEmpty()) resized(); // more or fewer strips
@@ -233,7 +224,8 @@ void PluginEditor::takeState() {
 
 void PluginEditor::refresh() {
     if (plugin_.stateCount() != shown_) takeState();
-    const auto hits = plugin_.takes().takeLog();
+    followLearning();
+    const auto hits = plugin_.takeNewEvents();
     const auto meters = plugin_.meters();
     const auto status = plugin_.takes().status();
     const int rate = std::max(1, plugin_.preparedRateHz());
@@ -253,18 +245,18 @@ void PluginEditor::refresh() {
 }
 
 juce::String PluginEditor::statusLine(const TakesStatus& status, const ChannelMeters& meters) const {
-    const int rate = plugin_.preparedRateHz(), enchanters = enchantersOf(state_);
+    const int rate = plugin_.preparedRateHz(), actuators = enchantersOf(state_);
     if (rate == 0 || plugin_.takes().playOutFrames() == 0) return "The host has not started the plug-in yet.";
     const auto& r = status.session.render;
     const auto ms = [rate](std::int64_t frames) { return juce::String{1e3 * static_cast<double>(frames) / rate, 1} + " ms"; };
     juce::String line = "felt " + ms(plugin_.takes().playOutFrames()) + " after the contact";
-    if (plugin_.takes().isDirect()) line << ", strikes " << ms(plugin_.takes().latencyFrames()) << " after the note (told to the host)";
-    else line << " (told to the host)";
-    if (status.burstFrames > 0) line << ", " << ms(status.burstFrames) << " of it as the host asks ahead of time or stutters (given back when its transport stands, or by Shorten L)";
+    if (plugin_.takes().isDirect()) line << ", strikes " << ms(plugin_.takes().latencyFrames()) << " after the note (reported to the host)";
+    else line << " (reported to the host)";
+    if (status.burstFrames > 0) line << ", " << ms(status.burstFrames) << " of it because the host asks ahead of time or stutters (given back when its transport stops, or by Shorten L)";
     if (status.waitedFrames > 0) line << ": it came during this run, which is not the bounce before that";
-    if (meters.connected < enchanters) line << "   |   " << meters.connected << " of " << enchanters << " connected";
-    if (const auto* music = plugin_.getBus(true, 0); music && !music->isEnabled() && plugin_.parameter(Parameter::beats).value() > 0.0) line << "   |   no beats: the side chain is off";
-    line << "   |   take " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)} << " played, "
+    if (meters.connected < actuators) line << "   |   " << meters.connected << " of " << actuators << " actuators connected";
+    if (const auto* music = plugin_.getBus(true, 0); music && !music->isEnabled() && (plugin_.parameter(Parameter::beats).value() > 0.0 || gainOfLevel(plugin_.parameter(Parameter::music).value()) > 0.0)) line << "   |   no beats and no music: the side chain is off";
+    line << "   |   run " << status.take << "   |   " << juce::String{static_cast<juce::int64>(r.played)} << " played, "
          << juce::String{static_cast<juce::int64>(status.late)} << " late, " << juce::String{static_cast<juce::int64>(r.rejected + status.session.refused)} << " refused";
     if (const auto displaced = plugin_.displacedMessages(); displaced > 0) line << ", " << juce::String{static_cast<juce::int64>(displaced)} << " behind their block";
     if (status.slippedNs > 0) line << ", " << juce::String{static_cast<double>(status.slippedNs) * 1e-6, 1} << " ms of stalls";
@@ -294,7 +286,7 @@ void PluginEditor::resized() {
     left(title_, 84);
     left(scene_, 150);
     left(layout_, 92);
-    left(open_, 62);
+    left(files_, 62);
     left(seedName_, 30, 4);
     left(seed_, 60);
     left(stepsName_, 34, 4);
@@ -303,6 +295,8 @@ void PluginEditor::resized() {
     bar.removeFromRight(panelGap);
     left(restart_, 112);
     left(midi_, 54, 0);
+    keys_.setBounds(area.removeFromBottom(KeyboardPanel::height));
+    area.removeFromBottom(panelGap);
     auto controls = area.removeFromBottom(groupsHeight);
     area.removeFromBottom(panelGap);
     std::size_t count = 0;

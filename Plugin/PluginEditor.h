@@ -2,6 +2,7 @@
 // The plug-in's window: the world, the mix, what is played and how, a control per parameter, what went wrong.
 #pragma once
 #include "Host/Views/WorldView.h"
+#include "KeyboardPanel.h"
 #include "MidiPanel.h"
 #include "MixPanel.h"
 #include "PluginProcessor.h"
@@ -15,9 +16,12 @@ class ParameterControl final : public juce::Component {
 public:
     explicit ParameterControl(HostParameter& parameter);
     void rename(int choice, const juce::String& words); ///< of a list, from 0
+    std::function<void(HostParameter&)> onMenu;            ///< a right click, anywhere on it
+    void mouseDown(const juce::MouseEvent& e) override;
     void resized() override;
 
 private:
+    HostParameter& parameter_;
     juce::Label name_;
     juce::Slider knob_;
     juce::ComboBox list_;
@@ -30,9 +34,15 @@ public:
     explicit PluginEditor(PluginProcessor& plugin);
     ~PluginEditor() override;
 
-    /// Plays a file of one's own: a scene, a layout, or a saved session.
+    /// Plays a file of one's own: a preset, a scene, a layout, or a saved session.
     void open(const juce::File& file);
     void showMidi(bool on);
+
+    /// The next controller that comes in will move that parameter.
+    void learn(Parameter which);
+    /// What this instance is, as a preset; what was felt, by the ending of the file's name.
+    void savePresetAs(const juce::File& file);
+    void exportFeltAs(const juce::File& file);
 
     void paint(juce::Graphics& g) override;
     void resized() override;
@@ -44,6 +54,7 @@ public:
     juce::String statusText() const { return status_.getText(); }
 
 private:
+    static constexpr int firstOwnPreset = 10'000; // ids of the list
     struct Group { // of parameters, side by side on a ground of their own
         std::string_view name;
         std::vector<std::unique_ptr<ParameterControl>> controls;
@@ -55,6 +66,12 @@ private:
     void fillChoices();
     void nameMaterials();
     void askFile();
+    void askSave(const juce::String& title, const juce::File& initial, const juce::String& endings, void (PluginEditor::*save)(const juce::File&));
+    void showFiles();
+    void showMenu(HostParameter& parameter);
+    void forgetController(const std::string& parameter);
+    void followLearning();
+    void fillPresets();
     void edit(const std::function<void(PluginState&)>& change);
     void report(const juce::String& news) { news_ = news; }
     MixHands hands(bool areChecked);
@@ -66,14 +83,18 @@ private:
     juce::Label title_, status_, seedName_, stepsName_, firstSteps_;
     juce::ComboBox scene_, layout_, steps_;
     juce::TextEditor seed_;
-    juce::TextButton restart_{"Restart on play"}, open_, midi_{"MIDI"}, silence_{"SILENCE"}, direct_{"Direct"}, shorten_{"Shorten L"};
+    juce::TextButton restart_{"Restart on play"}, files_, midi_{"MIDI"}, silence_{"SILENCE"}, direct_{"Direct"}, shorten_{"Shorten L"};
     juce::ButtonParameterAttachment silenceAttachment_;
     WorldView world_;
     MidiPanel midiPanel_;
     MixPanel mix_;
+    KeyboardPanel keys_;
     std::vector<Group> groups_;
     ParameterControl* material_ = nullptr;
     std::unique_ptr<juce::FileChooser> chooser_;
+    std::vector<juce::File> presets_; // one's own, as they are listed
+    int learning_ = -1;              // a parameter; -1: none
+    std::uint32_t learnsAfter_ = 0;  // what the processor's lastController() was
     juce::String news_; // of what was opened or asked for; until the next edit
     std::uint64_t shown_ = 0; // the processor's count of states
     PluginState state_;

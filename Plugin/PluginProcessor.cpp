@@ -35,7 +35,7 @@ juce::AudioProcessor::BusesProperties PluginProcessor::propertiesOf(const BusPla
     const auto format = juce::PluginHostType::getPluginLoadedAs();
     BusesProperties properties;
     for (const auto& bus : busesOf(plan, format)) properties.addBus(false, bus.name, bus.channels, bus.isOn);
-    if (hasSideChain(format)) properties.addBus(true, "Music", juce::AudioChannelSet::stereo(), false);
+    if (hasSideChain(plan, format)) properties.addBus(true, "Music", juce::AudioChannelSet::stereo(), plan.hasMusicPorts);
     return properties;
 }
 
@@ -172,15 +172,24 @@ void PluginProcessor::prepareToPlay(double sampleRateHz, int blockFrames) {
     slide_.fill(0.0f);
     pressure_.fill(0.0f);
     held_.forget();
+    ++prepares_;
     const auto* sideChain = getBus(true, 0);
-    beats_.prepare(rate, blockFrames_, sideChain != nullptr && sideChain->isEnabled() ? sideChain->getNumberOfChannels() : 0);
-    takes_.prepare(rate, blockFrames_, beats_.delaySeconds());
+    const int musicChannels = sideChain != nullptr && sideChain->isEnabled() ? sideChain->getNumberOfChannels() : 0;
+    beats_.prepare(rate, blockFrames_, musicChannels);
+    music_.prepare(rate, blockFrames_, musicChannels);
+    takes_.prepare(rate, blockFrames_, beats_.delaySeconds(), musicChannels > 0);
     publish();
 }
 
 void PluginProcessor::releaseResources() {
     takes_.release();
     blockFrames_ = 0;
+}
+
+std::vector<TakeEvent> PluginProcessor::takeNewEvents() {
+    auto fresh = takes_.takeLog();
+    felt_.add(prepares_, fresh);
+    return fresh;
 }
 
 void PluginProcessor::timerCallback() {

@@ -7,10 +7,12 @@
 #include "BeatInput.h"
 #include "BusPlan.h"
 #include "ControlPace.h"
+#include "FeltExport.h"
 #include "Host/Devices/ChannelMeters.h"
 #include "HeldNotes.h"
 #include "HostParameter.h"
 #include "MidiMap.h"
+#include "MusicInput.h"
 #include "ParameterPoints.h"
 #include "PluginSettings.h"
 #include "Takes.h"
@@ -42,6 +44,17 @@ public:
 
     /// What the host says of parameters within the coming block; it outlives that. Parameters without points have their value all block long. R.
     void expectPoints(PointSource& source) noexcept { source_ = &source; }
+
+    /// A key of the window: with a velocity it is struck in the next block, 0 lets it go. M, one writer.
+    void play(int note, int velocity) noexcept { keys_.push({note, velocity}); }
+
+    /// The last controller that came in, with a count in the higher bits that grows with each, so that a person can show which one is meant; 0: none yet. Any thread.
+    std::uint32_t lastController() const noexcept { return lastController_; }
+    static int controllerOf(std::uint32_t last) noexcept { return static_cast<int>(last & 0xff); }
+
+    /// What was played since the last call; it is kept for export as well. M.
+    std::vector<TakeEvent> takeNewEvents();
+    const FeltEvents& felt() const noexcept { return felt_; } ///< M, as far as takeNewEvents() was called
 
     HostParameter& parameter(Parameter which) noexcept { return *parameters_[static_cast<std::size_t>(which)]; }
     Takes& takes() noexcept { return takes_; }
@@ -108,6 +121,7 @@ private:
     bool sendMaterial(Session& session, int frame) noexcept;
     void stopAll(int frame) noexcept;
     void silence(int frame) noexcept;
+    void playKeys(int frame) noexcept;
     void receive(const juce::MidiMessageMetadata& message, int frame) noexcept;
     void strike(int channel, int note, int velocity, int frame) noexcept;
     NoteSound soundOf(const HeldNotes::Note& note) const noexcept;
@@ -132,6 +146,13 @@ private:
     std::atomic<double> sampleRateHz_{0.0};
     std::atomic<double> tailSeconds_{0.0};
 
+    struct Key {
+        int note = 0, velocity = 0;
+    };
+    EventQueue<Key, 256> keys_; // from M to R
+    FeltEvents felt_;           // M
+    std::atomic<std::uint64_t> prepares_{0};
+    std::atomic<std::uint32_t> lastController_{0};
     LatestValue<ChannelMeters> meters_;
     Takes takes_;
     BusMap outputs_;
@@ -139,6 +160,7 @@ private:
 
     // R
     BeatInput beats_;
+    MusicInput music_;
     Transport transport_;
     int blockFrames_ = 0;
     GainRamp open_; // shut by bypass

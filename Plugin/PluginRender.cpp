@@ -77,7 +77,7 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
             normals_[p] = static_cast<float>(normal);
             parameters_[p]->setValue(normals_[p]);
         });
-        if (at == first) isShut_ = value(Parameter::bypass) > 0.5;
+        if (at == first) isShut_ = value(Parameter::bypass) > 0.5, playKeys(0);
         end = std::min(end, points_.nextOf(Parameter::bypass));
         sendControls(at - first);
         for (; message != midi.end() && frameOf(*message) <= at; ++message) {
@@ -117,6 +117,7 @@ void PluginProcessor::followTransport(int frames) noexcept {
 // A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
 void PluginProcessor::forgetControls() noexcept {
     beats_.forget();
+    music_.forget();
     held_.forget();
     for (auto* const pace : {&levelPace_, &pannerPace_, &holdPace_, &materialPace_}) pace->reset(static_cast<int>(sampleRateHz_.load(std::memory_order_relaxed)));
     owesStop_ = false;
@@ -186,6 +187,14 @@ void PluginProcessor::stopAll(int frame) noexcept {
 void PluginProcessor::silence(int frame) noexcept {
     held_.forget();
     owesSilence_ = !takes_.silence(frame);
+}
+
+// Of the window's keyboard: at the beginning of the next part.
+void PluginProcessor::playKeys(int frame) noexcept {
+    for (Key key; keys_.pop(key);) {
+        const std::array bytes{static_cast<juce::uint8>(key.velocity > 0 ? 0x90 : 0x80), static_cast<juce::uint8>(key.note & 127), static_cast<juce::uint8>(key.velocity & 127)};
+        receive({bytes.data(), static_cast<int>(bytes.size()), 0}, frame);
+    }
 }
 
 void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int frame) noexcept {
@@ -275,6 +284,8 @@ void PluginProcessor::hear(const juce::AudioBuffer<float>& buffer, int first, in
     beats_.hear(buffer, first + from, to - from, 0.01 * readiness, [&](const BandOnset& onset, int frame) {
         if (readiness > 0.0) strikeBeat(*session, onset, frame - first);
     });
+    if (auto* const delay = takes_.take()->music())
+        music_.hear(buffer, first + from, to - from, gainOfLevel(value(Parameter::music)), value(Parameter::musicSides) > 0.5, *delay, session->timeline().nextBornFrame(from));
 }
 
 // At the onset's own time, which is past: L is longer than the beat took to be known. Where strikes are direct, as soon as it is sure to be known.
@@ -293,6 +304,7 @@ void PluginProcessor::control(int channel, int controller, int value, int frame)
     if (controller == allSoundOff) return silence(frame);
     if (controller == sustainPedal) held_.pedal(channel, value >= 64);
     if (controller == allNotesOff) held_.stopAll();
+    if (controller < allSoundOff) lastController_.store(((lastController_.load(std::memory_order_relaxed) >> 8) + 1) << 8 | static_cast<std::uint32_t>(controller), std::memory_order_relaxed);
     const int which = takes_.settings().midi.parameterOf(controller);
     if (which < 0) return;
     normals_[static_cast<std::size_t>(which)] = static_cast<float>(value) / 127.0f;

@@ -5,13 +5,17 @@
 
 namespace physvib {
 
-Take::Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames)
+Take::Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames, std::int64_t longestLeadFrames)
     : session{order->setup}
     , order_{std::move(order)}
     , sampleRateHz_{sampleRateHz}
     , sliceFrames_{std::max(1, sampleRateHz / slicesPerSecond)} {
     out.assign(static_cast<std::size_t>(session.channels()), std::vector<float>(static_cast<std::size_t>(blockFrames)));
     rewind(leadFrames);
+    if (longestLeadFrames == 0) return;
+    const std::int64_t longest = session.timeline().playOutFrames() + longestLeadFrames + blockFrames; // L, and the block before it is rendered
+    music_ = std::make_unique<MusicDelay>(order_->settings.layout, session.channels(), sampleRateHz, longest);
+    session.callback().add(*music_);
 }
 
 void Take::rewind(std::int64_t leadFrames) {
@@ -25,6 +29,7 @@ void Take::rewind(std::int64_t leadFrames) {
     over_ = false;
     number = 0;
     isEnded = false;
+    if (music_) music_->reset();
     told_ = {};
     levels_.forget();
     panners_.forget();
@@ -71,6 +76,12 @@ void Take::releaseUntil(int frames) noexcept {
 
 bool Take::tell(std::span<const Strip> strips) {
     return tellStrips(told_, strips, [this](const RenderControl& control) { return session.take({control}).error.empty(); });
+}
+
+bool Take::silence(int frame) noexcept {
+    const auto& time = session.timeline();
+    if (music_) music_->silence(time.nextRenderedFrame(frame), time.nextBornFrame(frame));
+    return session.callback().silence(frame);
 }
 
 void Take::end() noexcept {

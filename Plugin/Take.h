@@ -4,6 +4,7 @@
 #include "ControlPace.h"
 #include "Core/Actuators/GainRamp.h"
 #include "Core/EventQueue.h"
+#include "MusicDelay.h"
 #include "Scene/Sessions/Mix.h"
 #include "Session/Session.h"
 #include "TakeSettings.h"
@@ -24,8 +25,9 @@ struct TakeOrder {
 
 class Take {
 public:
-    /// `leadFrames`: as many as L covers at once, a block at least. Any thread but R.
-    Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames);
+    /// `leadFrames`: as many as L covers at once, a block at least; `longestLeadFrames`: as many as it may come to cover where there is music, 0: there is none. Any
+    /// thread but R.
+    Take(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames, std::int64_t leadFrames, std::int64_t longestLeadFrames = 0);
 
     /// From its seed again. Any thread but R, while nobody renders or steps it.
     void rewind(std::int64_t leadFrames);
@@ -48,6 +50,12 @@ public:
     /// comes to them, L later, since its own room is small. False: there is no room. R, wait-free.
     bool holdLevel(double gain, int frame) noexcept;
     bool holdLaw(PanningLaw law, double exponent, int frame) noexcept;
+
+    /// Where music goes that comes in; null: there is none. R.
+    MusicDelay* music() noexcept { return music_.get(); }
+
+    /// What happened before that frame of the coming block is not felt any more. False: there is no room, to be told again. R, wait-free.
+    bool silence(int frame) noexcept;
 
     /// Plays what is owed and fades then. R.
     void end() noexcept;
@@ -85,6 +93,7 @@ private:
 
     std::shared_ptr<const TakeOrder> order_;
     int sampleRateHz_, sliceFrames_;
+    std::unique_ptr<MusicDelay> music_;
     std::array<ToldStrip, limits::maxEnchanters> told_{};
     Held levels_, panners_;
     std::int64_t leadFrames_ = 0; // of prepare

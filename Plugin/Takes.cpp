@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Making, stepping and freeing takes: all but the render role's part.
 #include "Takes.h"
+#include "Scene/SceneLimits.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
@@ -20,14 +21,31 @@ bool isValidAtOnce(Scene scene, const std::vector<Action>& group) {
     return validate(scene).empty();
 }
 
+void checkGroup(const Scene& scene, const std::vector<Action>& group) {
+    if (isValidAtOnce(scene, group)) return;
+    InputCheck check{scene};
+    for (const Action& action : group)
+        if (std::string fault = check.take(action); !fault.empty()) throw std::invalid_argument(fault);
+}
+
+// As many groups as a scene may have inputs at one look, since each look goes through all bodies: there may be a hundred. Those that are wrong, or too much together,
+// are looked at one by one.
 void checkGroups(const SessionSetup& setup) {
     if (std::string fault = validate(setup.scene); !fault.empty()) throw std::invalid_argument(fault);
-    for (const auto& group : setup.groups) {
-        if (isValidAtOnce(setup.scene, group)) continue;
-        InputCheck check{setup.scene};
-        for (const Action& action : group)
-            if (std::string fault = check.take(action); !fault.empty()) throw std::invalid_argument(fault);
+    std::vector<Action> together;
+    std::size_t first = 0;
+    const auto check = [&](std::size_t end) {
+        if (!isValidAtOnce(setup.scene, together))
+            for (std::size_t i = first; i < end; ++i) checkGroup(setup.scene, setup.groups[i]);
+        together.clear();
+        first = end;
+    };
+    for (std::size_t i = 0; i < setup.groups.size(); ++i) {
+        const auto& group = setup.groups[i];
+        if (setup.scene.inputs.size() + together.size() + group.size() > sceneLimits::maxInputs) check(i);
+        together.insert(together.end(), group.begin(), group.end());
     }
+    check(setup.groups.size());
 }
 
 bool startsQuickly(const TakeOrder& order) noexcept { return order.settings.transport == TransportMode::restartOnPlay; }
@@ -46,7 +64,7 @@ void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<St
         lock.unlock();
         const auto wanted = std::make_shared<const TakeOrder>(TakeOrder{setup, settings, before ? before->generation + 1 : 1});
         std::unique_ptr<Take> take;
-        if (block > 0) take = std::make_unique<Take>(wanted, rate, block, leadFrames_);
+        if (block > 0) take = newTake(wanted, rate, block);
         else Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond}; // throws if it cannot be simulated
         lock.lock();
         if (rate != sampleRateHz_ || block != blockFrames_ || known != knownAfterSeconds_) continue; // the host has prepared us meanwhile
@@ -95,10 +113,16 @@ double Takes::gapSeconds(const SessionSetup& setup) const noexcept {
     return std::max(TakePace::longestGapSeconds(setup.stepsPerSecond), known);
 }
 
-void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds) {
+std::unique_ptr<Take> Takes::newTake(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames) const {
+    const std::int64_t lead = leadFrames_, longest = std::max(lead, static_cast<std::int64_t>(TakePace::mostLeadSeconds * sampleRateHz));
+    return std::make_unique<Take>(std::move(order), sampleRateHz, blockFrames, lead, hasMusic_ ? longest : 0);
+}
+
+void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds, bool hasMusic) {
     release();
     std::unique_lock lock{mutex_};
     knownAfterSeconds_ = knownAfterSeconds;
+    hasMusic_ = hasMusic;
     if (!order_) return;
     if (const double gap = gapSeconds(order_->setup); gap != order_->setup.longestGapSeconds) {
         auto order = *order_;
@@ -117,7 +141,7 @@ void Takes::prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds)
     slippedBefore_ = waitedFrames_ = 0;
     startWanted_ = false;
     status_.write({});
-    exchange(order_, std::make_unique<Take>(order_, sampleRateHz, blockFrames, leadFrames_));
+    exchange(order_, newTake(order_, sampleRateHz, blockFrames));
     tickedNs_ = nowNs(); // making it took longer than a gap
     stop_ = false;
     if (handNs_) return;
@@ -192,7 +216,7 @@ void Takes::tryToMakeReady(std::unique_lock<std::mutex>& lock) noexcept {
     } catch (const std::exception& error) {
         if (!lock.owns_lock()) lock.lock();
         canMake_ = false;
-        fault_ = std::string{"no take could be made: "} + error.what();
+        fault_ = std::string{"no scene run could be made: "} + error.what();
     }
 }
 
@@ -217,7 +241,7 @@ std::unique_ptr<Take> Takes::makeOf(std::vector<std::unique_ptr<Take>>& ended, s
     const auto found = std::ranges::find_if(ended, [&](const auto& take) { return take->generation() == order->generation && !take->isStill; });
     if (found == ended.end()) {
         ++made_;
-        return std::make_unique<Take>(std::move(order), sampleRateHz_, blockFrames_, leadFrames_);
+        return newTake(std::move(order), sampleRateHz_, blockFrames_);
     }
     (*found)->rewind(leadFrames_);
     return std::move(*found);

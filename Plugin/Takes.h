@@ -74,7 +74,8 @@ public:
 
     /// A fresh take stands ready; nothing plays yet. Any thread but R, while nobody renders.
     /// `knownAfterSeconds`: where strikes are not direct, L has room for one that is known so long after its time, in a block of any size.
-    void prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds = 0.0);
+    /// `hasMusic`: takes have room for music that comes in.
+    void prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds = 0.0, bool hasMusic = false);
     void release();
 
     /// L of the present setup and host; 0 before prepare. Any thread.
@@ -126,6 +127,7 @@ private:
     static constexpr std::size_t mostEnding = 8;  // loops as short as an eighth of L
     std::shared_ptr<const TakeOrder> order() const;
     double gapSeconds(const SessionSetup& setup) const noexcept;
+    std::unique_ptr<Take> newTake(std::shared_ptr<const TakeOrder> order, int sampleRateHz, int blockFrames) const;
     void exchange(std::shared_ptr<const TakeOrder> order, std::unique_ptr<Take> take);
     void tellAll();
     int ticksPerSecond() const noexcept override { return ticksPerSecond_; }
@@ -163,6 +165,7 @@ private:
     bool canMake_ = true; // until it fails, then from the next settings on
     int sampleRateHz_ = 0, blockFrames_ = 0; // 0: not prepared; they change while nobody renders
     double knownAfterSeconds_ = 0.0;         // as they do
+    bool hasMusic_ = false;                  // as they do
     std::condition_variable workToDo_;
 
     std::atomic<Take*> spare_{nullptr};

@@ -58,7 +58,7 @@ void Takes::stop() noexcept {
 
 bool Takes::silence(int frame) noexcept {
     bool all = true;
-    forEachSounding([&](Take& take) { all = take.session.callback().silence(frame) && all; });
+    forEachSounding([&](Take& take) { all = take.silence(frame) && all; });
     return all;
 }
 

@@ -6,13 +6,14 @@
 set(header juce_audio_processors/format_types/juce_VST3Common.h)
 set(physvib_vst3_headers ${CMAKE_CURRENT_BINARY_DIR}/vst3)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${juce_modules}/${header})
-file(READ ${juce_modules}/${header} text)
+set(mended_file ${juce_modules}/${header})
+file(READ ${mended_file} text)
 
 # physvib_mend(PURPOSE FOUND WRITTEN): FOUND becomes WRITTEN in `text`.
 function(physvib_mend purpose found written)
     string(FIND "${text}" "${found}" place)
     if(place EQUAL -1)
-        message(FATAL_ERROR "${juce_modules}/${header}: expected \"${found}\", to mend it for ${purpose}: found no such text")
+        message(FATAL_ERROR "${mended_file}: expected \"${found}\", to mend it for ${purpose}: found no such text")
     endif()
     string(REPLACE "${found}" "${written}" mended "${text}")
     set(text "${mended}" PARENT_SCOPE)
@@ -36,3 +37,27 @@ endif()
 if(NOT "${text}" STREQUAL "${written}") # or all wrappers would be compiled whenever CMake runs
     file(WRITE ${physvib_vst3_headers}/${header} "${text}")
 endif()
+
+# MIDI controllers come to VST3 as parameters that stand for them: JUCE makes 2,080, one for each controller of each channel. The plug-in tells
+# channels apart for bend, pressure, slide (CC 74) and pedal (CC 64) alone; the stand-ins of the others are those of the first channel, for all of
+# them (decision 144). Numbers stay. JUCE's wrapper is compiled in that wording instead of its own.
+set(wrapper juce_audio_plugin_client/VST3/juce_VST3_Wrapper.cpp)
+set(physvib_vst3_wrapper ${CMAKE_CURRENT_BINARY_DIR}/vst3/physvib_VST3_Wrapper.cpp)
+set(mended_file ${juce_modules}/${wrapper})
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${mended_file})
+file(READ ${mended_file} text)
+string(REPLACE "\r\n" "\n" text "${text}")
+set(number "static_cast<Vst::ParamID> (p) + parameterToMidiControllerOffset")
+physvib_mend("fewer stand-ins of controllers" "                midiControllerToParameter[c][i] = ${number}"
+"                const bool physvibHasOwn = c == 0 || i == Vst::kAfterTouch || i == Vst::kPitchBend || i == 74 || i == 64;
+                midiControllerToParameter[c][i] = physvibHasOwn ? ${number} : midiControllerToParameter[0][i]")
+physvib_mend("fewer stand-ins of controllers" "                parameters.addParameter (new Vst::Parameter (toString (\"MIDI CC \"" "                if (physvibHasOwn)\n                parameters.addParameter (new Vst::Parameter (toString (\"MIDI CC \"")
+set(written "")
+if(EXISTS ${physvib_vst3_wrapper})
+    file(READ ${physvib_vst3_wrapper} written)
+endif()
+if(NOT "${text}" STREQUAL "${written}")
+    file(WRITE ${physvib_vst3_wrapper} "${text}")
+endif()
+set_source_files_properties(${juce_modules}/juce_audio_plugin_client/juce_audio_plugin_client_VST3.cpp PROPERTIES HEADER_FILE_ONLY TRUE) # which includes JUCE's
+set_source_files_properties(${physvib_vst3_wrapper} PROPERTIES COMPILE_OPTIONS "-w;-I${juce_modules}/juce_audio_plugin_client/VST3") # where it looks for what stands beside it

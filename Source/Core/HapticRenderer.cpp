@@ -164,10 +164,11 @@ bool HapticRenderer::passModes(const Channels& out, int frames) noexcept {
     return true;
 }
 
-void HapticRenderer::playAll(const Channels& out, int frames) noexcept {
+void HapticRenderer::playAll(const Channels& out, int frames, const float* const* added) noexcept {
     const bool modesSound = bank_.render(out.data(), position_, frames), recordingsSound = player_.render(out.data(), position_, frames);
     const bool movingSounds = moving_.count() > 0 && moving_.render(out.data(), position_, frames, [this](const CollisionEvent& e, double x, double y) { return driveAt(e, x, y); });
-    const bool isSilent = actuators_.process(out.data(), frames, !modesSound && !recordingsSound && !movingSounds);
+    for (int j = 0; added && j < channels_; ++j) std::transform(added[j], added[j] + frames, out[static_cast<std::size_t>(j)], out[static_cast<std::size_t>(j)], [](float a, float b) { return a + b; });
+    const bool isSilent = actuators_.process(out.data(), frames, !modesSound && !recordingsSound && !movingSounds && !added);
     limiter_.process(out.data(), frames, isSilent);
 }
 

@@ -45,7 +45,8 @@ public:
     /// Writes out[channel][0..frames), 1 to limits::maxBlockFrames. `source.pop(CollisionEvent&)` gives events until
     /// it says false; more than the pending store holds stay there, which is right if they come in time order.
     /// If it also has `pop(RenderControl&)`, controls come the same way; if it has `struck(const CollisionEvent&, std::int64_t frame)`, it is
-    /// told of what is played, and of which frame of the renderer's on. R, wait-free.
+    /// told of what is played, and of which frame of the renderer's on; if it has `added(std::int64_t frame, int frames)`, the samples that it points to, a
+    /// channel each, are played as well (null: none). R, wait-free.
     template <class Source>
     void render(Source& source, float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
@@ -68,7 +69,7 @@ private:
     template <class Source>
     int strikeAndReach(Source& source, int most) noexcept;
     bool passModes(const Channels& out, int frames) noexcept;
-    void playAll(const Channels& out, int frames) noexcept;
+    void playAll(const Channels& out, int frames, const float* const* added) noexcept;
     void actOnDue() noexcept;
     void apply(const RenderControl& control) noexcept;
     bool prepareLimiter() noexcept;

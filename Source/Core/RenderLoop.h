@@ -51,7 +51,9 @@ void HapticRenderer::render(Source& source, float* const* out, int frames) noexc
     std::copy_n(out, channels_, at.begin());
     for (int done = 0; done < frames;) {
         const int part = strikeAndReach(source, frames - done);
-        if (!passModes(at, part)) playAll(at, part);
+        const float* const* added = nullptr;
+        if constexpr (requires { source.added(position_, part); }) added = source.added(position_, part);
+        if (added || !passModes(at, part)) playAll(at, part, added);
         position_ += part;
         done += part;
         for (int j = 0; j < channels_; ++j) at[static_cast<std::size_t>(j)] += part;

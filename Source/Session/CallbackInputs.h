@@ -3,6 +3,7 @@
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/RenderControl.h"
+#include "Session/AddedSamples.h"
 #include "Session/Timeline.h"
 #include "Session/SessionWorld.h"
 #include <array>
@@ -26,6 +27,9 @@ public:
     /// Not L later but as soon as it can be: what rings fades, and what happened before is not felt any more. As the
     /// others. R, wait-free.
     bool silence(int frame) noexcept;
+
+    /// These samples are played as well, from now on; they outlive the session. M, while nobody renders.
+    void add(AddedSamples& samples) noexcept { added_ = &samples; }
 
 private:
     friend class Session;
@@ -58,6 +62,7 @@ private:
     EventQueue<CollisionEvent, 1024> strikes_; // both ends are R: a dense chord in a block of 8192 frames
     EventQueue<RenderControl, 128> controls_;  // whoever sends them keeps to a pace
     EventQueue<RenderInput, 1024> inputs_;     // from R to whoever steps the world
+    AddedSamples* added_ = nullptr;
     std::uint64_t spawns_ = 0;                 // the world's, as what follows
     std::array<std::string, 64> names_;        // of bodies that R spawned, the newest; no world here needs more at once
 };

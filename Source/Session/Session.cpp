@@ -29,6 +29,7 @@ struct Session::Source {
         return true;
     }
     void struck(const CollisionEvent& event, std::int64_t frame) noexcept { session.channels_.struck(event, frame); }
+    const float* const* added(std::int64_t frame, int frames) noexcept { return session.callback_.added_ ? session.callback_.added_->at(frame, frames) : nullptr; }
 };
 
 Session::Session(const SessionSetup& setup)

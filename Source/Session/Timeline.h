@@ -56,10 +56,14 @@ public:
     std::int64_t framesRendered() const noexcept { return sessionFrames_.load(std::memory_order_relaxed); }
 
     /// The session time of a frame of the next block; before it, of one that is past, none of them before session time 0. R.
-    std::int64_t nextNs(std::int64_t frame) const noexcept { return sessionNs(std::max<std::int64_t>(0, framesRendered() + frame)); }
+    std::int64_t nextNs(std::int64_t frame) const noexcept { return sessionNs(nextFrame(frame)); }
 
     /// The session time at which what is born in a frame of the next block stands. R.
     std::int64_t nextBornNs(std::int64_t frame) const noexcept { return isBornDirect_ ? nextRenderedNs(frame) : nextNs(frame); }
+
+    /// The same in the renderer's frames, and that of what leaves it. R.
+    std::int64_t nextBornFrame(std::int64_t frame) const noexcept { return isBornDirect_ ? nextRenderedFrame(frame) : nextFrame(frame); }
+    std::int64_t nextRenderedFrame(std::int64_t frame) const noexcept { return nextFrame(frame - playOutFrames() + law_.limiterFrames); }
 
     /// The session time of what leaves the renderer, whose latency is part of L, as the next block's frame `frame`. R.
     std::int64_t nextRenderedNs(std::int64_t frame) const noexcept { return nextNs(frame - playOutFrames() + law_.limiterFrames); }
@@ -113,6 +117,8 @@ private:
         const FrameClock clock{law_.sampleRateHz};
         return missingNs > 0 ? clock.at(missingNs).frame : -clock.at(-missingNs).frame + 1;
     }
+
+    std::int64_t nextFrame(std::int64_t frame) const noexcept { return std::max<std::int64_t>(0, framesRendered() + frame); }
 
     /// At the law's rate. R, or whoever holds one of the mutexes.
     std::int64_t sessionNs(std::int64_t frames) const noexcept {

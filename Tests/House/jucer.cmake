@@ -4,6 +4,7 @@
 file(READ ${ROOT}/PhysVib.jucer jucer)
 file(READ ${ROOT}/CMakeLists.txt house)
 file(READ ${ROOT}/Plugin/Modules.cmake plugin)
+file(READ ${ROOT}/Plugin/CMakeLists.txt plugin_library)
 file(GLOB room_lists ${ROOT}/Source/*/CMakeLists.txt)
 list(FILTER room_lists EXCLUDE REGEX "/Jobs/") # for programs, as below
 set(rooms "")
@@ -11,7 +12,7 @@ foreach(list ${room_lists})
     file(READ ${list} room)
     string(APPEND rooms "${room}")
 endforeach()
-foreach(text house plugin rooms) # what stands in a comment does not count
+foreach(text house plugin plugin_library rooms) # what stands in a comment does not count
     string(REGEX REPLACE "#[^\n]*" "" ${text} "${${text}}")
 endforeach()
 
@@ -63,6 +64,7 @@ set(bad "")
 # A Projucer project builds one thing, here the plug-in of one bus.
 file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/Source/*.cpp ${ROOT}/Plugin/*.cpp)
 list(FILTER sources EXCLUDE REGEX "^Source/(Api|Jobs|Pictures|Host/Osc)/") # libraries of their own
+list(FILTER sources EXCLUDE REGEX "^Plugin/Lv2Ports.cpp$") # a program of its own
 collect(listed_sources "<FILE [^>]*compile=\"1\"[^>]*file=\"([^\"]+\\.cpp)\"" "${jucer}")
 compare(sources listed_sources)
 
@@ -89,14 +91,15 @@ compare(modules listed_modules)
 
 string(REGEX MATCH "project\\(PhysVib VERSION ([0-9.]+)" ignored "${house}")
 set(version ${CMAKE_MATCH_1})
-string(REGEX MATCHALL "target_compile_definitions\\([^)]*\\)" calls "${rooms}")
+string(REGEX MATCHALL "target_compile_definitions\\([^)]*\\)" calls "${rooms} ${plugin_library}")
 string(REGEX MATCH "target_compile_definitions\\(\\\${target}[^)]*\\)" plugin_call "${plugin}")
-string(REGEX MATCH "physvib_plugin\\(PhysVibPlugin \"([^\"]*)\" ([^ ]*) ([^ ]*) ([^ ]*) ([^ ]*) " ignored "${plugin}")
+string(REGEX MATCH "physvib_plugin\\(PhysVibPlugin \"([^\"]*)\" ([^ ]*) ([^ ]*) ([^ ]*) ([^ ]*) ([^ ]*) " ignored "${plugin}")
 set(name "${CMAKE_MATCH_1}")
 set(code "${CMAKE_MATCH_2}")
 string(REPLACE "\${lv2uri}" "${CMAKE_MATCH_3}" plugin_call "${plugin_call}")
 string(REPLACE "\${buses}" "${CMAKE_MATCH_4}" plugin_call "${plugin_call}")
 string(REPLACE "\${channels}" "${CMAKE_MATCH_5}" plugin_call "${plugin_call}")
+string(REPLACE "\${music_ports}" "${CMAKE_MATCH_6}" plugin_call "${plugin_call}")
 string(REPLACE "\${PROJECT_VERSION}" "${version}" calls "${calls} ${plugin_call}")
 collect(definitions "([A-Za-z0-9_]+=(\"[^\"]*\"|[^ \n\")]+))" "${calls}")
 string(REGEX MATCH "<JUCEOPTIONS[^>]*>" options "${jucer}")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of parameters: ids are promises, values survive both mappings, words are read back.
-#include "Parameters.h"
+#include "HostParameter.h"
 #include "TestPlaces.h"
 #include <cmath>
 #include <fstream>
@@ -15,7 +15,7 @@ TEST(Parameters, IdsArePromises) { // a change here breaks every saved session o
     std::vector<std::string_view> ids;
     for (const auto& row : allParameters()) ids.push_back(row.id);
     const std::vector<std::string_view> promised{"level",        "law",      "exponent", "gravity", "tilt", "material",
-                                                 "strike_level", "strike_x", "strike_y", "bypass",  "beats"};
+                                                 "strike_level", "strike_x", "strike_y", "bypass",  "beats", "music", "music_sides"};
     EXPECT_EQ(ids, promised);
 }
 
@@ -47,6 +47,19 @@ TEST(Parameters, RowsAreInRangeAndNamed) {
         EXPECT_GE(row.version, 1) << row.id;
         if (!row.choices.empty()) EXPECT_EQ(std::fmod(static_cast<double>(row.choices.size()) - 1, row.most - row.least), 0.0) << row.id;
     }
+}
+
+// VST3 asks for 8 letters, control surfaces show as few as 4.
+TEST(Parameters, ShortNamesDiffer) {
+    for (const int letters : {4, 6, 8, 128}) {
+        std::set<juce::String> names;
+        for (const auto& row : allParameters()) {
+            const auto name = HostParameter{row}.getName(letters);
+            EXPECT_TRUE(names.insert(name).second) << letters << ' ' << name;
+            EXPECT_LE(name.length(), letters) << name;
+        }
+    }
+    EXPECT_EQ(HostParameter{rowOf(Parameter::strikeX)}.getName(128), "Strike shift x");
 }
 
 TEST(Parameters, ValuesSurviveTheHostsScaleAndTheirText) {

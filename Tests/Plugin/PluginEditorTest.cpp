@@ -45,7 +45,7 @@ TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
     auto editor = openEditor(*host.plugin);
     host.block(512);
     editor->refresh();
-    auto* const words = labelWith(*editor, "Play a note");
+    auto* const words = labelWith(*editor, "Press a key below");
     ASSERT_NE(words, nullptr);
     EXPECT_TRUE(words->isVisible());
     if (const char* folder = std::getenv("PHYSVIB_PICTURES")) { // to look at
@@ -157,7 +157,7 @@ TEST(PluginEditor, HasBeatsWhereThereIsASideChainAndSaysWhereThatIsOff) {
     EXPECT_FALSE(editor->statusText().contains("side chain")) << "nobody wants any";
     host.plugin->parameter(Parameter::beats).setValue(0.5f);
     editor->refresh();
-    EXPECT_TRUE(editor->statusText().contains("no beats: the side chain is off"));
+    EXPECT_TRUE(editor->statusText().contains("no beats and no music: the side chain is off"));
     auto layout = host.plugin->getBusesLayout();
     layout.inputBuses.getReference(0) = juce::AudioChannelSet::stereo();
     ASSERT_TRUE(host.plugin->setBusesLayout(layout));

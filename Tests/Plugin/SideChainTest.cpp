@@ -1,92 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Music at the side chain strikes, at its times; live and bounced, in blocks of any size, the same.
-#include "PluginTesting.h"
-#include "Support/BeatSong.h"
-#include <atomic>
+#include "SongHost.h"
 #include <cmath>
 
 namespace physvib {
 namespace {
 
 using namespace test;
-using Set = juce::AudioChannelSet;
-
-constexpr int songRateHz = 48000;
-
-struct SongBlocks {
-    int frames = 64;
-    bool isLive = false;
-    bool vary = false; ///< up to twice what was announced
-};
-
-PluginState quietState(bool isDirect = false) {
-    auto quiet = strikeAt(0, 4);
-    quiet.stepsPerSecond = 1000; // two steps are shorter than the detector's delay
-    quiet.isDirect = isDirect;
-    return quiet;
-}
-
-/// A song at the side chain of an instance.
-class SongHost : public TestHost {
-public:
-    explicit SongHost(const PluginState& state) { EXPECT_TRUE(plugin->apply(state)); }
-
-    void turnOn(int channels = 2) {
-        auto layout = plugin->getBusesLayout();
-        layout.inputBuses.getReference(0) = channels == 0 ? Set::disabled() : channels == 1 ? Set::mono() : Set::stereo();
-        ASSERT_TRUE(plugin->setBusesLayout(layout));
-    }
-    void listen(float readiness = 0.5f) { plugin->parameter(Parameter::beats).setValue(readiness); }
-
-    /// One block of it, from frame `at` on; what is played is appended to `signal`.
-    void feed(const BeatSong& song, int at, int frames, Samples& signal) {
-        signal.resize(4);
-        buffer.setSize(4, frames, false, false, true);
-        for (int c = 0; c < 4; ++c) buffer.copyFrom(c, 0, song.samples.data() + at, frames); // whatever stands in a host's buffer
-        auto midi = notes(at, frames);
-        plugin->processBlock(buffer, midi);
-        for (std::size_t c = 0; c < 4; ++c) signal[c].insert(signal[c].end(), buffer.getReadPointer(static_cast<int>(c)), buffer.getReadPointer(static_cast<int>(c)) + frames);
-    }
-
-    /// What is played of all of it.
-    Samples play(const BeatSong& song, SongBlocks blocks) {
-        if (blocks.isLive) plugin->takes().driveByHand(nowNs_);
-        prepare(songRateHz, blocks.frames, !blocks.isLive);
-        Samples signal;
-        Random random{3};
-        const int length = static_cast<int>(song.samples.size());
-        for (int at = 0; at < length;) {
-            const int frames = std::min(blocks.vary ? 1 + random.below(2 * blocks.frames) : blocks.frames, length - at);
-            feed(song, at, frames, signal);
-            at += frames;
-            if (!blocks.isLive) continue;
-            nowNs_ += std::int64_t{1'000'000'000} * frames / songRateHz;
-            plugin->takes().tick();
-        }
-        return signal;
-    }
-
-    /// The same as it is felt beside the song, for so many frames.
-    Samples felt(const BeatSong& song, SongBlocks blocks, std::size_t frames = 130'000) {
-        const Samples signal = play(song, blocks); // before the latency is asked for
-        Samples beside = later(signal, plugin->getLatencySamples());
-        for (auto& channel : beside) channel.resize(std::min(frames, channel.size()));
-        return beside;
-    }
-
-    bool hasNotes = false; ///< and a controller that moves what beats are struck with
-
-private:
-    juce::MidiBuffer notes(int at, int frames) const {
-        juce::MidiBuffer midi;
-        for (int i = 0; i < frames && hasNotes; ++i) {
-            if ((at + i) % 4999 == 0) midi.addEvent(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), i);
-            if ((at + i) % 7001 == 0) midi.addEvent(juce::MidiMessage::controllerEvent(1, 1, (at + i) / 7001 % 30 + 90), i);
-        }
-        return midi;
-    }
-    std::atomic<std::int64_t> nowNs_{0};
-};
 
 const BeatSong& song() {
     static const BeatSong made{3.0, songRateHz, 7};
@@ -114,7 +34,7 @@ TEST(SideChain, IsOffInANewInstanceAndInOldProjects) {
     host.turnOn();
     host.listen(0.0f);
     EXPECT_EQ(peakOf(host.play(song(), {512})), 0.0f) << "nor does what comes in go out";
-    EXPECT_FALSE(hasSideChain(juce::AudioProcessor::wrapperType_LV2));
+    EXPECT_FALSE(hasSideChain({}, juce::AudioProcessor::wrapperType_LV2));
 }
 
 TEST(SideChain, EachBeatIsFeltLAfterItOrDirectlyWhenItIsSureToBeKnown) {

@@ -221,7 +221,7 @@ TEST(Takes, WithoutMemoryForAnotherTheHostPlaysOnAndItIsSaid) {
         std::this_thread::sleep_for(std::chrono::milliseconds{5});
     }
     beforeMemory = nullptr;
-    EXPECT_TRUE(host.plugin->trouble().startsWith("no take could be made: ")) << host.plugin->trouble();
+    EXPECT_TRUE(host.plugin->trouble().startsWith("no scene run could be made: ")) << host.plugin->trouble();
     EXPECT_TRUE(host.plugin->apply(onPlay()));
     EXPECT_EQ(host.plugin->trouble(), "");
     for (int b = 0; b < 10; ++b) host.block(480);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The least an LV2 host can be: one instance of the module of four channels, its ports, blocks. Does only what it is told.
 #pragma once
+#include "Parameters.h"
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -20,7 +21,7 @@ namespace physvib::test {
 class RawLv2 {
 public:
     static constexpr std::size_t channels = 4;
-    enum Port : std::uint32_t { input = channels, output, latencyOut, freeWheeling, isEnabled };
+    enum Port : std::uint32_t { input = channels, output, latencyOut, freeWheeling, isEnabled, firstControl };
 
     /// `nominal` 0: not told, as some hosts do.
     RawLv2(int largestBlock, int nominal, double rate = 48000.0) {
@@ -47,6 +48,10 @@ public:
         descriptor_->connect_port(handle_, latencyOut, &latency);
         descriptor_->connect_port(handle_, freeWheeling, &offline);
         descriptor_->connect_port(handle_, isEnabled, &enabled);
+        for (std::size_t p = 0; p < parameterCount; ++p) {
+            controls[p] = static_cast<float>(allParameters()[p].initial);
+            descriptor_->connect_port(handle_, firstControl + static_cast<std::uint32_t>(p), &controls[p]);
+        }
         choose(0);
     }
     ~RawLv2() {
@@ -99,6 +104,7 @@ public:
     };
     std::vector<Point> points; ///< of the next block, in frame order
     std::array<std::vector<float>, channels> out;
+    std::array<float, parameterCount> controls{}; ///< the parameters' ports, each in its unit
     float latency = 0.0f, offline = 1.0f, enabled = 1.0f;
 
 private:

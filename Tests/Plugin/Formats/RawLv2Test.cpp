@@ -6,6 +6,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <limits>
 #include <regex>
 #include <string>
 #include <tuple>
@@ -93,8 +94,61 @@ TEST(RawLv2, WhatSetsAParameterActsAtItsFrameInBlocksOfAnySize) {
     for (const int frames : {64, 100, 1000, 4096}) EXPECT_TRUE(automated(frames, 96000) == expected) << frames;
 }
 
+float loudestOf(const std::vector<float>& signal) {
+    float most = 0.0f;
+    for (const float x : signal) most = std::max(most, std::abs(x));
+    return most;
+}
+
+TEST(RawLv2, AControlPortMovesItsParameterWhenItChangesAndNotAfterAState) {
+    const auto control = [](Parameter which) { return static_cast<std::size_t>(which); };
+    RawLv2 host{block, block};
+    ASSERT_TRUE(host.isLoaded());
+    host.activate();
+    const float usual = loudestOf(host.play(300, block));
+    EXPECT_GT(usual, 0.001f);
+    host.controls[control(Parameter::level)] = -60.0f; // silence
+    host.play(20, block);
+    EXPECT_EQ(loudestOf(host.play(100, block)), 0.0f);
+    host.points.push_back({0, "level", -12.0f}); // the property counts, since it came last
+    host.play(20, block);
+    EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
+    host.controls[control(Parameter::bypass)] = 1.0f;
+    host.play(2, block);
+    EXPECT_EQ(loudestOf(host.play(100, block)), 0.0f);
+    host.controls[control(Parameter::bypass)] = 0.0f;
+    host.play(2, block);
+    host.controls[control(Parameter::level)] = -40.0f; // as a host has kept it with a state that has another
+    host.choose(1);
+    host.choose(0);
+    host.play(20, block);
+    EXPECT_GT(loudestOf(host.play(300, block)), 0.5f * usual);
+    host.deactivate();
+}
+
+TEST(RawLv2, APortThatTheHostDoesNotConnectOrThatHoldsNoNumberIsNone) {
+    RawLv2 host{block, block};
+    ASSERT_TRUE(host.isLoaded());
+    host.activate();
+    for (float& control : host.controls) control = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
+    host.deactivate();
+}
+
+TEST(RawLv2, DescriptionsHaveAPortForEachParameterBehindJucesOwn) {
+    for (const auto& [width, first] : {std::pair{"", 9}, {"-2", 7}, {"-8", 13}, {"-16", 21}, {"-Music", 11}}) {
+        std::ifstream file{std::string{PHYSVIB_PLUGINS "/PhysVib"} + width + ".lv2/dsp.ttl"};
+        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+        for (const auto& row : allParameters()) {
+            const auto port = "lv2:index " + std::to_string(first + static_cast<int>(row.parameter)) + " ;\n\t\tlv2:symbol \"" + std::string{row.id} + "\" ;";
+            EXPECT_NE(text.find(port), std::string::npos) << width << ' ' << port;
+        }
+        EXPECT_EQ(text.find("lv2:index " + std::to_string(first + static_cast<int>(parameterCount)) + " "), std::string::npos) << width << ": they are written once";
+    }
+}
+
 TEST(RawLv2, DescriptionsHaveFloatsAndNoEmptyAddresses) {
-    for (const std::string width : {"", "-2", "-8", "-16"}) {
+    for (const std::string width : {"", "-2", "-8", "-16", "-Music"}) {
         std::ifstream file{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/dsp.ttl"};
         const std::string text{std::istreambuf_iterator<char>{file}, {}};
         ASSERT_FALSE(text.empty()) << width;

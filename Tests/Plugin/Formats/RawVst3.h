@@ -233,6 +233,8 @@ public:
     }
 
     Changes changes; ///< of the next block
+    std::vector<std::u16string> names, shortNames;      ///< of the parameters
+    std::array<std::vector<vst::ParamID>, 16> standIns; ///< [MIDI channel][controller], bends and pressure as VST3 numbers them; 0: none that is listed
     vst::IComponent* component = nullptr;
     vst::IAudioProcessor* processor = nullptr;
     Steinberg::int32 mode = vst::kOffline;
@@ -256,7 +258,17 @@ private:
             vst::ParameterInfo info;
             controller->getParameterInfo(i, info);
             ids_.push_back(info.id);
+            names.emplace_back(info.title);
+            shortNames.emplace_back(info.shortTitle);
         }
+        vst::IMidiMapping* mapping = nullptr;
+        controller->queryInterface(vst::IMidiMapping_iid, reinterpret_cast<void**>(&mapping));
+        for (Steinberg::int16 c = 0; mapping && c < 16; ++c)
+            for (Steinberg::int16 number = 0; number < vst::kCountCtrlNumber; ++number) {
+                auto& id = standIns[static_cast<std::size_t>(c)].emplace_back();
+                if (mapping->getMidiControllerAssignment(0, c, number, id) != Steinberg::kResultTrue || std::find(ids_.begin(), ids_.end(), id) == ids_.end()) id = 0;
+            }
+        if (mapping) mapping->release();
         one->disconnect(other);
         other->disconnect(one);
         one->release();

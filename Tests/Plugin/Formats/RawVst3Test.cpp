@@ -4,6 +4,7 @@
 #include "RawVst3.h"
 #include "Support/BeatSong.h"
 #include <cmath>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -121,10 +122,10 @@ TEST(RawVst3, TheSideChainIsAnAuxiliaryBusThatIsOff) {
     }
 }
 
-TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAsInTheProcessor) {
+TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAndIsFeltAsInTheProcessor) {
     const BeatSong song{2.0, 48000, 7};
     auto state = strikeAt(0, 4);
-    state.parameters = {{"level", 0.0}, {"beats", 50.0}, {"strike_level", -6.0}};
+    state.parameters = {{"level", 0.0}, {"beats", 50.0}, {"strike_level", -6.0}, {"music", -6.0}, {"music_sides", "left and right"}};
     for (const std::size_t channels : {1u, 2u}) {
         RawVst3 host{oneBus, "PhysVib"};
         ASSERT_TRUE(host.setState(pluginStateJson(state)));
@@ -135,6 +136,8 @@ TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAsInTheProcessor) {
         ASSERT_TRUE(processor.plugin->setBusesLayout(layout));
         ASSERT_TRUE(processor.plugin->apply(state));
         processor.plugin->parameter(Parameter::beats).setValue(0.5f);
+        processor.plugin->parameter(Parameter::music).setValue(static_cast<float>(normalised(rowOf(Parameter::music), -6.0)));
+        processor.plugin->parameter(Parameter::musicSides).setValue(1.0f);
         processor.prepare(48000, 512);
         host.start(512);
         float peak = 0.0f;
@@ -180,6 +183,26 @@ TEST(RawVst3, PointsOfParametersActAtTheirFramesInBlocksOfAnySize) {
     const auto expected = automated(512, 48000);
     EXPECT_GT(*std::max_element(expected[0].begin(), expected[0].end()), 0.02f);
     for (const int block : {32, 64, 1000, 4096}) EXPECT_TRUE(automated(block, 48000) == expected) << block;
+}
+
+TEST(RawVst3, StandInsOfControllersAreFewAndEachControllerOfEachChannelHasOne) {
+    RawVst3 host{oneBus};
+    ASSERT_TRUE(host.isLoaded());
+    const auto others = static_cast<std::ptrdiff_t>(parameterCount) + 1; // the program
+    EXPECT_EQ(std::ssize(host.names), others + vst::kCountCtrlNumber + 15 * 4);
+    for (const auto& channel : host.standIns) {
+        ASSERT_EQ(std::ssize(channel), static_cast<std::ptrdiff_t>(vst::kCountCtrlNumber));
+        EXPECT_EQ(std::ranges::count(channel, vst::ParamID{0}), 0);
+    }
+    for (const auto own : {static_cast<std::size_t>(vst::kAfterTouch), static_cast<std::size_t>(vst::kPitchBend), std::size_t{74}, std::size_t{64}}) EXPECT_NE(host.standIns[0][own], host.standIns[9][own]) << own;
+    EXPECT_EQ(host.standIns[0][1], host.standIns[9][1]) << "the modulation wheel of any channel is the same";
+}
+
+TEST(RawVst3, ShortTitlesDiffer) {
+    RawVst3 host{oneBus};
+    ASSERT_TRUE(host.isLoaded());
+    std::set<std::u16string> titles;
+    for (std::size_t p = 0; p < parameterCount; ++p) EXPECT_TRUE(titles.insert(host.shortNames[p]).second) << p;
 }
 
 TEST(RawVst3, TwentyInstances) {

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What was felt as files, the window's keyboard, presets as files, and a controller that is learned.
+#include "FeltExport.h"
+#include "Formats/ClipFile.h"
+#include "KeyboardPanel.h"
+#include "OpenedFile.h"
+#include "PluginEditor.h"
+#include "PluginTesting.h"
+#include "PresetFiles.h"
+#include "Scene/EventsCsv.h"
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+/// The instrument of that name, and what hands do to it.
+class PlayedInstrument : public TestHost {
+public:
+    explicit PlayedInstrument(const std::string& name) {
+        auto state = plugin->state();
+        const auto found = std::ranges::find(presetNames(), name);
+        EXPECT_NE(found, presetNames().end());
+        takePlugInPreset(state, static_cast<int>(found - presetNames().begin()));
+        plugin->open(state);
+        prepare(48000, 480);
+        block(480);
+    }
+    void send(const juce::MidiMessage& message, int blocks) {
+        juce::MidiBuffer midi;
+        midi.addEvent(message, 0);
+        block(480, midi);
+        rest(blocks);
+    }
+    void rest(int blocks) {
+        for (int b = 1; b < blocks; ++b) block(480);
+    }
+    juce::MidiMessageSequence exported() {
+        plugin->takeNewEvents();
+        const auto state = plugin->state();
+        const auto events = plugin->felt().events(true);
+        const std::string bytes = midiOf({events, state, pannerOf(state, PanningLaw::linear, 1.0)});
+        juce::MemoryInputStream stream{bytes.data(), bytes.size(), false};
+        juce::MidiFile file;
+        EXPECT_TRUE(file.readFrom(stream));
+        file.convertTimestampTicksToSeconds();
+        juce::MidiMessageSequence notes;
+        for (const auto* event : *file.getTrack(0))
+            if (event->message.isNoteOnOrOff()) notes.addEvent(event->message);
+        return notes;
+    }
+};
+
+TEST(FeltExport, NotesComeBackAsTheNotesThatWerePlayed) {
+    PlayedInstrument host{"Bass"};
+    host.send(juce::MidiMessage::noteOn(1, 36, juce::uint8{127}), 50);
+    host.send(juce::MidiMessage::noteOn(1, 43, juce::uint8{64}), 50);
+    host.rest(50);
+    const auto notes = host.exported();
+    ASSERT_EQ(notes.getNumEvents(), 4);
+    const auto& first = notes.getEventPointer(0)->message;
+    const auto& second = notes.getEventPointer(1)->message;
+    EXPECT_EQ(first.getNoteNumber(), 36);
+    EXPECT_EQ(first.getVelocity(), 127);
+    EXPECT_EQ(first.getTimeStamp(), 0.0);
+    EXPECT_EQ(second.getNoteNumber(), 43);
+    EXPECT_NEAR(second.getVelocity(), 64, 1);
+    EXPECT_NEAR(second.getTimeStamp(), 0.5, 1e-4);
+}
+
+TEST(FeltExport, AHeldNoteIsOneNoteAsLongAsItWasHeld) {
+    PlayedInstrument host{"Strings"};
+    host.send(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 80);
+    host.send(juce::MidiMessage::noteOff(1, 60), 100);
+    const auto notes = host.exported();
+    ASSERT_EQ(notes.getNumEvents(), 2) << "not one for each of its strikes";
+    EXPECT_EQ(notes.getEventPointer(0)->message.getNoteNumber(), 60);
+    EXPECT_NEAR(notes.getEventPointer(1)->message.getTimeStamp(), 0.8 + 0.4, 0.01) << "with its release";
+}
+
+TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
+    PlayedInstrument host{"Four corners"};
+    for (int note = 60; note < 68; ++note) host.send(juce::MidiMessage::noteOn(1, note, juce::uint8{100}), 10);
+    host.rest(50);
+    host.plugin->takeNewEvents();
+    const auto state = host.plugin->state();
+    const auto events = host.plugin->felt().events(true);
+    ASSERT_EQ(events.size(), 8u);
+    const FeltExport felt{events, state, pannerOf(state, PanningLaw::linear, 1.0)};
+    const auto folder = juce::File::createTempFile("felt");
+    ASSERT_TRUE(folder.createDirectory().wasOk());
+    const auto at = [&folder](const char* name) { return folder.getChildFile(name).getFullPathName().toStdString(); };
+    ASSERT_TRUE(exportFelt(felt, at("felt.csv")));
+    EXPECT_EQ(loadEventsCsv(at("felt.csv")).value, events);
+    ASSERT_TRUE(exportFelt(felt, at("felt.HJIF")));
+    EXPECT_EQ(loadClip(at("felt.HJIF"), ClipFormat::hjif).value.channels.size(), 4u);
+    EXPECT_TRUE(exportFelt(felt, at("felt.mid")));
+    EXPECT_TRUE(exportFelt(felt, at("felt.ahap")));
+    EXPECT_EQ(folder.getNumberOfChildFiles(juce::File::findFiles, "felt-*.ahap"), 4) << "one for each actuator";
+    EXPECT_FALSE(exportFelt(felt, at("felt.xyz")));
+    EXPECT_FALSE(exportFelt({{}, state, felt.panner}, at("nothing.mid")));
+    EXPECT_EQ(folder.getNumberOfChildFiles(juce::File::findFiles, "*"), 3 + 4);
+    folder.deleteRecursively();
+}
+
+TEST(FeltExport, OnlyTheNewestRunIsKeptAndNotWithoutEnd) {
+    FeltEvents felt;
+    TakeEvent event;
+    event.played.event = {1'000'000, 100.0, 10.0, 0.5, 0.0, 0.0, 0, {}};
+    event.take = 1;
+    felt.add(1, std::vector(3, event));
+    event.take = 2;
+    felt.add(1, std::vector(2, event));
+    event.take = 1; // the end of the one before
+    felt.add(1, std::vector(5, event));
+    EXPECT_EQ(felt.events(false).size(), 2u);
+    EXPECT_EQ(felt.events(false)[0].timeNs, 1'000'000);
+    EXPECT_EQ(felt.events(true)[0].timeNs, 0);
+    felt.add(2, std::vector(FeltEvents::mostKept + 7, event)); // prepared anew
+    EXPECT_EQ(felt.events(false).size(), FeltEvents::mostKept);
+}
+
+TEST(Keyboard, EveryKeyIsFoundWhereItIsAndSaysWhatItIs) {
+    PlayedInstrument host{"Drum kit"};
+    std::vector<std::pair<int, int>> played;
+    KeyboardPanel keys{[&played](int note, int velocity) { played.emplace_back(note, velocity); }};
+    keys.setBounds(0, 0, 940, KeyboardPanel::height);
+    keys.take(host.plugin->state());
+    std::vector<int> found;
+    for (int x = 0; x < 940; ++x)
+        for (const int y : {40, 70})
+            if (const int note = keys.noteAt({x, y}); note >= 0 && std::ranges::find(found, note) == found.end()) found.push_back(note);
+    EXPECT_EQ(std::ssize(found), KeyboardPanel::highest - KeyboardPanel::lowest + 1);
+    EXPECT_LT(keys.velocityAt({470, 30}), keys.velocityAt({470, 68}));
+    const auto state = host.plugin->state();
+    const MidiTable table{state};
+    EXPECT_EQ(wordsOfKey(36, table, state), "C2: kick, 48 Hz, 50 % from the left, 0 % from below");
+    EXPECT_EQ(wordsOfKey(60, table, state), "C4: 262 Hz, 0 % from the left, 50 % from below");
+    EXPECT_EQ(wordsOfKey(60, MidiTable{shakenBox()}, shakenBox()).substring(0, 4), "C4: ");
+}
+
+TEST(Keyboard, AKeyOfTheWindowIsANote) {
+    PlayedInstrument host{"Strings"};
+    host.plugin->play(60, 100);
+    host.rest(40);
+    EXPECT_GT(host.plugin->takes().status().session.render.played, 10u) << "held";
+    host.plugin->play(60, 0);
+    host.rest(20);
+    const auto played = host.plugin->takes().status().session.render.played;
+    host.rest(20);
+    EXPECT_EQ(host.plugin->takes().status().session.render.played, played) << "let go";
+}
+
+TEST(Learning, TheNextControllerMovesTheParameterAndNoOther) {
+    PlayedInstrument host{"Keys"};
+    host.send(juce::MidiMessage::controllerEvent(1, 7, 10), 2); // before: means nothing
+    const std::unique_ptr<PluginEditor> editor{dynamic_cast<PluginEditor*>(host.plugin->createEditorIfNeeded())};
+    editor->learn(Parameter::tilt);
+    editor->refresh();
+    EXPECT_TRUE(host.plugin->state().controllers.empty());
+    EXPECT_TRUE(editor->statusText().contains("Move a controller"));
+    host.send(juce::MidiMessage::controllerEvent(3, 21, 10), 2);
+    editor->refresh();
+    EXPECT_EQ(host.plugin->state().controllers, (std::vector<ControllerRule>{{21, "tilt"}}));
+    host.rest(5);
+    host.send(juce::MidiMessage::controllerEvent(1, 21, 127), 2);
+    EXPECT_EQ(host.plugin->parameter(Parameter::tilt).value(), 180.0);
+    editor->learn(Parameter::gravity);
+    host.send(juce::MidiMessage::controllerEvent(1, 21, 64), 2);
+    editor->refresh();
+    EXPECT_EQ(host.plugin->state().controllers, (std::vector<ControllerRule>{{21, "gravity"}})) << "a controller moves one";
+}
+
+TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
+    const auto folder = juce::File::createTempFile("presets");
+    PlayedInstrument maker{"MPE pad"};
+    maker.plugin->parameter(Parameter::level).setValue(1.0f); // 0 dB
+    maker.plugin->parameter(Parameter::music).setValue(1.0f); // 12 dB
+    auto state = maker.plugin->state();
+    state.editorWidth = 1500;
+    state.editorHeight = 900;
+    EXPECT_EQ(savePreset(state, folder.getChildFile("Mine.json")), "");
+    const auto files = presetFiles(folder);
+    ASSERT_EQ(files.size(), 1u);
+    EXPECT_EQ(files[0].getFileNameWithoutExtension(), "Mine");
+    TestHost other;
+    auto now = newPluginState();
+    other.plugin->open(now);
+    now = other.plugin->state();
+    const auto opened = openFile(files[0].getFullPathName().toStdString(), now);
+    ASSERT_TRUE(opened) << opened.error;
+    EXPECT_EQ(opened.value.note, "Mine.json: lowered to this instance: master 0.0 to -12.0 dB; music");
+    other.plugin->open(opened.value.state);
+    EXPECT_EQ(other.plugin->state().voice, state.voice);
+    EXPECT_NEAR(other.plugin->parameter(Parameter::level).value(), -12.0, 1e-5);
+    EXPECT_NEAR(other.plugin->parameter(Parameter::music).value(), 0.0, 1e-5);
+    EXPECT_NE(other.plugin->state().editorWidth, 1500);
+    EXPECT_TRUE(files[0].replaceWithText(R"({"physvib_plugin_state": 5, "seed": "much"})"));
+    EXPECT_FALSE(openFile(files[0].getFullPathName().toStdString(), now));
+    folder.deleteRecursively();
+}
+
+} // namespace
+} // namespace physvib

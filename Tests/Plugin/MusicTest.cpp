@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The side chain's own low frequencies on the actuators: what of them, where, how loud, and the same in blocks of any size.
+#include "Host/Music/BandPass.h"
+#include "MusicInput.h"
+#include "SongHost.h"
+#include <cmath>
+#include <numbers>
+
+namespace physvib {
+namespace {
+
+using namespace test;
+
+constexpr std::size_t toneFrames = 48000;
+
+BeatSong tone(double hz, float amplitude) {
+    BeatSong song{1.0, songRateHz, 7};
+    for (std::size_t i = 0; i < toneFrames; ++i) song.samples[i] = amplitude * static_cast<float>(std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / songRateHz));
+    return song;
+}
+
+/// Nothing but music, at this level in dB, on four actuators in a line.
+class MusicHost : public SongHost {
+public:
+    explicit MusicHost(double levelDb = 0.0, const PluginState& state = quietState())
+        : SongHost{state} {
+        turnOn();
+        set(Parameter::music, levelDb);
+    }
+    void set(Parameter which, double value) { plugin->parameter(which).setValue(static_cast<float>(normalised(rowOf(which), value))); }
+    Samples feel(const BeatSong& song, SongBlocks blocks = {256}) { return felt(song, blocks, toneFrames); }
+};
+
+/// The largest of a channel's second half second: ramps and filters are over.
+float settled(const std::vector<float>& channel) {
+    float peak = 0.0f;
+    for (std::size_t i = 24'000; i < channel.size(); ++i) peak = std::max(peak, std::abs(channel[i]));
+    return peak;
+}
+
+TEST(Music, IsSilentUntilItIsTurnedUp) {
+    MusicHost host{-60.0};
+    EXPECT_EQ(rowOf(Parameter::music).initial, rowOf(Parameter::music).least);
+    EXPECT_EQ(peakOf(host.feel(tone(100.0, 0.5f))), 0.0f);
+}
+
+TEST(Music, LowFrequenciesAreFeltInTimeAtTheirLevelAndHighOnesAreNot) {
+    const BeatSong low = tone(100.0, 0.5f);
+    MusicHost host;
+    const Samples felt = host.feel(low);
+    std::vector<float> wanted{low.samples.begin(), low.samples.end()};
+    BandPass{MusicInput::band, songRateHz}.process(wanted);
+    for (const auto& channel : felt)
+        for (std::size_t i = 4'800; i < channel.size(); ++i) ASSERT_NEAR(channel[i], wanted[i], 2e-6) << i; // what the host takes out is all that it is late by
+    for (const double hz : {4.0, 2000.0}) EXPECT_LT(settled(MusicHost{}.feel(tone(hz, 0.5f))[0]), 0.005f) << hz;
+    EXPECT_NEAR(settled(MusicHost{-12.0}.feel(low)[2]), 0.5 * std::pow(10.0, -0.6), 0.01);
+}
+
+TEST(Music, SidesGoToTheActuatorsOnTheirSides) {
+    const BeatSong left = tone(100.0, 0.4f), silence = tone(0.0, 0.0f);
+    const auto peaks = [&](double sides) {
+        MusicHost host;
+        host.set(Parameter::musicSides, sides);
+        host.right = &silence;
+        std::vector<float> all;
+        for (const auto& channel : host.feel(left)) all.push_back(settled(channel));
+        return all;
+    };
+    const auto summed = peaks(0.0), apart = peaks(1.0);
+    for (std::size_t j = 0; j < 4; ++j) {
+        EXPECT_NEAR(summed[j], 0.2, 0.005) << j;
+        EXPECT_NEAR(apart[j], 0.4 * (1.0 - static_cast<double>(j) / 3.0), 0.005) << j; // four in a line
+    }
+}
+
+TEST(Music, IsTheSameLiveAndBouncedInBlocksOfAnySizeWhileItsLevelMoves) {
+    const BeatSong song{2.0, songRateHz, 7}, right{2.0, songRateHz, 8};
+    for (const bool isDirect : {false, true}) {
+        auto state = quietState(isDirect);
+        state.controllers = {{1, "music"}};
+        const auto feltIn = [&](SongBlocks blocks) {
+            MusicHost host{-12.0, state};
+            host.set(Parameter::musicSides, 1.0);
+            host.right = &right;
+            host.hasNotes = true;
+            return host.felt(song, blocks, 80'000);
+        };
+        const Samples once = feltIn({64});
+        EXPECT_GT(peakOf(once), 0.05f);
+        for (const SongBlocks blocks : {SongBlocks{64, true}, {1}, {480, true}, {480, false, true}, {1000}, {4096}, {4096, true}})
+            EXPECT_TRUE(feltIn(blocks) == once) << blocks.frames << blocks.isLive << blocks.vary << isDirect;
+    }
+}
+
+TEST(Music, PassesTheEqualiserTheStripsAndTheLimiter) {
+    auto state = quietState();
+    state.strips.resize(4);
+    state.strips[1].isMuted = true;
+    state.strips[2].gainDb = -6.0;
+    state.strips[3].ceilingDb = -20.0;
+    state.equalised[0] = EqualisedActuator{{100.0, 8.0}, {50.0, 300.0}};
+    MusicHost host{0.0, state};
+    const Samples felt = host.feel(tone(160.0, 0.05f));
+    EXPECT_GT(std::abs(settled(felt[0]) - 0.05f), 0.01f) << "the equaliser drives an actuator otherwise beside its resonance";
+    EXPECT_EQ(settled(felt[1]), 0.0f);
+    EXPECT_NEAR(settled(felt[2]), 0.05 * std::pow(10.0, -0.3), 1e-3);
+    MusicHost loud{12.0, state};
+    for (const Samples beyond = loud.feel(tone(100.0, 0.9f)); const float x : beyond[3]) ASSERT_LE(std::abs(x), 0.1f + 1e-6f);
+}
+
+TEST(Music, ATakeBeginsWithSilenceAndEqualMusicFeelsEqual) {
+    auto state = quietState();
+    state.transport = TransportMode::restartOnPlay;
+    MusicHost host{0.0, state};
+    host.playHead.isThere = host.playHead.isPlaying = true;
+    host.prepare(songRateHz, 480);
+    const BeatSong song = tone(130.0, 0.5f);
+    Samples all;
+    constexpr int loop = 24'000, loops = 4;
+    for (int at = 0; at < loop * loops; at += 480) {
+        host.playHead.frame = at % loop;
+        host.feed(song, at % loop, 480, all);
+    }
+    const auto latency = static_cast<std::size_t>(host.plugin->getLatencySamples());
+    const auto& one = all[1];
+    std::size_t unequal = 0;
+    for (std::size_t i = 600; i < loop; ++i) unequal += one[latency + loop + i] == one[latency + 2 * loop + i] ? 0 : 1; // the first 10 ms have the end of the take before
+    EXPECT_EQ(unequal, 0u);
+    float step = 0.0f;
+    for (std::size_t i = latency; i + 1 < one.size(); ++i) step = std::max(step, std::abs(one[i + 1] - one[i]));
+    EXPECT_LT(step, 0.02f) << "no click where one take ends and the next begins"; // the tone itself moves by 0.0085 a frame
+}
+
+TEST(Music, AllSoundOffSilencesWhatIsNotFeltYetAndWhatComesLaterIsFelt) {
+    MusicHost host;
+    host.prepare(songRateHz, 480);
+    const BeatSong song = tone(130.0, 0.5f);
+    const int latency = host.plugin->getLatencySamples();
+    Samples all;
+    for (int at = 0; at < 24'000; at += 480) host.feed(song, at, 480, all);
+    juce::MidiBuffer midi;
+    midi.addEvent(juce::MidiMessage::allSoundOff(1), 0);
+    for (int c = 0; c < 4; ++c) host.buffer.copyFrom(c, 0, song.samples.data() + 24'000, 480);
+    host.plugin->processBlock(host.buffer, midi);
+    for (std::size_t c = 0; c < 4; ++c) all[c].insert(all[c].end(), host.buffer.getReadPointer(static_cast<int>(c)), host.buffer.getReadPointer(static_cast<int>(c)) + 480);
+    for (int at = 24'480; at < 47'000; at += 480) host.feed(song, at, 480, all);
+    const auto peak = [&](int from, int to) {
+        float most = 0.0f;
+        for (int i = from; i < to; ++i) most = std::max(most, std::abs(all[0][static_cast<std::size_t>(i)]));
+        return most;
+    };
+    EXPECT_GT(peak(23'000, 24'000), 0.4f);
+    EXPECT_EQ(peak(24'000 + 480 + 100, 24'000 + latency - 10), 0.0f);
+    EXPECT_GT(peak(24'000 + latency + 600, 24'000 + latency + 2'000), 0.4f);
+}
+
+TEST(Music, OfTwoPortsIsThereInABuildForThemAlone) {
+    const auto lv2 = juce::AudioProcessor::wrapperType_LV2;
+    EXPECT_TRUE(hasSideChain({BusPlan::Kind::oneBus, 4, true}, lv2));
+    PluginProcessor plugin{"PhysVib Music", {BusPlan::Kind::oneBus, 4, true}};
+    EXPECT_EQ(plugin.getTotalNumInputChannels(), 2);
+    EXPECT_EQ(plugin.getTotalNumOutputChannels(), 4);
+}
+
+} // namespace
+} // namespace physvib
