@@ -34,7 +34,7 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     if (arguments.containsOption("--states"))
         return std::cout << shotStates().joinIntoString("\n") << '\n', 0;
     if (const auto folder = valueOf(arguments, referenceWord); folder.isNotEmpty()) {
-        OptionTable program{"physvib-mixer", "see a world, feel it, and mix what each enchanter plays"};
+        OptionTable program{"physvib-mixer", "see a world, feel it, and mix what each actuator plays"};
         addUsage(program, usage);
         const std::string error = writeReference(program, folder.toStdString());
         return error.empty() ? 0 : (std::cerr << "physvib-mixer: " << error << '\n', exitFailed);

@@ -59,7 +59,8 @@ WorldView::WorldView() {
 }
 
 void WorldView::show(const Scene& scene) {
-    const bool isNew = scene.name != scene_.name || scene.bodies != scene_.bodies;
+    const auto isOfName = [](const BodyDescription& a, const BodyDescription& b) { return a.name == b.name; };
+    const bool isNew = scene.name != scene_.name || !std::ranges::equal(scene.bodies, scene_.bodies, isOfName);
     scene_ = scene;
     cast_ = sceneCast(scene_);
     if (isNew) {
@@ -157,6 +158,17 @@ juce::Point<float> WorldView::placeOfBody(const std::string& name) const {
     for (std::size_t i = 0; i < cast_.size(); ++i)
         if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent) return map().at(pose.xMetres, pose.yMetres);
     return {-1e4f, -1e4f};
+}
+
+std::optional<BodyPose> WorldView::poseOfBody(const std::string& name) const {
+    for (std::size_t i = cast_.size(); i-- > 0;)
+        if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent) return pose;
+    return std::nullopt;
+}
+
+Vector WorldView::metresAt(juce::Point<float> place) const {
+    const auto at = map();
+    return {static_cast<double>((place.x - at.field.getX()) / at.pixelsPerMetre), static_cast<double>((at.field.getBottom() - place.y) / at.pixelsPerMetre)};
 }
 
 juce::Rectangle<float> WorldView::badgeOf(int enchanter, const Map&) const {
