@@ -136,6 +136,8 @@ private:
     void drawHold(juce::Graphics& g) const;
     juce::Colour colourOf(const CollisionEvent& event) const;
     BodyPose poseOf(std::size_t body) const;
+    BodyPose poseBefore(std::size_t body) const;
+    void followInputs();
     juce::AffineTransform placeOf(const BodyPose& pose, const Map& at) const;
     juce::AffineTransform placeOf(const FixtureDescription& fixture, const BodyPose& pose, const Map& at) const;
     int bodyAt(juce::Point<float> p) const;
@@ -155,7 +157,13 @@ private:
     void drawFiles(juce::Graphics& g) const;
 
     Scene scene_;
+    struct Fate { // what inputs do to a body of the cast: it may not have happened yet where the world stands still
+        bool isGone = false; // removed, or changed, in which case another has its name
+        int before = -1;     // whose place it takes
+    };
     std::vector<BodyDescription> cast_;
+    std::vector<Fate> fates_; // of them
+    std::size_t scripted_ = 0; // below stands scriptedCast()
     LayoutDescription layout_;
     PhantomPanner panner_;
     std::deque<Snapshot> ahead_; // not felt yet, but for the first

@@ -66,6 +66,12 @@ std::vector<Vector> cornersOf(const Shape& shape) {
     return std::get<ChainShape>(shape).verticesMetres;
 }
 
+/// As near as a seed puts it beside its start.
+bool isNear(const BodyDescription& a, const BodyDescription& b) {
+    constexpr double near = 2.0e-3;
+    return std::hypot(a.positionMetres.x - b.positionMetres.x, a.positionMetres.y - b.positionMetres.y) < near && std::abs(a.angleRadians - b.angleRadians) < near;
+}
+
 bool isLine(const BodyDescription& body) {
     return std::ranges::any_of(body.fixtures, [](const FixtureDescription& f) { return std::holds_alternative<ChainShape>(f.shape); });
 }
@@ -228,7 +234,7 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind, 
         BodyDescription here = *body;
         here.positionMetres = place.metres;
         here.angleRadians = place.angleRadians;
-        if (here == *body) continue;
+        if (isNear(here, *body)) continue;
         here.velocityMetresPerSecond = {};
         here.spinRadiansPerSecond = 0.0;
         actions.push_back(ChangeAction{std::move(here), false});

@@ -60,9 +60,10 @@ std::optional<BodyPose> DeskWorld::poseNow(const std::string& body) const {
     const auto cast = sceneCast(scene());
     std::vector<BodyPose> poses;
     session_.world().readPoses(poses);
-    for (std::size_t i = std::min(cast.size(), poses.size()); i-- > 0;) // the last of that name
-        if (cast[i].name == body) return poses[i].isPresent ? std::optional{poses[i]} : std::nullopt;
-    return std::nullopt;
+    std::size_t last = cast.size(); // of that name
+    while (last-- > 0 && cast[last].name != body) {}
+    if (last >= poses.size() || !poses[last].isPresent) return std::nullopt; // none; or it waits for a step, and starts as drawn
+    return poses[last];
 }
 
 std::string DeskWorld::edit(const juce::String& name, std::vector<Action> actions, bool goesOn) {
@@ -78,9 +79,9 @@ std::string DeskWorld::edit(const juce::String& name, std::vector<Action> action
 juce::String DeskWorld::tooMuch(std::int64_t sessionNs, const std::vector<BodyPose>& poses) {
     const auto share = pace_.look(sessionNs, session_.world().slippedNs());
     if (!share) return {};
-    const bool wasTooMuch = std::exchange(isTooMuch_, *share < PaceWatch::leastShare);
-    if (wasTooMuch || !isTooMuch_) return {};
     const auto bodies = std::ranges::count_if(poses, &BodyPose::isPresent);
+    const bool wasTooMuch = std::exchange(isTooMuch_, *share < PaceWatch::leastShare && bodies >= PaceWatch::leastBodies);
+    if (wasTooMuch || !isTooMuch_) return {};
     return utf8(readable::number(static_cast<double>(bodies), 0)) + " bodies: " + juce::String{juce::roundToInt(100.0 * *share)} + " % of real time; the physics takes it. Fewer bodies or slow motion help";
 }
 

@@ -29,7 +29,7 @@ public:
     std::string edit(const juce::String& name, const Action& action, bool goesOn = false) { return edit(name, std::vector{action}, goesOn); }
     std::string edit(const juce::String& name, std::vector<Action> actions, bool goesOn = false);
 
-    /// Where a body is, as far as the world has been stepped; none: not there.
+    /// Where a body is, as far as the world has been stepped; none: not there, or not yet.
     std::optional<BodyPose> poseNow(const std::string& body) const;
 
     /// One line when the world has become too much for real time, once for each time that it does; else empty. `poses` are those of now.
