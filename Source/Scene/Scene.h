@@ -77,6 +77,7 @@ struct FixtureDescription {
     int material = 0;      ///< index into Scene::materials
     bool isCamera = false; ///< camera-focused: collisions of this fixture are felt (thesis 5.1.1)
     Voice voice = Voice::own;
+    std::optional<double> restitution{}; ///< of this fixture alone; none: the material's
     bool operator==(const FixtureDescription&) const = default;
 };
 
@@ -131,6 +132,7 @@ struct DistanceJoint {
     Vector anchorBMetres;
     double springHz = 0.0;
     double dampingRatio = 0.0;
+    bool isSlack = false; ///< a rope: it holds only when it is taut, and is no spring then
     bool operator==(const DistanceJoint&) const = default;
 };
 /// Glues two bodies together; a frequency makes the seam springy.
@@ -140,7 +142,16 @@ struct WeldJoint {
     double dampingRatio = 0.0;
     bool operator==(const WeldJoint&) const = default;
 };
-using Joint = std::variant<RevoluteJoint, WheelJoint, DistanceJoint, WeldJoint>;
+/// Body B slides along an axis of body A and does not turn against it. A force of 0 is no motor.
+struct SliderJoint {
+    Vector anchorMetres;
+    Vector axis{1.0, 0.0}; ///< any length above 0
+    std::optional<Interval> travelMetres;
+    double motorMetresPerSecond = 0.0;
+    double maxForceNewtons = 0.0;
+    bool operator==(const SliderJoint&) const = default;
+};
+using Joint = std::variant<RevoluteJoint, WheelJoint, DistanceJoint, WeldJoint, SliderJoint>;
 
 struct JointDescription {
     std::string name; ///< unique in the scene
@@ -245,8 +256,33 @@ struct GripAction {
     double overSeconds = 0.0;
     bool operator==(const GripAction&) const = default;
 };
+/// The body of that name is as described from now on, and there again if it was removed: what an editor does. Not in a script.
+/// Its joints keep their points on it. Its fixtures have new numbers, as of a body that is spawned.
+struct ChangeAction {
+    BodyDescription body;
+    bool stays = false; ///< where it is now, and as it moves, if it is there; the description says where the scene starts it
+    bool operator==(const ChangeAction&) const = default;
+};
+/// Joins two bodies; places are those of the world when it acts. Not in a script.
+struct JoinAction {
+    JointDescription joint;
+    bool operator==(const JoinAction&) const = default;
+};
+/// Takes a joint away, of the scene or of a JoinAction. Not in a script.
+struct UnjoinAction {
+    std::string joint;
+    bool operator==(const UnjoinAction&) const = default;
+};
 using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAction, SpawnAction, RemoveAction,
-                            MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction, TextureAction, GripAction>;
+                            MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction, TextureAction, GripAction,
+                            ChangeAction, JoinAction, UnjoinAction>;
+
+/// What puts a body into the world as a live input, under the next number; nullptr: something else.
+inline const BodyDescription* bodyPutBy(const Action& action) noexcept {
+    if (const auto* spawn = std::get_if<SpawnAction>(&action)) return &spawn->body;
+    if (const auto* change = std::get_if<ChangeAction>(&action)) return &change->body;
+    return nullptr;
+}
 
 /// What happens at `timeSeconds`, and `times` - 1 times more, `everySeconds` apart.
 struct ScriptInput {

@@ -10,11 +10,12 @@ namespace physvib {
 namespace {
 
 BodyDescription* findBody(Scene& scene, const std::string& name) {
+    for (auto input = scene.inputs.rbegin(); input != scene.inputs.rend(); ++input) { // the last of that name is there
+        if (auto* spawn = std::get_if<SpawnAction>(&input->action); spawn != nullptr && spawn->body.name == name) return &spawn->body;
+        if (auto* change = std::get_if<ChangeAction>(&input->action); change != nullptr && change->body.name == name) return &change->body;
+    }
     const auto found = std::ranges::find(scene.bodies, name, &BodyDescription::name);
-    if (found != scene.bodies.end()) return &*found;
-    for (LiveInput& input : scene.inputs)
-        if (auto* spawn = std::get_if<SpawnAction>(&input.action); spawn != nullptr && spawn->body.name == name) return &spawn->body;
-    return nullptr;
+    return found == scene.bodies.end() ? nullptr : &*found;
 }
 
 template <class Change>
@@ -37,18 +38,33 @@ void describeEdit(Scene& scene, const Action& action) {
         material.frequencyHz = sound->frequencyHz;
         material.decayPerSecond = sound->decayPerSecond;
     }
+    if (const auto* change = std::get_if<ChangeAction>(&action))
+        if (BodyDescription* found = findBody(scene, change->body.name)) *found = change->body;
     if (const auto* texture = std::get_if<TextureAction>(&action)) scene.materials[static_cast<std::size_t>(texture->material)].setTexture(texture->texture());
+}
+
+bool isLasting(const Action& action) {
+    return bodyPutBy(action) != nullptr || std::holds_alternative<RemoveAction>(action) || std::holds_alternative<MaterialAction>(action) || std::holds_alternative<CameraAction>(action) ||
+           std::holds_alternative<SoundAction>(action) || std::holds_alternative<TextureAction>(action) || std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
+}
+
+bool editScene(Scene& scene, const Action& action) {
+    if (!isLasting(action)) return false;
+    Scene next = scene;
+    describeEdit(next, action);
+    if (const auto* removal = std::get_if<RemoveAction>(&action)) std::erase_if(next.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
+    if (const auto* join = std::get_if<JoinAction>(&action)) next.joints.push_back(join->joint);
+    if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) std::erase_if(next.joints, [unjoin](const JointDescription& j) { return j.name == unjoin->joint; });
+    const BodyDescription* put = bodyPutBy(action);
+    if (put != nullptr && std::ranges::find(next.bodies, put->name, &BodyDescription::name) == next.bodies.end()) next.bodies.push_back(*put);
+    if (next == scene || !validate(next).empty()) return false;
+    scene = std::move(next);
+    return true;
 }
 
 Scene sceneAsLeft(const SceneTake& take) {
     Scene scene = *take.scene;
-    for (const LiveInput& input : take.inputs) {
-        Scene next = scene;
-        describeEdit(next, input.action);
-        if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) next.bodies.push_back(spawn->body);
-        if (const auto* removal = std::get_if<RemoveAction>(&input.action)) std::erase_if(next.bodies, [removal](const BodyDescription& b) { return b.name == removal->body; });
-        if (next != scene && validate(next).empty()) scene = std::move(next);
-    }
+    for (const LiveInput& input : take.inputs) editScene(scene, input.action);
     return scene;
 }
 

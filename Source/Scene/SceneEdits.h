@@ -10,6 +10,13 @@ namespace physvib {
 /// nothing. Bodies of the scene and of its live inputs are found by name. Any thread.
 void describeEdit(Scene& scene, const Action& action);
 
+/// Whether an action changes a scene for good, as an editor does, and not only its motion. Any thread.
+bool isLasting(const Action& action);
+
+/// The scene with what `action` changes of it for good, bodies and joints as well; false, and nothing is changed, if that is nothing
+/// or would leave a scene that is not valid. Any thread.
+bool editScene(Scene& scene, const Action& action);
+
 /// The take's scene as its inputs left it, without inputs: what was added starts where it was put, what was removed is
 /// not there (unless a joint holds it or the script needs it). Any thread.
 Scene sceneAsLeft(const SceneTake& take);

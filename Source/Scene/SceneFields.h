@@ -104,6 +104,7 @@ void visitFields(auto& v, FieldsOf<FixtureDescription>) {
     v.material("material", &FixtureDescription::material);
     v.field("camera", &FixtureDescription::isCamera, {}, Need::optional);
     v.choice("voice", &FixtureDescription::voice, voiceNames);
+    v.field("restitution", &FixtureDescription::restitution, upTo(1.0), Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<BodyDescription>) {
@@ -145,6 +146,7 @@ void visitFields(auto& v, FieldsOf<DistanceJoint>) {
     v.field("spring_hz", &DistanceJoint::springHz, upTo(sceneLimits::maxSpringHz), Need::optional);
     v.field("damping_ratio", &DistanceJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio),
             Need::optional);
+    v.field("slack", &DistanceJoint::isSlack, {}, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<WeldJoint>) {
     v.field("anchor_m", &WeldJoint::anchorMetres, positionBounds, Need::required);
@@ -153,7 +155,15 @@ void visitFields(auto& v, FieldsOf<WeldJoint>) {
             Need::optional);
 }
 
-inline constexpr std::array<std::string_view, 4> jointNames{"revolute", "wheel", "distance", "weld"};
+void visitFields(auto& v, FieldsOf<SliderJoint>) {
+    v.field("anchor_m", &SliderJoint::anchorMetres, positionBounds, Need::required);
+    v.field("axis", &SliderJoint::axis, within(1.0), Need::optional);
+    v.field("travel_m", &SliderJoint::travelMetres, positionBounds, Need::optional);
+    v.field("motor_m_per_s", &SliderJoint::motorMetresPerSecond, speedBounds, Need::optional);
+    v.field("max_force_n", &SliderJoint::maxForceNewtons, upTo(sceneLimits::maxForceNewtons), Need::optional);
+}
+
+inline constexpr std::array<std::string_view, 5> jointNames{"revolute", "wheel", "distance", "weld", "slider"};
 
 void visitFields(auto& v, FieldsOf<JointDescription>) {
     v.field("name", &JointDescription::name, anyText, Need::required);
@@ -228,8 +238,19 @@ void visitFields(auto& v, FieldsOf<GripAction>) {
     v.field("over_s", &GripAction::overSeconds, upTo(sceneLimits::maxScriptSeconds), Need::optional);
 }
 
-inline constexpr std::array<std::string_view, 13> actionNames{
-    "gravity", "tilt", "impulse", "velocity", "spawn", "remove", "motor", "camera", "material", "sound", "hold", "texture", "grip"};
+void visitFields(auto& v, FieldsOf<ChangeAction>) {
+    v.field("body", &ChangeAction::body, {}, Need::required);
+    v.field("stays", &ChangeAction::stays, {}, Need::optional);
+}
+void visitFields(auto& v, FieldsOf<JoinAction>) {
+    v.field("joint", &JoinAction::joint, {}, Need::required);
+}
+void visitFields(auto& v, FieldsOf<UnjoinAction>) {
+    v.field("joint", &UnjoinAction::joint, anyText, Need::required);
+}
+
+inline constexpr std::array<std::string_view, 16> actionNames{
+    "gravity", "tilt", "impulse", "velocity", "spawn", "remove", "motor", "camera", "material", "sound", "hold", "texture", "grip", "change", "join", "unjoin"};
 
 void visitFields(auto& v, FieldsOf<ScriptInput>) {
     v.field("time_s", &ScriptInput::timeSeconds, upTo(sceneLimits::maxScriptSeconds), Need::required);

@@ -12,7 +12,7 @@
 namespace physvib {
 
 /// The version of the format that is written, and the newest that is read.
-constexpr int sceneFormatVersion = 1;
+constexpr int sceneFormatVersion = 2; // 2: change, join, unjoin; slider, slack; restitution of a fixture
 
 /// Choices for a scene's variables, {"height", "2"}; a variable without one has its default.
 using SceneSettings = std::vector<std::pair<std::string, std::string>>;

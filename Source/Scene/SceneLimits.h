@@ -22,6 +22,7 @@ constexpr double maxGravityFactor = 10.0;
 constexpr double maxImpulseNewtonSeconds = 1.0e9;
 constexpr double maxGripMetresPerSecond2 = 100.0; // times the mass: a hand that holds pulls by ten weights at most
 constexpr double maxTorqueNewtonMetres = 1.0e9;
+constexpr double maxForceNewtons = 1.0e9;
 constexpr double maxSpringHz = 1000.0;
 constexpr double maxDampingRatio = 100.0;
 constexpr double minScriptPeriodSeconds = 0.01;

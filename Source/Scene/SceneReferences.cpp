@@ -26,10 +26,13 @@ public:
         : scene_(scene)
         , cast_(scriptedCast(scene)) {
         for (const JointDescription& joint : scene.joints) joints_.emplace(joint.name, &joint);
+        for (const LiveInput& input : scene.inputs)
+            if (const auto* join = std::get_if<JoinAction>(&input.action)) joints_.emplace(join->joint.name, &join->joint);
     }
 
     std::string check() {
         std::string fault = nameBodies();
+        if (fault.empty()) fault = countJoints();
         for (std::size_t i = 0; i < scene_.joints.size() && fault.empty(); ++i)
             fault = checkJoint(scene_.joints[i], itemPath("joints", i));
         for (std::size_t i = 0; i < scene_.script.size() && fault.empty(); ++i)
@@ -48,13 +51,28 @@ private:
         std::set<std::string_view> there, gone;
         for (const LiveInput& input : scene_.inputs) {
             if (const auto* removal = std::get_if<RemoveAction>(&input.action); removal != nullptr && there.erase(removal->body) > 0) gone.insert(removal->body);
-            const auto* spawn = std::get_if<SpawnAction>(&input.action);
-            if (spawn == nullptr) continue;
-            const BodyDescription& body = spawn->body;
+            const BodyDescription* put = bodyPutBy(input.action);
+            if (put == nullptr) continue;
+            const BodyDescription& body = *put;
+            const bool isChange = std::holds_alternative<ChangeAction>(input.action);
+            if (isChange && !bodies_.contains(body.name)) return missing("body.name", "body", body.name);
             const auto [known, isNew] = bodies_.emplace(body.name, &body);
-            if (!isNew && gone.erase(body.name) == 0) return twice(body.name);
+            if (gone.erase(body.name) == 0 && !isNew && !isChange) return twice(body.name);
             if (body.fixtures.size() > known->second->fixtures.size()) known->second = &body;
             there.insert(body.name);
+        }
+        return {};
+    }
+
+    // As bodies: a joint that was taken away leaves its name to the next.
+    std::string countJoints() const {
+        std::set<std::string_view> there;
+        for (const JointDescription& joint : scene_.joints) there.insert(joint.name);
+        for (const LiveInput& input : scene_.inputs) {
+            if (const auto* unjoin = std::get_if<UnjoinAction>(&input.action)) there.erase(unjoin->joint);
+            const auto* join = std::get_if<JoinAction>(&input.action);
+            if (join != nullptr && !there.insert(join->joint.name).second) return "joints: expected names of their own, found \"" + join->joint.name + "\" twice";
+            if (there.size() > sceneLimits::maxJoints) return "joints: expected at most " + std::to_string(sceneLimits::maxJoints);
         }
         return {};
     }
@@ -63,8 +81,8 @@ private:
         if (!bodies_.contains(joint.bodyA)) return missing(path + ".body_a", "body", joint.bodyA);
         if (!bodies_.contains(joint.bodyB)) return missing(path + ".body_b", "body", joint.bodyB);
         if (joint.bodyA == joint.bodyB) return path + ".body_b: expected another body than body_a";
-        const auto* wheel = std::get_if<WheelJoint>(&joint.joint);
-        if (wheel != nullptr && std::hypot(wheel->axis.x, wheel->axis.y) < 1.0e-3)
+        const auto isNoAxis = [](const auto* slides) { return slides != nullptr && std::hypot(slides->axis.x, slides->axis.y) < 1.0e-3; };
+        if (isNoAxis(std::get_if<WheelJoint>(&joint.joint)) || isNoAxis(std::get_if<SliderJoint>(&joint.joint)))
             return path + ".axis: expected a direction, found none";
         return {};
     }
@@ -74,6 +92,8 @@ private:
         const double period = scene_.scriptPeriodSeconds;
         const double end = period > 0.0 ? period : sceneLimits::maxScriptSeconds;
         if (!(last <= end)) return detail::outside(path + ".time_s", 0.0, end, last);
+        if (std::holds_alternative<ChangeAction>(input.action) || std::holds_alternative<JoinAction>(input.action) || std::holds_alternative<UnjoinAction>(input.action))
+            return path + ".input: expected another: change, join and unjoin are live inputs only";
         return std::visit([&](const auto& action) { return checkAction(action, path); }, input.action);
     }
 
@@ -90,6 +110,10 @@ private:
             joint != joints_.end() && (std::holds_alternative<RevoluteJoint>(joint->second->joint) ||
                                        std::holds_alternative<WheelJoint>(joint->second->joint));
         return hasMotor ? std::string() : missing(path + ".joint", "revolute or wheel joint", action.joint);
+    }
+    std::string checkAction(const JoinAction& action, const std::string& path) const { return checkJoint(action.joint, path + ".joint"); }
+    std::string checkAction(const UnjoinAction& action, const std::string& path) const {
+        return joints_.contains(action.joint) ? std::string() : missing(path + ".joint", "joint", action.joint);
     }
     template <class One>
     std::string checkAction(const One& action, const std::string& path) const {

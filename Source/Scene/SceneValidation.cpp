@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace physvib {
 
@@ -69,10 +70,11 @@ std::string checkTotals(const Scene& scene) {
                 totals.take(*gone->second);
                 spawned.erase(gone);
             }
-        const auto* spawn = std::get_if<SpawnAction>(&scene.inputs[i].action);
-        if (spawn == nullptr) continue;
-        totals.add(spawn->body);
-        spawned.emplace(spawn->body.name, &spawn->body);
+        const BodyDescription* body = bodyPutBy(scene.inputs[i].action);
+        if (body == nullptr) continue;
+        totals.add(*body);
+        const auto [there, isNew] = spawned.emplace(body->name, body);
+        if (!isNew) totals.take(*std::exchange(there->second, body)); // it was changed
         fault = totals.fault();
     }
     return fault;

@@ -37,7 +37,7 @@ TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
     for (int k = 0; const auto& tab : view.tabs().names()) {
         view.tabs().choose(tab);
         view.scope().choose(view.scope().names()[k++ % view.scope().names().size()]);
-        if (auto* list = dynamic_cast<juce::ListBox*>(find(view, "List of enchanters"))) list->selectRow(1);
+        if (auto* list = dynamic_cast<juce::ListBox*>(find(view, "List of actuators"))) list->selectRow(1);
         std::multiset<juce::String> titles;
         walk(view, [&](juce::Component& c) {
             if (!isControl(c) || isPartOfControl(c)) return;
@@ -140,7 +140,7 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     EXPECT_FALSE(desk.isSilent());
     press("Pause the world (Space)");
     EXPECT_EQ(desk.session().world().slowness(), 0);
-    press("Attach an enchanter");
+    press("Attach an actuator");
     EXPECT_EQ(desk.mix().count(), 5);
     EXPECT_NE(find(view, "Gain of E"), nullptr);
     view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});

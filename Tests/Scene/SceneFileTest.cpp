@@ -302,7 +302,7 @@ TEST(SceneFile, NamesTheFieldByItsPath) {
 
 TEST(SceneFile, OnlyItsOwnVersionsAreRead) {
     EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1", "\"physvib_scene\": 2")),
-              "my.json: physvib_scene: made for a newer PhysVib: expected a version up to 1, found 2");
+              "my.json: physvib_scene: made for a newer PhysVib: expected a version up to 2, found 3");
     EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1", "\"physvib_scene\": 0")),
               "my.json: physvib_scene: expected a version from 1 on, found 0");
     EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1, ", "")),

@@ -14,19 +14,31 @@ bool isDrag(const juce::MouseEvent& e) { return e.source.hasMovedSignificantlySi
 
 } // namespace
 
-int WorldView::bodyAt(juce::Point<float> p) const {
+bool WorldView::isOn(std::size_t body, juce::Point<float> p) const {
+    constexpr float near = 6.0f; // pixels beside a line
     const auto at = map();
-    for (int i = static_cast<int>(cast_.size()) - 1; i >= 0; --i) { // the one on top
-        const auto& body = cast_[static_cast<std::size_t>(i)];
-        const auto pose = poseOf(static_cast<std::size_t>(i));
-        if (body.type != BodyType::dynamicBody || !pose.isPresent) continue;
-        for (const auto& fixture : body.fixtures) {
-            auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
-            path.applyTransform(placeOf(fixture, pose, at));
-            if (path.contains(p) || path.getBounds().withSizeKeepingCentre(16.0f, 16.0f).contains(p)) return i;
-        }
-    }
+    const auto pose = poseOf(body);
+    if (!pose.isPresent) return false;
+    const bool moves = cast_[body].type == BodyType::dynamicBody;
+    return std::ranges::any_of(cast_[body].fixtures, [&](const FixtureDescription& fixture) {
+        auto path = shapeOutline<juce::Path>(fixture.shape, at.pixelsPerMetre);
+        path.applyTransform(placeOf(fixture, pose, at));
+        if (juce::Point<float> nearest; std::holds_alternative<ChainShape>(fixture.shape)) return path.getNearestPoint(p, nearest), nearest.getDistanceFrom(p) < near;
+        return path.contains(p) || (moves && path.getBounds().withSizeKeepingCentre(16.0f, 16.0f).contains(p));
+    });
+}
+
+int WorldView::bodyAt(juce::Point<float> p) const {
+    for (int i = static_cast<int>(cast_.size()) - 1; i >= 0; --i) // the one on top
+        if (const auto body = static_cast<std::size_t>(i); cast_[body].type == BodyType::dynamicBody && isOn(body, p)) return i;
     return -1;
+}
+
+std::vector<std::string> WorldView::bodiesAt(juce::Point<float> place) const {
+    std::vector<std::string> names;
+    for (std::size_t i = cast_.size(); i-- > 0;)
+        if (isOn(i, place)) names.push_back(cast_[i].name);
+    return names;
 }
 
 int WorldView::enchanterAt(juce::Point<float> p) const {

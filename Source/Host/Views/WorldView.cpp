@@ -59,9 +59,12 @@ WorldView::WorldView() {
 }
 
 void WorldView::show(const Scene& scene) {
-    const bool isNew = scene.name != scene_.name || scene.bodies != scene_.bodies;
+    const auto isOfName = [](const BodyDescription& a, const BodyDescription& b) { return a.name == b.name; };
+    const bool isNew = scene.name != scene_.name || !std::ranges::equal(scene.bodies, scene_.bodies, isOfName);
     scene_ = scene;
     cast_ = sceneCast(scene_);
+    scripted_ = scriptedCast(scene_).size();
+    followInputs();
     if (isNew) {
         ahead_.clear();
         hits_.clear();
@@ -129,10 +132,39 @@ WorldView::Map WorldView::map() const {
     return {room.withSizeKeepingCentre(width * scale, height * scale), scale};
 }
 
-BodyPose WorldView::poseOf(std::size_t body) const {
+// What the script spawns may come again.
+void WorldView::followInputs() {
+    fates_.assign(cast_.size(), {});
+    std::size_t next = scripted_;
+    for (const LiveInput& input : scene_.inputs) {
+        const BodyDescription* put = bodyPutBy(input.action);
+        const auto* removal = std::get_if<RemoveAction>(&input.action);
+        if (put == nullptr && removal == nullptr) continue;
+        const std::string& name = put ? put->name : removal->body;
+        for (std::size_t i = next; i-- > 0;)
+            if (cast_[i].name == name) {
+                const auto* change = std::get_if<ChangeAction>(&input.action);
+                if (change != nullptr && change->stays && !fates_[i].isGone) fates_[next].before = static_cast<int>(i);
+                if (i < scene_.bodies.size() || i >= scripted_) fates_[i].isGone = true;
+                break;
+            }
+        if (put != nullptr) ++next;
+    }
+}
+
+// As it is in the world; or, if it has not come yet, where it will.
+BodyPose WorldView::poseBefore(std::size_t body) const {
     if (!ahead_.empty() && body < ahead_.front().poses.size()) return ahead_.front().poses[body];
+    if (const int before = fates_[body].before; before >= 0)
+        if (const BodyPose pose = poseBefore(static_cast<std::size_t>(before)); pose.isPresent) return pose;
     const auto& b = cast_[body];
-    return {b.positionMetres.x, b.positionMetres.y, b.angleRadians, body < scene_.bodies.size()};
+    return {b.positionMetres.x, b.positionMetres.y, b.angleRadians, body < scene_.bodies.size() || body >= scripted_};
+}
+
+BodyPose WorldView::poseOf(std::size_t body) const {
+    BodyPose pose = poseBefore(body);
+    pose.isPresent = pose.isPresent && !fates_[body].isGone;
+    return pose;
 }
 
 juce::AffineTransform WorldView::placeOf(const BodyPose& pose, const Map& at) const {
@@ -157,6 +189,17 @@ juce::Point<float> WorldView::placeOfBody(const std::string& name) const {
     for (std::size_t i = 0; i < cast_.size(); ++i)
         if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent) return map().at(pose.xMetres, pose.yMetres);
     return {-1e4f, -1e4f};
+}
+
+std::optional<BodyPose> WorldView::poseOfBody(const std::string& name) const {
+    for (std::size_t i = cast_.size(); i-- > 0;)
+        if (const auto pose = poseOf(i); cast_[i].name == name && pose.isPresent) return pose;
+    return std::nullopt;
+}
+
+Vector WorldView::metresAt(juce::Point<float> place) const {
+    const auto at = map();
+    return {static_cast<double>((place.x - at.field.getX()) / at.pixelsPerMetre), static_cast<double>((at.field.getBottom() - place.y) / at.pixelsPerMetre)};
 }
 
 juce::Rectangle<float> WorldView::badgeOf(int enchanter, const Map&) const {

@@ -88,6 +88,13 @@ public:
     juce::Point<float> placeOfBody(const std::string& name) const; ///< outside the view if it is not there
     bool isHolding() const noexcept { return !grip_.held.empty(); }
 
+    /// For who draws over this view. Places in metres of the field, also beyond its edges. M.
+    juce::Point<float> placeOfMetres(Vector at) const { return map().at(at.x, at.y); }
+    Vector metresAt(juce::Point<float> place) const;
+    float pixelsPerMetre() const { return map().pixelsPerMetre; }
+    std::optional<BodyPose> poseOfBody(const std::string& name) const; ///< as it is drawn; none: not there
+    std::vector<std::string> bodiesAt(juce::Point<float> place) const; ///< of any type, the one on top first
+
 private:
     struct Snapshot {
         std::int64_t timeNs;
@@ -129,9 +136,12 @@ private:
     void drawHold(juce::Graphics& g) const;
     juce::Colour colourOf(const CollisionEvent& event) const;
     BodyPose poseOf(std::size_t body) const;
+    BodyPose poseBefore(std::size_t body) const;
+    void followInputs();
     juce::AffineTransform placeOf(const BodyPose& pose, const Map& at) const;
     juce::AffineTransform placeOf(const FixtureDescription& fixture, const BodyPose& pose, const Map& at) const;
     int bodyAt(juce::Point<float> p) const;
+    bool isOn(std::size_t body, juce::Point<float> p) const;
     int enchanterAt(juce::Point<float> p) const;
     juce::Rectangle<float> badgeOf(int enchanter, const Map& at) const;
     void drawGround(juce::Graphics& g, const Map& at);
@@ -147,7 +157,13 @@ private:
     void drawFiles(juce::Graphics& g) const;
 
     Scene scene_;
+    struct Fate { // what inputs do to a body of the cast: it may not have happened yet where the world stands still
+        bool isGone = false; // removed, or changed, in which case another has its name
+        int before = -1;     // whose place it takes
+    };
     std::vector<BodyDescription> cast_;
+    std::vector<Fate> fates_; // of them
+    std::size_t scripted_ = 0; // below stands scriptedCast()
     LayoutDescription layout_;
     PhantomPanner panner_;
     std::deque<Snapshot> ahead_; // not felt yet, but for the first

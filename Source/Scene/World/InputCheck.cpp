@@ -2,6 +2,7 @@
 // The scene with one more input must be a valid scene.
 #include "Scene/World/InputCheck.h"
 #include "Scene/SceneRanges.h"
+#include "Scene/World/SceneCast.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
 #include <utility>
@@ -13,12 +14,14 @@ namespace {
 
 bool isSpawn(const Action& action) { return std::holds_alternative<SpawnAction>(action); }
 bool isRemoval(const Action& action) { return std::holds_alternative<RemoveAction>(action); }
+bool isChange(const Action& action) { return std::holds_alternative<ChangeAction>(action); }
+bool isJoining(const Action& action) { return std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action); }
 bool isSwitch(const Action& action) { return std::holds_alternative<CameraAction>(action) || std::holds_alternative<MaterialAction>(action); }
 
-/// Of those four.
+/// Of those five.
 const std::string& bodyOf(const Action& action) {
     static const std::string none;
-    if (const auto* spawn = std::get_if<SpawnAction>(&action)) return spawn->body.name;
+    if (const BodyDescription* body = bodyPutBy(action)) return body->name;
     if (const auto* removal = std::get_if<RemoveAction>(&action)) return removal->body;
     if (const auto* camera = std::get_if<CameraAction>(&action)) return camera->body;
     if (const auto* material = std::get_if<MaterialAction>(&action)) return material->body;
@@ -28,11 +31,11 @@ const std::string& bodyOf(const Action& action) {
 /// Whether it matters, after what was done before, for what comes later. Pushes and tilts change nothing that others are checked
 /// against, and they are most of a long list; nor does saying something twice.
 bool matters(const std::vector<LiveInput>& before, const Action& action) {
-    if (isSpawn(action)) return true;
+    if (isSpawn(action) || isChange(action) || isJoining(action)) return true;
     if (!isSwitch(action) && !isRemoval(action)) return false;
     for (auto input = before.rbegin(); input != before.rend(); ++input) {
         if (input->action == action) return false;
-        if (isSpawn(input->action) && bodyOf(input->action) == bodyOf(action)) return true;
+        if (bodyPutBy(input->action) != nullptr && bodyOf(input->action) == bodyOf(action)) return true;
     }
     return isSwitch(action); // of the scene's own bodies; they never go for good
 }
@@ -46,8 +49,34 @@ InputCheck::InputCheck(const Scene& scene, std::size_t most)
     for (LiveInput& input : std::exchange(scene_.inputs, {})) keep(std::move(input));
 }
 
+// An editor changes the same bodies and joints over and over: of each, the last is kept.
+bool InputCheck::fold(const Action& action) {
+    auto& inputs = scene_.inputs;
+    if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) {
+        const auto isOf = [&](const LiveInput& input) {
+            const auto* join = std::get_if<JoinAction>(&input.action);
+            return join != nullptr && join->joint.name == unjoin->joint;
+        };
+        return std::erase_if(inputs, isOf) > 0;
+    }
+    const auto* change = std::get_if<ChangeAction>(&action);
+    if (change == nullptr) return false;
+    const auto last = std::find_if(inputs.rbegin(), inputs.rend(), [&](const LiveInput& input) { return bodyOf(input.action) == change->body.name; });
+    if (last == inputs.rend()) return false;
+    const BodyDescription* const put = bodyPutBy(last->action);
+    if (put != nullptr && put->fixtures.size() <= change->body.fixtures.size()) {
+        if (auto* before = std::get_if<SpawnAction>(&last->action)) before->body = change->body;
+        else last->action = *change;
+        return true;
+    }
+    const auto isSpawned = [&](const LiveInput& input) { return isSpawn(input.action) && bodyOf(input.action) == change->body.name; };
+    if (!isRemoval(last->action) || std::ranges::none_of(inputs, isSpawned)) return false;
+    inputs.push_back({inputs.back().timeSeconds, SpawnAction{change->body, {}}}); // what was before may be forgotten
+    return true;
+}
+
 void InputCheck::keep(LiveInput input) {
-    if (!matters(scene_.inputs, input.action)) return;
+    if (fold(input.action) || !matters(scene_.inputs, input.action)) return;
     scene_.inputs.push_back(std::move(input));
     if (most_ == endless) forgetOldest();
 }
@@ -60,6 +89,11 @@ void InputCheck::forgetOldest() {
         const auto isOf = [&](const LiveInput& input) { return bodyOf(input.action) == body; };
         const auto next = std::find_if(oldest, inputs.end(), [&](const LiveInput& input) { return isSpawn(input.action) && isOf(input); });
         inputs.erase(std::remove_if(inputs.begin(), next, isOf), next); // what comes then is said of another body of that name
+        if (std::ranges::none_of(scriptedCast(scene_), [&](const BodyDescription& known) { return known.name == body; }))
+            std::erase_if(inputs, [&](const LiveInput& input) {
+                const auto* join = std::get_if<JoinAction>(&input.action);
+                return join != nullptr && (join->joint.bodyA == body || join->joint.bodyB == body);
+            });
     }
 }
 

@@ -27,6 +27,7 @@ public:
 
 private:
     void keep(LiveInput input);
+    bool fold(const Action& action);
     void forgetOldest();
 
     Scene scene_; // of its inputs, those that later ones are checked against

@@ -24,8 +24,8 @@ inline std::vector<PlacedBody> placedBodies(const Scene& scene) {
         if (const auto* spawn = std::get_if<SpawnAction>(&scene.script[i].action))
             bodies.push_back({&spawn->body, detail::itemPath("script", i) + ".body", scene.script[i].times});
     for (std::size_t i = 0; i < scene.inputs.size(); ++i)
-        if (const auto* spawn = std::get_if<SpawnAction>(&scene.inputs[i].action))
-            bodies.push_back({&spawn->body, detail::itemPath("inputs", i) + ".body", 1, true});
+        if (const BodyDescription* body = bodyPutBy(scene.inputs[i].action))
+            bodies.push_back({body, detail::itemPath("inputs", i) + ".body", 1, true});
     return bodies;
 }
 

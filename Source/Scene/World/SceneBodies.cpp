@@ -102,7 +102,7 @@ b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& bo
         fixtures.push_back(created.CreateFixture(&ShapeMaker(fixture).shape(), 0.0F));
         // A line has no skin; Box2D's copy of a chain forgets this, so the copy is told.
         if (std::holds_alternative<ChainShape>(fixture.shape)) fixtures.back()->GetShape()->m_radius = 0.0F;
-        setSurface(*fixtures.back(), scene.materials[static_cast<std::size_t>(fixture.material)]);
+        setSurface(*fixtures.back(), fixture, scene.materials[static_cast<std::size_t>(fixture.material)]);
     }
     setMass(created, body, scene);
     return created;
@@ -127,9 +127,9 @@ void setMass(b2Body& created, const BodyDescription& body, const Scene& scene) {
     created.SetMassData(&data);
 }
 
-void setSurface(b2Fixture& fixture, const Material& material) {
+void setSurface(b2Fixture& fixture, const FixtureDescription& description, const Material& material) {
     fixture.SetFriction(static_cast<float>(material.friction));
-    fixture.SetRestitution(static_cast<float>(material.restitution));
+    fixture.SetRestitution(static_cast<float>(description.restitution.value_or(material.restitution)));
 }
 
 } // namespace physvib

@@ -25,9 +25,12 @@ void restartBody(b2Body& created, const BodyDescription& body, const BodyStart& 
 void setMass(b2Body& created, const BodyDescription& body, const Scene& scene);
 
 /// Friction and restitution. M only.
-void setSurface(b2Fixture& fixture, const Material& material);
+void setSurface(b2Fixture& fixture, const FixtureDescription& description, const Material& material);
 
 /// Creates a joint between two bodies where they are now. M only.
 b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB);
+
+/// Puts `to` in the place of `from` in one of its joints, with the same points of it; what takes the joint's place, which is destroyed. M only.
+b2Joint& moveJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to);
 
 } // namespace physvib

@@ -54,7 +54,7 @@ private:
     }
 
     void note(const Action& action) {
-        if (const auto* spawn = std::get_if<SpawnAction>(&action)) count(spawn->body.name);
+        if (const BodyDescription* body = bodyPutBy(action)) count(body->name);
         if (const auto* camera = std::get_if<CameraAction>(&action))
             if (camera->isOn) switchedOn_.emplace(bearer(camera->body), camera->fixture);
         if (const auto* change = std::get_if<MaterialAction>(&action))

@@ -23,7 +23,7 @@ std::vector<BodyDescription> scriptedCast(const Scene& scene) {
 std::vector<BodyDescription> sceneCast(const Scene& scene) {
     std::vector<BodyDescription> cast = scriptedCast(scene);
     for (const LiveInput& input : scene.inputs)
-        if (const auto* spawn = std::get_if<SpawnAction>(&input.action)) cast.push_back(spawn->body);
+        if (const BodyDescription* body = bodyPutBy(input.action)) cast.push_back(*body);
     return cast;
 }
 

@@ -55,11 +55,9 @@ public:
     b2Joint& operator()(const DistanceJoint& joint) const {
         b2DistanceJointDef def;
         def.Initialize(&a_, &b_, box2dVector(joint.anchorAMetres), box2dVector(joint.anchorBMetres));
-        spring(def.stiffness, def.damping, joint.springHz, joint.dampingRatio);
-        if (joint.springHz > 0.0) { // else a rod: Box2D keeps the length between these two
-            def.minLength = 0.0F;
-            def.maxLength = b2_maxFloat;
-        }
+        if (!joint.isSlack) spring(def.stiffness, def.damping, joint.springHz, joint.dampingRatio);
+        if (joint.isSlack || joint.springHz > 0.0) def.minLength = 0.0F; // else a rod: Box2D keeps the length between these two
+        if (!joint.isSlack && joint.springHz > 0.0) def.maxLength = b2_maxFloat;
         return create(world_, def, joint_);
     }
     b2Joint& operator()(const WeldJoint& joint) const {
@@ -68,6 +66,19 @@ public:
         if (joint.springHz > 0.0)
             b2AngularStiffness(def.stiffness, def.damping, static_cast<float>(joint.springHz),
                                static_cast<float>(joint.dampingRatio), &a_, &b_);
+        return create(world_, def, joint_);
+    }
+    b2Joint& operator()(const SliderJoint& joint) const {
+        const double length = std::hypot(joint.axis.x, joint.axis.y);
+        b2PrismaticJointDef def;
+        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres), box2dVector({joint.axis.x / length, joint.axis.y / length}));
+        def.enableLimit = joint.travelMetres.has_value();
+        const Interval travel = joint.travelMetres.value_or(Interval{});
+        def.lowerTranslation = static_cast<float>(travel.lower);
+        def.upperTranslation = static_cast<float>(travel.upper);
+        def.motorSpeed = static_cast<float>(joint.motorMetresPerSecond);
+        def.maxMotorForce = static_cast<float>(joint.maxForceNewtons);
+        def.enableMotor = true;
         return create(world_, def, joint_);
     }
 
@@ -84,7 +95,91 @@ private:
     b2Body& b_;
 };
 
+template <class Def, class Made>
+void copyAnchors(Def& def, const Made& made) {
+    def.localAnchorA = made.GetLocalAnchorA();
+    def.localAnchorB = made.GetLocalAnchorB();
+}
+template <class Def, class Made>
+void copyTravel(Def& def, const Made& made) {
+    def.enableLimit = made.IsLimitEnabled();
+    def.lowerTranslation = made.GetLowerLimit();
+    def.upperTranslation = made.GetUpperLimit();
+    def.localAxisA = made.GetLocalAxisA();
+    def.motorSpeed = made.GetMotorSpeed();
+    def.enableMotor = true;
+}
+
+b2RevoluteJointDef defOf(const b2RevoluteJoint& made) {
+    b2RevoluteJointDef def;
+    copyAnchors(def, made);
+    def.referenceAngle = made.GetReferenceAngle();
+    def.enableLimit = made.IsLimitEnabled();
+    def.lowerAngle = made.GetLowerLimit();
+    def.upperAngle = made.GetUpperLimit();
+    def.motorSpeed = made.GetMotorSpeed();
+    def.maxMotorTorque = made.GetMaxMotorTorque();
+    def.enableMotor = true;
+    return def;
+}
+b2WheelJointDef defOf(const b2WheelJoint& made) {
+    b2WheelJointDef def;
+    copyAnchors(def, made);
+    copyTravel(def, made);
+    def.maxMotorTorque = made.GetMaxMotorTorque();
+    def.stiffness = made.GetStiffness();
+    def.damping = made.GetDamping();
+    return def;
+}
+b2DistanceJointDef defOf(const b2DistanceJoint& made) {
+    b2DistanceJointDef def;
+    copyAnchors(def, made);
+    def.length = made.GetLength();
+    def.minLength = made.GetMinLength();
+    def.maxLength = made.GetMaxLength();
+    def.stiffness = made.GetStiffness();
+    def.damping = made.GetDamping();
+    return def;
+}
+b2WeldJointDef defOf(const b2WeldJoint& made) {
+    b2WeldJointDef def;
+    copyAnchors(def, made);
+    def.referenceAngle = made.GetReferenceAngle();
+    def.stiffness = made.GetStiffness();
+    def.damping = made.GetDamping();
+    return def;
+}
+b2PrismaticJointDef defOf(const b2PrismaticJoint& made) {
+    b2PrismaticJointDef def;
+    copyAnchors(def, made);
+    copyTravel(def, made);
+    def.referenceAngle = made.GetReferenceAngle();
+    def.maxMotorForce = made.GetMaxMotorForce();
+    return def;
+}
+
+template <class Made>
+b2Joint& moved(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
+    auto def = defOf(static_cast<const Made&>(joint));
+    def.bodyA = joint.GetBodyA() == &from ? &to : joint.GetBodyA();
+    def.bodyB = joint.GetBodyB() == &from ? &to : joint.GetBodyB();
+    def.collideConnected = joint.GetCollideConnected();
+    b2Joint* const made = world.CreateJoint(&def);
+    world.DestroyJoint(&joint);
+    return *made;
+}
+
 } // namespace
+
+b2Joint& moveJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
+    switch (joint.GetType()) {
+    case e_revoluteJoint: return moved<b2RevoluteJoint>(world, joint, from, to);
+    case e_wheelJoint: return moved<b2WheelJoint>(world, joint, from, to);
+    case e_distanceJoint: return moved<b2DistanceJoint>(world, joint, from, to);
+    case e_weldJoint: return moved<b2WeldJoint>(world, joint, from, to);
+    default: return moved<b2PrismaticJoint>(world, joint, from, to); // there are no others in a scene
+    }
+}
 
 b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB) {
     return std::visit(Maker(world, joint, bodyA, bodyB), joint.joint);

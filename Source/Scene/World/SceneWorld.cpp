@@ -46,6 +46,7 @@ void SceneWorld::build() {
         if (!isThere) body.body->SetEnabled(false);
     }
     scripted_ = nextBody_;
+    scriptedNames_ = bodyNames_;
     for (const JointDescription& joint : scene_.joints)
         joints_.emplace(joint.name, &createJoint(world_, joint, *find(joint.bodyA)->body, *find(joint.bodyB)->body));
     std::size_t next = scene_.bodies.size();
@@ -111,7 +112,7 @@ void SceneWorld::forFixtures(const std::string& body, int fixture, Change change
 
 void SceneWorld::setMaterial(Body& body, std::size_t fixture, int material) {
     body.now.fixtures[fixture].material = material;
-    setSurface(*body.fixtures[fixture], materials_[static_cast<std::size_t>(material)]);
+    setSurface(*body.fixtures[fixture], body.now.fixtures[fixture], materials_[static_cast<std::size_t>(material)]);
     setMass(*body.body, body.now, scene_);
 }
 
@@ -217,7 +218,12 @@ bool SceneWorld::act(const VelocityAction& action) {
 }
 
 bool SceneWorld::act(const SpawnAction& action, int repetition) {
-    Body& body = bodies_.at(spawned_.at(&action) + static_cast<std::size_t>(repetition));
+    const std::size_t number = spawned_.at(&action) + static_cast<std::size_t>(repetition);
+    Body& body = bodies_.at(number);
+    if (std::size_t& named = bodyNames_.find(body.described.name)->second; named != number) { // it was changed since
+        moveJoints(*bodies_.at(named).body, *body.body);
+        retire(std::exchange(named, number));
+    }
     for (std::size_t i = 0; i < body.fixtures.size(); ++i) {
         setMaterial(body, i, body.described.fixtures[i].material);
         body.now.fixtures[i].isCamera = body.described.fixtures[i].isCamera;
@@ -231,12 +237,75 @@ bool SceneWorld::act(const SpawnAction& action, int repetition) {
 bool SceneWorld::act(const RemoveAction& action) {
     const auto place = bodyNames_.find(action.body);
     if (place == bodyNames_.end()) return false;
-    b2Body& body = *bodies_.at(place->second).body;
+    const std::size_t number = place->second;
+    b2Body& body = *bodies_.at(number).body;
+    if (number >= scripted_) {
+        bodyNames_.erase(place);
+        const auto scripted = scriptedNames_.find(action.body); // the one that was changed: the script may want it
+        if (scripted == scriptedNames_.end()) dropJoints(body);
+        else {
+            moveJoints(body, *bodies_.at(scripted->second).body);
+            bodyNames_.emplace(*scripted);
+        }
+    }
+    retire(number);
+    return false;
+}
+
+// It has no contacts any more. The script may want it again, else it is destroyed when its hits have been told.
+void SceneWorld::retire(std::size_t number) {
+    b2Body& body = *bodies_.at(number).body;
     grips_.letGo(body);
     body.SetEnabled(false);
-    if (place->second < scripted_) return false;
-    leaving_.push_back({step_ + clock_.firstStepAt(heldSeconds), place->second});
-    bodyNames_.erase(place);
+    if (number >= scripted_) leaving_.push_back({step_ + clock_.firstStepAt(heldSeconds), number});
+}
+
+void SceneWorld::moveJoints(b2Body& from, b2Body& to) {
+    for (auto& [name, joint] : joints_)
+        if (joint->GetBodyA() == &from || joint->GetBodyB() == &from) joint = &moveJoint(world_, *joint, from, to);
+}
+
+void SceneWorld::dropJoints(b2Body& body) {
+    std::erase_if(joints_, [&](const auto& named) {
+        b2Joint* const joint = named.second;
+        if (joint->GetBodyA() != &body && joint->GetBodyB() != &body) return false;
+        world_.DestroyJoint(joint);
+        return true;
+    });
+}
+
+bool SceneWorld::act(const ChangeAction& action) {
+    const auto place = bodyNames_.find(action.body.name);
+    Body* const before = place == bodyNames_.end() ? nullptr : &bodies_.at(place->second);
+    const bool stays = action.stays && before != nullptr && before->body->IsEnabled();
+    BodyStart start = describedStart(action.body);
+    if (stays) {
+        const b2Vec2 at = before->body->GetPosition(), speed = before->body->GetLinearVelocity();
+        start = {{at.x, at.y}, before->body->GetAngle(), {speed.x, speed.y}};
+    }
+    const std::size_t old = before == nullptr ? nextBody_ : place->second;
+    if (before != nullptr) bodyNames_.erase(place);
+    b2Body& now = *add(action.body, start).body;
+    if (stays) now.SetAngularVelocity(before->body->GetAngularVelocity());
+    else startHalfAStepBehind(now);
+    if (before == nullptr) return true;
+    moveJoints(*before->body, now);
+    retire(old);
+    return true;
+}
+
+bool SceneWorld::act(const JoinAction& action) {
+    act(UnjoinAction{action.joint.name});
+    b2Body *const a = findInWorld(action.joint.bodyA), *const b = findInWorld(action.joint.bodyB);
+    if (a != nullptr && b != nullptr) joints_.emplace(action.joint.name, &createJoint(world_, action.joint, *a, *b));
+    return false;
+}
+
+bool SceneWorld::act(const UnjoinAction& action) {
+    const auto joint = joints_.find(action.joint);
+    if (joint == joints_.end()) return false;
+    world_.DestroyJoint(joint->second); // wakes both
+    joints_.erase(joint);
     return false;
 }
 

@@ -28,8 +28,8 @@ struct BodyPose {
 };
 
 /// All bodies of scriptedCast() exist from the start; those that are not there (yet) are disabled, which for Box2D
-/// means no contacts: the script may want them again. What a live input spawns is created when it acts, under the
-/// numbers that follow, and destroyed soon after it was removed: nobody can name it again. Numbers are never used twice.
+/// means no contacts: the script may want them again. What a live input spawns or changes is created when it acts, under the
+/// numbers that follow, and destroyed soon after it was removed or changed again. Numbers are never used twice.
 /// Seed 0 starts bodies exactly as described, any other a little beside (see jitteredStart). M only.
 class SceneWorld {
 public:
@@ -126,6 +126,12 @@ private:
     bool act(const SoundAction& action);
     bool act(const TextureAction& action);
     bool act(const GripAction& action);
+    bool act(const ChangeAction& action);
+    bool act(const JoinAction& action);
+    bool act(const UnjoinAction& action);
+    void retire(std::size_t number);
+    void moveJoints(b2Body& from, b2Body& to);
+    void dropJoints(b2Body& body);
 
     Scene scene_; // only its inputs grow
     StepClock clock_;
@@ -142,7 +148,8 @@ private:
     std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0; // numbers; below scripted_ stands scriptedCast()
     std::map<std::string, std::size_t, std::less<>> bodyNames_;
     std::deque<Leaving> leaving_; // in the order of their steps
-    std::map<std::string_view, b2Joint*> joints_;
+    std::map<std::string, std::size_t, std::less<>> scriptedNames_; // of scriptedCast()
+    std::map<std::string, b2Joint*, std::less<>> joints_;
     std::map<const SpawnAction*, std::size_t> spawned_; // the body of the script's first repetition
     std::size_t nextInput_ = 0;
     double lastInputSeconds_ = 0.0;

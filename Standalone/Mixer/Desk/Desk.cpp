@@ -94,6 +94,7 @@ Desk::~Desk() {
 
 void Desk::edit(const juce::String& name, const Mix& next, bool goesOn) {
     if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
+    if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene) mix_.scene = std::make_shared<const Scene>(drawn); // undone, it is as it was drawn
     undo_.perform(new MixEdit{*this, mix_, next});
 }
 
@@ -113,7 +114,7 @@ void Desk::apply(const Mix& next) {
 
 bool Desk::attach(double shareX, double shareY) {
     if (mix_.count() >= limits::maxEnchanters) return false;
-    change("Attach an enchanter", [&](Mix& mix) {
+    change("Attach an actuator", [&](Mix& mix) {
         auto& layout = mix.layout;
         const auto label = [&layout](int n) {
             return describeLayout("", EnchanterLayout{1, 1, n + 1, {}}).enchanters.back().label;

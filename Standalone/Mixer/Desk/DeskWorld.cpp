@@ -1,49 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inputs, and edits with their opposites.
+// Inputs, and edits in the history of the desk.
 #include "Mixer/Desk/DeskWorld.h"
-#include "Scene/World/InputCheck.h"
+#include "Io/Text/ReadableNumber.h"
+#include "Mixer/Desk/DeskWords.h"
 #include "Scene/World/SceneCast.h"
-#include "Scene/SceneEdits.h"
 #include <algorithm>
+#include <utility>
 
 namespace physvib {
 
-/// Does something to the world, and the opposite; a body that comes back has another name.
+/// An edit of the drawing that JUCE's history does and undoes.
 class DeskWorld::Edit final : public juce::UndoableAction {
 public:
-    Edit(DeskWorld& world, Action action)
+    Edit(DeskWorld& world, SceneEdit edit)
         : world_{world}
-        , forth_{{std::move(action)}} {}
-    bool perform() override { return run(forth_, back_); }
-    bool undo() override { return run(back_, forth_); }
+        , edit_{std::move(edit)} {}
+    bool perform() override { return run(true); }
+    bool undo() override { return run(false); }
     int getSizeInUnits() override { return 1; }
     juce::UndoableAction* createCoalescedAction(juce::UndoableAction* next) override { // a sound or a texture that is turned
         const auto* other = dynamic_cast<Edit*>(next);
         if (other == nullptr || !(isTurned<SoundAction>(*other) || isTurned<TextureAction>(*other))) return nullptr;
-        auto* both = new Edit{world_, other->forth_.front()};
-        both->back_ = back_;
-        return both;
+        return new Edit{world_, edit_.followedBy(other->edit_)};
     }
 
 private:
     template <class Turned>
     bool isTurned(const Edit& next) const {
-        if (forth_.size() != 1 || next.forth_.size() != 1) return false;
-        const auto *here = std::get_if<Turned>(&forth_.front()), *there = std::get_if<Turned>(&next.forth_.front());
-        return here != nullptr && there != nullptr && here->material == there->material;
+        const auto &here = edit_.forth(), &there = next.edit_.forth();
+        if (here.size() != 1 || there.size() != 1) return false;
+        const auto *before = std::get_if<Turned>(&here.front()), *after = std::get_if<Turned>(&there.front());
+        return before != nullptr && after != nullptr && before->material == after->material;
     }
-    bool run(const std::vector<Action>& actions, std::vector<Action>& opposite) {
-        opposite.clear();
-        for (const Action& wanted : actions) {
-            const Action action = world_.renamed(wanted);
-            const auto back = world_.undoOf(action);
-            if (!world_.act(action).empty()) return false;
-            opposite.insert(opposite.begin(), back.begin(), back.end());
-        }
-        return true;
+    bool run(bool isForth) {
+        const auto now = [this](const std::string& body) { return world_.poseNow(body); };
+        return edit_.run(isForth, world_.drawing_, now, [this](const Action& action) { return world_.act(action); }).empty();
     }
     DeskWorld& world_;
-    std::vector<Action> forth_, back_;
+    SceneEdit edit_;
 };
 
 DeskWorld::DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo, std::function<void(bool isShown)> onInput)
@@ -51,81 +45,49 @@ DeskWorld::DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo, 
     , mix_{mix}
     , undo_{undo}
     , onInput_{std::move(onInput)}
-    , scene_{*mix.scene} {}
+    , drawing_{*mix.scene} {}
 
 std::string DeskWorld::act(const Action& action) {
     auto fault = session_.take({action}).error;
-    if (fault.empty()) onInput_(show(action));
+    if (!fault.empty()) return fault;
+    const bool isShown = drawing_.take(action);
+    if (isShown) ++edits_;
+    onInput_(isShown);
     return fault;
 }
 
-bool DeskWorld::show(const Action& action) {
-    if (std::holds_alternative<SpawnAction>(action)) scene_.inputs.push_back({0.0, action});
-    else if (std::holds_alternative<MaterialAction>(action) || std::holds_alternative<SoundAction>(action) || std::holds_alternative<TextureAction>(action) ||
-             std::holds_alternative<CameraAction>(action))
-        describeEdit(scene_, action);
-    else return false;
-    ++edits_;
-    return true;
+std::optional<BodyPose> DeskWorld::poseNow(const std::string& body) const {
+    const auto cast = sceneCast(scene());
+    std::vector<BodyPose> poses;
+    session_.world().readPoses(poses);
+    std::size_t last = cast.size(); // of that name
+    while (last-- > 0 && cast[last].name != body) {}
+    if (last >= poses.size() || !poses[last].isPresent) return std::nullopt; // none; or it waits for a step, and starts as drawn
+    return poses[last];
 }
 
-// A name is given once.
-Action DeskWorld::renamed(const Action& action) {
-    Action named = action;
-    if (auto* spawn = std::get_if<SpawnAction>(&named)) spawn->body.name = "added " + std::to_string(++added_);
-    return named;
-}
-
-std::vector<Action> DeskWorld::undoOf(const Action& action) const {
-    const auto cast = sceneCast(scene_);
-    const auto body = [&cast](const std::string& name) { return std::ranges::find(cast, name, &BodyDescription::name); };
-    if (const auto* spawn = std::get_if<SpawnAction>(&action)) return {RemoveAction{spawn->body.name}};
-    if (const auto* removal = std::get_if<RemoveAction>(&action)) {
-        const auto found = body(removal->body);
-        std::vector<BodyPose> poses;
-        session_.world().readPoses(poses);
-        const auto index = static_cast<std::size_t>(found - cast.begin());
-        if (found == cast.end() || index >= poses.size()) return {};
-        BodyDescription back = *found;
-        back.positionMetres = {poses[index].xMetres, poses[index].yMetres};
-        back.angleRadians = poses[index].angleRadians;
-        return {SpawnAction{back, {}}};
-    }
-    if (const auto* material = std::get_if<MaterialAction>(&action)) {
-        const auto found = body(material->body);
-        std::vector<Action> back;
-        for (std::size_t i = 0; found != cast.end() && i < found->fixtures.size(); ++i) back.push_back(MaterialAction{material->body, static_cast<int>(i), found->fixtures[i].material});
-        return back;
-    }
-    if (const auto* sound = std::get_if<SoundAction>(&action)) {
-        const auto& old = scene_.materials[static_cast<std::size_t>(sound->material)];
-        return {SoundAction{sound->material, old.frequencyHz, old.decayPerSecond}};
-    }
-    if (const auto* texture = std::get_if<TextureAction>(&action)) {
-        const auto& old = scene_.materials[static_cast<std::size_t>(texture->material)];
-        return {TextureAction{texture->material, old.grainMetres, old.roughness, old.grainPattern, old.rolling}};
-    }
-    return {};
-}
-
-std::string DeskWorld::edit(const juce::String& name, const Action& action, bool goesOn) {
-    Action trial = action;
-    if (auto* spawn = std::get_if<SpawnAction>(&trial)) spawn->body.name = "added " + std::to_string(added_ + 1);
-    Scene scene = scene_;
-    if (auto fault = InputCheck{scene}.take(trial); !fault.empty()) return fault;
+std::string DeskWorld::edit(const juce::String& name, std::vector<Action> actions, bool goesOn) {
+    for (Action& action : actions)
+        if (auto* spawn = std::get_if<SpawnAction>(&action); spawn != nullptr && spawn->body.name.empty()) spawn->body.name = drawing_.freeName("added");
+    if (actions.empty()) return {};
+    if (auto fault = drawing_.check(actions); !fault.empty()) return fault;
     if (!goesOn || undo_.getCurrentTransactionName() != name) undo_.beginNewTransaction(name);
-    undo_.perform(new Edit{*this, action});
+    undo_.perform(new Edit{*this, SceneEdit{std::move(actions)}});
     return {};
+}
+
+juce::String DeskWorld::tooMuch(std::int64_t sessionNs, const std::vector<BodyPose>& poses) {
+    const auto share = pace_.look(sessionNs, session_.world().slippedNs());
+    if (!share) return {};
+    const auto bodies = std::ranges::count_if(poses, &BodyPose::isPresent);
+    const bool wasTooMuch = std::exchange(isTooMuch_, *share < PaceWatch::leastShare && bodies >= PaceWatch::leastBodies);
+    if (wasTooMuch || !isTooMuch_) return {};
+    return utf8(readable::number(static_cast<double>(bodies), 0)) + " bodies: " + juce::String{juce::roundToInt(100.0 * *share)} + " % of real time; the physics takes it. Fewer bodies or slow motion help";
 }
 
 std::string DeskWorld::begin(bool isSameScene) {
-    auto scene = std::make_shared<Scene>(*mix_.scene);
-    for (std::size_t i = 0; isSameScene && i < scene->materials.size(); ++i) {
-        scene->materials[i].frequencyHz = scene_.materials[i].frequencyHz;
-        scene->materials[i].decayPerSecond = scene_.materials[i].decayPerSecond;
-        scene->materials[i].setTexture(scene_.materials[i].texture());
-    }
-    scene_ = *scene;
+    auto scene = std::make_shared<Scene>(isSameScene ? drawing_.drawn() : *mix_.scene);
+    drawing_ = SceneDrawing{*scene};
     ++edits_;
     const SessionState state{std::move(scene), mix_.seed};
     if (!(state == session_.world().state())) return session_.world().setState(state);

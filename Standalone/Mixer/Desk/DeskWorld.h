@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world of the desk: what is done to it, and the way back of every edit.
 #pragma once
+#include "Mixer/Desk/PaceWatch.h"
+#include "Scene/Drawing/SceneDrawing.h"
 #include "Scene/Sessions/Mix.h"
 #include "Session/Session.h"
 #include <cstdint>
@@ -17,30 +19,36 @@ public:
     /// All outlive it. `onInput` is called when something was done to the world, and told whether it shows.
     DeskWorld(Session& session, const Mix& mix, juce::UndoManager& undo, std::function<void(bool isShown)> onInput);
 
-    const Scene& scene() const noexcept { return scene_; } ///< with what was spawned since it began
+    const Scene& scene() const noexcept { return drawing_.cast(); } ///< with what was spawned since it began, under the numbers of events
+    const SceneDrawing& drawing() const noexcept { return drawing_; } ///< what stands there, at its start
     std::uint64_t edits() const noexcept { return edits_; } ///< grows when scene() changes
     std::string act(const Action& action); ///< empty, or what is wrong with it
 
-    /// An edit that can be undone: adds a body, takes one away, makes it of another material, changes a
-    /// sound. `goesOn` as of Desk::edit. Empty, or what is wrong with it.
-    std::string edit(const juce::String& name, const Action& action, bool goesOn = false);
+    /// An edit that can be undone: adds a body, takes one away, changes it, joins two, changes a
+    /// sound. `goesOn` as of Desk::edit. Empty, or what is wrong with it. A body without a name is given one.
+    std::string edit(const juce::String& name, const Action& action, bool goesOn = false) { return edit(name, std::vector{action}, goesOn); }
+    std::string edit(const juce::String& name, std::vector<Action> actions, bool goesOn = false);
 
-    /// The mix's scene begins anew. What was measured or tuned stays, if it is the same scene. Empty, or what is wrong with it.
+    /// Where a body is, as far as the world has been stepped; none: not there, or not yet.
+    std::optional<BodyPose> poseNow(const std::string& body) const;
+
+    /// One line when the world has become too much for real time, once for each time that it does; else empty. `poses` are those of now.
+    juce::String tooMuch(std::int64_t sessionNs, const std::vector<BodyPose>& poses);
+
+    /// The mix's scene begins anew. What was measured, tuned or drawn stays, if it is the same scene. Empty, or what is wrong with it.
     std::string begin(bool isSameScene);
 
 private:
     class Edit;
-    std::vector<Action> undoOf(const Action& action) const;
-    Action renamed(const Action& action);
-    bool show(const Action& action);
 
     Session& session_;
     const Mix& mix_;
     juce::UndoManager& undo_;
     std::function<void(bool isShown)> onInput_;
-    Scene scene_;
+    SceneDrawing drawing_;
     std::uint64_t edits_ = 0;
-    int added_ = 0;
+    PaceWatch pace_;
+    bool isTooMuch_ = false;
 };
 
 } // namespace physvib

@@ -19,8 +19,8 @@ int presetOf(const EnchanterLayout& layout) {
 } // namespace
 
 EnchantersTab::Module::Module()
-    : juce::Button{"New enchanter"} {
-    setTitle("New enchanter");
+    : juce::Button{"New actuator"} {
+    setTitle("New actuator");
     setTooltip("Drag it onto the field to attach it there; pressed, it is attached in the middle");
 }
 
@@ -46,7 +46,7 @@ void EnchantersTab::Module::mouseDrag(const juce::MouseEvent& e) {
 }
 
 juce::String EnchantersTab::Rows::getNameForRow(int row) {
-    return row < getNumRows() ? "Enchanter " + utf8(tab_.desk_.mix().layout.enchanters[static_cast<std::size_t>(row)].label) : juce::String{};
+    return row < getNumRows() ? "Actuator " + utf8(tab_.desk_.mix().layout.enchanters[static_cast<std::size_t>(row)].label) : juce::String{};
 }
 
 void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
@@ -80,7 +80,7 @@ void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width
 EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     : desk_{desk}
     , world_{world} {
-    setTitle("Enchanters");
+    setTitle("Actuators");
     module_.onClick = [this] { desk_.attach(0.5, 0.5); };
     preset_.setTitle("Preset");
     for (int id = 1; const auto name : layoutPresetNames) preset_.addItem(juce::String{name.data()}.toUpperCase(), id++);
@@ -97,13 +97,13 @@ EnchantersTab::EnchantersTab(Desk& desk, WorldView& world)
     exponent_.setSkewFactorFromMidPoint(1.0);
     exponent_.setDoubleClickReturnValue(true, 1.0);
     onSlide(exponent_, [this](bool goesOn) { desk_.change("Exponent", [this](Mix& mix) { mix.exponent = exponent_.getValue(); }, goesOn); });
-    list_.setTitle("List of enchanters");
+    list_.setTitle("List of actuators");
     list_.setRowHeight(rowPixels);
-    maps_.setTitle("Map of the chosen enchanter");
+    maps_.setTitle("Map of the chosen actuator");
     maps_.onClick = [this] { visibilityChanged(); };
-    detach_ = quietButton("Detach", "Detach the chosen enchanter (Delete)");
+    detach_ = quietButton("Detach", "Detach the chosen actuator (Delete)");
     detach_->onClick = [this] { if (chosen_ >= 0) desk_.detach(chosen_); };
-    edit_ = quietButton(juce::String::fromUTF8("Name, actuator\xe2\x80\xa6"), "Name, actuator and full scale of the chosen enchanter (Return)");
+    edit_ = quietButton(juce::String::fromUTF8("Name, profile\xe2\x80\xa6"), "Name, profile and full scale of the chosen actuator (Return)");
     edit_->onClick = [this] { if (chosen_ >= 0) editRow(chosen_); };
     caption(presetName_, "Preset");
     caption(lawName_, "Law");
@@ -126,7 +126,7 @@ void EnchantersTab::choose(int enchanter) {
 void EnchantersTab::editRow(int enchanter) {
     const auto i = static_cast<std::size_t>(enchanter);
     const auto& e = desk_.mix().layout.enchanters[i];
-    auto* window = new juce::AlertWindow{"Enchanter " + utf8(e.label), {}, juce::MessageBoxIconType::NoIcon, this};
+    auto* window = new juce::AlertWindow{"Actuator " + utf8(e.label), {}, juce::MessageBoxIconType::NoIcon, this};
     window->addTextEditor("label", utf8(e.label), "Label");
     juce::StringArray profiles{"none"};
     for (const auto& profile : builtInActuators()) profiles.add(utf8(profile.name));
@@ -147,9 +147,9 @@ void EnchantersTab::editRow(int enchanter) {
         const auto& all = desk_.mix().layout.enchanters;
         if (answer == 0 || i >= all.size()) return;
         for (std::size_t k = 0; k < all.size(); ++k)
-            if (label.empty() || (k != i && all[k].label == label)) return desk_.report("Label: expected one that no other enchanter has");
+            if (label.empty() || (k != i && all[k].label == label)) return desk_.report("Label: expected one that no other actuator has");
         if (!(g > 0.0 && g <= 100.0)) return desk_.report("Full scale: expected a number of g above 0, at most 100");
-        desk_.change("Enchanter " + utf8(label), [&](Mix& mix) {
+        desk_.change("Actuator " + utf8(label), [&](Mix& mix) {
             mix.layout.enchanters[i].label = label;
             mix.layout.enchanters[i].actuator = profile;
             mix.layout.enchanters[i].fullScaleG = g;

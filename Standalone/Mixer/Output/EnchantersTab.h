@@ -52,7 +52,7 @@ private:
     juce::Label presetName_, lawName_, exponentName_, hint_;
     juce::ToggleButton maps_{"Show on the field what it plays of a hit at each place"};
     Rows rows_{*this};
-    juce::ListBox list_{"Enchanters", &rows_};
+    juce::ListBox list_{"Actuators", &rows_};
     std::unique_ptr<juce::TextButton> detach_, edit_;
 };
 

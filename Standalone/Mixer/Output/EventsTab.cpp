@@ -53,7 +53,7 @@ EventsTab::EventsTab(Desk& desk)
     caption(choice_, {});
     for (int k = 0; k < hitEndings().size(); ++k) format_.addItem("as " + hitEndings()[k], k + 1);
     format_.setTitle("Dragged as");
-    format_.setTooltip(".wav: a channel for each enchanter. .hjif, .hmpg: channels and places. .haptic, .ahap: a file for each enchanter");
+    format_.setTooltip(".wav: a channel for each actuator. .hjif, .hmpg: channels and places. .haptic, .ahap: a file for each actuator");
     format_.setSelectedItemIndex(files_->ending(), juce::dontSendNotification);
     format_.onChange = [this] { files_->setEnding(format_.getSelectedItemIndex()); };
     save_ = quietButton("Save as clip" + dots(), "Save the chosen contacts as a clip (Return)");

@@ -36,7 +36,7 @@ Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner
     const auto parts = partsOf(clip.value, path, format);
     WrittenHits written;
     for (const ClipPart& part : parts) {
-        if (parts.size() > 1 && juce::File{part.path}.exists()) return Failure{part.path + ": is there already; a file for each enchanter replaces none"};
+        if (parts.size() > 1 && juce::File{part.path}.exists()) return Failure{part.path + ": is there already; a file for each actuator replaces none"};
         written.paths.push_back(part.path);
     }
     if (const auto done = writeParts(parts, format); !done) return Failure{done.error};

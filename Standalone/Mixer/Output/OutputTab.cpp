@@ -46,14 +46,14 @@ OutputTab::OutputTab(Desk& desk)
     pad_.setTooltip("Its two motors follow all hits, felt together with the device (Docs/pads.md)");
     pad_.onChange = [this] { usePad(); };
     caption(monitorName_, "Monitor: what is felt, on headphones");
-    caption(monitorLevelName_, "Its level");
-    caption(marksName_, "Marks of onsets");
+    caption(monitorLevelName_, "Monitor level");
+    caption(marksName_, "Trigger output");
     monitor_.setTitle("Monitor");
     monitor_.setTooltip("Two outputs, left and right: each hit is heard where it is felt, also without actuators");
     monitorLevel_.setTitle("Level of the monitor");
     monitorLevel_.setTooltip("What a hit at full scale reaches; the master level leaves it alone. Start low");
     marks_.setTitle("Marks");
-    marks_.setTooltip("A pulse at the sample of each onset, for trigger boxes. No enchanter and no ear belongs there");
+    marks_.setTooltip("A pulse at the sample of each onset, for trigger boxes. No actuator and no ear belongs there");
     for (const int db : monitorLevels) monitorLevel_.addItem(number(db, 0) + " dBFS", levelId - db);
     for (auto* box : {&monitor_, &monitorLevel_}) box->onChange = [this] { chooseMonitor(); };
     marks_.onChange = [this] { chooseMarks(); };
@@ -63,11 +63,11 @@ OutputTab::OutputTab(Desk& desk)
     device_.setTitle("Device");
     rate_.setTitle("Rate");
     block_.setTitle("Block");
-    rate_.addItem("as it stands", 1);
+    rate_.addItem("device default", 1);
     for (const int hz : rates) rate_.addItem(juce::String{hz} + " Hz", hz);
-    block_.addItem("as it stands", 1);
+    block_.addItem("device default", 1);
     for (const int frames : blocks) block_.addItem(juce::String{frames} + " frames", frames);
-    scan_ = quietButton("Look again", "Look for devices again");
+    scan_ = quietButton("Rescan", "Rescan devices");
     scan_->onClick = [this] { scan(); };
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{&deviceName_, &device_, scan_.get(), &rateName_, &rate_, &blockName_, &block_, &boardName_, &board_, &padName_, &pad_, &oscName_, &osc_, &hitsName_, &hits_, &phoneName_, &phone_, &monitorName_, &monitor_, &monitorLevelName_, &monitorLevel_, &marksName_, &marks_, &facts_}) addAndMakeVisible(c);
@@ -150,7 +150,7 @@ void OutputTab::listHeard() {
     };
     monitor_.clear(juce::dontSendNotification);
     marks_.clear(juce::dontSendNotification);
-    monitor_.addItem("nobody listens", noneId);
+    monitor_.addItem("none", noneId);
     marks_.addItem("none", noneId);
     for (int k = 0; k < desk_.device().outputs(); ++k) {
         if (ownersOf(k).isEmpty()) marks_.addItem("output " + juce::String{k + 1}, noneId + 1 + k);
@@ -181,7 +181,7 @@ juce::String OutputTab::heardWords() const {
     const auto& heard = desk_.device().listening().settings();
     juce::String words;
     if (heard.contacts.size() == 2) words << "left on " << heard.contacts[0] + 1 << ", right on " << heard.contacts[1] + 1;
-    else if (!desk_.device().choice().monitor.empty()) words << "not there: an enchanter, or no output";
+    else if (!desk_.device().choice().monitor.empty()) words << "not there: an actuator, or no output";
     else words << "by nobody";
     if (!heard.marks.empty()) words << "; onsets marked on " << heard.marks[0] + 1;
     return words;
@@ -213,7 +213,7 @@ std::vector<Fact> OutputTab::sinkFacts() const {
     std::vector<Fact> facts;
     for (const SinkState& sink : desk_.session().sinks().states()) {
         const bool isPart = sink.isReady && sink.channels > 0 && desk_.mix().count() > sink.channels;
-        const auto rest = isPart ? "; the first " + juce::String{sink.channels} + " enchanters" : juce::String{};
+        const auto rest = isPart ? "; the first " + juce::String{sink.channels} + " actuators" : juce::String{};
         facts.push_back({titleOf(sink.name), utf8(sink.where) + rest, sink.isReady ? Shade::text : Shade::now});
     }
     return facts.empty() ? std::vector<Fact>{{"Board", "none", Shade::muted}} : facts;
@@ -254,7 +254,7 @@ void OutputTab::refresh(const DeskMoment& moment) {
               {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" + number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
               {"Felt", number(1e3 * desk_.device().playOutSeconds(), 1) + " ms after the contact, and the device's own " + number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
               {"Heard", heardWords(), !desk_.device().choice().monitor.empty() && desk_.device().listening().settings().contacts.empty() ? Shade::now : Shade::text},
-              {"Enchanters", juce::String{connected} + " of " + juce::String{all} + " have an output there", connected < all ? Shade::now : Shade::text},
+              {"Actuators", juce::String{connected} + " of " + juce::String{all} + " have an output there", connected < all ? Shade::now : Shade::text},
               {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " + number(100.0 * moment.device.worstLoad, 1) + " % at most"},
               {"Late", juce::String{static_cast<juce::int64>(r.late)} + " hits, " + number(slipped, 0) + " ms of stalls", r.late > 0 ? Shade::now : Shade::text},
               {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"} : juce::String{moment.device.deviceXruns}},

@@ -18,7 +18,7 @@ ScopeView::ScopeView(Desk& desk)
     , spectrum_{desk} {
     addAndMakeVisible(spectrum_);
     setTitle("Played now");
-    setDescription("Waveforms of the last second, one lane per enchanter");
+    setDescription("Waveforms of the last second, one lane per actuator");
 }
 
 bool ScopeView::isQuiet() const {

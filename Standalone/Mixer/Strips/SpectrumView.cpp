@@ -16,7 +16,7 @@ constexpr int levelsWidth = 30;
 SpectrumView::SpectrumView(Desk& desk)
     : desk_{desk} {
     setTitle("Spectra");
-    setDescription("Levels of what each enchanter plays, 20 to 1000 Hz");
+    setDescription("Levels of what each actuator plays, 20 to 1000 Hz");
     for (auto& levels : shown_) levels.fill(FrequencyAxis::floorDb);
 }
 

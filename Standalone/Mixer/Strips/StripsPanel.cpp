@@ -6,9 +6,9 @@
 namespace physvib {
 
 StripsPanel::AttachPlace::AttachPlace()
-    : juce::Button{"Attach an enchanter"} {
-    setTitle("Attach an enchanter");
-    setTooltip("Attach an enchanter: press, or drag it onto the field");
+    : juce::Button{"Attach an actuator"} {
+    setTitle("Attach an actuator");
+    setTooltip("Attach an actuator: press, or drag it onto the field");
 }
 
 void StripsPanel::AttachPlace::paintButton(juce::Graphics& g, bool isOver, bool) {

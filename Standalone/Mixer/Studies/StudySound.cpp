@@ -59,7 +59,7 @@ std::string StudySound::refusal(const Desk& desk, const FeltStimulus& stimulus) 
     const int wanted = stimulus.layout.geometry.count, there = desk.mix().count();
     if (!stimulus.recordings.empty() && desk.device().board()) return "--method SV: expected a mixer without the board, which plays no recordings";
     if (wanted <= there) return {};
-    return stimulus.layout.name + ": expected " + std::to_string(wanted) + " enchanters in the mixer, found " + std::to_string(there);
+    return stimulus.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " + std::to_string(there);
 }
 
 std::string StudySound::play(const FeltStimulus& stimulus) {

@@ -17,7 +17,7 @@ std::string StudyWorld::refusal(const Desk& desk, const FeltWorld& world) {
     const int wanted = world.layout.geometry.count, there = desk.mix().count();
     if (desk.device().board()) return "a world: expected a mixer without the board, which follows one session only";
     if (wanted <= there) return {};
-    return world.layout.name + ": expected " + std::to_string(wanted) + " enchanters in the mixer, found " + std::to_string(there);
+    return world.layout.name + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " + std::to_string(there);
 }
 
 std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesystem::path& file) {

@@ -49,6 +49,12 @@ void MixerFiles::addRecent(const juce::File& file) {
 
 DeskLimits MixerFiles::limits() const { return readDeskLimits(settings_.getValue(limitsSetting).toStdString()).value_or(DeskLimits::of(Desk::firstMix())); }
 
+juce::Array<juce::File> MixerFiles::ownScenes() const {
+    auto files = scenesFolder().findChildFiles(juce::File::findFiles, false, "*.json");
+    files.sort();
+    return files;
+}
+
 std::vector<juce::File> MixerFiles::leftBehind() const {
     std::vector<juce::File> found;
     for (const auto& file : folder_.findChildFiles(juce::File::findFiles, false, juce::String{copyPrefix} + "*.json"))

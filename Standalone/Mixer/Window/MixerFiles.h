@@ -24,6 +24,9 @@ public:
     DeskLimits limits() const;
     void setLimits(const DeskLimits& limits) { settings_.setValue(limitsSetting, juce::String::fromUTF8(deskLimitsText(limits).c_str())); }
 
+    juce::File scenesFolder() const { return folder_.getChildFile("scenes"); } ///< where scenes of one's own are looked for
+    juce::Array<juce::File> ownScenes() const;
+
     /// Copies that runs which have ended left behind; the newest first.
     std::vector<juce::File> leftBehind() const;
 

@@ -26,7 +26,7 @@ MixerView::MixerView(Desk& desk)
     setOpaque(true);
     setTitle("PhysVib mixer");
     setWantsKeyboardFocus(true);
-    tabs_.add("Enchanters", std::make_unique<EnchantersTab>(desk, world_.view()));
+    tabs_.add("Actuators", std::make_unique<EnchantersTab>(desk, world_.view()));
     tabs_.add("Materials", std::make_unique<MaterialsTab>(desk, world_.view()));
     tabs_.add("Output", std::make_unique<OutputTab>(desk));
     tabs_.add("Studies", std::make_unique<StudiesTab>(desk));
@@ -104,6 +104,14 @@ void MixerView::setHint(bool isShown) {
     repaint(world_.getBounds());
 }
 
+void MixerView::setFirstStart(std::unique_ptr<FirstStart> card) {
+    firstStart_ = std::move(card);
+    if (!firstStart_) return grabKeyboardFocus();
+    addAndMakeVisible(*firstStart_);
+    resized();
+    firstStart_->grabKeyboardFocus();
+}
+
 void MixerView::setDropShown(bool isShown) {
     isDropShown_ = isShown;
     repaint();
@@ -149,7 +157,7 @@ void MixerView::paintOverChildren(juce::Graphics& g) {
         g.drawRect(getLocalBounds(), 3);
     }
     if (!isHintShown_) return;
-    static const juce::StringArray lines{"Hold the enchanters: they start quietly, a quarter of full scale.", "Drag a ball to throw it. Drag + onto the field to attach another enchanter.",
+    static const juce::StringArray lines{"Hold the actuators: they start quietly, a quarter of full scale.", "Drag a ball to throw it. The bar at the left draws balls, walls and joints.",
                                          "Esc silences everything. More is in the menu, at the top left."};
     const juce::Font font{text::medium};
     const auto at = world_.getBounds().withSizeKeepingCentre(590, 34 + 26 * lines.size());
@@ -180,6 +188,7 @@ void MixerView::resized() {
     tabs_.setBounds(area.removeFromRight(right));
     area.removeFromRight(gap);
     world_.setBounds(area);
+    if (firstStart_) firstStart_->setCentrePosition(getLocalBounds().withTrimmedTop(barHeight).getCentre());
     strips_.setBounds(bottom.removeFromRight(right));
     bottom.removeFromRight(gap);
     scope_.setBounds(bottom);

@@ -2,6 +2,7 @@
 // All of the mixer's window: the bar, the world, the tabs, the scope and the strips.
 #pragma once
 #include "Mixer/Strips/StripsPanel.h"
+#include "Mixer/Window/FirstStart.h"
 #include "Mixer/Window/TabPanel.h"
 #include "Mixer/Window/TopBar.h"
 #include "Mixer/World/WorldPanel.h"
@@ -27,6 +28,9 @@ public:
     TabPanel& scope() noexcept { return scope_; }
     /// Three lines for those who see the mixer for the first time; a click or a key takes them away.
     void setHint(bool isShown);
+    /// A card over the world; null: none. It has the keyboard.
+    void setFirstStart(std::unique_ptr<FirstStart> card);
+    FirstStart* firstStart() noexcept { return firstStart_.get(); }
     /// A file that is dragged over the window may be dropped here.
     void setDropShown(bool isShown);
     /// What leaves the window by a drag: files, if it is what was played.
@@ -53,6 +57,7 @@ private:
     StripsPanel strips_;
     juce::Label trouble_;
     std::unique_ptr<juce::TextButton> dismiss_;
+    std::unique_ptr<FirstStart> firstStart_;
     bool isHintShown_ = false, isDropShown_ = false;
     DeskMoment latest_;
     int restedLooks_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window, what plays in it, its keys and its menu.
 #include "Mixer/Window/MixerWindow.h"
+#include "Host/Devices/LikelyDevices.h"
 #include "Host/Devices/NoDevice.h"
 #include "Host/Views/DisplayScale.h"
 #include "Mixer/Window/Parts.h"
@@ -17,6 +18,7 @@ OscUse oscUseNamed(const juce::String& name) {
     return found == oscUseNames.end() ? OscUse::off : static_cast<OscUse>(found - oscUseNames.begin());
 }
 
+constexpr const char* chosenSetting = "device-chosen"; // a person has said where, or that nowhere
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system says
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
 
@@ -45,8 +47,14 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     addToDesktop();
     setVisible(true);
     view_->grabKeyboardFocus();
-    if (!settings.getBoolValue("hint-seen")) view_->setHint(true);
+    const auto& chosen = settings.getValue("device");
+    const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) && (chosen.isEmpty() || chosen.startsWith(juce::String{noDeviceType} + ":"));
+    if (isFirst && files_.leftBehind().empty()) juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] {
+        if (safe != nullptr) safe->showFirstStart();
+    });
+    else if (!settings.getBoolValue("hint-seen")) view_->setHint(true);
     settings.setValue("hint-seen", true);
+    tellInstead();
     offerRecovery();
     startTimer(500);
 }
@@ -81,6 +89,8 @@ void MixerWindow::play(Mix mix, const juce::File& document) {
         });
     };
     view_->topBar().onOpenScene = [this] { import("Scene"); };
+    view_->topBar().setOwnScenes(files_.ownScenes());
+    view_->topBar().onOwnScene = [this](const juce::File& own) { openFile(own); };
     desk_->recording().onEnd = [this](const juce::File& file, const juce::String& error) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
@@ -104,9 +114,47 @@ void MixerWindow::useBoard(const DeviceChoice& choice) {
         device_ = choice;
         files_.settings().setValue("board", utf8(choice.board));
         files_.settings().setValue("controller", utf8(choice.pad));
+        const bool isFirst = view_->firstStart() != nullptr;
         play(Mix{desk_->mix()}, document_);
+        if (isFirst) return testController();
         view_->tabs().choose("Output"); // where it was chosen
     });
+}
+
+// ---- the first start, and what is there instead of what was used
+
+void MixerWindow::showFirstStart() {
+    std::vector<std::string> pads;
+    for (const GamePadInfo& pad : GamePads{}.list())
+        if (pad.hasMotors) pads.push_back(pad.name);
+    addFirstStart(feltChoices(types_, pads));
+}
+
+FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
+    auto card = std::make_unique<FirstStart>(*desk_, std::move(choices));
+    card->onEnd = [this](bool hasChosen) {
+        if (hasChosen) files_.settings().setValue(chosenSetting, true);
+        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}] { // its button is still being clicked
+            if (safe != nullptr) safe->view_->setFirstStart(nullptr);
+        });
+    };
+    card->onController = [this](const DeviceChoice& choice) {
+        files_.settings().setValue(chosenSetting, true);
+        if (desk_->device().onBoardWanted) desk_->device().onBoardWanted(choice);
+    };
+    FirstStart& shown = *card;
+    view_->setFirstStart(std::move(card));
+    return shown;
+}
+
+void MixerWindow::testController() { addFirstStart({}).test(2); }
+
+void MixerWindow::tellInstead() {
+    const auto& wanted = device_.name;
+    if (desk_->trouble().isEmpty() || wanted.starts_with(std::string{noDeviceType} + ":")) return;
+    for (const auto& there : byLikelihood(listAudioDevices(types_)))
+        if (there.type != noDeviceType && there.type + ":" + there.name != wanted)
+            return desk_->report(desk_->trouble() + "; there is " + utf8(there.type + ": " + there.name) + " (" + juce::String{there.channels} + " outputs) instead, under Output");
 }
 
 void MixerWindow::nameWindow() {
@@ -229,8 +277,15 @@ void MixerWindow::showMenu(juce::Component& from) {
     item(undo.canUndo() ? "Undo: " + undo.getUndoDescription() : juce::String{"Undo"}, "Ctrl+Z", [&undo] { undo.undo(); }, undo.canUndo());
     item(undo.canRedo() ? "Redo: " + undo.getRedoDescription() : juce::String{"Redo"}, "Ctrl+Shift+Z", [&undo] { undo.redo(); }, undo.canRedo());
     menu.addSeparator();
+    juce::PopupMenu fresh;
+    fresh.addItem("Empty", [this] { newScene(SceneGround::empty); });
+    fresh.addItem("Box", [this] { newScene(SceneGround::box); });
+    fresh.addItem("Floor", [this] { newScene(SceneGround::floor); });
+    menu.addSubMenu("New scene", fresh);
     item("Scene" + dots(), {}, [this] { import("Scene"); });
-    item("Layout" + dots(), {}, [this] { import("Layout of enchanters"); });
+    item("Save as scene" + dots(), {}, [this] { saveScene(false); });
+    item("Save as scene, bodies as they are now" + dots(), {}, [this] { saveScene(true); });
+    item("Layout" + dots(), {}, [this] { import("Layout of actuators"); });
     item("Save the layout" + dots(), {}, [this] { exportLayout(); });
     if (asked_) item("Levels of the file", {}, [this] { takeAsked(); });
     menu.addSeparator();

@@ -4,6 +4,7 @@
 #include "Mixer/Output/HitFiles.h"
 #include "Mixer/Window/MixerFiles.h"
 #include "Mixer/Window/MixerView.h"
+#include "Scene/Drawing/BodyEdits.h"
 
 namespace physvib {
 
@@ -27,6 +28,9 @@ public:
     void renderTo(const juce::File& file, double seconds);
     void import(const juce::String& title); ///< a scene or a layout
     void exportLayout();
+    void saveScene(bool isNow);         ///< asks for the file; as drawn, or with bodies where they are now
+    std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or what is wrong
+    void newScene(SceneGround ground);  ///< in the field, with the materials of the present one
     /// Asks if something would be lost, then quits.
     void requestQuit();
 
@@ -45,6 +49,10 @@ public:
 
 private:
     void timerCallback() override;
+    void showFirstStart();
+    FirstStart& addFirstStart(std::vector<FeltChoice> choices);
+    void testController();
+    void tellInstead();
     void start(const juce::File& file);
     void play(Mix mix, const juce::File& document);
     /// `isOwn`: what this mixer has kept itself is played as it is.

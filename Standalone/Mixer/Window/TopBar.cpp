@@ -9,6 +9,7 @@ namespace physvib {
 namespace {
 
 constexpr int looksPerTime = 3, looksPerNumbers = 12;
+constexpr int sceneFileId = 1000; // then those of one's own
 constexpr std::array<int, 4> paces{1, 2, 4, 8};
 
 juce::String clock(std::int64_t ns) {
@@ -33,9 +34,7 @@ TopBar::TopBar(Desk& desk)
     menu_.getProperties().set(titleProperty, true);
     menu_.onClick = [this] { if (onMenu) onMenu(menu_); };
     scene_.setTitle("Scene");
-    for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(titleOf(scene.name), id++);
-    scene_.addSeparator();
-    scene_.addItem(juce::String::fromUTF8("Scene file\xe2\x80\xa6"), 1000);
+    listScenes();
     scene_.onChange = [this] { chooseScene(); };
     pause_.onClick = [this] { togglePause(); };
     pause_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::enchanter(0).getARGB()));
@@ -67,7 +66,7 @@ TopBar::TopBar(Desk& desk)
     record_.onClick = [this] { if (onRecord) onRecord(); };
     silence_.getProperties().set(stopProperty, true);
     silence_.setTitle("Silence");
-    silence_.setTooltip("Silence every enchanter at once; again: play on (Esc)");
+    silence_.setTooltip("Silence every actuator at once; again: play on (Esc)");
     silence_.onClick = [this] { toggleSilence(); };
     for (juce::Component* c : std::initializer_list<juce::Component*>{&menu_, &scene_, &pause_, &step_, &slow_, &restart_, &seedName_, &seed_, &time_, &record_, &device_, &board_, &load_, &silence_})
         addAndMakeVisible(c);
@@ -78,11 +77,28 @@ TopBar::TopBar(Desk& desk)
 void TopBar::togglePause() { desk_.setSlowness(desk_.session().world().slowness() == 0 ? 1 : 0); }
 void TopBar::toggleSilence() { desk_.setSilent(!desk_.isSilent()); }
 
+void TopBar::setOwnScenes(const juce::Array<juce::File>& files) {
+    if (files == own_) return;
+    own_ = files;
+    listScenes();
+    takeMix();
+}
+
+void TopBar::listScenes() {
+    scene_.clear(juce::dontSendNotification);
+    for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(titleOf(scene.name), id++);
+    scene_.addSeparator();
+    for (int k = 0; k < own_.size(); ++k) scene_.addItem(own_[k].getFileNameWithoutExtension(), sceneFileId + 1 + k);
+    scene_.addItem(juce::String::fromUTF8("Scene file\xe2\x80\xa6"), sceneFileId);
+}
+
 void TopBar::chooseScene() {
     const int id = scene_.getSelectedId();
-    if (id == 1000) {
+    if (id == sceneFileId) {
         takeMix();
         if (onOpenScene) onOpenScene();
+    } else if (id > sceneFileId) {
+        if (onOwnScene) onOwnScene(own_[id - sceneFileId - 1]);
     } else if (id > 0) {
         const auto& scene = builtInScenes()[static_cast<std::size_t>(id - 1)];
         if (scene == *desk_.mix().scene) return;

@@ -17,6 +17,8 @@ public:
 
     std::function<void(juce::Component& from)> onMenu;
     std::function<void()> onRecord, onOpenScene;
+    std::function<void(const juce::File&)> onOwnScene;
+    void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below those that are built in
     void setRecording(bool isRecording);
 
     void paint(juce::Graphics& g) override;
@@ -24,6 +26,8 @@ public:
 
 private:
     void chooseScene();
+    void listScenes();
+    juce::Array<juce::File> own_;
 
     Desk& desk_;
     int looks_ = 0;

@@ -63,7 +63,10 @@ WorldPanel::WorldPanel(Desk& desk)
     onSlide(drag_, [this](bool goesOn) { desk_.change("Drag strength", [this](Mix& mix) { mix.dragNewtonSecondsPerScreenMetre = drag_.getValue(); }, goesOn); });
     for (auto* name : {&tiltName_, &dragName_}) name->setFont(juce::Font{text::small});
     view_.setFootRoom(44);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_}) addAndMakeVisible(c);
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &pane_, &bar_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_}) addAndMakeVisible(c);
+    addChildComponent(palette_);
+    addChildComponent(body_);
+    pane_.onChange = [this] { showTools(); };
     takeMix();
 }
 
@@ -79,6 +82,8 @@ void WorldPanel::takeMix() {
     if (shown_ != mix.scene || shownEdits_ != desk_.world().edits()) view_.show(scene);
     shown_ = mix.scene;
     shownEdits_ = desk_.world().edits();
+    pane_.takeMix();
+    showTools();
     view_.show(mix.layout, mix.panner());
     view_.setDisplayWidth(desk_.displayWidthMetres());
     law_.setText(juce::String{nameOf(mix.law).data()} + " law" + dot + "exponent " + number(mix.exponent, 1), juce::dontSendNotification);
@@ -89,12 +94,20 @@ void WorldPanel::takeMix() {
     sentence_.setColour(juce::Label::textColourId, shade(*this, Shade::now));
 }
 
+void WorldPanel::showTools() {
+    bar_.show();
+    palette_.show();
+    palette_.setVisible(pane_.tool() != DrawTool::hand);
+    body_.show();
+}
+
 // ---- a scene's player
 
 /// Who begins to play takes over from the scene's script: the world begins anew without what that did.
 void WorldPanel::play(const std::vector<Action>& actions) {
     if (actions.empty()) return;
-    if (auto scene = sceneForHands(*desk_.mix().scene); scene != *desk_.mix().scene) {
+    if (const Scene& drawn = desk_.world().drawing().drawn(); sceneForHands(drawn) != drawn) {
+        auto scene = sceneForHands(drawn);
         takesBefore_ = desk_.saved().log.takes.size();
         desk_.change("Play", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
         shown_ = desk_.mix().scene; // the same player goes on
@@ -110,6 +123,7 @@ void WorldPanel::play(const std::vector<Action>& actions) {
 }
 
 bool WorldPanel::keyPressed(const juce::KeyPress& key) {
+    if (pane_.takeKey(key)) return true;
     if (!player_) return tilt_.takeKey(key);
     if (key == juce::KeyPress::leftKey) return play(player_->steer(-1)), true;
     if (key == juce::KeyPress::rightKey) return play(player_->steer(1)), true;
@@ -191,37 +205,24 @@ void WorldPanel::refresh(const DeskMoment& moment) {
 }
 
 void WorldPanel::showMenu(const std::string& body, FieldShare at) {
-    juce::PopupMenu menu, balls, boxes, materials;
+    juce::PopupMenu menu, materials;
     const auto& scene = desk_.world().scene();
     for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i) {
         const auto name = utf8(scene.materials[static_cast<std::size_t>(i)].name);
-        balls.addItem(name, [this, at, i] { addBody(at, i, false); });
-        boxes.addItem(name, [this, at, i] { addBody(at, i, true); });
         materials.addItem(name, [this, body, i] { edit("Material of " + utf8(body), MaterialAction{body, everyFixture, i}); });
     }
     if (!body.empty()) {
         menu.addSectionHeader(utf8(body));
         menu.addSubMenu("Material", materials);
-        menu.addItem("Remove", [this, body] { edit("Remove " + utf8(body), RemoveAction{body}); });
+        menu.addItem("Select", [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
+        menu.addItem("Remove", [this, body] {
+            if (const auto fault = desk_.world().edit("Remove " + utf8(body), erased(desk_.world().drawing(), {body})); !fault.empty()) desk_.report(utf8(fault));
+        });
         menu.addSeparator();
     }
-    menu.addSubMenu("Add a ball", balls);
-    menu.addSubMenu("Add a box", boxes);
-    menu.addItem("Attach an enchanter here", desk_.mix().count() < limits::maxEnchanters, false, [this, at] { desk_.attach(at.x, at.y); });
+    for (const DrawTool tool : {DrawTool::ball, DrawTool::box}) menu.addItem("Draw a " + juce::String{wordsOf(tool).name}.toLowerCase(), [this, tool] { pane_.use(tool); });
+    menu.addItem("Attach an actuator here", desk_.mix().count() < limits::maxEnchanters, false, [this, at] { desk_.attach(at.x, at.y); });
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
-}
-
-void WorldPanel::addBody(FieldShare at, int material, bool isBox) {
-    const auto& scene = desk_.world().scene();
-    const double size = 0.06 * scene.fieldHeightMetres;
-    BodyDescription body;
-    body.positionMetres = {at.x * scene.fieldWidthMetres, at.y * scene.fieldHeightMetres};
-    FixtureDescription fixture;
-    fixture.material = material;
-    if (isBox) fixture.shape = BoxShape{2.2 * size, 1.6 * size};
-    else fixture.shape = CircleShape{size};
-    body.fixtures.push_back(fixture);
-    edit("Add a body", SpawnAction{body, {}});
 }
 
 void WorldPanel::edit(const juce::String& name, const Action& action) {
@@ -241,6 +242,12 @@ void WorldPanel::resized() {
     tilt_.setBounds(row.removeFromRight(38));
     sentence_.setBounds(row);
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
+    pane_.setBounds(view_.getBounds());
+    auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(48);
+    bar_.setBounds(top.removeFromLeft(DrawBar::wide));
+    top.removeFromLeft(8);
+    palette_.setBounds(top.removeFromTop(26));
+    body_.setBounds(top.withTrimmedTop(6).removeFromTop(BodyPanel::high).removeFromRight(BodyPanel::wide));
 }
 
 } // namespace physvib

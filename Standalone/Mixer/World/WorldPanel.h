@@ -5,6 +5,7 @@
 #include "Host/Views/WorldView.h"
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
+#include "Mixer/World/DrawBar.h"
 #include "Mixer/World/TiltKnob.h"
 #include "Scene/World/ScenePlayer.h"
 #include <optional>
@@ -18,6 +19,7 @@ public:
     void refresh(const DeskMoment& moment);
     void takeMix();
     WorldView& view() noexcept { return view_; }
+    DrawPane& drawing() noexcept { return pane_; }
     void tilt(double degrees) { tilt_.turnTo(degrees); } ///< turns gravity to that angle
     double tiltDegrees() const { return tilt_.getValue(); }
 
@@ -35,7 +37,7 @@ private:
     void letGo(const std::string& body);
     void moveHand();
     void showMenu(const std::string& body, FieldShare at);
-    void addBody(FieldShare at, int material, bool isBox);
+    void showTools();
     void edit(const juce::String& name, const Action& action);
     void play(const std::vector<Action>& actions);
     void lookAfterPlayer();
@@ -44,6 +46,10 @@ private:
 
     Desk& desk_;
     WorldView view_;
+    DrawPane pane_{desk_, view_};
+    DrawBar bar_{pane_};
+    MaterialPalette palette_{desk_, pane_};
+    BodyPanel body_{desk_, pane_};
     juce::Label sentence_, law_, tiltName_, dragName_;
     TiltKnob tilt_;
     juce::Slider drag_;

@@ -188,7 +188,7 @@ TEST(Window, APersonsWayThroughTheMixer) {
         hand.drag(hand.placeOf(view, view.placeOfBody("large rubber ball")), hand.placeOf(view, view.placeOfShare({0.8, 0.5})), juce::ModifierKeys::shiftModifier);
         EXPECT_TRUE(std::holds_alternative<GripAction>(window.desk().saved().log.takes.back().inputs.back().action)) << "what is held renders again to the bit as well";
 
-        auto* place = find(window.view(), "Attach an enchanter");
+        auto* place = find(window.view(), "Attach an actuator");
         ASSERT_NE(place, nullptr);
         hand.drag(hand.middleOf(*place), hand.placeOf(view, view.getLocalBounds().toFloat().getCentre()));
         ASSERT_EQ(window.desk().mix().count(), 5);

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Outlines: hulls, and lines with as few corners as a hand needs.
+#include "Scene/Drawing/DrawnBodies.h"
+#include "Scene/SceneLimits.h"
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace physvib {
+namespace {
+
+constexpr double smallest = 2.0 * sceneLimits::minSizeMetres; // across
+constexpr std::size_t mostLineCorners = sceneLimits::maxChainVertices / 2;
+
+double distance(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+double cross(const Vector& o, const Vector& a, const Vector& b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); }
+
+Failure tooSmall(const char* what) { return Failure{std::string{what} + ": expected at least " + std::to_string(sceneLimits::minSizeMetres).substr(0, 4) + " m across"}; }
+
+BodyDescription bodyOf(Shape shape, const Vector& at, BodyType type) {
+    BodyDescription body;
+    body.type = type;
+    body.positionMetres = at;
+    body.fixtures.resize(1);
+    body.fixtures[0].shape = std::move(shape);
+    return body;
+}
+
+/// Counter-clockwise.
+std::vector<Vector> hullOf(std::vector<Vector> points) {
+    std::ranges::sort(points, [](const Vector& a, const Vector& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    std::vector<Vector> hull;
+    const auto chain = [&hull](auto first, auto last) {
+        const std::size_t begin = hull.size();
+        for (; first != last; ++first) {
+            while (hull.size() >= begin + 2 && cross(hull[hull.size() - 2], hull.back(), *first) <= 0.0) hull.pop_back();
+            hull.push_back(*first);
+        }
+        hull.pop_back(); // the other chain begins with it
+    };
+    if (points.size() < 3) return {};
+    chain(points.begin(), points.end());
+    chain(points.rbegin(), points.rend());
+    return hull;
+}
+
+/// Leaves out the corner that takes the least area with it, until `most` are left and no edge is too short.
+void thin(std::vector<Vector>& hull, std::size_t most) {
+    const auto isShort = [&] {
+        for (std::size_t i = 0; i < hull.size(); ++i)
+            if (distance(hull[i], hull[(i + 1) % hull.size()]) < sceneLimits::minSizeMetres) return true;
+        return false;
+    };
+    while (hull.size() > 3 && (hull.size() > most || isShort())) {
+        std::size_t least = 0;
+        double leastArea = HUGE_VAL;
+        for (std::size_t i = 0; i < hull.size(); ++i) {
+            const double area = std::abs(cross(hull[(i + hull.size() - 1) % hull.size()], hull[i], hull[(i + 1) % hull.size()]));
+            if (area < leastArea) leastArea = area, least = i;
+        }
+        hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(least));
+    }
+}
+
+Vector centroidOf(const std::vector<Vector>& outline) {
+    Vector sum;
+    double area = 0.0;
+    for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+        const double part = cross(outline[0], outline[i], outline[i + 1]);
+        sum.x += part * (outline[0].x + outline[i].x + outline[i + 1].x) / 3.0;
+        sum.y += part * (outline[0].y + outline[i].y + outline[i + 1].y) / 3.0;
+        area += part;
+    }
+    return area > 0.0 ? Vector{sum.x / area, sum.y / area} : outline[0];
+}
+
+std::vector<Vector> from(std::vector<Vector> places, const Vector& origin) {
+    for (Vector& place : places) place = {place.x - origin.x, place.y - origin.y};
+    return places;
+}
+
+double offLine(const Vector& p, const Vector& a, const Vector& b) {
+    const double length = distance(a, b);
+    return length > 0.0 ? std::abs(cross(a, b, p)) / length : distance(a, p);
+}
+
+/// Douglas and Peucker's: the farthest place from the chord stays, and both parts follow.
+void keepCorners(const std::vector<Vector>& way, std::size_t first, std::size_t last, double tolerance, std::vector<Vector>& kept) {
+    std::size_t farthest = first;
+    double most = tolerance;
+    for (std::size_t i = first + 1; i < last; ++i)
+        if (const double off = offLine(way[i], way[first], way[last]); off > most) most = off, farthest = i;
+    if (farthest != first) {
+        keepCorners(way, first, farthest, tolerance, kept);
+        keepCorners(way, farthest, last, tolerance, kept);
+    } else kept.push_back(way[last]);
+}
+
+} // namespace
+
+Result<BodyDescription> drawnBall(const Vector& centre, const Vector& rim) {
+    const double radius = distance(centre, rim);
+    if (2.0 * radius < smallest) return tooSmall("ball");
+    return bodyOf(CircleShape{radius}, centre, BodyType::dynamicBody);
+}
+
+Result<BodyDescription> drawnBox(const Vector& corner, const Vector& opposite) {
+    const double width = std::abs(opposite.x - corner.x), height = std::abs(opposite.y - corner.y);
+    if (std::min(width, height) < smallest) return tooSmall("box");
+    return bodyOf(BoxShape{width, height}, {0.5 * (corner.x + opposite.x), 0.5 * (corner.y + opposite.y)}, BodyType::dynamicBody);
+}
+
+Result<BodyDescription> drawnPolygon(const std::vector<Vector>& corners) {
+    auto hull = hullOf(corners);
+    if (hull.size() < 3) return Failure{"polygon: expected at least 3 corners that are not in a line"};
+    thin(hull, sceneLimits::maxPolygonVertices);
+    const Vector at = centroidOf(hull);
+    return bodyOf(PolygonShape{from(hull, at)}, at, BodyType::dynamicBody);
+}
+
+Result<BodyDescription> drawnWall(const Vector& from, const Vector& to, double thicknessMetres) {
+    const double length = distance(from, to);
+    if (std::min(length, thicknessMetres) < sceneLimits::minSizeMetres) return tooSmall("wall");
+    BodyDescription wall = bodyOf(BoxShape{length, thicknessMetres}, {0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}, BodyType::staticBody);
+    wall.angleRadians = std::atan2(to.y - from.y, to.x - from.x);
+    return wall;
+}
+
+Result<BodyDescription> drawnLine(const std::vector<Vector>& way, double toleranceMetres) {
+    std::vector<Vector> apart;
+    for (const Vector& place : way)
+        if (apart.empty() || distance(apart.back(), place) >= smallest) apart.push_back(place);
+    if (apart.size() < 2) return tooSmall("line");
+    std::vector<Vector> corners;
+    for (double tolerance = std::max(toleranceMetres, 1e-6);; tolerance *= 2.0) {
+        corners = {apart[0]};
+        keepCorners(apart, 0, apart.size() - 1, tolerance, corners);
+        if (corners.size() <= mostLineCorners) break;
+    }
+    const Vector at = corners[0];
+    corners = from(corners, at);
+    for (std::size_t i = corners.size() - 1; i-- > 0;) corners.push_back(corners[i]); // and back: a chain is hit from one side only
+    return bodyOf(ChainShape{corners, false}, at, BodyType::staticBody);
+}
+
+bool startsAsSource(const Scene& scene, const BodyDescription& body) {
+    if (body.type != BodyType::dynamicBody) return false;
+    bool isAny = false;
+    for (const BodyDescription& other : scene.bodies)
+        for (const FixtureDescription& fixture : other.fixtures) {
+            if (fixture.isCamera && other.type == BodyType::dynamicBody) return true;
+            isAny = isAny || fixture.isCamera;
+        }
+    return !isAny;
+}
+
+Vector snapped(const Vector& place, double gridMetres) {
+    if (gridMetres <= 0.0) return place;
+    return {gridMetres * std::round(place.x / gridMetres), gridMetres * std::round(place.y / gridMetres)};
+}
+
+} // namespace physvib

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Each action has an opposite, which is found before it acts.
+#include "Scene/Drawing/SceneDrawing.h"
+#include "Scene/SceneEdits.h"
+#include "Scene/World/InputCheck.h"
+#include "Scene/World/SceneCast.h"
+#include <algorithm>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+bool isStructural(const Action& action) {
+    return bodyPutBy(action) != nullptr || std::holds_alternative<RemoveAction>(action) || std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
+}
+
+/// One action per fixture, as each was.
+template <class Make>
+std::vector<Action> ofFixtures(const BodyDescription* body, Make make) {
+    std::vector<Action> back;
+    for (std::size_t i = 0; body != nullptr && i < body->fixtures.size(); ++i) back.push_back(make(static_cast<int>(i), body->fixtures[i]));
+    return back;
+}
+
+template <class Named>
+bool has(const std::vector<Named>& all, const std::string& name) {
+    return std::ranges::find(all, name, &Named::name) != all.end();
+}
+
+} // namespace
+
+SceneDrawing::SceneDrawing(Scene scene)
+    : drawn_{std::move(scene)}
+    , cast_{drawn_} {}
+
+std::string SceneDrawing::check(const std::vector<Action>& actions) const {
+    InputCheck check{cast_};
+    for (const Action& action : actions)
+        if (std::string fault = check.take(action); !fault.empty()) return fault;
+    return {};
+}
+
+bool SceneDrawing::take(const Action& action) {
+    if (!isLasting(action)) return false;
+    editScene(drawn_, action);
+    if (isStructural(action)) cast_.inputs.push_back({0.0, action});
+    else describeEdit(cast_, action);
+    return true;
+}
+
+const BodyDescription* SceneDrawing::find(std::string_view body) const noexcept {
+    const auto found = std::ranges::find(drawn_.bodies, body, &BodyDescription::name);
+    return found == drawn_.bodies.end() ? nullptr : &*found;
+}
+
+std::string SceneDrawing::freeName(const std::string& stem) const {
+    const auto cast = sceneCast(cast_);
+    const auto isTaken = [&](const std::string& name) {
+        const auto isJoint = [&](const LiveInput& input) {
+            const auto* join = std::get_if<JoinAction>(&input.action);
+            return join != nullptr && join->joint.name == name;
+        };
+        return has(cast, name) || has(drawn_.joints, name) || std::ranges::any_of(cast_.inputs, isJoint);
+    };
+    for (int n = 1;; ++n)
+        if (std::string name = stem + " " + std::to_string(n); !isTaken(name)) return name;
+}
+
+std::vector<Action> SceneDrawing::undoOf(const Action& action, const PoseNow& now) const {
+    if (const auto* removal = std::get_if<RemoveAction>(&action)) {
+        const BodyDescription* const there = find(removal->body);
+        if (there == nullptr) return {};
+        ChangeAction back{*there, false};
+        if (const auto pose = now ? now(removal->body) : std::nullopt) {
+            back.body.positionMetres = {pose->xMetres, pose->yMetres};
+            back.body.angleRadians = pose->angleRadians;
+        }
+        return {back};
+    }
+    if (const BodyDescription* put = bodyPutBy(action)) {
+        const BodyDescription* const there = find(put->name);
+        const auto* change = std::get_if<ChangeAction>(&action);
+        if (there == nullptr) return {RemoveAction{put->name}};
+        return {ChangeAction{*there, change != nullptr && change->stays}};
+    }
+    if (const auto* join = std::get_if<JoinAction>(&action)) return {UnjoinAction{join->joint.name}};
+    if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) {
+        const auto joint = std::ranges::find(drawn_.joints, unjoin->joint, &JointDescription::name);
+        return joint == drawn_.joints.end() ? std::vector<Action>{} : std::vector<Action>{JoinAction{*joint}};
+    }
+    if (const auto* material = std::get_if<MaterialAction>(&action))
+        return ofFixtures(find(material->body), [&](int i, const FixtureDescription& f) { return MaterialAction{material->body, i, f.material}; });
+    if (const auto* camera = std::get_if<CameraAction>(&action))
+        return ofFixtures(find(camera->body), [&](int i, const FixtureDescription& f) { return CameraAction{camera->body, i, f.isCamera}; });
+    if (const auto* sound = std::get_if<SoundAction>(&action)) {
+        const Material& old = drawn_.materials[static_cast<std::size_t>(sound->material)];
+        return {SoundAction{sound->material, old.frequencyHz, old.decayPerSecond}};
+    }
+    if (const auto* texture = std::get_if<TextureAction>(&action)) {
+        const Material& old = drawn_.materials[static_cast<std::size_t>(texture->material)];
+        return {TextureAction{texture->material, old.grainMetres, old.roughness, old.grainPattern, old.rolling}};
+    }
+    return {};
+}
+
+std::string SceneEdit::run(bool isForth, const SceneDrawing& drawing, const PoseNow& now, const std::function<std::string(const Action&)>& act) {
+    const auto& actions = isForth ? forth_ : back_;
+    std::vector<Action> opposite;
+    std::string fault;
+    for (const Action& action : actions) {
+        const auto back = drawing.undoOf(action, now);
+        if (fault = act(action); !fault.empty()) break;
+        opposite.insert(opposite.begin(), back.begin(), back.end());
+    }
+    (isForth ? back_ : forth_) = std::move(opposite);
+    return fault;
+}
+
+SceneEdit SceneEdit::followedBy(const SceneEdit& next) const {
+    SceneEdit both{next.forth_};
+    both.back_ = back_;
+    return both;
+}
+
+} // namespace physvib

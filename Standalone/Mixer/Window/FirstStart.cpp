@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One click to the first pulse; levels begin low, since hands are attached.
+#include "Mixer/Window/FirstStart.h"
+#include "Host/Devices/LikelyDevices.h"
+#include "Host/Devices/NoDevice.h"
+#include "Pads/PadOutput.h"
+#include <algorithm>
+
+namespace physvib {
+namespace {
+
+constexpr int mostRows = 6;
+
+juce::String outputsText(int outputs) { return juce::String{outputs} + (outputs == 1 ? " output" : " outputs"); }
+
+} // namespace
+
+std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads) {
+    const auto devices = byLikelihood(listAudioDevices(types));
+    std::vector<FeltChoice> many, few, all;
+    for (const auto& device : devices) {
+        if (device.type == noDeviceType) continue;
+        const int outputs = ownOutputs(device);
+        FeltChoice choice{utf8(device.type + ": " + device.name) + ", " + outputsText(outputs) + (outputs > 2 ? "" : ": headphones, or two actuators"), {device.type + ":" + device.name}, outputs};
+        (outputs > 2 ? many : few).push_back(std::move(choice));
+    }
+    for (const std::string& pad : pads) {
+        FeltChoice choice{"Game controller: " + utf8(pad), {std::string{noDeviceType} + ":" + noDeviceName}, 2, true}; // nothing but the controller plays
+        choice.device.pad = pad;
+        many.push_back(std::move(choice));
+    }
+    all = std::move(many);
+    all.insert(all.end(), few.begin(), few.end());
+    all.push_back({"No device: seen, not felt", {std::string{noDeviceType} + ":" + noDeviceName}, 0});
+    return all;
+}
+
+FirstStart::FirstStart(Desk& desk, std::vector<FeltChoice> choices)
+    : desk_{desk}
+    , choices_{std::move(choices)} {
+    setTitle("First start");
+    setWantsKeyboardFocus(true);
+    title_.setFont(juce::Font{text::large, juce::Font::bold});
+    words_.setFont(juce::Font{text::medium});
+    words_.setJustificationType(juce::Justification::topLeft);
+    for (int i = 0; i < std::min(mostRows, static_cast<int>(choices_.size())); ++i) {
+        auto& row = *rows_.emplace_back(std::make_unique<juce::TextButton>(choices_[static_cast<std::size_t>(i)].title + (i == 0 && choices_.size() > 1 ? "  (likely)" : "")));
+        row.setTitle(row.getButtonText());
+        row.onClick = [this, i] { choose(i); };
+        addChildComponent(row);
+    }
+    play_.onClick = [this] { playHere(); };
+    without_.onClick = [this] { end(true); };
+    felt_.onClick = [this] { felt(); };
+    louder_.onClick = [this] { louder(); };
+    notFelt_.onClick = [this] { notFelt(); };
+    done_.onClick = [this] { end(true); };
+    for (auto* button : {&play_, &without_, &felt_, &louder_, &notFelt_, &done_}) button->setTitle(button->getButtonText()), addChildComponent(button);
+    for (auto* label : {&title_, &words_}) addAndMakeVisible(label);
+    prepareControls(*this);
+    setSize(wide, high);
+    show();
+}
+
+void FirstStart::choose(int index) {
+    chosen_ = juce::jlimit(0, std::max(0, static_cast<int>(rows_.size()) - 1), index);
+    show();
+}
+
+void FirstStart::playHere() {
+    if (choices_.empty()) return end(false);
+    const FeltChoice choice = choices_[static_cast<std::size_t>(chosen_)];
+    if (choice.outputs == 0) return end(true);
+    if (choice.isBeside) {
+        if (onController) onController(choice.device);
+        return;
+    }
+    if (const auto error = desk_.open(choice.device); !error.empty()) return show();
+    test(std::max(1, std::min(choice.outputs, desk_.device().outputs())));
+}
+
+void FirstStart::test(int outputs) {
+    slowness_ = std::max(1, desk_.session().world().slowness());
+    desk_.setSlowness(0); // nothing but what is tested is felt
+    desk_.change("First start", [outputs](Mix& mix) {
+        if (mix.count() > outputs) {
+            mix.layout = presetLayout(layoutFor(outputs), mix.layout.enchanters);
+            mix.resizeStrips();
+        }
+        for (int j = 0; j < mix.count(); ++j) mix.strips[static_cast<std::size_t>(j)].output = j;
+        mix.levelDb = firstDb;
+    });
+    tested_ = 0;
+    pulse();
+    show();
+}
+
+void FirstStart::pulse() {
+    if (tested_ >= 0 && tested_ < desk_.mix().count()) desk_.strikes().testPulse(tested_);
+}
+
+void FirstStart::next() {
+    if (++tested_ >= desk_.mix().count()) return end(true);
+    pulse();
+    show();
+}
+
+void FirstStart::felt() { next(); }
+
+void FirstStart::feltAt(double shareX, double shareY) {
+    desk_.change("Place of an actuator", [&](Mix& mix) {
+        auto& layout = mix.layout.geometry;
+        layout.places[static_cast<std::size_t>(tested_)] = {juce::jlimit(0.0, 1.0, shareX) * layout.extentWidthMetres, juce::jlimit(0.0, 1.0, shareY) * layout.extentHeightMetres};
+        mix.layout.name = "own";
+    });
+    next();
+}
+
+void FirstStart::notFelt() {
+    desk_.change("Not felt", [this](Mix& mix) { mix.strips[static_cast<std::size_t>(tested_)].output = -1; });
+    next();
+}
+
+void FirstStart::louder() {
+    desk_.change("Louder", [](Mix& mix) { mix.levelDb = std::min(mostDb, mix.levelDb + louderDb); }, true);
+    pulse();
+    show();
+}
+
+void FirstStart::end(bool hasChosen) {
+    if (tested_ >= 0) desk_.setSlowness(slowness_);
+    tested_ = -1;
+    if (onEnd) onEnd(hasChosen); // may destroy this
+}
+
+bool FirstStart::keyPressed(const juce::KeyPress& key) {
+    using juce::KeyPress;
+    if (tested_ < 0) {
+        if (key == KeyPress::upKey) return choose(chosen_ - 1), true;
+        if (key == KeyPress::downKey) return choose(chosen_ + 1), true;
+        if (key == KeyPress::returnKey) return playHere(), true;
+        return false;
+    }
+    if (key == KeyPress::returnKey) return felt(), true;
+    if (key.getKeyCode() == 'L' || key.getTextCharacter() == 'l') return louder(), true;
+    if (key.getKeyCode() == 'N' || key.getTextCharacter() == 'n') return notFelt(), true;
+    if (key == KeyPress::spaceKey) return pulse(), true;
+    return false;
+}
+
+void FirstStart::show() {
+    const bool isTest = tested_ >= 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        rows_[i]->setVisible(!isTest);
+        rows_[i]->setToggleState(static_cast<int>(i) == chosen_, juce::dontSendNotification);
+    }
+    for (auto* button : {&play_, &without_}) button->setVisible(!isTest);
+    for (auto* button : {&felt_, &louder_, &notFelt_, &done_}) button->setVisible(isTest);
+    if (!isTest) {
+        title_.setText("Where are your actuators?", juce::dontSendNotification);
+        words_.setText("Play here tests each of them in turn, quietly at first. Nothing plays before.", juce::dontSendNotification);
+    } else {
+        const auto& label = desk_.mix().layout.enchanters[static_cast<std::size_t>(tested_)].label;
+        const int output = desk_.mix().strips[static_cast<std::size_t>(tested_)].output;
+        title_.setText("Did you feel it? Where?", juce::dontSendNotification);
+        words_.setText("Actuator " + utf8(label) + (output >= 0 ? ", output " + juce::String{output + 1} : juce::String{}) + ", at " + number(desk_.mix().levelDb, 0) +
+                           " dB. Click the place where you felt it, or Felt if it is where it is drawn. Space plays it again.", juce::dontSendNotification);
+        louder_.setEnabled(desk_.mix().levelDb < mostDb);
+    }
+    repaint();
+}
+
+juce::Rectangle<int> FirstStart::field() const { return getLocalBounds().reduced(24, 0).withTop(108).withBottom(high - 74).withSizeKeepingCentre(360, 200); }
+
+void FirstStart::mouseDown(const juce::MouseEvent& e) {
+    const auto at = field();
+    if (tested_ < 0 || !at.contains(e.getPosition())) return;
+    feltAt(static_cast<double>(e.x - at.getX()) / at.getWidth(), 1.0 - static_cast<double>(e.y - at.getY()) / at.getHeight());
+}
+
+void FirstStart::paint(juce::Graphics& g) {
+    g.setColour(shade(*this, Shade::raised));
+    g.fillRoundedRectangle(getLocalBounds().toFloat(), 12.0f);
+    g.setColour(shade(*this, Shade::accent));
+    g.drawRoundedRectangle(getLocalBounds().toFloat().reduced(0.75f), 12.0f, 1.5f);
+    if (tested_ < 0) return;
+    const auto at = field();
+    g.setColour(shade(*this, Shade::well));
+    g.fillRoundedRectangle(at.toFloat(), 6.0f);
+    const auto& layout = desk_.mix().layout.geometry;
+    for (int j = 0; j < layout.count; ++j) {
+        const auto& place = layout.places[static_cast<std::size_t>(j)];
+        const auto centre = juce::Point<double>{at.getX() + place.xMetres / layout.extentWidthMetres * at.getWidth(), at.getBottom() - place.yMetres / layout.extentHeightMetres * at.getHeight()}.toFloat();
+        const auto badge = juce::Rectangle<float>{28.0f, 28.0f}.withCentre(centre).constrainedWithin(at.toFloat());
+        g.setColour(enchanterColour(*this, j).withAlpha(j == tested_ ? 1.0f : 0.35f));
+        j == tested_ ? g.fillRoundedRectangle(badge, 7.0f) : g.drawRoundedRectangle(badge, 7.0f, 2.0f);
+        g.setColour(shade(*this, j == tested_ ? Shade::well : Shade::muted));
+        g.setFont(juce::Font{text::medium, juce::Font::bold});
+        g.drawText(utf8(desk_.mix().layout.enchanters[static_cast<std::size_t>(j)].label), badge, juce::Justification::centred, false);
+    }
+}
+
+void FirstStart::resized() {
+    auto area = getLocalBounds().reduced(24, 18);
+    title_.setBounds(area.removeFromTop(30));
+    words_.setBounds(area.removeFromTop(48));
+    auto row = area.removeFromBottom(34);
+    play_.setBounds(row.withWidth(130));
+    without_.setBounds(row.withTrimmedLeft(142).withWidth(170));
+    for (auto* button : {&felt_, &louder_, &notFelt_}) button->setBounds(row.removeFromLeft(110)), row.removeFromLeft(gap);
+    done_.setBounds(row.removeFromRight(110));
+    for (auto& choice : rows_) choice->setBounds(area.removeFromTop(34)), area.removeFromTop(5);
+}
+
+} // namespace physvib

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The first start: where the actuators hang, then each of them in turn: was it felt, and where?
+#pragma once
+#include "Mixer/Desk/Desk.h"
+#include "Mixer/Window/Parts.h"
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace physvib {
+
+/// Something that can be felt.
+struct FeltChoice {
+    juce::String title;
+    DeviceChoice device;
+    int outputs = 0;
+    bool isBeside = false; ///< a controller: the session begins anew with it
+};
+
+/// Audio devices, game controllers and no device; the likely one first. M; asks the system, which takes a while.
+std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads);
+
+/// A card over the window. All is done by keys as well: up, down and Return; then Return (felt), L (louder), N (not felt). M only.
+class FirstStart final : public juce::Component {
+public:
+    static constexpr int wide = 600, high = 400;
+    static constexpr double firstDb = -24.0, mostDb = -6.0, louderDb = 6.0;
+
+    FirstStart(Desk& desk, std::vector<FeltChoice> choices);
+
+    std::function<void(bool hasChosen)> onEnd;
+    std::function<void(const DeviceChoice&)> onController; ///< the window plays it beside a device, and goes on with test()
+
+    void choose(int index);
+    int chosen() const noexcept { return chosen_; }
+    void playHere();          ///< what is chosen: opens it, and the test begins
+    void test(int outputs);   ///< of as many actuators as there are outputs, four at most, from a low level
+    void pulse();             ///< of the one that is tested, again
+    void felt();              ///< where it is drawn; the next one
+    void feltAt(double shareX, double shareY); ///< there: it moves, and the next one
+    void notFelt();           ///< takes its output away; the next one
+    void louder();
+    int tested() const noexcept { return tested_; } ///< -1: none
+    void end(bool hasChosen);
+
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void mouseDown(const juce::MouseEvent& e) override;
+    void resized() override;
+
+private:
+    void next();
+    void show();
+    juce::Rectangle<int> field() const;
+
+    Desk& desk_;
+    std::vector<FeltChoice> choices_;
+    std::vector<std::unique_ptr<juce::TextButton>> rows_;
+    juce::Label title_, words_;
+    juce::TextButton play_{"Play here"}, without_{"Without a device"}, felt_{"Felt"}, louder_{"Louder"}, notFelt_{"Not felt"}, done_{"Done"};
+    int chosen_ = 0, tested_ = -1, slowness_ = 1;
+};
+
+} // namespace physvib

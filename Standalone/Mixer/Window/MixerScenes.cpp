@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What was drawn becomes a scene file, and scenes to draw in.
+#include "Io/Disk/AtomicFile.h"
+#include "Mixer/Window/MixerWindow.h"
+#include "Mixer/Window/Parts.h"
+#include "Scene/Drawing/BodyEdits.h"
+#include "Scene/SceneFile.h"
+#include "Scene/SceneValidation.h"
+
+namespace physvib {
+
+void MixerWindow::saveScene(bool isNow) {
+    files_.scenesFolder().createDirectory();
+    using B = juce::FileBrowserComponent;
+    chooser_ = std::make_unique<juce::FileChooser>("Save as scene", files_.scenesFolder().getChildFile("scene.json"), "*.json", false);
+    chooser_->launchAsync(B::saveMode | B::warnAboutOverwriting | B::canSelectFiles, [this, isNow](const juce::FileChooser& c) {
+        if (c.getResult() == juce::File{}) return;
+        const auto file = c.getResult().withFileExtension("json");
+        if (const auto error = saveSceneTo(file, isNow); !error.empty()) return say(utf8(error));
+        desk_->tell("Saved " + file.getFullPathName());
+    });
+}
+
+std::string MixerWindow::saveSceneTo(const juce::File& file, bool isNow) {
+    const auto& world = desk_->world();
+    Scene scene = world.drawing().drawn();
+    if (isNow) scene = sceneNow(scene, [&](const std::string& body) { return world.poseNow(body); });
+    scene.name = file.getFileNameWithoutExtension().toStdString();
+    scene.variables.clear();
+    if (auto fault = validate(scene); !fault.empty()) return fault;
+    auto error = writeFile(file.getFullPathName().toStdString(), sceneJson(scene));
+    if (error.empty()) view_->topBar().setOwnScenes(files_.ownScenes());
+    return error;
+}
+
+void MixerWindow::newScene(SceneGround ground) {
+    desk_->change("New scene", [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(physvib::newScene(desk_->world().drawing().drawn(), ground)); });
+    view_->world().drawing().use(DrawTool::ball);
+}
+
+} // namespace physvib

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Draws in the world: over its view, what is chosen, its handles and what a hand is about to make.
+#pragma once
+#include "Host/Views/WorldView.h"
+#include "Mixer/Desk/Desk.h"
+#include "Mixer/World/DrawTool.h"
+#include "Scene/Drawing/BodyEdits.h"
+#include <optional>
+
+namespace physvib {
+
+/// M only.
+class DrawPane final : public juce::Component {
+public:
+    /// Both outlive it; it lies over `view`.
+    DrawPane(Desk& desk, WorldView& view);
+
+    void use(DrawTool tool); ///< the hand acts in the view below
+    DrawTool tool() const noexcept { return tool_; }
+    void setMaterial(int material); ///< of what is drawn from now on, and of what is chosen
+    int material() const noexcept { return material_; }
+    void setSnapping(bool snaps);
+    bool snaps() const noexcept { return snaps_; }
+
+    const std::vector<std::string>& chosen() const noexcept { return chosen_; } ///< names of bodies
+    void choose(std::vector<std::string> names);
+    /// Changes each chosen body where it is; one edit.
+    void changeChosen(const juce::String& name, const std::function<void(const Scene&, BodyDescription&)>& change, bool goesOn = false);
+
+    std::function<void()> onChange; ///< tool, choice or material
+
+    void takeMix(); ///< the desk has changed
+    bool takeKey(const juce::KeyPress& key);
+    void paint(juce::Graphics& g) override;
+    void mouseDown(const juce::MouseEvent& e) override;
+    void mouseDrag(const juce::MouseEvent& e) override;
+    void mouseUp(const juce::MouseEvent& e) override;
+    void mouseMove(const juce::MouseEvent& e) override;
+    void mouseDoubleClick(const juce::MouseEvent& e) override;
+
+private:
+    enum class Grip { none, move, size, turn, around };
+    struct Handles { // of one body, in pixels
+        std::array<juce::Point<float>, 4> corners;
+        juce::Point<float> turn, centre;
+    };
+    Vector at(const juce::MouseEvent& e) const;
+    double grid() const;
+    std::optional<Handles> handles() const;
+    std::optional<BodyPlace> placeNow(const std::string& name) const;
+    BodyDescription sizedNow() const;
+    std::map<std::string, BodyPlace> movedNow() const;
+    Result<BodyDescription> drawnNow() const;
+    void add(Result<BodyDescription> body);
+    void join();
+    void erase(const juce::MouseEvent& e);
+    void edit(const juce::String& name, std::vector<Action> actions, bool goesOn = false);
+    void grip(const juce::MouseEvent& e);
+    void nudge(Vector byMetres, double byRadians);
+    void scaleChosen(double factor);
+    void paste(const Copied& copy);
+    void closePolygon();
+    void addInTheMiddle();
+    bool takeToolKey(const juce::KeyPress& key);
+    std::string fieldBody(std::vector<Action>& actions, const Vector& place);
+    std::string jointAt(juce::Point<float> place) const;
+    Vector anchorNow(const JointDescription& joint, const Vector& anchor, const std::string& body) const;
+    void drawJoints(juce::Graphics& g) const;
+    void drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place, juce::Colour colour, bool isFilled) const;
+    void drawChosen(juce::Graphics& g) const;
+    void drawStroke(juce::Graphics& g) const;
+
+    Desk& desk_;
+    WorldView& view_;
+    DrawTool tool_ = DrawTool::hand;
+    int material_ = 0;
+    bool snaps_ = false, isDrawing_ = false;
+    std::vector<std::string> chosen_;
+    Copied copied_;
+    Grip grip_ = Grip::none;
+    std::vector<Vector> stroke_; // since the mouse was pressed, or of the polygon; metres
+    Vector to_;                  // where the mouse is
+};
+
+} // namespace physvib

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a hand in the world does: throws bodies, or draws.
+#pragma once
+#include <array>
+#include <juce_gui_basics/juce_gui_basics.h>
+
+namespace physvib {
+
+enum class DrawTool { hand, choose, ball, box, polygon, line, wall, pin, rope, slider, motor, eraser };
+
+struct DrawToolWords {
+    DrawTool tool;
+    char key; ///< in the world
+    const char *name, *does;
+};
+
+/// In the order of the bar.
+inline constexpr std::array<DrawToolWords, 12> drawTools{{
+    {DrawTool::hand, 'h', "Hand", "Drag a body to throw it, with Shift to hold it"},
+    {DrawTool::choose, 's', "Select", "Click a body, or drag around several; drag to move, handles to size and turn"},
+    {DrawTool::ball, 'b', "Ball", "Drag from the centre outwards"},
+    {DrawTool::box, 'x', "Box", "Drag from corner to corner"},
+    {DrawTool::polygon, 'p', "Polygon", "Click the corners; double click or Enter ends it"},
+    {DrawTool::line, 'l', "Line", "Draw a line freely"},
+    {DrawTool::wall, 'w', "Wall", "Drag from end to end"},
+    {DrawTool::pin, 'i', "Pin", "Click where two bodies overlap; a single one is pinned to the field"},
+    {DrawTool::rope, 'r', "Rope", "Drag from one body to another, or to the field"},
+    {DrawTool::slider, 'd', "Slider", "Drag along the way of a body"},
+    {DrawTool::motor, 'm', "Motor", "As a pin that turns"},
+    {DrawTool::eraser, 'e', "Eraser", "Click or drag over bodies and joints"},
+}};
+
+inline const DrawToolWords& wordsOf(DrawTool tool) { return drawTools[static_cast<std::size_t>(tool)]; }
+
+/// Its sign, around (0, 0), within 9 pixels each way.
+juce::Path signOf(DrawTool tool);
+
+} // namespace physvib

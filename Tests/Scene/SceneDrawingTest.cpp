@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+// What is drawn in a world, undone and done again: against snapshots, and against the world that felt it.
+#include "Scene/Drawing/BodyEdits.h"
+#include "Scene/Drawing/DrawnBodies.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneEdits.h"
+#include "Scene/SceneFile.h"
+#include "Scene/SceneValidation.h"
+#include "Scene/World/InputCheck.h"
+#include "Scene/World/SceneCast.h"
+#include "Scene/World/Simulation.h"
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+#include <set>
+
+namespace physvib {
+namespace {
+
+Scene blank() { return newScene(*findBuiltInScene("drop"), SceneGround::floor); }
+
+/// Bodies and joints come back at the end of their lists.
+Scene sorted(Scene scene) {
+    std::ranges::sort(scene.bodies, {}, &BodyDescription::name);
+    std::ranges::sort(scene.joints, {}, &JointDescription::name);
+    return scene;
+}
+
+/// A world that is drawn in while it runs, as a session's is.
+struct Drawn {
+    SceneDrawing drawing;
+    InputCheck check;
+    Simulation world;
+    std::vector<CollisionEvent> events;
+    std::vector<SceneEdit> done, undone;
+
+    explicit Drawn(const Scene& scene)
+        : drawing{scene}
+        , check{scene}
+        , world{scene, 1, 100} {}
+    std::string act(const Action& action) {
+        auto fault = check.take(action);
+        if (!fault.empty()) return fault;
+        world.addInput(0.0, action);
+        drawing.take(action);
+        return fault;
+    }
+    std::string run(SceneEdit& edit, bool isForth) {
+        return edit.run(isForth, drawing, {}, [this](const Action& action) { return act(action); });
+    }
+    std::string edit(std::vector<Action> actions) {
+        if (auto fault = drawing.check(actions); !fault.empty()) return fault;
+        done.emplace_back(std::move(actions));
+        undone.clear();
+        return run(done.back(), true);
+    }
+    void undo() {
+        ASSERT_EQ(run(done.back(), false), "");
+        undone.push_back(done.back());
+        done.pop_back();
+    }
+    void redo() {
+        ASSERT_EQ(run(undone.back(), true), "");
+        done.push_back(undone.back());
+        undone.pop_back();
+    }
+    void steps(int count) {
+        for (int i = 0; i < count; ++i) world.step(events);
+    }
+    /// Names of the bodies that are there in the world.
+    std::multiset<std::string> present() const {
+        const auto cast = sceneCast(world.scene());
+        std::multiset<std::string> names;
+        for (std::size_t i = 0; i < cast.size(); ++i)
+            if (world.pose(i).isPresent) names.insert(cast[i].name);
+        return names;
+    }
+    std::multiset<std::string> drawn() const {
+        std::multiset<std::string> names;
+        for (const auto& body : drawing.drawn().bodies) names.insert(body.name);
+        return names;
+    }
+};
+
+class Hand {
+public:
+    Hand(Drawn& drawn, std::uint32_t seed)
+        : drawn_{drawn}
+        , random_{seed} {}
+
+    std::vector<Action> anything() {
+        const auto& drawing = drawn_.drawing;
+        switch (drawing.drawn().bodies.size() < 3 ? draw(3) : draw(10)) {
+        case 0: return add(drawnBall(place(), place()));
+        case 1: return add(drawnBox(place(), place()));
+        case 2: return draw(2) == 0 ? add(drawnWall(place(), place(), 0.1)) : add(drawnPolygon({place(), place(), place(), place(), place()}));
+        case 3: return add(drawnLine({place(), place(), place(), place()}, 0.01));
+        case 4: return movedTo(drawing, {{any(), {place(), 0.1 * draw(60)}}, {any(), {place(), 0.0}}});
+        case 5: return {changed(scaledBody(*drawing.find(any()), 0.5 + 0.1 * draw(10), 0.5 + 0.1 * draw(10)))};
+        case 6: return erased(drawing, {any(), any()});
+        case 7: {
+            const std::string a = any(), b = any();
+            const auto where = [&](const std::string& name) { return std::pair{name, BodyPlace{drawing.find(name)->positionMetres, drawing.find(name)->angleRadians}}; };
+            return joined(drawing, static_cast<JointKind>(draw(4)), where(a), where(b), place(), place()).value;
+        }
+        case 8: {
+            std::vector<std::string> names;
+            return pasted(drawing, copied(drawing, {any(), any()}), {0.2, 0.2}, names);
+        }
+        default: {
+            BodyDescription body = *drawing.find(any());
+            const int what = draw(5);
+            if (what == 0) setMoving(drawing.drawn(), body, draw(2) == 0);
+            else if (what == 1) setSource(drawing.drawn(), body, draw(2) == 0);
+            else if (what == 2) setDensity(drawing.drawn(), body, 1.0 + draw(2000));
+            else if (what == 3) body.fixtures[0].restitution = 0.01 * draw(100);
+            else body.fixtures[0].material = draw(static_cast<int>(drawing.drawn().materials.size()));
+            return {changed(std::move(body))};
+        }
+        }
+    }
+    int draw(int below) { return static_cast<int>(random_() % static_cast<unsigned>(below)); }
+
+private:
+    Vector place() {
+        const Scene& scene = drawn_.drawing.drawn();
+        return {scene.fieldWidthMetres * 0.001 * draw(1000), scene.fieldHeightMetres * 0.001 * draw(1000)};
+    }
+    std::string any() {
+        const auto& bodies = drawn_.drawing.drawn().bodies;
+        return bodies[static_cast<std::size_t>(draw(static_cast<int>(bodies.size())))].name;
+    }
+    std::vector<Action> add(Result<BodyDescription> body) {
+        if (!body) return {};
+        body.value.name = drawn_.drawing.freeName("body");
+        if (startsAsSource(drawn_.drawing.drawn(), body.value)) setSource(drawn_.drawing.drawn(), body.value, true);
+        return {SpawnAction{body.value, {}}};
+    }
+    Drawn& drawn_;
+    std::mt19937 random_;
+};
+
+void drawAtRandom(std::uint32_t seed) {
+    SCOPED_TRACE(seed);
+    Drawn drawn{blank()};
+    Hand hand{drawn, seed};
+    std::vector<Scene> model{sorted(drawn.drawing.drawn())}; // after each edit that is done
+    std::vector<Scene> ahead;
+    int edits = 0;
+    while (edits < 200) {
+        const int turn = hand.draw(5);
+        if (turn == 0 && !drawn.done.empty()) {
+            drawn.undo();
+            ahead.push_back(model.back());
+            model.pop_back();
+        } else if (turn == 1 && !drawn.undone.empty()) {
+            drawn.redo();
+            model.push_back(ahead.back());
+            ahead.pop_back();
+        } else {
+            const auto actions = hand.anything();
+            if (actions.empty() || !drawn.edit(actions).empty()) continue;
+            model.push_back(sorted(drawn.drawing.drawn()));
+            ahead.clear();
+            ++edits;
+        }
+        ASSERT_EQ(sceneJson(sorted(drawn.drawing.drawn())), sceneJson(model.back())) << edits;
+        drawn.steps(1);
+        ASSERT_EQ(drawn.present(), drawn.drawn()) << edits;
+    }
+    drawn.steps(100);
+    Simulation again{drawn.world.scene(), 1, 100}; // as a render of the session does
+    std::vector<CollisionEvent> events;
+    while (again.timeNs() < drawn.world.timeNs()) again.step(events);
+    EXPECT_TRUE(events == drawn.events) << events.size() << " for " << drawn.events.size();
+    EXPECT_EQ(validate(drawn.drawing.drawn()), "");
+    while (!drawn.done.empty()) drawn.undo();
+    EXPECT_EQ(sceneJson(sorted(drawn.drawing.drawn())), sceneJson(model.front()));
+}
+
+TEST(SceneDrawing, TwoHundredEditsAreUndoneDoneAgainAndFeltAgain) {
+    for (const std::uint32_t seed : {1u, 2u, 3u}) drawAtRandom(seed);
+}
+
+TEST(SceneDrawing, ABodyThatIsChangedGoesOnAsItMoves) {
+    Drawn drawn{blank()};
+    auto ball = drawnBall({1.0, 2.0}, {1.1, 2.0}).value;
+    ball.name = "ball";
+    ball.velocityMetresPerSecond = {0.3, 0.0};
+    ASSERT_EQ(drawn.edit({SpawnAction{ball, {}}}), "");
+    drawn.steps(20);
+    const auto find = [&] { return drawn.world.pose(sceneCast(drawn.world.scene()).size() - 1); };
+    const BodyPose before = find();
+    ASSERT_EQ(drawn.edit({changed(scaledBody(*drawn.drawing.find("ball"), 1.5, 1.5))}), "");
+    drawn.steps(1);
+    EXPECT_NEAR(find().xMetres, before.xMetres + 0.003, 1e-4) << "on with its speed";
+    EXPECT_EQ(drawn.drawing.find("ball")->positionMetres, ball.positionMetres) << "the scene starts it where it was drawn";
+    EXPECT_NEAR(std::get<CircleShape>(drawn.drawing.find("ball")->fixtures[0].shape).radiusMetres, 0.15, 1e-9);
+    ASSERT_EQ(drawn.edit(movedTo(drawn.drawing, {{"ball", {{0.5, 2.0}, 0.0}}})), "");
+    drawn.steps(1);
+    EXPECT_NEAR(find().xMetres, 0.503, 1e-4);
+    drawn.undo();
+    drawn.steps(1);
+    EXPECT_NEAR(find().xMetres, 1.003, 1e-4) << "back where it was drawn";
+}
+
+TEST(SceneDrawing, ASeesawHoldsOnItsPinWhileItIsChanged) {
+    Drawn drawn{blank()};
+    auto plank = drawnBox({0.6, 0.9}, {1.8, 1.0}).value;
+    plank.name = "plank";
+    ASSERT_EQ(drawn.edit({SpawnAction{plank, {}}}), "");
+    const auto where = [&](const std::string& name) { return std::pair{name, BodyPlace{drawn.drawing.find(name)->positionMetres, 0.0}}; };
+    const auto pin = joined(drawn.drawing, JointKind::pin, where("floor"), where("plank"), {1.2, 0.95}, {1.2, 0.95});
+    ASSERT_TRUE(pin) << pin.error;
+    ASSERT_EQ(drawn.edit(pin.value), "");
+    const auto height = [&] { return drawn.world.pose(sceneCast(drawn.world.scene()).size() - 1).yMetres; };
+    drawn.steps(100);
+    EXPECT_NEAR(height(), 0.95, 0.01) << "it does not fall";
+    ASSERT_EQ(drawn.edit({changed(scaledBody(*drawn.drawing.find("plank"), 0.8, 1.0))}), "");
+    drawn.steps(100);
+    EXPECT_NEAR(height(), 0.95, 0.01) << "nor when it is another size";
+    ASSERT_EQ(drawn.edit(movedTo(drawn.drawing, {{"plank", {{1.2, 1.5}, 0.0}}})), "");
+    drawn.steps(100);
+    EXPECT_NEAR(height(), 1.5, 0.01) << "its pin goes with it";
+    drawn.undo();
+    drawn.undo();
+    drawn.undo();
+    drawn.steps(100);
+    EXPECT_LT(height(), 0.9) << "without a pin it falls";
+}
+
+TEST(SceneDrawing, ALineIsHitFromBothSidesHoweverItIsDrawn) {
+    for (const bool isLeftToRight : {true, false}) {
+        Drawn drawn{blank()};
+        const Vector a{0.5, 1.0}, b{2.0, 1.0};
+        auto line = drawnLine(isLeftToRight ? std::vector{a, b} : std::vector{b, a}, 0.01).value;
+        line.name = "line";
+        auto ball = drawnBall({1.2, 1.5}, {1.3, 1.5}).value;
+        ball.name = "ball";
+        ASSERT_EQ(drawn.edit({SpawnAction{line, {}}, SpawnAction{ball, {}}}), "");
+        drawn.steps(300);
+        EXPECT_NEAR(drawn.world.pose(2).yMetres, 1.1, 0.02) << isLeftToRight;
+    }
+}
+
+TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
+    Drawn drawn{blank()};
+    auto ball = drawnBall({1.0, 2.0}, {1.1, 2.0}).value;
+    ball.name = "ball";
+    ASSERT_EQ(drawn.edit({SpawnAction{ball, {}}}), "");
+    const std::pair<std::string, BodyPlace> floor{"floor", {drawn.drawing.find("floor")->positionMetres, 0.0}}, there{"ball", {ball.positionMetres, 0.0}};
+    const auto rope = joined(drawn.drawing, JointKind::rope, floor, there, {1.8, 2.0}, {1.0, 2.0});
+    ASSERT_TRUE(rope) << rope.error;
+    ASSERT_EQ(drawn.edit(rope.value), "");
+    double lowest = 9.0, longest = 0.0;
+    for (int i = 0; i < 100; ++i) {
+        drawn.steps(1);
+        const BodyPose pose = drawn.world.pose(1);
+        lowest = std::min(lowest, pose.yMetres);
+        longest = std::max(longest, std::hypot(pose.xMetres - 1.8, pose.yMetres - 2.0));
+    }
+    EXPECT_LT(lowest, 1.5) << "it swings";
+    EXPECT_LT(longest, 0.83);
+}
+
+TEST(SceneDrawing, WhatIsSavedIsReadAndStartsThere) {
+    Drawn drawn{blank()};
+    auto plank = drawnBox({0.6, 0.9}, {1.8, 1.0}).value;
+    plank.name = "plank";
+    ASSERT_EQ(drawn.edit({SpawnAction{plank, {}}}), "");
+    const std::pair<std::string, BodyPlace> floor{"floor", {drawn.drawing.find("floor")->positionMetres, 0.0}}, there{"plank", {plank.positionMetres, 0.0}};
+    ASSERT_EQ(drawn.edit(joined(drawn.drawing, JointKind::slider, floor, there, {1.2, 0.95}, {1.2, 1.95}).value), "");
+    const auto same = readScene(sceneJson(drawn.drawing.drawn()), "own.json");
+    ASSERT_TRUE(same) << same.error;
+    EXPECT_EQ(same.value, drawn.drawing.drawn());
+    const Scene now = sceneNow(drawn.drawing.drawn(), [](const std::string& body) { return body == "plank" ? std::optional{BodyPose{1.2, 1.25, 0.0}} : std::nullopt; });
+    const auto* unmoved = &now.bodies[1];
+    EXPECT_EQ(unmoved->positionMetres, (Vector{1.2, 1.25}));
+    const Scene both = sceneNow(drawn.drawing.drawn(), [&](const std::string& body) { return std::optional{body == "plank" ? BodyPose{1.2, 1.25, 0.0} : BodyPose{floor.second.metres.x, floor.second.metres.y, 0.0}}; });
+    const auto& slider = std::get<SliderJoint>(both.joints[0].joint);
+    EXPECT_NEAR(slider.travelMetres->lower, -0.3, 1e-9) << "as far down as it has come up";
+    EXPECT_NEAR(slider.travelMetres->upper, 0.7, 1e-9);
+    EXPECT_EQ(validate(both), "");
+}
+
+TEST(SceneDrawing, SaysWhatCannotBeDrawn) {
+    EXPECT_EQ(drawnBall({1.0, 1.0}, {1.001, 1.0}).error, "ball: expected at least 0.01 m across");
+    EXPECT_EQ(drawnPolygon({{0.0, 0.0}, {1.0, 1.0}, {2.0, 2.0}}).error, "polygon: expected at least 3 corners that are not in a line");
+    EXPECT_EQ(std::get<PolygonShape>(drawnPolygon({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}}).value.fixtures[0].shape).verticesMetres.size(), 4U) << "the place inside is none of its corners";
+    Scene scene = blank();
+    scene.script.push_back({0.0, 1, 0.0, UnjoinAction{"joint"}});
+    EXPECT_EQ(validate(scene), "script[0].input: expected another: change, join and unjoin are live inputs only");
+    InputCheck check{blank()};
+    EXPECT_EQ(check.take(UnjoinAction{"joint"}), "joint: expected the name of a joint, found \"joint\"");
+    BodyDescription ball = drawnBall({1.0, 1.0}, {1.1, 1.0}).value;
+    ball.name = "ball";
+    EXPECT_EQ(check.take(ChangeAction{ball, false}), "body.name: expected the name of a body, found \"ball\"");
+}
+
+TEST(InputCheck, DrawingGoesOnForMonths) {
+    InputCheck check{blank(), InputCheck::endless};
+    BodyDescription ball = drawnBall({1.0, 1.0}, {1.1, 1.0}).value;
+    for (int i = 0; i < 400; ++i) {
+        ball.name = "ball " + std::to_string(i);
+        ASSERT_EQ(check.take(SpawnAction{ball, {}}), "") << i;
+        JointDescription pin{"pin", "floor", ball.name, RevoluteJoint{}, false};
+        ASSERT_EQ(check.take(JoinAction{pin}), "") << i;
+        ASSERT_EQ(check.take(ChangeAction{ball, true}), "") << i;
+        ASSERT_EQ(check.take(UnjoinAction{"pin"}), "") << i;
+        ASSERT_EQ(check.take(RemoveAction{ball.name}), "") << i;
+        ASSERT_EQ(check.take(ChangeAction{ball, false}), "") << "it is back";
+        if (i % 3 == 0) continue;
+        ASSERT_EQ(check.take(RemoveAction{ball.name}), "") << i;
+    }
+    EXPECT_NE(check.take(ChangeAction{ball, false}), "expected at most 100000 inputs");
+}
+
+} // namespace
+} // namespace physvib
