@@ -34,7 +34,7 @@ async function matterOf(Matter, folder, physvib, world, hz, { inertiaOf }) {
         bodies.set(body.id, made);
     }
     const haptics = attach(physvib, engine, { metresPerUnit: 1 / px, fieldWidth: 10, fieldHeight: 10, fieldX: -5, fieldY: 1 });
-    return { haptics, bodies, movesFirst: true, step: seconds => haptics.step(seconds, () => Matter.Engine.update(engine, seconds * 1000)),
+    return { haptics, bodies, movesFirst: true, destroy: id => Matter.Composite.remove(engine.world, bodies.get(id)), step: seconds => haptics.step(seconds, () => Matter.Engine.update(engine, seconds * 1000)),
         velocity: id => -Matter.Body.getVelocity(bodies.get(id)).y * 60 / px, velocityX: id => Matter.Body.getVelocity(bodies.get(id)).x * 60 / px, angle: id => -bodies.get(id).angle, x: id => bodies.get(id).position.x / px };
 }
 
@@ -47,7 +47,7 @@ async function planck(folder, physvib, world, hz) {
         bodies.set(body.id, made);
     }
     const haptics = attach(physvib, engine, field);
-    return { haptics, bodies, skin: 0.01, tellsImpulses: true, isWhole: true, movesFirst: true, step: seconds => engine.step(seconds),
+    return { haptics, bodies, skin: 0.01, tellsImpulses: true, isWhole: true, movesFirst: true, destroy: id => engine.destroyBody(bodies.get(id)), step: seconds => engine.step(seconds),
         velocity: id => bodies.get(id).getLinearVelocity().y, velocityX: id => bodies.get(id).getLinearVelocity().x, angle: id => bodies.get(id).getAngle(), x: id => bodies.get(id).getPosition().x };
 }
 
@@ -64,7 +64,7 @@ async function rapier2d(folder, physvib, world, hz) {
         bodies.set(body.id, made);
     }
     const haptics = attach(physvib, engine, field);
-    return { haptics, bodies, tellsImpulses: true, isWhole: true, step: seconds => haptics.update(seconds),
+    return { haptics, bodies, tellsImpulses: true, isWhole: true, destroy: id => engine.removeRigidBody(bodies.get(id)), step: seconds => haptics.update(seconds),
         velocity: id => bodies.get(id).linvel().y, velocityX: id => bodies.get(id).linvel().x, angle: id => bodies.get(id).rotation(), x: id => bodies.get(id).translation().x };
 }
 
@@ -93,7 +93,7 @@ async function box2d3(folder, physvib, world, hz) {
         bodies.set(body.id, made);
     }
     const haptics = attach(physvib, engine, { b2, ...field });
-    return { haptics, bodies, tellsImpulses: true, isWhole: true, step: seconds => haptics.update(seconds),
+    return { haptics, bodies, tellsImpulses: true, isWhole: true, destroy: id => b2.b2DestroyBody(bodies.get(id)), step: seconds => haptics.update(seconds),
         velocity: id => b2.b2Body_GetLinearVelocity(bodies.get(id)).y, velocityX: id => b2.b2Body_GetLinearVelocity(bodies.get(id)).x,
         angle: id => b2.b2Rot_GetAngle(b2.b2Body_GetRotation(bodies.get(id))), x: id => b2.b2Body_GetPosition(bodies.get(id)).x };
 }
