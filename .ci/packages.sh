@@ -11,7 +11,7 @@ physvib_run_packages="$physvib_build_packages g++ ccache fonts-dejavu-core libgt
 physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvfb xauth xdotool clang libclang-rt-14-dev \
     liblo-tools python3-numpy luajit love mono-mcs doxygen cmark-gfm libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
-# Of Standalone/Web/build-web.sh and Tests/web.sh alone.
+# Of Standalone/Web/build-web.sh, Source/Api/JavaScript/build-package.sh, Tests/web.sh and Tests/javascript.sh alone.
 physvib_web_packages="clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
 physvib_web_test_packages="$physvib_web_packages chromium python3"
 # Of Standalone/Packaging/release.sh, and of Tests/Release.

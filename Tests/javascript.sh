@@ -16,8 +16,10 @@ echo '{ "private": true }' >package.json
 npm install --silent --no-audit --no-fund "$package"
 cd "$OLDPWD"
 for test in package pads audio; do node "Tests/JavaScript/$test.mjs" "$work" "$physvib"; done
+node Tests/JavaScript/insecure.mjs
 say "taking the engines from npm"
-(cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 box2d3-wasm@5.2 jspsych@8 typescript@5)
+(cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 box2d3-wasm@5.2 phaser@4 jspsych@8 typescript@5)
 node Tests/JavaScript/jspsych.mjs "$work"
+node Tests/JavaScript/bodies.mjs "$work"
 node Tests/JavaScript/worlds.mjs "$work"
 node Tests/JavaScript/page.mjs "$work" Docs/javascript.md

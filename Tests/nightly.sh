@@ -28,6 +28,7 @@ step() {
         projucer) Tests/House/projucer.sh ;;
         sweep) Tests/Sweep/speed.sh $bin && Tests/Sweep/cluster.sh $bin ;;
         web) Tests/web.sh $bin/physvib ;;
+        javascript) Tests/javascript.sh $bin/physvib ;;
         site) Tests/site.sh ;;
         movies) Tests/CommandLine/movies.sh $bin/physvib ;;
         report) Tests/figures/report.sh $bin/physvib build/nightly/report ;;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The worlds of worlds.mjs in each engine, through its attachment. `falls`: half a (sub)step's gravity at first, so that semi-implicit falls end on the parabola.
+import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { load } from './installed.mjs';
@@ -8,8 +9,16 @@ const field = { fieldWidth: 10, fieldHeight: 10, fieldX: -5, fieldY: -1 };
 const areaOf = body => (body.radius ? Math.PI * body.radius ** 2 : 4 * body.halfWidth * body.halfHeight);
 const dropOf = (world, hz, parts) => (world.falls ? world.gravity / 2 / hz / parts : 0);
 
-async function matter(folder, physvib, world, hz, { inertiaOf }) {
-    const { default: Matter } = await load(folder, 'matter-js'), { attach } = await load(folder, 'physvib/matter'), px = 1000;
+const matter = async (folder, ...rest) => matterOf((await load(folder, 'matter-js')).default, folder, ...rest);
+
+/** Phaser's own, which needs a page: its parts by themselves. */
+async function phaser(folder, ...rest) {
+    const inside = createRequire(join(resolve(folder), 'index.js')), part = name => inside(join(resolve(folder), 'node_modules/phaser/src/physics/matter-js/lib', name));
+    return matterOf({ Engine: part('core/Engine.js'), Bodies: part('factory/Bodies.js'), Body: part('body/Body.js'), Composite: part('body/Composite.js') }, folder, ...rest);
+}
+
+async function matterOf(Matter, folder, physvib, world, hz, { inertiaOf }) {
+    const { attach } = await load(folder, 'physvib/matter'), px = 1000;
     const engine = Matter.Engine.create({ gravity: { x: 0, y: 1, scale: world.gravity * px / 1e6 } }), bodies = new Map();
     for (const body of world.bodies) {
         const common = { isStatic: body.isStatic ?? false, restitution: world.restitution, friction: world.friction, frictionAir: 0, angle: -(body.angle ?? 0) };
@@ -25,7 +34,7 @@ async function matter(folder, physvib, world, hz, { inertiaOf }) {
         bodies.set(body.id, made);
     }
     const haptics = attach(physvib, engine, { metresPerUnit: 1 / px, fieldWidth: 10, fieldHeight: 10, fieldX: -5, fieldY: 1 });
-    return { haptics, bodies, movesFirst: true, step: seconds => haptics.step(seconds, () => Matter.Engine.update(engine, seconds * 1000)),
+    return { haptics, bodies, movesFirst: true, destroy: id => Matter.Composite.remove(engine.world, bodies.get(id)), step: seconds => haptics.step(seconds, () => Matter.Engine.update(engine, seconds * 1000)),
         velocity: id => -Matter.Body.getVelocity(bodies.get(id)).y * 60 / px, velocityX: id => Matter.Body.getVelocity(bodies.get(id)).x * 60 / px, angle: id => -bodies.get(id).angle, x: id => bodies.get(id).position.x / px };
 }
 
@@ -38,7 +47,7 @@ async function planck(folder, physvib, world, hz) {
         bodies.set(body.id, made);
     }
     const haptics = attach(physvib, engine, field);
-    return { haptics, bodies, skin: 0.01, tellsImpulses: true, isWhole: true, movesFirst: true, step: seconds => engine.step(seconds),
+    return { haptics, bodies, skin: 0.01, tellsImpulses: true, isWhole: true, movesFirst: true, destroy: id => engine.destroyBody(bodies.get(id)), step: seconds => engine.step(seconds),
         velocity: id => bodies.get(id).getLinearVelocity().y, velocityX: id => bodies.get(id).getLinearVelocity().x, angle: id => bodies.get(id).getAngle(), x: id => bodies.get(id).getPosition().x };
 }
 
@@ -55,7 +64,7 @@ async function rapier2d(folder, physvib, world, hz) {
         bodies.set(body.id, made);
     }
     const haptics = attach(physvib, engine, field);
-    return { haptics, bodies, tellsImpulses: true, isWhole: true, step: seconds => haptics.update(seconds),
+    return { haptics, bodies, tellsImpulses: true, isWhole: true, destroy: id => engine.removeRigidBody(bodies.get(id)), step: seconds => haptics.update(seconds),
         velocity: id => bodies.get(id).linvel().y, velocityX: id => bodies.get(id).linvel().x, angle: id => bodies.get(id).rotation(), x: id => bodies.get(id).translation().x };
 }
 
@@ -84,9 +93,9 @@ async function box2d3(folder, physvib, world, hz) {
         bodies.set(body.id, made);
     }
     const haptics = attach(physvib, engine, { b2, ...field });
-    return { haptics, bodies, tellsImpulses: true, isWhole: true, step: seconds => haptics.update(seconds),
+    return { haptics, bodies, tellsImpulses: true, isWhole: true, destroy: id => b2.b2DestroyBody(bodies.get(id)), step: seconds => haptics.update(seconds),
         velocity: id => b2.b2Body_GetLinearVelocity(bodies.get(id)).y, velocityX: id => b2.b2Body_GetLinearVelocity(bodies.get(id)).x,
         angle: id => b2.b2Rot_GetAngle(b2.b2Body_GetRotation(bodies.get(id))), x: id => b2.b2Body_GetPosition(bodies.get(id)).x };
 }
 
-export const engines = { matter, planck, rapier2d, box2d3 };
+export const engines = { matter, phaser, planck, rapier2d, box2d3 };

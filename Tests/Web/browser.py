@@ -93,7 +93,7 @@ try:
           f"the audio thread {share(browser.seconds_of_processors(audio_thread), sounding)}")
     expect(browser.value("document.getElementById('sentence').textContent.includes('Hz')"), "hits are told")
     browser.click("#attach")
-    browser.wait("document.getElementById('output').textContent.startsWith('5 enchanters')", "an enchanter attached")
+    browser.wait("document.getElementById('output').textContent.startsWith('5 actuators')", "an actuator attached")
     expect(True, "an enchanter is attached")
     browser.click("#byItself")
     time.sleep(2.5)

@@ -77,8 +77,8 @@ function tellHit([, , hz, decay, amplitude]) {
     $('sentence').textContent = `${material ? material.name + ' · ' : ''}${hz.toFixed(0)} Hz · τ ${decay.toFixed(0)} /s · ${decibels(20 * Math.log10(best.amplitude))}`;
 }
 function tellOutput() {
-    const count = world.places.length, way = sound.isDirect(count) ? 'each enchanter on its own output' : 'heard as a stereo monitor: this device has ' + sound.outputs + (sound.outputs === 1 ? ' output' : ' outputs');
-    $('output').textContent = `${count} ${count === 1 ? 'enchanter' : 'enchanters'}, ${way} · ${sound.rate / 1000} kHz`;
+    const count = world.places.length, way = sound.isDirect(count) ? 'each actuator on its own output' : 'heard as a stereo monitor: this device has ' + sound.outputs + (sound.outputs === 1 ? ' output' : ' outputs');
+    $('output').textContent = `${count} ${count === 1 ? 'actuator' : 'actuators'}, ${way} · ${sound.rate / 1000} kHz`;
 }
 
 // ---- materials: both sliders go by ratios, as what is felt does

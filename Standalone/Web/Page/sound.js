@@ -10,6 +10,9 @@ export class Sound {
 
     /// On a click. `first`: the scene to begin with.
     async start(first) {
+        if (globalThis.isSecureContext === false) { // browsers give audio worklets to https and to the machine itself only
+            throw new Error('this page came by http. Serve its folder by https, or open it on the machine that serves it: python3 -m http.server --bind 127.0.0.1, then http://127.0.0.1:8000');
+        }
         const context = this.#context = new AudioContext({ latencyHint: 'interactive' }), running = context.resume(); // while it is a click's doing
         const fetched = async () => (await fetch('physvib.wasm')).arrayBuffer();
         const [code] = await Promise.all([fetched(), context.audioWorklet.addModule('worklet.js')]);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Bodies that come, change and go while an attachment follows, in each engine: bodies.mjs FOLDER.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { engines } from './engines.mjs';
+import { load } from './installed.mjs';
+
+const [folder] = process.argv.slice(2), physvib = await (await load(folder, 'physvib')).load();
+const world = { gravity: 9.81, restitution: 0.3, friction: 0.2, falls: true, bodies: [{ id: 0, halfWidth: 5, halfHeight: 0.5, x: 0, y: -0.5, isStatic: true }, { id: 1, radius: 0.1, x: 0, y: 0.3, massKg: 0.2 }, { id: 2, radius: 0.1, x: 1, y: 0.3, massKg: 0.2 }] };
+const inertiaOf = body => body.massKg * body.radius ** 2 / 2;
+
+for (const name of Object.keys(engines)) test(name, async () => {
+    const { haptics, bodies, step, destroy } = await engines[name](folder, physvib, world, 240, { inertiaOf });
+    const first = haptics.set(bodies.get(1), { isSource: true, frequencyHz: 200, decayPerSecond: 30 }), told = [];
+    haptics.set(bodies.get(2), { frequencyHz: 200, decayPerSecond: 30 });
+    const end = haptics.follow(events => told.push(...events));
+    for (let i = 0; i < 120; ++i) step(1 / 240);
+    end();
+    const events = haptics.take();
+    assert.deepEqual(told, events);
+    assert.ok(events.length > 0 && events.every(event => event.fixture === first), 'the haptic source alone is felt');
+    assert.deepEqual(haptics.take(), []);
+    haptics.remove(bodies.get(1));
+    haptics.set(bodies.get(2), { isSource: true, frequencyHz: 100, decayPerSecond: 30 });
+    for (let i = 0; i < 240; ++i) step(1 / 240);
+    assert.ok(haptics.take(true).every(event => event.fixture !== first && event.frequencyHz === 100), 'what was removed is felt no more');
+    assert.throws(() => haptics.set(bodies.get(2), { frequencyHz: -1 }), /expected/);
+    assert.notEqual(haptics.id(bodies.get(1)), first);
+    destroy(1); // a body that leaves needs no word
+    for (let i = 0; i < 10; ++i) step(1 / 240);
+    assert.match(haptics.explain(), /\w/);
+    haptics.free();
+    assert.throws(() => haptics.counts, /handle/);
+    if (name === 'matter' || name === 'planck') step(1 / 240); // their own loop goes on
+});
