@@ -23,6 +23,7 @@ step() {
         osc) Tests/Osc/run.sh $bin ;;
         live) Tests/Live/soak.sh ;;
         mixer) Tests/Mixer/soak.sh ;;
+        studies) Tests/Studies/recorded.sh $bin ;;
         hours) Tests/ten-hours.sh ;;
         realtime) Tests/Realtime/rtsan.sh ;;
         projucer) Tests/House/projucer.sh ;;

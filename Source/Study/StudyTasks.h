@@ -47,10 +47,10 @@ inline constexpr std::array studyTasks{
     StudyTaskDescription{StudyTask::identify, "identify", AnswerKind::label, "confusion", {"What did you feel?", "Where did you feel it?"},
                          {"Then say which one it was.", "Then choose the point where you felt it.", "Then choose the place of its first pulse, and the whole pattern."}},
     StudyTaskDescription{StudyTask::locate, "locate", AnswerKind::place, "resolution", {"Where did you feel it?"}, {"Then mark where you felt it, anywhere on the field."}},
-    StudyTaskDescription{StudyTask::choose, "choose", AnswerKind::choice, "choices", {"Which one do you choose?"}, {"Feel each of them, then choose one."}},
+    StudyTaskDescription{StudyTask::choose, "choose", AnswerKind::choice, "choices", {"Which one do you choose?"}, {"Feel them alternately, as often as you like, then choose one."}},
     StudyTaskDescription{StudyTask::rate, "rate", AnswerKind::scores, "ratings", {"Rate what you felt."}, {"Then set every scale, and go on."}},
     StudyTaskDescription{StudyTask::adjust, "adjust", AnswerKind::level, "levels", {"Make both equal."},
-                         {"Feel both in turn, as often as you like.\nMake the marked one softer or stronger until both are equal, and go on."}},
+                         {"Feel both alternately, as often as you like.\nMake the marked one softer or stronger until both are equal, and go on."}},
     StudyTaskDescription{StudyTask::estimate, "estimate", AnswerKind::number, "levels", {"How much is it?"}, {"Then type a number, and go on."}}};
 
 /// The task's row. Any thread.

@@ -108,7 +108,10 @@ std::string studyCallFault(const std::string& call, const std::string& folder) {
     ParsedCall parsed{call, folder};
     const RenderJob& o = parsed.renderOptions;
     if (!parsed.error.empty()) return call + ": " + parsed.error;
-    if (!parsed.words.isCalled("render") || !sceneFault(o).empty() || !o.method.fixesAmplitude) return {};
+    if (!parsed.words.isCalled("render") || !sceneFault(o).empty()) return {};
+    if (!o.scene.empty())
+        if (const auto scene = findScene(o.scene, o.settings); !scene) return call + ": " + scene.error;
+    if (!o.method.fixesAmplitude) return {};
     const auto layout = layoutNamed(o.layout);
     if (!layout) return layout.error;
     const double leastG = leastStudyFullScaleG * fromDecibels(o.levelDb);

@@ -5,11 +5,16 @@
 #include "Core/Actuators/PerceivedLevel.h"
 #include "Core/Decibels.h"
 #include "Io/Text/CleanText.h"
+#include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
+#include "Jobs/LayoutNamed.h"
+#include "Jobs/MakeStimulus.h"
+#include "Jobs/Report/ReportPage.h"
 #include "Session/ContactSounds.h"
 #include "Session/OfflineRender.h"
 #include "Session/StimulusRender.h"
 #include "Studies/StudyCalls.h"
+#include "Study/Files/ProtocolFile.h"
 #include "Study/StudyPlan.h"
 #include <algorithm>
 #include <array>
@@ -46,7 +51,7 @@ void measure(const FeltStimulus& felt, CheckedStimulus& checked) {
     checked.seconds = felt.stimulus.seconds;
     for (std::size_t j = 0; j < channels; ++j) {
         const double fullScaleG = felt.layout.enchanters[j].fullScaleG;
-        checked.peakShare = std::max(checked.peakShare, sums[j].peak);
+        if (sums[j].peak > checked.peakShare) checked.peakShare = sums[j].peak, checked.neededG = sums[j].peak * fullScaleG;
         checked.peakG = std::max(checked.peakG, sums[j].peak * fullScaleG);
         checked.rmsG = std::max(checked.rmsG, std::sqrt(sums[j].squares / static_cast<double>(std::max<std::int64_t>(1, settings.frames))) * fullScaleG);
         checked.squareGSeconds += sums[j].weightedSquares / checkRateHz * fullScaleG * fullScaleG;
@@ -76,9 +81,8 @@ std::string nameOf(const Protocol& protocol, const CheckedStimulus& s) {
 double inDb(double share) { return toDecibels(std::max(share, 1e-6)); }
 
 std::string limiterWords(const Protocol& protocol, const CheckedStimulus& s) {
-    const double neededG = s.peakG; // of the actuator that is beyond
     return nameOf(protocol, s) + ": peaks " + fixedNumber(inDb(s.peakShare), 1) + " dB above full scale, which the limiter would lower: expected a layout of at least " +
-           fixedNumber(neededG, 2) + " g (full_scale_g), or a level that is as much lower";
+           fixedNumber(s.neededG, 2) + " g (full_scale_g), or a level that is as much lower";
 }
 
 bool needsLimiter(const CheckedStimulus& s) { return s.error.empty() && s.peakShare > 1.0 + fullScaleSlack; }
@@ -94,21 +98,40 @@ void judge(const Protocol& protocol, const CheckedStimulus& s, StudyCheck& check
                                  " the threshold of detection at " + fixedNumber(s.frequencyHz, 0) + " Hz (assumed: " + fixedNumber(1e3 * detectionThresholdG(s.frequencyHz), 0) + " mg)");
 }
 
-std::string lineOf(const CheckedStimulus& s) {
-    if (!s.error.empty()) return "cannot be played";
-    return fixedNumber(s.peakG, 4) + "\t" + fixedNumber(s.rmsG, 4) + "\t" + fixedNumber(-inDb(s.peakShare), 1) + "\t" + fixedNumber(aboveThresholdDb(s), 1) + "\t" + fixedNumber(s.seconds, 2);
+using Cells = std::vector<std::string>;
+
+/// The columns of the table, and a row per stimulus.
+std::vector<Cells> rowsOf(const Protocol& protocol, const std::vector<CheckedStimulus>& stimuli) {
+    std::vector<Cells> rows{{"condition", "stimulus", "part", "level_db", "peak_g", "rms_g", "below_full_scale_db", "above_threshold_db", "seconds"}};
+    for (const CheckedStimulus& s : stimuli) {
+        Cells& row = rows.emplace_back(Cells{printable(protocol.conditions[s.condition].name), cleanLine(s.label), cleanLine(s.part), numberText(s.levelDb)});
+        if (!s.error.empty()) row.emplace_back("cannot be played");
+        else
+            for (const auto& [figure, decimals] : {std::pair{s.peakG, 4}, {s.rmsG, 4}, {-inDb(s.peakShare), 1}, {aboveThresholdDb(s), 1}, {s.seconds, 2}}) row.push_back(fixedNumber(figure, decimals));
+    }
+    return rows;
 }
 
-std::string tableOf(const Protocol& protocol, const std::vector<CheckedStimulus>& stimuli) {
-    std::string text = "condition\tstimulus\tpart\tlevel_db\tpeak_g\trms_g\tbelow_full_scale_db\tabove_threshold_db\tseconds\n";
-    for (const CheckedStimulus& s : stimuli)
-        text += printable(protocol.conditions[s.condition].name) + "\t" + cleanLine(s.label) + "\t" + cleanLine(s.part) + "\t" + numberText(s.levelDb) + "\t" + lineOf(s) + "\n";
+std::string tabbed(const std::vector<Cells>& rows) {
+    std::string text;
+    for (const Cells& row : rows)
+        for (std::size_t c = 0; c < row.size(); ++c) text += row[c] + (c + 1 < row.size() ? "\t" : "\n");
+    return text;
+}
+
+std::string csvOf(const std::vector<Cells>& rows) {
+    std::string text;
+    for (const Cells& row : rows)
+        for (std::size_t c = 0; c < rows.front().size(); ++c) {
+            if (c < row.size()) appendCell(text, row[c]);
+            text += c + 1 < rows.front().size() ? "," : "\n";
+        }
     return text;
 }
 
 std::string listOf(const char* what, const std::vector<std::string>& lines) {
     std::string text;
-    for (const std::string& line : lines) text += std::string{what} + ": " + line + "\n";
+    for (const std::string& line : lines) text += what + line + "\n";
     return text;
 }
 
@@ -129,16 +152,49 @@ void judgePlan(const Protocol& protocol, int participants, StudyCheck& check) {
     for (const PlannedTrials& trials : plannedTrials(protocol))
         if (const CheckedStimulus* const one = checkedOf(check.stimuli, trials.condition, trials.label, trials.part)) squareGSeconds += trials.count * one->squareGSeconds;
     const double exposure = dailyExposure(squareGSeconds);
-    check.text += "trials: " + std::to_string(time.trials) + ", at most " + minutes(time.seconds) + " with breaks, at one play of each part and " + fixedNumber(PlannedTime::answerSeconds, 0) + " s per answer\n";
-    check.text += "exposure: A(8) " + fixedNumber(exposure, 3) + " m/s2 of one participant on one day, at one play of each part and the highest levels (action value " + fixedNumber(exposureActionValue, 1) + ")\n";
+    check.facts.push_back("trials: " + std::to_string(time.trials) + ", at most " + minutes(time.seconds) + " with breaks, at one play of each part and " + fixedNumber(PlannedTime::answerSeconds, 0) + " s per answer");
+    check.facts.push_back("exposure: A(8) " + fixedNumber(exposure, 3) + " m/s2 of one participant on one day, at one play of each part and the highest levels (action value " + fixedNumber(exposureActionValue, 1) + ")");
     if (exposure > protocol.exposureLimit) check.warnings.push_back("exposure: A(8) of " + fixedNumber(exposure, 2) + " m/s2 is above the protocol's limit of " + numberText(protocol.exposureLimit) + ", at which the study pauses");
     if (time.longestStretchSeconds > longestWithoutBreakSeconds) check.warnings.push_back("breaks: expected one at least every " + minutes(longestWithoutBreakSeconds) + ", found " + minutes(time.longestStretchSeconds) + " without");
     if (protocol.conditions.size() < 2) return;
     const OrderBalance balance = orderBalance(protocol, participants);
     const std::string words = std::to_string(participants) + " participants: a condition is at one place " + std::to_string(balance.fewestAtPlace) + " to " + std::to_string(balance.mostAtPlace) + " times; " +
                               std::to_string(balance.successions) + " of " + std::to_string(balance.possibleSuccessions) + " successions occur";
-    check.text += "orders: " + words + "\n";
+    check.facts.push_back("orders: " + words);
     if (!balance.isBalanced()) check.warnings.push_back("orders are not balanced: " + words);
+}
+
+/// Breaks that are written down and do not happen.
+void judgeBreaks(const Protocol& protocol, StudyCheck& check) {
+    for (const SessionPlan& session : protocol.sessions) {
+        const std::string at = "breaks of session " + printable(session.name) + ": ";
+        if (session.breakEvery > 0 && session.breakSeconds <= 0.0) check.warnings.push_back(at + "expected break_s above 0 s beside break_every " + std::to_string(session.breakEvery) + ", found none");
+        if (session.breakEvery == 0 && session.breakSeconds > 0.0) check.warnings.push_back(at + "expected break_every beside break_s " + numberText(session.breakSeconds) + ", found none: there is no break");
+    }
+}
+
+/// The largest share of an actuator's full scale that one pulse or phantom asks for, by the layout's gains alone; 0 if it cannot be made.
+double askedShare(StimulusJob job, const std::string& folder) {
+    job.layout = besideProtocol(folder, job.layout);
+    const auto layout = layoutNamed(job.layout);
+    const auto stimulus = layout ? makeStimulus(job, layout.value) : Result<Stimulus>{Failure{layout.error}};
+    if (!stimulus) return 0.0;
+    double share = 0.0;
+    PhantomPanner::Gains gains{};
+    for (const CollisionEvent& event : stimulus.value.events) {
+        stimulus.value.panner.gainsAt(event.x, event.y, gains);
+        for (std::size_t j = 0; j < layout.value.enchanters.size(); ++j) share = std::max(share, std::abs(event.amplitude * gains[j]) / layout.value.enchanters[j].fullScaleG);
+    }
+    return share;
+}
+
+/// Of a stimulus that no call makes: rendered only if it asks for too much, as a study has hundreds of them. One line, or empty.
+std::string levelFault(const Protocol& protocol, const PlannedStimulus& planned) {
+    const TrialJob job = planned.job(protocol);
+    const auto* const stimulus = std::get_if<StimulusJob>(&job);
+    if (stimulus == nullptr || askedShare(*stimulus, protocol.folder) <= 1.0) return {};
+    const CheckedStimulus checked = checkStimulus(protocol, planned);
+    return checked.error.empty() ? std::string{} : nameOf(protocol, checked) + ": " + checked.error;
 }
 
 } // namespace
@@ -147,17 +203,48 @@ StudyCheck checkStudy(const Protocol& protocol, int participants) {
     StudyCheck check;
     for (const PlannedStimulus& planned : plannedStimuli(protocol)) check.stimuli.push_back(checkStimulus(protocol, planned));
     for (const CheckedStimulus& s : check.stimuli) judge(protocol, s, check);
-    check.text = tableOf(protocol, check.stimuli) + "\n";
     judgePlan(protocol, participants, check);
-    check.text += listOf("error", check.errors) + listOf("warning", check.warnings);
+    judgeBreaks(protocol, check);
+    for (const ThesisDeviation& one : deviationsOf(protocol))
+        check.deviations.push_back(std::string{one.section}.append(": ").append(one.thesis).append("; here: ").append(one.here).append(one.change.empty() ? "" : "; as published: ").append(one.change));
     return check;
+}
+
+std::string textOf(const StudyCheck& check, const Protocol& protocol) {
+    return tabbed(rowsOf(protocol, check.stimuli)) + "\n" + listOf("", check.facts) + listOf("deviation from the thesis, ", check.deviations) + listOf("error: ", check.errors) + listOf("warning: ", check.warnings);
+}
+
+std::string htmlOf(const StudyCheck& check, const Protocol& protocol) {
+    ReportPage page{"Study check: " + printable(protocol.name), false};
+    page.paragraph(cleanLine(protocol.title));
+    page.heading("Errors and warnings");
+    if (check.errors.empty() && check.warnings.empty()) page.paragraph("None was found.");
+    for (const auto& [what, lines] : {std::pair{"Errors: the study is refused", &check.errors}, {"Warnings: for a person to decide", &check.warnings}}) {
+        if (lines->empty()) continue;
+        page.subheading(what);
+        page.list(*lines);
+    }
+    page.heading("Plan");
+    page.list(check.facts);
+    if (!check.deviations.empty()) {
+        page.subheading("Deviations from the thesis");
+        page.list(check.deviations);
+    }
+    page.heading("Stimuli");
+    page.paragraph("Of the strongest actuator, at the highest level that a session can set, without the limiter. peak_g and rms_g are accelerations in g; above_threshold_db is the peak over an assumed threshold of detection.");
+    page.table(csvOf(rowsOf(protocol, check.stimuli)), "physvib study check", check.stimuli.size());
+    return page.html();
 }
 
 std::string limiterFault(const Protocol& protocol) {
     for (const PlannedStimulus& planned : plannedStimuli(protocol)) {
         const StimulusSet& set = protocol.conditions[planned.condition].stimuli;
         const auto* const world = std::get_if<WorldSet>(&set);
-        if (callSetOf(set) == nullptr || (world != nullptr && world->hasHands)) continue; // the others are refused where they are made
+        if (world != nullptr && world->hasHands) continue;
+        if (callSetOf(set) == nullptr) {
+            if (auto fault = levelFault(protocol, planned); !fault.empty()) return fault;
+            continue;
+        }
         const CheckedStimulus checked = checkStimulus(protocol, planned);
         if (needsLimiter(checked)) return limiterWords(protocol, checked);
     }

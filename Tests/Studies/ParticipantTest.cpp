@@ -446,7 +446,7 @@ TEST_F(ByAParticipant, BeginsWithWhatTheCallOfTheProgramChose) {
     file.replaceWithText(R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05}], "sessions": [{"name": "main", "task": "identify"}]})");
     chooseStudy(p->view, {file.getFullPathName(), "Q7", 7, folder.getChildFile("rows").getFullPathName()});
     folder.getChildFile("rows").createDirectory();
-    test::pump();
+    p->pump();
     ASSERT_TRUE(p->tab().isShowing());
     ASSERT_EQ(p->tab().begin(), "");
     EXPECT_EQ(p->screen()->study().path().filename(), "short-Q7.csv");

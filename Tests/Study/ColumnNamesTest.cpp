@@ -41,6 +41,29 @@ TEST(ColumnNames, OnlyNamedColumnsCountAndFaultsNameTheLine) {
     EXPECT_EQ(readRatings({&none, 1}).error, "p.csv: expected a column picture, found none");
 }
 
+TEST(ColumnNames, TruePlacesInPixelsBecomeRowsAndColumns) {
+    const std::string text = "who,true_x,true_y,touch_x,touch_y\nP,100,50,123,0\nP,500,50,615,635\nP,100,350,1230,127\n";
+    const auto columns = names({"participant=who", "target_x=true_x", "target_y=true_y", "x=touch_x:0:1230", "y=touch_y:635:0"}); // y upwards
+    const NamedText file{text, "t.csv", columns};
+    const auto read = readLocations({&file, 1});
+    ASSERT_TRUE(read) << read.error;
+    const auto& trials = read.value.conditions.front().trials;
+    ASSERT_EQ(trials.size(), 3u);
+    EXPECT_EQ(trials[1].targetColumn, 2);
+    EXPECT_EQ(trials[1].targetRow, 1);
+    EXPECT_EQ(trials[2].targetColumn, 1);
+    EXPECT_EQ(trials[2].targetRow, 2);
+    EXPECT_NEAR(trials[0].x, 0.1, 1e-9);
+    EXPECT_NEAR(trials[0].y, 1.0, 1e-9);
+    EXPECT_NEAR(trials[2].y, 0.8, 1e-9);
+    const auto outside = names({"target_x=true_x", "target_y=true_y", "x=touch_x:0:1000", "y=touch_y:0:635"});
+    const NamedText other{text, "t.csv", outside};
+    EXPECT_EQ(readLocations({&other, 1}).error, "t.csv:4: column x: expected a number from 0 to 1, found \"1.23\"");
+    const auto words = names({"target_x=who", "target_y=true_y", "x=touch_x:0:1230", "y=touch_y:0:635"});
+    const NamedText wrong{text, "t.csv", words};
+    EXPECT_EQ(readLocations({&wrong, 1}).error, "t.csv:2: column target_x: expected a number, found \"P\"");
+}
+
 TEST(ColumnNames, ASimulationStaysMarked) {
     const std::string text = "s,r,observer\nA,A,simulated\n";
     const auto columns = names({"stimulus=s", "response=r"});
@@ -52,6 +75,8 @@ TEST(ColumnNames, WordsThatNameNothingAreRefused) {
     EXPECT_EQ(parseColumnNames(std::vector<std::string>{"response"}).error, "expected NAME=COLUMN of the table, e.g. response=key_resp.keys, found \"response\"");
     EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b", "a=c"}).error, "expected each name once, found \"a\" twice");
     EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b=c"}).value.front().theirs, "b=c");
+    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b:c:1"}).value.front().theirs, "b:c:1") << "no two numbers: a name with colons";
+    EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b:0:1"}).value.front().theirs, "b");
 }
 
 TEST(ColumnNames, PartsOfAConditionAreFactorsAndRowsCanBeChosen) {

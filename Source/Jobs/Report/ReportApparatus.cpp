@@ -18,6 +18,20 @@ struct Felt {
     double mostLimitedDb = 0.0;
 };
 
+/// Device, master level, noise, version: what was the same, and of which trials.
+using Kinds = std::map<std::vector<std::string>, Felt>;
+
+std::vector<std::string> sentencesOf(const Kinds& kinds) {
+    std::vector<std::string> sentences;
+    for (const auto& [kind, felt] : kinds) {
+        const bool hasNoise = kind[2] != columns::noNoise && !kind[2].empty();
+        sentences.push_back(std::to_string(felt.trials) + " trials were felt through the device " + kind[0] + " at a master level of " + kind[1] + " dB, " +
+                            (hasNoise ? "with pink noise of " + kind[2] + " dB of full scale (root mean square)" : std::string{"without pink noise"}) + "; " +
+                            (felt.limited > 0 ? "the limiter lowered " + std::to_string(felt.limited) + " of them, by at most " + fixedNumber(felt.mostLimitedDb, 1) + " dB." : std::string{"the limiter lowered none of them."}));
+    }
+    return sentences;
+}
+
 } // namespace
 
 void tellApparatus(ReportBuilder& report) {
@@ -27,7 +41,7 @@ void tellApparatus(ReportBuilder& report) {
         return at ? row.cells[*at] : std::string{};
     };
     report.page.subheading("Apparatus");
-    std::map<std::vector<std::string>, Felt> kinds; // device, master level, noise, version
+    Kinds kinds;
     std::size_t unknown = 0;
     for (const CsvRow& row : all.rows) {
         if (cell(row, columns::version).empty()) {
@@ -51,6 +65,7 @@ void tellApparatus(ReportBuilder& report) {
     report.addTable("apparatus.csv", table.text());
     report.page.paragraph("Device, master level in dB, root mean square of the pink noise in dB of full scale (off: there was none), version of the program, and by how much the limiter lowered what was felt.");
     report.page.table(table.text(), "apparatus.csv");
+    for (const std::string& sentence : sentencesOf(kinds)) report.page.paragraph(sentence);
     if (kinds.size() > 1) report.page.note("trials were felt with " + std::to_string(kinds.size()) + " different settings of the apparatus");
 }
 

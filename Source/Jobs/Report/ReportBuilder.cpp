@@ -82,6 +82,18 @@ AnalysisReport ReportBuilder::analysis(const std::string& kind, const AnalysisJo
     return report;
 }
 
+void ReportBuilder::tellAssumptions(AnalysisJob options, const std::string& name) {
+    options.correction = Correction::holm;
+    const ReportTest check{"shapiro", options, "assumptions-" + name};
+    const AnalysisReport report = analyse("shapiro", options);
+    if (!report.error.empty()) return page.note("whether values are normal was not tested: " + report.error);
+    const auto beyond = std::ranges::count_if(report.lines, [](const TestLine& line) { return line.pCorrected.value_or(line.p.value_or(1.0)) < 0.05; });
+    tables_[check.table] = report.table;
+    page.paragraph("Assumptions: by Shapiro and Wilk's test the participants' values are not normal in " + std::to_string(beyond) + " of " + std::to_string(report.lines.size()) +
+                   " cells (p < 0.05, corrected by Holm for the cells; " + check.table + "). Where an effect has more than one degree of freedom, its line has Mauchly's test of sphericity and Greenhouse and Geisser's correction.");
+    page.call(check.call() + " --correction holm");
+}
+
 std::vector<TestLine> ReportBuilder::test(const std::string& kind, AnalysisJob options, const std::string& name, bool isLong) {
     ReportTest test{kind, std::move(options), name};
     page.call(test.call());
@@ -92,6 +104,7 @@ std::vector<TestLine> ReportBuilder::test(const std::string& kind, AnalysisJob o
         return {};
     }
     tables_[name] = report.table;
+    if (kind == "anova") tellAssumptions(test.options, name);
     if (isLong) {
         const auto count = std::ranges::count_if(report.lines, [](const TestLine& line) { return line.pCorrected.value_or(line.p.value_or(1.0)) < 0.05; });
         page.paragraph(std::to_string(report.lines.size()) + " comparisons, " + std::to_string(count) + " of them below 0.05 after correction: " + name);

@@ -54,6 +54,7 @@ public:
 
 private:
     void warn(const std::vector<std::string>& warnings);
+    void tellAssumptions(AnalysisJob options, const std::string& name); ///< of an analysis of variance
     std::map<std::string, std::string> tables_; // by file name
     std::vector<ReportTest> tests_;
     std::vector<std::string> warned_;

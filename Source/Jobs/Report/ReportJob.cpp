@@ -31,8 +31,16 @@ Result<std::vector<std::pair<std::string, std::string>>> readTexts(const std::ve
 Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol, const CallCheck& callFault) {
     const auto texts = readTexts(job.files);
     if (!texts) return Failure{texts.error};
-    const auto trials = readReportTrials(texts.value, job.columns, protocol, callFault);
+    auto trials = readReportTrials(texts.value, job.columns, protocol, callFault);
     if (!trials) return Failure{trials.error};
+    StudyFacts facts{{}, job.ethics, job.consent};
+    if (!job.peoplePath.empty()) {
+        const auto text = readFile(job.peoplePath, limits::maxTableBytes);
+        auto people = text ? readPeople(text.value, job.peoplePath) : Result<std::vector<PersonFacts>>{Failure{text.error}};
+        if (!people) return Failure{people.error};
+        facts.people = std::move(people.value);
+    }
+    if (std::string fault = takeFacts(trials.value, std::move(facts)); !fault.empty()) return Failure{std::move(fault)};
     StudyReport report = studyReport(trials.value);
     report.isSimulated = trials.value.isSimulated;
     if (!job.wantsBids) return report;

@@ -14,6 +14,8 @@ struct ReportJob {
     std::vector<ColumnName> columns{}; ///< of another program's tables
     std::string folder;               ///< all that is written lies in it
     bool wantsBids = false;           ///< the trials as a BIDS dataset, too
+    std::string peoplePath{};         ///< who the participants are (see StudyFacts.h); empty: nothing is known
+    std::string ethics{}, consent{};  ///< sentences for the page; empty: to be filled in
 
     bool isThesis() const { return files == std::vector<std::string>{"thesis"}; }
     bool operator==(const ReportJob&) const = default;

@@ -49,6 +49,9 @@ void tellMagnitudes(ReportBuilder& report) {
     test.measure = "value";
     test.within = {"stimulus"};
     report.test("friedman", test, "friedman-magnitudes.csv");
+    test.pairTest = PairTest::ranks;
+    test.correction = Correction::holm;
+    report.test("pairs", test, "pairs-magnitudes.csv", true);
 }
 
 /// "wood small" of "pair=wood size=small".

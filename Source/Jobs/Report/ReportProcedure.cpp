@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What stands in a paper's section on methods, as far as files know it.
+#include "Core/RenderingMethod.h"
 #include "Jobs/Report/ReportSections.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
 #include "Study/Files/ProtocolFields.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Study/Statistics/Moments.h"
 #include "Study/Files/TrialColumns.h"
 #include <algorithm>
 #include <set>
@@ -66,14 +69,29 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
 
 std::string count(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
+/// "AF-FV-DRV: amplitude fixed, frequency varied, decay varied"; other names as they are.
+std::string inFull(const std::string& name) {
+    RenderingMethod method;
+    if (name == "SV") return "SV: the recorded contact";
+    if (!renderingMethodNamed(name, method)) return name;
+    const auto word = [](bool isFixed) { return std::string{isFixed ? "fixed" : "varied"}; };
+    return name + ": amplitude " + word(method.fixesAmplitude) + ", frequency " + word(method.fixesFrequency) + ", decay " + word(method.fixesDecay);
+}
+
+std::string inFull(const std::vector<std::string>& names) {
+    std::string words;
+    for (const std::string& name : names) words.append(words.empty() ? "" : "; ").append(inFull(name));
+    return words;
+}
+
 std::string setWords(const StimulusSet& set) {
     if (const auto* patterns = std::get_if<PatternSet>(&set)) return "pulse patterns on " + count(static_cast<std::size_t>(patterns->enchanters), "enchanter");
     if (const auto* grid = std::get_if<GridSet>(&set))
         return "phantoms on a grid of " + std::to_string(grid->columns) + " x " + std::to_string(grid->rows) + " (columns x rows), law " + std::string(nameOf(grid->law)) + ", " +
                numberText(grid->seconds) + " s";
-    std::string words = "calls of physvib by";
+    std::string words = std::holds_alternative<WorldSet>(set) ? "a world that is seen and felt, by" : "calls of physvib by";
     if (const auto* calls = callSetOf(set))
-        for (const StudyFactor& factor : calls->factors) words += (words.ends_with(" by") ? " " : ", ") + factor.name + " (" + count(factor.values.size(), "level") + ")";
+        for (const StudyFactor& factor : calls->factors) words += (words.ends_with(" by") ? " " : ", ") + factor.name + " (" + inFull(factor.values) + ")";
     return words;
 }
 
@@ -95,7 +113,7 @@ std::string sessionWords(const SessionPlan& session) {
     const auto named = [&](const char* what, const auto& items, auto nameOf) {
         for (std::size_t i = 0; i < items.size(); ++i) words += (i ? ", " : std::string("; ") + what + " ") + nameOf(items[i]);
     };
-    named("alternatives", session.alternatives, [](const Alternative& a) { return a.name; });
+    named("alternatives", session.alternatives, [](const Alternative& a) { return inFull(a.name) + (a.levelDb != 0.0 ? " at " + numberText(a.levelDb) + " dB" : std::string{}); });
     named("objects", session.objects, [](const std::string& o) { return o; });
     named("scales (0 to 100)", session.scales, [](const std::string& s) { return s; });
     if (session.staircase)
@@ -111,6 +129,15 @@ std::string sessionWords(const SessionPlan& session) {
     return words;
 }
 
+/// Of a built-in protocol, once and all together.
+void tellDeviations(ReportPage& page, const Protocol& protocol) {
+    std::vector<std::string> lines;
+    for (const ThesisDeviation& one : deviationsOf(protocol)) lines.push_back(std::string{one.section}.append(": ").append(one.thesis).append("; here: ").append(one.here));
+    if (lines.empty()) return;
+    page.subheading("Deviations from the thesis");
+    page.list(lines);
+}
+
 void tellProtocol(ReportPage& page, const Protocol& protocol) {
     page.paragraph("Protocol " + protocol.name + ": " + protocol.title + ". Every participant does each session in each condition; the order of conditions is " +
                    std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + ".");
@@ -121,6 +148,7 @@ void tellProtocol(ReportPage& page, const Protocol& protocol) {
     page.list(conditions);
     page.subheading("Sessions");
     page.list(sessions);
+    tellDeviations(page, protocol);
     if (protocol.sounds.empty()) return;
     std::vector<std::string> sounds;
     for (const StudySoundFile& sound : protocol.sounds) sounds.push_back(numberText(sound.frequencyHz) + " Hz: " + sound.file + (sound.file.starts_with("synthetic-") ? " (nobody recorded it)" : ""));
@@ -178,7 +206,11 @@ void tellDoses(ReportBuilder& report) {
             double sum = 0.0;
             for (const double value : own) sum += value;
             table.cell(key.first).cell(key.second).cell(column).cell(own.size());
-            table.cell(*std::ranges::min_element(own)).cell(sum / static_cast<double>(own.size())).cell(*std::ranges::max_element(own));
+            const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG; // levels follow answers, exposure adds up
+            table.cell(*std::ranges::min_element(own));
+            if (hasMean) table.cell(sum / static_cast<double>(own.size()));
+            else table.cell("");
+            table.cell(*std::ranges::max_element(own));
             table.endRow();
             isFilled = true;
         }
@@ -191,26 +223,78 @@ void tellDoses(ReportBuilder& report) {
     if (!measuresExposure) report.page.note("exposure was not measured in these trials");
 }
 
+/// "6 female, 5 male, 1 not known": how often each word occurs.
+std::string countsOf(const std::vector<const PersonFacts*>& people, std::string PersonFacts::*field) {
+    std::map<std::string, std::size_t> counts;
+    for (const PersonFacts* const person : people) ++counts[person->*field];
+    std::string words;
+    for (const auto& [word, number] : counts)
+        if (!word.empty()) words.append(words.empty() ? "" : ", ").append(std::to_string(number)).append(" ").append(word);
+    if (counts.contains("") && !words.empty()) words += ", " + std::to_string(counts.at("")) + " not known";
+    return words;
+}
+
+/// What was given beside the trials, of those whose trials count; what was not is to be filled in.
+void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, Attended>>& attended) {
+    const StudyFacts& facts = report.trials.facts;
+    std::vector<const PersonFacts*> people;
+    std::vector<double> ages;
+    std::vector<std::string> notes;
+    for (const auto& [code, own] : attended) {
+        const PersonFacts* const person = facts.person(code);
+        if (person == nullptr && !facts.people.empty()) notes.push_back("nothing is known of participant " + code + ": no line in the table of people");
+        if (person == nullptr || !person->excluded.empty()) continue;
+        people.push_back(person);
+        if (person->ageYears) ages.push_back(*person->ageYears);
+    }
+    for (const PersonFacts& person : facts.people)
+        if (std::ranges::find(attended, person.participant, &std::pair<std::string, Attended>::first) == attended.end()) notes.push_back("participant " + person.participant + " of the table of people has no trials here");
+    const Moments moments{ages};
+    if (!ages.empty())
+        report.page.paragraph("Age: mean " + fixedNumber(moments.mean, 1) + " years, standard deviation " + fixedNumber(moments.deviation, 1) + ", " + numberText(*std::ranges::min_element(ages)) + " to " +
+                              numberText(*std::ranges::max_element(ages)) + " (" + std::to_string(ages.size()) + " of " + std::to_string(people.size()) + " known).");
+    if (const std::string words = countsOf(people, &PersonFacts::sex); !words.empty()) report.page.paragraph("Sex: " + words + ".");
+    if (const std::string words = countsOf(people, &PersonFacts::handedness); !words.empty()) report.page.paragraph("Handedness: " + words + ".");
+    if (!facts.ethics.empty()) report.page.paragraph("Ethics: " + facts.ethics);
+    if (!facts.consent.empty()) report.page.paragraph("Consent: " + facts.consent);
+    if (facts.people.empty()) notes.emplace_back("to be filled in: age, sex and handedness of the participants (--people)");
+    if (facts.ethics.empty()) notes.emplace_back("to be filled in: approval by an ethics board (--ethics)");
+    if (facts.consent.empty()) notes.emplace_back("to be filled in: consent of the participants (--consent)");
+    if (!report.isSimulated() || !facts.people.empty()) report.page.notes(notes);
+}
+
 } // namespace
 
 void tellParticipants(ReportBuilder& report) {
     report.page.heading("Participants");
     const auto people = attendance(report.trials);
-    ExportTable table{"participants", report.isSimulated(), "participant,number,observer,trials,training_trials,unanswered,median_response_s"};
+    const StudyFacts& facts = report.trials.facts;
+    ExportTable table{"participants", report.isSimulated(),
+                      std::string{"participant,number,observer,trials,training_trials,unanswered,median_response_s"} + (facts.people.empty() ? "" : ",age,sex,handedness,excluded")};
     std::size_t most = 0;
     for (const auto& [code, own] : people) {
         table.cell(code).cell(own.number).cell(own.observer).cell(own.main).cell(own.training).cell(own.unanswered);
         if (own.seconds.empty()) table.cell("");
         else table.cell(medianOf(own.seconds));
+        if (!facts.people.empty()) {
+            const PersonFacts* const person = facts.person(code);
+            const PersonFacts one = person != nullptr ? *person : PersonFacts{};
+            table.cell(one.ageYears ? numberText(*one.ageYears) : std::string{}).cell(one.sex).cell(one.handedness).cell(one.excluded);
+        }
         table.endRow();
-        most = std::max(most, own.main);
+        if (!facts.isExcluded(code)) most = std::max(most, own.main);
     }
     report.addTable("participants.csv", table.text());
     report.page.paragraph(count(people.size(), "participant") + " in " + count(report.trials.files.size(), "file") + ".");
+    tellFacts(report, people);
     if (people.size() == 1) report.page.note("one participant: intervals and tests over participants are not possible, and nothing here says anything about other people");
     report.page.table(table.text(), "participants.csv");
     std::vector<std::string> exclusions;
     for (const auto& [code, own] : people) {
+        if (facts.isExcluded(code)) {
+            exclusions.push_back("participant " + code + " is excluded, with all trials: " + facts.person(code)->excluded);
+            continue;
+        }
         if (own.main < most) exclusions.push_back("participant " + code + " has " + std::to_string(own.main) + " trials, others have up to " + std::to_string(most) + ": tests leave out who lacks a combination of levels");
         if (own.unanswered > 0) exclusions.push_back("participant " + code + ": " + count(own.unanswered, "trial") + " without an answer left out");
     }
@@ -224,6 +308,7 @@ void tellProcedure(ReportBuilder& report) {
     report.page.heading("Procedure");
     if (report.trials.protocol) tellProtocol(report.page, *report.trials.protocol);
     else report.page.note(report.trials.protocolNote);
+    tellOrders(report);
     tellApparatus(report);
     tellCalls(report);
     tellDoses(report);

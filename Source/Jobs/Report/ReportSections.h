@@ -5,9 +5,11 @@
 
 namespace physvib {
 
-void tellParticipants(ReportBuilder& report); ///< who, how many trials, who is left out
+void tellParticipants(ReportBuilder& report); ///< who, how many trials, who is left out, ethics and consent
 void tellProcedure(ReportBuilder& report);    ///< in the protocol's own words, the calls that made the stimuli, levels, exposure
 void tellApparatus(ReportBuilder& report);   ///< device, levels, noise and limiter, as rows have them
+void tellOrders(ReportBuilder& report);       ///< the orders of conditions as they were run
+void tellPower(ReportBuilder& report);        ///< which differences so many participants can show
 void tellProvenance(ReportBuilder& report);   ///< versions, seeds, files
 
 // What the trials say; each is for trials of one kind of task.

@@ -112,6 +112,15 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
     return trials;
 }
 
+std::string takeFacts(ReportTrials& trials, StudyFacts facts) {
+    trials.facts = std::move(facts);
+    const auto participant = trials.all.column("participant");
+    if (trials.facts.people.empty()) return {};
+    if (!participant) return trials.files.front().name + ": --people: expected a column participant, found none";
+    std::erase_if(trials.all.rows, [&](const CsvRow& row) { return trials.facts.isExcluded(row.cells[*participant]); });
+    return trials.all.rows.empty() ? trials.files.front().name + ": --people: expected a participant who is not excluded, found none" : std::string{};
+}
+
 std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) {
     std::string text = firstLine;
     const auto addRow = [&](const std::vector<std::string>& cells) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The trial files of a report, as one study.
 #pragma once
+#include "Jobs/Report/StudyFacts.h"
 #include "Study/Files/ColumnNames.h"
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
@@ -31,6 +32,7 @@ struct ReportTrials {
     std::size_t rowsLeftOut = 0; ///< with nothing in one of the columns that were asked for
     std::optional<Protocol> protocol{}; ///< that of the files, if it is known
     std::string protocolNote{};         ///< why it is not
+    StudyFacts facts{};                 ///< what the user has given beside the trials
 
     /// A value of the files' first lines if all say the same; else empty.
     std::string common(const std::string& key) const;
@@ -42,6 +44,9 @@ using CallCheck = std::function<std::string(std::string_view call)>;
 /// Of texts by their names. Files of different studies, or with different columns, are refused by name. `protocol`: given by the user; none: a built-in one
 /// is looked for. Any thread.
 Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, std::string>>& texts, const std::vector<ColumnName>& columns, const std::optional<Protocol>& protocol, const CallCheck& callFault = {});
+
+/// Takes the facts, and the rows of those who are excluded out of `all` (the files keep theirs); empty, or one line if nobody is left. Any thread.
+std::string takeFacts(ReportTrials& trials, StudyFacts facts);
 
 /// All rows as one table, with that first line. Touches of a training without an answer are left out. Any thread.
 std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine);

@@ -41,14 +41,28 @@ const ChoiceSummary* named(const std::vector<ChoiceSummary>& all, const std::str
 
 ChartValue shareValue(const ChoiceShare& share) { return {100.0 * share.share, 100.0 * share.least, 100.0 * share.most}; }
 
+/// The p of all bars of a figure, corrected by Holm for their number.
+TestReport correctedOver(const std::vector<const ChoiceSummary*>& summaries) {
+    TestReport report;
+    for (const ChoiceSummary* summary : summaries) {
+        TestLine& line = report.lines.emplace_back();
+        line.effect = summary->condition;
+        line.p = summary->p;
+    }
+    correctForNumber(report, Correction::holm);
+    return report;
+}
+
 /// A bar per alternative and summary; the first alternative's bar is marked if two differ from one half.
 std::string shareChart(ReportBuilder& report, const std::string& title, const std::string& words, const std::vector<std::string>& groups, const std::vector<const ChoiceSummary*>& summaries) {
     BarChart chart{{report.chartName(), title, report.isSimulated()}, words, "chosen (%)", groups, {}};
     for (const ChoiceShare& share : summaries.front()->shares) chart.series.push_back({share.alternative, {}});
-    for (const ChoiceSummary* summary : summaries)
+    const TestReport corrected = correctedOver(summaries);
+    for (std::size_t i = 0; i < summaries.size(); ++i)
         for (std::size_t s = 0; s < chart.series.size(); ++s) {
-            chart.series[s].bars.push_back(shareValue(summary->shares[s]));
-            if (s == 0) chart.series[s].marks.push_back(summary->p && *summary->p < 0.05 ? significanceMark(*summary->p) : "");
+            chart.series[s].bars.push_back(shareValue(summaries[i]->shares[s]));
+            const auto& p = corrected.lines[i].pCorrected;
+            if (s == 0) chart.series[s].marks.push_back(p && *p < 0.05 ? significanceMark(*p) : "");
         }
     chart.most = 100.0;
     chart.reference = {100.0 / static_cast<double>(chart.series.size()), "chance"};
@@ -171,7 +185,7 @@ void tellChoices(ReportBuilder& report) {
     std::string names;
     for (const auto& [name, values] : factors) names.append(names.empty() ? "all; by " : ", ").append(name);
     report.page.figure({shareChart(report, "Shares of the alternatives", names.empty() ? "condition" : names, groups, chosen)},
-                       "Mean of the participants' shares (as thesis Fig. 5.8, which has medians), 95 % intervals over participants. Marks: signed ranks of the shares against one half, * p < 0.05, ** p < 0.01, *** p < 0.001.");
+                       "Mean of the participants' shares (as thesis Fig. 5.8, which has medians), 95 % intervals over participants. Marks: signed ranks of the shares against one half, corrected by Holm for the bars of this figure: * p < 0.05, ** p < 0.01, *** p < 0.001.");
     if (summaries.front().shares.size() != 2) return;
     const std::string alternative = summaries.front().shares.front().alternative;
     tellChoiceTests(report, factors, alternative);
@@ -210,7 +224,7 @@ void tellRatings(ReportBuilder& report) {
         report.test("pairs", test, "pairs-" + fileWord(scales[s]) + ".csv", true);
     }
     if (hasMethods)
-        report.page.figure(factorCharts(report, scales, summaries, tests), "Mean scores by factor (as thesis Fig. 5.13), 95 % intervals over participants. Marks: main effect in the analysis of variance, *** p < 0.001, ** p < 0.01, * p < 0.05.");
+        report.page.figure(factorCharts(report, scales, summaries, tests), "Mean scores by factor (as thesis Fig. 5.13), 95 % intervals over participants. Marks: main effect in the analysis of variance of that scale (two levels each, so no pairs are to be compared; not corrected across scales), *** p < 0.001, ** p < 0.01, * p < 0.05.");
     report.page.figure({conditionsChart(report, scales, summaries, conditions)}, "Mean scores by condition (as thesis Fig. 5.14), 95 % intervals over participants.");
 }
 

@@ -51,6 +51,7 @@ StudyReport studyReport(const ReportTrials& trials) {
         report.page.note(made.notes.back());
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
+    tellPower(report);
     tellProvenance(report);
     made.files = report.tables();
     made.files["report.R"] = reportScript(report);

@@ -4,8 +4,10 @@
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace physvib {
@@ -13,14 +15,17 @@ namespace physvib {
 /// A column of ours, and what a table calls it.
 struct ColumnName {
     std::string ours, theirs;
+    std::optional<std::pair<double, double>> range{}; ///< the table's numbers that are 0 and 1 here; none: cells stay as they are
     bool operator==(const ColumnName&) const = default;
 };
 
-/// Of words like `response=key_resp.keys`, each of ours once; or one line on the first that is none. Any thread.
+/// Of words like `response=key_resp.keys` or, of places, `x=touch_x:0:1230` (0 is the left edge, 1230 the right one), each of ours once; or one
+/// line on the first that is none. Any thread.
 Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words);
 
 /// Makes `table` one of the named columns alone, under our names; `observer` stays, as it may mark a simulation. Rows with nothing in one of the
-/// columns (instructions, fixations, trials without an answer) are left out and counted. What is wrong: a line; empty names: nothing happens. Any thread.
+/// columns (instructions, fixations, trials without an answer) are left out and counted. Columns target_x and target_y (true places, as numbers) become
+/// target_column and target_row, in their order from 1. What is wrong: a line; empty names: nothing happens. Any thread.
 std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut);
 
 } // namespace physvib

@@ -16,6 +16,8 @@
 #include "Study/Files/TrialColumns.h"
 #include "Study/CallWords.h"
 #include "Scene/SceneRanges.h"
+#include <algorithm>
+#include <iterator>
 
 namespace physvib {
 
@@ -76,6 +78,14 @@ std::string protocolHash(const Protocol& protocol) {
 const std::vector<Protocol>& builtInProtocols() {
     static const std::vector<Protocol> protocols = readEmbedded(embeddedProtocols(), readProtocol);
     return protocols;
+}
+
+std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol) {
+    const auto& known = builtInProtocols();
+    std::vector<ThesisDeviation> own;
+    if (std::ranges::find(known, protocol) != known.end())
+        std::ranges::copy_if(thesisDeviations, std::back_inserter(own), [&](const ThesisDeviation& one) { return one.protocol == protocol.name; });
+    return own;
 }
 
 std::string besideProtocol(const std::string& folder, const std::string& path) {

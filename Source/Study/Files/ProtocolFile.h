@@ -3,6 +3,7 @@
 #pragma once
 #include "Io/Result.h"
 #include "Study/Protocol.h"
+#include "Study/ThesisDeviations.h"
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ std::string protocolHash(const Protocol& protocol);
 
 /// Those that come with PhysVib, in the order of their listing. Built on first use; any thread.
 const std::vector<Protocol>& builtInProtocols();
+
+/// Where it does not do what the thesis' study did; none if it is no built-in protocol, or a changed one. Any thread (allocates).
+std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol);
 
 /// A file that a protocol names: the one beside the protocol, if it is there, else the one of that path. M only.
 std::string besideProtocol(const std::string& folder, const std::string& path);

@@ -59,7 +59,7 @@ int write(const std::filesystem::path& folder, const std::map<std::string, std::
 }
 
 int reportThesis(const ReportOptions& o) {
-    if (o.job.wantsBids || !o.protocol.empty() || !o.columnWords.empty()) return leave(exitUsage, "report thesis: expected no --bids, --protocol or --columns (a file of that name is ./thesis)");
+    if (o.job.wantsBids || !o.protocol.empty() || !o.columnWords.empty() || !o.job.peoplePath.empty() || !o.job.ethics.empty() || !o.job.consent.empty()) return leave(exitUsage, "report thesis: expected no --bids, --protocol, --people, --ethics, --consent or --columns (a file of that name is ./thesis)");
     const auto files = thesisReport();
     if (const int code = write(o.job.folder, files, {}); code != exitDone) return code;
     tellIfSimulated(true);
@@ -72,6 +72,9 @@ void declareReport(OptionTable& command, ReportOptions& o) {
     command.add("--out", o.job.folder, "the folder: index.html, tables, report.R").required().as("FOLDER");
     command.add("--protocol", o.protocol, "the study's protocol, if it is no built-in one").as("PROTOCOL.json");
     command.add("--bids", o.job.wantsBids, "also the trials as a BIDS dataset, in the folder bids");
+    command.add("--people", o.job.peoplePath, "who took part: participant and any of age, sex, handedness, excluded (why all trials of a participant are left out)").as("PEOPLE.csv");
+    command.add("--ethics", o.job.ethics, "sentence on the approval by an ethics board").as("WORDS");
+    command.add("--consent", o.job.consent, "sentence on the participants' consent").as("WORDS");
     declareColumns(command, o.columnWords);
 }
 
@@ -90,6 +93,7 @@ int runReport(ReportOptions& o) {
     if (!report) return leave(exitFailed, report.error);
     std::vector<std::string> inputs = o.job.files;
     if (!o.protocol.empty()) inputs.push_back(o.protocol);
+    if (!o.job.peoplePath.empty()) inputs.push_back(o.job.peoplePath);
     if (const int code = write(o.job.folder, report.value.files, inputs); code != exitDone) return code;
     for (const std::string& note : report.value.notes) warn(note);
     tellIfSimulated(report.value.isSimulated);

@@ -105,8 +105,10 @@ int check(const StudyOptions& o) {
     auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
     if (auto fault = takeSounds(o.sounds, protocol.value); !fault.empty()) return leave(exitFailed, fault);
+    if (auto fault = protocolFault(protocol.value, o.protocol); !fault.empty()) return leave(exitFailed, fault);
     const StudyCheck found = checkStudy(protocol.value, o.participants);
-    std::cout << found.text;
+    if (const int code = writeStudyFiles({StudyFile{o.pagePath, [&] { return htmlOf(found, protocol.value); }}}); code != exitDone) return code;
+    std::cout << textOf(found, protocol.value);
     return found.errors.empty() ? exitDone : exitFailed;
 }
 
@@ -142,6 +144,7 @@ void declareStudy(OptionTable& command, StudyOptions& o) {
     run.add("--participant", o.participant, "code of the participant; no other personal data is kept").as("CODE");
     run.add("--number", o.number, "number of the (first) participant: decides orders").in(1, 100000);
     run.add("--participants", o.participants, "how many, one after the other").in(1, 1000);
+    check.add("--page", o.pagePath, "the check as a page of HTML").written("FILE.html");
     check.add("--participants", o.participants, "whose orders are looked at").in(1, 1000);
     for (OptionTable* const one : {&run, &check}) addSounds(*one, o.sounds, "for a protocol that calls render --method SV: the recorded contact of the material of that frequency; may be repeated");
     run.add("--out", o.folder, "folder of the trial files, NAME-CODE.csv").as("FOLDER");

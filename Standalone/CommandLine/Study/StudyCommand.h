@@ -20,6 +20,7 @@ struct StudyOptions {
     RecordedSounds sounds; ///< instead of the protocol's of that frequency
     std::vector<std::string> trials; ///< levels: files of those who set them
     std::string levelsPath;          ///< levels: where they are written
+    std::string pagePath;            ///< check: the page of HTML; empty: none
     double paceSeconds = 0.0; ///< per trial, to watch it or to interrupt it
 };
 
