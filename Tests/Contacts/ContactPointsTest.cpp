@@ -228,6 +228,36 @@ TEST_F(ContactPoints, ALandingOnWhatIsSupportedIsThatOfTheWhole) {
     EXPECT_EQ(feed.moved(body, {}), "step: expected to be within one");
 }
 
+// A box of 1 kg that carries two of its kind: the engine says that it gave 3 m v and what gravity adds; at one corner, and at two.
+TEST_F(ContactPoints, WhatCarriesOthersIsStruckByAllThatTheEnginePushes) {
+    constexpr double speed = 3.0;
+    const auto felt = [&](int points, bool isPushWhole, double pushed) {
+        set(1.0, 0.0);
+        move({0.0F, 0.25F}, {0.0F, -static_cast<float>(speed)});
+        begin();
+        for (int i = 0; i < points; ++i) {
+            FedContact contact = at(points == 1 ? 0.0F : static_cast<float>(i) - 0.5F, points == 1 ? FedPoints::none : i);
+            contact.isSoft = true;
+            contact.isPushWhole = isPushWhole;
+            contact.impulseNewtonSeconds = pushed / points;
+            contact.fraction = 0.0;
+            touch(contact);
+        }
+        end();
+        begin(); // it bounces
+        end();
+        const auto all = events();
+        return all.size() == 1 ? all[0].source.impulseNewtonSeconds : -1.0 - static_cast<double>(all.size());
+    };
+    for (const int points : {1, 2}) {
+        SCOPED_TRACE(points);
+        EXPECT_NEAR(felt(points, true, 3.0 * (speed + g * dt)), 3.0 * speed, 1e-3);
+        EXPECT_NEAR(felt(points, true, 1.1 * speed), speed, 1e-3) << "pushes also move overlaps apart";
+        EXPECT_NEAR(felt(points, true, 0.2), speed, 1e-3) << "it takes several steps";
+        EXPECT_NEAR(felt(points, false, 3.0 * speed), speed, 1e-3) << "nobody said that this is all of it";
+    }
+}
+
 TEST_F(ContactPoints, OfNumbersBelowTwoAndImpulsesThatAreMissingAreRefused) {
     set(2.0, 0.0);
     begin();
