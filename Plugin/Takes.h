@@ -165,7 +165,7 @@ private:
     bool canMake_ = true; // until it fails, then from the next settings on
     int sampleRateHz_ = 0, blockFrames_ = 0; // 0: not prepared; they change while nobody renders
     double knownAfterSeconds_ = 0.0;         // as they do
-    bool hasMusic_ = false;                  // as they do
+    std::atomic<bool> hasMusic_{false};      // as they do; a take that was built beside a change is built again
     std::condition_variable workToDo_;
 
     std::atomic<Take*> spare_{nullptr};

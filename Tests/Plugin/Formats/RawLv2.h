@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least an LV2 host can be: one instance of the module of four channels, its ports, blocks. Does only what it is told.
+// The least an LV2 host can be: one instance of a module of four channels, its ports, blocks. Does only what it is told.
 #pragma once
 #include "Parameters.h"
 #include <array>
@@ -23,9 +23,11 @@ public:
     static constexpr std::size_t channels = 4;
     enum Port : std::uint32_t { input = channels, output, latencyOut, freeWheeling, isEnabled, firstControl };
 
-    /// `nominal` 0: not told, as some hosts do.
-    RawLv2(int largestBlock, int nominal, double rate = 48000.0) {
-        module_ = dlopen(PHYSVIB_PLUGINS "/PhysVib.lv2/PhysVib.so", RTLD_NOW | RTLD_LOCAL);
+    /// `nominal` 0: not told, as some hosts do. `hasMusic`: the module with two ports for music.
+    RawLv2(int largestBlock, int nominal, double rate = 48000.0, bool hasMusic = false) {
+        const std::string name = hasMusic ? "PhysVib-Music" : "PhysVib", bundle = PHYSVIB_PLUGINS "/" + name + ".lv2/";
+        if (hasMusic) uri_ += ":music";
+        module_ = dlopen((bundle + name + ".so").c_str(), RTLD_NOW | RTLD_LOCAL);
         if (!module_) return;
         descriptor_ = reinterpret_cast<const LV2_Descriptor* (*)(std::uint32_t)>(dlsym(module_, "lv2_descriptor"))(0);
         largest_ = largestBlock;
@@ -37,20 +39,25 @@ public:
         options_ = {largestOption, nominal > 0 ? nominalOption : end, end};
         features_ = {LV2_Feature{LV2_URID__map, &map_}, {LV2_BUF_SIZE__boundedBlockLength, nullptr}, {LV2_OPTIONS__options, options_.data()}};
         const LV2_Feature* const features[]{&features_[0], &features_[1], &features_[2], nullptr};
-        handle_ = descriptor_->instantiate(descriptor_, rate, PHYSVIB_PLUGINS "/PhysVib.lv2/", features);
+        handle_ = descriptor_->instantiate(descriptor_, rate, bundle.c_str(), features);
         if (!handle_) return;
+        const std::uint32_t inputs = hasMusic ? 2 : 0;
+        for (std::uint32_t c = 0; c < inputs; ++c) {
+            music[c].assign(static_cast<std::size_t>(largestBlock), 0.0f);
+            descriptor_->connect_port(handle_, c, music[c].data());
+        }
         for (std::uint32_t c = 0; c < channels; ++c) {
             out[c].assign(static_cast<std::size_t>(largestBlock), 0.0f);
-            descriptor_->connect_port(handle_, c, out[c].data());
+            descriptor_->connect_port(handle_, inputs + c, out[c].data());
         }
-        descriptor_->connect_port(handle_, input, in_.data());
-        descriptor_->connect_port(handle_, output, told_.data());
-        descriptor_->connect_port(handle_, latencyOut, &latency);
-        descriptor_->connect_port(handle_, freeWheeling, &offline);
-        descriptor_->connect_port(handle_, isEnabled, &enabled);
+        descriptor_->connect_port(handle_, inputs + input, in_.data());
+        descriptor_->connect_port(handle_, inputs + output, told_.data());
+        descriptor_->connect_port(handle_, inputs + latencyOut, &latency);
+        descriptor_->connect_port(handle_, inputs + freeWheeling, &offline);
+        descriptor_->connect_port(handle_, inputs + isEnabled, &enabled);
         for (std::size_t p = 0; p < parameterCount; ++p) {
             controls[p] = static_cast<float>(allParameters()[p].initial);
-            descriptor_->connect_port(handle_, firstControl + static_cast<std::uint32_t>(p), &controls[p]);
+            descriptor_->connect_port(handle_, inputs + firstControl + static_cast<std::uint32_t>(p), &controls[p]);
         }
         choose(0);
     }
@@ -64,7 +71,7 @@ public:
         const auto* const state = static_cast<const LV2_State_Interface*>(descriptor_->extension_data(LV2_STATE__interface));
         const auto retrieve = [](LV2_State_Handle host, std::uint32_t key, std::size_t* size, std::uint32_t* type, std::uint32_t* flags) -> const void* {
             auto& self = *static_cast<RawLv2*>(host);
-            if (key != self.idOf("urn:physvib:plugin:Program")) return nullptr;
+            if (key != self.idOf(self.uri_ + ":Program")) return nullptr;
             *size = sizeof self.program_;
             *type = self.idOf(LV2_ATOM__Int);
             *flags = LV2_STATE_IS_POD;
@@ -103,6 +110,7 @@ public:
         float value;           // in its unit
     };
     std::vector<Point> points; ///< of the next block, in frame order
+    std::array<std::vector<float>, 2> music; ///< of the next block, where there are ports for it
     std::array<std::vector<float>, channels> out;
     std::array<float, parameterCount> controls{}; ///< the parameters' ports, each in its unit
     float latency = 0.0f, offline = 1.0f, enabled = 1.0f;
@@ -123,7 +131,7 @@ private:
         set.event.body = {static_cast<std::uint32_t>(sizeof set - sizeof set.event), idOf(LV2_ATOM__Object)};
         set.object = {0, idOf(LV2_PATCH__Set)};
         set.property = {idOf(LV2_PATCH__property), 0, {sizeof(LV2_URID), idOf(LV2_ATOM__URID)}};
-        set.propertyId = idOf("urn:physvib:plugin:" + parameter);
+        set.propertyId = idOf(uri_ + ":" + parameter);
         set.value = {idOf(LV2_PATCH__value), 0, {sizeof(float), idOf(LV2_ATOM__Float)}};
         set.number = value;
         std::memcpy(reinterpret_cast<std::byte*>(&to) + sizeof(LV2_Atom) + to.atom.size, &set, sizeof set);
@@ -135,6 +143,7 @@ private:
         uris_.push_back(uri);
         return static_cast<LV2_URID>(uris_.size());
     }
+    std::string uri_ = "urn:physvib:plugin";
     std::vector<std::string> uris_;
     LV2_URID_Map map_{this, [](LV2_URID_Map_Handle host, const char* uri) { return static_cast<RawLv2*>(host)->idOf(uri); }};
     std::array<LV2_Options_Option, 3> options_{};

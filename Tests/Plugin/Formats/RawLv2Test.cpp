@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The LV2 module in a bare host: what JUCE's wrapper leaves out of LV2, and what it must not do.
 #include "Plugin/Formats/RawLv2.h"
+#include "Plugin/PluginTesting.h"
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -132,6 +133,34 @@ TEST(RawLv2, APortThatTheHostDoesNotConnectOrThatHoldsNoNumberIsNone) {
     host.activate();
     for (float& control : host.controls) control = std::numeric_limits<float>::quiet_NaN();
     EXPECT_GT(loudestOf(host.play(300, block)), 0.001f);
+    host.deactivate();
+}
+
+TEST(RawLv2, MusicAtItsTwoPortsIsFeltAsInTheProcessor) {
+    RawLv2 host{block, block, 48000.0, true};
+    ASSERT_TRUE(host.isLoaded());
+    TestHost processor{{BusPlan::Kind::oneBus, 4, true}};
+    processor.plugin->setCurrentProgram(0);
+    for (const auto& row : allParameters()) processor.plugin->parameter(row.parameter).setValue(static_cast<float>(normalised(row, row.initial)));
+    processor.plugin->parameter(Parameter::music).setValue(static_cast<float>(normalised(rowOf(Parameter::music), -3.0)));
+    processor.plugin->parameter(Parameter::musicSides).setValue(1.0f);
+    processor.prepare(48000, block);
+    host.controls[static_cast<std::size_t>(Parameter::music)] = -3.0f;
+    host.controls[static_cast<std::size_t>(Parameter::musicSides)] = 1.0f;
+    host.activate();
+    float left = 0.0f, right = 0.0f;
+    for (int b = 0; b < 60; ++b) {
+        for (int c = 0; c < 2; ++c)
+            for (int n = 0; n < block; ++n) host.music[static_cast<std::size_t>(c)][static_cast<std::size_t>(n)] = c == 0 ? 0.8f * std::sin(0.013f * static_cast<float>(b * block + n)) : 0.0f;
+        for (int c = 0; c < 2; ++c) processor.buffer.copyFrom(c, 0, host.music[static_cast<std::size_t>(c)].data(), block);
+        host.run(block);
+        const auto& expected = processor.block(block);
+        for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::equal(host.out[static_cast<std::size_t>(c)].begin(), host.out[static_cast<std::size_t>(c)].end(), expected.getReadPointer(c))) << b << ' ' << c;
+        left = std::max(left, loudestOf(host.out[0]));
+        right = std::max(right, loudestOf(host.out[1]));
+    }
+    EXPECT_GT(left, 0.1f);
+    EXPECT_LT(right, 0.5f * left) << "the left side is felt on the left";
     host.deactivate();
 }
 

@@ -186,10 +186,10 @@ TEST(RawVst3, PointsOfParametersActAtTheirFramesInBlocksOfAnySize) {
 }
 
 TEST(RawVst3, StandInsOfControllersAreFewAndEachControllerOfEachChannelHasOne) {
-    RawVst3 host{oneBus};
+    RawVst3 host{oneBus, "PhysVib"};
     ASSERT_TRUE(host.isLoaded());
     const auto others = static_cast<std::ptrdiff_t>(parameterCount) + 1; // the program
-    EXPECT_EQ(std::ssize(host.names), others + vst::kCountCtrlNumber + 15 * 4);
+    EXPECT_LE(std::ssize(host.names), others + vst::kCountCtrlNumber + 15 * 4);
     for (const auto& channel : host.standIns) {
         ASSERT_EQ(std::ssize(channel), static_cast<std::ptrdiff_t>(vst::kCountCtrlNumber));
         EXPECT_EQ(std::ranges::count(channel, vst::ParamID{0}), 0);
@@ -199,7 +199,7 @@ TEST(RawVst3, StandInsOfControllersAreFewAndEachControllerOfEachChannelHasOne) {
 }
 
 TEST(RawVst3, ShortTitlesDiffer) {
-    RawVst3 host{oneBus};
+    RawVst3 host{oneBus, "PhysVib"};
     ASSERT_TRUE(host.isLoaded());
     std::set<std::u16string> titles;
     for (std::size_t p = 0; p < parameterCount; ++p) EXPECT_TRUE(titles.insert(host.shortNames[p]).second) << p;
