@@ -56,6 +56,7 @@ FirstStart::FirstStart(Desk& desk, std::vector<FeltChoice> choices)
     notFelt_.onClick = [this] { notFelt(); };
     done_.onClick = [this] { end(true); };
     for (auto* button : {&play_, &without_, &felt_, &louder_, &notFelt_, &done_}) button->setTitle(button->getButtonText()), addChildComponent(button);
+    for (auto* button : {&play_, &felt_}) button->setToggleState(true, juce::dontSendNotification); // what Return does
     for (auto* label : {&title_, &words_}) addAndMakeVisible(label);
     prepareControls(*this);
     setSize(wide, high);

@@ -81,6 +81,7 @@ void drawASlope(Desk& desk, MixerView& view) {
     desk.change("New scene", [](Mix& m) { m.scene = std::make_shared<const Scene>(newScene(*m.scene, SceneGround::floor)), m.levelDb = -3.0; });
     desk.setSlowness(0);
     desk.dispatchPendingMessages();
+    for (int k = 0; k < 10; ++k) juce::Thread::sleep(33), view.refresh(); // until the scene has begun
     const Scene& scene = desk.world().drawing().drawn();
     const auto at = [&](double x, double y) { return Vector{x * scene.fieldWidthMetres, y * scene.fieldHeightMetres}; };
     const auto add = [&](const char* name, Result<BodyDescription> body, int material) {

@@ -61,7 +61,9 @@ void DrawPane::takeMix() {
     const auto& drawing = desk_.world().drawing();
     const auto before = chosen_.size();
     std::erase_if(chosen_, [&](const std::string& name) { return drawing.find(name) == nullptr; });
-    material_ = std::min(material_, std::max(0, static_cast<int>(drawing.drawn().materials.size()) - 1));
+    const auto& materials = drawing.drawn().materials;
+    if (material_ < 0) material_ = static_cast<int>(std::ranges::find_if(materials, [](const Material& m) { return m.frequencyHz > 0.0; }) - materials.begin());
+    if (material_ >= static_cast<int>(materials.size())) material_ = 0;
     if (before != chosen_.size() && onChange) onChange();
     repaint();
 }

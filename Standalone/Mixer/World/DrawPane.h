@@ -73,7 +73,7 @@ private:
     Desk& desk_;
     WorldView& view_;
     DrawTool tool_ = DrawTool::hand;
-    int material_ = 0;
+    int material_ = -1; // at first, the first that sounds
     bool snaps_ = false, isDrawing_ = false;
     std::vector<std::string> chosen_;
     Copied copied_;
