@@ -87,14 +87,15 @@ void drawASlope(Desk& desk, MixerView& view) {
     const auto add = [&](const char* name, Result<BodyDescription> body, int material) {
         body.value.name = name;
         body.value.fixtures[0].material = material;
-        if (startsAsSource(scene, body.value)) setSource(scene, body.value, true);
+        const bool sounds = scene.materials[static_cast<std::size_t>(material)].frequencyHz > 0.0;
+        if (sounds && startsAsSource(scene, body.value)) setSource(scene, body.value, true);
         desk.world().edit(name, SpawnAction{body.value, {}});
     };
-    const int last = static_cast<int>(scene.materials.size()) - 1;
+    const int ringing = static_cast<int>(std::ranges::find_if(scene.materials, [](const Material& m) { return m.frequencyHz > 0.0; }) - scene.materials.begin());
     add("slope", drawnWall(at(0.08, 0.75), at(0.42, 0.5), 0.03 * scene.fieldHeightMetres), 0);
-    add("ball", drawnBall(at(0.14, 0.85), at(0.17, 0.85)), std::min(1, last));
+    add("ball", drawnBall(at(0.14, 0.85), at(0.17, 0.85)), ringing);
     add("plank", drawnBox(at(0.46, 0.32), at(0.78, 0.36)), 0);
-    add("bell", drawnPolygon({at(0.82, 0.3), at(0.94, 0.3), at(0.91, 0.45), at(0.85, 0.45)}), last);
+    add("bell", drawnPolygon({at(0.82, 0.3), at(0.94, 0.3), at(0.91, 0.45), at(0.85, 0.45)}), ringing);
     const auto place = [&](const char* name) { return std::pair{std::string{name}, BodyPlace{desk.world().drawing().find(name)->positionMetres, 0.0}}; };
     if (auto pin = joined(desk.world().drawing(), JointKind::pin, place("floor"), place("plank"), at(0.62, 0.34), at(0.62, 0.34))) desk.world().edit("Pin", pin.value);
     desk.dispatchPendingMessages();
