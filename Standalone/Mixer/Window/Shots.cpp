@@ -7,7 +7,6 @@
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
-#include "Scene/Drawing/DrawnBodies.h"
 #include "Mixer/Studies/StudyShots.h"
 #include "Host/Devices/NoDevice.h"
 #include <functional>
@@ -76,39 +75,10 @@ void showFirstStart(Desk& desk, MixerView& view) {
     view.setFirstStart(std::make_unique<FirstStart>(desk, std::vector<FeltChoice>{{"JACK: system, 8 outputs", none, 8}, {"Game controller: DualSense", none, 2, true}, {"ALSA: Built-in Audio, 2 outputs: headphones, or two actuators", none, 2}, {"No device: seen, not felt", none, 0}}));
 }
 
-// A slope, a ball, a pinned see-saw and a bell, as a person draws them.
-void drawASlope(Desk& desk, MixerView& view) {
-    desk.change("New scene", [](Mix& m) { m.scene = std::make_shared<const Scene>(newScene(*m.scene, SceneGround::floor)), m.levelDb = -3.0; });
-    desk.setSlowness(0);
-    desk.dispatchPendingMessages();
-    for (int k = 0; k < 10; ++k) juce::Thread::sleep(33), view.refresh(); // until the scene has begun
-    const Scene& scene = desk.world().drawing().drawn();
-    const auto at = [&](double x, double y) { return Vector{x * scene.fieldWidthMetres, y * scene.fieldHeightMetres}; };
-    const auto add = [&](const char* name, Result<BodyDescription> body, int material) {
-        body.value.name = name;
-        body.value.fixtures[0].material = material;
-        if (startsAsSource(scene, body.value)) setSource(scene, body.value, true);
-        desk.world().edit(name, SpawnAction{body.value, {}});
-    };
-    const int last = static_cast<int>(scene.materials.size()) - 1;
-    add("slope", drawnWall(at(0.08, 0.75), at(0.42, 0.5), 0.03 * scene.fieldHeightMetres), 0);
-    add("ball", drawnBall(at(0.14, 0.85), at(0.17, 0.85)), std::min(1, last));
-    add("plank", drawnBox(at(0.46, 0.32), at(0.78, 0.36)), 0);
-    add("bell", drawnPolygon({at(0.82, 0.3), at(0.94, 0.3), at(0.91, 0.45), at(0.85, 0.45)}), last);
-    const auto place = [&](const char* name) { return std::pair{std::string{name}, BodyPlace{desk.world().drawing().find(name)->positionMetres, 0.0}}; };
-    if (auto pin = joined(desk.world().drawing(), JointKind::pin, place("floor"), place("plank"), at(0.62, 0.34), at(0.62, 0.34))) desk.world().edit("Pin", pin.value);
-    desk.dispatchPendingMessages();
-    for (int k = 0; k < 6; ++k) juce::Thread::sleep(33), view.refresh(); // until the pin is where it was put
-    desk.setSlowness(1);
-    view.world().drawing().use(DrawTool::choose);
-    view.world().drawing().choose({"plank"});
-}
-
 std::vector<State> mixerStates() {
     return {
         {"first-start", 1440, 900, 2.0, [](Desk& d, MixerView& v) { showFirstStart(d, v); }},
         {"first-test", 1440, 900, 0.2, [](Desk& d, MixerView& v) { showFirstStart(d, v), v.firstStart()->test(4), v.firstStart()->felt(); }},
-        {"draw", 1440, 900, 1.5, drawASlope},
         {"four-enchanters", 1440, 900, 4.0, [](Desk& d, MixerView&) { d.change("Level", [](Mix& m) { m.levelDb = -3.0; }); }},
         {"materials", 1440, 900, 0.2, showMaterials},
         {"materials-small", MixerView::leastWidth, MixerView::leastHeight, 0.2, [](Desk& d, MixerView& v) { v.setGround(Ground::light), showMaterials(d, v); }},
