@@ -3,6 +3,7 @@
 #include "Host/Views/WorldView.h"
 #include "Pictures/ShapeOutline.h"
 #include "Host/Views/DisplayScale.h"
+#include "Host/Views/MaterialTexture.h"
 #include "Scene/World/SceneCast.h"
 #include <juce_audio_basics/juce_audio_basics.h>
 #include <algorithm>
@@ -237,6 +238,15 @@ void WorldView::drawGround(juce::Graphics& g, const Map& at) {
     g.drawImageAt(gains_, field.getX(), field.getY());
 }
 
+bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixture, const juce::Path& path, const juce::AffineTransform& place) const {
+    const auto index = static_cast<std::size_t>(fixture.material);
+    if (!showsMaterials_ || index >= scene_.materials.size()) return false;
+    const auto& material = scene_.materials[index];
+    const auto look = materialLookOf(material.name);
+    if (look) fillWithMaterial(g, path, place, *look, looksHollow(*look, material.densityKgPerSquareMetre));
+    return look.has_value();
+}
+
 void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
     for (std::size_t i = 0; i < cast_.size(); ++i) {
         const auto& body = cast_[i];
@@ -248,7 +258,7 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) const {
             const bool isLine = std::holds_alternative<ChainShape>(fixture.shape);
             g.setColour(palette::material(fixture.material).withMultipliedBrightness(body.type == BodyType::dynamicBody ? 0.95f : 0.62f));
             if (isLine) g.strokePath(path, juce::PathStrokeType{3.0f}, place);
-            else g.fillPath(path, place);
+            else if (!drawMaterial(g, fixture, path, place)) g.fillPath(path, place);
             if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) { // shows the rotation
                 const float r = static_cast<float>(circle->radiusMetres) * at.pixelsPerMetre;
                 juce::Path spoke;

@@ -43,6 +43,8 @@ public:
     void show(const LayoutDescription& layout, const PhantomPanner& panner);
     /// M, a few times a second; repaints what is not as before.
     void update(WorldMoment moment);
+    /// Bodies have the textures of their materials, where these have any; else one colour per material. M.
+    void showMaterials(bool areShown) { showsMaterials_ = areShown, repaint(); }
     /// Behind the bodies: what that enchanter plays of a hit at each place; -1: nothing. M.
     void showGainsOf(int enchanter);
     /// How wide the display is that this is seen on, see screenPixelsPerMetre(). M.
@@ -140,6 +142,7 @@ private:
     void followInputs();
     juce::AffineTransform placeOf(const BodyPose& pose, const Map& at) const;
     juce::AffineTransform placeOf(const FixtureDescription& fixture, const BodyPose& pose, const Map& at) const;
+    bool drawMaterial(juce::Graphics& g, const FixtureDescription& fixture, const juce::Path& path, const juce::AffineTransform& place) const;
     int bodyAt(juce::Point<float> p) const;
     bool isOn(std::size_t body, juce::Point<float> p) const;
     int enchanterAt(juce::Point<float> p) const;
@@ -172,6 +175,7 @@ private:
     std::array<float, limits::maxEnchanters> peaks_{};
     double displayWidthMetres_ = 0.0;
     int shownGains_ = -1, selected_ = -1, footRoom_ = 0;
+    bool showsMaterials_ = false;
     juce::Image gains_;
     Grip grip_;
     std::optional<juce::Point<float>> dropAt_, filesAt_;

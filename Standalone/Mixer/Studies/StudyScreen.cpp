@@ -2,6 +2,7 @@
 // From page to page; what keys do.
 #include "Mixer/Studies/StudyScreen.h"
 #include "Jobs/LayoutNamed.h"
+#include "Scene/SceneEdits.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Mixer/Window/Parts.h"
 
@@ -53,7 +54,8 @@ StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Wor
     , sound_{desk}
     , pane_{desk}
     , squaresBefore_{squareGSecondsOf(study_->exposureToday()) - desk.exposure().squareGSeconds()}
-    , answers_{say_} {
+    , answers_{say_}
+    , markers_{study_->protocol().name} {
     setTitle("Study");
     setOpaque(true);
     setWantsKeyboardFocus(true);
@@ -133,6 +135,7 @@ void StudyScreen::showTrial() {
     answer->onChange = [this] { refresh(); };
     if (isExploring()) answer->mark(experiment().explored());
     answers_.show(std::move(answer));
+    if (worldSet() != nullptr) previewWorld();
     answers_.setVisible(true);
     next_.setVisible(false);
     pane_.setVisible(worldSet() != nullptr);
@@ -143,6 +146,13 @@ void StudyScreen::showTrial() {
     refresh();
     repaint();
     if (isShowing()) grabKeyboardFocus();
+}
+
+/// The world of the first button stands still until it is felt.
+void StudyScreen::previewWorld() {
+    const auto jobs = jobsOf(study_->protocol(), {experiment().trial(), answers_->answer()});
+    const auto world = feltWorld(std::get<WrittenCall>(jobs.front()), study_->protocol().folder);
+    if (world) pane_.preview(hasHands() ? sceneForHands(world.value.setup.scene) : world.value.setup.scene);
 }
 
 void StudyScreen::showParts() {

@@ -2,7 +2,9 @@
 // The window as a participant sees it: breaks, stimuli to be felt, the answer, the end. What is asked and what is kept is
 // StudyInProgress' business: this is only somebody who answers.
 #pragma once
+#include "Host/Views/MaterialTexture.h"
 #include "Jobs/StudyRun.h"
+#include "Mixer/Studies/StudyMarkers.h"
 #include "Mixer/Studies/StudySound.h"
 #include "Mixer/Studies/StudyWorldPane.h"
 #include "Mixer/Studies/StudyAnswerPane.h"
@@ -40,6 +42,7 @@ private:
     void showPage(Page page);
     void showTrial();
     void showParts();
+    void previewWorld();
     void fail(const std::string& reason);
     void goOn();
     void leave();
@@ -52,6 +55,8 @@ private:
     void take(Answer answer);
     void takeComment();
     void noteFelt();
+    void markFelt();
+    std::string markerWords(const char* what) const;
     double exposure() const;
     bool isExposed() const { return exposure() >= study_->protocol().exposureLimit; }
     bool isExploring() const;
@@ -66,6 +71,8 @@ private:
     void updateParts();
     void updatePause();
     void placeTrial(juce::Rectangle<int> area);
+    void drawMaterials(juce::Graphics& g) const;
+    std::vector<MaterialLegend> materialsSeen() const; ///< of the session's worlds, by the names of stimuli and objects
     juce::String headline() const, body() const, progressWords() const;
     const Experiment& experiment() const noexcept { return study_->experiment(); }
 
@@ -76,6 +83,8 @@ private:
     StudyWorldPane pane_;
     const double squaresBefore_; // of the participant's day, in g^2 s, without what the desk sums up from now on
     StudyAnswerPane answers_;
+    StudyMarkers markers_;
+    bool isToBeMarked_ = false; ///< a part was begun, and its marker is not out yet
     std::unique_ptr<juce::Component> elsewhere_; // the answers' own window
     Page page_ = Page::pause;
     std::string fault_;

@@ -33,6 +33,8 @@ void StudyScreen::play(std::size_t part) {
     progress_->played(part);
     part_ = part;
     counted_ = 0.0;
+    isToBeMarked_ = true;
+    markFelt();
     if (hasHands()) resized();
     refresh();
 }
@@ -85,6 +87,20 @@ void StudyScreen::confirm() {
     if (answers_->isComplete() && canAnswer()) take(answers_->answer());
 }
 
+/// "felt;condition=PHONE;session=main;trial=3;stimulus=2,2;part=1": of the trial at hand.
+std::string StudyScreen::markerWords(const char* what) const {
+    const Trial& trial = experiment().trial();
+    return std::string{what} + ";condition=" + experiment().condition().name + ";session=" + experiment().session().name + ";trial=" + std::to_string(trial.number) + ";stimulus=" + trial.stimulus;
+}
+
+// A stimulus' time is known when it is handed over, a world's when it is first felt.
+void StudyScreen::markFelt() {
+    if (!isToBeMarked_ || (worldSet() != nullptr && pane_.world().feltSeconds() <= 0.0)) return;
+    isToBeMarked_ = false;
+    const double fromNow = worldSet() != nullptr ? -pane_.world().feltSeconds() : sound_.startsInSeconds();
+    markers_.push(markerWords("felt") + ";part=" + (experiment().trial().parts.empty() ? std::string{"1"} : experiment().trial().parts[part_]), fromNow);
+}
+
 /// Of the part that was felt last, before another is.
 void StudyScreen::noteFelt() {
     desk_.exposure().update();
@@ -104,6 +120,7 @@ void StudyScreen::take(Answer answer) {
     answer.seconds = std::round(nowMs() - firstFeltMs_) * 1e-3;
     answer.sessions = sessions_;
     const auto session = experiment().sessionNumber();
+    markers_.push(markerWords("answer") + ";response=" + answer.response);
     if (!study_->take(std::move(answer))) return fail(study_->error());
     const bool staysOpen = !experiment().isDone() && isExploring() && experiment().sessionNumber() == session && experiment().trial().restSeconds <= 0.0 && !isExposed();
     if (!staysOpen) return showNext();
@@ -123,6 +140,7 @@ void StudyScreen::updateTrial() {
     const bool wasFeeling = isFeeling();
     if (wasFeeling) limiterDb_ = std::max(limiterDb_, -toDecibels(std::max(1e-6, static_cast<double>(desk_.session().status().render.limiterGain))));
     pane_.refresh();
+    markFelt();
     if (wasFeeling && !isFeeling()) resized();
     if (!pane_.world().fault().empty()) return fail(pane_.world().fault());
     playWanted();

@@ -73,7 +73,9 @@ juce::String StudyScreen::headline() const {
 
 juce::String StudyScreen::body() const {
     switch (page_) {
-    case Page::trial: return desk_.isSilent() ? say_("Everything is silent. Esc: feel again.") : desk_.trouble();
+    case Page::trial:
+        if (desk_.isSilent()) return say_("Everything is silent. Esc: feel again.");
+        return desk_.trouble().isNotEmpty() ? juce::String{desk_.trouble()} : say_.instruction(experiment().session(), experiment().condition()).replace("\n", " ");
     case Page::comment: return say_("In your own words, if you like.");
     case Page::done: return say_("Your answers are in") + "\n" + utf8(study_->path().string());
     case Page::exposed:
@@ -114,9 +116,41 @@ void StudyScreen::paint(juce::Graphics& g) {
     g.setColour(shade(*this, Shade::text));
     g.setFont(juce::Font{page_ == Page::trial ? text::large : 30.0f, juce::Font::bold});
     g.drawFittedText(headline(), questionArea_, juce::Justification::centred, 2, 1.0f);
-    g.setColour(shade(*this, page_ == Page::trial ? Shade::limit : Shade::muted));
+    const bool isTrouble = page_ == Page::trial && (desk_.isSilent() || desk_.trouble().isNotEmpty());
+    g.setColour(shade(*this, isTrouble ? Shade::limit : Shade::muted));
     g.setFont(juce::Font{page_ == Page::trial ? text::medium : text::large});
-    g.drawFittedText(body(), bodyArea_, juce::Justification::centred, 5, 1.0f);
+    g.drawFittedText(body(), bodyArea_, juce::Justification::centred, page_ == Page::trial ? 2 : 5, 1.0f);
+    if (page_ == Page::pause) drawMaterials(g);
+}
+
+// On the page before a session: what will be seen, by name.
+void StudyScreen::drawMaterials(juce::Graphics& g) const {
+    const auto legends = materialsSeen();
+    if (legends.empty()) return;
+    constexpr int swatch = 48, height = 76;
+    const int width = std::min(190, (getWidth() - 2 * inset) / static_cast<int>(legends.size()));
+    auto row = juce::Rectangle<int>{inset, next_.getBottom() + 24, getWidth() - 2 * inset, height}.withSizeKeepingCentre(width * static_cast<int>(legends.size()), height);
+    if (row.getBottom() > getHeight()) return;
+    g.setFont(juce::Font{text::medium});
+    for (const MaterialLegend& legend : legends) {
+        auto cell = row.removeFromLeft(width);
+        juce::Path shape;
+        shape.addRectangle(-0.5f * swatch, -0.5f * swatch, 1.0f * swatch, 1.0f * swatch);
+        fillWithMaterial(g, shape, juce::AffineTransform::translation(cell.removeFromTop(swatch).getCentre().toFloat()), legend.look, legend.isHollow);
+        g.setColour(shade(*this, Shade::text));
+        g.drawFittedText(say_(std::string{legend.words}), cell, juce::Justification::centred, 1, 1.0f);
+    }
+}
+
+std::vector<MaterialLegend> StudyScreen::materialsSeen() const {
+    if (experiment().isDone() || !std::holds_alternative<WorldSet>(experiment().condition().stimuli)) return {};
+    std::string names;
+    for (const StimulusItem& item : stimuliOf(experiment().condition())) names += item.label + " ";
+    for (const std::string& object : experiment().session().objects) names += object + " ";
+    std::vector<MaterialLegend> seen;
+    for (const MaterialLegend& legend : materialLegends)
+        if (names.find(legend.stands) != std::string::npos) seen.push_back(legend);
+    return seen;
 }
 
 void StudyScreen::resized() {
@@ -136,7 +170,7 @@ void StudyScreen::resized() {
 
 void StudyScreen::placeTrial(juce::Rectangle<int> area) {
     questionArea_ = area.removeFromTop(40);
-    bodyArea_ = area.removeFromTop(24);
+    bodyArea_ = area.removeFromTop(40);
     if (!parts_.empty()) {
         auto row = area.removeFromTop(partHeight);
         const int count = static_cast<int>(parts_.size()) + (hasHands() ? 1 : 0), width = std::min(partWidth, row.getWidth() / count);

@@ -86,6 +86,8 @@ bool StudySound::isPlaying() const { return seconds_ > 0.0 && nowMs() < beganAtM
 
 double StudySound::feltSeconds() const { return std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_); }
 
+double StudySound::startsInSeconds() const { return 1e-3 * (beganAtMs_ - nowMs()); }
+
 void StudySound::stop() {
     post(Kind::stopAll, 0, 0.0f);
     for (int j = 0; j < desk_.mix().count(); ++j) post(Kind::mute, j, 1.0f);

@@ -24,6 +24,7 @@ public:
     std::string play(const FeltStimulus& stimulus);
     bool isPlaying() const;
     double feltSeconds() const; ///< of the last one, so far
+    double startsInSeconds() const; ///< until the last one is felt; below 0: it has been
     /// What rings fades out, and what is to come is mute until the desk is given back.
     void stop();
 

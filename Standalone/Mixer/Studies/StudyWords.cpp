@@ -36,7 +36,7 @@ juce::String StudyWords::feel(const SessionPlan& session) const {
 juce::String StudyWords::instruction(const SessionPlan& session, const ConditionPlan& condition) const {
     const StudyWords& say = *this;
     if (const auto* world = std::get_if<WorldSet>(&condition.stimuli); world != nullptr && world->hasHands)
-        return say("The numbers show one world each: drag what moves in it, and tilt it with the arrow keys.") + "\n" +
+        return say("The numbers show one world each: drag what moves in it, and tilt it with the arrow keys, each about half of the time.") + "\n" +
                (session.leastSeconds > 0.0 ? say("Play with each for at least {n} s, then pause and answer.", {{"n", number(session.leastSeconds, session.leastSeconds < 1.0 ? 1 : 0)}})
                                            : say("Play with each, then pause and answer."));
     if (session.fewestTouches > 0) return say("Touch the field anywhere and feel that place.") + "\n" + say("Go on for as long as you like; Next ends the training.");

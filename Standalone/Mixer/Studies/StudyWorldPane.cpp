@@ -13,6 +13,7 @@ StudyWorldPane::StudyWorldPane(Desk& desk)
         if (hasHands_) act(ImpulseAction{body, {thesisDrag * screenMetres.x, thesisDrag * screenMetres.y}, point});
     };
     tilt_.onValueChange = [this] { act(TiltAction{tilt_.angleRadians()}); };
+    view_.showMaterials(true); // by which participants expect what they feel
     addAndMakeVisible(view_);
     addChildComponent(tilt_);
 }
@@ -26,10 +27,14 @@ std::string StudyWorldPane::begin(FeltWorld world, bool hasHands, const std::fil
     hasHands_ = hasHands;
     tilt_.setVisible(hasHands);
     tilt_.setValue(0.0, juce::dontSendNotification);
+    preview(world_.scene());
+    return {};
+}
+
+void StudyWorldPane::preview(const Scene& scene) {
     view_.setDisplayWidth(desk_.displayWidthMetres());
     view_.show(Scene{}); // also where the same one begins again
-    view_.show(world_.scene());
-    return {};
+    view_.show(scene);
 }
 
 void StudyWorldPane::refresh() {

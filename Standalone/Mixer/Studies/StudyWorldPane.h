@@ -15,6 +15,8 @@ public:
 
     /// See StudyWorld::begin.
     std::string begin(FeltWorld world, bool hasHands, const std::filesystem::path& file);
+    /// A scene as it will begin, before anything is felt.
+    void preview(const Scene& scene);
     StudyWorld& world() noexcept { return world_; }
     const StudyWorld& world() const noexcept { return world_; }
     WorldView& view() noexcept { return view_; }
