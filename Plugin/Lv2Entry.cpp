@@ -95,7 +95,9 @@ public:
     void read(PluginProcessor& processor) noexcept {
         const bool isOld = std::exchange(states_, processor.stateCount()) != states_;
         for (std::size_t p = 0; p < parameterCount; ++p) {
-            if (!ports_[p] || !std::isfinite(*ports_[p]) || std::exchange(told_[p], *ports_[p]) == *ports_[p] || isOld) continue;
+            if (!ports_[p] || !std::isfinite(*ports_[p]) || std::exchange(told_[p], *ports_[p]) == *ports_[p]) continue;
+            const bool isSilenced = static_cast<Parameter>(p) == Parameter::bypass && *ports_[p] > 0.0f; // counts in any case: hands are attached
+            if (isOld && !isSilenced) continue;
             processor.parameter(static_cast<Parameter>(p)).setByController(static_cast<float>(normalised(allParameters()[p], *ports_[p])));
         }
     }

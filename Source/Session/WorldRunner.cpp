@@ -140,8 +140,11 @@ bool WorldRunner::popOrStep(CollisionEvent& event, std::int64_t endNs) {
     return true;
 }
 
-std::shared_ptr<const Scene> WorldRunner::scene(std::size_t& take) const {
+// Whoever asks has seen the new take begin: what he does acts in it, and is not lost with the old one.
+std::shared_ptr<const Scene> WorldRunner::scene(std::size_t& take) {
     const std::lock_guard lock{mutex_};
+    const std::int64_t restart = restartFrame_.load(std::memory_order_acquire);
+    if (restart < 0 || time_.sessionNs(restart) <= time_.nowNs()) takeUp();
     take = world_.takeCount();
     return world_.take().scene;
 }

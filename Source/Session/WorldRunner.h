@@ -77,7 +77,7 @@ private:
     }
 
     // For the scheduler, who holds the inputs' mutex.
-    std::shared_ptr<const Scene> scene(std::size_t& take) const; // of the take that runs, with its number
+    std::shared_ptr<const Scene> scene(std::size_t& take); // of the take that runs, with its number
     bool addInput(std::size_t take, Action& action);             // false: another one runs
     void strike(std::span<const CollisionEvent> events);
     bool schedule(std::span<const CollisionEvent> events); // false: too many

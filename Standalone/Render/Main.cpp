@@ -86,6 +86,7 @@ RendererSettings settingsOf(const Options& o, const EnchanterLayout& layout, con
                               .panner = {layout, PanningLaw::linear, 1.0,
                                          hasField ? source.widthMetres : layout.extentWidthMetres,
                                          hasField ? source.heightMetres : layout.extentHeightMetres}};
+    settings.panner.setGrains(grainSpread); // as physvib does, where no law is asked for
     const auto set = std::ranges::find(instructionSetNames, o.instructions);
     settings.instructions = static_cast<InstructionSet>(set - instructionSetNames.begin());
     return settings;

@@ -43,8 +43,8 @@ TEST_F(StimulusCommand, TheResonanceIsThatOfTheLayoutsActuators) {
     ASSERT_EQ(call("stimulus pattern AB-100 --layout same.json --frequency resonance --out a.wav").exitCode, 0);
     ASSERT_EQ(call("stimulus pattern AB-100 --layout same.json --frequency 230 --out b.wav").exitCode, 0);
     EXPECT_EQ(read("a.wav"), read("b.wav"));
-    refuses("stimulus pattern AB-100 --layout two.json --frequency resonance --out c.wav", 1, "enchanter R: expected the resonance of the others, 205 Hz, found 230 Hz", 5);
-    refuses("stimulus phantom --at 0,0 --layout none.json --frequency resonance --out c.wav", 1, "enchanter L: expected an actuator, found none", 5);
+    refuses("stimulus pattern AB-100 --layout two.json --frequency resonance --out c.wav", 1, "actuator R: expected the resonance of the others, 205 Hz, found 230 Hz", 5);
+    refuses("stimulus phantom --at 0,0 --layout none.json --frequency resonance --out c.wav", 1, "actuator L: expected an actuator, found none", 5);
     refuses("stimulus phantom --at 0,0 --frequency loud --out c.wav", 2, "--frequency: expected 5 to 20000 Hz, or resonance, found \"loud\"", 5);
 }
 

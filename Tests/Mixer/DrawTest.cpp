@@ -27,6 +27,7 @@ struct Board {
     }
     void settle() {
         desk.dispatchPendingMessages();
+        runFor(0.15); // the view shows the world as it is felt, L later: until then poses of the scene before
         runUntil([&] { return view.refresh(), std::ranges::all_of(drawn().bodies, [&](const BodyDescription& b) { return world.poseOfBody(b.name).has_value(); }); });
     }
     const Scene& drawn() { return desk.world().drawing().drawn(); }

@@ -14,7 +14,7 @@ namespace {
 
 /// One of everything that the format has.
 const std::string full = R"({
-  "physvib_scene": 1,
+  "physvib_scene": 2,
   "name": "full",
   "description": "one of \"everything\" ä",
   "field_m": [8, 4.5],
@@ -278,7 +278,7 @@ TEST(SceneFile, NamesTheFieldByItsPath) {
         {"\"times\": 3", "\"times\": 1000000", "script[2].times: expected 1 to 100000, found 1e+06"},
         {"\"input\": \"tilt\"", "\"input\": \"roll\"",
          "script[1].input: expected one of gravity, tilt, impulse, velocity, spawn, remove, motor, camera, "
-         "material, sound, hold, texture, grip, found \"roll\""},
+         "material, sound, hold, texture, grip, change, join, unjoin, found \"roll\""},
         {"\"time_s\": 13", "\"time_s\": 12",
          "inputs[2].time_s: expected a time that is not before that of the input above"},
         {"\"body\": \"coin\"", "\"body\": \"coil\"",
@@ -301,7 +301,7 @@ TEST(SceneFile, NamesTheFieldByItsPath) {
 }
 
 TEST(SceneFile, OnlyItsOwnVersionsAreRead) {
-    EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1", "\"physvib_scene\": 2")),
+    EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1", "\"physvib_scene\": 3")),
               "my.json: physvib_scene: made for a newer PhysVib: expected a version up to 2, found 3");
     EXPECT_EQ(errorOf(replaced(small, "\"physvib_scene\": 1", "\"physvib_scene\": 0")),
               "my.json: physvib_scene: expected a version from 1 on, found 0");

@@ -62,7 +62,7 @@ inline constexpr MessageArgument place{"place", Type::place, 0.0, 0.0, "", "wher
 inline constexpr MessageArgument law{"law", Type::word, 0.0, 0.0, "layout", "how it is spread: `layout` (as hits are), by a [law](panning.md#laws), `equal`, `alone`"};
 
 inline constexpr std::array when{
-    MessageArgument{"at", Type::number, 0.0, limits::maxTimeNs * 1e-9, "now", "session time in s, or `now`; felt the play-out delay later"},
+    MessageArgument{"at", Type::number, 0.0, limits::maxTimeNs * 1e-9, "now", "session time in s, or `now`; felt the output latency later"},
     MessageArgument{"in", Type::number, 0.0, mostAheadSeconds, "0", "seconds from now, instead of `at`"}};
 
 inline constexpr std::array strike{
@@ -111,7 +111,7 @@ inline constexpr auto messageTable = std::to_array<MessageDescription>({
     {"stop", "what sounds fades out within 10 ms; what was asked for before and has not begun is forgotten", {}, MessageDescription::Stop{}},
     {"status", "answers session time, strikes that wait, bodies, collisions lost, and time given up in stalls", {}, statusAnswer},
     {"layout", "answers the law, the field, and the actuators' places in metres of the field", {}, layoutAnswer},
-    {"latency", "answers the play-out delay: how long after its time each vibration is felt", {}, latencyAnswer},
+    {"latency", "answers the output latency: how long after its time each vibration is felt", {}, latencyAnswer},
 });
 
 } // namespace physvib
