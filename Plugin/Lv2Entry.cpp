@@ -77,43 +77,14 @@ private:
     std::array<const LV2_Atom_Event*, parameterCount> at_{};
 };
 
-// Ports in order: music, channels, and of JUCE's wrapper events, what is told, latency, free-wheeling, enabled; then a control port for each parameter (Lv2Ports.cpp).
-constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS, firstControl = eventPort + 5;
-
-/// Control ports beside the properties: what changes last counts. A port says something when its value is another than it was; after a state has been
-/// taken, which has the values of all parameters, what ports hold is what hosts have kept with it, and old.
-class Controls {
-public:
-    /// `stateCount`: the processor's, when it was made.
-    explicit Controls(std::uint64_t stateCount = 0) noexcept
-        : states_{stateCount} {
-        for (std::size_t p = 0; p < parameterCount; ++p) told_[p] = static_cast<float>(allParameters()[p].initial);
-    }
-    void connect(std::size_t parameter, const void* port) noexcept { ports_[parameter] = static_cast<const float*>(port); }
-
-    /// Before each block. R, wait-free.
-    void read(PluginProcessor& processor) noexcept {
-        const bool isOld = std::exchange(states_, processor.stateCount()) != states_;
-        for (std::size_t p = 0; p < parameterCount; ++p) {
-            if (!ports_[p] || !std::isfinite(*ports_[p]) || std::exchange(told_[p], *ports_[p]) == *ports_[p]) continue;
-            const bool isSilenced = static_cast<Parameter>(p) == Parameter::bypass && *ports_[p] > 0.0f; // counts in any case: hands are attached
-            if (isOld && !isSilenced) continue;
-            processor.parameter(static_cast<Parameter>(p)).setByController(static_cast<float>(normalised(allParameters()[p], *ports_[p])));
-        }
-    }
-
-private:
-    std::array<const float*, parameterCount> ports_{};
-    std::array<float, parameterCount> told_{};
-    std::uint64_t states_;
-};
+// Ports in order: music, channels, and of JUCE's wrapper events, what is told, latency, free-wheeling, enabled.
+constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS;
 
 struct Instance {
     PluginProcessor* processor = nullptr;
     bool wasDeactivated = false;
     Names names{};
     const LV2_Atom_Sequence* events = nullptr; // of the port, which the host may connect anew before each block
-    Controls controls{};
 };
 
 /// All that live, by JUCE's handles; a host may make and end them on several threads, and runs them on others. A place is used again, and never freed.
@@ -179,15 +150,11 @@ LV2_Handle instantiate(const LV2_Descriptor*, double rate, const char* bundle, c
     const auto* const juces = juceLv2Descriptor(0);
     const LV2_Handle handle = juces->instantiate(juces, rate, bundle, features);
     const auto* const map = static_cast<const LV2_URID_Map*>(feature(features, LV2_URID__map));
-    if (handle) instances().add(handle, {making().instance, false, map ? namesOf(*map) : Names{}, nullptr, Controls{making().instance->stateCount()}});
+    if (handle) instances().add(handle, {making().instance, false, map ? namesOf(*map) : Names{}, nullptr});
     return handle;
 }
 
 void connect(LV2_Handle handle, std::uint32_t port, void* data) {
-    if (port >= firstControl) {
-        if (port - firstControl < parameterCount) instances()[handle].controls.connect(port - firstControl, data);
-        return;
-    }
     if (port == eventPort) instances()[handle].events = static_cast<const LV2_Atom_Sequence*>(data);
     juceLv2Descriptor(0)->connect_port(handle, port, data);
 }
@@ -195,7 +162,6 @@ void connect(LV2_Handle handle, std::uint32_t port, void* data) {
 void run(LV2_Handle handle, std::uint32_t frames) {
     auto& instance = instances()[handle];
     const auto* const juces = juceLv2Descriptor(0);
-    instance.controls.read(*instance.processor);
     if (!instance.events) return juces->run(handle, frames);
     Lv2Points points{*instance.events, instance.names, *instance.processor};
     instance.processor->expectPoints(points);

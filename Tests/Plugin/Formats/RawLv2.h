@@ -21,7 +21,7 @@ namespace physvib::test {
 class RawLv2 {
 public:
     static constexpr std::size_t channels = 4;
-    enum Port : std::uint32_t { input = channels, output, latencyOut, freeWheeling, isEnabled, firstControl };
+    enum Port : std::uint32_t { input = channels, output, latencyOut, freeWheeling, isEnabled };
 
     /// `nominal` 0: not told, as some hosts do. `hasMusic`: the module with two ports for music.
     RawLv2(int largestBlock, int nominal, double rate = 48000.0, bool hasMusic = false) {
@@ -55,10 +55,6 @@ public:
         descriptor_->connect_port(handle_, inputs + latencyOut, &latency);
         descriptor_->connect_port(handle_, inputs + freeWheeling, &offline);
         descriptor_->connect_port(handle_, inputs + isEnabled, &enabled);
-        for (std::size_t p = 0; p < parameterCount; ++p) {
-            controls[p] = static_cast<float>(allParameters()[p].initial);
-            descriptor_->connect_port(handle_, inputs + firstControl + static_cast<std::uint32_t>(p), &controls[p]);
-        }
         choose(0);
     }
     ~RawLv2() {
@@ -112,7 +108,6 @@ public:
     std::vector<Point> points; ///< of the next block, in frame order
     std::array<std::vector<float>, 2> music; ///< of the next block, where there are ports for it
     std::array<std::vector<float>, channels> out;
-    std::array<float, parameterCount> controls{}; ///< the parameters' ports, each in its unit
     float latency = 0.0f, offline = 1.0f, enabled = 1.0f;
 
 private:
