@@ -21,6 +21,8 @@ until window=$(xdotool search --name "PhysVib mixer" 2>/dev/null); do sleep 0.05
 sleep 3 # as long as a person reads
 jack_lsp 2>/dev/null | grep -v "^system:" && { echo "something plays before anybody has said where"; exit 1; }
 pressed=$(now)
+xdotool windowfocus $window 2>/dev/null || true # no window manager gives it the keys
+sleep 0.3
 xdotool mousemove 720 300 key Return
 until jack_lsp 2>/dev/null | grep -q "out_1$"; do
     kill -0 "$playing" || { cat "$folder/mixer.log"; exit 1; }

@@ -134,6 +134,7 @@ bool MixerView::covered(const juce::KeyPress& key) {
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (!world_.isVisible() && covered(key)) return true;
+    if (firstStart_ && firstStart_->keyPressed(key)) return true; // whatever has the focus
     setHint(false);
     if (key == KeyPress::escapeKey) return bar_.toggleSilence(), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
