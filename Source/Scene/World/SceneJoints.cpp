@@ -101,6 +101,11 @@ void copyAnchors(Def& def, const Made& made) {
     def.localAnchorB = made.GetLocalAnchorB();
 }
 template <class Def, class Made>
+void copySpring(Def& def, const Made& made) {
+    def.stiffness = made.GetStiffness();
+    def.damping = made.GetDamping();
+}
+template <class Def, class Made>
 void copyTravel(Def& def, const Made& made) {
     def.enableLimit = made.IsLimitEnabled();
     def.lowerTranslation = made.GetLowerLimit();
@@ -127,8 +132,7 @@ b2WheelJointDef defOf(const b2WheelJoint& made) {
     copyAnchors(def, made);
     copyTravel(def, made);
     def.maxMotorTorque = made.GetMaxMotorTorque();
-    def.stiffness = made.GetStiffness();
-    def.damping = made.GetDamping();
+    copySpring(def, made);
     return def;
 }
 b2DistanceJointDef defOf(const b2DistanceJoint& made) {
@@ -137,16 +141,14 @@ b2DistanceJointDef defOf(const b2DistanceJoint& made) {
     def.length = made.GetLength();
     def.minLength = made.GetMinLength();
     def.maxLength = made.GetMaxLength();
-    def.stiffness = made.GetStiffness();
-    def.damping = made.GetDamping();
+    copySpring(def, made);
     return def;
 }
 b2WeldJointDef defOf(const b2WeldJoint& made) {
     b2WeldJointDef def;
     copyAnchors(def, made);
     def.referenceAngle = made.GetReferenceAngle();
-    def.stiffness = made.GetStiffness();
-    def.damping = made.GetDamping();
+    copySpring(def, made);
     return def;
 }
 b2PrismaticJointDef defOf(const b2PrismaticJoint& made) {
