@@ -15,7 +15,7 @@ ctest --preset release -j2 --progress -LE 'live|display'
 ctest --preset release -j2 -L display --repeat until-pass:2
 ctest --preset release -L live --repeat until-pass:2
 build asan physvib-checked physvib-fuzzers
-Tests/Fuzz/run.sh 20000 >build/fuzz.log 2>&1 || { cat build/fuzz.log >&2; exit 1; }
+Tests/Fuzz/run.sh 20000 1 >build/fuzz.log 2>&1 || { cat build/fuzz.log >&2; exit 1; }
 ctest --preset asan -j2 --progress -L checked
 build tsan physvib-checked
 ctest --preset tsan -j2 --progress -L checked

@@ -91,7 +91,7 @@ std::vector<ClipTransient> placed(std::vector<ClipTransient> transients,
     return transients;
 }
 
-/// The envelope with a point at each transient, and time enough for two.
+/// The envelope with a point at each transient, and time enough for two that the file tells apart.
 std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
                                       const std::vector<ClipTransient>& transients) {
     std::vector<ClipPoint> with = curve;
@@ -99,7 +99,7 @@ std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
     std::ranges::stable_sort(with, {}, &ClipPoint::seconds);
     if (with.front().seconds > 0.0) with.insert(with.begin(), {0.0, 0.0});
     const double last = std::max(with.back().seconds, transients.empty() ? 0.0 : transients.back().seconds);
-    if (with.size() < 2 || !transients.empty())
+    if (!(shortened(with.back().seconds) > 0.0) || !transients.empty())
         with.push_back({std::min(limits::maxClipSeconds, last + ClipTransient::lastsSeconds), 0.0});
     return with;
 }

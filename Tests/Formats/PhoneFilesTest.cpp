@@ -245,6 +245,15 @@ TEST(PhoneFiles, PutATransientWhereTheEnvelopeIsNotStronger) {
     EXPECT_EQ(clipLosses({"", 0, 0, {channel}}, ClipFormat::ahap).size(), 1u);
 }
 
+TEST(PhoneFiles, LastEvenIfTheWaveDoesNot) {
+    ClipChannel channel; // silent, and shorter than the microsecond that a file tells apart
+    channel.bands.push_back({{{0.0, 0.0, ClipWaveform::sine, {{0.0, 0.0}, {4e-7, 0.0}}, {{0.0, 100.0}}}}});
+    const std::string text = metaHapticText(channel, "short");
+    EXPECT_EQ(metaFault(text), "");
+    const auto read = readMetaHaptic(text, "short");
+    EXPECT_TRUE(read) << read.error;
+}
+
 TEST(PhoneFiles, RefuseInOneLine) {
     const auto meta = [](const std::string& amplitude) { return readMetaHaptic(R"({"version": {"major": 1, "minor": 0, "patch": 0}, "signals": {"continuous": {"envelopes": {"amplitude": [)" + amplitude + "]}}}}", "f").error; };
     const std::string at = "f: signals.continuous.envelopes.amplitude";
