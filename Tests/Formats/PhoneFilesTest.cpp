@@ -247,7 +247,7 @@ TEST(PhoneFiles, PutATransientWhereTheEnvelopeIsNotStronger) {
 
 TEST(PhoneFiles, LastEvenIfTheWaveDoesNot) {
     ClipChannel channel; // silent, and shorter than the microsecond that a file tells apart
-    channel.bands.push_back({{{0.0, 0.0, ClipWaveform::sine, {{0.0, 0.0}, {4e-7, 0.0}}, {{0.0, 100.0}}}}});
+    channel.bands.push_back({{{2e-7, 0.0, ClipWaveform::sine, {{0.0, 0.0}, {2e-7, 0.0}}, {{0.0, 100.0}}}}});
     const std::string text = metaHapticText(channel, "short");
     EXPECT_EQ(metaFault(text), "");
     const auto read = readMetaHaptic(text, "short");
