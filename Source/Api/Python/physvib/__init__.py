@@ -13,7 +13,7 @@ from .live import Live, LiveStatus
 from .renderer import Renderer, Status, play_out_s
 from .session import Session
 from .space import SpaceHaptics, attach
-from .world import POINT_BY_PLACE, Counts, World
+from .world import POINT_BY_PLACE, SOFT_WHOLE, Counts, World
 
 __version__ = version()
-__all__ = ["Counts", "EVENT", "HIT", "Layout", "Live", "LiveStatus", "POINT_BY_PLACE", "PhysVibError", "ROLL", "Renderer", "SLIDE", "Session", "SpaceHaptics", "Status", "World", "attach", "events", "events_of", "frame", "load_events", "parse_events", "play_out_s", "render", "save_events", "save_wav"]
+__all__ = ["Counts", "EVENT", "HIT", "Layout", "Live", "LiveStatus", "POINT_BY_PLACE", "PhysVibError", "ROLL", "Renderer", "SLIDE", "SOFT_WHOLE", "Session", "SpaceHaptics", "Status", "World", "attach", "events", "events_of", "frame", "load_events", "parse_events", "play_out_s", "render", "save_events", "save_wav"]

@@ -18,6 +18,8 @@ VOICES = ("own", "other", "both")
 
 #: Of `point_id`: the points of a pair are told apart by their places.
 POINT_BY_PLACE = -2
+#: Of `is_soft`: the impulse is all that the bodies were given in the step. True, or 1, is a load that is no measure of an impact.
+SOFT_WHOLE = 2
 
 
 class Counts(NamedTuple):
