@@ -63,7 +63,7 @@ in_page = """(async () => {
     for (const [i, events] of lists.entries()) {
         const due = events.filter(event => event.timeNs < (seconds - 0.1) * 1e9);
         if (due.length === 0) continue;
-        const context = new OfflineAudioContext(4, rate * seconds, rate), output = await play(physvib, context, settings);
+        const context = new OfflineAudioContext(4, rate * seconds, rate), output = await play(physvib, context, { ...settings, level: 1 });
         output.strike(due, 0);
         const recorded = await context.startRendering(), late = output.latencyFrames;
         physvib.render(due, { ...settings, seconds }).forEach((wanted, j) => {
