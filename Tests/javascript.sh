@@ -24,5 +24,5 @@ node Tests/JavaScript/bodies.mjs "$work"
 node Tests/JavaScript/worlds.mjs "$work"
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_web_test_packages
-python3 Tests/JavaScript/chromium.py "$work"
+python3 Tests/JavaScript/chromium.py "$work" Docs/javascript.md
 node Tests/JavaScript/page.mjs "$work" Docs/javascript.md

@@ -10,6 +10,11 @@ const nsPerMs = 1e6;
 /** What a controller can do: its effects by name. */
 const effectsOf = ({ vibrationActuator: actuator }) => (actuator ? actuator.effects ?? (actuator.type ? [actuator.type] : ['dual-rumble']) : []);
 
+/** Browsers let a phone's motor be after the first touch only, and complain before. */
+function phoneMotor(navigator) {
+    return navigator?.vibrate && (ms => navigator.userActivation?.hasBeenActive !== false && navigator.vibrate(ms));
+}
+
 class Pads {
     #waves; #motors; #clock; #timer = null; #ends = new Set(); #level; #now; #pads; #vibrate; #latencyNs; #setTimer; #clearTimer; #last = { low: 0, high: 0 };
     /** Commands sent so far, and those that a controller has refused. */
@@ -24,7 +29,7 @@ class Pads {
         this.#level = level;
         this.#now = system.now ?? (() => performance.now());
         this.#pads = system.getGamepads ?? (() => globalThis.navigator?.getGamepads?.() ?? []);
-        this.#vibrate = !phone ? undefined : system.vibrate ?? globalThis.navigator?.vibrate?.bind(globalThis.navigator);
+        this.#vibrate = !phone ? undefined : system.vibrate ?? phoneMotor(globalThis.navigator);
         this.#setTimer = system.setTimeout ?? ((call, ms) => setTimeout(call, ms));
         this.#clearTimer = system.clearTimeout ?? (timer => clearTimeout(timer));
     }
