@@ -82,9 +82,9 @@ def links():
         one.key("ArrowUp")
     expect(one.value("import('./page.js').then(({ world }) => world.places[1])") == [0.5, 0.6], "an actuator moves by keys")
     give(one, "law", "energy")
-    one.value("(slider => { slider.value = 0.5; slider.dispatchEvent(new Event('input', { bubbles: true })); })(document.querySelector('.material input')); 0")
+    one.value("for (const row of document.querySelectorAll('.material')) { const slider = row.querySelector('input'); slider.value = 0.5; slider.dispatchEvent(new Event('input', { bubbles: true })); } 0")
     one.click("#again")  # a restart keeps all of it
-    one.wait("import('./page.js').then(page => page.wanted().materials.length === 1)", "materials that stay")
+    one.wait("import('./page.js').then(page => page.wanted().materials.length === document.querySelectorAll('.material').length)", "materials that stay")
     link = share(one)
     print("told  ", link)
     for name, *size in sizes:
@@ -97,8 +97,9 @@ def links():
     visit(other, link)
     here, there = hash_in_page(one, wanted, seconds), hash_in_page(other, wanted, seconds)
     scene = json.load(open(os.path.join(os.path.dirname(__file__), "../../Source/Scene/Scenes/marbles.json")))
-    sounding = [material for material in scene["materials"] if material.get("frequency_hz")]
-    sounding[0]["frequency_hz"] = 141.4
+    for material in scene["materials"]:
+        if material.get("frequency_hz"):
+            material["frequency_hz"] = 141.4
     width, height = 0.12, 0.06  # of phone4, which the page's shares are of
     layout = {"name": "three", "extent_m": [width, height], "enchanters": [{"label": label, "x_m": x * width, "y_m": y * height} for label, x, y in (("A", 0, 0.5), ("B", 0.5, 0.6), ("C", 1, 0.5))]}
     for name, content in (("scene", scene), ("layout", layout)):
@@ -148,7 +149,7 @@ def motors():
     told = pads.value("motors")
     strong = [command for command in told if command[1] == "trigger-rumble"]
     expect(100 < len(told) <= seconds * 30 + 5, f"ten seconds of shake the box: {len(told)} commands, at most 30 a second")
-    expect(max(max(low, high) for _, _, low, high, _ in strong) > 0.6 and all(duration >= 100 for *_, duration in strong), "motors are driven, each command until the next")
+    expect(max((max(low, high) for _, _, low, high, _ in strong), default=0) > 0.6 and all(duration >= 100 for *_, duration in strong), "motors are driven, each command until the next")
     expect(len(pads.value("buzzes")) > 50, "a phone's motor as well")
     pads.click("#silence")
     time.sleep(0.3)
@@ -167,6 +168,41 @@ def recording(browser):
     size, head, rate, loud = browser.value("""saved.then(async blob => [blob.size, await blob.slice(0, 4).text(), new DataView(await blob.slice(60, 64).arrayBuffer()).getUint32(0, true), // after room for a longer file's sizes
         new Float32Array(await blob.slice(104).arrayBuffer()).some(sample => Math.abs(sample) > 0.001)])""")
     expect(head == "RIFF" and rate in (44100, 48000) and size == 104 + 4 * 4 * rate * 10 and loud, f"a recording of ten seconds, four channels, {rate} Hz: {size} bytes")
+
+
+def fingers():
+    """A phone: two things are held at once; a swipe beside all things scrolls."""
+    phone = visitor()
+    phone.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=2, mobile=True)
+    phone.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
+    visit(phone, f"{origin}#by=hand")
+    phone.value("import('./page.js').then(({ world }) => { globalThis.world = world; })")
+    phone.wait("world.poses.length", "poses")
+    time.sleep(2)  # what falls lies by then
+    on_page = "(([x, y]) => { const box = world.canvas.getBoundingClientRect(), { left, bottom, scale } = world.map; return { x: box.x + left + x * scale, y: box.y + bottom - y * scale }; })"
+    places = "['large rubber ball', 'large wood sphere'].map(name => { const i = world.scene.bodies.findIndex(body => body.name === name); return [world.poses[4 * i], world.poses[4 * i + 1]]; })"
+    targets = [[1.5, 2.5], [4.5, 2.5]]
+    touch = lambda kind, points: phone.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{**point, "id": i} for i, point in enumerate(points)])
+    held = phone.value(f"{places}.map({on_page})")
+    touch("touchStart", held)
+    ends = phone.value(f"{json.dumps(targets)}.map({on_page})")
+    for step in (0.5, 1):
+        touch("touchMove", [{axis: start[axis] + step * (end[axis] - start[axis]) for axis in "xy"} for start, end in zip(held, ends)])
+        time.sleep(1)
+    found = phone.value(places)
+    expect(all(abs(x - u) < 0.4 and abs(y - v) < 0.4 for (x, y), (u, v) in zip(found, targets)), f"two fingers hold two balls: {found}")
+    touch("touchEnd", [])
+    time.sleep(1)
+    expect(phone.value("scrollY") == 0, "what is held scrolls nothing")
+    empty = phone.value(f"[[3, 3.5]].map({on_page})[0]")
+    touch("touchStart", [empty])
+    for up in range(1, 11):
+        touch("touchMove", [{"x": empty["x"], "y": empty["y"] - 15 * up}])
+        time.sleep(0.02)
+    touch("touchEnd", [])
+    time.sleep(0.5)
+    expect(phone.value("scrollY") > 50, f"a swipe beside all things scrolls: {phone.value('scrollY')} px")
+    return phone
 
 
 def plain_http():
@@ -188,6 +224,7 @@ try:
     recording(pads)
     judge(pads, "while it plays")
     leave(pads)
+    leave(fingers())
     leave(plain_http())
     one.wait("navigator.serviceWorker.controller !== null", "a service worker")
     server.shutdown()
