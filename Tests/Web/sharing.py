@@ -124,9 +124,11 @@ def links():
     other.value("(select => { select.value = '2'; select.onchange(); })(document.querySelectorAll('#variables select')[2]); 0")
     other.wait("import('./page.js').then(page => page.wanted().variables.some(([, value]) => value === '2'))", "another height")
     expect(hash_in_page(other, wanted, 3) != first, "another value is another world")
-    visit(other, f"{origin}#scene=drop&at=0,7")
-    expect(other.value("document.querySelector('#fault p').textContent").startswith("link: at: expected places"), "a link that is none says why, and a world is there")
-    expect(other.value("document.querySelectorAll('.material').length") > 0, "the first scene instead")
+    for words, line in (("at=0,7", "link: at: expected places"), ("law=loud", "link: law: expected one of linear, "), ("set=height=9", "drop: variable")):
+        visit(other, f"{origin}#scene=drop&{words}")
+        other.wait("document.querySelectorAll('.material').length > 0", "the first scene instead")
+        told = other.value("document.querySelector('#fault p').textContent")
+        expect(told.startswith(line), f"a link that cannot be followed says why, and the first scene is there: {told}")
     leave(other)
     return one
 

@@ -31,7 +31,6 @@ const opened = next => {
 /// The world as it is asked for now, as a player opens it.
 export const wanted = () => openedBy(state, laws);
 function open(next) {
-    if (next.law && !laws.includes(next.law)) return fault(`link: law: expected one of ${laws.join(', ')}, found ${next.law}`);
     engine.tell({ open: opened(next) });
 }
 function choose(next) {
@@ -43,7 +42,9 @@ async function openFile(file) {
 }
 async function openLink() {
     try {
-        choose(await worldOf(location.hash.slice(1) || location.search.slice(1)));
+        const next = await worldOf(location.hash.slice(1) || location.search.slice(1));
+        if (next.law && !laws.includes(next.law)) throw new Error(`link: law: expected one of ${laws.join(', ')}, found ${next.law}`);
+        choose(next);
     } catch (error) {
         fault(error.message);
         if (!world.scene) open(freshWorld());

@@ -5,6 +5,7 @@ import { Player } from './player.js';
 
 const rate = 6000, blockFrames = 16; // as many blocks a second as 128 frames at 48 kHz
 const longestGap = 0.1; // s: a page that was hidden does not catch up
+const busyMs = 20; // of a picture; a world that needs more goes slower, and the page stays usable
 
 export class Preview {
     #player; #last = 0; #timer = 0; #owed = 0;
@@ -17,7 +18,8 @@ export class Preview {
         const step = now => {
             this.#owed += rate * Math.min(longestGap, Math.max(0, now - this.#last) / 1000);
             this.#last = now;
-            for (; this.#owed >= blockFrames; this.#owed -= blockFrames) this.#player.render(blockFrames);
+            for (const began = performance.now(); this.#owed >= blockFrames && performance.now() - began < busyMs; this.#owed -= blockFrames) this.#player.render(blockFrames);
+            this.#owed %= blockFrames;
             this.#timer = requestAnimationFrame(step);
         };
         this.#last = performance.now();
