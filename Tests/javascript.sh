@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The JavaScript package as its user gets it, beside CI: built, packed, installed in an empty folder, held against the native program; then with the
-# engines from npm. Needs Node 20 or newer with npm, and some minutes for the compiler. usage: Tests/javascript.sh [PATH/physvib]
+# engines from npm, in Node and in headless Chromium. Needs Node 20 or newer with npm, and some minutes for the compiler. usage: Tests/javascript.sh [PATH/physvib]
 set -eu
 cd "$(dirname "$0")/.."
 physvib=$(realpath "${1:-build/release/bin/physvib}")
@@ -16,10 +16,13 @@ echo '{ "private": true }' >package.json
 npm install --silent --no-audit --no-fund "$package"
 cd "$OLDPWD"
 for test in package pads audio; do node "Tests/JavaScript/$test.mjs" "$work" "$physvib"; done
-node Tests/JavaScript/insecure.mjs
+for test in insecure link; do node "Tests/JavaScript/$test.mjs"; done
 say "taking the engines from npm"
 (cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 box2d3-wasm@5.2 phaser@4 jspsych@8 typescript@5)
 node Tests/JavaScript/jspsych.mjs "$work"
 node Tests/JavaScript/bodies.mjs "$work"
 node Tests/JavaScript/worlds.mjs "$work"
+# shellcheck disable=SC2086 # a list of words
+ensure_packages $physvib_web_test_packages
+python3 Tests/JavaScript/chromium.py "$work" Docs/javascript.md
 node Tests/JavaScript/page.mjs "$work" Docs/javascript.md

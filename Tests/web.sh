@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The page as a visitor meets it, beside CI: built, opened in headless Chromium from 127.0.0.1, and held against the native program.
-# Needs 400 MB of packages and some minutes. Pictures: out/web.
+# Needs 400 MB of packages and some minutes; with npm, axe-core judges it as well. Pictures: out/web.
 # usage: Tests/web.sh [PATH/physvib]
 set -eu
 cd "$(dirname "$0")/.."
@@ -24,3 +24,9 @@ physvib=$(realpath "$physvib")
 (cd "$work" && "$physvib" render bad.json --out never.wav 2>fault.txt) && exit 1
 # shellcheck disable=SC2086 # a list of words
 python3 Tests/Web/browser.py build/web/page "$seconds" "$seed" "$work/bad.json" out/web $natives <"$work/fault.txt"
+axe=""
+if command -v npm >/dev/null; then
+    (cd "$work" && echo '{ "private": true }' >package.json && npm install --silent --no-audit --no-fund axe-core@4)
+    axe=$work/node_modules/axe-core/axe.min.js
+fi
+python3 Tests/Web/sharing.py build/web/page "$physvib" out/web ${axe:+"$axe"}

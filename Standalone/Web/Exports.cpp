@@ -1,46 +1,38 @@
 // SPDX-License-Identifier: MIT
-// What the page calls. Text is read from the buffer that text() gives; what fails does not return (see fail), and the page throws the
-// instance away.
-#include "Scene/SceneCatalogue.h"
+// What the page calls, beside the controllers' motors of Source/Api/JavaScript. What fails does not return
+// (js::refuse), and the page throws the instance away.
+#include "Api/JavaScript/Exports.h"
+#include "Io/Wav/WavHead.h"
 #include "PageWorld.h"
+#include "Scene/SceneCatalogue.h"
 #include "Scene/SceneEdits.h"
 #include <array>
-#include <cstdlib>
-#include <exception>
-#include <typeinfo>
+#include <qrcodegen.h>
 
-#define PHYSVIB_PAGE(name) __attribute__((export_name(#name))) page_##name // the C library has an open of its own
-
-extern "C" {
-/// The page's: throws, so that nothing after it runs.
-[[noreturn]] void fail(const char* line) __attribute__((import_module("page"), import_name("fail")));
-
-// Exceptions end here, as natively they end in one line: this C++ library has no way back to a handler. All of ours are std::exceptions.
-void* __cxa_allocate_exception(std::size_t bytes) noexcept { return std::malloc(bytes); }
-[[noreturn]] void __cxa_throw(void* thrown, std::type_info*, void (*)(void*)) { fail(static_cast<std::exception*>(thrown)->what()); }
-}
+#define PHYSVIB_PAGE(name)                                                                                   \
+    __attribute__((export_name(#name))) page_##name // the C library has an open of its own
 
 using namespace physvib;
 
 namespace {
 
-std::string textBuffer;
 std::unique_ptr<PageWorld> world;
+SceneSettings chosen;
 
 const char* tell(std::string text) {
-    textBuffer = std::move(text);
-    return textBuffer.c_str();
+    js::text() = std::move(text);
+    return js::text().c_str();
+}
+
+std::string_view builtIn(std::string_view name) {
+    for (const EmbeddedFile& file : embeddedScenes())
+        if (file.name == std::string{name} + ".json") return file.text;
+    js::refuse("expected the name of a scene that comes with PhysVib");
 }
 
 } // namespace
 
 extern "C" {
-
-/// Room for so many bytes of text.
-char* PHYSVIB_PAGE(text)(int bytes) {
-    textBuffer.assign(static_cast<std::size_t>(bytes), ' ');
-    return textBuffer.data();
-}
 
 /// The scenes that come with PhysVib, a name and a sentence in turn, a line each.
 const char* PHYSVIB_PAGE(sceneList)() {
@@ -49,15 +41,29 @@ const char* PHYSVIB_PAGE(sceneList)() {
     return tell(std::move(lines));
 }
 
-/// Begins with what is in the buffer: the name of a scene, or a scene. `byHand`: without what its script does of what hands do.
-void PHYSVIB_PAGE(open)(bool isName, bool byHand, unsigned seed, int sampleRateHz, int outputs) {
-    const Scene* const builtIn = isName ? findBuiltInScene(textBuffer) : nullptr;
-    if (isName && builtIn == nullptr) fail("expected the name of a scene that comes with PhysVib");
-    Result<Scene> scene = builtIn != nullptr ? *builtIn : readScene(textBuffer, "scene");
-    world = std::make_unique<PageWorld>(byHand ? sceneForHands(std::move(scene.value)) : std::move(scene.value), seed, sampleRateHz, outputs);
+/// Names of the panning laws, a line each.
+const char* PHYSVIB_PAGE(lawList)() {
+    std::string lines;
+    for (const std::string_view name : panningLawNames) (lines += name) += '\n';
+    return tell(std::move(lines));
 }
 
-/// All that is to be drawn, as a scene: bodies under the numbers of poses(), scripted ones among them; no script.
+/// A value of a variable of the scene that is opened next.
+void PHYSVIB_PAGE(choose)(const char* name, const char* value) {
+    chosen.emplace_back(name, value);
+}
+
+/// Begins with the name of a scene, or with a scene. `byHand`: without what its script does of what hands do.
+void PHYSVIB_PAGE(open)(const char* text, int bytes, bool isName, bool byHand, unsigned seed,
+                        int sampleRateHz, int outputs) {
+    const std::string_view given{text, static_cast<std::size_t>(bytes)};
+    Result<Scene> scene = readScene(isName ? builtIn(given) : given, "scene", chosen);
+    world = std::make_unique<PageWorld>(
+        byHand ? sceneForHands(std::move(scene.value)) : std::move(scene.value), seed, sampleRateHz, outputs);
+}
+
+/// All that is to be drawn, as a scene: bodies under the numbers of poses(), scripted ones among them; no
+/// script.
 const char* PHYSVIB_PAGE(scene)() {
     Scene shown = world->scene();
     shown.bodies = world->cast();
@@ -66,33 +72,99 @@ const char* PHYSVIB_PAGE(scene)() {
     return tell(sceneJson(shown));
 }
 
-const char* PHYSVIB_PAGE(fault)() { return world->fault().c_str(); }
-const float* PHYSVIB_PAGE(render)(int frames) { return world->render(frames); }
-int PHYSVIB_PAGE(playOutFrames)() { return static_cast<int>(world->playOutFrames()); }
-const float* PHYSVIB_PAGE(poses)() { return world->poses().data(); }
-int PHYSVIB_PAGE(bodyCount)() { return static_cast<int>(world->cast().size()); }
+/// Of each variable of the scene: its name, the value that was chosen, and all choices, a line each; an empty
+/// line ends it.
+const char* PHYSVIB_PAGE(variables)() {
+    std::string lines;
+    for (const SceneVariable& variable : world->scene().variables) {
+        lines += variable.name + '\n' + variable.value + '\n';
+        for (const std::string& choice : variable.choices) lines += choice + '\n';
+        lines += '\n';
+    }
+    return tell(std::move(lines));
+}
 
-/// The next hit that has been played since: x, y, frequency, decay, amplitude; null: none.
-const float* PHYSVIB_PAGE(hit)() {
-    static std::array<float, 5> told;
+const char* PHYSVIB_PAGE(fault)() {
+    return world->fault().c_str();
+}
+const float* PHYSVIB_PAGE(render)(int frames) {
+    return world->render(frames);
+}
+int PHYSVIB_PAGE(playOutFrames)() {
+    return static_cast<int>(world->playOutFrames());
+}
+const float* PHYSVIB_PAGE(poses)() {
+    return world->poses().data();
+}
+int PHYSVIB_PAGE(bodyCount)() {
+    return static_cast<int>(world->cast().size());
+}
+
+/// The next hit that has been played since: x, y, frequency, decay, amplitude, duration (s; 0: rings out),
+/// and the time of its first sample (s); null: none.
+const double* PHYSVIB_PAGE(hit)() {
+    static std::array<double, 7> told;
     CollisionEvent e;
-    if (!world->takeHit(e)) return nullptr;
-    told = {static_cast<float>(e.x), static_cast<float>(e.y), static_cast<float>(e.frequencyHz), static_cast<float>(e.decayPerSecond), static_cast<float>(e.amplitude)};
+    double atSeconds = 0.0;
+    if (!world->takeHit(e, atSeconds)) return nullptr;
+    told = {
+        e.x,      e.y, e.frequencyHz, e.decayPerSecond, e.amplitude, static_cast<double>(e.durationNs) * 1e-9,
+        atSeconds};
     return told.data();
 }
 
-void PHYSVIB_PAGE(grip)(int body, double xMetres, double yMetres) { world->grip(static_cast<std::size_t>(body), {xMetres, yMetres}); }
-void PHYSVIB_PAGE(letGo)() { world->letGo(); }
-void PHYSVIB_PAGE(hold)(double angleRadians, double factor) { world->act(HoldAction{factor, angleRadians}); }
-void PHYSVIB_PAGE(steer)(int way) { world->steer(way); }
-bool PHYSVIB_PAGE(isPlayed)() { return world->isPlayed(); }
-void PHYSVIB_PAGE(sound)(int material, double frequencyHz, double decayPerSecond) { world->act(SoundAction{material, frequencyHz, decayPerSecond}); }
+/// Fingers have numbers below PageWorld::fingers.
+void PHYSVIB_PAGE(grip)(int finger, int body, double xMetres, double yMetres) {
+    world->grip(finger, static_cast<std::size_t>(body), {xMetres, yMetres});
+}
+void PHYSVIB_PAGE(letGo)(int finger) {
+    world->letGo(finger);
+}
+void PHYSVIB_PAGE(hold)(double angleRadians, double factor) {
+    world->act(HoldAction{factor, angleRadians});
+}
+void PHYSVIB_PAGE(steer)(int way) {
+    world->steer(way);
+}
+bool PHYSVIB_PAGE(isPlayed)() {
+    return world->isPlayed();
+}
+void PHYSVIB_PAGE(sound)(int material, double frequencyHz, double decayPerSecond) {
+    world->act(SoundAction{material, frequencyHz, decayPerSecond});
+}
 
-/// Enchanters: first how many, then each one's place in shares of the layout's extent, then placed().
-void PHYSVIB_PAGE(enchanters)(int count) { world->layout().count = count; }
+/// Actuators: first how many, then each one's place in shares of the layout's extent, then placed().
+void PHYSVIB_PAGE(enchanters)(int count) {
+    world->layout().count = count;
+}
 void PHYSVIB_PAGE(place)(int enchanter, double x, double y) {
     EnchanterLayout& layout = world->layout();
-    layout.places[static_cast<std::size_t>(enchanter)] = {x * layout.extentWidthMetres, y * layout.extentHeightMetres};
+    layout.places[static_cast<std::size_t>(enchanter)] = {x * layout.extentWidthMetres,
+                                                          y * layout.extentHeightMetres};
 }
-void PHYSVIB_PAGE(placed)() { world->placed(); }
+/// By that law of lawList(); -1: as `physvib render` does if it is asked for none.
+void PHYSVIB_PAGE(placed)(int law) {
+    world->placed(law);
+}
+
+/// What stands before 32-bit samples in a WAVE file, wavHeadBytes() of it.
+const char* PHYSVIB_PAGE(wavHead)(int channels, int rateHz, int frames) {
+    return tell(wavHead(channels, rateHz, std::int64_t{4} * channels * frames, {}));
+}
+int PHYSVIB_PAGE(wavHeadBytes)() {
+    return static_cast<int>(js::text().size());
+}
+
+/// A QR code of `text`: how many modules a side has, and qrModule() of each; 0: it is too long for one.
+int PHYSVIB_PAGE(qrSide)(const char* text) {
+    js::text().assign(2 * qrcodegen_BUFFER_LEN_MAX, '\0');
+    auto* const code = reinterpret_cast<std::uint8_t*>(js::text().data());
+    const bool fits =
+        qrcodegen_encodeText(text, code + qrcodegen_BUFFER_LEN_MAX, code, qrcodegen_Ecc_LOW,
+                             qrcodegen_VERSION_MIN, qrcodegen_VERSION_MAX, qrcodegen_Mask_AUTO, true);
+    return fits ? qrcodegen_getSize(code) : 0;
+}
+bool PHYSVIB_PAGE(qrModule)(int x, int y) {
+    return qrcodegen_getModule(reinterpret_cast<const std::uint8_t*>(js::text().data()), x, y);
+}
 }

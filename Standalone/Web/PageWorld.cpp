@@ -28,7 +28,12 @@ PageWorld::PageWorld(const Scene& scene, std::uint32_t seed, int sampleRateHz, i
     law_.limiterFrames = renderer_->latencyFrames();
 }
 
-PhantomPanner PageWorld::panner() const noexcept { return {layout_, PanningLaw::linear, 1.0, fieldMetres_.x, fieldMetres_.y}; }
+PhantomPanner PageWorld::panner() const noexcept {
+    const PanningLaw law = panningLaw_.value_or(PanningLaw::linear);
+    PhantomPanner made{layout_, law, 1.0, fieldMetres_.x, fieldMetres_.y};
+    if (!panningLaw_) made.setGrains(grainSpread); // as physvib render, where no law is asked for
+    return made;
+}
 
 std::int64_t PageWorld::nsOf(std::int64_t frame) const noexcept { return static_cast<std::int64_t>(static_cast<double>(frame) * 1e9 / law_.sampleRateHz); }
 
@@ -40,30 +45,38 @@ void PageWorld::steer(int way) {
     for (const Action& action : player_.steer(way)) act(action);
 }
 
-void PageWorld::grip(std::size_t body, Vector toMetres) {
-    if (body < cast_.size()) hand_ = Hand{body, toMetres};
+void PageWorld::grip(int finger, std::size_t body, Vector toMetres) {
+    if (finger < 0 || finger >= fingers || body >= cast_.size()) return;
+    hands_[static_cast<std::size_t>(finger)] = Hand{body, toMetres};
 }
 
 // What moves as it is told would go on.
-void PageWorld::letGo() {
-    const auto held = std::exchange(hand_, {});
+void PageWorld::letGo(int finger) {
+    if (finger < 0 || finger >= fingers) return;
+    const auto held = std::exchange(hands_[static_cast<std::size_t>(finger)], {});
     if (held && cast_[held->body].type == BodyType::kinematicBody) act(VelocityAction{cast_[held->body].name, {}});
 }
 
-void PageWorld::pull() {
-    if (!hand_) return;
-    const BodyPose at = simulation_.pose(hand_->body);
+void PageWorld::pull(const Hand& hand) {
+    const BodyPose at = simulation_.pose(hand.body);
     if (!at.isPresent) return;
-    const Vector way{pullPerSecond * (hand_->to.x - at.xMetres), pullPerSecond * (hand_->to.y - at.yMetres)};
+    const Vector way{pullPerSecond * (hand.to.x - at.xMetres), pullPerSecond * (hand.to.y - at.yMetres)};
     const double share = std::min(1.0, fastestPull / std::max(1e-9, std::hypot(way.x, way.y)));
-    act(VelocityAction{cast_[hand_->body].name, {share * way.x, share * way.y}});
+    act(VelocityAction{cast_[hand.body].name, {share * way.x, share * way.y}});
 }
 
-void PageWorld::placed() { controls_.push_back({.timeNs = nsOf(std::max<std::int64_t>(0, done_ - firstFrame())), .kind = RenderControl::Kind::panner, .panner = panner()}); }
+void PageWorld::placed(int law) {
+    panningLaw_.reset();
+    const auto index = static_cast<std::size_t>(law); // of -1: beyond them all
+    if (index < panningLaws.size()) panningLaw_ = panningLaws[index].law;
+    const std::int64_t timeNs = nsOf(std::max<std::int64_t>(0, done_ - firstFrame()));
+    controls_.push_back({.timeNs = timeNs, .kind = RenderControl::Kind::panner, .panner = panner()});
+}
 
 void PageWorld::stepTo(std::int64_t frame) {
     while (simulation_.timeNs() < nsOf(frame)) {
-        pull();
+        for (const auto& hand : hands_)
+            if (hand) pull(*hand);
         simulation_.step(made_);
         simulation_.forgetDone();
     }
@@ -91,10 +104,11 @@ const std::vector<float>& PageWorld::poses() {
     return poses_;
 }
 
-bool PageWorld::takeHit(CollisionEvent& hit) {
+bool PageWorld::takeHit(CollisionEvent& hit, double& atSeconds) {
     PlayedEvent played;
     if (!renderer_->played().pop(played)) return false;
     hit = played.event;
+    atSeconds = static_cast<double>(played.frame + law_.playOutFrames()) / law_.sampleRateHz;
     return true;
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 #include "Core/ClockLaw.h"
 #include "Core/HapticRenderer.h"
+#include "Core/PanningLaws.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/ScenePlayer.h"
 #include "Scene/World/Simulation.h"
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -19,6 +21,7 @@ namespace physvib {
 class PageWorld {
 public:
     static constexpr int stepsPerSecond = 100;
+    static constexpr int fingers = 10; ///< that hold bodies at once
 
     /// Throws what Simulation throws, or std::invalid_argument at a rate or number of outputs that cannot be rendered.
     PageWorld(const Scene& scene, std::uint32_t seed, int sampleRateHz, int outputs);
@@ -32,19 +35,19 @@ public:
     const std::vector<BodyDescription>& cast() const noexcept { return cast_; }
     const Scene& scene() const noexcept { return simulation_.scene(); }
 
-    /// The next hit that has been played since the last call; false: none.
-    bool takeHit(CollisionEvent& hit);
+    /// The next hit that has been played since the last call, and when, in seconds of the output; false: none.
+    bool takeHit(CollisionEvent& hit, double& atSeconds);
 
     void act(const Action& action); ///< now; what is wrong with it is told by fault()
     void steer(int way);
     bool isPlayed() const noexcept { return player_.isThere(); }
     const std::string& fault() const noexcept { return fault_; } ///< of the last input; empty: none
 
-    void grip(std::size_t body, Vector toMetres); ///< pulled there until it is let go
-    void letGo();
+    void grip(int finger, std::size_t body, Vector toMetres); ///< pulled there until it is let go
+    void letGo(int finger);
 
-    EnchanterLayout& layout() noexcept { return layout_; } ///< at most as many as outputs; placed() makes it heard
-    void placed();
+    EnchanterLayout& layout() noexcept { return layout_; } ///< at most as many as outputs; placed() makes it audible
+    void placed(int law); ///< of panningLaws; another: none was asked for, so linear, and grains by grainSpread
 
     bool pop(CollisionEvent& event) noexcept { return take(events_, event); } // these two: for the renderer
     bool pop(RenderControl& change) noexcept { return take(controls_, change); }
@@ -64,7 +67,7 @@ private:
     PhantomPanner panner() const noexcept;
     std::int64_t firstFrame() const noexcept { return law_.playOutFrames() - law_.limiterFrames; } // the renderer's frame 0
     std::int64_t nsOf(std::int64_t frame) const noexcept;
-    void pull();
+    void pull(const Hand& hand);
     void stepTo(std::int64_t frame);
 
     Simulation simulation_;
@@ -79,7 +82,8 @@ private:
     std::deque<CollisionEvent> events_;
     std::deque<RenderControl> controls_;
     std::vector<float> samples_, poses_;
-    std::optional<Hand> hand_;
+    std::array<std::optional<Hand>, fingers> hands_;
+    std::optional<PanningLaw> panningLaw_;
     std::string fault_;
     std::size_t outputs_;
     std::int64_t done_ = 0; // frames

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Builds the page into build/web/page: one folder of static files. What it needs comes from Debian: packages, and Box2D's own source.
+# Builds the page into build/web/page: one folder of static files. What it needs comes from Debian: packages, and the source of Box2D and of a generator of
+# QR codes. PHYSVIB_PAGE_URL: the address that the page will have, for pictures of links to it. PHYSVIB_HOMEPAGE: that of the documentation, which the page links.
 # usage: Standalone/Web/build-web.sh
 set -eu
 cd "$(dirname "$0")/../.."
@@ -10,20 +11,39 @@ ensure_packages $physvib_web_packages
 
 folder=$PWD/build/web
 box2d=$folder/box2d-2.4.1
+qrcodegen=$folder/qr-code-generator
 mkdir -p "$folder"
 if [ ! -d "$box2d" ]; then
     say "taking Box2D's source from Debian"
     from_debian "$folder" source box2d
 fi
+if [ ! -d "$qrcodegen" ]; then
+    say "taking the QR code generator's source from Debian"
+    from_debian "$folder" source --tar-only qr-code-generator
+    rm -rf "$qrcodegen.new"
+    mkdir "$qrcodegen.new"
+    tar -xzf "$folder"/qr-code-generator_*.orig.tar.gz -C "$qrcodegen.new" --strip-components=1
+    mv "$qrcodegen.new" "$qrcodegen"
+fi
 
 say "building the page (log: build/web/build.log)"
-if ! { cmake -S Standalone/Web -B build/web/wasm -G Ninja --toolchain "$PWD/Standalone/Web/toolchain.cmake" -DCMAKE_BUILD_TYPE=None -DBOX2D="$box2d" &&
+if ! { cmake -S Standalone/Web -B build/web/wasm -G Ninja --toolchain "$PWD/Standalone/Web/toolchain.cmake" -DCMAKE_BUILD_TYPE=None -DBOX2D="$box2d" -DQRCODEGEN="$qrcodegen" &&
     cmake --build build/web/wasm ${PHYSVIB_WEB_JOBS:+-j "$PHYSVIB_WEB_JOBS"}; } >build/web/build.log 2>&1; then
     cat build/web/build.log >&2
     exit 1
 fi
-mkdir -p build/web/page
-cp build/web/wasm/physvib.wasm Standalone/Web/Page/* build/web/page
+rm -rf build/web/page
+mkdir build/web/page
+cp build/web/wasm/physvib.wasm build/web/wasm/package/profiles.js Standalone/Web/Page/* build/web/page
+for module in clock gamepad module names pad waves; do cp "Source/Api/JavaScript/package/$module.js" build/web/page; done
+cd build/web/page
+homepage=${PHYSVIB_HOMEPAGE:+<a href=\"${PHYSVIB_HOMEPAGE%/}/web.html\">Documentation</a>}
+sed -i -e "s|@URL@|${PHYSVIB_PAGE_URL:-}|" -e "s|@HOMEPAGE@|$homepage|" index.html
+# The service worker keeps these files, as they are now.
+version=$(cat -- * | sha256sum | cut -c1-16)
+files=$(printf "'%s', " ./ *.html *.css *.js *.svg *.png *.wasm *.webmanifest | sed "s/'service-worker.js', //; s/'card.png', //; s/, \$//")
+sed -i -e "s|@VERSION@|$version|" -e "s|'@FILES@'|$files|" service-worker.js
+cd ../../..
 bytes=$(tar -C build/web -cz page | wc -c)
 say "build/web/page: $bytes bytes compressed"
 [ "$bytes" -lt 300000 ] || { say "expected less than 300 KB"; exit 1; }

@@ -116,3 +116,52 @@ test('what an engine feels is felt with constant latency, however its frames fal
     end();
     assert.equal(followers.size, 0);
 });
+
+/** A page whose controller plays samples, or says that it does not. */
+function wavePage(answer) {
+    const page = new Page(), buffers = [];
+    page.pad.vibrationActuator.playPCM = sound => { buffers.push({ ms: page.ms, ...sound }); return Promise.resolve(answer); };
+    page.system.audioBuffer = ({ length, sampleRate, numberOfChannels }) => ({ length, sampleRate, numberOfChannels, copyToChannel(samples) { this.samples = samples; } });
+    return { page, buffers };
+}
+
+test('a controller that plays samples gets them, and no commands: every hit in each buffer, at its time', async () => {
+    const { page, buffers } = wavePage(true), pads = rumble(physvib, { ...page.system, level: 0.5 }), hits = [hit(60, 1), hit(130, 0.2, { frequencyHz: 200 })];
+    pads.strike(hits.slice(0, 1), 0);
+    page.run(100);
+    pads.strike(hits.slice(1), 0);
+    page.run(1000);
+    await null;
+    assert.deepEqual(buffers.map(({ ms, length, sampleRate, numberOfChannels }) => [ms, length, sampleRate, numberOfChannels]), [[0, 8000, 8000, 1], [100, 8000, 8000, 1]]);
+    const whole = physvib.render(hits, { seconds: 1.1, rate: 8000, layout: 'phone1', fieldWidth: 1, fieldHeight: 1 })[0].map(sample => sample * 0.5);
+    const first = buffers[0].samples.findIndex(sample => sample !== 0) / 8;
+    assert.ok(first >= 60 && first < 60.3, `the first sample at ${first} ms`);
+    const off = buffers[1].samples.reduce((most, sample, n) => Math.max(most, Math.abs(sample - whole[n + 800])), 0);
+    assert.ok(off < 1e-3, `the second buffer is off by ${off}`);
+    assert.equal(page.sent.length, 0, 'its motors would end the samples');
+    pads.stop();
+    assert.deepEqual([...buffers.at(-1).samples], [0]);
+    pads.close();
+});
+
+test('a stream of hits sends no more than thirty buffers a second', () => {
+    const { page, buffers } = wavePage(true), pads = rumble(physvib, page.system);
+    for (let ms = 0; ms < 1000; ms += 4) {
+        page.run(ms);
+        pads.strike([hit(ms + 60, 0.1)], 0);
+    }
+    assert.ok(buffers.length > 20 && buffers.length <= 32, `${buffers.length} buffers`);
+    pads.close();
+});
+
+test('one that refuses samples is driven by its motors from then on', async () => {
+    const { page, buffers } = wavePage(false), pads = rumble(physvib, page.system);
+    pads.strike([hit(40, 1)], 0);
+    await null;
+    await null;
+    page.run(500);
+    assert.ok(buffers.length === 1 && page.sent.some(command => command.low > 0.3));
+    pads.strike([hit(600, 1)], 0);
+    assert.equal(buffers.length, 1);
+    pads.close();
+});

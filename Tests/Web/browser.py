@@ -1,57 +1,31 @@
 # SPDX-License-Identifier: MIT
 # Opens the page in headless Chromium and does what a visitor does. Talks to it by its own pipe, so that nothing else is needed.
 # usage: browser.py FOLDER_OF_THE_PAGE SECONDS SEED BAD_SCENE.json PICTURES_FOLDER SCENE=NATIVE.wav...   < the line a bad scene ends in natively
-import functools, hashlib, http.server, json, os, struct, sys, tempfile, threading, time
+import json, os, sys, tempfile, time
 from chromium import Browser
+from served import expect, failures, hash_in_page, hash_of, serve
 
 page, seconds, seed, bad_scene, pictures, *natives = sys.argv[1:]
-
-
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *words):
-        pass
-
-
-def samples_of(path):
-    data = open(path, "rb").read()
-    start = data.index(b"data")
-    return data[start + 8:start + 8 + struct.unpack_from("<I", data, start + 4)[0]]
-
-
-def expect(holds, what):
-    print(("ok     " if holds else "FAILED ") + what)
-    if not holds:
-        failures.append(what)
-
-
-# What the page's own thread renders, without a device: frame n is time n / rate when the play-out delay is taken out.
-render_in_page = """(async () => {
-    const rate = 48000, channels = 4, frames = rate * %s, name = '%s';
-    const code = await (await fetch('physvib.wasm')).arrayBuffer();
-    const places = [[0, 1], [1, 1], [0, 0], [1, 0]], late = %d;
-    const context = new OfflineAudioContext(channels, frames + late, rate);
-    await context.audioWorklet.addModule('worklet.js');
-    const first = { isName: true, name, bytes: new TextEncoder().encode(name), byHand: false, seed: %s, places };
-    new AudioWorkletNode(context, 'physvib', { numberOfInputs: 0, outputChannelCount: [channels], processorOptions: { code, first } }).connect(context.destination);
-    const buffer = await context.startRendering(), samples = new Float32Array(channels * frames);
-    for (let j = 0; j < channels; ++j) buffer.getChannelData(j).subarray(late).forEach((value, n) => { samples[n * channels + j] = value; });
-    return [...new Uint8Array(await crypto.subtle.digest('SHA-256', samples))].map(b => b.toString(16).padStart(2, '0')).join('');
-})()"""
 audio_thread = "Realtime AudioW"  # as Chromium calls it
-play_out_frames = 1007  # at 48 kHz: two steps of 10 ms, and the limiter's look-ahead
 
-failures = []
 os.makedirs(pictures, exist_ok=True)
-server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=page))
-threading.Thread(target=server.serve_forever, daemon=True).start()
+server = serve(page)
 origin = f"http://127.0.0.1:{server.server_port}/"
 folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
 browser = Browser(folder.name, origin, pictures)
 try:
     browser.call("Emulation.setDeviceMetricsOverride", width=1280, height=800, deviceScaleFactor=1, mobile=False)
     browser.call("Page.navigate", url=f"{origin}index.html?seed={seed}")
-    browser.wait("document.readyState === 'complete' && !!document.getElementById('preset').length", "the page")
-    browser.picture("web-start.png", 1280, 800, 1)
+    browser.wait("document.getElementById('start')?.disabled === false", "the page")
+
+    # Before the click the world moves, and nothing is heard; it can be played with.
+    browser.value("import('./page.js').then(({ world }) => { globalThis.world = world; })")
+    browser.wait("world.poses.length && (globalThis.before ??= [...world.poses]) && world.poses.some((value, i) => Math.abs(value - before[i]) > 0.05)", "a world that moves before the click")
+    expect(True, "the world moves before the click")
+    time.sleep(1.5)
+    for name, *size in (("desk", 1280, 800, 1), ("laptop", 1366, 680, 1), ("phone", 390, 844, 2), ("across", 844, 390, 2)):
+        browser.picture(f"web-start-{name}.png", *size)
+    browser.call("Emulation.setDeviceMetricsOverride", width=1280, height=800, deviceScaleFactor=1, mobile=False)
 
     # Sound begins with the click: from there to the first block that is not silent.
     browser.value("""globalThis.heard = new Promise(done => {
@@ -67,9 +41,9 @@ try:
     print(f"told   first sound {first:.0f} ms after the click; the scene's first hit is a fall of some 0.5 s")
     browser.wait("!!document.querySelector('.material')", "materials")
 
-    # A hand holds the large rubber ball in the middle of the box, and moves an enchanter there.
+    # A hand holds the large rubber ball in the middle of the box, and moves an actuator there.
     browser.click("#byItself")
-    browser.value("import('./page.js').then(({ world }) => { globalThis.world = world; globalThis.pictures = 0; (function count() { ++pictures; requestAnimationFrame(count); })(); })")
+    browser.value("globalThis.pictures = 0; (function count() { ++pictures; requestAnimationFrame(count); })(); 0")
     browser.wait("world.poses.length", "poses")
     time.sleep(2)
     busy, sounding, began = browser.seconds_of_processors(), browser.seconds_of_processors(audio_thread), time.monotonic()
@@ -85,7 +59,7 @@ try:
     browser.mouse("mouseReleased", *middle)
     expect(True, "a ball is dragged")
     browser.drag(browser.value(f"{on_page}(0, 0)"), middle)
-    expect(browser.value("Math.hypot(world.places[2][0] - 0.5, world.places[2][1] - 0.5) < 0.02"), "an enchanter is dragged")
+    expect(browser.value("Math.hypot(world.places[2][0] - 0.5, world.places[2][1] - 0.5) < 0.02"), "an actuator is dragged")
     time.sleep(2)
     lasted = time.monotonic() - began
     share = lambda now, before: f"{100 * (now - before) / lasted:.0f} %"
@@ -94,11 +68,15 @@ try:
     expect(browser.value("document.getElementById('sentence').textContent.includes('Hz')"), "hits are told")
     browser.click("#attach")
     browser.wait("document.getElementById('output').textContent.startsWith('5 actuators')", "an actuator attached")
-    expect(True, "an enchanter is attached")
+    expect(True, "an actuator is attached")
     browser.click("#byItself")
     time.sleep(2.5)
-    browser.picture("web-desk.png", 1280, 800, 1)
-    browser.picture("web-phone.png", 390, 844, 2)
+    for name, *size in (("desk", 1280, 800, 1), ("laptop", 1366, 680, 1), ("phone", 390, 844, 2), ("across", 844, 390, 2)):
+        browser.picture(f"web-{name}.png", *size)
+    browser.call("Emulation.setDeviceMetricsOverride", width=1280, height=800, deviceScaleFactor=1, mobile=False)
+    browser.click("#pause")
+    browser.wait("!document.getElementById('paused').hidden", "a paused world that shows it")
+    browser.click("#pause")
 
     # A bad scene ends in the line that it ends in natively, and the world goes on.
     text = json.dumps(open(bad_scene).read())
@@ -109,7 +87,7 @@ try:
         file.files = transfer.files;
         file.dispatchEvent(new Event('change'));
         while (document.getElementById('fault').hidden) await new Promise(next => setTimeout(next, 20));
-        return document.getElementById('fault').textContent;
+        return document.querySelector('#fault p').textContent;
     }})()""")
     expected = sys.stdin.read().strip().removeprefix("physvib: ")
     expect(line == expected, f"a bad scene is refused as natively: {line}" + ("" if line == expected else f" (natively: {expected})"))
@@ -119,16 +97,15 @@ try:
 
     for asked, shown in (("marbles", "marbles"), ("nobody", "shake-the-box")):
         browser.call("Page.navigate", url=f"{origin}index.html?scene={asked}")
-        browser.wait(f"location.search === '?scene={asked}' && document.readyState === 'complete' && !!document.getElementById('preset').length", "the page again")
+        browser.wait(f"location.search === '?scene={asked}' && document.getElementById('start')?.disabled === false", "the page again")
         browser.click("#start")
         browser.wait(f"document.getElementById('scene').value === '{shown}' && document.getElementById('materials').textContent.includes('Hz')", "a scene by its link")
-        line = browser.value("document.getElementById('fault').textContent")
+        line = browser.value("document.querySelector('#fault p').textContent")
         expect(line == ("" if asked == shown else f"{asked}: expected the name of a scene that comes with PhysVib"), f"a link to {asked}: {line or 'plays'}")
     for scene, native in (pair.split("=", 1) for pair in natives):
-        digest = browser.value(render_in_page % (seconds, scene, play_out_frames, seed))
-        expect(digest == hashlib.sha256(samples_of(native)).hexdigest(), f"{scene}: {seconds} s of four channels are the native ones to the bit: {digest[:16]}")
+        digest = hash_in_page(browser, f"(await import('./link.js').then(({{ openedBy, freshWorld }}) => openedBy({{ ...freshWorld(), scene: '{scene}', seed: {seed} }}, [])))", int(seconds))
+        expect(digest == hash_of(native), f"{scene}: {seconds} s of four channels are the native ones to the bit: {digest[:16]}")
     expect(not browser.complaints, "no complaint on the console" + "".join("\n       " + words for words in browser.complaints))
 finally:
-    browser.process.terminate()
-    browser.process.wait()
+    browser.end()
 sys.exit(f"{len(failures)} failed" if failures else 0)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Headless Chromium by its own pipe, with nothing but Python's own library.
 import base64
+import fcntl
 import glob
 import json
 import os
@@ -14,14 +15,19 @@ class Browser:
 
     patience = 120  # s, for anything that must come; machines are slow at times
 
-    def __init__(self, folder, origin, pictures):
+    def __init__(self, folder, origin, pictures, options=()):
         self.origin, self.pictures = origin, pictures  # what it may ask for; where its pictures go
         os.makedirs(pictures, exist_ok=True)
         to_read, self.to = os.pipe()
         self.come, from_write = os.pipe()
-        chromium = f"exec chromium --headless=new --no-sandbox --disable-gpu --no-first-run --remote-debugging-pipe --user-data-dir={folder} about:blank"
-        self.process = subprocess.Popen(["sh", "-c", f"{chromium} 3<&{to_read} 4>&{from_write}"], pass_fds=(to_read, from_write),
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        words = ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--remote-debugging-pipe", f"--user-data-dir={folder}", *options, "about:blank"]
+
+        def give_pipes():  # 3 and 4, whatever stood there
+            high = [fcntl.fcntl(end, fcntl.F_DUPFD, 20) for end in (to_read, from_write)]
+            for end, at in zip(high, (3, 4)):
+                os.dup2(end, at)
+
+        self.process = subprocess.Popen(words, close_fds=False, preexec_fn=give_pipes, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
         os.close(to_read)
         os.close(from_write)
         self.rest, self.count, self.session, self.complaints = b"", 0, None, []
@@ -85,6 +91,10 @@ class Browser:
         self.mouse("mousePressed", x, y)
         self.mouse("mouseReleased", x, y)
 
+    def key(self, name):
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode={"ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40, "Escape": 27}[name])
+
     def drag(self, start, end, steps=12):
         self.mouse("mousePressed", *start)
         for i in range(1, steps + 1):
@@ -98,6 +108,12 @@ class Browser:
         shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=width < 600)
         with open(os.path.join(self.pictures, name), "wb") as file:
             file.write(base64.b64decode(shot["data"]))
+
+    def end(self):
+        self.process.terminate()
+        self.process.wait()
+        os.close(self.to)
+        os.close(self.come)
 
     def seconds_of_processors(self, threads=""):
         """Of the browser and all it started, so far: of the threads whose names begin so."""

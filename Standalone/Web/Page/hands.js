@@ -1,50 +1,68 @@
 // SPDX-License-Identifier: MIT
-// What hands do: drag bodies and enchanters, tilt the world by slider, keys or the phone's own sensor.
-const degreesPerKey = 15, tellEveryMs = 30;
+// What hands do: drag bodies and actuators, with several fingers; tilt the world by slider, keys or the phone's own sensor.
+const degreesPerKey = 15, tellEveryMs = 30, mostFingers = 10;
 
-/// `tell` sends a message to the audio thread; `moved(isDone)` says that an enchanter is elsewhere.
+/// `tell` sends a message to the player; `moved(isDone)` says that an actuator is elsewhere.
 export function dragOn(world, tell, moved) {
-    const { canvas } = world;
-    let body = -1, enchanter = -1;
+    const { canvas } = world, holds = new Map(); // pointer: what it holds
     const at = event => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
+    const thingAt = (x, y) => {
+        if (!world.scene) return null;
+        const actuator = world.enchanterAt(x, y), body = actuator < 0 ? world.bodyAt(x, y) : -1;
+        return actuator < 0 && body < 0 ? null : { actuator, body };
+    };
+    const freeFinger = () => { for (let finger = 0; ; ++finger) if (![...holds.values()].some(hold => hold.finger === finger)) return finger; };
+    const follow = event => {
+        const { finger, body, actuator } = holds.get(event.pointerId);
+        if (body >= 0) tell({ grip: [finger, body, ...world.metresAt(...at(event))] });
+        if (actuator < 0 || actuator >= world.places.length) return;
+        world.places[actuator] = world.placeAt(...at(event));
+        moved(false);
+    };
+    canvas.addEventListener('touchstart', event => { // a swipe beside all things scrolls the page
+        if ([...event.changedTouches].some(touch => thingAt(...at(touch)))) event.preventDefault();
+    }, { passive: false });
     canvas.addEventListener('pointerdown', event => {
-        if (!world.scene || !event.isPrimary) return;
-        enchanter = world.chosen = world.enchanterAt(...at(event));
-        body = enchanter < 0 ? world.bodyAt(...at(event)) : -1;
-        if (body < 0 && enchanter < 0) return;
+        const thing = event.button === 0 && holds.size < mostFingers ? thingAt(...at(event)) : null;
+        world.chosen = thing?.actuator ?? -1;
+        if (!thing) return;
+        holds.set(event.pointerId, { finger: freeFinger(), ...thing });
         canvas.setPointerCapture(event.pointerId);
         follow(event);
     });
-    const follow = event => {
-        if (body >= 0) tell({ grip: [body, ...world.metresAt(...at(event))] });
-        if (enchanter < 0) return;
-        world.places[enchanter] = world.placeAt(...at(event));
-        moved(false);
-    };
     canvas.addEventListener('pointermove', event => {
-        if (body >= 0 || enchanter >= 0) return follow(event);
-        if (world.scene && event.pointerType === 'mouse') canvas.style.cursor = world.enchanterAt(...at(event)) >= 0 || world.bodyAt(...at(event)) >= 0 ? 'grab' : '';
+        if (holds.has(event.pointerId)) return follow(event);
+        if (event.pointerType === 'mouse') canvas.style.cursor = thingAt(...at(event)) ? 'grab' : '';
     });
-    const letGo = () => {
-        if (body >= 0) tell({ letGo: [] });
-        if (enchanter >= 0) moved(true);
-        body = enchanter = -1;
+    const letGo = ({ pointerId }) => {
+        const hold = holds.get(pointerId);
+        if (!hold) return;
+        holds.delete(pointerId);
+        if (hold.body >= 0) tell({ letGo: [hold.finger] });
+        else moved(true);
     };
-    canvas.addEventListener('pointerup', letGo);
-    canvas.addEventListener('pointercancel', letGo);
+    for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, letGo);
 }
 
 /// The slider's way of tilting, and that of the keys: they play where the scene has a player.
 export class Tilt {
     isPlayed = false;
-    #told = 0;
+    #told = 0; #followed = null;
     constructor(slider, tell) {
         this.slider = slider;
         this.tell = tell;
-        slider.addEventListener('input', () => this.hold((-slider.value * Math.PI) / 180, 1));
+        slider.addEventListener('input', () => {
+            this.show(slider.value);
+            this.hold((-slider.value * Math.PI) / 180, 1);
+        });
         slider.addEventListener('dblclick', () => this.turn(0));
     }
     hold(angleRadians, factor) { this.tell({ hold: [angleRadians, factor] }); }
+    /// The slider alone: the world is held so already.
+    show(degrees) {
+        this.slider.value = degrees;
+        this.slider.setAttribute('aria-valuetext', `${degrees} degrees`);
+    }
     turn(degrees) {
         this.slider.value = degrees;
         this.slider.dispatchEvent(new Event('input'));
@@ -58,16 +76,21 @@ export class Tilt {
     }
 
     static get hasSensor() { return 'DeviceOrientationEvent' in window && matchMedia('(pointer: coarse)').matches; }
-    /// Gravity in the plane of the display: the world lies still on a table and is heaviest upright.
-    async followSensor() {
-        if ((await DeviceOrientationEvent.requestPermission?.()) === 'denied') return false;
-        window.addEventListener('deviceorientation', ({ beta, gamma }) => {
-            if (beta === null || performance.now() - this.#told < tellEveryMs) return;
-            this.#told = performance.now();
-            const b = (beta * Math.PI) / 180, c = (gamma * Math.PI) / 180, turned = ((screen.orientation?.angle ?? 0) * Math.PI) / 180;
-            const right = Math.cos(b) * Math.sin(c), down = Math.sin(b);
-            this.hold(Math.atan2(right, down) + turned, Math.hypot(right, down));
-        });
+    /// On a click, as phones ask then. Whether the sensor is followed now.
+    async follow(isOn) {
+        if (this.#followed) window.removeEventListener('deviceorientation', this.#followed);
+        if (this.#followed && !isOn) this.turn(0);
+        this.#followed = null;
+        if (!isOn || (await DeviceOrientationEvent.requestPermission?.().catch(() => 'denied')) === 'denied') return false;
+        window.addEventListener('deviceorientation', this.#followed = event => this.#lean(event));
         return true;
+    }
+    // Gravity in the plane of the display: the world lies still on a table and is heaviest upright.
+    #lean({ beta, gamma }) {
+        if (beta === null || performance.now() - this.#told < tellEveryMs) return;
+        this.#told = performance.now();
+        const b = (beta * Math.PI) / 180, c = (gamma * Math.PI) / 180, turned = ((screen.orientation?.angle ?? 0) * Math.PI) / 180;
+        const right = Math.cos(b) * Math.sin(c), down = Math.sin(b);
+        this.hold(Math.atan2(right, down) + turned, Math.hypot(right, down));
     }
 }

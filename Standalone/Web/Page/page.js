@@ -1,165 +1,235 @@
 // SPDX-License-Identifier: MIT
-// The page: its knobs, and what the audio thread tells.
+// The page: its controls, and what the player reports.
 import { Tilt, dragOn } from './hands.js';
-import { materialColour } from './look.js';
-import { Rumble } from './rumble.js';
+import { freshWorld, openedBy, rounded, worldOf } from './link.js';
+import { badgeButtons, materialRows, variableRows } from './mix.js';
+import { Module } from './module.js';
+import { Pads } from './pads.js';
+import { Preview } from './preview.js';
 import { Scope } from './scope.js';
-import { Sound, mostEnchanters } from './sound.js';
+import { save, share, wavOf } from './share.js';
+import { Sound, mostEnchanters, silentBecause } from './sound.js';
 import { World } from './world.js';
 
 const $ = id => document.getElementById(id);
 const decibels = value => value.toFixed(0).replace('-', '−') + ' dB';
 const tellMs = 1000; // for so long the strongest hit is told
+const recordSeconds = 10;
 const arrangements = { 'four corners': [[0, 1], [1, 1], [0, 0], [1, 0]], 'left and right': [[0, 0.5], [1, 0.5]], 'three in a row': [[0, 0.5], [0.5, 0.5], [1, 0.5]], 'one in the middle': [[0.5, 0.5]] };
-const asked = new URLSearchParams(location.search);
 
 export const world = new World($('world'));
-const sound = new Sound(told), scope = new Scope($('scope')), rumble = new Rumble();
-const tilt = new Tilt($('tilt'), message => sound.tell(message));
-const seed = Number(asked.get('seed') ?? 1) >>> 0;
-let current = { isName: true, name: asked.get('scene') ?? 'shake-the-box' }, next = current; // that plays; that was asked for
-let best = { at: 0 }; // hit of the last second
-world.places = [...arrangements['four corners']];
-$('scene').add(new Option(current.name.replaceAll('-', ' ')));
+const sound = new Sound(told), scope = new Scope($('scope')), tilt = new Tilt($('tilt'), message => engine?.tell(message));
+let engine = null, code, compiled, pads, laws = []; // engine: the preview, and after Start the sound
+let state = freshWorld(), key = 0, best = { at: 0 }, hasStarted = false, hasFallenBack = false; // state: all that a link holds; best: hit of the last second
+const asked = new Map(); // worlds that the player has not opened yet, by key
 
 // ---- what is wanted
-const utf8 = new TextEncoder();
-const wanted = () => ({ ...next, bytes: next.bytes ?? utf8.encode(next.name), seed, byHand: !$('byItself').checked, places: world.places });
-
-function open(scene) {
-    next = scene;
-    sound.tell({ open: wanted() });
-    tilt.turn(0);
+const opened = next => {
+    asked.set(++key, next);
+    return { ...openedBy(next, laws), key };
+};
+/// The world as it is asked for now, as a player opens it.
+export const wanted = () => openedBy(state, laws);
+function open(next) {
+    engine.tell({ open: opened(next) });
+}
+function choose(next) {
+    fault('');
+    open(next);
 }
 async function openFile(file) {
-    if (file) choose({ isName: false, name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
+    if (file) choose({ ...freshWorld(), scene: file.name, text: await file.text(), places: state.places, law: state.law });
 }
-function choose(scene) {
-    fault('');
-    open(scene);
+async function openLink() {
+    try {
+        const next = await worldOf(location.hash.slice(1) || location.search.slice(1));
+        if (next.law && !laws.includes(next.law)) throw new Error(`link: law: expected one of ${laws.join(', ')}, found ${next.law}`);
+        choose(next);
+    } catch (error) {
+        fault(error.message);
+        if (!world.scene) open(freshWorld());
+    }
 }
 function fault(line) {
-    $('fault').textContent = line;
+    $('fault').firstChild.textContent = line;
     $('fault').hidden = !line;
 }
 
-// ---- what is told
-function told({ fault: line, scenes, scene, isPlayed, poses, hits, blocks, count }) {
-    if (line) fault(line), (next = current);
-    if (scenes) list(scenes);
-    if (scene) show(JSON.parse(scene), isPlayed);
-    if (!poses) return;
-    world.poses = poses;
-    world.add(hits);
-    scope.add(blocks, count);
-    rumble.play(hits, gain());
-    hits.forEach(tellHit);
+// ---- what is reported
+function told(message) {
+    if (message.fault) {
+        fault(message.fault);
+        if (!world.scene && !hasFallenBack) hasFallenBack = true, open(freshWorld()); // what the link asks for was refused
+    }
+    if (message.scene) show(message);
+    if ('recorded' in message) recorded(message.recorded);
+    if (!message.poses) return;
+    world.poses = message.poses;
+    world.add(message.hits);
+    scope.add(message.blocks, message.count);
+    pads.play(message.hits, message.seconds);
+    message.hits.forEach(tellHit);
 }
-function list(lines) {
-    $('scene').replaceChildren();
-    for (let i = 0; i < lines.length; i += 2) $('scene').add(new Option(lines[i].replaceAll('-', ' '), lines[i]));
-    for (const id of ['scene', 'pause', 'again']) $(id).disabled = false;
-    $('scene').value = current.isName ? current.name : '';
-    if (!world.scene) open({ isName: true, name: lines[0] }); // what was asked for was refused
-}
-function show(scene, isPlayed) {
-    current = next;
+function show({ key: of, scene: text, variables, isPlayed }) {
+    const scene = JSON.parse(text);
+    state = asked.get(of) ?? state;
+    for (const older of [...asked.keys()]) if (older <= of) asked.delete(older);
     world.show(scene);
     tilt.isPlayed = isPlayed;
-    $('materials').replaceChildren(...scene.materials.flatMap((material, i) => (material.frequency_hz ? [materialRow(material, i)] : [])));
-    $('scene').value = current.isName ? current.name : '';
+    tilt.show(0);
+    $('materials').replaceChildren(...materialRows(scene.materials, state.materials, (index, values) => {
+        state.materials.set(index, values);
+        engine.tell({ sound: [index, ...values] });
+    }));
+    $('variables').replaceChildren(...variableRows(variables, (name, value) => choose({ ...state, variables: new Map(state.variables).set(name, value) })));
+    $('scene').value = state.text === null ? state.scene : '';
+    $('seed').value = state.seed;
+    $('byItself').checked = !state.byHand;
+    $('law').value = state.law;
+    document.title = `${state.scene.replaceAll('-', ' ')} · PhysVib`;
+    arrange(state.places, false);
+    if (pads.isOn) pads.set(true, scene.field_m);
 }
 function tellHit([, , hz, decay, amplitude]) {
     const time = performance.now();
     if (time - best.at < tellMs && Math.abs(amplitude) < best.amplitude) return;
     best = { at: time, amplitude: Math.abs(amplitude) };
-    const material = world.scene.materials.find(m => Math.abs(m.frequency_hz - hz) < 0.01);
-    $('sentence').textContent = `${material ? material.name + ' · ' : ''}${hz.toFixed(0)} Hz · τ ${decay.toFixed(0)} /s · ${decibels(20 * Math.log10(best.amplitude))}`;
+    const material = world.scene.materials.find((m, i) => Math.abs((state.materials.get(i)?.[0] ?? m.frequency_hz) - hz) < 0.01);
+    $('sentence').textContent = `${material ? material.name + ' · ' : ''}${hz.toFixed(0)} Hz · falls by 60 dB in ${(6.908 / decay).toFixed(2)} s · ${decibels(20 * Math.log10(best.amplitude))}`;
 }
 function tellOutput() {
     const count = world.places.length, way = sound.isDirect(count) ? 'each actuator on its own output' : 'heard as a stereo monitor: this device has ' + sound.outputs + (sound.outputs === 1 ? ' output' : ' outputs');
     $('output').textContent = `${count} ${count === 1 ? 'actuator' : 'actuators'}, ${way} · ${sound.rate / 1000} kHz`;
 }
 
-// ---- materials: both sliders go by ratios, as what is felt does
-function materialRow(material, index) {
-    const row = document.createElement('div');
-    row.className = 'material';
-    row.innerHTML = '<i></i><b></b><label><span></span><input type="range" min="0" max="1" step="0.005"></label><label><span></span><input type="range" min="0" max="1" step="0.005"></label>';
-    row.querySelector('i').style.background = materialColour(index);
-    row.querySelector('b').textContent = material.name;
-    const [frequency, decay] = [...row.querySelectorAll('label')].map(label => ({ words: label.firstChild, slider: label.lastChild }));
-    bind(frequency, material, 'frequency_hz', 20, 1000, value => `${value.toFixed(0)} Hz`);
-    bind(decay, material, 'decay_per_s', 2, 500, value => `falls by 60 dB in ${(6.908 / value).toFixed(2)} s`);
-    row.addEventListener('input', () => sound.tell({ sound: [index, material.frequency_hz, material.decay_per_s] }));
-    return row;
-}
-function bind({ words, slider }, material, field, least, most, text) {
-    slider.value = Math.log(material[field] / least) / Math.log(most / least);
-    slider.setAttribute('aria-label', material.name + ' ' + field);
-    const say = () => (words.textContent = text(material[field]));
-    slider.addEventListener('input', () => say((material[field] = least * (most / least) ** slider.value)));
-    say();
-}
-
-// ---- enchanters
-function arrange(places) {
-    world.places = places;
+// ---- actuators
+function arrange(places, isNew = true) {
+    state.places = world.places = places;
     world.chosen = Math.min(world.chosen, places.length - 1);
-    sound.tell({ places });
-    if ($('begin').hidden) sound.connect(places), tellOutput();
+    if (isNew) place();
+    if (hasStarted) sound.connect(places), tellOutput();
+    const focused = [...$('badges').children].indexOf(document.activeElement);
+    $('badges').replaceChildren(...badgeButtons(places, (index, at) => arrange(world.places.map((old, j) => (j === index ? at : old))), index => { world.chosen = index; }));
+    $('badges').children[focused]?.focus();
     $('attach').disabled = places.length >= mostEnchanters;
     $('detach').disabled = places.length <= 1;
 }
+const place = () => engine?.tell({ placed: { places: world.places, law: laws.indexOf(state.law) } });
+$('preset').add(new Option('Arrangement…', ''));
 for (const name of Object.keys(arrangements)) $('preset').add(new Option(name));
-$('preset').onchange = () => arrange([...arrangements[$('preset').value]]);
-$('attach').onclick = () => arrange([...world.places, [0.5, 0.5 - 0.08 * (world.places.length % 5)]]); // beside the last one
+$('preset').onchange = () => {
+    if ($('preset').value) arrange(arrangements[$('preset').value].map(at => [...at]));
+    $('preset').value = '';
+};
+$('attach').onclick = () => arrange([...world.places, [0.5, rounded(0.5 - 0.08 * (world.places.length % 5))]]); // beside the last one
 $('detach').onclick = () => arrange(world.places.filter((_, j) => j !== (world.chosen < 0 ? world.places.length - 1 : world.chosen)));
-dragOn(world, message => sound.tell(message), isDone => (isDone ? arrange(world.places) : sound.tell({ places: world.places })));
+$('law').onchange = () => { state.law = $('law').value; place(); };
+dragOn(world, message => engine?.tell(message), isDone => (isDone ? arrange(world.places.map(at => at.map(rounded))) : place()));
 
 // ---- the bar
 const gain = () => (isPressed('silence') || +$('level').value <= -60 ? 0 : 10 ** ($('level').value / 20));
 const setPressed = (id, isOn) => $(id).setAttribute('aria-pressed', isOn);
 const isPressed = id => $(id).getAttribute('aria-pressed') === 'true';
-$('level').oninput = () => {
+function setLevel() {
     sound.setLevel(gain());
+    pads?.setLevel(hasStarted ? gain() : 0);
     $('levelText').textContent = +$('level').value > -60 ? decibels(+$('level').value) : 'silent';
-};
-$('scene').onchange = () => choose({ isName: true, name: $('scene').value });
+    $('level').setAttribute('aria-valuetext', +$('level').value > -60 ? `${$('level').value} decibels` : 'silent');
+}
+$('level').oninput = setLevel;
+$('scene').onchange = () => choose({ ...freshWorld(), scene: $('scene').value, seed: state.seed, byHand: state.byHand, places: state.places, law: state.law });
+$('seed').onchange = () => choose({ ...state, seed: Math.min(2 ** 32 - 1, Math.max(0, Math.round(+$('seed').value))) });
 $('open').onclick = () => $('file').click();
 $('file').onchange = () => openFile($('file').files[0]).then(() => ($('file').value = ''));
-$('again').onclick = $('byItself').onchange = () => open(current);
-$('pause').onclick = () => { setPressed('pause', !isPressed('pause')); sound.pause(isPressed('pause')); };
+$('again').onclick = () => open(state);
+$('byItself').onchange = () => open({ ...state, byHand: !$('byItself').checked });
+$('sharing').onclick = () => share(compiled, state).catch(error => fault(`link: ${error.message}`));
+$('shared').onclick = () => $('share').close();
+$('noFault').onclick = () => fault('');
+function pause(isPaused) {
+    setPressed('pause', isPaused);
+    $('paused').hidden = !isPaused;
+    engine.pause(isPaused);
+    if (isPaused) pads.stop();
+}
+$('pause').onclick = () => pause(!isPressed('pause'));
 function silence(isSilent) {
     setPressed('silence', isSilent);
-    sound.setLevel(gain());
+    setLevel();
+    if (isSilent) pads?.stop();
 }
 $('silence').onclick = () => silence(!isPressed('silence'));
-$('rumble').onchange = () => (rumble.isOn = $('rumble').checked);
+$('rumble').onchange = () => pads.set($('rumble').checked, world.scene.field_m);
 $('sensor').hidden = !Tilt.hasSensor;
-$('sensor').onclick = async () => setPressed('sensor', await tilt.followSensor());
+$('sensor').onclick = async () => setPressed('sensor', await tilt.follow(!isPressed('sensor')));
+$('record').onclick = () => {
+    const channels = world.places.map(() => new Float32Array(recordSeconds * sound.rate));
+    $('record').disabled = true;
+    $('record').textContent = 'Recording…';
+    sound.tell({ record: channels }, channels.map(channel => channel.buffer));
+};
+function recorded(recording) {
+    $('record').disabled = false;
+    $('record').textContent = `Record ${recordSeconds} s`;
+    if (recording) save(wavOf(compiled, recording), `${state.scene.replace(/\.json$/, '')}.wav`);
+}
 document.addEventListener('keydown', event => {
+    if (event.defaultPrevented || $('share').open) return;
     if (event.key === 'Escape') silence(true);
     else if (!event.target.matches('input, select')) tilt.key(event);
 });
 document.addEventListener('dragover', event => event.preventDefault());
 document.addEventListener('drop', event => { event.preventDefault(); openFile(event.dataTransfer.files[0]); });
+window.addEventListener('hashchange', openLink);
 
 // ---- sound begins on a click, never before
+const stayAwake = () => { if (hasStarted && !document.hidden) navigator.wakeLock?.request('screen').catch(() => {}); };
+document.addEventListener('visibilitychange', stayAwake);
 $('start').onclick = async () => {
     $('start').disabled = true;
+    const preview = engine, leaning = Tilt.hasSensor ? tilt.follow(true) : false; // phones ask on a click only
+    preview.end();
     try {
-        await sound.start(wanted());
+        await sound.start(code, opened(state));
+        engine = sound;
+        hasStarted = true;
         $('begin').hidden = true;
+        $('record').disabled = false;
+        setPressed('sensor', await leaning);
+        setPressed('pause', false);
+        $('paused').hidden = true;
         tellOutput();
-        sound.setLevel(gain());
+        setLevel();
+        stayAwake();
     } catch (error) {
-        fault('sound does not start here: ' + error.message);
+        fault(error.message);
         $('start').disabled = false;
+        preview.run();
     }
 };
-(function draw() {
+function draw() {
     world.draw();
     scope.draw();
     requestAnimationFrame(draw);
-})();
+}
+async function begin() {
+    code = await (await fetch('physvib.wasm')).arrayBuffer();
+    compiled = await WebAssembly.compile(code);
+    pads = new Pads(new Module(compiled));
+    setLevel();
+    const preview = engine = new Preview(compiled, mostEnchanters, told), { scenes, laws: names } = preview.lists;
+    laws = names;
+    for (let i = 0; i < scenes.length; i += 2) $('scene').add(Object.assign(new Option(scenes[i].replaceAll('-', ' '), scenes[i]), { title: scenes[i + 1] }));
+    $('law').add(Object.assign(new Option('default (linear)', ''), { title: 'Surfaces that roll or slide by energy, as physvib render has it' }));
+    for (const law of laws) $('law').add(new Option(law));
+    await openLink();
+    if (matchMedia('(prefers-reduced-motion: reduce)').matches) pause(true);
+    else preview.run();
+    draw();
+    const why = silentBecause();
+    $('start').hidden = why !== '';
+    if (why) $('beginText').textContent = why, $('output').textContent = 'Silent.';
+    for (const id of ['scene', 'pause', 'again', 'sharing', 'start']) $(id).disabled = false;
+    navigator.serviceWorker?.register('service-worker.js').catch(() => {}); // without one, it needs the network
+}
+begin().catch(error => fault(`the page is not whole: ${error.message}; load it again`));

@@ -2,6 +2,7 @@
 // Every game controller that the browser has, and a phone's own motor. What is to be felt is summed as energy by the module (the arithmetic of the native
 // sink), so a weak hit never ends a strong one and none is left out because another sounds.
 import { Clock, followed } from './clock.js';
+import { Waves } from './waves.js';
 
 const commandMs = 200; // one lasts as long, and is repeated before: motors stop soon if a page does
 const nsPerMs = 1e6;
@@ -9,20 +10,26 @@ const nsPerMs = 1e6;
 /** What a controller can do: its effects by name. */
 const effectsOf = ({ vibrationActuator: actuator }) => (actuator ? actuator.effects ?? (actuator.type ? [actuator.type] : ['dual-rumble']) : []);
 
+/** Browsers let a phone's motor be after the first touch only, and complain before. */
+function phoneMotor(navigator) {
+    return navigator?.vibrate && (ms => navigator.userActivation?.hasBeenActive !== false && navigator.vibrate(ms));
+}
+
 class Pads {
-    #motors; #clock; #timer = null; #ends = new Set(); #level; #now; #pads; #vibrate; #latencyNs; #setTimer; #clearTimer; #last = { low: 0, high: 0 };
+    #waves; #motors; #clock; #timer = null; #ends = new Set(); #level; #now; #pads; #vibrate; #latencyNs; #setTimer; #clearTimer; #last = { low: 0, high: 0 };
     /** Commands sent so far, and those that a controller has refused. */
     commands = 0;
     refused = 0;
 
     constructor(physvib, { profile = 'pad-generic', latency = 0.06, level = 1, fieldWidth = 1, fieldHeight = 1, phone = true, ...system }) {
         this.#motors = physvib.pad(profile, { fieldWidth, fieldHeight });
+        this.#waves = new Waves(physvib, { fieldWidth, fieldHeight }, system.audioBuffer);
         this.#latencyNs = latency * 1e9;
         this.#clock = new Clock(this.#latencyNs);
         this.#level = level;
         this.#now = system.now ?? (() => performance.now());
         this.#pads = system.getGamepads ?? (() => globalThis.navigator?.getGamepads?.() ?? []);
-        this.#vibrate = !phone ? undefined : system.vibrate ?? globalThis.navigator?.vibrate?.bind(globalThis.navigator);
+        this.#vibrate = !phone ? undefined : system.vibrate ?? phoneMotor(globalThis.navigator);
         this.#setTimer = system.setTimeout ?? ((call, ms) => setTimeout(call, ms));
         this.#clearTimer = system.clearTimeout ?? (timer => clearTimeout(timer));
     }
@@ -39,7 +46,10 @@ class Pads {
 
     /** Events, `laterNs` after the times they have: as a rule, now. */
     strike(events, laterNs = this.#now() * nsPerMs) {
-        for (const event of events) this.#motors.strike({ ...event, timeNs: Math.max(0, event.timeNs + laterNs) });
+        const felt = events.map(event => ({ ...event, timeNs: Math.max(0, event.timeNs + laterNs) }));
+        for (const event of felt) this.#motors.strike(event);
+        this.#waves.strike(felt);
+        this.#waves.send([...this.#pads()], this.#now() * nsPerMs, this.#level);
         this.#wait();
     }
 
@@ -48,6 +58,7 @@ class Pads {
     /** Everything stands still, now. */
     stop() {
         this.#motors.stop(this.#now() * nsPerMs);
+        this.#waves.stop([...this.#pads()]);
         this.#send({ low: 0, high: 0 });
         this.#wait();
     }
@@ -62,7 +73,7 @@ class Pads {
     // A timer per command: at rest there is none.
     #wait() {
         this.#clearTimer(this.#timer);
-        const { dueNs } = this.#motors;
+        const dueNs = Math.min(this.#motors.dueNs, this.#waves.dueNs);
         if (dueNs === Infinity) return;
         this.#timer = this.#setTimer(() => this.#act(), Math.max(0, Math.ceil(dueNs / nsPerMs - this.#now()))); // timers know whole milliseconds
     }
@@ -71,12 +82,13 @@ class Pads {
         let command = null;
         while (this.#motors.dueNs <= nowNs) command = this.#motors.next(this.#level); // a page that was busy passes over what is over
         if (command) this.#send(command);
+        this.#waves.send([...this.#pads()], nowNs, this.#level);
         this.#wait();
     }
 
     #send({ low, high }) {
         ++this.commands;
-        for (const pad of this.#pads()) if (pad?.connected !== false && pad?.vibrationActuator) this.#rumble(pad, low, high);
+        for (const pad of this.#pads()) if (pad?.connected !== false && pad?.vibrationActuator && !this.#waves.takes(pad)) this.#rumble(pad, low, high);
         this.#buzz(Math.max(low, high));
         this.#last = { low, high };
     }

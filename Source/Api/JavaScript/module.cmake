@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+# What the package's modules and the page's have in common: include/physvib/Version.h, include/Members.inc, package/profiles.js, and ${exports}, the
+# header's functions.
+get_filename_component(physvib_root ${CMAKE_CURRENT_LIST_DIR}/../../.. ABSOLUTE)
+
+# The version has one home.
+file(STRINGS ${physvib_root}/CMakeLists.txt project REGEX "^project\\(PhysVib VERSION ")
+string(REGEX REPLACE ".* VERSION ([0-9]+)\\.([0-9]+)\\.([0-9]+) .*" "\\1;\\2;\\3" numbers "${project}")
+list(GET numbers 0 PROJECT_VERSION_MAJOR)
+list(GET numbers 1 PROJECT_VERSION_MINOR)
+list(GET numbers 2 PROJECT_VERSION_PATCH)
+string(REPLACE ";" "." PROJECT_VERSION "${numbers}")
+configure_file(${physvib_root}/Source/Package/Version.h.in include/physvib/Version.h @ONLY)
+# What of the header JavaScript calls: all functions but those of files, which a page has not; and all members of its structures.
+set(header ${physvib_root}/Source/Api/C/physvib.h)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+file(READ ${header} text)
+string(REGEX REPLACE "[][;]" "|" text "${text}") # which lists of CMake take for their own
+string(REPLACE "\n" ";" lines "${text}")
+set(members "")
+set(exports "")
+foreach(line IN LISTS lines)
+    if(line MATCHES "^typedef struct (physvib_[a-z_]+) {")
+        set(structure ${CMAKE_MATCH_1})
+    elseif(line MATCHES "^    (size_t|int|double|physvib_int64|physvib_layout) ([a-z_0-9]+)[|]")
+        string(APPEND members "MEMBER(${structure}, ${CMAKE_MATCH_2})\n")
+    elseif(line MATCHES "^}" AND structure)
+        string(APPEND members "END(${structure})\n")
+        unset(structure)
+    elseif(NOT line MATCHES "_(load|save|parse)\\(" AND line MATCHES "^PHYSVIB_API .*(physvib_[a-z_]+)\\(")
+        list(APPEND exports -Wl,--export=${CMAKE_MATCH_1})
+    endif()
+endforeach()
+file(CONFIGURE OUTPUT include/Members.inc CONTENT "${members}" @ONLY)
+
+# Profiles of controllers, as a module of JavaScript.
+file(GLOB pads CONFIGURE_DEPENDS ${physvib_root}/Source/Scene/Pads/*.json)
+set(text "")
+foreach(pad ${pads})
+    get_filename_component(name ${pad} NAME_WE)
+    file(READ ${pad} profile)
+    string(APPEND text "    '${name}': ${profile},\n")
+endforeach()
+file(CONFIGURE OUTPUT package/profiles.js CONTENT "// SPDX-License-Identifier: MIT\n// What motors of controllers do: Docs/pads.md.\nexport const profiles = {\n${text}};\n" @ONLY)

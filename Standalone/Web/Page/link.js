@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// All of a world in an address: who opens it gets the same samples. It stands after the #, so that no server is told of it. What is as it always is, is left out.
+import { mostEnchanters } from './sound.js';
+
+export const corners = [[0, 1], [1, 1], [0, 0], [1, 0]];
+export const firstScene = 'shake-the-box';
+const mostBytes = 1 << 20; // of a scene in a link, unpacked
+const mostVariables = 64, mostMaterials = 256;
+
+export const freshWorld = () => ({ scene: firstScene, text: null, seed: 1, byHand: false, places: corners.map(place => [...place]), law: '', variables: new Map(), materials: new Map() });
+
+/// Numbers of three digits behind the point, as they stand in links and in the world alike.
+export const rounded = value => Math.round(value * 1000) / 1000;
+/// Four digits: frequencies and decays.
+export const fourDigits = value => Number(value.toPrecision(4));
+
+const toBase64 = bytes => btoa(Array.from(bytes, byte => String.fromCharCode(byte)).join('')).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+const fromBase64 = text => Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), letter => letter.charCodeAt(0));
+const through = (bytes, stream) => new Blob([bytes]).stream().pipeThrough(stream);
+
+async function packed(text) { return toBase64(new Uint8Array(await new Response(through(new TextEncoder().encode(text), new CompressionStream('deflate-raw'))).arrayBuffer())); }
+async function unpacked(code) {
+    const parts = [], reader = through(fromBase64(code), new DecompressionStream('deflate-raw')).getReader();
+    for (let bytes = 0; ;) {
+        const { done, value } = await reader.read();
+        if (done) return new TextDecoder().decode(new Uint8Array(await new Blob(parts).arrayBuffer()));
+        if ((bytes += value.length) > mostBytes) throw new Error('expected a scene of at most 1 MB');
+        parts.push(value);
+    }
+}
+
+/// What stands after the # for this world.
+export async function linkOf(world) {
+    const words = new URLSearchParams({ scene: world.scene });
+    if (world.text !== null) words.set('file', await packed(world.text));
+    if (world.seed !== 1) words.set('seed', world.seed);
+    if (world.byHand) words.set('by', 'hand');
+    for (const [name, value] of world.variables) words.append('set', `${name}=${value}`);
+    if (JSON.stringify(world.places) !== JSON.stringify(corners)) words.set('at', world.places.map(place => place.map(rounded).join(',')).join(' '));
+    if (world.law) words.set('law', world.law);
+    for (const [index, sound] of world.materials) words.append('sound', [index, ...sound].join(','));
+    return words.toString().replaceAll('%2C', ',').replaceAll('%3D', '=');
+}
+
+const wrong = (what, expected, found) => new Error(`link: ${what}: expected ${expected}, found ${JSON.stringify(String(found).slice(0, 40))}`);
+const numbersOf = (text, count, what, expected, isGood) => {
+    const numbers = text.split(',').map(word => (/^-?\d+(\.\d+)?$/.test(word) ? Number(word) : NaN));
+    if (numbers.length !== count || !numbers.every(isGood)) throw wrong(what, expected, text);
+    return numbers;
+};
+
+/// The world of a link's words (what stands after the #, or, in older links, after the ?); throws an Error of one line at anything else.
+export async function worldOf(text) {
+    const words = new URLSearchParams(text), world = freshWorld();
+    world.scene = (words.get('scene') || firstScene).slice(0, 200);
+    if (words.has('file')) {
+        try { world.text = await unpacked(words.get('file')); } catch { throw new Error('link: file: expected a scene; was the link cut off?'); }
+    }
+    if (words.has('seed')) [world.seed] = numbersOf(words.get('seed'), 1, 'seed', '0 to 4294967295', value => Number.isInteger(value) && value >= 0 && value < 2 ** 32);
+    world.byHand = words.get('by') === 'hand';
+    for (const pair of words.getAll('set').slice(0, mostVariables)) {
+        const at = pair.indexOf('=');
+        if (at < 1) throw wrong('set', 'NAME=VALUE', pair);
+        world.variables.set(pair.slice(0, at), pair.slice(at + 1));
+    }
+    if (words.has('at')) {
+        const places = words.get('at').split(' ');
+        if (places.length > mostEnchanters) throw wrong('at', `1 to ${mostEnchanters} places`, places.length);
+        world.places = places.map(place => numbersOf(place, 2, 'at', 'places of two numbers, 0 to 1', value => value >= 0 && value <= 1).map(rounded));
+    }
+    world.law = words.get('law') ?? '';
+    for (const sound of words.getAll('sound').slice(0, mostMaterials)) {
+        const [index, ...values] = numbersOf(sound, 3, 'sound', 'NUMBER,HZ,DECAY', value => value >= 0);
+        if (!Number.isInteger(index)) throw wrong('sound', 'NUMBER,HZ,DECAY', sound);
+        world.materials.set(index, values);
+    }
+    return world;
+}
+
+/// What a player opens.
+export const openedBy = (world, laws) => ({ name: world.scene, isName: world.text === null, bytes: new TextEncoder().encode(world.text ?? world.scene), byHand: world.byHand, seed: world.seed,
+    variables: [...world.variables], materials: [...world.materials], places: world.places, law: laws.indexOf(world.law) });

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// A world in motion and its samples: on the audio thread, and before the first click in the page itself, where nothing of it is heard. The whole chain is
+// one WebAssembly instance; it gets inputs by messages, and reports poses, hits and levels sixty times a second.
+import { Module } from './module.js';
+
+const reportsPerSecond = 60;
+const mostHits = 200; // of one report
+
+export class Player {
+    #report = null; #recording = null;
+
+    /// `post` takes what is reported, and what of it changes hands.
+    constructor(compiled, rate, outputs, post) {
+        Object.assign(this, { compiled, rate, outputs, post });
+    }
+
+    /// What does not depend on a scene.
+    lists() {
+        const module = new Module(this.compiled), linesOf = name => module.text(module.run(name)).trim().split('\n');
+        return { scenes: linesOf('sceneList'), laws: linesOf('lawList') };
+    }
+
+    /// A scene that is refused leaves its instance behind; the one that plays goes on.
+    open(wanted) {
+        try {
+            const next = new Module(this.compiled), { bytes, isName, byHand, seed, variables, materials } = wanted;
+            for (const [name, value] of variables) next.withText(name, n => next.withText(value, v => next.run('choose', n, v)));
+            next.withBytes(bytes, (at, count) => next.run('open', at, count, isName, byHand, seed, this.rate, this.outputs));
+            for (const [index, [frequency, decay]] of materials) {
+                next.run('sound', index, frequency, decay);
+                const fault = next.text(next.run('fault'));
+                if (fault) throw new Error(fault);
+            }
+            this.module = next;
+            this.place(wanted);
+            this.frame = this.reportedFrame = 0;
+            if (this.#recording) this.#endRecording(null);
+            this.#forget();
+            this.post({ key: wanted.key, scene: next.text(next.run('scene')), variables: next.text(next.run('variables')), isPlayed: !!next.run('isPlayed') });
+            this.#send(); // so that a world that stands is seen
+        } catch (error) {
+            const why = error.message.startsWith('internal:') ? 'expected a scene that a page can hold, found more' : error.message;
+            this.post({ fault: `${wanted.name}: ${why}` });
+        }
+    }
+
+    obey(message) {
+        if (message.open) return this.open(message.open);
+        if (!this.module) return;
+        try {
+            for (const [name, values] of Object.entries(message)) {
+                if (name === 'placed') this.place(values);
+                else if (name === 'record') this.#recording = { channels: values, frames: 0 };
+                else this.module.run(name, ...values);
+            }
+            const fault = this.module.text(this.module.run('fault'));
+            if (fault) this.post({ fault });
+        } catch (error) {
+            this.#end(error);
+        }
+    }
+
+    place({ places, law }) {
+        const { module } = this;
+        module.run('enchanters', places.length);
+        places.forEach(([x, y], i) => module.run('place', i, x, y));
+        module.run('placed', law);
+        if (this.count === places.length) return;
+        this.count = places.length;
+        this.#forget(); // one report is of one number of actuators, and so is a recording
+        if (this.#recording) this.#endRecording(null);
+    }
+
+    /// The next frames, output by output, or null: there is no world.
+    render(frames) {
+        if (!this.module) return null;
+        try {
+            const samples = this.module.floats(this.module.run('render', frames), frames * this.outputs);
+            this.frame += frames;
+            this.#note(samples, frames);
+            if (this.#recording) this.#record(samples, frames);
+            if (this.frame - this.reportedFrame >= this.rate / reportsPerSecond) this.#send();
+            return samples;
+        } catch (error) {
+            this.#end(error);
+            return null;
+        }
+    }
+
+    #end(error) {
+        this.module = null;
+        this.post({ fault: `the world has stopped: ${error.message}` });
+    }
+
+    #forget() {
+        this.#report = { blocks: [], hits: [] };
+    }
+
+    // Lowest and highest sample of each actuator, a pair per block.
+    #note(samples, frames) {
+        for (let j = 0; j < this.count; ++j) {
+            let low = 0, high = 0;
+            for (let i = j * frames; i < (j + 1) * frames; ++i) {
+                const value = samples[i];
+                if (value < low) low = value;
+                else if (value > high) high = value;
+            }
+            this.#report.blocks.push(low, high);
+        }
+    }
+
+    #record(samples, frames) {
+        const { channels, frames: done } = this.#recording, count = Math.min(frames, channels[0].length - done);
+        channels.forEach((channel, j) => channel.set(samples.subarray(j * frames, j * frames + count), done));
+        this.#recording.frames += count;
+        if (this.#recording.frames < channels[0].length) return;
+        this.#endRecording({ channels, rate: this.rate });
+    }
+    #endRecording(recorded) {
+        this.post({ recorded }, recorded?.channels.map(channel => channel.buffer));
+        this.#recording = null;
+    }
+
+    #send() {
+        const { module } = this, { hits, blocks } = this.#report;
+        for (let at = module.run('hit'); at; at = module.run('hit')) if (hits.length < mostHits) hits.push([...module.doubles(at, 7)]);
+        const poses = module.floats(module.run('poses'), 4 * module.run('bodyCount')).slice();
+        this.post({ poses, hits, blocks: new Float32Array(blocks), count: this.count, seconds: this.frame / this.rate });
+        this.reportedFrame = this.frame;
+        this.#forget();
+    }
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// A link to the world as it is now, and a QR code of it; ten seconds as a file.
+import { linkOf } from './link.js';
+import { Module } from './module.js';
+
+const $ = id => document.getElementById(id);
+const quietModules = 4, modulePixels = 4; // around a QR code, and of each of its modules
+
+/// Black and white on a canvas; false: the text is too long.
+export function drawCode(compiled, text, canvas) {
+    const module = new Module(compiled), side = module.withText(text, at => module.run('qrSide', at)); // an instance that is thrown away
+    if (side === 0) return false;
+    const context = canvas.getContext('2d');
+    canvas.width = canvas.height = (side + 2 * quietModules) * modulePixels;
+    context.fillStyle = '#fff';
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    context.fillStyle = '#000';
+    for (let y = 0; y < side; ++y)
+        for (let x = 0; x < side; ++x) if (module.run('qrModule', x, y)) context.fillRect((x + quietModules) * modulePixels, (y + quietModules) * modulePixels, modulePixels, modulePixels);
+    return true;
+}
+
+/// Copies the link and shows it.
+export async function share(compiled, world) {
+    const link = `${location.origin}${location.pathname}#${await linkOf(world)}`;
+    history.replaceState(null, '', link);
+    $('link').value = link;
+    const isCopied = await (navigator.clipboard?.writeText(link).then(() => true, () => false) ?? false);
+    $('copied').textContent = isCopied ? 'Copied.' : 'Copy it from here:';
+    const fits = drawCode(compiled, link, $('code'));
+    $('code').hidden = !fits;
+    $('codeNote').textContent = fits ? 'Or go on with a phone:' : 'This scene is too large for a QR code; the link holds all of it.';
+    $('share').showModal();
+    $('link').select();
+}
+
+/// 32-bit floats, a channel per actuator, as `physvib render` writes them.
+export function wavOf(compiled, { channels, rate }) {
+    const module = new Module(compiled), frames = channels[0].length, count = channels.length, head = module.run('wavHead', count, rate, frames);
+    const samples = new Float32Array(count * frames);
+    channels.forEach((channel, j) => { for (let n = 0; n < frames; ++n) samples[n * count + j] = channel[n]; });
+    return new Blob([module.bytes(head, module.run('wavHeadBytes')).slice(), samples], { type: 'audio/wav' });
+}
+
+export function save(blob, name) {
+    const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: MIT
+# The worlds of worlds.mjs in headless Chromium, as in Node: the same table, and the audio worklet's samples are those of render. And the game for Phaser of a page of the documentation.
+# usage: chromium.py FOLDER PAGE.md. FOLDER: where npm has installed physvib and the engines
+import functools
+import http.server
+import json
+import os
+import re
+import sys
+import tempfile
+import threading
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Web"))
+from chromium import Browser  # noqa: E402
+
+folder, here = os.path.abspath(sys.argv[1]), os.path.dirname(os.path.abspath(__file__))
+modules = "/node_modules"
+imports = {"physvib": "/physvib/physvib.js", **{f"physvib/{name}": f"/physvib/{name}.js" for name in ("audio", "gamepad", "matter", "planck", "rapier2d", "box2d3")},
+           "matter-js": "/matter.mjs", "planck": f"{modules}/planck/dist/planck.mjs", "@dimforge/rapier2d-compat": f"{modules}/@dimforge/rapier2d-compat/dist/rapier.mjs",
+           **{f"node:{name}": "/node.mjs" for name in ("module", "path", "url")}}
+game = next(block for block in re.findall(r"```js\n(.*?)```", open(sys.argv[2]).read(), re.S) if "new Phaser.Game" in block)
+made = {
+    "/": f'<!DOCTYPE html><link rel="icon" href="data:,"><script type="importmap">{json.dumps({"imports": imports})}</script><script src="{modules}/matter-js/build/matter.js"></script>',
+    "/matter.mjs": "export default globalThis.Matter;",
+    # What worlds.mjs and engines.mjs ask of Node, for a folder that is this server's.
+    "/node.mjs": "export const createRequire = () => null, join = (...parts) => parts.join('/'), resolve = path => path, pathToFileURL = path => path;",
+    "/game.mjs": f"import * as Phaser from '{modules}/phaser/dist/phaser.esm.js';\n{game}",
+    "/tests/installed.mjs": "export const load = (folder, name) => import(name);",
+}
+
+
+class Handler(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *words):
+        pass
+
+    def translate_path(self, path):
+        for start, real in (("/physvib/", f"{folder}/node_modules/physvib/"), ("/tests/", here + "/")):
+            if path.startswith(start):
+                return real + path[len(start):].split("?")[0]
+        return super().translate_path(path)
+
+    def do_GET(self):
+        text = made.get(self.path.split("?")[0])
+        if text is None:
+            return super().do_GET()
+        self.send_response(200)
+        self.send_header("Content-Type", "text/html" if self.path == "/" else "text/javascript")
+        self.end_headers()
+        self.wfile.write(text.encode())
+
+    extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".mjs": "text/javascript", ".js": "text/javascript", ".wasm": "application/wasm"}
+
+
+# The table by worlds.mjs itself; and events of each world that it runs, once by render and once through the worklet.
+in_page = """(async () => {
+    const lines = [];
+    console.log = line => lines.push(line);
+    const ended = new Promise(done => { globalThis.process = { argv: ['', '', '', 'matter', 'planck', 'rapier2d', 'box2d3'], exit: done, versions: {} }; });
+    const { Haptics } = await import('/physvib/haptics.js'), { PhysVib } = await import('physvib'), { play } = await import('physvib/audio');
+    const lists = [], take = Haptics.prototype.take;
+    Haptics.prototype.take = function (...values) { const events = take.apply(this, values); lists.push(events); return events; };
+    await import('/tests/worlds.mjs');
+    const code = await ended, physvib = await (await import('physvib')).load();
+    const settings = { layout: 'phone4', fieldWidth: 10, fieldHeight: 10 }, seconds = 3, rate = 48000, differing = [];
+    let sounding = 0, most = 0;
+    for (const [i, events] of lists.entries()) {
+        const due = events.filter(event => event.timeNs < (seconds - 0.1) * 1e9);
+        if (due.length === 0) continue;
+        const context = new OfflineAudioContext(4, rate * seconds, rate), output = await play(physvib, context, { ...settings, level: 1 });
+        output.strike(due, 0);
+        const recorded = await context.startRendering(), late = output.latencyFrames;
+        physvib.render(due, { ...settings, seconds }).forEach((wanted, j) => {
+            const got = recorded.getChannelData(j).subarray(late);
+            if (!got.every((sample, n) => sample === wanted[n])) differing.push(`${i}, channel ${j}`);
+            if (wanted.some(sample => sample !== 0)) ++sounding;
+        });
+        most = Math.max(most, due.length);
+    }
+    return { code, lines, worlds: lists.length, sounding, differing, most };
+})()"""
+
+# A controller's motors while a ball of the game falls and bounces.
+play_game = """(async () => {
+    const told = [], actuator = { effects: ['dual-rumble'], playEffect: (effect, { strongMagnitude }) => { told.push(strongMagnitude); return Promise.resolve('complete'); }, reset: () => Promise.resolve('complete') };
+    navigator.getGamepads = () => [{ connected: true, vibrationActuator: actuator }];
+    await import('/game.mjs');
+    for (let i = 0; i < 200 && told.length < 10; ++i) await new Promise(next => setTimeout(next, 50));
+    return told;
+})()"""
+
+server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Handler, directory=folder))
+threading.Thread(target=server.serve_forever, daemon=True).start()
+origin = f"http://127.0.0.1:{server.server_port}/"
+profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+browser = Browser(profile.name, origin, profile.name)
+try:
+    browser.call("Page.navigate", url=origin)
+    browser.wait("document.readyState === 'complete' && typeof Matter === 'object'", "the page")
+    motors = browser.value(play_game)
+    browser.call("Page.reload")
+    browser.wait("document.readyState === 'complete' && typeof Matter === 'object'", "the page again")
+    found = browser.value(in_page)
+finally:
+    browser.end()
+print("\n".join(found["lines"]))
+print(f"Chromium: {found['worlds']} worlds, {found['sounding']} channels that sound, up to {found['most']} events: the worklet's samples differ from render's in {found['differing'] or 'none'}")
+print(f"Phaser's game: {len(motors)} commands, the strongest {max(motors, default=0)}")
+complaints = [words for words in browser.complaints if not words.startswith("asked the network for data:") and "WebGL" not in words]
+for words in complaints:
+    print("console:", words)
+sys.exit(1 if found["code"] or found["differing"] or not found["sounding"] or max(motors, default=0) < 0.3 or complaints else 0)
