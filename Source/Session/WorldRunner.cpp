@@ -3,10 +3,17 @@
 #include "Session/WorldRunner.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
+#include <chrono>
 #include <iterator>
+#include <thread>
 #include <utility>
 
 namespace physvib {
+namespace {
+
+constexpr int posesTries = 8; // a millisecond apart: most steps are shorter, and a picture may wait so long
+
+} // namespace
 
 WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, CallbackInputs& callback, SinkSet& sinks)
     : setup_{setup}
@@ -17,6 +24,7 @@ WorldRunner::WorldRunner(const SessionSetup& setup, const Timeline& time, Callba
     , state_{std::make_shared<const Scene>(setup.scene), setup.seed} {
     made_.reserve(1024); // of a step; more are rare
     world_.start(0, state_.scene, state_.seed);
+    showPoses();
 }
 
 std::string WorldRunner::setState(SessionState state) {
@@ -48,6 +56,8 @@ void WorldRunner::prepare() {
     stepsWanted_ = 0;
     offline_ = false;
     isDriven_ = false;
+    drops_ = world_.drops();
+    showPoses();
 }
 
 void WorldRunner::resume(const FrameClock& clock) {
@@ -60,7 +70,9 @@ int WorldRunner::advance(const StepWatch& goesOn) {
     if (offline_.load(std::memory_order_acquire)) return 0;
     isDriven_.store(true, std::memory_order_release);
     takeUp();
-    return catchUp(goesOn);
+    const int steps = catchUp(goesOn);
+    if (isShown_.load(std::memory_order_relaxed)) showPoses();
+    return steps;
 }
 
 int WorldRunner::catchUp(const StepWatch& goesOn) {
@@ -88,6 +100,7 @@ void WorldRunner::moveWorld(std::int64_t untilNs) {
     if (slowness == 0) stepsWanted_.fetch_sub(1, std::memory_order_relaxed);
     const std::int64_t before = world_.timeNs();
     world_.step(made_);
+    drops_.store(world_.drops(), std::memory_order_relaxed);
     if (slowness > 1) world_.standStill((slowness - 1) * (world_.timeNs() - before));
 }
 
@@ -98,6 +111,7 @@ void WorldRunner::takeUp() {
     if (frame < 0 && !isNew_) return;
     world_.start(frame < 0 ? time_.nowNs() : time_.sessionNs(frame), state_.scene, state_.seed);
     isNew_ = false;
+    showPoses();
 }
 
 // Queues what has been made; true if nothing is left.
@@ -192,15 +206,27 @@ SessionSize WorldRunner::size() const {
     return size;
 }
 
-std::int64_t WorldRunner::readPoses(std::vector<BodyPose>& poses) const {
-    const std::lock_guard lock{mutex_};
-    world_.readPoses(poses);
-    return world_.timeNs();
+void WorldRunner::showPoses() const {
+    const std::lock_guard lock{shownMutex_};
+    world_.readPoses(shown_);
+    shownNs_ = world_.timeNs();
 }
 
-std::uint64_t WorldRunner::drops() const {
-    const std::lock_guard lock{mutex_};
-    return world_.drops();
+// Who draws a world that is too much has the poses of its last whole step, and is not kept waiting.
+std::int64_t WorldRunner::readPoses(std::vector<BodyPose>& poses) const {
+    std::unique_lock lock{mutex_, std::try_to_lock};
+    for (int k = 0; !lock && k < posesTries && !isShown_.load(std::memory_order_relaxed); ++k) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        (void)lock.try_lock();
+    }
+    isShown_.store(!lock, std::memory_order_relaxed);
+    if (lock) {
+        world_.readPoses(poses);
+        return world_.timeNs();
+    }
+    const std::lock_guard shown{shownMutex_};
+    poses = shown_;
+    return shownNs_;
 }
 
 } // namespace physvib

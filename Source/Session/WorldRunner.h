@@ -46,12 +46,13 @@ public:
     /// Live inputs and bodies that the world holds now: for those who watch that neither grows without end. Any thread but R.
     SessionSize size() const;
 
-    /// Where the bodies of sceneCast() are, as far as the world has been stepped: the session time of that, L before it is
-    /// felt. Without a log nobody knows what inputs have spawned, and what is gone is left out. Any thread but R.
+    /// Where the bodies of sceneCast() are, as far as the world has been stepped: the session time of that, L
+    /// before it is felt. Without a log nobody knows what inputs have spawned, and what is gone is left out.
+    /// A step that takes long is not waited for: then they are where they were before it. Any thread but R.
     std::int64_t readPoses(std::vector<BodyPose>& poses) const;
 
-    /// Collisions lost in the physics step. Any thread but R.
-    std::uint64_t drops() const;
+    /// Collisions lost in the physics step. Any thread, wait-free.
+    std::uint64_t drops() const noexcept { return drops_.load(std::memory_order_relaxed); }
 
 private:
     friend class Session;
@@ -91,6 +92,7 @@ private:
     void takeUp();
     void takeDue(std::int64_t untilNs);
     bool handOver();
+    void showPoses() const; // to those who do not wait for a step
 
     const SessionSetup& setup_;
     const Timeline& time_;
@@ -101,6 +103,7 @@ private:
     std::atomic<std::int64_t> slippedNs_{0}, restartFrame_{-1}; // the latter: -1, not wanted
     std::atomic<int> slowness_{1}, stepsWanted_{0};
     std::atomic<bool> offline_{false}, isDriven_{false}; // the latter: somebody has begun to step the world
+    std::atomic<std::uint64_t> drops_{0};
 
     mutable std::mutex mutex_; // guards what follows
     SessionWorld world_;
@@ -112,6 +115,12 @@ private:
     mutable std::mutex stateMutex_; // taken after all others; guards what follows
     SessionState state_;
     bool isNew_ = false;
+
+    mutable std::atomic<bool> isShown_{
+        false}; // a reader has not got the world's mutex: after each step, poses are copied
+    mutable std::mutex shownMutex_;            // held for a copy; guards what follows
+    mutable std::vector<BodyPose> shown_;
+    mutable std::int64_t shownNs_ = 0;
 };
 
 } // namespace physvib

@@ -55,6 +55,27 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     EXPECT_EQ(window.desk().device().board()->connections, 2u);
 }
 
+TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {
+    VirtualBoard board;
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    DeviceChoice choice = noDevice;
+    choice.board = board.port();
+    window.view().setFirstStart(std::make_unique<FirstStart>(
+        window.desk(), std::vector<FeltChoice>{{"Four-channel board", choice, 4, true}}));
+    window.view().firstStart()->onBeside = [&](const DeviceChoice& chosen) {
+        window.desk().device().onBoardWanted(chosen);
+    };
+    ASSERT_TRUE(window.view().keyPressed(juce::KeyPress{juce::KeyPress::returnKey})) << "one key";
+    ASSERT_TRUE(runUntil(
+        [&] { return window.view().firstStart() != nullptr && window.view().firstStart()->tested() == 0; }));
+    EXPECT_EQ(window.desk().mix().count(), 4);
+    EXPECT_EQ(window.desk().mix().levelDb, FirstStart::firstDb) << "quiet";
+    ASSERT_TRUE(runUntil([&] { return board.last("sound") > 0; })) << "the pulse waited for the board";
+    window.view().keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
+    EXPECT_EQ(window.view().firstStart()->tested(), 1);
+}
+
 TEST(MixerBoard, ThatDoesNotAnswerIsTold) {
     Desk desk{onlyNoDevice(), {noDevice.name, 48000, 128, "/nowhere/port"}};
     EXPECT_TRUE(runUntil([&] { return desk.look(), desk.trouble() == "The board at /nowhere/port does not answer; it is looked for twice a second"; })) << desk.trouble();

@@ -6,6 +6,7 @@
 #include "Mixer/Window/FirstStart.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/World/Simulation.h"
 
 namespace physvib {
 namespace {
@@ -124,6 +125,84 @@ TEST(Drawing, AHandleSizesWhereTheBodyStays) {
     EXPECT_FALSE(board.desk.world().drawing().find("box 1")->fixtures[0].restitution);
 }
 
+std::vector<CollisionEvent> eventsOf(const Scene& scene, std::uint32_t seed, std::int64_t untilNs) {
+    Simulation world{scene, seed, 100};
+    std::vector<CollisionEvent> events;
+    while (world.timeNs() < untilNs) world.step(events);
+    return events;
+}
+
+TEST(Script, WhatHandsDidIsTheScenesScriptAndTheSceneGivesTheSameHits) {
+    Board board;
+    board.key('b');
+    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
+    DeskScript& script = board.desk.script();
+    script.start();
+    ASSERT_TRUE(runUntil([&] { return board.desk.look(), script.seconds() > 0.05; }))
+        << "the world goes, though it stood still";
+    EXPECT_EQ(board.desk.world().act(TiltAction{0.4}), "");
+    EXPECT_EQ(board.desk.world().act(ImpulseAction{"ball 1", {300.0, 200.0}, Vector{0.01, 0.0}}), "");
+    ASSERT_TRUE(runUntil([&] { return board.desk.look(), script.seconds() > 0.8; }));
+    EXPECT_EQ(board.desk.world().act(GripAction{"ball 1", Vector{1.0, 1.0}, {}, 0.1}), "");
+    ASSERT_TRUE(runUntil([&] { return board.desk.look(), script.seconds() > 1.5; }));
+    EXPECT_EQ(script.inputs(), 3U);
+    const std::size_t take = board.desk.saved().log.takes.size() - 1;
+    script.stop();
+    ASSERT_NE(script.hands(), nullptr);
+    const SceneTake& live = board.desk.saved().log.takes[take];
+    ASSERT_EQ(live.inputs.size(), 3U);
+    const auto endNs = static_cast<std::int64_t>(1e9 * script.hands()->lengthSeconds);
+    const auto events = eventsOf(board.drawn(), live.seed, endNs);
+    EXPECT_GT(events.size(), 0U) << "the ball hits the floor";
+    EXPECT_TRUE(events == eventsOf(live.whole(), live.seed, endNs));
+
+    script.setTrim({0.5, 1.2, true});
+    EXPECT_NEAR(board.drawn().scriptPeriodSeconds, 0.7, 1e-9);
+    EXPECT_EQ(script.trim(), (ScriptTrim{0.5, 1.2, true}));
+    board.desk.undoManager().undo();
+    EXPECT_EQ(script.trim(), (ScriptTrim{0.0, script.hands()->lengthSeconds, false})) << "untrimmed again";
+    board.desk.undoManager().undo();
+    EXPECT_TRUE(board.drawn().script.empty()) << "as before the recording: one edit";
+    EXPECT_NE(board.desk.world().drawing().find("ball 1"), nullptr);
+    EXPECT_EQ(script.hands(), nullptr);
+}
+
+TEST(Script, AnEditOfTheDrawingEndsTheRecordingAndStays) {
+    Board board;
+    DeskScript& script = board.desk.script();
+    script.start();
+    ASSERT_TRUE(runUntil([&] { return board.desk.look(), script.seconds() > 0.05; }));
+    EXPECT_EQ(board.desk.world().act(TiltAction{0.4}), "");
+    board.key('b');
+    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
+    EXPECT_TRUE(runUntil([&] { return board.desk.look(), !script.isRecording(); }));
+    ASSERT_EQ(board.drawn().script.size(), 1U);
+    EXPECT_NE(board.desk.world().drawing().find("ball 1"), nullptr);
+}
+
+/// More than the machine steps in real time.
+Scene heap() {
+    Scene scene = newScene(*findBuiltInScene("shake-the-box"), SceneGround::box);
+    for (int k = 0; k < 2000; ++k) {
+        BodyDescription ball;
+        ball.name = "b" + std::to_string(k);
+        ball.positionMetres = {0.5 * scene.fieldWidthMetres, 0.5 * scene.fieldHeightMetres};
+        ball.fixtures.resize(1);
+        ball.fixtures[0].shape = CircleShape{0.1 * scene.fieldHeightMetres};
+        scene.bodies.push_back(std::move(ball));
+    }
+    return scene;
+}
+
+TEST(BigWorld, SaysThatItIsTooMuchAndIsDrawnMeanwhile) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    desk.change("Heap", [](Mix& mix) { mix.scene = std::make_shared<const Scene>(heap()); });
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.trouble().contains("of real time"); }));
+    EXPECT_TRUE(desk.trouble().startsWith("2,004 bodies: ")) << desk.trouble();
+    EXPECT_EQ(view.latest().poses.size(), 2004U);
+}
+
 TEST(PaceWatch, SaysTwiceASecondWhatShareOfRealTimeAWorldKeeps) {
     PaceWatch pace;
     EXPECT_FALSE(pace.look(100'000'000, 0));
@@ -131,6 +210,9 @@ TEST(PaceWatch, SaysTwiceASecondWhatShareOfRealTimeAWorldKeeps) {
     EXPECT_FALSE(pace.look(700'000'000, 150'000'000));
     EXPECT_NEAR(*pace.look(1'000'000'000, 345'000'000), 0.31, 1e-9);
     EXPECT_FALSE(pace.look(0, 0)) << "another session";
+    EXPECT_EQ(pace.look(500'000'000, 600'000'000), 0.0) << "its first step is not over";
+    EXPECT_EQ(pace.look(1'000'000'000, 20'000'000), 1.0)
+        << "what it has caught up with is no more than real time";
 }
 
 TEST(FirstStart, TheInterfaceComesFirstAndNoDeviceLast) {
@@ -138,6 +220,18 @@ TEST(FirstStart, TheInterfaceComesFirstAndNoDeviceLast) {
     std::vector<std::string> names;
     for (const auto& device : ordered) names.push_back(device.name);
     EXPECT_EQ(names, (std::vector<std::string>{"system", "USB Audio", "Default ALSA Output", "HDMI 0", "no device"}));
+}
+
+TEST(FirstStart, ABoardIsOfferedBeforeControllersAndOtherSerialPortsAreNot) {
+    const auto choices =
+        feltChoices(onlyNoDevice(), {"DualSense"},
+                    {{"/dev/ttyS0", "serial port", false}, {"/dev/ttyACM0", "ST-Link", true}});
+    ASSERT_EQ(choices.size(), 3U);
+    EXPECT_EQ(choices[0].title, "Four-channel board: /dev/ttyACM0  ST-Link");
+    EXPECT_EQ(choices[0].device.board, "/dev/ttyACM0");
+    EXPECT_EQ(choices[0].outputs, 4);
+    EXPECT_TRUE(choices[1].title.startsWith("Game controller"));
+    EXPECT_EQ(choices[2].outputs, 0) << "no device at last";
 }
 
 TEST(FirstStart, OneClickToTheFirstPulseThenEachActuatorInTurn) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window's components without a display: names and the keyboard for every control, sizes, looks, and what clicks do.
 #include "MixerTesting.h"
+#include "Scene/SceneCatalogue.h"
 #include "Scene/World/BodyMass.h"
 #include <cmath>
 #include <set>
@@ -54,6 +55,58 @@ TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
     EXPECT_GT(controls, 60);
 }
 
+/// All that is visible under `root` now.
+void expectRings(juce::Component& root) {
+    walk(root, [](juce::Component& c) {
+        if (!isControl(c) || isPartOfControl(c)) return;
+        const auto title = c.getTitle().isNotEmpty() ? c.getTitle() : c.getName();
+        EXPECT_TRUE(title.isNotEmpty()) << typeid(c).name();
+        if (c.isEnabled()) EXPECT_TRUE(c.getWantsKeyboardFocus()) << title;
+        EXPECT_TRUE(c.hasFocusOutline()) << title << ": focus has to be seen";
+    });
+}
+
+TEST(MixerView, WhatComesLaterHasARingAsWell) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    desk.change("Scene",
+                [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*findBuiltInScene("marbles")); });
+    desk.dispatchPendingMessages();
+    view.world().drawing().use(DrawTool::choose);
+    view.world().drawing().choose({desk.world().drawing().drawn().bodies.back().name});
+    auto* palette = find(view, "Materials to draw with");
+    ASSERT_NE(palette, nullptr);
+    EXPECT_GT(palette->getNumChildComponents(), 1) << "materials of the new scene";
+    expectRings(view.world());
+    view.world().drawing().use(DrawTool::hand);
+    desk.script().start();
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), desk.script().seconds() > 0.0; }));
+    ASSERT_EQ(desk.world().act(TiltAction{0.3}), "");
+    expectRings(view.world());
+    desk.script().stop();
+    desk.dispatchPendingMessages();
+    EXPECT_NE(find(view, "The script begins at"), nullptr);
+    EXPECT_TRUE(find(view, "Script of hands")->isVisible());
+    expectRings(view.world());
+    view.setQuestion(std::make_unique<QuestionCard>("Take it?", "It is there.", "Yes", "No"));
+    expectRings(view);
+}
+
+TEST(MixerView, ReturnIsYesAndTheOtherButtonIsNo) {
+    for (const bool isYes : {true, false}) {
+        Desk desk{onlyNoDevice(), noDevice};
+        MixerView view{desk};
+        std::optional<bool> answer;
+        auto card = std::make_unique<QuestionCard>("Take it?", "It is there.", "Yes", "No");
+        card->onAnswer = [&](bool is) { answer = is; };
+        view.setQuestion(std::move(card));
+        EXPECT_EQ(view.question()->getBounds().getCentreX(), view.getLocalBounds().getCentreX());
+        if (isYes) view.keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
+        else dynamic_cast<juce::Button*>(find(*view.question(), "No"))->onClick();
+        EXPECT_EQ(answer, isYes);
+    }
+}
+
 TEST(MixerView, TheTabKeyComesToEveryControl) {
     Desk desk{onlyNoDevice(), noDevice};
     MixerView view{desk};
@@ -101,6 +154,58 @@ TEST(MixerView, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 for 
                 EXPECT_GE(contrast(shade(view, what), shade(view, on)), 4.5) << static_cast<int>(what) << " on " << static_cast<int>(on) << (ground == Ground::dark ? " dark" : " light");
         for (int j = 0; j < 64; ++j) EXPECT_GE(contrast(enchanterColour(view, j), shade(view, Shade::panel)), 3.0) << j;
     }
+}
+
+/// The strongest contrast of anything drawn against the ground behind it.
+double drawnContrast(MixerView& view, juce::Component& c) {
+    view.addAndMakeVisible(c);
+    const auto image = c.createComponentSnapshot(c.getLocalBounds());
+    juce::Image over{juce::Image::ARGB, c.getWidth(), c.getHeight(), true};
+    juce::Graphics g{over};
+    g.fillAll(shade(view, Shade::panel));
+    g.drawImageAt(image, 0, 0);
+    const auto ground = over.getPixelAt(over.getWidth() - 4, over.getHeight() / 2);
+    double most = 1.0;
+    for (int y = 4; y < over.getHeight() - 4; ++y)
+        for (int x = 24; x < over.getWidth() - 8; ++x)
+            most = std::max(most, contrast(over.getPixelAt(x, y), ground));
+    return most;
+}
+
+TEST(MixerView, WhatIsDisabledCanBeRead) {
+    Desk desk{onlyNoDevice(), noDevice};
+    MixerView view{desk};
+    for (const auto ground : {Ground::dark, Ground::light}) {
+        view.setGround(ground);
+        juce::TextButton button{"NNNNNNNN"};
+        juce::ToggleButton toggle{"NNNNNNNN"};
+        juce::Label label{{}, "NNNNNNNN"};
+        for (juce::Component* c : std::initializer_list<juce::Component*>{&button, &toggle, &label}) {
+            c->setSize(140, 30);
+            c->setEnabled(false);
+            EXPECT_GE(drawnContrast(view, *c), 4.0)
+                << typeid(*c).name()
+                << (ground == Ground::dark ? " dark" : " light"); // 4.5 but for the edges of letters
+            view.removeChildComponent(c);
+        }
+    }
+}
+
+TEST(MixerView, LettersOfOtherScriptsAreDrawnWhereAFontIsThere) {
+    const auto korean = juce::String::charToString(0xd55c);
+    if (!typefaceFor(korean)) GTEST_SKIP() << "no font with Korean letters; on Debian, fonts-nanum";
+    const bool wasThere = hasLetters({}, korean);
+    {
+        Desk desk{onlyNoDevice(), noDevice};
+        MixerView view{desk};
+        Scene scene = desk.world().drawing().drawn();
+        scene.name = korean.toStdString();
+        desk.change("Scene", [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });
+        desk.dispatchPendingMessages();
+        EXPECT_TRUE(hasLetters({}, korean));
+        EXPECT_TRUE(hasLetters({}, "Silence"));
+    }
+    EXPECT_EQ(hasLetters({}, korean), wasThere) << "only while they are shown";
 }
 
 TEST(MixerView, WhatComesLaterCanBeReadAsWell) {

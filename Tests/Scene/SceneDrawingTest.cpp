@@ -55,6 +55,15 @@ struct Drawn {
         undone.clear();
         return run(done.back(), true);
     }
+    std::string add(BodyDescription body, const std::string& name) {
+        body.name = name;
+        return edit({SpawnAction{std::move(body), {}}});
+    }
+    /// Where it was drawn.
+    std::pair<std::string, BodyPlace> where(const std::string& name) const {
+        const BodyDescription& body = *drawing.find(name);
+        return {name, {body.positionMetres, body.angleRadians}};
+    }
     void undo() {
         ASSERT_EQ(run(done.back(), false), "");
         undone.push_back(done.back());
@@ -101,8 +110,9 @@ public:
         case 6: return erased(drawing, {any(), any()});
         case 7: {
             const std::string a = any(), b = any();
-            const auto where = [&](const std::string& name) { return std::pair{name, BodyPlace{drawing.find(name)->positionMetres, drawing.find(name)->angleRadians}}; };
-            return joined(drawing, static_cast<JointKind>(draw(4)), where(a), where(b), place(), place()).value;
+            return joined(drawing, static_cast<JointKind>(draw(4)), drawn_.where(a), drawn_.where(b), place(),
+                          place())
+                .value;
         }
         case 8: {
             std::vector<std::string> names;
@@ -186,9 +196,8 @@ TEST(SceneDrawing, TwoHundredEditsAreUndoneDoneAgainAndFeltAgain) {
 TEST(SceneDrawing, ABodyThatIsChangedGoesOnAsItMoves) {
     Drawn drawn{blank()};
     auto ball = drawnBall({1.0, 2.0}, {1.1, 2.0}).value;
-    ball.name = "ball";
     ball.velocityMetresPerSecond = {0.3, 0.0};
-    ASSERT_EQ(drawn.edit({SpawnAction{ball, {}}}), "");
+    ASSERT_EQ(drawn.add(ball, "ball"), "");
     drawn.steps(20);
     const auto find = [&] { return drawn.world.pose(sceneCast(drawn.world.scene()).size() - 1); };
     const BodyPose before = find();
@@ -207,11 +216,9 @@ TEST(SceneDrawing, ABodyThatIsChangedGoesOnAsItMoves) {
 
 TEST(SceneDrawing, ASeesawHoldsOnItsPinWhileItIsChanged) {
     Drawn drawn{blank()};
-    auto plank = drawnBox({0.6, 0.9}, {1.8, 1.0}).value;
-    plank.name = "plank";
-    ASSERT_EQ(drawn.edit({SpawnAction{plank, {}}}), "");
-    const auto where = [&](const std::string& name) { return std::pair{name, BodyPlace{drawn.drawing.find(name)->positionMetres, 0.0}}; };
-    const auto pin = joined(drawn.drawing, JointKind::pin, where("floor"), where("plank"), {1.2, 0.95}, {1.2, 0.95});
+    ASSERT_EQ(drawn.add(drawnBox({0.6, 0.9}, {1.8, 1.0}).value, "plank"), "");
+    const auto pin = joined(drawn.drawing, JointKind::pin, drawn.where("floor"), drawn.where("plank"),
+                            {1.2, 0.95}, {1.2, 0.95});
     ASSERT_TRUE(pin) << pin.error;
     ASSERT_EQ(drawn.edit(pin.value), "");
     const auto height = [&] { return drawn.world.pose(sceneCast(drawn.world.scene()).size() - 1).yMetres; };
@@ -234,11 +241,10 @@ TEST(SceneDrawing, ALineIsHitFromBothSidesHoweverItIsDrawn) {
     for (const bool isLeftToRight : {true, false}) {
         Drawn drawn{blank()};
         const Vector a{0.5, 1.0}, b{2.0, 1.0};
-        auto line = drawnLine(isLeftToRight ? std::vector{a, b} : std::vector{b, a}, 0.01).value;
-        line.name = "line";
-        auto ball = drawnBall({1.2, 1.5}, {1.3, 1.5}).value;
-        ball.name = "ball";
-        ASSERT_EQ(drawn.edit({SpawnAction{line, {}}, SpawnAction{ball, {}}}), "");
+        ASSERT_EQ(
+            drawn.add(drawnLine(isLeftToRight ? std::vector{a, b} : std::vector{b, a}, 0.01).value, "line"),
+            "");
+        ASSERT_EQ(drawn.add(drawnBall({1.2, 1.5}, {1.3, 1.5}).value, "ball"), "");
         drawn.steps(300);
         EXPECT_NEAR(drawn.world.pose(2).yMetres, 1.1, 0.02) << isLeftToRight;
     }
@@ -246,11 +252,9 @@ TEST(SceneDrawing, ALineIsHitFromBothSidesHoweverItIsDrawn) {
 
 TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
     Drawn drawn{blank()};
-    auto ball = drawnBall({1.0, 2.0}, {1.1, 2.0}).value;
-    ball.name = "ball";
-    ASSERT_EQ(drawn.edit({SpawnAction{ball, {}}}), "");
-    const std::pair<std::string, BodyPlace> floor{"floor", {drawn.drawing.find("floor")->positionMetres, 0.0}}, there{"ball", {ball.positionMetres, 0.0}};
-    const auto rope = joined(drawn.drawing, JointKind::rope, floor, there, {1.8, 2.0}, {1.0, 2.0});
+    ASSERT_EQ(drawn.add(drawnBall({1.0, 2.0}, {1.1, 2.0}).value, "ball"), "");
+    const auto rope = joined(drawn.drawing, JointKind::rope, drawn.where("floor"), drawn.where("ball"),
+                             {1.8, 2.0}, {1.0, 2.0});
     ASSERT_TRUE(rope) << rope.error;
     ASSERT_EQ(drawn.edit(rope.value), "");
     double lowest = 9.0, longest = 0.0;
@@ -266,11 +270,12 @@ TEST(SceneDrawing, ARopeIsSlackUntilItIsTaut) {
 
 TEST(SceneDrawing, WhatIsSavedIsReadAndStartsThere) {
     Drawn drawn{blank()};
-    auto plank = drawnBox({0.6, 0.9}, {1.8, 1.0}).value;
-    plank.name = "plank";
-    ASSERT_EQ(drawn.edit({SpawnAction{plank, {}}}), "");
-    const std::pair<std::string, BodyPlace> floor{"floor", {drawn.drawing.find("floor")->positionMetres, 0.0}}, there{"plank", {plank.positionMetres, 0.0}};
-    ASSERT_EQ(drawn.edit(joined(drawn.drawing, JointKind::slider, floor, there, {1.2, 0.95}, {1.2, 1.95}).value), "");
+    ASSERT_EQ(drawn.add(drawnBox({0.6, 0.9}, {1.8, 1.0}).value, "plank"), "");
+    const auto floor = drawn.where("floor");
+    ASSERT_EQ(drawn.edit(joined(drawn.drawing, JointKind::slider, floor, drawn.where("plank"), {1.2, 0.95},
+                                {1.2, 1.95})
+                             .value),
+              "");
     const auto same = readScene(sceneJson(drawn.drawing.drawn()), "own.json");
     ASSERT_TRUE(same) << same.error;
     EXPECT_EQ(same.value, drawn.drawing.drawn());

@@ -4,10 +4,12 @@
 #include "Scene/EventsCsv.h"
 #include "Session/Session.h"
 #include "Session/OfflineRender.h"
+#include "Scene/World/SceneCast.h"
 #include "Scene/World/SceneRun.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -381,6 +383,30 @@ TEST(Session, PosesAreThoseOfTheSceneAtTheirTime) {
     const auto expected = posesAt(setup.scene, {setup.seed, setup.stepsPerSecond}, time);
     ASSERT_EQ(poses.size(), expected.size());
     for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].xMetres, expected[i].xMetres) << i;
+}
+
+TEST(Session, AStepThatTakesLongIsNotWaitedForByWhoeverDrawsTheWorld) {
+    Session session{shakeTheBoxSetup(0.05)};
+    session.prepare(rate, 480);
+    Block block;
+    std::vector<BodyPose> poses;
+    std::vector<std::int64_t> times;
+    std::future<std::int64_t> read; // outlives the step: it may wait for it
+    const auto readInAStep = [&](std::int64_t) {
+        read = std::async(std::launch::async, [&] { return session.world().readPoses(poses); });
+        if (read.wait_for(std::chrono::seconds{10}) == std::future_status::ready) times.push_back(read.get());
+        return false;
+    };
+    session.advance();
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 2; ++k) session.render(block.at.data(), 480, RenderMode::realtime);
+        session.advance(readInAStep); // asked after the first of its steps, which is the last then
+    }
+    ASSERT_EQ(times.size(), 3U) << "it waited";
+    EXPECT_EQ(times[0], 0) << "nobody had asked before";
+    EXPECT_EQ(times[2], 20'000'000) << "the last whole step";
+    EXPECT_EQ(poses.size(), sceneCast(*session.world().state().scene).size());
+    EXPECT_EQ(session.world().readPoses(poses), 30'000'000) << "between steps they are those of now";
 }
 
 } // namespace

@@ -136,9 +136,44 @@ void Look::drawButtonText(juce::Graphics& g, juce::TextButton& button, bool, boo
     if (isTrue(button, stopProperty)) colour = button.getToggleState() ? juce::Colours::white : shade(button, Shade::limit);
     else if (button.getToggleState()) colour = readableOn(tintOf(button));
     else if (isTrue(button, quietProperty) && !isTrue(button, titleProperty)) colour = shade(button, Shade::accent);
-    g.setColour(button.isEnabled() ? colour : colour.withMultipliedAlpha(0.4f));
+    g.setColour(button.isEnabled() ? colour : shade(button, Shade::muted));
     g.setFont(getTextButtonFont(button, button.getHeight()));
     g.drawFittedText(button.getButtonText(), button.getLocalBounds().reduced(1, 0), juce::Justification::centred, 1, 0.8f);
+}
+
+void Look::drawLabel(juce::Graphics& g, juce::Label& label) {
+    g.fillAll(label.findColour(juce::Label::backgroundColourId));
+    if (label.isBeingEdited()) return;
+    g.setColour(label.isEnabled() ? label.findColour(juce::Label::textColourId) : shade(label, Shade::muted));
+    g.setFont(getLabelFont(label));
+    const auto area = getLabelBorderSize(label).subtractedFrom(label.getLocalBounds());
+    const int lines =
+        std::max(1, static_cast<int>(static_cast<float>(area.getHeight()) / getLabelFont(label).getHeight()));
+    g.drawFittedText(label.getText(), area, label.getJustificationType(), lines,
+                     label.getMinimumHorizontalScale());
+    g.setColour(label.findColour(juce::Label::outlineColourId));
+    g.drawRect(label.getLocalBounds());
+}
+
+void Look::drawToggleButton(juce::Graphics& g, juce::ToggleButton& button, bool isOver, bool isDown) {
+    const float size = std::min(15.0f, 0.75f * static_cast<float>(button.getHeight())), tick = 1.1f * size;
+    drawTickBox(g, button, 4.0f, 0.5f * (static_cast<float>(button.getHeight()) - tick), tick, tick,
+                button.getToggleState(), button.isEnabled(), isOver, isDown);
+    g.setColour(button.isEnabled() ? button.findColour(juce::ToggleButton::textColourId)
+                                   : shade(button, Shade::muted));
+    g.setFont(juce::Font{size});
+    g.drawFittedText(button.getButtonText(),
+                     button.getLocalBounds().withTrimmedLeft(juce::roundToInt(tick) + 10).withTrimmedRight(2),
+                     juce::Justification::centredLeft, 10);
+}
+
+void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area, bool isSeparator,
+                             bool isActive, bool isHighlighted, bool isTicked, bool hasSubMenu,
+                             const juce::String& words, const juce::String& keys, const juce::Drawable* icon,
+                             const juce::Colour* colour) {
+    const auto muted = findColour(idOf(Shade::muted));
+    juce::LookAndFeel_V4::drawPopupMenuItem(g, area, isSeparator, true, isHighlighted && isActive, isTicked,
+                                            hasSubMenu, words, keys, icon, isActive ? colour : &muted);
 }
 
 void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int, juce::ComboBox& box) {

@@ -47,6 +47,13 @@ public:
     juce::Font getLabelFont(juce::Label& label) override { return label.getFont(); }
     void drawButtonBackground(juce::Graphics& g, juce::Button& button, const juce::Colour&, bool isOver, bool isDown) override;
     void drawButtonText(juce::Graphics& g, juce::TextButton& button, bool isOver, bool isDown) override;
+    // Texts of what is disabled are muted, and can be read: JUCE halves their contrast.
+    void drawLabel(juce::Graphics& g, juce::Label& label) override;
+    void drawToggleButton(juce::Graphics& g, juce::ToggleButton& button, bool isOver, bool isDown) override;
+    void drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area, bool isSeparator,
+                           bool isActive, bool isHighlighted, bool isTicked, bool hasSubMenu,
+                           const juce::String& words, const juce::String& keys, const juce::Drawable* icon,
+                           const juce::Colour* colour) override;
     void drawComboBox(juce::Graphics& g, int width, int height, bool isDown, int, int, int, int, juce::ComboBox& box) override;
     void positionComboBoxText(juce::ComboBox& box, juce::Label& label) override;
     void drawLinearSlider(juce::Graphics& g, int x, int y, int width, int height, float place, float, float, juce::Slider::SliderStyle,

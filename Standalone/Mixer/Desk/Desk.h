@@ -9,6 +9,7 @@
 #include "Mixer/Desk/DeskInputs.h"
 #include "Mixer/Desk/DeskMoment.h"
 #include "Mixer/Desk/DeskRecording.h"
+#include "Mixer/Desk/DeskScript.h"
 #include "Mixer/Desk/DeskSignals.h"
 #include "Mixer/Desk/DeskStrikes.h"
 #include "Mixer/Desk/DeskWorld.h"
@@ -50,7 +51,6 @@ public:
     const SavedSession& saved(); ///< the session until now: rendered again it is what was played
     void restart(std::uint32_t seed);
     void setSlowness(int slowness); ///< see WorldRunner
-
     Session& session() noexcept { return session_; }
     const Session& session() const noexcept { return session_; }
     DeskWorld& world() noexcept { return world_; }
@@ -64,9 +64,9 @@ public:
     DeskRecording& recording() noexcept { return recording_; }
     const DeskRecording& recording() const noexcept { return recording_; }
     DeskExposure& exposure() noexcept { return exposure_; }
+    DeskScript& script() noexcept { return script_; }
     const DeskSignals& signals() const noexcept { return signals_; }
     const RecentContacts& recent() const noexcept { return recent_; } ///< the last that were played
-
     std::string open(const DeviceChoice& choice);
     /// As DeskListening::monitor; enchanters that have these outputs have none then, which can be undone.
     std::string monitorInstead(std::vector<int> outputs, double db);
@@ -76,7 +76,6 @@ public:
     /// How wide the display is that the world is seen on; 0: as the system says. A drag is measured by it.
     void setDisplayWidth(double metres);
     double displayWidthMetres() const noexcept { return displayWidthMetres_; }
-
     DeskMoment look(); ///< what is new; at most about 30 times a second
     const juce::String& trouble() const noexcept { return trouble_; } ///< one line; empty while all is well
     void report(const juce::String& trouble);
@@ -112,6 +111,7 @@ private:
     int mostEnchanters_ = 0;
     RecentContacts recent_;
     DeskMoment now_;
+    DeskScript script_{*this};
     std::vector<CollisionEvent> hits_; // played since the last look
     DeskStrikes strikes_; // these last: their threads use the others
     DeskInputs inputs_{*this};

@@ -19,7 +19,10 @@ public:
     /// Takes up what has left since the last time; often enough that it is of one layout.
     void update();
 
-    double squareGSeconds() const noexcept { return squareGSeconds_; } ///< weighted, since the output was made
+    void goOnFrom(double squareGSeconds) noexcept {
+        squareGSeconds_ += squareGSeconds;
+    }                                                                  ///< hands had taken that before
+    double squareGSeconds() const noexcept { return squareGSeconds_; } ///< weighted, of today
     double daily() const noexcept { return dailyExposure(squareGSeconds_); } ///< A(8), if nothing else was felt that day
 
     /// felt() begins anew.

@@ -21,7 +21,10 @@ DeskMoment Desk::look() {
     now_.sessionNs = session_.world().readPoses(now_.poses);
     now_.aheadNs = static_cast<std::int64_t>(1e9 * device_.playOutSeconds());
     watchOutput();
-    if (const auto words = world_.tooMuch(now_.session.sessionNs, now_.poses); words.isNotEmpty()) report(words);
+    if (const auto words = world_.tooMuch(now_.session.sessionNs, now_.sessionNs, now_.poses);
+        words.isNotEmpty())
+        report(words);
+    script_.look();
     if (inputs_.haveCome()) ++edits_; // what a message strikes stands in the session that is saved
     return now_;
 }

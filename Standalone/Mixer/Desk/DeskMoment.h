@@ -20,7 +20,7 @@ struct DeskMoment {
     ChannelMeters meters;
     std::array<float, limits::maxEnchanters> holds{}; ///< highest peaks of the last moments
     float masterPeak = 0.0f;                          ///< behind the master level
-    double dailyExposure = 0.0;                       ///< A(8) of all that was played since the mixer was opened, m/s^2
+    double dailyExposure = 0.0;                       ///< A(8) of all that the mixer has played today, m/s^2
     SessionStatus session;
     AudioOutputStatus device;
 };

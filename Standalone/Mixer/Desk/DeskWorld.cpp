@@ -5,6 +5,7 @@
 #include "Mixer/Desk/DeskWords.h"
 #include "Scene/World/SceneCast.h"
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace physvib {
@@ -66,6 +67,20 @@ std::optional<BodyPose> DeskWorld::poseNow(const std::string& body) const {
     return poses[last];
 }
 
+PoseNow DeskWorld::posesNow() const {
+    std::vector<BodyPose> poses;
+    session_.world().readPoses(poses);
+    std::map<std::string, std::optional<BodyPose>> last; // of each name
+    for (std::size_t i = 0; const BodyDescription& body : sceneCast(scene())) {
+        last[body.name] = i < poses.size() && poses[i].isPresent ? std::optional{poses[i]} : std::nullopt;
+        ++i;
+    }
+    return [last = std::move(last)](const std::string& body) {
+        const auto found = last.find(body);
+        return found == last.end() ? std::nullopt : found->second;
+    };
+}
+
 std::string DeskWorld::edit(const juce::String& name, std::vector<Action> actions, bool goesOn) {
     for (Action& action : actions)
         if (auto* spawn = std::get_if<SpawnAction>(&action); spawn != nullptr && spawn->body.name.empty()) spawn->body.name = drawing_.freeName("added");
@@ -76,8 +91,10 @@ std::string DeskWorld::edit(const juce::String& name, std::vector<Action> action
     return {};
 }
 
-juce::String DeskWorld::tooMuch(std::int64_t sessionNs, const std::vector<BodyPose>& poses) {
-    const auto share = pace_.look(sessionNs, session_.world().slippedNs());
+juce::String DeskWorld::tooMuch(std::int64_t sessionNs, std::int64_t posesNs,
+                                const std::vector<BodyPose>& poses) {
+    const auto share =
+        pace_.look(sessionNs, session_.world().slippedNs() + std::max<std::int64_t>(0, sessionNs - posesNs));
     if (!share) return {};
     const auto bodies = std::ranges::count_if(poses, &BodyPose::isPresent);
     const bool wasTooMuch = std::exchange(isTooMuch_, *share < PaceWatch::leastShare && bodies >= PaceWatch::leastBodies);

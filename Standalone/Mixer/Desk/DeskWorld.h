@@ -32,8 +32,12 @@ public:
     /// Where a body is, as far as the world has been stepped; none: not there, or not yet.
     std::optional<BodyPose> poseNow(const std::string& body) const;
 
-    /// One line when the world has become too much for real time, once for each time that it does; else empty. `poses` are those of now.
-    juce::String tooMuch(std::int64_t sessionNs, const std::vector<BodyPose>& poses);
+    /// The same of all bodies, at one moment.
+    PoseNow posesNow() const;
+
+    /// One line when the world has become too much for real time, once for each time that it does; else
+    /// empty. `poses` are the last ones, of session time `posesNs`.
+    juce::String tooMuch(std::int64_t sessionNs, std::int64_t posesNs, const std::vector<BodyPose>& poses);
 
     /// The mix's scene begins anew. What was measured, tuned or drawn stays, if it is the same scene. Empty, or what is wrong with it.
     std::string begin(bool isSameScene);

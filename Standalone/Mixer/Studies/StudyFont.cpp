@@ -19,6 +19,12 @@ juce::String outlineOf(juce::Typeface& typeface, juce::juce_wchar letter) {
     return path.toString();
 }
 
+/// The one that everything is drawn with; empty: the usual one.
+juce::String& inUse() {
+    static juce::String name;
+    return name;
+}
+
 juce::String lettersOf(const Words& words) {
     std::set<juce::juce_wchar> letters;
     for (const auto& [english, text] : words.texts)
@@ -41,8 +47,9 @@ bool hasLetters(const juce::String& typeface, const juce::String& letters) {
     return true;
 }
 
-std::optional<juce::String> typefaceFor(const Words& words) {
-    const auto letters = lettersOf(words);
+std::optional<juce::String> typefaceFor(const Words& words) { return typefaceFor(lettersOf(words)); }
+
+std::optional<juce::String> typefaceFor(const juce::String& letters) {
     if (hasLetters({}, letters)) return juce::String{};
     const auto installed = juce::Font::findAllTypefaceNames();
     juce::StringArray names;
@@ -54,7 +61,13 @@ std::optional<juce::String> typefaceFor(const Words& words) {
     return {};
 }
 
+StudyFont::StudyFont(const juce::String& typeface)
+    : before_{inUse()} {
+    use(typeface);
+}
+
 void StudyFont::use(const juce::String& typeface) {
+    inUse() = typeface;
     juce::LookAndFeel::getDefaultLookAndFeel().setDefaultSansSerifTypefaceName(typeface);
     juce::Typeface::clearTypefaceCache();
 }

@@ -12,17 +12,19 @@ bool hasLetters(const juce::String& typeface, const juce::String& letters);
 
 /// A typeface for all that the words say: the usual one if it can, else one that is installed; none: no installed one can. M.
 std::optional<juce::String> typefaceFor(const Words& words);
+std::optional<juce::String> typefaceFor(const juce::String& letters); ///< the same of letters
 
-/// While it lives, everything is drawn with that typeface. M.
+/// While it lives, everything is drawn with that typeface, then with the one before. M.
 class StudyFont {
 public:
-    explicit StudyFont(const juce::String& typeface) { use(typeface); }
-    ~StudyFont() { use({}); }
+    explicit StudyFont(const juce::String& typeface);
+    ~StudyFont() { use(before_); }
     StudyFont(const StudyFont&) = delete;
     StudyFont& operator=(const StudyFont&) = delete;
 
 private:
     static void use(const juce::String& typeface);
+    juce::String before_;
 };
 
 } // namespace physvib

@@ -9,13 +9,17 @@
 namespace physvib {
 namespace {
 
-constexpr int mostRows = 6;
+constexpr int mostRows = 6, boardOutputs = 4;
+constexpr int
+    lookMs = 100,
+    mostLooks = 50; // for a board or controller to come: greeting and clock take half a second, Bluetooth one
 
 juce::String outputsText(int outputs) { return juce::String{outputs} + (outputs == 1 ? " output" : " outputs"); }
 
 } // namespace
 
-std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads) {
+std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads,
+                                    const std::vector<SerialPortName>& ports) {
     const auto devices = byLikelihood(listAudioDevices(types));
     std::vector<FeltChoice> many, few, all;
     for (const auto& device : devices) {
@@ -23,6 +27,15 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
         const int outputs = ownOutputs(device);
         FeltChoice choice{utf8(device.type + ": " + device.name) + ", " + outputsText(outputs) + (outputs > 2 ? "" : ": headphones, or two actuators"), {device.type + ":" + device.name}, outputs};
         (outputs > 2 ? many : few).push_back(std::move(choice));
+    }
+    for (const SerialPortName& port : ports) {
+        if (!port.isLikelyBoard) continue; // else it is anything: a modem, or a screen
+        FeltChoice choice{"Four-channel board: " + utf8(port.path + "  " + port.description),
+                          {std::string{noDeviceType} + ":" + noDeviceName},
+                          boardOutputs,
+                          true};
+        choice.device.board = port.path;
+        many.insert(many.begin(), std::move(choice)); // whoever plugs one in means it
     }
     for (const std::string& pad : pads) {
         FeltChoice choice{"Game controller: " + utf8(pad), {std::string{noDeviceType} + ":" + noDeviceName}, 2, true}; // nothing but the controller plays
@@ -73,7 +86,7 @@ void FirstStart::playHere() {
     const FeltChoice choice = choices_[static_cast<std::size_t>(chosen_)];
     if (choice.outputs == 0) return end(true);
     if (choice.isBeside) {
-        if (onController) onController(choice.device);
+        if (onBeside) onBeside(choice.device);
         return;
     }
     if (const auto error = desk_.open(choice.device); !error.empty()) return show();
@@ -92,6 +105,19 @@ void FirstStart::test(int outputs) {
         mix.levelDb = firstDb;
     });
     tested_ = 0;
+    looks_ = 0;
+    isPlayed() ? pulse() : startTimer(lookMs);
+    show();
+}
+
+// What plays beside the device may not be there yet: its first pulse would be lost.
+bool FirstStart::isPlayed() const {
+    return std::ranges::all_of(desk_.session().sinks().states(), &SinkState::isReady);
+}
+
+void FirstStart::timerCallback() {
+    if (!isPlayed() && ++looks_ < mostLooks) return;
+    stopTimer();
     pulse();
     show();
 }
@@ -164,8 +190,14 @@ void FirstStart::show() {
         const auto& label = desk_.mix().layout.enchanters[static_cast<std::size_t>(tested_)].label;
         const int output = desk_.mix().strips[static_cast<std::size_t>(tested_)].output;
         title_.setText("Did you feel it? Where?", juce::dontSendNotification);
-        words_.setText("Actuator " + utf8(label) + (output >= 0 ? ", output " + juce::String{output + 1} : juce::String{}) + ", at " + number(desk_.mix().levelDb, 0) +
-                           " dB. Click the place where you felt it, or Felt if it is where it is drawn. Space plays it again.", juce::dontSendNotification);
+        if (isTimerRunning()) words_.setText("It is looked for" + dots(), juce::dontSendNotification);
+        else
+            words_.setText("Actuator " + utf8(label) +
+                               (output >= 0 ? ", output " + juce::String{output + 1} : juce::String{}) +
+                               ", at " + number(desk_.mix().levelDb, 0) +
+                               " dB. Click the place where you felt it, or Felt if it is where it is drawn. "
+                               "Space plays it again.",
+                           juce::dontSendNotification);
         louder_.setEnabled(desk_.mix().levelDb < mostDb);
     }
     repaint();

@@ -3,6 +3,7 @@
 #pragma once
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
+#include "Session/SerialLine.h"
 #include <functional>
 #include <memory>
 #include <vector>
@@ -14,14 +15,16 @@ struct FeltChoice {
     juce::String title;
     DeviceChoice device;
     int outputs = 0;
-    bool isBeside = false; ///< a controller: the session begins anew with it
+    bool isBeside = false; ///< a board or a controller: the session begins anew with it
 };
 
-/// Audio devices, game controllers and no device; the likely one first. M; asks the system, which takes a while.
-std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads);
+/// Audio devices, four-channel boards, game controllers and no device; the likely one first. M; asks the
+/// system, which takes a while.
+std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::vector<std::string>& pads,
+                                    const std::vector<SerialPortName>& ports);
 
 /// A card over the window. All is done by keys as well: up, down and Return; then Return (felt), L (louder), N (not felt). M only.
-class FirstStart final : public juce::Component {
+class FirstStart final : public juce::Component, private juce::Timer {
 public:
     static constexpr int wide = 600, high = 400;
     static constexpr double firstDb = -24.0, mostDb = -6.0, louderDb = 6.0;
@@ -29,12 +32,14 @@ public:
     FirstStart(Desk& desk, std::vector<FeltChoice> choices);
 
     std::function<void(bool hasChosen)> onEnd;
-    std::function<void(const DeviceChoice&)> onController; ///< the window plays it beside a device, and goes on with test()
+    std::function<void(const DeviceChoice&)>
+        onBeside; ///< the window plays a board or a controller beside a device, and goes on with test()
 
     void choose(int index);
     int chosen() const noexcept { return chosen_; }
     void playHere();          ///< what is chosen: opens it, and the test begins
-    void test(int outputs);   ///< of as many actuators as there are outputs, four at most, from a low level
+    void test(int outputs); ///< of as many actuators as there are outputs, four at most, from a low level; a
+                            ///< board or controller is waited for
     void pulse();             ///< of the one that is tested, again
     void felt();              ///< where it is drawn; the next one
     void feltAt(double shareX, double shareY); ///< there: it moves, and the next one
@@ -49,6 +54,8 @@ public:
     void resized() override;
 
 private:
+    void timerCallback() override;
+    bool isPlayed() const;
     void next();
     void show();
     juce::Rectangle<int> field() const;
@@ -58,7 +65,7 @@ private:
     std::vector<std::unique_ptr<juce::TextButton>> rows_;
     juce::Label title_, words_;
     juce::TextButton play_{"Play here"}, without_{"Without a device"}, felt_{"Felt"}, louder_{"Louder"}, notFelt_{"Not felt"}, done_{"Done"};
-    int chosen_ = 0, tested_ = -1, slowness_ = 1;
+    int chosen_ = 0, tested_ = -1, slowness_ = 1, looks_ = 0;
 };
 
 } // namespace physvib

@@ -36,8 +36,10 @@ Result<Mix> mixWith(Mix mix, const juce::File& file) {
 bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isOwn) {
     auto session = loadSession(pathOf(file));
     if (session) {
-        isOwn ? play(mixOf(session.value), document) : playLowered(mixOf(session.value), document);
-        return true;
+        Mix mix = mixOf(session.value);
+        if (!isOwn) return playLowered(std::move(mix), document), true;
+        if (before_) lowerTo(*before_, mix); // the last seconds may be missing in the copy
+        return play(std::move(mix), document), true;
     }
     if (!desk_) play(firstMix(), {});
     say(utf8(session.error));
@@ -187,14 +189,25 @@ void MixerWindow::import(const juce::String& title) {
 void MixerWindow::offerRecovery() {
     const auto copies = files_.leftBehind();
     if (copies.empty()) return;
-    const auto file = copies.front();
-    juce::AlertWindow::showOkCancelBox(juce::MessageBoxIconType::QuestionIcon, "Take up the last session?",
-                                       "The mixer ended without being closed. A copy of its session was kept at " + file.getLastModificationTime().toString(true, true, false, true) + ".",
-                                       "Take it up", "Discard it", view_.get(), juce::ModalCallbackFunction::create([this, copies](int answer) {
-                                           if (answer == 1 && load(copies.front(), {}, true)) savedEdits_ = desk_->edits() + 1; // to be saved
-                                           for (const auto& copy : copies)
-                                               if (copy != copies.front() || answer != 1 || desk_->trouble().isEmpty()) copy.deleteFile();
-                                       }));
+    auto card = std::make_unique<QuestionCard>(
+        "Take up the last session?",
+        "The mixer ended without being closed. A copy of its session was kept at " +
+            copies.front().getLastModificationTime().toString(true, true, false, true) + ".",
+        "Take it up", "Discard it");
+    card->onAnswer = [this, copies](bool isYes) {
+        juce::MessageManager::callAsync([safe = juce::Component::SafePointer<MixerWindow>{this}, copies,
+                                         isYes] { // its button is still being clicked
+            if (safe != nullptr) safe->recover(copies, isYes);
+        });
+    };
+    view_->setQuestion(std::move(card));
+}
+
+void MixerWindow::recover(const std::vector<juce::File>& copies, bool isWanted) {
+    view_->setQuestion(nullptr);
+    if (isWanted && load(copies.front(), {}, true)) savedEdits_ = desk_->edits() + 1; // to be saved
+    for (const auto& copy : copies)
+        if (copy != copies.front() || !isWanted || desk_->trouble().isEmpty()) copy.deleteFile();
 }
 
 } // namespace physvib

@@ -4,6 +4,7 @@
 #include "System/Process.h"
 #include "Io/Disk/AtomicFile.h"
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -12,7 +13,7 @@ namespace physvib {
 namespace {
 
 constexpr const char* copyPrefix = "recovery-";
-constexpr double keepMs = 2'000.0, longestKeepMs = 20'000.0;
+constexpr double keepMs = 2'000.0, longestKeepMs = 20'000.0, exposureMs = 5'000.0;
 
 juce::PropertiesFile::Options options() {
     juce::PropertiesFile::Options o;
@@ -20,6 +21,8 @@ juce::PropertiesFile::Options options() {
     o.millisecondsBeforeSaving = 500;
     return o;
 }
+
+juce::String today() { return juce::Time::getCurrentTime().formatted("%Y-%m-%d"); }
 
 } // namespace
 
@@ -49,6 +52,20 @@ void MixerFiles::addRecent(const juce::File& file) {
 
 DeskLimits MixerFiles::limits() const { return readDeskLimits(settings_.getValue(limitsSetting).toStdString()).value_or(DeskLimits::of(Desk::firstMix())); }
 
+double MixerFiles::exposureToday() const {
+    const auto words = juce::StringArray::fromTokens(settings_.getValue(exposureSetting), " ", {});
+    const double taken = words.size() == 2 && words[0] == today() ? words[1].getDoubleValue() : 0.0;
+    return std::isfinite(taken) ? std::max(0.0, taken) : 0.0;
+}
+
+// Now and then: it grows all the time, and each time is a file.
+void MixerFiles::setExposureToday(double squareGSeconds, bool isLast) {
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    if (!isLast && now - exposureAtMs_ < exposureMs) return;
+    exposureAtMs_ = now;
+    settings_.setValue(exposureSetting, today() + " " + juce::String{squareGSeconds});
+}
+
 juce::Array<juce::File> MixerFiles::ownScenes() const {
     auto files = scenesFolder().findChildFiles(juce::File::findFiles, false, "*.json");
     files.sort();
@@ -68,6 +85,7 @@ std::string MixerFiles::keep(Desk& desk, bool isChanged) {
     if (!isChanged || passed < (desk.edits() != keptEdits_ ? keepMs : longestKeepMs)) return {};
     keptAtMs_ = now;
     keptEdits_ = desk.edits();
+    settings_.saveIfNeeded(); // levels first: the copy must not be newer than what the desk allowed
     return writeFile(copy_.getFullPathName().toStdString(), sessionJson(desk.saved(), std::filesystem::path{folder_.getFullPathName().toStdString()}));
 }
 

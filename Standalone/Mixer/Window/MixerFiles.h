@@ -24,6 +24,10 @@ public:
     DeskLimits limits() const;
     void setLimits(const DeskLimits& limits) { settings_.setValue(limitsSetting, juce::String::fromUTF8(deskLimitsText(limits).c_str())); }
 
+    /// What hands have taken of this mixer today, in g^2 s, weighted; kept between runs, however they end.
+    double exposureToday() const;
+    void setExposureToday(double squareGSeconds, bool isLast = false); ///< written now and then, and at last
+
     juce::File scenesFolder() const { return folder_.getChildFile("scenes"); } ///< where scenes of one's own are looked for
     juce::Array<juce::File> ownScenes() const;
 
@@ -36,13 +40,13 @@ public:
     void forget();
 
 private:
-    static constexpr const char* limitsSetting = "desk";
+    static constexpr const char *limitsSetting = "desk", *exposureSetting = "exposure";
 
     juce::File folder_, copy_;
     juce::PropertiesFile settings_;
     juce::RecentlyOpenedFilesList recent_;
     std::uint64_t keptEdits_ = 0;
-    double keptAtMs_ = 0.0;
+    double keptAtMs_ = 0.0, exposureAtMs_ = 0.0;
 };
 
 } // namespace physvib

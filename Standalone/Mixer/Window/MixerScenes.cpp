@@ -24,13 +24,19 @@ void MixerWindow::saveScene(bool isNow) {
 std::string MixerWindow::saveSceneTo(const juce::File& file, bool isNow) {
     const auto& world = desk_->world();
     Scene scene = world.drawing().drawn();
-    if (isNow) scene = sceneNow(scene, [&](const std::string& body) { return world.poseNow(body); });
+    if (isNow) scene = sceneNow(scene, world.posesNow());
     scene.name = file.getFileNameWithoutExtension().toStdString();
     scene.variables.clear();
     if (auto fault = validate(scene); !fault.empty()) return fault;
     auto error = writeFile(file.getFullPathName().toStdString(), sceneJson(scene));
     if (error.empty()) view_->topBar().setOwnScenes(files_.ownScenes());
     return error;
+}
+
+void MixerWindow::recordScript() {
+    auto& script = desk_->script();
+    script.isRecording() ? script.stop() : script.start();
+    if (script.isRecording()) view_->world().drawing().use(DrawTool::hand);
 }
 
 void MixerWindow::newScene(SceneGround ground) {

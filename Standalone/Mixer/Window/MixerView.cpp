@@ -8,6 +8,7 @@
 #include "Mixer/Strips/ScopeView.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Output/TelemetryTab.h"
+#include <utility>
 
 namespace physvib {
 
@@ -65,6 +66,7 @@ void MixerView::takeMix() {
     restedLooks_ = 0;
     if (isTimerRunning() && getTimerInterval() > 1000 / framesPerSecond) startTimerHz(framesPerSecond);
     bar_.takeMix();
+    showLetters();
     world_.takeMix();
     tabs_.takeMix();
     strips_.takeMix();
@@ -76,6 +78,21 @@ void MixerView::takeMix() {
     trouble_.setVisible(isTrouble);
     dismiss_->setVisible(isTrouble);
     resized();
+    repaint();
+}
+
+// What files bring: names may be of any script.
+void MixerView::showLetters() {
+    juce::String words = desk_.trouble() + juce::String::fromUTF8(desk_.output().device().c_str());
+    for (const auto& enchanter : desk_.mix().layout.enchanters) words += utf8(enchanter.label);
+    if (std::exchange(lettersOf_, desk_.world().edits()) != desk_.world().edits()) { // not each time
+        const Scene& scene = desk_.world().drawing().drawn();
+        words += utf8(scene.name);
+        for (const auto& body : scene.bodies) words += utf8(body.name);
+        for (const auto& material : scene.materials) words += utf8(material.name);
+    }
+    if (!letters_.show(words)) return;
+    sendLookAndFeelChange();
     repaint();
 }
 
@@ -112,6 +129,14 @@ void MixerView::setFirstStart(std::unique_ptr<FirstStart> card) {
     firstStart_->grabKeyboardFocus();
 }
 
+void MixerView::setQuestion(std::unique_ptr<QuestionCard> card) {
+    question_ = std::move(card);
+    if (!question_) return grabKeyboardFocus();
+    addAndMakeVisible(*question_);
+    resized();
+    question_->grabKeyboardFocus();
+}
+
 void MixerView::setDropShown(bool isShown) {
     isDropShown_ = isShown;
     repaint();
@@ -134,7 +159,8 @@ bool MixerView::covered(const juce::KeyPress& key) {
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
     if (!world_.isVisible() && covered(key)) return true;
-    if (firstStart_ && firstStart_->keyPressed(key)) return true; // whatever has the focus
+    if (question_ && question_->keyPressed(key)) return true; // whatever has the focus
+    if (firstStart_ && firstStart_->keyPressed(key)) return true;
     setHint(false);
     if (key == KeyPress::escapeKey) return bar_.toggleSilence(), true;
     if (key == KeyPress::spaceKey) return bar_.togglePause(), true;
@@ -189,7 +215,9 @@ void MixerView::resized() {
     tabs_.setBounds(area.removeFromRight(right));
     area.removeFromRight(gap);
     world_.setBounds(area);
-    if (firstStart_) firstStart_->setCentrePosition(getLocalBounds().withTrimmedTop(barHeight).getCentre());
+    const auto middle = getLocalBounds().withTrimmedTop(barHeight).getCentre();
+    if (firstStart_) firstStart_->setCentrePosition(middle);
+    if (question_) question_->setCentrePosition(middle);
     strips_.setBounds(bottom.removeFromRight(right));
     bottom.removeFromRight(gap);
     scope_.setBounds(bottom);

@@ -3,6 +3,8 @@
 #pragma once
 #include "Mixer/Strips/StripsPanel.h"
 #include "Mixer/Window/FirstStart.h"
+#include "Mixer/Window/QuestionCard.h"
+#include "Mixer/Window/ShownLetters.h"
 #include "Mixer/Window/TabPanel.h"
 #include "Mixer/Window/TopBar.h"
 #include "Mixer/World/WorldPanel.h"
@@ -31,6 +33,9 @@ public:
     /// A card over the world; null: none. It has the keyboard.
     void setFirstStart(std::unique_ptr<FirstStart> card);
     FirstStart* firstStart() noexcept { return firstStart_.get(); }
+    /// Another card, in the middle; null: none.
+    void setQuestion(std::unique_ptr<QuestionCard> card);
+    QuestionCard* question() noexcept { return question_.get(); }
     /// A file that is dragged over the window may be dropped here.
     void setDropShown(bool isShown);
     /// What leaves the window by a drag: files, if it is what was played.
@@ -47,6 +52,7 @@ private:
     void timerCallback() override { refresh(); }
     bool covered(const juce::KeyPress& key);
     void takeMix();
+    void showLetters();
     void keepPace();
 
     Desk& desk_;
@@ -58,6 +64,9 @@ private:
     juce::Label trouble_;
     std::unique_ptr<juce::TextButton> dismiss_;
     std::unique_ptr<FirstStart> firstStart_;
+    std::unique_ptr<QuestionCard> question_;
+    ShownLetters letters_;
+    std::uint64_t lettersOf_ = ~std::uint64_t{0}; // edits of the world that were looked at
     bool isHintShown_ = false, isDropShown_ = false;
     DeskMoment latest_;
     int restedLooks_ = 0;

@@ -37,6 +37,7 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     device_.pad = settings.getValue("controller").toStdString();
     dragged_->setEnding(std::max(0, hitEndings().indexOf(settings.getValue("clip-ending"))));
     setUsingNativeTitleBar(true);
+    if (!files_.leftBehind().empty()) before_ = files_.limits();
     start(file);
     setResizable(true, false);
     setResizeLimits(MixerView::leastWidth, MixerView::leastHeight, 7680, 4320);
@@ -62,6 +63,7 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
 MixerWindow::~MixerWindow() {
     stopTimer();
     files_.setLimits(limits());
+    files_.setExposureToday(desk_->exposure().squareGSeconds(), true);
     rendering_.reset();
     clearContentComponent();
     view_.reset();
@@ -71,12 +73,14 @@ MixerWindow::~MixerWindow() {
 // Another document is another desk: its session begins at 0, with nothing to undo.
 void MixerWindow::play(Mix mix, const juce::File& document) {
     const bool wasSilent = desk_ && desk_->isSilent();
+    const double exposure = desk_ ? desk_->exposure().squareGSeconds() : files_.exposureToday();
     asked_.reset();
     clearContentComponent();
     view_.reset();
     desk_.reset();
     desk_ = std::make_unique<Desk>(types_, device_, std::move(mix));
     if (wasSilent) desk_->setSilent(true);
+    desk_->exposure().goOnFrom(exposure);
     view_ = std::make_unique<MixerView>(*desk_);
     setContentNonOwned(view_.get(), getWidth() == 0);
     document_ = document;
@@ -116,7 +120,7 @@ void MixerWindow::useBoard(const DeviceChoice& choice) {
         files_.settings().setValue("controller", utf8(choice.pad));
         const bool isFirst = view_->firstStart() != nullptr;
         play(Mix{desk_->mix()}, document_);
-        if (isFirst) return testController();
+        if (isFirst) return testBeside(choice.board.empty() ? 2 : 4);
         view_->tabs().choose("Output"); // where it was chosen
     });
 }
@@ -127,7 +131,7 @@ void MixerWindow::showFirstStart() {
     std::vector<std::string> pads;
     for (const GamePadInfo& pad : GamePads{}.list())
         if (pad.hasMotors) pads.push_back(pad.name);
-    addFirstStart(feltChoices(types_, pads));
+    addFirstStart(feltChoices(types_, pads, listSerialPorts()));
 }
 
 FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
@@ -138,7 +142,7 @@ FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
             if (safe != nullptr) safe->view_->setFirstStart(nullptr);
         });
     };
-    card->onController = [this](const DeviceChoice& choice) {
+    card->onBeside = [this](const DeviceChoice& choice) {
         files_.settings().setValue(chosenSetting, true);
         if (desk_->device().onBoardWanted) desk_->device().onBoardWanted(choice);
     };
@@ -147,7 +151,7 @@ FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
     return shown;
 }
 
-void MixerWindow::testController() { addFirstStart({}).test(2); }
+void MixerWindow::testBeside(int outputs) { addFirstStart({}).test(outputs); }
 
 void MixerWindow::tellInstead() {
     const auto& wanted = device_.name;
@@ -159,7 +163,9 @@ void MixerWindow::tellInstead() {
 
 void MixerWindow::nameWindow() {
     const auto name = document_ == juce::File{} ? juce::String{"new session"} : document_.getFileNameWithoutExtension();
-    const auto title = name + (isChanged() ? " *" : "") + juce::String::fromUTF8(" \xe2\x80\x93 PhysVib mixer");
+    const auto title =
+        name + (isChanged() ? " *" : "") + " - PhysVib mixer"; // a dash of ASCII: on X11, JUCE gives other
+                                                               // letters to the window manager as Latin-1
     if (title != getName()) setName(title);
 }
 
@@ -178,12 +184,14 @@ void MixerWindow::timerCallback() {
     settings.setValue("marker", device_.marker + 1);
     settings.setValue("clip-ending", hitEndings()[dragged_->ending()]);
     files_.setLimits(limits());
+    files_.setExposureToday(desk_->exposure().squareGSeconds());
     offerMonitor();
     if (const auto error = files_.keep(*desk_, isChanged()); !error.empty()) say(utf8(error));
 }
 
 Mix MixerWindow::firstMix() const {
     Mix mix = Desk::firstMix();
+    if (before_) mix.levelDb = before_->levelDb;
     for (Strip& strip : mix.strips)
         if (std::ranges::find(device_.monitor, strip.output) != device_.monitor.end()) strip.output = -1;
     return mix;
@@ -248,6 +256,7 @@ bool MixerWindow::keyPressed(const juce::KeyPress& key) {
     if (key == KeyPress{'s', command, 0}) return save(), true;
     if (key == KeyPress{'s', command | shift, 0}) return saveAs(), true;
     if (key == KeyPress{'r', command, 0}) return record(), true;
+    if (key == KeyPress{'r', command | shift, 0}) return recordScript(), true;
     if (key == KeyPress{'e', command, 0}) return renderOffline(), true;
     if (key == KeyPress{'q', command, 0}) return requestQuit(), true;
     if (key == KeyPress::F10Key) return showMenu(view_->topBar()), true;
@@ -285,6 +294,8 @@ void MixerWindow::showMenu(juce::Component& from) {
     item("Scene" + dots(), {}, [this] { import("Scene"); });
     item("Save as scene" + dots(), {}, [this] { saveScene(false); });
     item("Save as scene, bodies as they are now" + dots(), {}, [this] { saveScene(true); });
+    item(desk_->script().isRecording() ? "End the recording of hands" : "Record hands as the scene's script",
+         "Ctrl+Shift+R", [this] { recordScript(); });
     item("Layout" + dots(), {}, [this] { import("Layout of actuators"); });
     item("Save the layout" + dots(), {}, [this] { exportLayout(); });
     if (asked_) item("Levels of the file", {}, [this] { takeAsked(); });
@@ -299,6 +310,7 @@ void MixerWindow::showMenu(juce::Component& from) {
     item("Width of the display" + dots(), {}, [this] { askDisplayWidth(); });
     item("Hint", {}, [this] { view_->setHint(true); });
     item("Quit", "Ctrl+Q", [this] { requestQuit(); });
+    menu.setLookAndFeel(&view_->getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from).withMinimumWidth(240));
 }
 

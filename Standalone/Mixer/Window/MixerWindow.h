@@ -30,6 +30,7 @@ public:
     void exportLayout();
     void saveScene(bool isNow);         ///< asks for the file; as drawn, or with bodies where they are now
     std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or what is wrong
+    void recordScript(); ///< of what hands do in the world: starts or ends
     void newScene(SceneGround ground);  ///< in the field, with the materials of the present one
     /// Asks if something would be lost, then quits.
     void requestQuit();
@@ -51,7 +52,7 @@ private:
     void timerCallback() override;
     void showFirstStart();
     FirstStart& addFirstStart(std::vector<FeltChoice> choices);
-    void testController();
+    void testBeside(int outputs);
     void tellInstead();
     void start(const juce::File& file);
     void play(Mix mix, const juce::File& document);
@@ -67,6 +68,7 @@ private:
     void askThen(std::function<void()> goOn);
     void chooseFile(const juce::String& title, const juce::String& pattern, bool isSaving, std::function<void(const juce::File&)> use);
     void offerRecovery();
+    void recover(const std::vector<juce::File>& copies, bool isWanted);
     void offerMonitor();
     Mix firstMix() const; ///< whose enchanters leave the monitor's outputs alone
     void showMenu(juce::Component& from);
@@ -85,6 +87,7 @@ private:
     std::unique_ptr<MixerView> view_;
     juce::File document_, lastRecording_;
     std::optional<Mix> asked_; // of the last file, if it was lowered
+    std::optional<DeskLimits> before_; // the desk of a run that ended badly
     std::uint64_t savedEdits_ = 0;
     std::unique_ptr<juce::FileChooser> chooser_;
     std::unique_ptr<juce::Thread> rendering_;

@@ -61,7 +61,10 @@ void SignButton::setSign(Sign sign, const juce::String& name) {
 void SignButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
     getLookAndFeel().drawButtonBackground(g, *this, {}, isOver, isDown);
     const bool isQuiet = getProperties()[quietProperty];
-    g.setColour(shade(*this, getToggleState() ? Shade::well : isQuiet ? Shade::accent : Shade::text).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
+    g.setColour(shade(*this, !isEnabled()       ? Shade::muted
+                             : getToggleState() ? Shade::well
+                             : isQuiet          ? Shade::accent
+                                                : Shade::text));
     g.fillPath(pathOf(sign_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
 }
 

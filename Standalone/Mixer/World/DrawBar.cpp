@@ -101,6 +101,7 @@ void MaterialPalette::show() {
             swatch.onClick = [this, i] { pane_.setMaterial(i); };
             swatch.onEnter = [this, i] { desk_.strikes().audition(i, 0.5, 0.5); }; // one that is silent says so elsewhere
             addAndMakeVisible(swatch);
+            prepareControls(swatch); // it comes after the others
         }
         resized();
     }

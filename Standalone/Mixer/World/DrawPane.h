@@ -39,6 +39,7 @@ public:
     void mouseDoubleClick(const juce::MouseEvent& e) override;
 
 private:
+    static constexpr double gridsPerField = 40.0, turnStep = juce::MathConstants<double>::pi / 12.0;
     enum class Grip { none, move, size, turn, around };
     struct Handles { // of one body, in pixels
         std::array<juce::Point<float>, 4> corners;

@@ -30,6 +30,15 @@ inline constexpr std::array<DrawToolWords, 12> drawTools{{
     {DrawTool::eraser, 'e', "Eraser", "Click or drag over bodies and joints"},
 }};
 
+inline bool isStroke(DrawTool tool) {
+    return tool == DrawTool::ball || tool == DrawTool::box || tool == DrawTool::line ||
+           tool == DrawTool::wall;
+}
+inline bool isJoint(DrawTool tool) {
+    return tool == DrawTool::pin || tool == DrawTool::rope || tool == DrawTool::slider ||
+           tool == DrawTool::motor;
+}
+
 inline const DrawToolWords& wordsOf(DrawTool tool) { return drawTools[static_cast<std::size_t>(tool)]; }
 
 /// Its sign, around (0, 0), within 9 pixels each way.

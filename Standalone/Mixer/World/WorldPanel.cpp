@@ -66,6 +66,7 @@ WorldPanel::WorldPanel(Desk& desk)
     for (juce::Component* c : std::initializer_list<juce::Component*>{&view_, &pane_, &bar_, &sentence_, &law_, &tilt_, &tiltName_, &drag_, &dragName_}) addAndMakeVisible(c);
     addChildComponent(palette_);
     addChildComponent(body_);
+    addChildComponent(script_);
     pane_.onChange = [this] { showTools(); };
     takeMix();
 }
@@ -98,6 +99,7 @@ void WorldPanel::showTools() {
     bar_.show();
     palette_.show();
     palette_.setVisible(pane_.tool() != DrawTool::hand);
+    script_.refresh(pane_.tool() == DrawTool::hand);
     body_.show();
 }
 
@@ -201,6 +203,7 @@ void WorldPanel::refresh(const DeskMoment& moment) {
         }
     lookAfterPlayer();
     moveHand();
+    if (desk_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits, std::span{moment.meters.peaks}.first(static_cast<std::size_t>(desk_.mix().count()))});
 }
 
@@ -222,6 +225,7 @@ void WorldPanel::showMenu(const std::string& body, FieldShare at) {
     }
     for (const DrawTool tool : {DrawTool::ball, DrawTool::box}) menu.addItem("Draw a " + juce::String{wordsOf(tool).name}.toLowerCase(), [this, tool] { pane_.use(tool); });
     menu.addItem("Attach an actuator here", desk_.mix().count() < limits::maxEnchanters, false, [this, at] { desk_.attach(at.x, at.y); });
+    menu.setLookAndFeel(&getLookAndFeel());
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
 }
 
@@ -246,6 +250,7 @@ void WorldPanel::resized() {
     auto top = getLocalBounds().reduced(6, 8).withTrimmedBottom(48);
     bar_.setBounds(top.removeFromLeft(DrawBar::wide));
     top.removeFromLeft(8);
+    script_.setBounds(top.withHeight(script_.getHeight()));
     palette_.setBounds(top.removeFromTop(26));
     body_.setBounds(top.withTrimmedTop(6).removeFromTop(BodyPanel::high).removeFromRight(BodyPanel::wide));
 }

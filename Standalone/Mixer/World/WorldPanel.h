@@ -6,6 +6,7 @@
 #include "Mixer/Desk/Desk.h"
 #include "Mixer/Window/Parts.h"
 #include "Mixer/World/DrawBar.h"
+#include "Mixer/World/ScriptStrip.h"
 #include "Mixer/World/TiltKnob.h"
 #include "Scene/World/ScenePlayer.h"
 #include <optional>
@@ -50,6 +51,7 @@ private:
     DrawBar bar_{pane_};
     MaterialPalette palette_{desk_, pane_};
     BodyPanel body_{desk_, pane_};
+    ScriptStrip script_{desk_};
     juce::Label sentence_, law_, tiltName_, dragName_;
     TiltKnob tilt_;
     juce::Slider drag_;

@@ -257,6 +257,87 @@ TEST(Window, APersonsWayThroughTheMixer) {
     EXPECT_FALSE(again.isChanged());
 }
 
+TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
+    Hand hand{window};
+    auto& view = window.view().world().view();
+    auto& pane = window.view().world().drawing();
+    auto& desk = window.desk();
+    desk.setSlowness(0);
+    window.newScene(SceneGround::floor);
+    runFor(0.5);
+    const auto at = [&](double x, double y) { return hand.placeOf(view, view.placeOfShare({x, y})); };
+    const auto draw = [&](DrawTool tool, juce::Point<float> from, juce::Point<float> to) {
+        pane.use(tool);
+        hand.drag(from, to);
+        runFor(0.2);
+    };
+    draw(DrawTool::wall, at(0.05, 0.75), at(0.35, 0.5)); // a slope
+    draw(DrawTool::ball, at(0.1, 0.9), at(0.13, 0.9));
+    draw(DrawTool::box, at(0.4, 0.14), at(0.75, 0.18)); // a see-saw
+    draw(DrawTool::pin, at(0.575, 0.16), at(0.575, 0.16));
+    pane.use(DrawTool::polygon); // a bell
+    for (const auto& corner : {at(0.8, 0.3), at(0.9, 0.3), at(0.85, 0.45)}) hand.drag(corner, corner);
+    hand.key(juce::KeyPress::returnKey);
+    draw(DrawTool::rope, at(0.85, 0.4), at(0.85, 0.8));
+    const auto& drawn = desk.world().drawing();
+    ASSERT_EQ(drawn.drawn().bodies.size(), 5U) << desk.trouble();
+    ASSERT_EQ(drawn.drawn().joints.size(), 2U) << desk.trouble();
+    pane.use(DrawTool::choose);
+    pane.choose({"polygon 1"});
+    runFor(0.2);
+    const auto& materials = drawn.drawn().materials;
+    ASSERT_GT(materials.back().frequencyHz, 0.0) << "a haptic source has to sound";
+    ASSERT_NE(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1);
+    hand.click(*find(window.view(), "Material " + utf8(materials.back().name)));
+    EXPECT_EQ(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1) << desk.trouble();
+    runFor(1.0); // its sound is over
+
+    pane.use(DrawTool::hand);
+    hand.key('r', juce::ModifierKeys::commandModifier);
+    ASSERT_TRUE(desk.recording().isRunning());
+    hand.key('r', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
+    ASSERT_TRUE(runUntil([&] { return desk.script().seconds() > 0.3; }));
+    const auto plank = view.placeOfBody("box 1");
+    hand.drag(hand.placeOf(view, plank + juce::Point<float>{40.0f, 0.0f}),
+              hand.placeOf(view, plank + juce::Point<float>{40.0f, -60.0f}));
+    for (int k = 0; k < 4; ++k) hand.key(juce::KeyPress::leftKey);
+    const auto ball = view.placeOfBody("ball 1");
+    hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{50.0f, -30.0f}),
+              juce::ModifierKeys::shiftModifier);
+    ASSERT_TRUE(runUntil([&] { return desk.script().seconds() > 3.0; }));
+    const std::size_t take = desk.saved().log.takes.size() - 1;
+    hand.key('r', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
+    ASSERT_NE(desk.script().hands(), nullptr) << desk.trouble();
+    const double length = desk.script().hands()->lengthSeconds;
+    EXPECT_GT(desk.script().hands()->inputs.size(), 5U);
+    hand.key('r', juce::ModifierKeys::commandModifier);
+    ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
+    ASSERT_EQ(window.saveSceneTo(folder("own.json"), false), "");
+
+    const auto scene = loadScene(folder("own.json").getFullPathName().toStdString());
+    ASSERT_TRUE(scene) << scene.error;
+    const auto rendered =
+        runScene(scene.value, {desk.mix().seed, 100}, static_cast<std::int64_t>(1e9 * length)).events;
+    const auto live =
+        loadEventsCsv(window.lastRecording().withFileExtension("csv").getFullPathName().toStdString());
+    ASSERT_TRUE(live) << live.error;
+    EXPECT_GT(rendered.size(), 5U);
+    ASSERT_GE(live.value.size(), rendered.size());
+    const bool hasWaited = !desk.saved().log.takes[take].stalls.empty();
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < rendered.size(); ++i) {
+        CollisionEvent felt = live.value[i];
+        if (!hasWaited)
+            EXPECT_EQ(felt.timeNs - rendered[i].timeNs, live.value[0].timeNs - rendered[0].timeNs) << i;
+        felt.timeNs = rendered[i].timeNs;
+        same += felt == rendered[i] ? 1 : 0;
+    }
+    EXPECT_EQ(same, rendered.size());
+    window.save(); // nothing to be asked
+}
+
 /// Four enchanters as loud as a file can ask for, on outputs 1, 2, 3 and 6.
 juce::File loudSession(const TestFolder& folder) {
     Desk desk{onlyNoDevice(), {"None:no device", 0, 0}};
@@ -439,6 +520,57 @@ TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesN
     cancel->triggerClick();
     EXPECT_TRUE(runUntil([&] { return desk.trouble().contains("cancelled"); })) << desk.trouble();
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "*cancelled*"), 0);
+}
+
+/// A folder as a crash leaves it: a copy of a session at -30 dB, settings of a desk that was then turned down
+/// to -40 dB, 12.5 g^2 s felt.
+struct AfterACrash : TestFolder {
+    juce::File copy = folder.getChildFile("after/recovery-99999999.json"); // of a process that is not there
+    AfterACrash() {
+        MixerWindow window{onlyNoDevice(), "None:no device", folder.getChildFile("mine.json"),
+                           folder.getChildFile("config")};
+        window.desk().exposure().goOnFrom(12.5);
+        const auto change = [&](double levelDb) {
+            window.desk().change("Level", [levelDb](Mix& mix) { mix.levelDb = levelDb; });
+        };
+        const auto copies = [&] {
+            return folder.getChildFile("config").findChildFiles(juce::File::findFiles, false,
+                                                                "recovery-*.json");
+        };
+        change(-30.0);
+        runUntil([&] { return !copies().isEmpty(); });
+        copy.getParentDirectory().createDirectory();
+        copies()[0].copyFileTo(copy);
+        change(-40.0);
+        runFor(1.5); // the settings are written twice a second
+        folder.getChildFile("config/mixer.settings").copyFileTo(folder.getChildFile("after/mixer.settings"));
+        window.save(); // nothing to be asked
+    }
+};
+
+TEST(Window, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
+    AfterACrash crash;
+    ASSERT_TRUE(crash.copy.existsAsFile());
+    for (const bool isTakenUp : {false, true}) {
+        TestFolder again;
+        crash.folder.getChildFile("after").copyDirectoryTo(again("config"));
+        MixerWindow window{onlyNoDevice(), "None:no device", {}, again("config")};
+        auto* question = window.view().question();
+        ASSERT_NE(question, nullptr);
+        EXPECT_EQ(window.view().firstStart(), nullptr) << "one question at a time";
+        const auto beside = window.view().getLocalArea(question, question->getLocalBounds()).getCentre() -
+                            window.view().getLocalBounds().getCentre();
+        EXPECT_LE(std::abs(beside.x), 1) << "in the middle";
+        EXPECT_EQ(window.desk().mix().levelDb, -40.0) << "before it is answered";
+        EXPECT_GE(window.desk().exposure().squareGSeconds(), 12.5) << "hands have felt that today";
+        question->answer(isTakenUp);
+        ASSERT_TRUE(runUntil([&] { return !again("config/recovery-99999999.json").existsAsFile(); }));
+        EXPECT_EQ(window.desk().mix().levelDb, -40.0)
+            << (isTakenUp ? "the copy is older than the desk was" : "discarded");
+        EXPECT_GE(window.desk().exposure().squareGSeconds(), 12.5);
+        EXPECT_EQ(window.view().question(), nullptr);
+        EXPECT_EQ(window.isChanged(), isTakenUp);
+    }
 }
 
 TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {

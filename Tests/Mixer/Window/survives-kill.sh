@@ -40,9 +40,14 @@ grep -q '"E"' "$copy" || { echo "the fifth enchanter is not in the copy"; exit 1
 
 "$mixer" --device "None:no device" &
 pid=$!
-wait_for 30 xdotool search --name "Take up the last session"
-xdotool key --window "$(xdotool search --name 'Take up the last session' | tail -n 1)" Return
-sleep 2
-kill -TERM "$pid"
+wait_for 30 xdotool search --name "new session - PhysVib mixer"
+sleep 1
+xdotool mousemove 720 20 key Return # the question has the keyboard
+has_gone() { [ ! -e "$copy" ]; }
+wait_for 30 has_gone # answered: else it would still be there
+sleep 3
+kill -TERM "$pid" # its copy stays: what was taken up has not been saved
+wait "$pid" 2>/dev/null || :
 pid=""
+grep -q '"E"' "$folder"/physvib/recovery-*.json || { echo "the fifth enchanter was not taken up"; exit 1; }
 echo "recovered"

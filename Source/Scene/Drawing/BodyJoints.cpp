@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// New joints, and joints of bodies that are elsewhere now.
+#include "Scene/Drawing/BodyMotion.h"
+#include "Scene/SceneLimits.h"
+#include "Scene/World/BodyMass.h"
+#include "Scene/World/ShapeGeometry.h"
+#include <algorithm>
+#include <map>
+
+namespace physvib {
+namespace {
+
+using detail::Motion;
+using detail::placeOf;
+
+/// As near as a seed puts it beside its start.
+bool isNear(const BodyDescription& a, const BodyDescription& b) {
+    constexpr double near = 2.0e-3;
+    return std::hypot(a.positionMetres.x - b.positionMetres.x, a.positionMetres.y - b.positionMetres.y) <
+               near &&
+           std::abs(a.angleRadians - b.angleRadians) < near;
+}
+
+} // namespace
+
+Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
+                                   const std::pair<std::string, BodyPlace>& a,
+                                   const std::pair<std::string, BodyPlace>& b, const Vector& from,
+                                   const Vector& to) {
+    constexpr double motorRadiansPerSecond = 3.0, motorGravities = 3.0;
+    std::vector<Action> actions;
+    double heaviest = 0.0;
+    for (const auto& [name, place] : {a, b}) {
+        const BodyDescription* body = drawing.find(name);
+        if (body == nullptr) return Failure{"a joint: expected two bodies"};
+        if (body->type == BodyType::dynamicBody)
+            heaviest =
+                std::max(heaviest, massKg(*body, drawing.drawn()) * lengthMetres(body->fixtures[0].shape));
+        BodyDescription here = *body;
+        here.positionMetres = place.metres;
+        here.angleRadians = place.angleRadians;
+        if (isNear(here, *body)) continue;
+        here.velocityMetresPerSecond = {};
+        here.spinRadiansPerSecond = 0.0;
+        actions.push_back(ChangeAction{std::move(here), false});
+    }
+    if (a.first == b.first) return Failure{"a joint: expected two bodies, found " + a.first + " twice"};
+    if (heaviest <= 0.0) return Failure{"a joint: expected a body that moves"};
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    if (kind != JointKind::pin && kind != JointKind::motor && length < sceneLimits::minSizeMetres)
+        return Failure{"a rope or slider: expected two places"};
+    JointDescription joint;
+    joint.name = drawing.freeName("joint");
+    joint.bodyA = a.first;
+    joint.bodyB = b.first;
+    if (kind == JointKind::rope) {
+        DistanceJoint rope{from, to, 0.0, 0.0, true};
+        joint.collide = true;
+        joint.joint = rope;
+    } else if (kind == JointKind::slider) {
+        SliderJoint slider;
+        slider.anchorMetres = from;
+        slider.axis = {(to.x - from.x) / length, (to.y - from.y) / length};
+        slider.travelMetres = Interval{0.0, length};
+        joint.joint = slider;
+    } else {
+        RevoluteJoint pin;
+        pin.anchorMetres = from;
+        const Vector& g = drawing.drawn().gravityMetresPerSecond2;
+        if (kind == JointKind::motor)
+            pin.motorRadiansPerSecond = motorRadiansPerSecond,
+            pin.maxTorqueNewtonMetres =
+                std::min(sceneLimits::maxTorqueNewtonMetres,
+                         motorGravities * std::max(1.0, std::hypot(g.x, g.y)) * heaviest);
+        joint.joint = pin;
+    }
+    actions.push_back(JoinAction{std::move(joint)});
+    return actions;
+}
+
+Scene sceneNow(const Scene& drawn, const PoseNow& now) {
+    Scene scene = drawn;
+    std::map<std::string, Motion> motions;
+    for (BodyDescription& body : scene.bodies) {
+        const auto pose = now ? now(body.name) : std::nullopt;
+        if (!pose) continue;
+        const BodyPlace here{{pose->xMetres, pose->yMetres}, pose->angleRadians};
+        motions.emplace(body.name, Motion{placeOf(body), here});
+        body.positionMetres = here.metres;
+        body.angleRadians = here.angleRadians;
+    }
+    for (JointDescription& joint : scene.joints) {
+        const auto a = motions.find(joint.bodyA), b = motions.find(joint.bodyB);
+        if (a == motions.end() || b == motions.end()) continue;
+        std::visit([&](auto& kind) {
+            if constexpr (requires { kind.anchorAMetres; }) {
+                kind.anchorAMetres = a->second(kind.anchorAMetres);
+                kind.anchorBMetres = b->second(kind.anchorBMetres);
+                return;
+            } else {
+                const Vector onA = a->second(kind.anchorMetres), onB = b->second(kind.anchorMetres);
+                const double angle = b->second.angle() - a->second.angle();
+                kind.anchorMetres = onA;
+                if constexpr (requires { kind.axis; }) {
+                    kind.axis = a->second.way(kind.axis);
+                    const double length = std::hypot(kind.axis.x, kind.axis.y),
+                                 way =
+                                     ((onB.x - onA.x) * kind.axis.x + (onB.y - onA.y) * kind.axis.y) / length;
+                    if (kind.travelMetres)
+                        kind.travelMetres =
+                            Interval{kind.travelMetres->lower - way, kind.travelMetres->upper - way};
+                }
+                if constexpr (requires { kind.limitsRadians; })
+                    if (kind.limitsRadians)
+                        kind.limitsRadians =
+                            Interval{kind.limitsRadians->lower - angle, kind.limitsRadians->upper - angle};
+            }
+        }, joint.joint);
+    }
+    return scene;
+}
+
+} // namespace physvib

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Live inputs become script inputs of the same steps.
+#include "Scene/Drawing/HandScript.h"
+#include "Scene/SceneEdits.h"
+#include "Scene/SceneLimits.h"
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace physvib {
+namespace {
+
+bool isKinematic(const Scene& scene, const std::string& body) {
+    const auto found = std::ranges::find(scene.bodies, body, &BodyDescription::name);
+    return found != scene.bodies.end() && found->type == BodyType::kinematicBody;
+}
+
+/// What holds on until another one of its kind: it is so at the start of a part that begins later. Pushes and
+/// grips are over. Empty: something else.
+std::string stateOf(const Scene& scene, const Action& action) {
+    if (std::holds_alternative<GravityAction>(action) || std::holds_alternative<TiltAction>(action))
+        return "gravity"; // either replaces the other
+    if (std::holds_alternative<HoldAction>(action)) return "hold";
+    if (const auto* motor = std::get_if<MotorAction>(&action)) return "motor " + motor->joint;
+    if (const auto* velocity = std::get_if<VelocityAction>(&action);
+        velocity != nullptr && isKinematic(scene, velocity->body))
+        return "velocity " + velocity->body;
+    return {};
+}
+
+/// Bodies that are held after those inputs.
+std::vector<std::string> heldAfter(const std::vector<LiveInput>& inputs) {
+    std::map<std::string, bool> held;
+    for (const LiveInput& input : inputs)
+        if (const auto* grip = std::get_if<GripAction>(&input.action))
+            held[grip->body] = grip->toMetres.has_value();
+    std::vector<std::string> names;
+    for (const auto& [name, isHeld] : held)
+        if (isHeld) names.push_back(name);
+    return names;
+}
+
+} // namespace
+
+Scene sceneToRecord(const Scene& scene) {
+    Scene recorded = sceneForHands(scene);
+    recorded.inputs.clear();
+    if (recorded.script.empty()) recorded.scriptPeriodSeconds = 0.0;
+    return recorded;
+}
+
+double maxRecordedSeconds(const Scene& recordedIn) {
+    return recordedIn.scriptPeriodSeconds > 0.0 ? recordedIn.scriptPeriodSeconds
+                                                : sceneLimits::maxScriptSeconds;
+}
+
+std::size_t maxRecordedInputs(const Scene& recordedIn) {
+    constexpr std::size_t room = 64; // for what a trim adds: how the device was held, and hands that let go
+    return sceneLimits::maxInputs - std::min(sceneLimits::maxInputs, recordedIn.script.size() + room);
+}
+
+HandScript recordedHands(const SceneTake& take) {
+    HandScript hands{{}, 1e-9 * static_cast<double>(take.worldEndNs)};
+    const std::size_t most = maxRecordedInputs(*take.scene);
+    for (const LiveInput& input : take.inputs) {
+        if (isLasting(input.action) || hands.inputs.size() == most) {
+            hands.lengthSeconds = input.timeSeconds;
+            break;
+        }
+        hands.inputs.push_back(input);
+    }
+    hands.lengthSeconds = std::min(hands.lengthSeconds, maxRecordedSeconds(*take.scene));
+    return hands;
+}
+
+HandScript trimmed(const Scene& recordedIn, const HandScript& hands, const ScriptTrim& trim) {
+    const double to = std::min(trim.toSeconds, hands.lengthSeconds);
+    HandScript part{{}, std::max(0.0, to - trim.fromSeconds)};
+    std::map<std::string, Action> before;
+    for (const LiveInput& input : hands.inputs) {
+        if (input.timeSeconds > to) break;
+        if (input.timeSeconds >= trim.fromSeconds)
+            part.inputs.push_back({input.timeSeconds - trim.fromSeconds, input.action});
+        else if (const std::string state = stateOf(recordedIn, input.action); !state.empty())
+            before.insert_or_assign(state, input.action);
+    }
+    std::vector<LiveInput> first;
+    for (auto& [state, action] : before) first.push_back({0.0, std::move(action)});
+    part.inputs.insert(part.inputs.begin(), first.begin(), first.end());
+    for (const std::string& body : heldAfter(part.inputs))
+        part.inputs.push_back({part.lengthSeconds, GripAction{body, {}, {}}});
+    return part;
+}
+
+Scene withHands(Scene recordedIn, const HandScript& hands, const ScriptTrim& trim) {
+    const HandScript part = trimmed(recordedIn, hands, trim);
+    std::vector<ScriptInput> script;
+    for (const LiveInput& input : part.inputs) script.push_back({input.timeSeconds, 1, 0.0, input.action});
+    const bool goesOn = !recordedIn.script.empty(); // at its own period
+    script.insert(script.end(), recordedIn.script.begin(),
+                  recordedIn.script.end()); // behind: inputs of a step act before the script's
+    recordedIn.script = std::move(script);
+    if (!goesOn)
+        recordedIn.scriptPeriodSeconds =
+            trim.repeats && part.lengthSeconds >= sceneLimits::minScriptPeriodSeconds ? part.lengthSeconds
+                                                                                      : 0.0;
+    return recordedIn;
+}
+
+} // namespace physvib

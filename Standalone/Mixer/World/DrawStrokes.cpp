@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a stroke of the mouse makes: new bodies, and what the eraser takes away.
+#include "Mixer/World/DrawPane.h"
+#include "Mixer/Desk/DeskWords.h"
+#include "Scene/Drawing/DrawnBodies.h"
+#include <cmath>
+
+namespace physvib {
+namespace {
+
+double between(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+} // namespace
+
+Result<BodyDescription> DrawPane::drawnNow() const {
+    const double height = desk_.world().scene().fieldHeightMetres, size = 0.06 * height;
+    const Vector from = stroke_.empty() ? to_ : stroke_[0];
+    const bool isClick = between(from, to_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
+    switch (tool_) {
+    case DrawTool::ball: return drawnBall(from, isClick ? Vector{from.x + size, from.y} : to_);
+    case DrawTool::box:
+        return isClick ? drawnBox({from.x - 1.1 * size, from.y - 0.8 * size},
+                                  {from.x + 1.1 * size, from.y + 0.8 * size})
+                       : drawnBox(from, to_);
+    case DrawTool::line: return drawnLine(stroke_, 0.004 * height);
+    case DrawTool::wall:
+        return drawnWall(isClick ? Vector{from.x - 2.0 * size, from.y} : from,
+                         isClick ? Vector{from.x + 2.0 * size, from.y} : to_, 0.03 * height);
+    default: return drawnPolygon(stroke_);
+    }
+}
+
+void DrawPane::add(Result<BodyDescription> body) {
+    if (!body) return desk_.report(utf8(body.error));
+    const auto& drawing = desk_.world().drawing();
+    if (drawing.drawn().materials.empty()) return desk_.report("The scene has no materials to draw with");
+    const auto& words = wordsOf(tool_);
+    body.value.name = drawing.freeName(juce::String{words.name}.toLowerCase().toStdString());
+    for (auto& fixture : body.value.fixtures) fixture.material = material_;
+    const bool sounds = drawing.drawn().materials[static_cast<std::size_t>(material_)].frequencyHz > 0.0;
+    if (sounds && startsAsSource(drawing.drawn(), body.value)) setSource(drawing.drawn(), body.value, true);
+    edit("Draw a " + juce::String{words.name}.toLowerCase(), {SpawnAction{body.value, {}}});
+}
+
+void DrawPane::closePolygon() {
+    const auto body = drawnPolygon(stroke_);
+    stroke_.clear();
+    isDrawing_ = false;
+    add(body);
+    repaint();
+}
+
+void DrawPane::addInTheMiddle() {
+    const auto& scene = desk_.world().scene();
+    const double size = 0.06 * scene.fieldHeightMetres;
+    to_ = {0.5 * scene.fieldWidthMetres, 0.5 * scene.fieldHeightMetres};
+    stroke_ = {to_};
+    if (tool_ == DrawTool::line) stroke_ = {{to_.x - 2.0 * size, to_.y}, to_, {to_.x + 2.0 * size, to_.y}};
+    if (tool_ == DrawTool::polygon)
+        stroke_ = {{to_.x - size, to_.y - size}, {to_.x + size, to_.y - size}, {to_.x, to_.y + size}};
+    const auto names = [&] {
+        std::vector<std::string> all;
+        for (const auto& body : desk_.world().drawing().drawn().bodies) all.push_back(body.name);
+        return all;
+    };
+    const auto before = names().size();
+    add(drawnNow());
+    stroke_.clear();
+    const auto after = names();
+    if (after.size() == before) return;
+    use(DrawTool::choose); // to be moved by the arrow keys
+    choose({after.back()});
+}
+
+void DrawPane::erase(const juce::MouseEvent& e) {
+    const auto& drawing = desk_.world().drawing();
+    if (const auto joint = jointAt(e.position); !joint.empty())
+        return edit("Erase", {UnjoinAction{joint}}, e.getDistanceFromDragStart() > 2);
+    for (const auto& name : view_.bodiesAt(e.position))
+        if (drawing.find(name) != nullptr)
+            return edit("Erase", erased(drawing, {name}), e.getDistanceFromDragStart() > 2);
+}
+
+} // namespace physvib

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// What hands did becomes a script: the scene that is saved gives the events of the take, to the bit.
+#include "Scene/Drawing/HandScript.h"
+#include "Scene/SceneCatalogue.h"
+#include "Scene/SceneFile.h"
+#include "Scene/SceneLimits.h"
+#include "Scene/SceneValidation.h"
+#include "Scene/World/InputCheck.h"
+#include "Scene/World/Simulation.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace physvib {
+namespace {
+
+constexpr int stepsPerSecond = 100;
+
+/// A live take: each input acts in the step after those before it.
+struct Take {
+    std::shared_ptr<const Scene> scene;
+    Simulation world;
+    InputCheck check;
+    std::vector<CollisionEvent> events;
+
+    explicit Take(Scene recordedIn)
+        : scene{std::make_shared<const Scene>(std::move(recordedIn))}
+        , world{*scene, 1, stepsPerSecond}
+        , check{*scene} {}
+    void steps(int count) {
+        for (int i = 0; i < count; ++i) world.step(events);
+    }
+    void act(const Action& action) {
+        ASSERT_EQ(check.take(action), "");
+        world.addInput(1e-9 * static_cast<double>(world.timeNs()), action);
+    }
+    SceneTake log() const { return {0, world.timeNs(), 1, scene, world.scene().inputs, {}}; }
+};
+
+std::vector<CollisionEvent> eventsOf(const Scene& scene, std::int64_t untilNs) {
+    Simulation world{scene, 1, stepsPerSecond};
+    std::vector<CollisionEvent> events;
+    while (world.timeNs() < untilNs) world.step(events);
+    return events;
+}
+
+/// As a hand plays: tilts, drags, and holds a body for a while.
+void play(Take& take, const std::string& body, std::uint32_t seed, int steps) {
+    std::mt19937 random{seed};
+    const auto draw = [&](double from, double to) {
+        return from + (to - from) * static_cast<double>(random() % 1000) / 1000.0;
+    };
+    take.steps(3);
+    for (int done = 0; done < steps;) {
+        const int what = static_cast<int>(random() % 3);
+        if (what == 0) take.act(TiltAction{draw(-1.5, 1.5)});
+        else if (what == 1)
+            take.act(ImpulseAction{body, {draw(-80.0, 80.0), draw(-80.0, 80.0)}, Vector{0.01, 0.02}});
+        else {
+            for (int k = 0; k < 20; ++k) {
+                take.act(GripAction{body, Vector{draw(0.2, 3.0), draw(0.2, 3.0)}, Vector{0.0, 0.02}, 0.02});
+                take.steps(1);
+            }
+            if (random() % 4 != 0) take.act(GripAction{body, {}, {}}); // else it is held on
+        }
+        const int on = 1 + static_cast<int>(random() % 40);
+        take.steps(on);
+        done += on + (what == 2 ? 20 : 0);
+    }
+}
+
+void recordsWhatIsFelt(const char* name, const std::string& body, int steps) {
+    SCOPED_TRACE(name);
+    Take take{sceneToRecord(*findBuiltInScene(name))};
+    play(take, body, 7, steps);
+    const HandScript hands = recordedHands(take.log());
+    EXPECT_GT(hands.inputs.size(), 10U);
+    const Scene scene = withHands(*take.scene, hands, {0.0, hands.lengthSeconds, false});
+    EXPECT_EQ(validate(scene), "");
+    const auto read = readScene(sceneJson(scene), "own.json");
+    ASSERT_TRUE(read) << read.error;
+    const auto events = eventsOf(read.value, take.world.timeNs());
+    EXPECT_GT(events.size(), 20U);
+    EXPECT_TRUE(events == take.events) << events.size() << " for " << take.events.size();
+}
+
+TEST(HandScript, ASavedRecordingGivesTheEventsOfTheTakeToTheBit) {
+    recordsWhatIsFelt("shake-the-box", "large rubber ball", 600);
+    recordsWhatIsFelt("marbles", findBuiltInScene("marbles")->bodies.back().name, 400);
+}
+
+TEST(HandScript, WhatAPlayerDoesIsRecordedBesideTheRestOfTheScript) {
+    const Scene basket = sceneToRecord(*findBuiltInScene("fruit-basket"));
+    ASSERT_FALSE(basket.script.empty()) << "fruits fall";
+    ASSERT_GT(basket.scriptPeriodSeconds, 0.0);
+    std::string player;
+    for (const BodyDescription& body : basket.bodies)
+        if (body.type == BodyType::kinematicBody) player = body.name;
+    Take take{basket};
+    take.steps(5);
+    for (int k = 0; k < 12; ++k) {
+        take.act(VelocityAction{player, {k % 2 == 0 ? 2.0 : -2.0, 0.0}, 0.0});
+        take.steps(80);
+    }
+    const HandScript hands = recordedHands(take.log());
+    EXPECT_EQ(hands.lengthSeconds, 9.65);
+    const Scene scene = withHands(basket, hands, {0.0, hands.lengthSeconds, true});
+    EXPECT_EQ(scene.scriptPeriodSeconds, basket.scriptPeriodSeconds) << "the rest goes on as it did";
+    EXPECT_TRUE(eventsOf(scene, take.world.timeNs()) == take.events);
+    take.steps(2000);
+    EXPECT_EQ(recordedHands(take.log()).lengthSeconds, basket.scriptPeriodSeconds)
+        << "then the script begins again";
+}
+
+TEST(HandScript, AnEditEndsTheRecording) {
+    Take take{sceneToRecord(*findBuiltInScene("shake-the-box"))};
+    take.steps(10);
+    take.act(TiltAction{0.5});
+    take.steps(20);
+    take.act(RemoveAction{"large rubber ball"});
+    take.steps(20);
+    take.act(TiltAction{-0.5});
+    take.steps(20);
+    const HandScript hands = recordedHands(take.log());
+    ASSERT_EQ(hands.inputs.size(), 1U);
+    EXPECT_EQ(hands.lengthSeconds, 0.3);
+}
+
+TEST(HandScript, ATrimKeepsHowTheDeviceWasHeldAndLetsGoOfWhatIsHeld) {
+    const Scene scene = sceneToRecord(*findBuiltInScene("shake-the-box"));
+    const HandScript hands{{{0.5, TiltAction{0.3}},
+                            {1.0, TiltAction{0.6}},
+                            {1.5, ImpulseAction{"large rubber ball", {1.0, 0.0}, {}}},
+                            {2.0, GripAction{"large rubber ball", Vector{1.0, 1.0}, {}, 0.02}},
+                            {3.0, GripAction{"large rubber ball", {}, {}}}},
+                           4.0};
+    const HandScript part = trimmed(scene, hands, {1.6, 2.5, false});
+    ASSERT_EQ(part.inputs.size(), 3U);
+    EXPECT_EQ(part.inputs[0], (LiveInput{0.0, TiltAction{0.6}}));
+    EXPECT_NEAR(part.inputs[1].timeSeconds, 0.4, 1e-12);
+    EXPECT_EQ(part.inputs[2].action, (Action{GripAction{"large rubber ball", {}, {}}})) << "lets go";
+    EXPECT_NEAR(part.inputs[2].timeSeconds, 0.9, 1e-12);
+    EXPECT_EQ(trimmed(scene, hands, {0.0, 4.0, false}), hands) << "nothing is cut";
+    const Scene again = withHands(scene, hands, {1.6, 2.5, true});
+    EXPECT_NEAR(again.scriptPeriodSeconds, 0.9, 1e-12);
+    EXPECT_EQ(validate(again), "");
+    EXPECT_EQ(sceneToRecord(again), scene) << "another recording takes its place";
+}
+
+TEST(HandScript, AScriptIsFullBeforeASceneIs) {
+    Take take{sceneToRecord(*findBuiltInScene("shake-the-box"))};
+    take.steps(1);
+    SceneTake log = take.log();
+    for (std::size_t k = 0; k < 2 * sceneLimits::maxInputs; ++k)
+        log.inputs.push_back(
+            {0.01 * static_cast<double>(k + 1), TiltAction{0.001 * static_cast<double>(k % 100)}});
+    log.worldEndNs = 1'000'000'000'000;
+    const HandScript hands = recordedHands(log);
+    EXPECT_LT(hands.inputs.size(), sceneLimits::maxInputs);
+    EXPECT_EQ(hands.lengthSeconds, log.inputs[hands.inputs.size()].timeSeconds) << "up to what found no room";
+    EXPECT_EQ(validate(withHands(*log.scene, hands, {0.0, hands.lengthSeconds, false})), "");
+}
+
+} // namespace
+} // namespace physvib
