@@ -207,6 +207,20 @@ def fingers():
     return phone
 
 
+def still():
+    """For those who ask for less motion it stands until they ask for it."""
+    calm = visitor()
+    calm.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+    visit(calm, origin)
+    moved = "import('./page.js').then(({ world }) => { globalThis.stood ??= [...world.poses]; return stood.length > 0 && stood.some((value, i) => value !== world.poses[i]); })"
+    calm.value(moved)
+    time.sleep(1)
+    expect(calm.value("stood.length > 0") and not calm.value(moved) and calm.value("!document.getElementById('paused').hidden"), "less motion: the world is drawn, and stands")
+    calm.click("#start")
+    calm.wait(moved, "a world that moves after Start")
+    return calm
+
+
 def plain_http():
     browser = visitor("--host-resolver-rules=MAP physvib.test 127.0.0.1")
     browser.origin = f"http://physvib.test:{server.server_port}/"
@@ -227,6 +241,7 @@ try:
     judge(pads, "while it plays")
     leave(pads)
     leave(fingers())
+    leave(still())
     leave(plain_http())
     one.wait("navigator.serviceWorker.controller !== null", "a service worker")
     server.shutdown()

@@ -27,5 +27,5 @@ export interface Pads {
     close(): void;
 }
 
-/** Every controller that the browser has, as it comes and goes. */
+/** Every controller that the browser has, as it comes and goes: its motors, or samples where it has playPCM (a draft). */
 export function rumble(physvib: PhysVib, options?: RumbleOptions): Pads;
