@@ -69,10 +69,9 @@ picture 5-menu
 for k in 1 2 3 4 5 6 7 8; do xdotool key Down sleep 0.1; done # New, Open, Save, Save as, Undo, New scene, Scene, Save as scene
 key Return; sleep 1
 picture 6-save
-xdotool key ctrl+a type --delay 30 "$home/own.json"
-key Return; sleep 1
+key Return; sleep 1               # under the name and in the folder that are suggested
 picture 7-saved
-[ -s own.json ] || { echo "the scene was not saved; see $out" >&2; exit 1; }
+cp config/physvib/scenes/scene.json own.json || { echo "the scene was not saved; see $out" >&2; exit 1; }
 xdotool key ctrl+q sleep 0.5 key Tab key Return sleep 0.5 || :
 kill "$pid" 2>/dev/null || :
 wait "$pid" 2>/dev/null || :

@@ -99,7 +99,10 @@ juce::String DeskWorld::tooMuch(std::int64_t sessionNs, std::int64_t posesNs,
     const auto bodies = std::ranges::count_if(poses, &BodyPose::isPresent);
     const bool wasTooMuch = std::exchange(isTooMuch_, *share < PaceWatch::leastShare && bodies >= PaceWatch::leastBodies);
     if (wasTooMuch || !isTooMuch_) return {};
-    return utf8(readable::number(static_cast<double>(bodies), 0)) + " bodies: " + juce::String{juce::roundToInt(100.0 * *share)} + " % of real time; the physics takes it. Fewer bodies or slow motion help";
+    const int percent = juce::roundToInt(100.0 * *share);
+    return utf8(readable::number(static_cast<double>(bodies), 0)) +
+           " bodies: " + (percent < 1 ? juce::String{"less than 1"} : juce::String{percent}) +
+           " % of real time; the physics takes it. Fewer bodies or slow motion help";
 }
 
 std::string DeskWorld::begin(bool isSameScene) {

@@ -84,6 +84,10 @@ void measure(int bodies, const juce::File& folder) {
 } // namespace physvib::test
 
 int main(int argc, char* argv[]) {
+    juce::JUCEApplicationBase::createInstance = [] {
+        return static_cast<juce::JUCEApplicationBase*>(
+            nullptr); // as a program of its own, JUCE bears errors of X
+    };
     const juce::ScopedJuceInitialiser_GUI juce;
     const auto folder = juce::File::createTempFile("physvib-big-world");
     folder.createDirectory();
