@@ -17,6 +17,7 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
     words_.setText(words, juce::dontSendNotification);
     words_.setFont(juce::Font{text::medium});
     words_.setJustificationType(juce::Justification::topLeft);
+    words_.setMinimumHorizontalScale(1.0f); // it has room for two lines
     yes_.onClick = [this] { answer(true); };
     no_.onClick = [this] { answer(false); };
     yes_.setTitle(yes);
