@@ -29,7 +29,6 @@ std::string sceneFault(const RenderJob& o) {
     if (o.playsRecordings && o.sounds.empty()) return "--method SV: expected a --sound for each material";
     if (!o.playsRecordings && !o.sounds.empty() && o.contactSound.empty()) return "--sound: expected --method SV, to feel it, or --contact-sound, to hear it";
     if (o.playsRecordings && o.isRemapped) return std::string{recordingsHaveNoFrequency};
-    if (o.playsRecordings && o.gamma > 0.0) return "--gamma: recordings have no one decay to be cut";
     if (o.playsRecordings && o.isWeighted) return std::string{recordingsHaveNoWeight};
     if (!o.sounds.empty() && (o.isRemapped || o.method.fixesFrequency)) return "--sound: expected hits at their material's own frequency, found " + (o.isRemapped ? "--remap" : "--method " + o.methodName());
     if (o.isRemapped && o.actuator == "none") return "--remap: expected an --actuator, whose band is to be used";

@@ -19,8 +19,10 @@ using Materials = std::vector<Material>; // those that fixtures may name
 
 namespace detail {
 
-inline void readValue(const JsonField& json, std::string& out, const Bounds&, const Materials&) {
-    out = json.text();
+/// The most of a text is that of its bytes; lists of texts have none.
+inline void readValue(const JsonField& json, std::string& out, const Bounds& bounds, const Materials&) {
+    const bool isBounded = bounds.most > 0.0 && bounds.most < Bounds{}.most;
+    out = isBounded ? json.text(static_cast<std::size_t>(bounds.most)) : json.text();
 }
 inline void readValue(const JsonField& json, bool& out, const Bounds&, const Materials&) {
     out = json.truth();

@@ -205,6 +205,15 @@ std::string validate(const Protocol& p) {
     if (!isPlainPath(p.words)) return "words: expected a name, or a file in the folder or below";
     for (std::size_t i = 0; i < p.sounds.size(); ++i)
         if (!isPlainPath(p.sounds[i].file)) return at("sounds", i, "file: expected a file in the folder or below, of plain characters; others are given with --sound");
+    for (std::size_t i = 0; i < p.pictures.size(); ++i) {
+        if (p.pictures[i].material.empty())
+            return at("pictures", i, "material: expected a word in a material's name, found none");
+        if (const auto path = picturePath(p.pictures[i], "P01");
+            !isPlainPath(path) || !path.ends_with(".png"))
+            return at("pictures", i, "file: expected a PNG file in the folder or below, of plain characters");
+    }
+    if (sharesNames(p.pictures, [](const auto& picture) { return picture.material; }))
+        return "pictures: expected a material of its own for each";
     if (p.conditions.empty()) return "conditions: expected one or more, found none";
     if (p.sessions.empty()) return "sessions: expected one or more, found none";
     if (sharesNames(p.conditions, [](const auto& c) { return c.name; })) return "conditions: expected a name of its own for each";
@@ -222,6 +231,12 @@ std::string validate(const Protocol& p) {
     for (std::size_t i = 0; i < p.conditions.size(); ++i)
         if (std::string fault = conditionFault(p, p.conditions[i]); !fault.empty()) return at("conditions", i, fault);
     return {};
+}
+
+std::string picturePath(const MaterialPictureFile& picture, const std::string& participant) {
+    std::string path = picture.file;
+    replaceAll(path, "{participant}", participant);
+    return path;
 }
 
 std::vector<std::string> scalesOf(const Protocol& protocol) {

@@ -10,11 +10,13 @@
 #include "Study/Stimulus.h"
 #include "Study/StimulusLevels.h"
 #include "Study/StudyTasks.h"
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -56,6 +58,8 @@ struct CallSet {
 /// Scenes that the participant watches while they are felt: calls of `render` and its scene's options.
 struct WorldSet : CallSet {
     bool hasHands = false; ///< bodies are dragged and the world is tilted, for as long as the participant wants; else it runs for the call's seconds
+    /// So many metres of the world are one on the display (50: 1:50); 0: as large as fits.
+    double displayScale = 0.0;
     bool operator==(const WorldSet&) const = default;
 };
 
@@ -72,6 +76,13 @@ struct StudySoundFile {
     double frequencyHz = 0.0;
     std::string file; ///< a WAV file, or synthetic-SEED
     bool operator==(const StudySoundFile&) const = default;
+};
+
+/// What bodies of a material look like, of the participant's own choosing.
+struct MaterialPictureFile {
+    std::string material; ///< a word in the material's name
+    std::string file;     ///< PNG; {participant} in it is the participant's code
+    bool operator==(const MaterialPictureFile&) const = default;
 };
 
 struct ConditionPlan {
@@ -111,6 +122,9 @@ struct StaircasePlan {
     bool operator==(const StaircasePlan&) const = default;
 };
 
+/// Of the two ends of a scale, where a session names none.
+inline constexpr std::array<std::string_view, 2> usualAnchors{"Strongly disagree", "Strongly agree"};
+
 struct SessionPlan {
     enum class Order {
         given,  ///< as listed
@@ -134,7 +148,7 @@ struct SessionPlan {
     std::vector<std::string> objects;      ///< rate: parts of every trial, in random order
     std::vector<std::string> scales;       ///< rate
     std::vector<std::string> definitions;  ///< what each scale means, to be read beside it; none: nothing
-    std::vector<std::string> anchors;      ///< of its two ends; none: Strongly disagree, Strongly agree
+    std::vector<std::string> anchors;      ///< of its two ends; none: usualAnchors
     bool showsNumbers = false;             ///< rate: how many points were set
     std::optional<Adjustment> adjustment;
     std::optional<StaircasePlan> staircase;
@@ -157,6 +171,7 @@ struct Protocol {
     double pinkNoiseDb = PinkNoise::safeDb; ///< its root mean square, in dB of full scale
     double exposureLimit = exposureActionValue; ///< A(8) in m/s^2 of a participant, from which on the study pauses
     std::vector<StudySoundFile> sounds; ///< what calls with --method SV get
+    std::vector<MaterialPictureFile> pictures; ///< instead of the textures of their materials
     ConditionOrder conditionOrder = ConditionOrder::given;
     double conditionBreakSeconds = 0.0; ///< before every condition but the first
     std::string closingQuestion;        ///< answered in the participant's own words at the end; empty: nothing is asked
@@ -174,6 +189,9 @@ std::string validate(const Protocol& protocol);
 
 /// What the levels of a protocol lack of those that its sessions want; empty if nothing. Any thread (allocates).
 std::string levelsFault(const Protocol& protocol);
+
+/// A picture's path for that participant. Any thread (allocates).
+std::string picturePath(const MaterialPictureFile& picture, const std::string& participant);
 
 /// All scales of a protocol, in the order of their first mention. Any thread (allocates).
 std::vector<std::string> scalesOf(const Protocol& protocol);

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Where a built-in protocol does not do what the thesis' study did, and what to change for that: once. `study check`, the report and
-// Docs/studies-thesis.md have it from here (Tests/Docs holds the page against it).
+// Where a built-in protocol does not do what the thesis' study did, and what to change for that: once. `study
+// check`, the report and Docs/studies-thesis.md have it from here (Tests/Docs holds the page against it);
+// Files/ThesisVersions.h makes the changes.
 #pragma once
 #include <array>
 #include <string_view>
 
 namespace physvib {
+
+/// A change of a protocol that takes a deviation away.
+enum class ThesisEdit {
+    none,          ///< there is none that needs nothing of the user's own
+    noBreakBefore, ///< sessions begin without a break
+    noGroups,      ///< no conditions stay together
+    releaseTiming, ///< calls have --timing release
+    cutDecays      ///< calls have --gamma 0.1
+};
 
 /// One deviation of one protocol.
 struct ThesisDeviation {
@@ -14,26 +24,54 @@ struct ThesisDeviation {
     std::string_view thesis;   ///< what was done there
     std::string_view here;     ///< what the protocol does
     std::string_view change;   ///< of the protocol, so that it runs as published; empty: it cannot
+    ThesisEdit edit = ThesisEdit::none;
 };
 
 inline constexpr std::array thesisDeviations{
-    ThesisDeviation{"patterns", "3.2.1", "2 minutes of rest after each main session", "2 minutes before each main session as well", "remove break_before_s"},
-    ThesisDeviation{"patterns", "3.2.1", "answers on a tablet's touch screen", "answers on the screen of the mixer, by mouse or touch", ""},
-    ThesisDeviation{"phantom-grids", "4.1.1", "orders of all six conditions by Latin squares", "the conditions of PHONE and of RING stay together: with 18 participants places are balanced, 24 of 30 successions occur", "remove group of each condition"},
-    ThesisDeviation{"phantom-grids", "4.1.1", "answers on a tablet's touch screen", "answers on the screen of the mixer, by mouse or touch", ""},
-    ThesisDeviation{"phantom-places", "4.2.1", "orders of all four conditions by Latin squares", "the conditions of PHONE and of RING stay together: with 16 participants places are balanced, 8 of 12 successions occur", "remove group of each condition"},
-    ThesisDeviation{"phantom-places", "4.2.1", "answers on a tablet's touch screen", "answers on the screen of the mixer, by mouse or touch", ""},
-    ThesisDeviation{"phantom-places", "4.2.1", "Eq. 4.3, which diverges as printed", "the law log, a reconstruction that falls from 1 to 0", ""},
-    ThesisDeviation{"model-or-sound", "5.2.1", "three experts match the levels before the study", "each participant matches them", "levels_file of three experts in place of levels_from and the session matching"},
-    ThesisDeviation{"model-or-sound", "5.2.1", "impulses are taken when a contact is released (Eq. 5.2)", "impacts are rendered when a contact begins, with the solver's impulse", "add --timing release to the call"},
-    ThesisDeviation{"model-or-sound", "5.2.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)", "a decay rings out", "add --gamma 0.1 to the call"},
-    ThesisDeviation{"model-or-sound", "5.2.1", "recordings of the nine real objects", "synthetic contacts; give your own by --sound or sounds", "sounds of your own"},
-    ThesisDeviation{"model-or-sound", "5.2.1", "levels and actuator as built there", "the recorded contact 8 dB and the model at most 2 dB below the layout's full scale of 2 g, so that no stimulus needs the limiter", "a layout of your actuator, and its levels"},
-    ThesisDeviation{"eight-methods", "5.3.1", "impulses are taken when a contact is released (Eq. 5.2)", "impacts are rendered when a contact begins, with the solver's impulse", "add --timing release to the call"},
-    ThesisDeviation{"eight-methods", "5.3.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)", "a decay rings out", "add --gamma 0.1 to the call"},
-    ThesisDeviation{"eight-methods", "5.3.1", "walls of 0.02 m", "walls of 0.3 m outside the same field, through which nothing is pressed", ""},
-    ThesisDeviation{"eight-methods", "5.3.1", "no rest is mentioned between training and main session", "2 minutes before the main session", "remove break_before_s"},
-    ThesisDeviation{"eight-methods", "5.3.1", "drags by touch, tilts by the phone's sensor", "drags by mouse or touch, tilts by keys or a phone over OSC", ""},
+    ThesisDeviation{"patterns", "3.2.1", "2 minutes of rest after each main session",
+                    "2 minutes before each main session as well", "remove break_before_s",
+                    ThesisEdit::noBreakBefore},
+    ThesisDeviation{"patterns", "3.2.1", "answers on a tablet's touch screen",
+                    "answers on the screen of the mixer, by mouse or touch", ""},
+    ThesisDeviation{"phantom-grids", "4.1.1", "orders of all six conditions by Latin squares",
+                    "the conditions of PHONE and of RING stay together: with 18 participants places are "
+                    "balanced, 24 of 30 successions occur",
+                    "remove group of each condition", ThesisEdit::noGroups},
+    ThesisDeviation{"phantom-grids", "4.1.1", "answers on a tablet's touch screen",
+                    "answers on the screen of the mixer, by mouse or touch", ""},
+    ThesisDeviation{"phantom-places", "4.2.1", "orders of all four conditions by Latin squares",
+                    "the conditions of PHONE and of RING stay together: with 16 participants places are "
+                    "balanced, 8 of 12 successions occur",
+                    "remove group of each condition", ThesisEdit::noGroups},
+    ThesisDeviation{"phantom-places", "4.2.1", "answers on a tablet's touch screen",
+                    "answers on the screen of the mixer, by mouse or touch", ""},
+    ThesisDeviation{"phantom-places", "4.2.1", "Eq. 4.3, which diverges as printed",
+                    "the law log, a reconstruction that falls from 1 to 0", ""},
+    ThesisDeviation{"model-or-sound", "5.2.1", "three experts match the levels before the study",
+                    "each participant matches them",
+                    "levels_file of three experts in place of levels_from and the session matching"},
+    ThesisDeviation{"model-or-sound", "5.2.1", "impulses are taken when a contact is released (Eq. 5.2)",
+                    "impacts are rendered when a contact begins, with the solver's impulse",
+                    "add --timing release to the call", ThesisEdit::releaseTiming},
+    ThesisDeviation{"model-or-sound", "5.2.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)",
+                    "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::cutDecays},
+    ThesisDeviation{"model-or-sound", "5.2.1", "recordings of the nine real objects",
+                    "synthetic contacts; give your own by --sound or sounds", "sounds of your own"},
+    ThesisDeviation{"model-or-sound", "5.2.1", "levels and actuator as built there",
+                    "the recorded contact 8 dB and the model at most 2 dB below the layout's full scale of 2 "
+                    "g, so that no stimulus needs the limiter",
+                    "a layout of your actuator, and its levels"},
+    ThesisDeviation{"eight-methods", "5.3.1", "impulses are taken when a contact is released (Eq. 5.2)",
+                    "impacts are rendered when a contact begins, with the solver's impulse",
+                    "add --timing release to the call", ThesisEdit::releaseTiming},
+    ThesisDeviation{"eight-methods", "5.3.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)",
+                    "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::cutDecays},
+    ThesisDeviation{"eight-methods", "5.3.1", "walls of 0.02 m",
+                    "walls of 0.3 m outside the same field, through which nothing is pressed", ""},
+    ThesisDeviation{"eight-methods", "5.3.1", "no rest is mentioned between training and main session",
+                    "2 minutes before the main session", "remove break_before_s", ThesisEdit::noBreakBefore},
+    ThesisDeviation{"eight-methods", "5.3.1", "drags by touch, tilts by the phone's sensor",
+                    "drags by mouse or touch, tilts by keys or a phone over OSC", ""},
 };
 
 } // namespace physvib

@@ -77,7 +77,11 @@ struct LoadedRender {
     }
     EqualisedActuators equalised() const { return keepsActuators() ? session->equalised : actuators.equalised; }
     EventShaping shaping() const { return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain(), perceived(), truncation()}; }
-    double truncation() const { return session && !options.given.contains("--gamma") ? session->shaping.truncation : options.gamma; }
+    /// Recordings are played whole, so that one call of a study renders the model and the recording.
+    double truncation() const {
+        if (session && !options.given.contains("--gamma")) return session->shaping.truncation;
+        return options.playsRecordings ? 0.0 : options.gamma;
+    }
     double gain() const { return session && !options.given.contains("--level-db") ? session->shaping.gain : fromDecibels(options.levelDb); }
     PerceivedLevel perceived() const {
         return session && !options.given.contains("--perceived-level") ? session->shaping.perceived : PerceivedLevel{options.isWeighted};

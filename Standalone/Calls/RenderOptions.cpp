@@ -29,7 +29,10 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
     addSounds(command, o.sounds, "for SV and --contact-sound: the recorded contact of the material of that frequency, or synthetic-SEED; may be repeated");
     command.addOneOf<bool>("--sound-match", o.matchesStrength, {{"peak", false}, {"rms", true}}, "level of recordings: their peak is the mode's (peak), or their strength over 0.25 s is (rms)");
     command.add("--level-db", o.levelDb, "all hits so much stronger or weaker").in(-limits::maxLevelDb, limits::maxLevelDb, " dB");
-    command.add("--gamma", o.gamma, "cut each decay where its envelope falls to this share, as Eq. 5.5 does with 0.1 (0: it rings out, without a click)")
+    command
+        .add("--gamma", o.gamma,
+             "cut each decay where its envelope falls to this share, as Eq. 5.5 does with 0.1 (0: it rings "
+             "out, without a click); recordings (SV) are played whole")
         .in(0.0, EventShaping::mostTruncation);
     command.addSwitch("--perceived-level", o.isWeighted, "weight hits by how strong their frequency is felt, by at most 6 dB (on or off)");
     command.add("--contact-sound-db", o.contactSoundDb, "its level: that of a hit at full scale, in dB of full scale")

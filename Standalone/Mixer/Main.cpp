@@ -20,7 +20,7 @@ constexpr const char* usage =
     --summary: at the end, what the last session played, late and dropped
 physvib-mixer --study PROTOCOL [--participant CODE] [--number N] [--out FOLDER]
     opens the tab Studies with these, for a person who answers
-physvib-mixer --shot FILE.png [--state NAME]   a picture of the window, without a display
+physvib-mixer --shot FILE.png [--state NAME] [--size 1280x683]   a picture of the window, without a display
 physvib-mixer --states | --help | --version
 )";
 
@@ -61,7 +61,7 @@ std::optional<int> runWithoutWindow(const juce::ArgumentList& arguments) {
     const auto state = valueOf(arguments, "--state");
     if (path.isEmpty()) return std::cerr << "physvib-mixer: --shot: expected a file\n", exitUsage;
     const auto error = takeShot(juce::File::getCurrentWorkingDirectory().getChildFile(path),
-                                state.isEmpty() ? shotStates()[0] : state);
+                                state.isEmpty() ? shotStates()[0] : state, valueOf(arguments, "--size"));
     if (error.isEmpty()) return 0;
     return std::cerr << "physvib-mixer: " << error << '\n', error.startsWith("--") ? exitUsage : exitFailed;
 }

@@ -103,11 +103,24 @@ Result<FeltStimulus> felt(const WrittenCall& call, int sampleRateHz, const std::
     return job ? ofStimulus(job.value, sampleRateHz) : Failure{job.error};
 }
 
-/// Empty, or what the program would find wrong with a call, or that it renders a fixed level that its layout cannot give without the limiter.
-std::string studyCallFault(const std::string& call, const std::string& folder) {
+/// What is shown and reported is the condition's layout, what is felt the call's. Empty, or that they differ.
+std::string layoutDifference(const ParsedCall& parsed, const ConditionPlan& condition,
+                             const std::string& folder) {
+    const std::string& felt =
+        parsed.words.isCalled("render") ? parsed.renderOptions.layout : parsed.stimulusOptions.job.layout;
+    if (felt == besideProtocol(folder, condition.layout)) return {};
+    return "--layout: expected the condition's own layout, " + printable(condition.layout) + ", found " +
+           printable(felt);
+}
+
+/// Empty, or what the program would find wrong with a call, that its layout is not the condition's, or that
+/// it renders a fixed level that its layout cannot give without the limiter.
+std::string studyCallFault(const std::string& call, const ConditionPlan& condition,
+                           const std::string& folder) {
     ParsedCall parsed{call, folder};
     const RenderJob& o = parsed.renderOptions;
     if (!parsed.error.empty()) return call + ": " + parsed.error;
+    if (auto fault = layoutDifference(parsed, condition, folder); !fault.empty()) return fault;
     if (!parsed.words.isCalled("render") || !sceneFault(o).empty()) return {};
     if (!o.scene.empty())
         if (const auto scene = findScene(o.scene, o.settings); !scene) return call + ": " + scene.error;
@@ -133,7 +146,10 @@ std::string firstCallsFault(const Protocol& protocol, const ConditionPlan& condi
         for (const std::string& value : calls->factors[f].values) {
             StimulusItem item = first;
             item.values[f].second = value;
-            if (auto fault = studyCallFault(callOf(*calls, item, *callPartsOf(protocol).begin(), "0"), protocol.folder); !fault.empty()) return fault;
+            if (auto fault = studyCallFault(callOf(*calls, item, *callPartsOf(protocol).begin(), "0"),
+                                            condition, protocol.folder);
+                !fault.empty())
+                return fault;
         }
     return {};
 }

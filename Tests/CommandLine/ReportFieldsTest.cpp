@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every sentence of the methods section comes from a field: each is planted into trials and looked for on the page, and is not there without it.
 #include "Calls.h"
+#include "Jobs/Report/ProtocolWords.h"
+#include "Study/Files/ProtocolFile.h"
+#include <algorithm>
+#include <regex>
 #include <sstream>
 
 namespace physvib {
@@ -9,10 +13,15 @@ namespace {
 class ReportFields : public test::CommandLine {
 protected:
     /// Trials of so many simulated participants as if they were people's, felt with that apparatus.
-    void plant(const std::string& protocol, int participants, const std::string& apparatus) const {
-        ASSERT_EQ(call("study run " + protocol + " --observer simulated --participants " + std::to_string(participants)).exitCode, 0);
+    void plant(const std::string& protocol, int participants, const std::string& apparatus,
+               const std::string& file = {}) const {
+        ASSERT_EQ(call("study run " + (file.empty() ? protocol : file) +
+                       " --observer simulated --participants " + std::to_string(participants))
+                      .exitCode,
+                  0);
         for (int number = 1; number <= participants; ++number) {
-            const std::string name = protocol + "-P0" + std::to_string(number) + ".csv";
+            const std::string name =
+                protocol + (number < 10 ? "-P0" : "-P") + std::to_string(number) + ".csv";
             std::istringstream lines{read(name)};
             std::string text;
             for (std::string line; std::getline(lines, line);) {
@@ -28,6 +37,25 @@ protected:
         const auto outcome = this->call(call);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         return read("out/index.html");
+    }
+    /// What stands on the page from there to there: paragraphs, notes and items of lists, as one reads them.
+    static std::vector<std::string> sentencesOf(const std::string& html, const std::string& from,
+                                                const std::string& to) {
+        std::string part = html.substr(html.find(from), html.find(to) - html.find(from));
+        for (const auto& [code, sign] : {std::pair{"&#39;", "'"},
+                                         {"&quot;", "\""},
+                                         {"&lt;", "<"},
+                                         {"&gt;", ">"},
+                                         {"&amp;", "&"},
+                                         {"<br>\n", "</p><p>"}})
+            for (std::size_t at = 0; (at = part.find(code, at)) != std::string::npos;
+                 at += std::string_view{sign}.size())
+                part.replace(at, std::string_view{code}.size(), sign);
+        static const std::regex sentence{"<(?:p|li)(?: class=\"note\")?>([^\n]*?)</(?:p|li)>"};
+        std::vector<std::string> found;
+        for (std::sregex_iterator at{part.begin(), part.end(), sentence}, end; at != end; ++at)
+            found.push_back((*at)[1]);
+        return found;
     }
     static bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
 };
@@ -61,6 +89,76 @@ TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
     EXPECT_TRUE(has(whole, "Assumptions: by Shapiro and Wilk&#39;s test") || has(whole, "Assumptions: by Shapiro and Wilk's test"));
     EXPECT_TRUE(has(whole, "Power of the design as it was run"));
     EXPECT_TRUE(has(whole, "with Bonferroni&#39;s correction for 15 pairs of conditions") || has(whole, "with Bonferroni's correction for 15 pairs of conditions"));
+}
+
+/// Methods as rows and facts can tell them; the protocol's own sentences come on top.
+const char* const rowSentences[] = {
+    R"(\d+ participants? in \d+ files?\.)",
+    R"(Age: mean [0-9.]+ years, standard deviation [0-9.]+, \d+ to \d+ \(\d+ of \d+ known\)\.)",
+    R"((Sex|Handedness): [^.]+\.)",
+    R"(Ethics: Approved by the board, no\. 7\.)",
+    R"(Consent: All signed\.)",
+    R"(Noise: 62 dB\(A\) at the ear\.)",
+    R"(to be filled in: (age, sex and handedness of the participants \(--people\)|approval by an ethics board \(--ethics\)|consent of the participants \(--consent\)|the noise as the participants heard it, e\.g\. its level in dB\(A\) \(--noise\)))",
+    R"(one participant: intervals and tests over participants are not possible, and nothing here says anything about other people)",
+    R"(participant P04 is excluded, with all trials: took off the headphones)",
+    R"(Nobody and no main trial is left out\. Trainings are left out of all analyses\.)",
+    R"(A condition was at one place of the order \d+ to \d+ times; \d+ of 30 successions of two conditions occurred\.)",
+    R"(Device, master level in dB, root mean square of the pink noise in dB of full scale \(off: there was none\), version of the program, and by how much the limiter lowered what was felt\.)",
+    R"(\d+ trials were felt through the device JACK:system at a master level of -3 dB, with pink noise of -30 dB of full scale \(root mean square\); the limiter lowered none of them\.)",
+    R"(Each of these calls of physvib renders a stimulus again; one of each condition and session, all \d+ in stimuli\.csv:)",
+    R"(Every trial was at its condition's own level; nobody measured what was felt\.)",
+};
+
+TEST_F(ReportFields, NoSentenceOfTheMethodsStandsThereWithoutAField) {
+    std::string text = call("study show phantom-grids").out;
+    for (const auto& [from, to] : {std::pair{"\"repetitions\": 10", "\"repetitions\": 1"},
+                                   {"\"name\": \"phantom-grids\"", "\"name\": \"grids\""}})
+        text.replace(text.find(from), std::string_view{from}.size(), to);
+    write("grids.json", text);
+    plant("grids", 12, "0,-3,-30,JACK:system", "grids.json");
+    write("people.csv", "participant,age,sex,handedness,excluded\nP01,21,female,right,\nP02,25,male,left,"
+                        "\nP03,26,female,right,\nP04,60,male,right,took off the headphones\n");
+    const auto protocol = readProtocol(text, "grids.json");
+    ASSERT_TRUE(protocol) << protocol.error;
+    std::vector<std::string> own = protocolSentences(protocol.value);
+    for (const ConditionPlan& condition : protocol.value.conditions) own.push_back(conditionWords(condition));
+    for (const SessionPlan& session : protocol.value.sessions) own.push_back(sessionWords(session));
+    const std::string facts = " --protocol grids.json --ethics 'Approved by the board, no. 7.' --consent "
+                              "'All signed.' --noise '62 dB(A) at the ear.'";
+    for (const std::string& call : {"report grids-P*.csv --out out --people people.csv" + facts,
+                                    std::string{"report grids-P*.csv --out out --protocol grids.json"},
+                                    "report grids-P01.csv --out out" + facts}) {
+        const auto sentences = sentencesOf(page(call), "<h2>Participants", "<h2>Identification");
+        EXPECT_GE(sentences.size(), own.size() + 6u) << call;
+        for (const std::string& sentence : sentences) {
+            const bool isRows = std::ranges::any_of(rowSentences, [&](const char* words) {
+                return std::regex_match(sentence, std::regex{words});
+            });
+            const bool isLack = sentence.starts_with("nothing is known of participant P") &&
+                                call.find("--people") != std::string::npos;
+            EXPECT_TRUE(isRows || isLack || std::ranges::find(own, sentence) != own.end())
+                << call << ": from no field: " << sentence;
+        }
+        for (const std::string& sentence : own)
+            EXPECT_NE(std::ranges::find(sentences, sentence), sentences.end()) << sentence;
+    }
+}
+
+TEST_F(ReportFields, TheNoiseOfTheRoomIsToldWhereThereWasAny) {
+    plant("level-steps", 1, "0,0,-30,JACK:system");
+    EXPECT_TRUE(has(page("report level-steps-P01.csv --out out"),
+                    "to be filled in: the noise as the participants heard it"));
+    const std::string told = page("report level-steps-P01.csv --out out --noise 'Pink, 62 dB(A).'");
+    EXPECT_TRUE(has(told, "Noise: Pink, 62 dB(A)."));
+    EXPECT_FALSE(has(told, "to be filled in: the noise"));
+    std::string rows = read("level-steps-P01.csv");
+    for (std::size_t at = rows.find(",-30,JACK"); at != std::string::npos; at = rows.find(",-30,JACK"))
+        rows.replace(at, 9, ",off,JACK");
+    write("level-steps-P01.csv", rows);
+    EXPECT_FALSE(has(page("report level-steps-P01.csv --out out"), "to be filled in: the noise"));
+    refuses("report level-steps-P01.csv --out out --noise 'Pink, 62 dB(A).'", 1,
+            "level-steps-P01.csv: --noise: expected trials with pink noise, found none", 2);
 }
 
 TEST_F(ReportFields, TheApparatusIsWhatTheRowsSay) {

@@ -92,6 +92,23 @@ TEST_F(StudyCheckCommand, ThePageHasWhatTheTextHas) {
     EXPECT_EQ(call("study check mine.json").out.find("deviation from the thesis"), std::string::npos) << "a changed protocol is nobody's";
 }
 
+TEST_F(StudyCheckCommand, TheVersionAsPublishedHasOnlyTheDeviationsThatNoProtocolTakesAway) {
+    const auto outcome = call("study check model-or-sound-thesis --participants 20");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("deviation from the thesis, 5.2.1: three experts match the levels"),
+              std::string::npos)
+        << outcome.out;
+    EXPECT_EQ(outcome.out.find("impulses are taken when a contact is released"), std::string::npos);
+    EXPECT_EQ(outcome.out.find("a decay rings out"), std::string::npos);
+    const auto grids = call("study check phantom-grids-thesis --participants 18");
+    EXPECT_NE(
+        grids.out.find(
+            "orders: 18 participants: a condition is at one place 3 to 3 times; 30 of 30 successions occur"),
+        std::string::npos)
+        << grids.out;
+    EXPECT_EQ(grids.out.find("orders are not balanced"), std::string::npos);
+}
+
 TEST_F(StudyCheckCommand, BreaksThatDoNotHappenAreFound) {
     change("phantom-grids", {{"\"break_before_s\": 120", "\"break_before_s\": 0"}, {"\"condition_break_s\": 120", "\"condition_break_s\": 0"}});
     EXPECT_NE(call("study check mine.json").out.find("warning: breaks: expected one at least every 30 min, found "), std::string::npos) << read(".out");

@@ -27,11 +27,11 @@ for script, names in pages.items():
         if line not in found:
             bad.append(f"Docs/{names[0]}: expected the line that Tests/figures/{script} prints, found none like it: {line}")
 
-cell = r'"((?:[^"\\]|\\.)*)"'
+cell = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # the formatter may have cut a text in two
 source = (root / "Source/Study/ThesisDeviations.h").read_text()
 page = (root / "Docs/studies-thesis.md").read_text()
-deviations = re.findall(r"ThesisDeviation\{" + r",\s*".join([cell] * 5) + r"\}", source)
-lines = {f"| `{protocol}` {section} | {thesis} | {here} | {change or '-'} |" for protocol, section, thesis, here, change in deviations}
+deviations = re.findall(r"ThesisDeviation\{" + r",\s*".join([cell] * 5) + r"(?:,\s*ThesisEdit::\w+)?\}", source)
+lines = {f"| `{protocol}` {section} | {thesis} | {here} | {change or '-'} |" for protocol, section, thesis, here, change in ([re.sub(r'"\s*"', "", text.strip())[1:-1] for text in one] for one in deviations)}
 for line in sorted(lines):
     if line not in page.split("\n"):
         bad.append(f"Docs/studies-thesis.md: expected the line of Source/Study/ThesisDeviations.h: {line}")

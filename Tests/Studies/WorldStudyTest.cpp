@@ -272,5 +272,69 @@ TEST_F(AWorldInAStudy, ASceneAndWordsMayLieBesideTheProtocol) {
     EXPECT_TRUE(folder.getChildFile("short-P01.felt/trial-0001-1.json").existsAsFile());
 }
 
+/// The falling objects, with more in their world and at their top.
+std::string fallingWith(const std::string& inWorld, const std::string& atTop = {}) {
+    std::string text = fallingObjects;
+    const std::string world = R"("stimuli": "world",)", top = R"("seed": 7,)";
+    text.replace(text.find(world), world.size(), world + inWorld);
+    return text.replace(text.find(top), top.size(), top + atTop);
+}
+
+TEST_F(AWorldInAStudy, IsSeenAtTheScaleOfTheProtocol) {
+    begin(fallingWith(R"( "display_scale": 100,)"));
+    p.click("Next");
+    auto& view = *dynamic_cast<WorldView*>(p.find("World"));
+    EXPECT_NEAR(view.pixelsPerMetre(), 40.0f, 0.01f) << "4 pixels per mm, and 1 m is 10 mm";
+    EXPECT_TRUE(view.fits());
+    p.tab().end();
+    folder.getChildFile("short-P01.csv").deleteFile();
+    begin(fallingWith(R"( "display_scale": 10,)"));
+    p.click("Next");
+    p.space();
+    EXPECT_TRUE(test::runUntil([&] { return p.pump(), p.screen()->page() == StudyScreen::Page::fault; }));
+    EXPECT_TRUE(p.screen()->getDescription().contains("as the world is 800 x 450 mm at 1:10"))
+        << p.screen()->getDescription();
+    p.tab().end();
+    p.desk.setDisplayWidth(0.0);
+    EXPECT_NE(p.tab().begin().find("display_scale: expected the width of the display to be set"),
+              std::string::npos);
+    EXPECT_EQ(p.screen(), nullptr);
+}
+
+TEST_F(AWorldInAStudy, MaterialsMayHaveAPictureOfTheParticipantsOwn) {
+    const auto file = folder.getChildFile("pictures/P01-wood.png");
+    const auto protocol =
+        fallingWith({}, R"( "pictures": [{"material": "wood", "file": "pictures/{participant}-wood.png"}],)");
+    const auto chosen = folder.getChildFile("short.json");
+    chosen.replaceWithText(utf8(protocol));
+    ASSERT_EQ(p.tab().chooseProtocol(chosen.getFullPathName().toStdString()), "");
+    EXPECT_NE(p.tab().begin().find("pictures[0].file: "), std::string::npos) << "there is none yet";
+    file.create();
+    file.replaceWithText("no picture");
+    EXPECT_NE(p.tab().begin().find("P01-wood.png: expected a PNG picture of at most 4096 x 4096 pixels"),
+              std::string::npos);
+    juce::Image red{juce::Image::RGB, 40, 30, true};
+    red.clear(red.getBounds(), juce::Colours::red);
+    juce::MemoryOutputStream png;
+    juce::PNGImageFormat{}.writeImageToStream(red, png);
+    auto huge = png.getMemoryBlock();
+    huge[16] = 1; // wider than anybody holds
+    file.replaceWithData(huge.getData(), huge.getSize());
+    EXPECT_NE(p.tab().begin().find("expected a PNG picture of at most"), std::string::npos);
+    file.replaceWithData(png.getData(), png.getDataSize());
+    ASSERT_EQ(p.tab().begin(), "");
+    p.pump();
+    p.click("Next");
+    auto& view = *dynamic_cast<WorldView*>(p.find("World"));
+    const auto seen = view.createComponentSnapshot(view.getLocalBounds());
+    int reds = 0; // neither the textures nor the screen have any
+    for (int y = 0; y < seen.getHeight(); ++y)
+        for (int x = 0; x < seen.getWidth(); ++x) {
+            const auto colour = seen.getPixelAt(x, y);
+            reds += colour.getRed() > 200 && colour.getGreen() < 40 && colour.getBlue() < 40;
+        }
+    EXPECT_GT(reds, 100) << "what is of wood is shown by the picture";
+}
+
 } // namespace
 } // namespace physvib

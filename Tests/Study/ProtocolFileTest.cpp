@@ -2,6 +2,7 @@
 // Protocols as JSON, and the thesis' studies as protocols.
 #include "Study/Files/ProtocolFile.h"
 #include "Study/Experiment.h"
+#include "Study/Files/ThesisVersions.h"
 #include "Study/SimulatedObserver.h"
 #include <gtest/gtest.h>
 #include <map>
@@ -66,6 +67,47 @@ TEST(ProtocolFile, EveryBuiltInProtocolIsReadBackAsWritten) {
         EXPECT_EQ(findProtocol(p.name).value, p);
     }
     EXPECT_EQ(findProtocol("none").error, "no protocol \"none\" (see physvib study list)");
+}
+
+TEST(ProtocolFile, VersionsAsPublishedMakeEveryChangeThatTheListKnows) {
+    std::vector<std::string> names;
+    for (const Protocol& p : thesisVersions()) {
+        names.push_back(p.name);
+        EXPECT_EQ(readProtocol(protocolJson(p), p.name).value, p) << p.name;
+        EXPECT_EQ(findProtocol(p.name).value, p);
+        const Protocol builtIn = findProtocol(p.name.substr(0, p.name.size() - thesisSuffix.size())).value;
+        EXPECT_NE(protocolHash(p), protocolHash(builtIn)) << "rows say which of the two they are of";
+        std::size_t edits = 0, left = deviationsOf(p).size();
+        for (const ThesisDeviation& one : deviationsOf(builtIn)) edits += one.edit != ThesisEdit::none;
+        EXPECT_GE(edits, 1u) << p.name;
+        EXPECT_EQ(left + edits, deviationsOf(builtIn).size()) << p.name;
+        for (const ConditionPlan& condition : p.conditions)
+            if (callSetOf(condition.stimuli) != nullptr) {
+                EXPECT_TRUE(callSetOf(condition.stimuli)->call.ends_with(" --timing release --gamma 0.1"))
+                    << callSetOf(condition.stimuli)->call;
+            }
+    }
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"patterns-thesis", "phantom-grids-thesis", "phantom-places-thesis",
+                                        "model-or-sound-thesis", "eight-methods-thesis"}));
+    const auto groups = [](const char* name) {
+        return std::ranges::count_if(findProtocol(name).value.conditions,
+                                     [](const ConditionPlan& c) { return !c.group.empty(); });
+    };
+    EXPECT_EQ(groups("phantom-grids"), 6);
+    EXPECT_EQ(groups("phantom-grids-thesis"), 0);
+    EXPECT_EQ(groups("phantom-places-thesis"), 0);
+    EXPECT_EQ(groups("patterns-thesis"), 6) << "a day for PHONE, one for RING";
+    const auto restsBefore = [](const char* name) {
+        return findProtocol(name).value.sessions.back().breakBeforeSeconds;
+    };
+    EXPECT_EQ(restsBefore("patterns"), 120.0);
+    EXPECT_EQ(restsBefore("patterns-thesis"), 0.0);
+    EXPECT_EQ(restsBefore("eight-methods-thesis"), 0.0);
+    EXPECT_EQ(restsBefore("phantom-grids-thesis"), 120.0);
+    Protocol changed = thesisVersions().front();
+    changed.seed += 1;
+    EXPECT_TRUE(deviationsOf(changed).empty()) << "of a changed one nobody knows what holds";
 }
 
 TEST(ProtocolFile, TheHashChangesWithEveryField) {

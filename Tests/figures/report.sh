@@ -43,7 +43,7 @@ look_at() {
 }
 
 mkdir -p "$folder/trials"
-for study in $("$physvib" study list | cut -d' ' -f1); do
+for study in $("$physvib" study list | cut -d' ' -f1 | grep -v -e -thesis$); do
     rm -rf "${folder:?}/$study"
     "$physvib" study run "$study" --observer simulated --participants "$participants" --out "$folder/trials" >/dev/null
     "$physvib" report "$folder/trials/$study"-P*.csv --out "$folder/$study" | sed 's/^/  /' >"$folder/told"

@@ -2,6 +2,7 @@
 // Small tiles, made once: a fill costs what a plain one does.
 #include "Host/Views/MaterialTexture.h"
 #include "Host/Views/Palette.h"
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -51,7 +52,43 @@ const juce::Image& tile(MaterialLook look) {
     return tiles[static_cast<std::size_t>(look)];
 }
 
+/// The edge of a filled body, and the wall of a hollow one.
+void drawEdges(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
+               juce::Colour edge, bool isHollow) {
+    g.setColour(edge);
+    g.strokePath(path, juce::PathStrokeType{1.5f}, place);
+    if (!isHollow) return;
+    const auto inside = juce::AffineTransform::scale(wallShare).followedBy(place);
+    g.setColour(palette::well.withAlpha(0.85f));
+    g.fillPath(path, inside);
+    g.setColour(edge);
+    g.strokePath(path, juce::PathStrokeType{1.0f}, inside);
+}
+
 } // namespace
+
+const MaterialPicture* pictureOf(const std::vector<MaterialPicture>& pictures,
+                                 std::string_view material) noexcept {
+    const auto found = std::ranges::find_if(pictures, [material](const MaterialPicture& picture) {
+        return material.find(picture.word) != std::string_view::npos;
+    });
+    return found == pictures.end() ? nullptr : &*found;
+}
+
+void fillWithPicture(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
+                     const juce::Image& picture, bool isHollow) {
+    const auto bounds = path.getBounds();
+    const float scale =
+        std::max(bounds.getWidth() / static_cast<float>(picture.getWidth()),
+                 bounds.getHeight() / static_cast<float>(picture.getHeight())); // covers, without distortion
+    const auto onBody = juce::AffineTransform::translation(-0.5f * static_cast<float>(picture.getWidth()),
+                                                           -0.5f * static_cast<float>(picture.getHeight()))
+                            .scaled(scale)
+                            .translated(bounds.getCentre());
+    g.setFillType(juce::FillType{picture, onBody.followedBy(place)});
+    g.fillPath(path, place);
+    drawEdges(g, path, place, palette::well, isHollow);
+}
 
 std::optional<MaterialLook> materialLookOf(std::string_view name) noexcept {
     for (std::size_t i = 0; i < looks.size(); ++i)
@@ -64,14 +101,7 @@ bool looksHollow(MaterialLook look, double densityKgPerSquareMetre) noexcept { r
 void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place, MaterialLook look, bool isHollow) {
     g.setFillType(juce::FillType{tile(look), place});
     g.fillPath(path, place);
-    g.setColour(juce::Colour{factsOf(look).colour}.darker(0.9f));
-    g.strokePath(path, juce::PathStrokeType{1.5f}, place);
-    if (!isHollow) return;
-    const auto inside = juce::AffineTransform::scale(wallShare).followedBy(place);
-    g.setColour(palette::well.withAlpha(0.85f));
-    g.fillPath(path, inside);
-    g.setColour(juce::Colour{factsOf(look).colour}.darker(0.9f));
-    g.strokePath(path, juce::PathStrokeType{1.0f}, inside);
+    drawEdges(g, path, place, juce::Colour{factsOf(look).colour}.darker(0.9f), isHollow);
 }
 
 } // namespace physvib

@@ -4,7 +4,9 @@
 #include <array>
 #include <juce_gui_basics/juce_gui_basics.h>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace physvib {
 
@@ -31,6 +33,20 @@ std::optional<MaterialLook> materialLookOf(std::string_view name) noexcept;
 
 /// Whether a body of that density is hollow: far less than half of the solid material. Any thread.
 bool looksHollow(MaterialLook look, double densityKgPerSquareMetre) noexcept;
+
+/// A picture that is shown instead of the texture of materials with that word in their names.
+struct MaterialPicture {
+    std::string word;
+    juce::Image image;
+};
+
+/// The picture of a material; null: it has none. Any thread.
+const MaterialPicture* pictureOf(const std::vector<MaterialPicture>& pictures,
+                                 std::string_view material) noexcept;
+
+/// Fills `path`, which lies around 0,0, at `place` with a picture that covers it. M.
+void fillWithPicture(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
+                     const juce::Image& picture, bool isHollow);
 
 /// Fills `path`, which lies around 0,0, at `place`. M.
 void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place, MaterialLook look, bool isHollow);

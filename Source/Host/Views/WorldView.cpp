@@ -126,10 +126,18 @@ juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
     return palette::other;
 }
 
+float WorldView::fittingPixelsPerMetre() const {
+    const auto room = getLocalBounds().withTrimmedBottom(footRoom_).reduced(margin, margin - 6).toFloat();
+    return std::min(room.getWidth() / static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)),
+                    room.getHeight() / static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6)));
+}
+
 WorldView::Map WorldView::map() const {
     const auto room = getLocalBounds().withTrimmedBottom(footRoom_).reduced(margin, margin - 6).toFloat();
     const auto width = static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)), height = static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6));
-    const float scale = std::min(room.getWidth() / width, room.getHeight() / height);
+    const float scale =
+        worldScale_ > 0.0 ? static_cast<float>(screenPixelsPerMetre(*this, displayWidthMetres_) / worldScale_)
+                          : fittingPixelsPerMetre();
     return {room.withSizeKeepingCentre(width * scale, height * scale), scale};
 }
 
@@ -243,7 +251,10 @@ bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixtur
     if (!showsMaterials_ || index >= scene_.materials.size()) return false;
     const auto& material = scene_.materials[index];
     const auto look = materialLookOf(material.name);
-    if (look) fillWithMaterial(g, path, place, *look, looksHollow(*look, material.densityKgPerSquareMetre));
+    const bool isHollow = look && looksHollow(*look, material.densityKgPerSquareMetre);
+    if (const MaterialPicture* const picture = pictureOf(pictures_, material.name))
+        return fillWithPicture(g, path, place, picture->image, isHollow), true;
+    if (look) fillWithMaterial(g, path, place, *look, isHollow);
     return look.has_value();
 }
 

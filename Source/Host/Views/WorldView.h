@@ -4,8 +4,9 @@
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
-#include "Scene/LayoutFile.h"
 #include "Host/Views/Look.h"
+#include "Host/Views/MaterialTexture.h"
+#include "Scene/LayoutFile.h"
 #include "Scene/Scene.h"
 #include "Scene/World/SceneWorld.h"
 #include <deque>
@@ -45,6 +46,13 @@ public:
     void update(WorldMoment moment);
     /// Bodies have the textures of their materials, where these have any; else one colour per material. M.
     void showMaterials(bool areShown) { showsMaterials_ = areShown, repaint(); }
+    /// Instead of the textures of these materials. M.
+    void showPictures(std::vector<MaterialPicture> pictures) { pictures_ = std::move(pictures), repaint(); }
+    /// So many metres of the world are one on the display, see setDisplayWidth(); 0: the field is as large as
+    /// fits. M.
+    void setWorldScale(double metresPerMetre) { worldScale_ = metresPerMetre, repaint(); }
+    /// Whether all of the field is seen at that scale. M.
+    bool fits() const { return worldScale_ <= 0.0 || map().pixelsPerMetre <= fittingPixelsPerMetre(); }
     /// Behind the bodies: what that enchanter plays of a hit at each place; -1: nothing. M.
     void showGainsOf(int enchanter);
     /// How wide the display is that this is seen on, see screenPixelsPerMetre(). M.
@@ -132,6 +140,7 @@ private:
         std::string held{}; // the body's name
         Vector point{};     // where on it
     };
+    float fittingPixelsPerMetre() const; ///< with which the field is as large as fits
     Map map() const;
     Vector pointOf(const Grip& grip) const;
     void hold();
@@ -173,7 +182,8 @@ private:
     std::deque<Hit> hits_;
     std::deque<Trace> traces_;
     std::array<float, limits::maxEnchanters> peaks_{};
-    double displayWidthMetres_ = 0.0;
+    double displayWidthMetres_ = 0.0, worldScale_ = 0.0;
+    std::vector<MaterialPicture> pictures_;
     int shownGains_ = -1, selected_ = -1, footRoom_ = 0;
     bool showsMaterials_ = false;
     juce::Image gains_;

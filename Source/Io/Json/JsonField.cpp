@@ -90,11 +90,11 @@ bool JsonField::truth() const {
     return value_.get<bool>();
 }
 
-std::string JsonField::text() const {
+std::string JsonField::text(std::size_t mostBytes) const {
     if (!value_.is_string()) failType("a string");
     const auto& words = value_.get_ref<const std::string&>();
-    if (words.size() > limits::maxNameBytes)
-        fail("expected at most " + std::to_string(limits::maxNameBytes) + " bytes, found " +
+    if (words.size() > mostBytes)
+        fail("expected at most " + std::to_string(mostBytes) + " bytes, found " +
              std::to_string(words.size()));
     if (std::ranges::any_of(words, [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
         fail("expected text without control characters, found " + inQuotes(words));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Typed access to a JSON value, with errors that name the path to it. For the .cpp files of Files and Formats.
 #pragma once
+#include "Io/Disk/FileLimits.h"
 #include "Io/Json/StrictJson.h"
 #include <cstddef>
 #include <initializer_list>
@@ -38,8 +39,8 @@ public:
     double numberWithin(double least, double most) const;
     int wholeNumber() const;
     bool truth() const;
-    /// One line of at most limits::maxNameBytes.
-    std::string text() const;
+    /// One line of at most so many bytes.
+    std::string text(std::size_t mostBytes = limits::maxNameBytes) const;
     /// Of any text what a screen shows as one line: of strangers' titles.
     std::string line() const;
     /// Index of the word it is among `names`.

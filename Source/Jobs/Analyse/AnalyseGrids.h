@@ -8,6 +8,7 @@ struct AnalysisJob;
 struct AnalysisReport;
 
 AnalysisReport analyseResolution(const AnalysisJob& options);
+AnalysisReport analysePlaces(const AnalysisJob& options);
 AnalysisReport analysePercentCounts(const AnalysisJob& options);
 
 } // namespace physvib

@@ -16,13 +16,20 @@ namespace physvib {
 namespace {
 
 constexpr Analysis analyses[] = {
-    {Analysis::Kind::results, "confusion", "stimulus,response per trial: percent correct and information transfer", analyseConfusion},
-    {Analysis::Kind::results, "resolution", "pointing responses: normals, likelihood map, percent counts, perceptual resolution", analyseResolution},
-    {Analysis::Kind::results, "percent-counts", "percent counts: the largest grid that merging makes of them", analysePercentCounts},
+    {Analysis::Kind::results, "confusion",
+     "stimulus,response per trial: percent correct and information transfer", analyseConfusion},
+    {Analysis::Kind::results, "resolution",
+     "pointing responses: normals, likelihood map, percent counts, perceptual resolution", analyseResolution},
+    {Analysis::Kind::results, "places",
+     "pointing at targets anywhere: constant and variable error, distance, gain", analysePlaces},
+    {Analysis::Kind::results, "percent-counts", "percent counts: the largest grid that merging makes of them",
+     analysePercentCounts},
     {Analysis::Kind::results, "choices", "forced choices: shares of the alternatives", analyseChoices},
     {Analysis::Kind::results, "ratings", "slider ratings: means by condition", analyseRatings},
-    {Analysis::Kind::results, "levels", "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
-    {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least", analyseIcons},
+    {Analysis::Kind::results, "levels",
+     "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means", analyseLevels},
+    {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least",
+     analyseIcons},
     {Analysis::Kind::test, "anova", "analysis of variance with repeated measures", analyseAnova},
     {Analysis::Kind::test, "friedman", "levels of a within-factor, by ranks", analyseFriedman},
     {Analysis::Kind::test, "wilcoxon", "two levels of a within-factor, by signed ranks", analyseWilcoxon},
@@ -30,7 +37,9 @@ constexpr Analysis analyses[] = {
     {Analysis::Kind::test, "kruskal-wallis", "two or more groups, by ranks", analyseKruskalWallis},
     {Analysis::Kind::test, "shapiro", "whether values may be normal (Shapiro-Wilk)", analyseShapiro},
     {Analysis::Kind::test, "pairs", "every two levels, corrected for their number", analysePairs},
-    {Analysis::Kind::fit, "psychometric", "psychometric functions of each participant, thresholds and JNDs over participants", analysePsychometric},
+    {Analysis::Kind::fit, "psychometric",
+     "psychometric functions of each participant, thresholds and JNDs over participants",
+     analysePsychometric},
     {Analysis::Kind::fit, "power-law", "Stevens' exponent of magnitude estimations", analysePowerLaw},
 };
 
@@ -69,7 +78,11 @@ std::vector<std::string> analysesFor(const CsvTable& table) {
         }
     } else {
         if (has("stimulus") && has("response")) found.insert("confusion");
-        if (has("target_column") && has("x")) found.insert("resolution");
+        const bool isGrid = has("target_column") && (has("target_row") || !has("target_x"));
+        if (isGrid && has("x"))
+            found.insert("resolution");
+        else if (has("target_x") && has("x"))
+            found.insert("places");
         if (has("c1")) found.insert("percent-counts");
         if (has("choice")) found.insert("choices");
         if ((has("value") && has("stimulus")) || (has("level_db") && has("correct"))) found.insert("levels");
@@ -94,7 +107,10 @@ std::string otherKindWords(const Analysis& asked, const AnalysisJob& job) {
     if (!table || !takeColumns(table.value, job.columns, leftOut).empty()) return {};
     std::string words;
     for (const std::string& name : analysesFor(table.value)) {
-        if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels") || (asked.name == "icons" && name == "confusion")) return {};
+        if (name == asked.name || (asked.kind == Analysis::Kind::fit && name == "levels") ||
+            (asked.name == "icons" && name == "confusion") ||
+            (asked.name == "places" && name == "resolution"))
+            return {};
         words.append(words.empty() ? "; the file has " : ", and ").append(trialWordsOf(table.value, name)).append(", which `physvib analyse ").append(name).append("` reads");
     }
     return words;

@@ -21,15 +21,29 @@ struct Felt {
 /// Device, master level, noise, version: what was the same, and of which trials.
 using Kinds = std::map<std::vector<std::string>, Felt>;
 
+bool isNoise(const std::string& cell) {
+    return cell != columns::noNoise && !cell.empty();
+}
+
 std::vector<std::string> sentencesOf(const Kinds& kinds) {
     std::vector<std::string> sentences;
     for (const auto& [kind, felt] : kinds) {
-        const bool hasNoise = kind[2] != columns::noNoise && !kind[2].empty();
+        const bool hasNoise = isNoise(kind[2]);
         sentences.push_back(std::to_string(felt.trials) + " trials were felt through the device " + kind[0] + " at a master level of " + kind[1] + " dB, " +
                             (hasNoise ? "with pink noise of " + kind[2] + " dB of full scale (root mean square)" : std::string{"without pink noise"}) + "; " +
                             (felt.limited > 0 ? "the limiter lowered " + std::to_string(felt.limited) + " of them, by at most " + fixedNumber(felt.mostLimitedDb, 1) + " dB." : std::string{"the limiter lowered none of them."}));
     }
     return sentences;
+}
+
+/// What a measuring microphone says, no row knows.
+void tellNoise(ReportBuilder& report, const Kinds& kinds) {
+    const std::string& noise = report.trials.facts.noise;
+    if (!noise.empty())
+        report.page.paragraph("Noise: " + noise);
+    else if (std::ranges::any_of(kinds, [](const auto& kind) { return isNoise(kind.first[2]); }))
+        report.page.note(
+            "to be filled in: the noise as the participants heard it, e.g. its level in dB(A) (--noise)");
 }
 
 } // namespace
@@ -55,7 +69,7 @@ void tellApparatus(ReportBuilder& report) {
         felt.mostLimitedDb = std::max(felt.mostLimitedDb, db);
     }
     if (unknown > 0) report.page.note(std::to_string(unknown) + " trials do not say on which device, at which level and with which noise they were felt: nothing is claimed about that");
-    if (kinds.empty()) return;
+    if (kinds.empty()) return tellNoise(report, kinds);
     ExportTable table{"apparatus", report.isSimulated(), "device,master_db,noise_db,version,trials,trials_with_the_limiter,most_limiter_db"};
     for (const auto& [kind, felt] : kinds) {
         for (const std::string& word : kind) table.cell(word);
@@ -66,6 +80,7 @@ void tellApparatus(ReportBuilder& report) {
     report.page.paragraph("Device, master level in dB, root mean square of the pink noise in dB of full scale (off: there was none), version of the program, and by how much the limiter lowered what was felt.");
     report.page.table(table.text(), "apparatus.csv");
     for (const std::string& sentence : sentencesOf(kinds)) report.page.paragraph(sentence);
+    tellNoise(report, kinds);
     if (kinds.size() > 1) report.page.note("trials were felt with " + std::to_string(kinds.size()) + " different settings of the apparatus");
 }
 

@@ -33,7 +33,10 @@ Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protoco
     if (!texts) return Failure{texts.error};
     auto trials = readReportTrials(texts.value, job.columns, protocol, callFault);
     if (!trials) return Failure{trials.error};
-    StudyFacts facts{{}, job.ethics, job.consent};
+    if (trials.value.all.column("target_x") &&
+        !trials.value.all.column("target_column")) // compared with the answers
+        if (std::string fault = unitFault(job.columns); !fault.empty()) return Failure{std::move(fault)};
+    StudyFacts facts{{}, job.ethics, job.consent, job.noise};
     if (!job.peoplePath.empty()) {
         const auto text = readFile(job.peoplePath, limits::maxTableBytes);
         auto people = text ? readPeople(text.value, job.peoplePath) : Result<std::vector<PersonFacts>>{Failure{text.error}};

@@ -15,7 +15,7 @@ struct ReportJob {
     std::string folder;               ///< all that is written lies in it
     bool wantsBids = false;           ///< the trials as a BIDS dataset, too
     std::string peoplePath{};         ///< who the participants are (see StudyFacts.h); empty: nothing is known
-    std::string ethics{}, consent{};  ///< sentences for the page; empty: to be filled in
+    std::string ethics{}, consent{}, noise{}; ///< sentences for the page; empty: to be filled in
 
     bool isThesis() const { return files == std::vector<std::string>{"thesis"}; }
     bool operator==(const ReportJob&) const = default;

@@ -134,4 +134,14 @@ void tellPlaces(ReportBuilder& report) {
         for (const bool isRow : {true, false}) testPlaces(report, one, hasConditions, isRow);
 }
 
+void tellPlaceErrors(ReportBuilder& report) {
+    report.page.heading("Perceived places");
+    report.page.paragraph(
+        "Targets on no grid, in the table's own units. Constant error: mean of answered minus true place. "
+        "Variable error: standard deviation around a target's own mean, both axes together. Gain: slope of "
+        "answered over true places; 1 is neither drawn together nor apart. Means over participants of their "
+        "means over targets; each target counts as much.");
+    report.analysis("places", report.optionsFor(trialsTable), "places.csv");
+}
+
 } // namespace physvib

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What stands in a paper's section on methods, as far as files know it.
-#include "Core/RenderingMethod.h"
-#include "Jobs/Report/ReportSections.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
-#include "Study/Files/ProtocolFields.h"
+#include "Jobs/Report/ProtocolWords.h"
+#include "Jobs/Report/ReportSections.h"
 #include "Study/Files/ProtocolFile.h"
-#include "Study/Statistics/Moments.h"
 #include "Study/Files/TrialColumns.h"
+#include "Study/Statistics/Moments.h"
 #include <algorithm>
 #include <set>
 #include <sstream>
@@ -69,66 +68,6 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
 
 std::string count(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
-/// "AF-FV-DRV: amplitude fixed, frequency varied, decay varied"; other names as they are.
-std::string inFull(const std::string& name) {
-    RenderingMethod method;
-    if (name == "SV") return "SV: the recorded contact";
-    if (!renderingMethodNamed(name, method)) return name;
-    const auto word = [](bool isFixed) { return std::string{isFixed ? "fixed" : "varied"}; };
-    return name + ": amplitude " + word(method.fixesAmplitude) + ", frequency " + word(method.fixesFrequency) + ", decay " + word(method.fixesDecay);
-}
-
-std::string inFull(const std::vector<std::string>& names) {
-    std::string words;
-    for (const std::string& name : names) words.append(words.empty() ? "" : "; ").append(inFull(name));
-    return words;
-}
-
-std::string setWords(const StimulusSet& set) {
-    if (const auto* patterns = std::get_if<PatternSet>(&set)) return "pulse patterns on " + count(static_cast<std::size_t>(patterns->enchanters), "enchanter");
-    if (const auto* grid = std::get_if<GridSet>(&set))
-        return "phantoms on a grid of " + std::to_string(grid->columns) + " x " + std::to_string(grid->rows) + " (columns x rows), law " + std::string(nameOf(grid->law)) + ", " +
-               numberText(grid->seconds) + " s";
-    std::string words = std::holds_alternative<WorldSet>(set) ? "a world that is seen and felt, by" : "calls of physvib by";
-    if (const auto* calls = callSetOf(set))
-        for (const StudyFactor& factor : calls->factors) words += (words.ends_with(" by") ? " " : ", ") + factor.name + " (" + inFull(factor.values) + ")";
-    return words;
-}
-
-std::string conditionWords(const ConditionPlan& condition) {
-    std::string words = condition.name + (condition.group.empty() ? "" : " (group " + condition.group + ")") + ": " + setWords(condition.stimuli) + "; layout " + condition.layout;
-    if (callSetOf(condition.stimuli) == nullptr) words += ", " + (condition.isAtResonance ? "the actuators' resonance" : numberText(condition.frequencyHz) + " Hz") + ", " + numberText(condition.levelG) + " g";
-    return words;
-}
-
-std::string secondsWords(double seconds) { return numberText(seconds) + " s"; }
-
-std::string sessionWords(const SessionPlan& session) {
-    std::string words = session.name + (session.isTraining ? " (training, left out of analyses)" : "") + ": task " + std::string(describe(session.task).name);
-    if (!session.question.empty()) words += ", \u201c" + session.question + "\u201d";
-    words += "; order " + std::string(trialOrderNames[static_cast<std::size_t>(session.order)]);
-    if (session.repetitions > 1) words += ", " + std::to_string(session.repetitions) + " repetitions";
-    if (session.fewestTouches > 0) words += ", " + std::to_string(session.fewestTouches) + " touches";
-    if (session.bothOrders) words += ", both orders of the alternatives";
-    const auto named = [&](const char* what, const auto& items, auto nameOf) {
-        for (std::size_t i = 0; i < items.size(); ++i) words += (i ? ", " : std::string("; ") + what + " ") + nameOf(items[i]);
-    };
-    named("alternatives", session.alternatives, [](const Alternative& a) { return inFull(a.name) + (a.levelDb != 0.0 ? " at " + numberText(a.levelDb) + " dB" : std::string{}); });
-    named("objects", session.objects, [](const std::string& o) { return o; });
-    named("scales (0 to 100)", session.scales, [](const std::string& s) { return s; });
-    if (session.staircase)
-        words += "; staircase " + std::to_string(session.staircase->down) + " down, 1 up, from " + numberText(session.staircase->startDb) + " dB in steps of " + numberText(session.staircase->stepDb) + " dB, until " +
-                 std::to_string(session.staircase->reversals) + " reversals";
-    if (session.quest) words += "; QUEST+ on " + session.quest->alternative;
-    if (session.adjustment) words += "; " + session.adjustment->alternative + " is set, in steps of " + numberText(session.adjustment->stepDb) + " dB";
-    if (!session.levelsFrom.empty() || !session.levelsFile.empty()) words += "; levels from " + session.levelsFrom + session.levelsFile;
-    if (session.leastSeconds > 0.0) words += "; at least " + secondsWords(session.leastSeconds) + " with each part before the answer";
-    if (session.mostPlays > 0) words += "; felt at most " + std::to_string(session.mostPlays) + " times";
-    if (session.breakBeforeSeconds > 0.0) words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
-    if (session.breakEvery > 0) words += "; a break of " + secondsWords(session.breakSeconds) + " every " + std::to_string(session.breakEvery) + " trials";
-    return words;
-}
-
 /// Of a built-in protocol, once and all together.
 void tellDeviations(ReportPage& page, const Protocol& protocol) {
     std::vector<std::string> lines;
@@ -139,8 +78,7 @@ void tellDeviations(ReportPage& page, const Protocol& protocol) {
 }
 
 void tellProtocol(ReportPage& page, const Protocol& protocol) {
-    page.paragraph("Protocol " + protocol.name + ": " + protocol.title + ". Every participant does each session in each condition; the order of conditions is " +
-                   std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + ".");
+    for (const std::string& sentence : protocolSentences(protocol)) page.paragraph(sentence);
     page.subheading("Conditions");
     std::vector<std::string> conditions, sessions;
     for (const ConditionPlan& condition : protocol.conditions) conditions.push_back(conditionWords(condition));
@@ -150,10 +88,8 @@ void tellProtocol(ReportPage& page, const Protocol& protocol) {
     page.list(sessions);
     tellDeviations(page, protocol);
     if (protocol.sounds.empty()) return;
-    std::vector<std::string> sounds;
-    for (const StudySoundFile& sound : protocol.sounds) sounds.push_back(numberText(sound.frequencyHz) + " Hz: " + sound.file + (sound.file.starts_with("synthetic-") ? " (nobody recorded it)" : ""));
     page.subheading("Recorded contacts");
-    page.list(sounds);
+    page.list(soundLines(protocol));
 }
 
 /// Every stimulus with the call that made it, and a first example of each condition and session on the page.

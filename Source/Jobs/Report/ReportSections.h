@@ -15,6 +15,7 @@ void tellProvenance(ReportBuilder& report);   ///< versions, seeds, files
 // What the trials say; each is for trials of one kind of task.
 void tellIdentification(ReportBuilder& report); ///< thesis Fig. 3.11, 3.12, 4.2 to 4.4
 void tellPlaces(ReportBuilder& report);         ///< Fig. 4.6 to 4.9, Table 4.1
+void tellPlaceErrors(ReportBuilder& report);    ///< targets on no grid: constant and variable error
 void tellChoices(ReportBuilder& report);        ///< Fig. 5.8, 5.9
 void tellRatings(ReportBuilder& report);        ///< Fig. 5.13, 5.14
 void tellLevels(ReportBuilder& report);         ///< staircases, adjustments, magnitudes; psychometric functions

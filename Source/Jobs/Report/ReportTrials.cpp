@@ -69,10 +69,20 @@ void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) 
         else trials.protocolNote = "the protocol that was given is not the one of these trials (name and hash of their first lines)";
         return;
     }
-    const auto& known = builtInProtocols();
+    const auto& known = knownProtocols();
     if (const auto found = std::ranges::find_if(known, fits); found != known.end()) trials.protocol = *found;
     else if (name.empty()) trials.protocolNote = "the tables name no protocol";
     else trials.protocolNote = "protocol " + printable(name) + " (hash " + printable(hash) + ") is no built-in one: give it by --protocol, and its own words stand here";
+}
+
+/// Whether rows say how they were felt, and all of them without noise.
+bool wasWithoutNoise(const CsvTable& all) {
+    const auto version = all.column(trialColumns::version), noise = all.column(trialColumns::noiseDb);
+    if (!version || !noise) return false;
+    const auto isKnown = [&](const CsvRow& row) { return !row.cells[*version].empty(); };
+    return std::ranges::any_of(all.rows, isKnown) && std::ranges::all_of(all.rows, [&](const CsvRow& row) {
+               return isKnown(row) && row.cells[*noise] == trialColumns::noNoise;
+           });
 }
 
 /// The page shows calls of a trial file for somebody to repeat: empty, or the first that would write a file.
@@ -115,6 +125,8 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
 std::string takeFacts(ReportTrials& trials, StudyFacts facts) {
     trials.facts = std::move(facts);
     const auto participant = trials.all.column("participant");
+    if (!trials.facts.noise.empty() && wasWithoutNoise(trials.all))
+        return trials.files.front().name + ": --noise: expected trials with pink noise, found none";
     if (trials.facts.people.empty()) return {};
     if (!participant) return trials.files.front().name + ": --people: expected a column participant, found none";
     std::erase_if(trials.all.rows, [&](const CsvRow& row) { return trials.facts.isExcluded(row.cells[*participant]); });

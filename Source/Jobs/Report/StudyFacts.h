@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a paper says of a study and trial files do not know: who the participants are, who is excluded and why, ethics and consent.
+// What a paper says of a study and trial files do not know: who the participants are, who is excluded and
+// why, ethics and consent, and how loud the noise was at the ear.
 #pragma once
 #include "Io/Result.h"
 #include <optional>
@@ -22,6 +23,7 @@ struct PersonFacts {
 struct StudyFacts {
     std::vector<PersonFacts> people;
     std::string ethics, consent; ///< sentences for the report; empty: to be filled in
+    std::string noise;           ///< the same of the noise's level at the ear
     bool operator==(const StudyFacts&) const = default;
 
     /// Null if nothing is known of that participant. Any thread.

@@ -15,7 +15,9 @@ struct Section {
     void (*tell)(ReportBuilder&);
 };
 
-constexpr Section sections[] = {{"confusion", tellIdentification}, {"resolution", tellPlaces}, {"choices", tellChoices}, {"ratings", tellRatings}, {"levels", tellLevels}};
+constexpr Section sections[] = {{"confusion", tellIdentification}, {"resolution", tellPlaces},
+                                {"places", tellPlaceErrors},       {"choices", tellChoices},
+                                {"ratings", tellRatings},          {"levels", tellLevels}};
 
 static_assert(std::ranges::all_of(studyTasks, [](const auto& task) { return task.analysis.empty() || std::ranges::find(sections, task.analysis, &Section::analysis) != std::end(sections); }),
               "every task's analysis has its section");

@@ -31,7 +31,8 @@ std::string scale(CsvTable& table, std::size_t column, const std::pair<double, d
     return {};
 }
 
-/// True places along one axis become numbers of lines; empty, or what is wrong.
+/// True places along one axis also become numbers of lines, if they are few enough for a grid; empty, or what
+/// is wrong.
 std::string numberLines(CsvTable& table, std::string_view places, const char* lines) {
     const auto column = table.column(places);
     if (!column || table.column(lines)) return {};
@@ -40,8 +41,8 @@ std::string numberLines(CsvTable& table, std::string_view places, const char* li
         const auto place = parseNumber<double>(row.cells[*column]);
         if (!place) return table.fault(row, *column, "a number");
         values.insert(*place);
-        if (values.size() > mostGridLines) return table.name + ": column " + std::string{places} + ": expected at most " + std::to_string(mostGridLines) + " different places, found more";
     }
+    if (values.size() > mostGridLines) return {};
     table.columns.emplace_back(lines);
     for (CsvRow& row : table.rows) row.cells.push_back(std::to_string(1 + std::distance(values.begin(), values.find(*parseNumber<double>(row.cells[*column])))));
     return {};
@@ -59,6 +60,20 @@ Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> wo
         if (std::ranges::count(names, names.back().ours, &ColumnName::ours) > 1) return Failure{"expected each name once, found " + inQuotes(names.back().ours) + " twice"};
     }
     return names;
+}
+
+std::string unitFault(std::span<const ColumnName> names) {
+    for (const auto& [answered, truth] : {std::pair{"x", "target_x"}, {"y", "target_y"}}) {
+        const auto a = std::ranges::find(names, answered, &ColumnName::ours),
+                   t = std::ranges::find(names, truth, &ColumnName::ours);
+        if (a != names.end() && t != names.end() && a->range.has_value() != t->range.has_value())
+            return std::string{"--columns: expected a range of both "}
+                .append(answered)
+                .append(" and ")
+                .append(truth)
+                .append(", or of none of them, as they are compared");
+    }
+    return {};
 }
 
 std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut) {

@@ -23,9 +23,15 @@ struct ColumnName {
 /// line on the first that is none. Any thread.
 Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words);
 
-/// Makes `table` one of the named columns alone, under our names; `observer` stays, as it may mark a simulation. Rows with nothing in one of the
-/// columns (instructions, fixations, trials without an answer) are left out and counted. Columns target_x and target_y (true places, as numbers) become
-/// target_column and target_row, in their order from 1. What is wrong: a line; empty names: nothing happens. Any thread.
+/// Empty, or that of an answered and a true place only one has a range: they are in different units. Any
+/// thread (allocates).
+std::string unitFault(std::span<const ColumnName> names);
+
+/// Makes `table` one of the named columns alone, under our names; `observer` stays, as it may mark a
+/// simulation. Rows with nothing in one of the columns (instructions, fixations, trials without an answer)
+/// are left out and counted. Of columns target_x and target_y (true places, as numbers) come target_column
+/// and target_row, in their order from 1, if there are at most mostGridLines of them along each axis. What is
+/// wrong: a line; empty names: nothing happens. Any thread.
 std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, std::size_t& rowsLeftOut);
 
 } // namespace physvib

@@ -2,6 +2,7 @@
 // Every field of a protocol once: its name in files, its place in the structs, its range.
 #pragma once
 #include "Scene/SceneFields.h"
+#include "Study/CallWords.h"
 #include "Study/Protocol.h"
 #include "Study/StimulusJob.h"
 
@@ -19,6 +20,7 @@ inline constexpr Bounds levelDb = within(limits::maxLevelDb);
 inline constexpr Bounds rest = upTo(86400.0);         // a day
 inline constexpr Bounds count = upTo(100000.0);       // trials of a week
 inline constexpr Bounds names{{}, {}, 0, 64};         // alternatives, objects, scales: what fits on a screen
+inline constexpr Bounds call = upTo(static_cast<double>(mostCallBytes)); // of text: bytes
 inline constexpr Bounds lines{1.0, 16.0};             // what merging grids can divide (PercentCounts.h)
 } // namespace studyBounds
 
@@ -44,18 +46,24 @@ void visitFields(auto& v, FieldsOf<StudyFactor>) {
 
 void visitFields(auto& v, FieldsOf<CallSet>) {
     v.field("factors", &CallSet::factors, items(1, 16), Need::required);
-    v.field("call", &CallSet::call, anyText, Need::required);
+    v.field("call", &CallSet::call, studyBounds::call, Need::required);
 }
 
 void visitFields(auto& v, FieldsOf<WorldSet>) {
     v.field("factors", static_cast<std::vector<StudyFactor> WorldSet::*>(&WorldSet::factors), items(1, 16), Need::required);
-    v.field("call", static_cast<std::string WorldSet::*>(&WorldSet::call), anyText, Need::required);
+    v.field("call", static_cast<std::string WorldSet::*>(&WorldSet::call), studyBounds::call, Need::required);
     v.field("hands", &WorldSet::hasHands, {}, Need::optional);
+    v.field("display_scale", &WorldSet::displayScale, Bounds{1.0, 10000.0}, Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<StudySoundFile>) {
     v.field("frequency_hz", &StudySoundFile::frequencyHz, Bounds{1.0, limits::maxFrequencyHz}, Need::required);
     v.field("file", &StudySoundFile::file, anyText, Need::required);
+}
+
+void visitFields(auto& v, FieldsOf<MaterialPictureFile>) {
+    v.field("material", &MaterialPictureFile::material, anyText, Need::required);
+    v.field("file", &MaterialPictureFile::file, anyText, Need::required);
 }
 
 void visitFields(auto& v, FieldsOf<ConditionPlan>) {
@@ -149,6 +157,7 @@ void visitFields(auto& v, FieldsOf<Protocol>) {
     v.field("pink_noise_db", &P::pinkNoiseDb, Bounds{PinkNoise::leastDb, PinkNoise::mostDb}, Need::optional);
     v.field("exposure_limit_m_per_s2", &P::exposureLimit, Bounds{0.01, exposureLimitValue}, Need::optional);
     v.field("sounds", &P::sounds, items(0, 64), Need::optional);
+    v.field("pictures", &P::pictures, items(0, 16), Need::optional);
     v.choice("condition_order", &P::conditionOrder, conditionOrderNames);
     v.field("condition_break_s", &P::conditionBreakSeconds, studyBounds::rest, Need::optional);
     v.field("closing_question", &P::closingQuestion, anyText, Need::optional);

@@ -5,17 +5,18 @@
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/FileLimits.h"
-#include "Study/Files/StudyFileLimits.h"
 #include "Io/Disk/ReadFile.h"
-#include "Scene/JsonReader.h"
 #include "Io/Json/JsonText.h"
-#include "Scene/JsonWriter.h"
-#include "Study/Files/LevelsFile.h"
 #include "Io/Text/NumberText.h"
-#include "Study/Files/ProtocolFields.h"
-#include "Study/Files/TrialColumns.h"
-#include "Study/CallWords.h"
+#include "Scene/JsonReader.h"
+#include "Scene/JsonWriter.h"
 #include "Scene/SceneRanges.h"
+#include "Study/CallWords.h"
+#include "Study/Files/LevelsFile.h"
+#include "Study/Files/ProtocolFields.h"
+#include "Study/Files/StudyFileLimits.h"
+#include "Study/Files/ThesisVersions.h"
+#include "Study/Files/TrialColumns.h"
 #include <algorithm>
 #include <iterator>
 
@@ -80,11 +81,25 @@ const std::vector<Protocol>& builtInProtocols() {
     return protocols;
 }
 
+const std::vector<Protocol>& knownProtocols() {
+    static const std::vector<Protocol> known = [] {
+        std::vector<Protocol> all = builtInProtocols();
+        all.insert(all.end(), thesisVersions().begin(), thesisVersions().end());
+        return all;
+    }();
+    return known;
+}
+
 std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol) {
-    const auto& known = builtInProtocols();
+    const auto& known = knownProtocols();
     std::vector<ThesisDeviation> own;
-    if (std::ranges::find(known, protocol) != known.end())
-        std::ranges::copy_if(thesisDeviations, std::back_inserter(own), [&](const ThesisDeviation& one) { return one.protocol == protocol.name; });
+    if (std::ranges::find(known, protocol) == known.end()) return own;
+    const std::string_view name = protocol.name;
+    const bool isAsPublished = name.ends_with(thesisSuffix);
+    const std::string_view builtIn = isAsPublished ? name.substr(0, name.size() - thesisSuffix.size()) : name;
+    std::ranges::copy_if(thesisDeviations, std::back_inserter(own), [&](const ThesisDeviation& one) {
+        return one.protocol == builtIn && !(isAsPublished && one.edit != ThesisEdit::none);
+    });
     return own;
 }
 
@@ -107,7 +122,8 @@ namespace {
 std::string namedLinkFault(const Protocol& protocol) {
     std::vector<std::string> paths{protocol.words};
     for (const ConditionPlan& condition : protocol.conditions) paths.push_back(condition.layout);
-    for (const StudySoundFile& sound : protocol.sounds) paths.push_back(sound.file);
+    for (const StudySoundFile& sound : protocol.sounds)
+        paths.push_back(sound.file); // pictures are a participant's: see the mixer's StudyLooks
     for (const SessionPlan& session : protocol.sessions) paths.push_back(session.levelsFile);
     for (const std::string& path : paths)
         if (auto fault = linkFault(protocol.folder, path); !fault.empty()) return fault;
@@ -125,7 +141,7 @@ Result<Protocol> findProtocol(const std::string& nameOrPath) {
         if (auto fault = takeLevels(protocol.value); !fault.empty()) return Failure{fault};
         return protocol;
     }
-    for (const Protocol& protocol : builtInProtocols())
+    for (const Protocol& protocol : knownProtocols())
         if (protocol.name == nameOrPath) return protocol;
     return Failure{"no protocol " + inQuotes(nameOrPath) + " (see physvib study list)"};
 }

@@ -30,7 +30,11 @@ std::string protocolHash(const Protocol& protocol);
 /// Those that come with PhysVib, in the order of their listing. Built on first use; any thread.
 const std::vector<Protocol>& builtInProtocols();
 
-/// Where it does not do what the thesis' study did; none if it is no built-in protocol, or a changed one. Any thread (allocates).
+/// Those, and behind them their versions as published (ThesisVersions.h). Built on first use; any thread.
+const std::vector<Protocol>& knownProtocols();
+
+/// Where it does not do what the thesis' study did; none if it is not one of knownProtocols(), or a changed
+/// one. Any thread (allocates).
 std::vector<ThesisDeviation> deviationsOf(const Protocol& protocol);
 
 /// A file that a protocol names: the one beside the protocol, if it is there, else the one of that path. M only.
@@ -39,7 +43,8 @@ std::string besideProtocol(const std::string& folder, const std::string& path);
 /// Empty, or that the file which besideProtocol() finds for such a path stands behind a link that leads out of the folder. M only.
 std::string linkFault(const std::string& folder, const std::string& path);
 
-/// A built-in protocol by its name, else that of the file, which then is the folder of what it names. M only.
+/// One of knownProtocols() by its name, else that of the file, which then is the folder of what it names. M
+/// only.
 Result<Protocol> findProtocol(const std::string& nameOrPath);
 
 } // namespace physvib

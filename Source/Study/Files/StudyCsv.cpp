@@ -84,6 +84,12 @@ std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTr
 }
 
 std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data) {
+    for (const auto& [line, place] : {std::pair{"target_column", "target_x"}, {"target_row", "target_y"}})
+        if (!rows.optional(line) && rows.optional(place))
+            throw StudyFault{
+                rows.table().name + ": column " + place + ": expected at most " +
+                std::to_string(mostGridLines) +
+                " different places, found more; `physvib analyse places` takes targets on no grid"};
     const auto column = rows.required("target_column"), row = rows.required("target_row"), x = rows.required("x"), y = rows.required("y");
     const auto condition = rows.optional("condition");
     constexpr int most = static_cast<int>(mostGridLines);
@@ -93,6 +99,33 @@ std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data)
         ++taken;
         conditionNamed(rows, data, StudyRows::textIf(r, condition))
             .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most), rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0)});
+    });
+    return taken;
+}
+
+std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
+    constexpr double farthest = 1e9; // of any unit
+    const auto trueX = rows.required("target_x"), x = rows.required("x");
+    const auto trueY = rows.optional("target_y"), y = rows.optional("y"),
+               stimulus = rows.optional("stimulus"), condition = rows.optional("condition"),
+               participant = rows.optional("participant");
+    if (trueY.has_value() != y.has_value())
+        throw StudyFault{rows.table().name +
+                         ": expected both columns target_y and y, or none of them, found " +
+                         (y ? "y" : "target_y")};
+    data.isSimulated |= rows.isSimulated();
+    std::size_t taken = 0;
+    rows.each(AnswerKind::place, [&](const CsvRow& row) {
+        ++taken;
+        const auto number = [&](std::optional<std::size_t> column) {
+            return column ? rows.number(row, *column, -farthest, farthest) : 0.0;
+        };
+        PlaceTrial trial{
+            StudyRows::textIf(row, participant), {}, number(trueX), number(trueY), number(x), number(y)};
+        trial.target =
+            stimulus ? row.cells[*stimulus]
+                     : numberText(trial.trueX) + (trueY ? "," + numberText(trial.trueY) : std::string{});
+        conditionNamed(rows, data, StudyRows::textIf(row, condition)).push_back(std::move(trial));
     });
     return taken;
 }
@@ -246,6 +279,10 @@ Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedT
 
 Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files) {
     return readAll<StudyData<LocationTrial>>(files, takeLocations);
+}
+
+Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files) {
+    return readAll<StudyData<PlaceTrial>>(files, takePlaces);
 }
 
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) { return readAll<StudyData<ChoiceTrial>>(files, takeChoices); }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Trials of studies and percent counts from CSV, checked cell by cell, for the analyses in Study.
 #pragma once
-#include "Study/Files/ColumnNames.h"
 #include "Io/Provenance.h"
 #include "Io/Result.h"
 #include "Study/ConfusionMatrix.h"
+#include "Study/Files/ColumnNames.h"
 #include "Study/LevelTrials.h"
 #include "Study/PercentCounts.h"
+#include "Study/PlaceErrors.h"
 #include "Study/ResponseMap.h"
 #include "Study/Statistics/LevelFits.h"
 #include "Study/Votes.h"
@@ -53,6 +54,10 @@ Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedT
 
 /// Columns target_column, target_row (1 to mostGridLines), x, y (0 to 1); condition if there.
 Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files);
+
+/// Columns target_x, x; target_y and y, stimulus (else a target is its place), condition and participant if
+/// there. Any unit, the same of both.
+Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files);
 
 /// Columns choice (or response); condition (or stimulus) and participant if there. One condition holds them all.
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);

@@ -81,7 +81,8 @@ void declareAnalyse(OptionTable& command, AnalyseOptions& o) {
         case Analysis::Kind::test: declareTest(own, o.job); continue;
         case Analysis::Kind::fit: declareFit(own, o.job); break;
         case Analysis::Kind::results:
-            own.add("--picture", o.job.picturePath, "the result to look at").written("FILE.png");
+            if (analysis.name != "places")
+                own.add("--picture", o.job.picturePath, "the result to look at").written("FILE.png");
             declareOwn(own, o.job);
         }
         declareColumns(own, o.columnWords);

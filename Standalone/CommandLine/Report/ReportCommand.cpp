@@ -59,7 +59,10 @@ int write(const std::filesystem::path& folder, const std::map<std::string, std::
 }
 
 int reportThesis(const ReportOptions& o) {
-    if (o.job.wantsBids || !o.protocol.empty() || !o.columnWords.empty() || !o.job.peoplePath.empty() || !o.job.ethics.empty() || !o.job.consent.empty()) return leave(exitUsage, "report thesis: expected no --bids, --protocol, --people, --ethics, --consent or --columns (a file of that name is ./thesis)");
+    if (o.job.wantsBids || !o.protocol.empty() || !o.columnWords.empty() || !o.job.peoplePath.empty() ||
+        !o.job.ethics.empty() || !o.job.consent.empty() || !o.job.noise.empty())
+        return leave(exitUsage, "report thesis: expected no --bids, --protocol, --people, --ethics, "
+                                "--consent, --noise or --columns (a file of that name is ./thesis)");
     const auto files = thesisReport();
     if (const int code = write(o.job.folder, files, {}); code != exitDone) return code;
     tellIfSimulated(true);
@@ -75,6 +78,10 @@ void declareReport(OptionTable& command, ReportOptions& o) {
     command.add("--people", o.job.peoplePath, "who took part: participant and any of age, sex, handedness, excluded (why all trials of a participant are left out)").as("PEOPLE.csv");
     command.add("--ethics", o.job.ethics, "sentence on the approval by an ethics board").as("WORDS");
     command.add("--consent", o.job.consent, "sentence on the participants' consent").as("WORDS");
+    command
+        .add("--noise", o.job.noise,
+             "sentence on the noise as the participants heard it, e.g. its level in dB(A)")
+        .as("WORDS");
     declareColumns(command, o.columnWords);
 }
 

@@ -20,7 +20,8 @@ namespace physvib {
 namespace {
 
 int list() {
-    for (const Protocol& protocol : builtInProtocols()) std::cout << protocol.name << "  " << protocol.title << '\n';
+    for (const Protocol& protocol : knownProtocols())
+        std::cout << protocol.name << "  " << protocol.title << '\n';
     return exitDone;
 }
 

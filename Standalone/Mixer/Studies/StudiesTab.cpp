@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Choices, checks, and the way to the screen and back.
 #include "Mixer/Studies/StudiesTab.h"
-#include "Io/Disk/FileLimits.h"
-#include "Io/Text/NumberText.h"
-#include "Study/Files/ProtocolFile.h"
-#include "Io/Disk/ReadFile.h"
 #include "Host/Devices/NoDevice.h"
-#include "Studies/StudyCheck.h"
+#include "Io/Disk/FileLimits.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Text/NumberText.h"
+#include "Mixer/Studies/StudyLooks.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/Parts.h"
+#include "Studies/StudyCheck.h"
+#include "Study/Files/ProtocolFile.h"
 
 namespace physvib {
 namespace {
@@ -52,7 +53,8 @@ StudiesTab::StudiesTab(Desk& desk)
     noiseLevel_.setTooltip("Root mean square, in dB of full scale: start low");
     for (const int db : noiseLevels) noiseLevel_.addItem(number(db, 0) + " dBFS", -db);
     choice_.setTitle("Protocol");
-    for (int id = 1; const Protocol& protocol : builtInProtocols()) choice_.addItem(titleOf(protocol.name), id++);
+    for (int id = 1; const Protocol& protocol : knownProtocols())
+        choice_.addItem(titleOf(protocol.name), id++);
     choice_.addSeparator();
     choice_.addItem(juce::String::fromUTF8("Protocol file\xe2\x80\xa6"), fileId);
     choice_.onChange = [this] { pickProtocol(); };
@@ -92,7 +94,7 @@ StudiesTab::StudiesTab(Desk& desk)
         addAndMakeVisible(c);
     setFolder(juce::File::getSpecialLocation(juce::File::userDocumentsDirectory));
     setParticipant("P01", 1);
-    chooseProtocol(builtInProtocols().front().name);
+    chooseProtocol(knownProtocols().front().name);
 }
 
 StudiesTab::~StudiesTab() { end(); }
@@ -102,7 +104,7 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
     auto fault = protocol ? protocolFault(protocol.value, nameOrPath) : protocol.error;
     if (!fault.empty()) return say(utf8(fault), Shade::limit), fault;
     protocol_ = std::move(protocol.value);
-    const auto& all = builtInProtocols();
+    const auto& all = knownProtocols();
     const auto known = std::ranges::find(all, nameOrPath, &Protocol::name);
     if (known != all.end()) choice_.setSelectedId(1 + static_cast<int>(known - all.begin()), juce::dontSendNotification);
     else choice_.setText(juce::File{utf8(nameOrPath)}.getFileName(), juce::dontSendNotification);
@@ -117,7 +119,8 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
 void StudiesTab::pickProtocol() {
     const int id = choice_.getSelectedId();
     if (id == fileId) browseProtocol();
-    else if (id > 0) chooseProtocol(builtInProtocols()[static_cast<std::size_t>(id - 1)].name);
+    else if (id > 0)
+        chooseProtocol(knownProtocols()[static_cast<std::size_t>(id - 1)].name);
 }
 
 void StudiesTab::browseProtocol() {
@@ -249,11 +252,17 @@ std::string StudiesTab::begin() {
     if (!words) return refuse(words.error);
     const auto typeface = typefaceFor(words.value);
     if (!typeface) return refuse("expected a font with the letters of " + words.value.name + ", found none; on Debian, fonts-nanum has Korean ones");
+    if (auto fault = displayScaleFault(*protocol_, desk_.displayWidthMetres()); !fault.empty())
+        return refuse(fault);
+    auto pictures = materialPictures(*protocol_, run().participant.code);
+    if (!pictures) return refuse(pictures.error);
     auto study = std::make_unique<StudyInProgress>(run());
     if (!study->error().empty()) return refuse(study->error());
     if (auto fault = desk_.device().listening().hear(listening()); !fault.empty()) return refuse(fault);
     if (auto fault = study->apparatusFault(apparatusOf(desk_)); !fault.empty()) return desk_.device().listening().endStudy(), refuse(fault);
-    screen_ = std::make_unique<StudyScreen>(desk_, std::move(study), std::move(words.value), answersChoice_.getSelectedId() == answersElsewhereId);
+    screen_ = std::make_unique<StudyScreen>(desk_, std::move(study), std::move(words.value),
+                                            answersChoice_.getSelectedId() == answersElsewhereId,
+                                            std::move(pictures.value));
     font_ = std::make_unique<StudyFont>(*typeface);
     screen_->onClose = [this] { end(); };
     cover(*view, *screen_);

@@ -92,7 +92,9 @@ class RatingAnswer final : public StudyAnswer {
 public:
     RatingAnswer(const SessionPlan& session, const StudyWords& say)
         : say_{say}
-        , anchors_{session.anchors.empty() ? std::vector<std::string>{"Strongly disagree", "Strongly agree"} : session.anchors}
+        , anchors_{session.anchors.empty()
+                       ? std::vector<std::string>{usualAnchors.begin(), usualAnchors.end()}
+                       : session.anchors}
         , showsNumbers_{session.showsNumbers} {
         setTitle("Ratings");
         for (std::size_t i = 0; i < session.scales.size(); ++i) {

@@ -47,10 +47,12 @@ std::string feltFault(const Protocol& protocol, Desk& desk) {
     return {};
 }
 
-StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words, bool answersElsewhere)
+StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words,
+                         bool answersElsewhere, std::vector<MaterialPicture> pictures)
     : desk_{desk}
     , study_{std::move(study)}
     , say_{std::move(words)}
+    , pictures_{std::move(pictures)}
     , sound_{desk}
     , pane_{desk}
     , squaresBefore_{squareGSecondsOf(study_->exposureToday()) - desk.exposure().squareGSeconds()}
@@ -72,6 +74,7 @@ StudyScreen::StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Wor
     comment_.setMultiLine(true);
     comment_.setReturnKeyStartsNewLine(true);
     comment_.setEscapeAndReturnKeysConsumed(false);
+    pane_.show(pictures_);
     pane_.onFault = [this](const std::string& fault) { desk_.report(utf8(fault)); };
     answers_.onConfirm = [this] { confirm(); };
     answers_.onKey = [this](const juce::KeyPress& key) { return keyPressed(key); };
@@ -135,7 +138,7 @@ void StudyScreen::showTrial() {
     answer->onChange = [this] { refresh(); };
     if (isExploring()) answer->mark(experiment().explored());
     answers_.show(std::move(answer));
-    if (worldSet() != nullptr) previewWorld();
+    if (worldSet() != nullptr) pane_.setWorldScale(worldSet()->displayScale), previewWorld();
     answers_.setVisible(true);
     next_.setVisible(false);
     pane_.setVisible(worldSet() != nullptr);

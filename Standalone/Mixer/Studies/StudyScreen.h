@@ -15,7 +15,8 @@ namespace physvib {
 class StudyScreen final : public juce::Component {
 public:
     /// With `answersElsewhere`, answers are given in a window of its own, on another display if there is one.
-    StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words = {}, bool answersElsewhere = false);
+    StudyScreen(Desk& desk, std::unique_ptr<StudyInProgress> study, Words words = {},
+                bool answersElsewhere = false, std::vector<MaterialPicture> pictures = {});
     ~StudyScreen() override;
 
     std::function<void()> onClose; ///< the participant has finished, or leaves: everything answered is in the file
@@ -79,6 +80,7 @@ private:
     Desk& desk_;
     std::unique_ptr<StudyInProgress> study_;
     const StudyWords say_;
+    const std::vector<MaterialPicture> pictures_;
     StudySound sound_;
     StudyWorldPane pane_;
     const double squaresBefore_; // of the participant's day, in g^2 s, without what the desk sums up from now on

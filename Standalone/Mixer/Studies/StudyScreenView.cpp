@@ -136,7 +136,12 @@ void StudyScreen::drawMaterials(juce::Graphics& g) const {
         auto cell = row.removeFromLeft(width);
         juce::Path shape;
         shape.addRectangle(-0.5f * swatch, -0.5f * swatch, 1.0f * swatch, 1.0f * swatch);
-        fillWithMaterial(g, shape, juce::AffineTransform::translation(cell.removeFromTop(swatch).getCentre().toFloat()), legend.look, legend.isHollow);
+        const auto place =
+            juce::AffineTransform::translation(cell.removeFromTop(swatch).getCentre().toFloat());
+        if (const MaterialPicture* const picture = pictureOf(pictures_, legend.stands))
+            fillWithPicture(g, shape, place, picture->image, legend.isHollow);
+        else
+            fillWithMaterial(g, shape, place, legend.look, legend.isHollow);
         g.setColour(shade(*this, Shade::text));
         g.drawFittedText(say_(std::string{legend.words}), cell, juce::Justification::centred, 1, 1.0f);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hands become inputs of the session that is felt.
 #include "Mixer/Studies/StudyWorldPane.h"
+#include "Io/Text/NumberText.h"
 #include "Mixer/Window/Parts.h"
 
 namespace physvib {
@@ -23,6 +24,14 @@ void StudyWorldPane::act(const Action& action) {
 }
 
 std::string StudyWorldPane::begin(FeltWorld world, bool hasHands, const std::filesystem::path& file) {
+    preview(world.setup.scene);
+    if (!view_.fits()) {
+        const auto millimetres = [this](double metres) { return fixedNumber(1e3 * metres / worldScale_, 0); };
+        const Scene& scene = world.setup.scene;
+        return "display_scale: expected a larger window or display, as the world is " +
+               millimetres(scene.fieldWidthMetres) + " x " + millimetres(scene.fieldHeightMetres) +
+               " mm at 1:" + numberText(worldScale_);
+    }
     if (auto fault = world_.begin(std::move(world), hasHands, file); !fault.empty()) return fault;
     hasHands_ = hasHands;
     tilt_.setVisible(hasHands);

@@ -15,6 +15,11 @@ public:
 
     /// See StudyWorld::begin.
     std::string begin(FeltWorld world, bool hasHands, const std::filesystem::path& file);
+    /// How bodies look, and at which scale the next worlds are seen: see WorldView.
+    void show(std::vector<MaterialPicture> pictures) { view_.showPictures(std::move(pictures)); }
+    void setWorldScale(double metresPerMetre) {
+        worldScale_ = metresPerMetre, view_.setWorldScale(metresPerMetre);
+    }
     /// A scene as it will begin, before anything is felt.
     void preview(const Scene& scene);
     StudyWorld& world() noexcept { return world_; }
@@ -35,6 +40,7 @@ private:
     WorldView view_;
     TiltKnob tilt_;
     bool hasHands_ = false;
+    double worldScale_ = 0.0;
 };
 
 } // namespace physvib

@@ -119,12 +119,19 @@ juce::StringArray shotStates() {
     return names;
 }
 
-juce::String takeShot(const juce::File& file, const juce::String& name) {
+juce::String takeShot(const juce::File& file, const juce::String& name, const juce::String& size) {
+    constexpr int largestSide = 8192;
+    const int wide = size.upToFirstOccurrenceOf("x", false, true).getIntValue();
+    const int high = size.fromFirstOccurrenceOf("x", false, true).getIntValue();
+    const auto isSide = [](int side, int least) { return side >= least && side <= largestSide; };
+    if (size.isNotEmpty() && !(isSide(wide, MixerView::leastWidth) && isSide(high, MixerView::leastHeight)))
+        return "--size: expected WIDTHxHEIGHT of at least " + juce::String{MixerView::leastWidth} + "x" +
+               juce::String{MixerView::leastHeight} + ", found \"" + size + "\"";
     const auto state = std::ranges::find_if(states(), [&](const State& s) { return name == s.name; });
     if (state == states().end()) return "--state: expected one of " + shotStates().joinIntoString(", ") + ", found \"" + name + "\"";
     Desk desk{onlyNoDevice(), {std::string{noDeviceType} + ":" + noDeviceName, 48000, 128, state->board}};
     MixerView view{desk};
-    view.setSize(state->width, state->height);
+    view.setSize(size.isEmpty() ? state->width : wide, size.isEmpty() ? state->height : high);
     state->reach(desk, view);
     desk.dispatchPendingMessages();
     runFor(state->seconds, view);

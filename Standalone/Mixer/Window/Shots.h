@@ -8,7 +8,8 @@ namespace physvib {
 /// Names of the states, in the order of the documents.
 juce::StringArray shotStates();
 
-/// Draws the window in that state to a PNG file; empty, or what went wrong. Takes some seconds: the world moves. M.
-juce::String takeShot(const juce::File& file, const juce::String& state);
+/// Draws the window in that state to a PNG file, in the state's own size or in `size` ("1280x683"); empty, or
+/// what went wrong. Takes some seconds: the world moves. M.
+juce::String takeShot(const juce::File& file, const juce::String& state, const juce::String& size = {});
 
 } // namespace physvib

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every page of every built-in study on small displays, below a title bar: nothing is cut, nothing covers a
+// button.
+#include "Participant.h"
+#include "Study/Files/ProtocolFile.h"
+#include "Study/SimulatedObserver.h"
+
+namespace physvib {
+namespace {
+
+constexpr int titleBar = 37; // pixels of a desktop's usual one
+constexpr std::pair<int, int> displays[] = {{1280, 720}, {1440, 900}};
+
+/// Visible components below `root`, with what is wrong with where they are.
+void findCut(const juce::Component& root, const std::string& page, std::vector<std::string>& faults) {
+    std::vector<const juce::Component*> buttons;
+    for (const auto* child : root.getChildren()) {
+        bool takesClicks = false, childrenDo = false;
+        child->getInterceptsMouseClicks(takesClicks, childrenDo);
+        const bool isOutline = !takesClicks && !childrenDo; // of what has the focus: drawn around it
+        if (!child->isVisible() || isOutline) continue;
+        const auto name = page + ": " + child->getTitle().toStdString() + " at " +
+                          child->getBounds().toString().toStdString() + " in " +
+                          root.getLocalBounds().toString().toStdString();
+        if (!root.getLocalBounds().contains(child->getBounds())) faults.push_back(name);
+        if (child->getBounds().isEmpty()) faults.push_back(name + ": no room for it");
+        if (dynamic_cast<const juce::Button*>(child) != nullptr) {
+            for (const auto* other : buttons)
+                if (other->getBounds().intersects(child->getBounds()))
+                    faults.push_back(name + ": covers " + other->getTitle().toStdString());
+            buttons.push_back(child);
+        }
+        if (dynamic_cast<const juce::Viewport*>(child) == nullptr) findCut(*child, page, faults);
+    }
+}
+
+class OnASmallDisplay : public testing::Test {
+protected:
+    void SetUp() override { folder.createDirectory(); }
+    void TearDown() override { folder.deleteRecursively(); }
+
+    /// The trials before the first of that session are answered by the simulated observer.
+    void answerUntil(const Protocol& protocol, std::size_t session, const juce::File& rows) const {
+        const Participant participant{"P01", 1, "person"};
+        StudyInProgress study{{protocol, participant, rows.getFullPathName().toStdString()}};
+        const SimulatedObserver observer{{}, protocol, participant};
+        const auto isThere = [&] {
+            return study.experiment().isDone() || study.experiment().trial().session == session;
+        };
+        while (!isThere()) {
+            if (study.experiment().mayEnd())
+                study.endSession();
+            else if (!study.take(observer.answer(study.experiment())))
+                return;
+        }
+    }
+
+    juce::File folder = juce::File::createTempFile("physvib-displays");
+    test::Participant p;
+};
+
+TEST_F(OnASmallDisplay, NothingOfAnyStudyIsCut) {
+    p.desk.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
+    std::vector<std::string> faults;
+    for (Protocol protocol : builtInProtocols()) {
+        protocol.conditionBreakSeconds = 0.0; // nobody waits here
+        for (SessionPlan& session : protocol.sessions) session.breakBeforeSeconds = 0.0;
+        const auto file = folder.getChildFile(utf8(protocol.name) + ".json");
+        file.replaceWithText(utf8(protocolJson(protocol)));
+        for (std::size_t session = 0; session < protocol.sessions.size(); ++session) {
+            const auto rows =
+                folder.getChildFile(utf8(protocol.name) + juce::String{static_cast<int>(session)});
+            rows.createDirectory();
+            p.tab().setFolder(rows);
+            answerUntil(protocol, session, rows);
+            ASSERT_EQ(p.tab().chooseProtocol(file.getFullPathName().toStdString()), "");
+            ASSERT_EQ(p.tab().begin(), "");
+            for (const bool isTrial : {false, true}) {
+                if (isTrial) p.click("Next");
+                for (const auto& [width, height] : displays) {
+                    p.view.setSize(width, height - titleBar);
+                    p.pump();
+                    const std::string page = protocol.name + ", session " + std::to_string(session) +
+                                             (isTrial ? ", trial" : ", page before") + ", " +
+                                             std::to_string(width) + " x " + std::to_string(height);
+                    findCut(*p.screen(), page, faults);
+                }
+            }
+            p.tab().end();
+        }
+    }
+    for (const std::string& fault : faults) ADD_FAILURE() << fault;
+}
+
+} // namespace
+} // namespace physvib

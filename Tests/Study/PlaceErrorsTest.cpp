@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Constant and variable error of pointing at targets on no grid, against figures worked out by hand.
+#include "Study/PlaceErrors.h"
+#include "Study/Files/StudyCsv.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace physvib {
+namespace {
+
+TEST(PlaceErrors, OfOneTargetAreMeanSpreadAndDistance) {
+    const auto errors =
+        targetErrors({{"P", "a", 10, 20, 13, 24}, {"P", "a", 10, 20, 13, 16}, {"P", "b", 0, 0, 0, 0}});
+    ASSERT_EQ(errors.size(), 2u);
+    EXPECT_EQ(errors[0].target, "a");
+    EXPECT_EQ(errors[0].trials, 2u);
+    EXPECT_DOUBLE_EQ(errors[0].constantX, 3.0);
+    EXPECT_DOUBLE_EQ(errors[0].constantY, 0.0);
+    EXPECT_DOUBLE_EQ(errors[0].variable, std::sqrt(32.0)); // of 4 and -4: 16 + 16 over one degree of freedom
+    EXPECT_DOUBLE_EQ(errors[0].distance, 5.0);
+    EXPECT_DOUBLE_EQ(errors[1].distance, 0.0);
+    EXPECT_DOUBLE_EQ(errors[1].variable, 0.0) << "one trial has no spread";
+}
+
+TEST(PlaceErrors, EachTargetCountsAsMuchHoweverOftenItWasAsked) {
+    const auto people = participantErrors({{"P", "a", 0, 0, 1, 0},
+                                           {"P", "a", 0, 0, 1, 0},
+                                           {"P", "a", 0, 0, 1, 0},
+                                           {"P", "b", 10, 0, 15, 0},
+                                           {"Q", "b", 10, 0, 10, 2}});
+    ASSERT_EQ(people.size(), 2u);
+    EXPECT_DOUBLE_EQ(people[0].constantX, 3.0);
+    EXPECT_DOUBLE_EQ(people[0].distance, 3.0);
+    EXPECT_EQ(people[0].targets, 2u);
+    EXPECT_TRUE(people[0].hasVariable);
+    EXPECT_DOUBLE_EQ(people[0].variable, 0.0) << "of the target that was asked three times";
+    EXPECT_TRUE(people[0].hasGainX);
+    EXPECT_DOUBLE_EQ(people[0].gainX, 1.4); // 1 at 0, 15 at 10
+    EXPECT_FALSE(people[0].hasGainY) << "all targets at one height";
+    EXPECT_FALSE(people[1].hasVariable);
+    EXPECT_FALSE(people[1].hasGainX);
+    EXPECT_DOUBLE_EQ(people[1].constantY, 2.0);
+    EXPECT_TRUE(participantErrors({}).empty());
+}
+
+TEST(PlaceErrors, TablesOfOtherProgramsAreReadWithTargetsAnywhere) {
+    std::string text = "who,landmark,true_x,true_y,touch_x,touch_y\n";
+    for (int i = 0; i < 40; ++i)
+        text += "P" + std::to_string(i % 4) + ",L" + std::to_string(i % 10) + "," +
+                std::to_string(100 + 7 * i) + "," + std::to_string(-3 * i) + "," +
+                std::to_string(103 + 7 * i) + "," + std::to_string(4 - 3 * i) + "\n";
+    text += "P9,L1,5,5,,\n"; // no answer
+    const auto words =
+        parseColumnNames(std::vector<std::string>{"participant=who", "stimulus=landmark", "target_x=true_x",
+                                                  "target_y=true_y", "x=touch_x", "y=touch_y"})
+            .value;
+    const NamedText file{text, "t.csv", words};
+    const auto read = readPlaces({&file, 1});
+    ASSERT_TRUE(read) << read.error;
+    ASSERT_EQ(read.value.conditions.front().trials.size(), 40u);
+    EXPECT_EQ(read.value.warnings.front(),
+              "t.csv: rows left out, with nothing in one of the named columns: 1");
+    for (const ParticipantError& one : participantErrors(read.value.conditions.front().trials)) {
+        EXPECT_DOUBLE_EQ(one.distance, 5.0) << one.participant;
+        EXPECT_NEAR(one.gainX, 1.0, 1e-12);
+    }
+    EXPECT_EQ(readLocations({&file, 1}).error,
+              "t.csv: column target_x: expected at most 16 different places, found more; `physvib analyse "
+              "places` takes targets on no grid");
+    const auto line = parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x"})
+                          .value; // a line, and places as names
+    const NamedText onALine{text, "t.csv", line};
+    const auto one = readPlaces({&onALine, 1});
+    ASSERT_TRUE(one) << one.error;
+    EXPECT_EQ(one.value.conditions.front().trials.front().target, "100");
+    const auto half =
+        parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x", "y=touch_y"}).value;
+    const NamedText without{text, "t.csv", half};
+    EXPECT_EQ(readPlaces({&without, 1}).error,
+              "t.csv: expected both columns target_y and y, or none of them, found y");
+    const auto units =
+        parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x:0:1230"}).value;
+    EXPECT_EQ(unitFault(line), "");
+    EXPECT_EQ(unitFault(units),
+              "--columns: expected a range of both x and target_x, or of none of them, as they are compared");
+}
+
+} // namespace
+} // namespace physvib
