@@ -18,7 +18,6 @@ constexpr double hitMs = 450.0;          // how long the light of a hit is seen
 constexpr std::size_t mostHits = 48;     // at once: more are a glare anyway
 constexpr std::size_t mostTraces = 400;  // 30 pairs that rub
 constexpr float wallPixels = 11.0f;      // what stands around the field shows as a frame of this width
-constexpr int margin = 38;               // badges sit on the field's edge
 constexpr float badgePixels = 30.0f;
 
 float levelOf(double amplitude) {
@@ -126,14 +125,18 @@ juce::Colour WorldView::colourOf(const CollisionEvent& event) const {
     return palette::other;
 }
 
+juce::Rectangle<float> WorldView::roomOfField() const {
+    return getLocalBounds().withTrimmedBottom(footRoom_).reduced(margin_, std::max(0, margin_ - 6)).toFloat();
+}
+
 float WorldView::fittingPixelsPerMetre() const {
-    const auto room = getLocalBounds().withTrimmedBottom(footRoom_).reduced(margin, margin - 6).toFloat();
+    const auto room = roomOfField();
     return std::min(room.getWidth() / static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)),
                     room.getHeight() / static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6)));
 }
 
 WorldView::Map WorldView::map() const {
-    const auto room = getLocalBounds().withTrimmedBottom(footRoom_).reduced(margin, margin - 6).toFloat();
+    const auto room = roomOfField();
     const auto width = static_cast<float>(std::max(scene_.fieldWidthMetres, 1e-6)), height = static_cast<float>(std::max(scene_.fieldHeightMetres, 1e-6));
     const float scale =
         worldScale_ > 0.0 ? static_cast<float>(screenPixelsPerMetre(*this, displayWidthMetres_) / worldScale_)
@@ -218,7 +221,7 @@ juce::Rectangle<float> WorldView::badgeOf(int enchanter, const Map&) const {
 
 void WorldView::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::panel));
-    if (getWidth() < 2 * margin + 20 || getHeight() < 2 * margin + 20) return;
+    if (getWidth() < 2 * margin_ + 20 || getHeight() < 2 * margin_ + 20) return;
     const auto at = map();
     drawHalos(g, at);
     drawGround(g, at);

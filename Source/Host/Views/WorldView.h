@@ -59,6 +59,8 @@ public:
     void setDisplayWidth(double metres) { displayWidthMetres_ = metres; }
     /// Room below the field for what is written over the view. M.
     void setFootRoom(int pixels) { footRoom_ = pixels; }
+    /// Around the field: badges sit on its edge, where there are any. M.
+    void setMargin(int pixels) { margin_ = pixels; }
     void select(int enchanter); ///< drawn with a ring; -1: none
     /// A cross in the field where something is to be felt; none: no cross. M.
     void showSpot(std::optional<FieldShare> spot);
@@ -140,6 +142,7 @@ private:
         std::string held{}; // the body's name
         Vector point{};     // where on it
     };
+    juce::Rectangle<float> roomOfField() const;
     float fittingPixelsPerMetre() const; ///< with which the field is as large as fits
     Map map() const;
     Vector pointOf(const Grip& grip) const;
@@ -184,7 +187,7 @@ private:
     std::array<float, limits::maxEnchanters> peaks_{};
     double displayWidthMetres_ = 0.0, worldScale_ = 0.0;
     std::vector<MaterialPicture> pictures_;
-    int shownGains_ = -1, selected_ = -1, footRoom_ = 0;
+    int shownGains_ = -1, selected_ = -1, footRoom_ = 0, margin_ = 38;
     bool showsMaterials_ = false;
     juce::Image gains_;
     Grip grip_;

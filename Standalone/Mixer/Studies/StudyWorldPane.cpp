@@ -14,6 +14,7 @@ StudyWorldPane::StudyWorldPane(Desk& desk)
         if (hasHands_) act(ImpulseAction{body, {thesisDrag * screenMetres.x, thesisDrag * screenMetres.y}, point});
     };
     tilt_.onValueChange = [this] { act(TiltAction{tilt_.angleRadians()}); };
+    view_.setMargin(8);        // no badges here
     view_.showMaterials(true); // by which participants expect what they feel
     addAndMakeVisible(view_);
     addChildComponent(tilt_);
