@@ -15,11 +15,18 @@ EXAMPLE = ROOT / "Standalone/Examples/psychopy-strength.py"
 
 PLAYER = """#!/usr/bin/env python3
 import os, signal, sys
-signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
+signal.signal(signal.SIGINT, lambda *_: os.set_blocking(0, False)) # what was said before is read, then it ends
 with open(os.environ["TOLD"], "w") as told:
     told.write(" ".join(sys.argv[1:]) + "\\n")
-    for line in sys.stdin:
-        told.write(line)
+    told.flush()
+    while True:
+        try:
+            said = os.read(0, 65536)
+        except BlockingIOError:
+            break
+        if not said:
+            break
+        told.write(said.decode())
         told.flush()
 """
 
