@@ -53,6 +53,7 @@ double staircaseThreshold(const Run& run, LevelSummary& summary) {
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
     const auto reversals = reversalsOf(levels);
     summary.reversals += reversals.size();
+    summary.flatRuns += reversals.size() < 2 ? 1 : 0;
     return reversals.size() < 2 ? levels.back() : meanOf(reversals, reversals.size() / 2);
 }
 

@@ -22,6 +22,7 @@ struct LevelSummary {
     std::string condition, stimulus; ///< stimulus empty: of a staircase or QUEST+, which have them all
     std::size_t trials = 0, participants = 0;
     std::size_t reversals = 0;   ///< staircase: all participants'
+    std::size_t flatRuns = 0;    ///< staircases with fewer than two reversals
     double estimate = 0.0;       ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude: geometric mean
     double deviation = 0.0;      ///< sample standard deviation, of participants' thresholds, of dB, or of log10; 0 for one
     double halfInterval = 0.0;   ///< of thresholds and adjustments, 95 %: over participants; of one by QUEST+ of what is still possible; else 0
