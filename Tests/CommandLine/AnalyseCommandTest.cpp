@@ -21,16 +21,22 @@ const std::string publishedCounts = "condition,row,c1,c2,c3,c4,c5,c6,c7\n" // th
                                     "RING-LOGARITHM,5,2.62,3.56,2.29,3.90,3.24,4.05,3.45\n";
 
 TEST_F(Analyse, AStaircaseWithoutReversalsHasNoThreshold) {
-    std::string protocol = call("study show level-steps").out; // an observer that always hears silence apart from 0.25 g never errs
+    // An observer that always feels 0.25 g and never silence does not err.
+    std::string protocol = call("study show level-steps").out;
     const std::string standard = "{ \"name\": \"standard\" }";
     ASSERT_NE(protocol.find(standard), std::string::npos);
-    protocol.replace(protocol.find(standard), standard.size(), "{ \"name\": \"standard\", \"level_db\": -80 }");
+    protocol.replace(protocol.find(standard), standard.size(),
+                     "{ \"name\": \"standard\", \"level_db\": -80 }");
     write("mine.json", protocol);
     ASSERT_EQ(call("study run mine.json --observer simulated").exitCode, 0);
     const auto flat = call("analyse levels level-steps-P01.csv");
-    EXPECT_NE(flat.err.find("PHONE: 1 staircase has fewer than two reversals: the level of the last trial stands for a threshold"), std::string::npos) << flat.err;
+    EXPECT_NE(flat.err.find("PHONE: 1 staircase has fewer than two reversals: the level of the last trial "
+                            "stands for a threshold"),
+              std::string::npos)
+        << flat.err;
     ASSERT_EQ(call("study run level-steps --observer simulated --participant P02").exitCode, 0);
-    EXPECT_EQ(call("analyse levels level-steps-P02.csv").err.find("fewer than two"), std::string::npos);
+    const auto other = call("analyse levels level-steps-P02.csv");
+    EXPECT_EQ(other.err.find("fewer than two"), std::string::npos);
 }
 
 TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {

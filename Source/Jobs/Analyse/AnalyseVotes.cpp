@@ -101,7 +101,8 @@ AnalysisReport analyseLevels(const AnalysisJob& o) {
         if (s.flatRuns > 0)
             report.warnings.push_back(printable(s.condition) + ": " + std::to_string(s.flatRuns) +
                                       (s.flatRuns == 1 ? " staircase has" : " staircases have") +
-                                      " fewer than two reversals: the level of the last trial stands for a threshold");
+                                      " fewer than two reversals: the level of the last trial "
+                                      "stands for a threshold");
         table.cell(kindWord(s.kind)).cell(s.condition).cell(s.stimulus).cell(s.trials).cell(s.participants).cell(s.reversals).cell(s.estimate).cell(s.deviation).cell(s.halfInterval);
         table.endRow();
     }
