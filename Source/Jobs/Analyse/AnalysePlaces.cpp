@@ -4,7 +4,7 @@
 #include "Jobs/Analyse/Analysis.h"
 #include "Study/Statistics/Moments.h"
 #include <algorithm>
-#include <locale>
+#include <charconv>
 #include <sstream>
 
 namespace physvib {
@@ -12,11 +12,9 @@ namespace {
 
 /// Four significant digits, as units may be metres or pixels.
 std::string significant(double number) {
-    std::ostringstream words;
-    words.imbue(std::locale::classic());
-    words.precision(4);
-    words << (number == 0.0 ? 0.0 : number);
-    return words.str();
+    char digits[32];
+    number = number == 0.0 ? 0.0 : number; // no -0
+    return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 4).ptr};
 }
 
 /// "12.3, 95 % interval 10.1 to 14.5".

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One click to the first pulse; levels begin low, since hands are attached.
 #include "Mixer/Window/FirstStart.h"
+#include "Core/Limits.h"
 #include "Host/Devices/LikelyDevices.h"
 #include "Host/Devices/NoDevice.h"
 #include "Pads/PadOutput.h"
@@ -9,7 +10,7 @@
 namespace physvib {
 namespace {
 
-constexpr int mostRows = 6, boardOutputs = 4;
+constexpr int mostRows = 6;
 constexpr int
     lookMs = 100,
     mostLooks = 50; // for a board or controller to come: greeting and clock take half a second, Bluetooth one
@@ -32,7 +33,7 @@ std::vector<FeltChoice> feltChoices(const AudioDeviceTypes& types, const std::ve
         if (!port.isLikelyBoard) continue; // else it is anything: a modem, or a screen
         FeltChoice choice{"Four-channel board: " + utf8(port.path + "  " + port.description),
                           {std::string{noDeviceType} + ":" + noDeviceName},
-                          boardOutputs,
+                          limits::board::channels,
                           true};
         choice.device.board = port.path;
         many.insert(many.begin(), std::move(choice)); // whoever plugs one in means it
@@ -212,10 +213,7 @@ void FirstStart::mouseDown(const juce::MouseEvent& e) {
 }
 
 void FirstStart::paint(juce::Graphics& g) {
-    g.setColour(shade(*this, Shade::raised));
-    g.fillRoundedRectangle(getLocalBounds().toFloat(), 12.0f);
-    g.setColour(shade(*this, Shade::accent));
-    g.drawRoundedRectangle(getLocalBounds().toFloat().reduced(0.75f), 12.0f, 1.5f);
+    drawCard(g, *this);
     if (tested_ < 0) return;
     const auto at = field();
     g.setColour(shade(*this, Shade::well));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The window, what plays in it, its keys and its menu.
 #include "Mixer/Window/MixerWindow.h"
+#include "Core/Limits.h"
 #include "Host/Devices/LikelyDevices.h"
 #include "Host/Devices/NoDevice.h"
 #include "Host/Views/DisplayScale.h"
@@ -120,7 +121,7 @@ void MixerWindow::useBoard(const DeviceChoice& choice) {
         files_.settings().setValue("controller", utf8(choice.pad));
         const bool isFirst = view_->firstStart() != nullptr;
         play(Mix{desk_->mix()}, document_);
-        if (isFirst) return testBeside(choice.board.empty() ? 2 : 4);
+        if (isFirst) return testBeside(choice.board.empty() ? 2 : limits::board::channels);
         view_->tabs().choose("Output"); // where it was chosen
     });
 }

@@ -93,6 +93,14 @@ void drawPanel(juce::Graphics& g, const juce::Component& component) {
     g.fillRoundedRectangle(component.getLocalBounds().toFloat(), 8.0f);
 }
 
+void drawCard(juce::Graphics& g, const juce::Component& component) {
+    const auto area = component.getLocalBounds().toFloat();
+    g.setColour(shade(component, Shade::raised));
+    g.fillRoundedRectangle(area, 12.0f);
+    g.setColour(shade(component, Shade::accent));
+    g.drawRoundedRectangle(area.reduced(0.75f), 12.0f, 1.5f);
+}
+
 std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name) {
     auto button = std::make_unique<juce::TextButton>(words);
     button->setTitle(name);

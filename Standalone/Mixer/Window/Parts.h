@@ -37,6 +37,8 @@ private:
 
 /// A rounded ground; what is in it keeps `panelInset` from its edge.
 void drawPanel(juce::Graphics& g, const juce::Component& component);
+/// The ground of a card over the window, which waits for an answer.
+void drawCard(juce::Graphics& g, const juce::Component& component);
 constexpr int panelInset = 14, gap = 12, rowHeight = 30;
 
 /// A button that looks like a word in the accent's colour.

@@ -40,12 +40,7 @@ bool QuestionCard::keyPressed(const juce::KeyPress& key) {
     return true;
 }
 
-void QuestionCard::paint(juce::Graphics& g) {
-    g.setColour(shade(*this, Shade::raised));
-    g.fillRoundedRectangle(getLocalBounds().toFloat(), 12.0f);
-    g.setColour(shade(*this, Shade::accent));
-    g.drawRoundedRectangle(getLocalBounds().toFloat().reduced(0.75f), 12.0f, 1.5f);
-}
+void QuestionCard::paint(juce::Graphics& g) { drawCard(g, *this); }
 
 void QuestionCard::resized() {
     auto area = getLocalBounds().reduced(24, 20);
