@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Tries README's two commands on a bare Debian 12 that it makes in a folder of its own; needs root and a network.
 #   --run-only      run.sh alone
-#   --pages         instead of them, what the pages of C, Python, Lua and C# say
+#   --pages         instead of them, what the pages of C, Chipmunk, Python, Lua and C# say
 #   --keep          leave the folder behind
 #   --cache FOLDER  a compiler cache to use: tries everything sooner, and says less about times
 #   --mirror URL    instead of the mirror in this system's apt sources

@@ -16,9 +16,12 @@ function takeWords() {
     return taking;
 }
 
+// "plugin" finds "plug-in".
+const folded = text => text.toLowerCase().replaceAll("-", "");
+
 // Every word must be there; a title counts more than a mention.
 function scoreOf(part, wanted) {
-    const title = part[0].toLowerCase(), text = part[2].toLowerCase();
+    const title = folded(part[0]), text = folded(part[2]);
     let score = 0;
     for (const word of wanted) {
         const times = text.split(word).length - 1;
@@ -43,7 +46,7 @@ function row(part, word) {
 }
 
 async function search() {
-    const wanted = box.value.toLowerCase().split(/\s+/).filter(word => word);
+    const wanted = folded(box.value).split(/\s+/).filter(word => word);
     found.hidden = wanted.length === 0;
     if (found.hidden) return;
     await takeWords();

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# As a new user, on a bare Debian 12, as root, in a fresh clone: pastes what the pages of C, Python, Lua and C# say, one after another,
+# As a new user, on a bare Debian 12, as root, in a fresh clone: pastes what the pages of C, Chipmunk, Python, Lua and C# say, one after another,
 # each to a sound file of its own. fresh-machine.sh --pages makes such a machine.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -9,7 +9,7 @@ PATH=$PATH:/usr/games
 export DEBIAN_FRONTEND=noninteractive ALSOFT_DRIVERS=null
 begin=$(date +%s)
 apt-get update -qq
-for page in c python lua csharp; do
+for page in c chipmunk python lua csharp; do
     rm -f once commands drop.wav
     awk -f Tests/Api/page.awk "Docs/$page.md"
     sh -eu once >once.log 2>&1 || { tail once.log && exit 1; }

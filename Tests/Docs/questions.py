@@ -11,8 +11,12 @@ root, site = Path(sys.argv[1]), Path(sys.argv[2])
 parts = json.loads((site / "words.js").read_text().removeprefix("words = ").rstrip().rstrip(";"))
 
 
+def folded(text):
+    return text.lower().replace("-", "")
+
+
 def score(part, words):
-    title, text = part[0].lower(), part[2].lower()
+    title, text = folded(part[0]), folded(part[2])
     total = 0
     for word in words:
         times = text.count(word)
@@ -27,7 +31,7 @@ for line in (root / "Tests/Docs/questions.txt").read_text().split("\n"):
     if not line or line.startswith("#"):
         continue
     question, typed, answer = (word.strip() for word in line.split(" | ", 2))
-    words = typed.lower().split()
+    words = folded(typed).split()
     best = sorted((part for part in parts if score(part, words) > 0), key=lambda part: -score(part, words))[:3]
     rank = next((i for i, part in enumerate(best, 1) if re.search(answer, part[2])), 0)
     found += rank > 0

@@ -50,7 +50,7 @@ constexpr ColumnMeaning meanings[] = {
     {"value", "value", "Level that was set (dB) or number that was given", ""},
     {"correct", "correct", "1 if the answer was right, 0 if not, where there is a right one", ""},
     {"replays", "replays", "How often the stimulus was felt again", ""},
-    {"response_s", "response_time", "From the beginning of the trial to the answer", "s"},
+    {"response_s", "response_time", "From the first press of play to the answer", "s"},
     {"level_db", "level_db", "Level of the trial, relative to its condition's", "dB"},
     {"quest", "quest", "What QUEST+ thought possible before the session's first trial", ""},
     {"peak_g", "peak_g", "Peak acceleration that was felt in the trial", "g"},
