@@ -270,22 +270,25 @@ def number(value, form):
     return "-" if value is None else form.format(value)
 
 
+def rates():
+    return [int(r) for r in os.environ.get("RATES", "60 240").split()]
+
+
 def table(engines, known=None):
     """Prints it for `engines`, { label: play }; how many are out of bounds. `known`: why, by (label, world); printed instead."""
-    rates = [int(r) for r in os.environ.get("RATES", "60 240").split()]
     failed = 0
     print("| world | engine | steps/s | felt | wanted | onset, ms | level | against |\n| --- | --- | --- | --- | --- | --- | --- | --- |")
     for name, make, judge in WORLDS:
         if name not in os.environ.get("WORLDS", name).split(","):
             continue
         for label, play in engines.items():
-            for rate in rates:
+            for rate in rates():
                 r = judge(trace_of(play(text_of(make, rate)), rate))
                 wanted = r.wanted if not isinstance(r.wanted, tuple) else f"{r.wanted[0]} to {r.wanted[1]}"
                 beyond = "" if r.is_fine() else f" BEYOND, as known: {known[label, name]}" if (label, name) in (known or {}) else " FAILED"
                 failed += beyond == " FAILED"
                 print(f"| {name} | {label} | {rate} | {r.felt} | {wanted} | {number(r.onset_ms, '{:+.2f}')} | {number(r.level, '{:.2f}')} | {r.note}{beyond} |", flush=True)
-    print(f"{failed} of {len(WORLDS) * len(rates) * len(engines)} out of bounds")
+    print(f"{failed} of {len(WORLDS) * len(rates()) * len(engines)} out of bounds")
     return failed
 
 

@@ -80,9 +80,11 @@ async function matterOf(Matter, folder, physvib, world, hz) {
         for (let i = 0; i < count; ++i) add(world.tiles.id, boxAt(left + (i + 0.5) * wide, -0.5, wide, 1, values));
     }
     for (const { a, b, x, y } of world.pins ?? []) {
-        const from = id => at(x * px - bodies.get(id).position.x, -y * px - bodies.get(id).position.y);
-        const to = b === null ? { pointB: at(x * px, -y * px) } : { bodyB: bodies.get(b), pointB: from(b) };
-        Matter.Composite.add(engine.world, Matter.Constraint.create({ bodyA: bodies.get(a), pointA: from(a), ...to, length: 0, stiffness: 1 }));
+        const from = id => at(x * px - bodies.get(id).position.x, -y * px - bodies.get(id).position.y), point = at(x * px, -y * px);
+        // To the world by a rod from the centre, as its own cradle does: it cannot hold a lever.
+        const way = b === null ? { pointB: point, length: Math.hypot(from(a).x, from(a).y) }
+            : { pointA: from(a), bodyB: bodies.get(b), pointB: from(b), length: 0 };
+        Matter.Composite.add(engine.world, Matter.Constraint.create({ bodyA: bodies.get(a), ...way, stiffness: 1 }));
     }
     const haptics = attach(physvib, engine, { metresPerUnit: 1 / px, ...field, fieldY: -fieldCorner.y });
     return withPlatform(world, { haptics, bodies, movesFirst: true,
@@ -128,7 +130,7 @@ async function planck(folder, physvib, world, hz) {
     });
     const haptics = attach(physvib, engine, field);
     return withPlatform(world, { haptics, bodies, tellsImpulses: true, isWhole: true, movesFirst: true,
-        destroy: id => engine.destroyBody(bodies.get(id)), step: seconds => engine.step(seconds),
+        destroy: id => engine.destroyBody(bodies.get(id)), step: seconds => engine.step(seconds, 30), // as box2d.cpp
         letPass: (id, isThrough) => (isThrough ? through.add(bodies.get(id)) : through.delete(bodies.get(id))),
         motion(id) {
             const body = bodies.get(id), { x, y } = body.getWorldCenter(), { x: vx, y: vy } = body.getLinearVelocity();
@@ -184,7 +186,7 @@ async function box2d3(folder, physvib, world, hz) {
     b2 ??= await (await import(pathToFileURL(path))).default();
     const { attach } = await load(folder, 'physvib/box2d3'), settings = b2.b2DefaultWorldDef(), bodies = new Map(), shapes = new Map();
     settings.gravity.Set(0, -world.gravity);
-    const engine = b2.b2CreateWorld(settings), filter = b2.b2DefaultFilter();
+    const engine = b2.b2CreateWorld(settings), { filter } = b2.b2DefaultShapeDef();
     for (const body of world.bodies) {
         const def = b2.b2DefaultBodyDef(), form = b2.b2DefaultShapeDef();
         def.type = body.isStatic ? b2.b2BodyType.b2_staticBody : b2.b2BodyType.b2_dynamicBody;
@@ -212,6 +214,7 @@ async function box2d3(folder, physvib, world, hz) {
         material.friction = world.friction;
         chain.SetPoints(tilePoints(world.tiles, 1).map(({ x, y }) => new b2.b2Vec2(x, y))); // with two ghosts
         chain.SetMaterials([material]);
+        chain.materialCount = 1;
         b2.b2CreateChain(ground, chain);
         bodies.set(world.tiles.id, ground);
     }

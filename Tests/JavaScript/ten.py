@@ -3,7 +3,9 @@
 and the engines; NATIVE: physvib-engine-box2d. Prints the table; leaves the traces in FOLDER/ten.json, which those of a browser are held against."""
 import json
 import os
+import subprocess
 import sys
+import tempfile
 
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(here, "..", "Engines"))
@@ -14,27 +16,29 @@ ENGINES = {"Matter": "matter", "Planck": "planck", "Rapier": "rapier2d", "Box2D 
 KNOWN = {}
 
 
-def in_node(folder):
-    """{ label: play }, which keeps the traces."""
-    kept = {}
+def texts():
+    """All worlds at all rates, as text."""
+    return [worlds.text_of(make, rate) for _, make, _ in worlds.WORLDS for rate in worlds.rates()]
 
-    def engine(name):
-        by_node = worlds.by_command(f"node {here}/trace.mjs {folder} {name}")
 
-        def play(text):
-            kept[name + "\n" + text] = by_node(text)
-            return kept[name + "\n" + text]
-        return play
-    return {label: engine(name) for label, name in ENGINES.items()}, kept
+def in_node(folder, name):
+    """{ text: trace } of an engine, by one process."""
+    with tempfile.TemporaryDirectory() as work:
+        paths = [os.path.join(work, str(i)) for i, _ in enumerate(texts())]
+        for path, text in zip(paths, texts()):
+            with open(path, "w") as file:
+                file.write(text)
+        subprocess.run(["node", os.path.join(here, "trace.mjs"), folder, name, *paths], check=True)
+        return {text: open(path + ".trace").read() for path, text in zip(paths, texts())}
 
 
 def main():
     folder, native = (os.path.abspath(path) for path in sys.argv[1:3])
-    engines, kept = in_node(folder)
-    failed = worlds.table({"native Box2D 2.4": worlds.by_command(native), **engines}, KNOWN)
+    traces = {name: in_node(folder, name) for name in ENGINES.values()}
     with open(os.path.join(folder, "ten.json"), "w") as file:
-        json.dump(kept, file)
-    return 1 if failed else 0
+        json.dump(traces, file)
+    engines = {label: traces[name].__getitem__ for label, name in ENGINES.items()}
+    return 1 if worlds.table({"native Box2D 2.4": worlds.by_command(native), **engines}, KNOWN) else 0
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A world as text (Tests/Engines/Trace.h), through an engine's attachment: its motion and its events, as text.
-// trace.mjs FOLDER ENGINE WORLD.txt prints it. FOLDER: where npm has installed physvib and the engines.
+// trace.mjs FOLDER ENGINE WORLD.txt... writes WORLD.txt.trace. FOLDER: where npm has installed physvib and the engines.
 import { engines, fieldCorner } from './engines.mjs';
 import { load } from './installed.mjs';
 
@@ -72,7 +72,8 @@ export async function trace(folder, physvib, name, text) {
 }
 
 if (globalThis.process?.argv[1]?.endsWith('trace.mjs')) {
-    const [folder, name, path] = process.argv.slice(2), { readFileSync } = await import('node:fs');
+    const [folder, name, ...paths] = process.argv.slice(2), { readFileSync, writeFileSync } = await import('node:fs');
     const physvib = await (await load(folder, 'physvib')).load();
-    console.log(await trace(folder, physvib, name, readFileSync(path, 'utf8')));
+    for (const path of paths) writeFileSync(`${path}.trace`, await trace(folder, physvib, name, readFileSync(path, 'utf8')));
+    process.exit(0);
 }

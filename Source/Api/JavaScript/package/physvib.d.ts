@@ -133,7 +133,7 @@ export interface Contact {
     gapFraction?: number;
     alongA?: number | null;
     alongB?: number | null;
-    isSoft?: boolean;
+    isSoft?: boolean | 'whole';
     /** Which point of its pair it is: a number, or told apart by place. */
     point?: number | 'none' | 'place';
     isImpulseOfPair?: boolean;
