@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sorting by time, where equals keep their order: one sort for all that has a time, as the web page has no room for one of each.
+// Sorting by time, where equals keep their order: one sort for all that has a time, as the web page has no room
+// for one of each.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -15,7 +16,8 @@ namespace physvib {
 inline std::vector<std::size_t> timeOrder(std::span<const double> times) {
     std::vector<std::size_t> order(times.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+    const auto isEarlier = [&](std::size_t a, std::size_t b) { return times[a] < times[b]; };
+    std::stable_sort(order.begin(), order.end(), isEarlier);
     return order;
 }
 

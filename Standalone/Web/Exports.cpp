@@ -52,13 +52,14 @@ void PHYSVIB_PAGE(choose)(const char* name, const char* value) {
     chosen.emplace_back(name, value);
 }
 
-/// Begins with a file (PageFile.h), or, if it has less than 0 bytes, with the scene of that name. `byHand`: without
-/// what its script does of what hands do. A list is felt on a field of that size, m.
+/// Begins with a file (PageFile.h), or, if it has less than 0 bytes, with the scene of that name. `byHand`:
+/// without what its script does of what hands do. A list is felt on a field of that size, m.
 void PHYSVIB_PAGE(open)(const char* name, const char* text, int bytes, bool byHand, unsigned seed,
                         int sampleRateHz, int outputs, double fieldWidth, double fieldHeight) {
     const std::string_view given =
         bytes < 0 ? builtIn(name) : std::string_view{text, static_cast<std::size_t>(bytes)};
-    auto file = readPageFile(bytes < 0 ? "scene" : name, given, chosen, {fieldWidth, fieldHeight}, sampleRateHz);
+    const Vector field{fieldWidth, fieldHeight};
+    auto file = readPageFile(bytes < 0 ? "scene" : name, given, chosen, field, sampleRateHz);
     if (!file) js::refuse(file.error);
     if (byHand) file.value.scene = sceneForHands(std::move(file.value.scene));
     world = std::make_unique<PageWorld>(std::move(file.value), seed, sampleRateHz, outputs);

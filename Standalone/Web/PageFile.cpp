@@ -28,7 +28,8 @@ Result<PageFile> readList(std::string_view name, std::string_view text, Vector f
     return PageFile{emptyScene(name, fieldMetres), std::move(read.value), {}};
 }
 
-Result<PageFile> readClipFile(std::string_view name, std::string_view text, ClipFormat format, int sampleRateHz) {
+Result<PageFile> readClipFile(std::string_view name, std::string_view text, ClipFormat format,
+                              int sampleRateHz) {
     const auto read = readClip(text, name, format);
     if (!read) return Failure{read.error};
     if (const std::string fault = clipFault(read.value); !fault.empty()) return Failure{fault};
@@ -47,8 +48,8 @@ Result<Clip> readHmpg(std::string_view, std::string_view) { return noRoom(); }
 std::string hjifText(const Clip&) { return {}; }
 Result<std::string> hmpgBytes(const Clip&) { return noRoom(); }
 
-Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings, Vector fieldMetres,
-                              int sampleRateHz) {
+Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
+                              Vector fieldMetres, int sampleRateHz) {
     if (const auto format = clipFormatOf(name)) return readClipFile(name, text, *format, sampleRateHz);
     if (name.ends_with(".csv")) return readList(name, text, fieldMetres);
     auto read = readScene(text, "scene", settings);

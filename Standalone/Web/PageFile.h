@@ -10,7 +10,8 @@
 
 namespace physvib {
 
-/// A world, and what is played beside it: of a scene nothing, of a list its strikes, of a clip one that stands for its samples.
+/// A world, and what is played beside it: of a scene nothing, of a list its strikes, of a clip one that
+/// stands for its samples.
 struct PageFile {
     static constexpr double clipFrequencyHz = 1.0; ///< of the strike that stands for samples
 
@@ -19,9 +20,9 @@ struct PageFile {
     std::vector<float> samples;          ///< at the renderer's rate
 };
 
-/// `name` ends in .csv, .haptic or .ahap, or it is a scene. A list is felt on a field of that size, m, a clip in the middle of all
-/// actuators, as `physvib render` has it.
-Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings, Vector fieldMetres,
-                              int sampleRateHz);
+/// `name` ends in .csv, .haptic or .ahap, or it is a scene. A list is felt on a field of that size, m, a clip
+/// in the middle of all actuators, as `physvib render` has it.
+Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
+                              Vector fieldMetres, int sampleRateHz);
 
 } // namespace physvib

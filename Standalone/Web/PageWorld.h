@@ -36,7 +36,8 @@ public:
     const std::vector<BodyDescription>& cast() const noexcept { return cast_; }
     const Scene& scene() const noexcept { return simulation_.scene(); }
 
-    /// The next hit that has been played since the last call, and when, in seconds of the output; false: none. Of a clip none is told.
+    /// The next hit that has been played since the last call, and when, in seconds of the output; false:
+    /// none. Of a clip none is told.
     bool takeHit(CollisionEvent& hit, double& atSeconds);
 
     void act(const Action& action); ///< now; what is wrong with it is told by fault()

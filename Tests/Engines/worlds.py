@@ -275,7 +275,7 @@ def rates():
 
 
 def table(engines, known=None):
-    """Prints it for `engines`, { label: play }; how many are out of bounds. `known`: why, by (label, world); printed instead."""
+    """Prints it for `engines`, { label: play }; how many are out of bounds. `known`: why, by (label, world, steps/s)."""
     failed = 0
     print("| world | engine | steps/s | felt | wanted | onset, ms | level | against |\n| --- | --- | --- | --- | --- | --- | --- | --- |")
     for name, make, judge in WORLDS:
@@ -285,7 +285,7 @@ def table(engines, known=None):
             for rate in rates():
                 r = judge(trace_of(play(text_of(make, rate)), rate))
                 wanted = r.wanted if not isinstance(r.wanted, tuple) else f"{r.wanted[0]} to {r.wanted[1]}"
-                beyond = "" if r.is_fine() else f" BEYOND, as known: {known[label, name]}" if (label, name) in (known or {}) else " FAILED"
+                beyond = "" if r.is_fine() else f"; beyond, as known: {known[label, name, rate]}" if (label, name, rate) in (known or {}) else " FAILED"
                 failed += beyond == " FAILED"
                 print(f"| {name} | {label} | {rate} | {r.felt} | {wanted} | {number(r.onset_ms, '{:+.2f}')} | {number(r.level, '{:.2f}')} | {r.note}{beyond} |", flush=True)
     print(f"{failed} of {len(WORLDS) * len(rates()) * len(engines)} out of bounds")

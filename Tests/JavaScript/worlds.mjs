@@ -36,7 +36,7 @@ const demand = (holds, where, what) => { if (!holds) bad.push(`${where}: ${what}
 /** What an engine does: its events, motions of body 1 after each step, and of the last body. */
 async function run(name, kind, hz) {
     const world = worlds[kind], told = native[`${kind}/${hz}`];
-    if (name === 'native') return { ...told, hits: hitsOf(told.events), engine: { tellsImpulses: true, isWhole: true, movesFirst: true }, world };
+    if (name === 'native') return { ...told, hits: hitsOf(told.events), engine: { isWhole: true, movesFirst: true }, world };
     const engine = await engines[name](folder, physvib, world, hz), { haptics } = engine;
     for (const body of world.bodies) {
         haptics.set(engine.bodies.get(body.id), body.isStatic ? { frequencyHz: 200, decayPerSecond: 30, grain: world.grain ?? 0 }
