@@ -42,7 +42,7 @@ Result<PageFile> readClipFile(std::string_view name, std::string_view text, Clip
 
 } // namespace
 
-// Instead of MPEG's readers and writers, 40 KB.
+// Instead of MPEG's readers and writers.
 Result<Clip> readHjif(std::string_view, std::string_view) { return noRoom(); }
 Result<Clip> readHmpg(std::string_view, std::string_view) { return noRoom(); }
 std::string hjifText(const Clip&) { return {}; }
