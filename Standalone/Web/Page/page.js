@@ -87,7 +87,9 @@ function show({ key: of, scene: text, variables, isPlayed }) {
     own.hidden = state.text === null;
     own.textContent = state.scene;
     $('scene').value = own.hidden ? state.scene : '';
-    if (scene.bodies.length === 0) $('sentence').textContent = `${state.scene} plays, once; Restart plays it again.`;
+    const isStill = scene.bodies.length === 0; // a list, a clip
+    document.body.classList.toggle('still', isStill);
+    if (isStill) $('sentence').textContent = `${state.scene} plays, once; Restart plays it again.`;
     $('seed').value = state.seed;
     $('byItself').checked = !state.byHand;
     $('law').value = state.law;

@@ -37,7 +37,7 @@ export function fileLinks(formats) {
         for (const { name, bytes } of files) {
             const link = Object.assign(document.createElement('a'), { download: name, href: URL.createObjectURL(new Blob([bytes])) });
             link.textContent = files.length > 1 ? name.match(/-(\w+)\.\w+$/)[1] : format;
-            link.setAttribute('aria-label', `Save ${name}`);
+            link.setAttribute('aria-label', `${link.textContent}: save ${name}`);
             group.append(link);
         }
         return group;
