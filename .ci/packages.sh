@@ -12,7 +12,7 @@ physvib_test_packages="$physvib_run_packages locales fonts-nanum jackd2 jalv xvf
     liblo-tools python3-numpy luajit love mono-mcs doxygen cmark-gfm libchipmunk-dev libbullet-dev libode-dev libmujoco-dev \
     gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib libunicorn-dev libcapstone-dev"
 # Of Standalone/Web/build-web.sh, Source/Api/JavaScript/build-package.sh, Tests/web.sh and Tests/javascript.sh alone.
-physvib_web_packages="clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
+physvib_web_packages="binaryen clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev"
 physvib_web_test_packages="$physvib_web_packages chromium python3 zbar-tools"
 # Of Standalone/Packaging/release.sh, and of Tests/Release.
 physvib_release_packages="$physvib_build_packages libgtest-dev g++ git debhelper dh-python python3 dpkg-dev"

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # The JavaScript package as its user gets it, beside CI: built, packed, installed in an empty folder, held against the native program; then with the
-# engines from npm, in Node and in headless Chromium. Needs Node 20 or newer with npm, and some minutes for the compiler. usage: Tests/javascript.sh [PATH/physvib]
+# engines from npm, beside native Box2D, in Node and in headless Chromium. Needs Node 20 or newer with npm, and some minutes for the compiler.
+# usage: Tests/javascript.sh [BUILD/bin/physvib]: what else it needs of that build is built
 set -eu
 cd "$(dirname "$0")/.."
 physvib=$(realpath "${1:-build/release/bin/physvib}")
@@ -21,7 +22,10 @@ say "taking the engines from npm"
 (cd "$work" && npm install --silent --no-audit --no-fund "$jspsych" matter-js@0.20 planck@1 @dimforge/rapier2d-compat@0.21 box2d3-wasm@5.2 phaser@4 jspsych@8 typescript@5)
 node Tests/JavaScript/jspsych.mjs "$work"
 node Tests/JavaScript/bodies.mjs "$work"
-node Tests/JavaScript/worlds.mjs "$work"
+native=$(dirname "$physvib")/physvib-engine-box2d
+cmake --build "$(dirname "$physvib")/.." --target physvib-engine-box2d >/dev/null
+node Tests/JavaScript/worlds.mjs "$work" "$native"
+python3 Tests/JavaScript/ten.py "$work" "$native"
 # shellcheck disable=SC2086 # a list of words
 ensure_packages $physvib_web_test_packages
 python3 Tests/JavaScript/chromium.py "$work" Docs/javascript.md

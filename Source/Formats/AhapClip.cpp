@@ -3,6 +3,7 @@
 #include "Io/Json/StrictJson.h"
 #include "Formats/AhapPattern.h"
 #include "Formats/ClipLimits.h"
+#include "Formats/TimeOrder.h"
 #include <cmath>
 
 namespace physvib {
@@ -102,7 +103,7 @@ private:
 } // namespace
 
 Clip clipOf(AhapPattern pattern, const FrequencyScale& scale) {
-    std::ranges::stable_sort(pattern.events, {}, &AhapEvent::start);
+    sortByTime(pattern.events, &AhapEvent::start);
     Bender bender{pattern, scale};
     Clip clip;
     ClipChannel& channel = clip.channels.emplace_back();

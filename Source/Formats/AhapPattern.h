@@ -3,6 +3,7 @@
 #pragma once
 #include "Formats/Clip.h"
 #include "Formats/FrequencyScale.h"
+#include "Formats/TimeOrder.h"
 #include <vector>
 
 namespace physvib {
@@ -23,7 +24,7 @@ public:
     }
     /// All in one: each piece holds until the next begins.
     std::vector<ClipPoint> curve() {
-        std::ranges::stable_sort(pieces_, {}, [](const auto& piece) { return piece.front().seconds; });
+        sortByTime(pieces_, [](const auto& piece) { return piece.front().seconds; });
         std::vector<ClipPoint> all{{0.0, before_}};
         for (const auto& piece : pieces_) {
             const double start = piece.front().seconds, held = valueAt(all, start);

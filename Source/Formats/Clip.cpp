@@ -3,6 +3,7 @@
 #include "Formats/Clip.h"
 #include "Io/Text/NumberText.h"
 #include "Formats/ClipLimits.h"
+#include "Formats/TimeOrder.h"
 #include <cmath>
 
 namespace physvib {
@@ -61,7 +62,7 @@ double peakOf(const ClipChannel& channel) noexcept {
 }
 
 void keepOneAtATime(ClipBand& band) {
-    std::ranges::stable_sort(band.waves, {}, &ClipWave::startSeconds);
+    sortByTime(band.waves, &ClipWave::startSeconds);
     for (std::size_t i = 0; i + 1 < band.waves.size(); ++i) {
         ClipWave& wave = band.waves[i];
         const double left = band.waves[i + 1].startSeconds - wave.startSeconds;

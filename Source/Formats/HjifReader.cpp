@@ -8,6 +8,7 @@
 #include "Formats/LeftOut.h"
 #include "Formats/MpegEffects.h"
 #include "Formats/MpegPlaces.h"
+#include "Formats/TimeOrder.h"
 #include <map>
 #include <numbers>
 
@@ -73,7 +74,7 @@ private:
         gain_ = json.has("gain") ? json["gain"].numberWithin(0.0, limits::maxClipAmplitude) : 1.0;
         const JsonField bands = json["bands"];
         for (std::size_t i = 0; i < bands.arraySize(); ++i) readBand(bands.item(i), perception, channel);
-        std::ranges::stable_sort(channel.transients, {}, &ClipTransient::seconds);
+        sortByTime(channel.transients, &ClipTransient::seconds);
     }
 
     static mpeg::GridPoint point(const JsonField& vector) { return {vector["X"].wholeNumber(), vector["Y"].wholeNumber()}; }

@@ -6,6 +6,7 @@
 #include "Formats/HmpgLayout.h"
 #include "Formats/MpegEffects.h"
 #include "Formats/MpegPlaces.h"
+#include "Formats/TimeOrder.h"
 #include <algorithm>
 #include <map>
 
@@ -21,7 +22,7 @@ public:
     Clip read(BitReader file) {
         while (!file.isOver()) readUnit(file);
         for (auto& [id, told] : bands_) finish(told);
-        for (ClipChannel& channel : clip_.channels) std::ranges::stable_sort(channel.transients, {}, &ClipTransient::seconds);
+        for (ClipChannel& channel : clip_.channels) sortByTime(channel.transients, &ClipTransient::seconds);
         return std::move(clip_);
     }
 

@@ -6,6 +6,7 @@
 #include "Formats/HmpgLayout.h"
 #include "Formats/MpegEffects.h"
 #include "Formats/MpegPlaces.h"
+#include "Formats/TimeOrder.h"
 #include <algorithm>
 #include <numbers>
 #include <utility>
@@ -105,7 +106,7 @@ public:
             const double peak = peakOf(clip.channels[j]);
             gains_.push_back(gains.at(gains.share(peak > 0.0 ? peak : 1.0, realBits), realBits));
         }
-        for (WrittenBand& band : bands_) std::ranges::stable_sort(band.effects, {}, &WrittenEffect::tick);
+        for (WrittenBand& band : bands_) sortByTime(band.effects, &WrittenEffect::tick);
     }
 
     std::string fault() const {

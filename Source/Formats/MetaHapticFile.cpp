@@ -6,6 +6,7 @@
 #include "Io/Json/JsonText.h"
 #include "Formats/ClipEnvelope.h"
 #include "Formats/ClipLimits.h"
+#include "Formats/TimeOrder.h"
 #include <cmath>
 
 namespace physvib {
@@ -87,7 +88,7 @@ double placeOf(const ClipTransient& transient, const std::vector<ClipPoint>& cur
 std::vector<ClipTransient> placed(std::vector<ClipTransient> transients,
                                   const std::vector<ClipPoint>& curve) {
     for (ClipTransient& t : transients) t.seconds = placeOf(t, curve);
-    std::ranges::stable_sort(transients, {}, &ClipTransient::seconds);
+    sortByTime(transients, &ClipTransient::seconds);
     return transients;
 }
 
@@ -96,7 +97,7 @@ std::vector<ClipPoint> withTransients(const std::vector<ClipPoint>& curve,
                                       const std::vector<ClipTransient>& transients) {
     std::vector<ClipPoint> with = curve;
     for (const ClipTransient& t : transients) with.push_back({t.seconds, valueAt(curve, t.seconds)});
-    std::ranges::stable_sort(with, {}, &ClipPoint::seconds);
+    sortByTime(with, &ClipPoint::seconds);
     if (with.front().seconds > 0.0) with.insert(with.begin(), {0.0, 0.0});
     const double last = std::max(with.back().seconds, transients.empty() ? 0.0 : transients.back().seconds);
     if (!(shortened(with.back().seconds) > 0.0) || !transients.empty())

@@ -4,6 +4,7 @@
 #include "Core/FrameClock.h"
 #include "Formats/ClipLimits.h"
 #include "Formats/DecayCurve.h"
+#include "Formats/TimeOrder.h"
 #include <cmath>
 #include <complex>
 #include <cstdint>
@@ -50,7 +51,7 @@ double positivePhase(Phasor phasor) {
 }
 
 std::vector<ClipWave> wavesOf(const Mode& mode, std::vector<Edge> edges, double error) {
-    std::ranges::stable_sort(edges, {}, &Edge::tick);
+    sortByTime(edges, &Edge::tick);
     std::vector<ClipWave> waves;
     Phasor ringing = 0.0;
     for (std::size_t i = 0; i < edges.size();) {
@@ -74,7 +75,7 @@ struct ModeWave {
 /// In as few bands as there are waves at once. A mode goes on in its band while that is its own: at the tick where one of its
 /// waves ends, the next begins.
 std::vector<ClipBand> packed(std::vector<ModeWave> waves, std::size_t modes) {
-    std::ranges::stable_sort(waves, {}, [](const ModeWave& w) { return w.wave.startSeconds; });
+    sortByTime(waves, [](const ModeWave& w) { return w.wave.startSeconds; });
     std::vector<ClipBand> bands;
     std::vector<std::size_t> lastMode, bandOf(modes, waves.size());
     for (auto& [mode, wave] : waves) {

@@ -2,7 +2,6 @@
 // What the page calls, beside the controllers' motors of Source/Api/JavaScript. What fails does not return
 // (js::refuse), and the page throws the instance away.
 #include "Api/JavaScript/Exports.h"
-#include "Io/Wav/WavHead.h"
 #include "PageWorld.h"
 #include "Scene/SceneCatalogue.h"
 #include "Scene/SceneEdits.h"
@@ -53,13 +52,17 @@ void PHYSVIB_PAGE(choose)(const char* name, const char* value) {
     chosen.emplace_back(name, value);
 }
 
-/// Begins with the name of a scene, or with a scene. `byHand`: without what its script does of what hands do.
-void PHYSVIB_PAGE(open)(const char* text, int bytes, bool isName, bool byHand, unsigned seed,
-                        int sampleRateHz, int outputs) {
-    const std::string_view given{text, static_cast<std::size_t>(bytes)};
-    Result<Scene> scene = readScene(isName ? builtIn(given) : given, "scene", chosen);
-    world = std::make_unique<PageWorld>(
-        byHand ? sceneForHands(std::move(scene.value)) : std::move(scene.value), seed, sampleRateHz, outputs);
+/// Begins with a file (PageFile.h), or, if it has less than 0 bytes, with the scene of that name. `byHand`:
+/// without what its script does of what hands do. A list is felt on a field of that size, m.
+void PHYSVIB_PAGE(open)(const char* name, const char* text, int bytes, bool byHand, unsigned seed,
+                        int sampleRateHz, int outputs, double fieldWidth, double fieldHeight) {
+    const std::string_view given =
+        bytes < 0 ? builtIn(name) : std::string_view{text, static_cast<std::size_t>(bytes)};
+    const Vector field{fieldWidth, fieldHeight};
+    auto file = readPageFile(bytes < 0 ? "scene" : name, given, chosen, field, sampleRateHz);
+    if (!file) js::refuse(file.error);
+    if (byHand) file.value.scene = sceneForHands(std::move(file.value.scene));
+    world = std::make_unique<PageWorld>(std::move(file.value), seed, sampleRateHz, outputs);
 }
 
 /// All that is to be drawn, as a scene: bodies under the numbers of poses(), scripted ones among them; no
@@ -101,15 +104,14 @@ int PHYSVIB_PAGE(bodyCount)() {
 }
 
 /// The next hit that has been played since: x, y, frequency, decay, amplitude, duration (s; 0: rings out),
-/// and the time of its first sample (s); null: none.
+/// the time of its first sample (s), and its kind, as physvib.h has it; null: none.
 const double* PHYSVIB_PAGE(hit)() {
-    static std::array<double, 7> told;
+    static std::array<double, 8> told;
     CollisionEvent e;
     double atSeconds = 0.0;
     if (!world->takeHit(e, atSeconds)) return nullptr;
-    told = {
-        e.x,      e.y, e.frequencyHz, e.decayPerSecond, e.amplitude, static_cast<double>(e.durationNs) * 1e-9,
-        atSeconds};
+    const double duration = static_cast<double>(e.durationNs) * 1e-9, kind = static_cast<int>(e.source.kind);
+    told = {e.x, e.y, e.frequencyHz, e.decayPerSecond, e.amplitude, duration, atSeconds, kind};
     return told.data();
 }
 
@@ -145,14 +147,6 @@ void PHYSVIB_PAGE(place)(int enchanter, double x, double y) {
 /// By that law of lawList(); -1: as `physvib render` does if it is asked for none.
 void PHYSVIB_PAGE(placed)(int law) {
     world->placed(law);
-}
-
-/// What stands before 32-bit samples in a WAVE file, wavHeadBytes() of it.
-const char* PHYSVIB_PAGE(wavHead)(int channels, int rateHz, int frames) {
-    return tell(wavHead(channels, rateHz, std::int64_t{4} * channels * frames, {}));
-}
-int PHYSVIB_PAGE(wavHeadBytes)() {
-    return static_cast<int>(js::text().size());
 }
 
 /// A QR code of `text`: how many modules a side has, and qrModule() of each; 0: it is too long for one.

@@ -14,18 +14,22 @@ constexpr double pullPerSecond = 12.0, fastestPull = 12.0; // of the way that is
 
 } // namespace
 
-PageWorld::PageWorld(const Scene& scene, std::uint32_t seed, int sampleRateHz, int outputs)
-    : simulation_{scene, seed, stepsPerSecond}
-    , check_{scene, InputCheck::endless}
-    , player_{scene}
-    , cast_{sceneCast(scene)}
-    , fieldMetres_{scene.fieldWidthMetres, scene.fieldHeightMetres}
+PageWorld::PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int outputs)
+    : file_{std::move(file)}
+    , clip_{PageFile::clipFrequencyHz, file_.samples}
+    , simulation_{file_.scene, seed, stepsPerSecond}
+    , check_{file_.scene, InputCheck::endless}
+    , player_{file_.scene}
+    , cast_{sceneCast(file_.scene)}
+    , fieldMetres_{file_.scene.fieldWidthMetres, file_.scene.fieldHeightMetres}
     , law_{.sampleRateHz = sampleRateHz, .blockFrames = 0, .stepsPerSecond = stepsPerSecond}
     , outputs_{static_cast<std::size_t>(outputs)} {
     layoutPreset("phone4", layout_);
     if (!renderer_->prepare({.sampleRateHz = sampleRateHz, .channels = outputs, .panner = panner(), .instructions = InstructionSet::scalar}))
         throw std::invalid_argument("sound: expected 5000 to 192000 Hz and 4 to 64 outputs");
     law_.limiterFrames = renderer_->latencyFrames();
+    if (file_.samples.empty()) return;
+    controls_.push_back({.kind = RenderControl::Kind::recordings, .recordings = {{&clip_, 1}, false}});
 }
 
 PhantomPanner PageWorld::panner() const noexcept {
@@ -82,6 +86,8 @@ void PageWorld::stepTo(std::int64_t frame) {
     }
     events_.insert(events_.end(), made_.begin(), made_.end());
     made_.clear();
+    for (; struck_ < file_.strikes.size() && file_.strikes[struck_].timeNs < simulation_.timeNs(); ++struck_)
+        events_.push_back(file_.strikes[struck_]);
 }
 
 const float* PageWorld::render(int frames) {
@@ -106,7 +112,7 @@ const std::vector<float>& PageWorld::poses() {
 
 bool PageWorld::takeHit(CollisionEvent& hit, double& atSeconds) {
     PlayedEvent played;
-    if (!renderer_->played().pop(played)) return false;
+    if (!renderer_->played().pop(played) || !file_.samples.empty()) return false;
     hit = played.event;
     atSeconds = static_cast<double>(played.frame + law_.playOutFrames()) / law_.sampleRateHz;
     return true;

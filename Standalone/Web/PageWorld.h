@@ -4,6 +4,7 @@
 #include "Core/ClockLaw.h"
 #include "Core/HapticRenderer.h"
 #include "Core/PanningLaws.h"
+#include "PageFile.h"
 #include "Scene/World/InputCheck.h"
 #include "Scene/World/ScenePlayer.h"
 #include "Scene/World/Simulation.h"
@@ -24,7 +25,7 @@ public:
     static constexpr int fingers = 10; ///< that hold bodies at once
 
     /// Throws what Simulation throws, or std::invalid_argument at a rate or number of outputs that cannot be rendered.
-    PageWorld(const Scene& scene, std::uint32_t seed, int sampleRateHz, int outputs);
+    PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int outputs);
 
     /// The next frames, channel by channel.
     const float* render(int frames);
@@ -35,7 +36,8 @@ public:
     const std::vector<BodyDescription>& cast() const noexcept { return cast_; }
     const Scene& scene() const noexcept { return simulation_.scene(); }
 
-    /// The next hit that has been played since the last call, and when, in seconds of the output; false: none.
+    /// The next hit that has been played since the last call, and when, in seconds of the output; false:
+    /// none. Of a clip none is told.
     bool takeHit(CollisionEvent& hit, double& atSeconds);
 
     void act(const Action& action); ///< now; what is wrong with it is told by fault()
@@ -70,6 +72,9 @@ private:
     void pull(const Hand& hand);
     void stepTo(std::int64_t frame);
 
+    const PageFile file_;
+    RecordedContact clip_; // its samples, by the frequency of its strike
+    std::size_t struck_ = 0; // of the file's strikes
     Simulation simulation_;
     InputCheck check_;
     ScenePlayer player_;

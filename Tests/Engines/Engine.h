@@ -20,6 +20,7 @@ struct Body {
     double massKg = 1.0;              ///< 0: it stands still
     double vx = 0, vy = 0, spin = 0;
     bool isSource = false;
+    double grain = 0.0; ///< m, of its surface, where the engine's program knows it
     double inertia() const { return isBox ? massKg * (width * width + height * height) / 12.0 : massKg * width * width / 8.0; }
 };
 

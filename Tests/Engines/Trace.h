@@ -29,13 +29,14 @@ inline void printMotions(const Engine& engine, const std::map<int, Body>& moving
     }
 }
 
-/// `m STEP BODY x y vx vy spin` behind each step (step 0: at first), then `e SECONDS BODY OTHER IMPULSE x y` for each event.
+/// `m STEP BODY x y vx vy spin` behind each step (step 0: at first), then `e SECONDS BODY OTHER IMPULSE x y KIND` for each event.
 inline int trace(Engine& engine, const char* path) {
     std::ifstream file(path);
     std::map<int, Body> moving;
     std::string word;
     int steps = 0;
-    bool isFalling = false;
+    bool isFalling = false, isWeightless = false;
+    double grain = 0.0;
     double kick = 0.0; // ends of steps lie on the parabola
     while (file >> word) {
         if (word == "world") {
@@ -43,13 +44,14 @@ inline int trace(Engine& engine, const char* path) {
             file >> rate >> elasticity >> friction >> seconds;
             steps = static_cast<int>(rate * seconds);
             engine.world = plainWorld();
-            engine.begin(1.0 / rate, gravity, elasticity, friction);
+            engine.begin(1.0 / rate, isWeightless ? 0.0 : gravity, elasticity, friction);
             kick = (engine.movesFirst ? -0.5 : 0.5) * gravity / rate / engine.subSteps;
         } else if (word == "ball" || word == "box") {
             Body body;
             body.isBox = word == "box";
             file >> body.id >> body.x >> body.y >> body.angle >> body.width >> body.height >> body.massKg >> body.vx >> body.vy >> body.spin >> body.isSource;
             if (isFalling) body.vy += kick;
+            body.grain = grain;
             engine.add(body);
             if (body.massKg > 0) moving.emplace(body.id, body);
         } else if (word == "pin") {
@@ -63,6 +65,10 @@ inline int trace(Engine& engine, const char* path) {
             engine.oneWay(body);
         } else if (word == "falling") { // those that follow
             isFalling = true;
+        } else if (word == "weightless") { // before the world
+            isWeightless = true;
+        } else if (word == "grain") { // of still bodies that follow; what rolls there speaks with their voice
+            file >> grain;
         } else if (word == "floor") {
             engine.floor();
         } else if (word == "tiles") {
@@ -71,7 +77,9 @@ inline int trace(Engine& engine, const char* path) {
             file >> left >> right >> count;
             engine.tiles(left, right, count);
         } else {
-            return std::fprintf(stderr, "%s: %s: expected world, ball, box, pin, oneway, falling, floor or tiles\n", path, word.c_str()), 1;
+            return std::fprintf(stderr, "%s: %s: expected weightless, world, ball, box, pin, oneway, falling, grain, floor or tiles\n",
+                                path, word.c_str()),
+                   1;
         }
     }
     printMotions(engine, moving, 0);
@@ -80,7 +88,8 @@ inline int trace(Engine& engine, const char* path) {
         printMotions(engine, moving, step);
     }
     for (const auto& event : engine.take())
-        std::printf("e %.9f %d %d %.7g %.7g %.7g\n", static_cast<double>(event.time_ns) * 1e-9, event.fixture, event.other, event.impulse_n_s, event.x_m, event.y_m);
+        std::printf("e %.9f %d %d %.7g %.7g %.7g %d\n", static_cast<double>(event.time_ns) * 1e-9, event.fixture, event.other,
+                    event.impulse_n_s, event.x_m, event.y_m, event.kind);
     return 0;
 }
 

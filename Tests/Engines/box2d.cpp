@@ -47,12 +47,16 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         polygon.SetAsBox(static_cast<float>(from.width / 2) - b2_polygonRadius, static_cast<float>(from.height / 2) - b2_polygonRadius); // with its skin as large as told
         bodies[from.id] = box2d->CreateBody(&def);
         const double area = from.isBox ? (from.width - 2 * b2_polygonRadius) * (from.height - 2 * b2_polygonRadius) : b2_pi * disc.m_radius * disc.m_radius;
-        number(bodies[from.id]->CreateFixture(from.isBox ? static_cast<b2Shape*>(&polygon) : &disc, static_cast<float>(from.massKg / area)), from.id, from.isSource);
+        number(bodies[from.id]->CreateFixture(from.isBox ? static_cast<b2Shape*>(&polygon) : &disc, static_cast<float>(from.massKg / area)), from.id, from.isSource,
+               from.grain);
     }
-    void number(b2Fixture* fixture, int id, bool isSource) {
+    void number(b2Fixture* fixture, int id, bool isSource, double grain = 0.0) {
         fixture->SetRestitution(elasticity);
         fixture->SetFriction(friction);
-        (void)haptics->set(*fixture, {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = isSource}, id);
+        physvib::HapticFixture values{.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = isSource};
+        if (grain > 0.0 && isSource) values.voice = physvib::Voice::other;
+        else values.texture.grainMetres = grain;
+        (void)haptics->set(*fixture, values, id);
     }
     void pin(int a, int b, double x, double y) override {
         b2RevoluteJointDef def;
@@ -75,7 +79,7 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         for (const auto& e : told) {
             physvib_event event{};
             event.time_ns = e.timeNs, event.amplitude = e.amplitude, event.x_m = e.x, event.y_m = e.y, event.impulse_n_s = e.source.impulseNewtonSeconds;
-            event.fixture = e.source.fixture, event.other = e.source.other;
+            event.fixture = e.source.fixture, event.other = e.source.other, event.kind = static_cast<int>(e.source.kind);
             events.push_back(event);
         }
         return events;

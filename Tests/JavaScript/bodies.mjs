@@ -7,10 +7,9 @@ import { load } from './installed.mjs';
 
 const [folder] = process.argv.slice(2), physvib = await (await load(folder, 'physvib')).load();
 const world = { gravity: 9.81, restitution: 0.3, friction: 0.2, falls: true, bodies: [{ id: 0, halfWidth: 5, halfHeight: 0.5, x: 0, y: -0.5, isStatic: true }, { id: 1, radius: 0.1, x: 0, y: 0.3, massKg: 0.2 }, { id: 2, radius: 0.1, x: 1, y: 0.3, massKg: 0.2 }] };
-const inertiaOf = body => body.massKg * body.radius ** 2 / 2;
 
 for (const name of Object.keys(engines)) test(name, async () => {
-    const { haptics, bodies, step, destroy } = await engines[name](folder, physvib, world, 240, { inertiaOf });
+    const { haptics, bodies, step, destroy } = await engines[name](folder, physvib, world, 240);
     const first = haptics.set(bodies.get(1), { isSource: true, frequencyHz: 200, decayPerSecond: 30 }), told = [];
     haptics.set(bodies.get(2), { frequencyHz: 200, decayPerSecond: 30 });
     const end = haptics.follow(events => told.push(...events));

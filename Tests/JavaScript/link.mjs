@@ -6,7 +6,7 @@ import test from 'node:test';
 import { freshWorld, linkOf, openedBy, worldOf } from '../../Standalone/Web/Page/link.js';
 
 const text = readFileSync(process.argv[2] ?? new URL('../../Source/Scene/Scenes/shake-the-box.json', import.meta.url), 'utf8');
-const full = () => ({ scene: 'my scene & more.json', text, seed: 4294967295, byHand: true, places: [[0, 1], [0.123, 0.5], [1, 0.999]], law: 'log-outer',
+const full = () => ({ ...freshWorld(), scene: 'my scene & more.json', text, seed: 4294967295, byHand: true, places: [[0, 1], [0.123, 0.5], [1, 0.999]], law: 'log-outer',
     variables: new Map([['height', '2'], ['a=b', 'c=d & e']]), materials: new Map([[0, [205.3, 31.25]], [3, [20, 0.5]]]) });
 
 test('a world comes back as it was, whatever is in it', async () => {
@@ -15,6 +15,12 @@ test('a world comes back as it was, whatever is in it', async () => {
     assert.equal(await linkOf(freshWorld()), 'scene=shake-the-box');
     assert.deepEqual(await worldOf(''), freshWorld());
     assert.deepEqual(await worldOf('scene=marbles&seed=3'), { ...freshWorld(), scene: 'marbles', seed: 3 }); // as older links have it
+});
+
+test('an event list takes its field along, and nothing else does', async () => {
+    const list = { ...freshWorld(), scene: 'hits.csv', text: 'time_s', field: [6.4, 3.6] };
+    assert.deepEqual(await worldOf(await linkOf(list)), list);
+    assert.doesNotMatch(await linkOf({ ...list, scene: 'hits.json' }), /field/);
 });
 
 test('a whole scene is small enough for a QR code', async () => {
@@ -29,13 +35,13 @@ test('what a player opens of it', () => {
 });
 
 for (const [words, line] of [['seed=-1', /seed: expected 0 to/], ['seed=1.5', /seed/], ['seed=1e3', /seed/], ['at=0,0 2,0', /at: expected places/], ['at=0', /at/], ['at=' + Array(9).fill('0,0').join('+'), /at: expected 1 to 8/],
-    ['sound=0,200', /sound/], ['sound=a,1,1', /sound/], ['sound=0.5,1,1', /sound/], ['set=height', /set: expected NAME=VALUE/], ['file=%%%', /file: expected a scene/], ['file=AAAA', /file/]])
+    ['field=1', /field: expected two lengths/], ['field=0,1', /field/], ['sound=0,200', /sound/], ['sound=a,1,1', /sound/], ['sound=0.5,1,1', /sound/], ['set=height', /set: expected NAME=VALUE/], ['file=%%%', /file: expected a whole file/], ['file=AAAA', /file/]])
     test(`${words.slice(0, 30)} is refused`, async () => assert.rejects(worldOf(words), line));
 
 test('a bomb is not unpacked', async () => {
     const link = await linkOf({ ...freshWorld(), text: ' '.repeat(4 << 20) });
     assert.ok(link.length < 10000);
-    await assert.rejects(worldOf(link), /file: expected a scene/);
+    await assert.rejects(worldOf(link), /file: expected a whole file/);
 });
 
 test('anything else is a world or an error of one line', async () => {

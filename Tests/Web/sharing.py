@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # What leaves the page: links, codes and controllers' motors; and what it is without a network, over http, and to those who do not see it.
 # usage: sharing.py FOLDER_OF_THE_PAGE PHYSVIB PICTURES_FOLDER [AXE.js]
+import base64
 import json
 import os
 import subprocess
@@ -162,14 +163,140 @@ def motors():
     return pads
 
 
+def native(*words):
+    """physvib with these words, in the folder of the test."""
+    subprocess.run([physvib, *words], cwd=work.name, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def content(name):
+    with open(os.path.join(work.name, name), "rb") as file:
+        return file.read()
+
+
 def recording(browser):
-    """What is played for ten seconds, as a file."""
-    browser.value("""globalThis.saved = new Promise(done => { const make = URL.createObjectURL; URL.createObjectURL = blob => { done(blob); return make.call(URL, blob); }; }); 0""")
+    """What is played for ten seconds, as files: samples, events, and the clips that physvib export makes of these."""
+    browser.value("""globalThis.blobs = new Map();
+        const make = URL.createObjectURL; // the page's policy lets nobody fetch them
+        URL.createObjectURL = blob => { const url = make.call(URL, blob); blobs.set(url, blob); return url; }; 0""")
     browser.click("#record")
     browser.wait("document.getElementById('record').textContent.startsWith('Recording')", "a recording")
-    size, head, rate, loud = browser.value("""saved.then(async blob => [blob.size, await blob.slice(0, 4).text(), new DataView(await blob.slice(60, 64).arrayBuffer()).getUint32(0, true), // after room for a longer file's sizes
-        new Float32Array(await blob.slice(104).arrayBuffer()).some(sample => Math.abs(sample) > 0.001)])""")
-    expect(head == "RIFF" and rate in (44100, 48000) and size == 104 + 4 * 4 * rate * 10 and loud, f"a recording of ten seconds, four channels, {rate} Hz: {size} bytes")
+    browser.wait("document.querySelectorAll('#recorded a').length > 0", "files of a recording")
+    files = browser.value("""Promise.all([...document.querySelectorAll('#recorded a')].map(async link => {
+        const bytes = new Uint8Array(await blobs.get(link.href).arrayBuffer()), step = 8192;
+        let text = '';
+        for (let at = 0; at < bytes.length; at += step) text += String.fromCharCode(...bytes.subarray(at, at + step));
+        return [link.download, btoa(text)];
+    }))""")
+    files = {name: base64.b64decode(code) for name, code in files}
+    for name, data in files.items():
+        with open(os.path.join(work.name, "page-" + name), "wb") as file:
+            file.write(data)
+    wav = files["shake-the-box.wav"]
+    rate = int.from_bytes(wav[60:64], "little")  # after room for a longer file's sizes
+    loud = any(wav[104:])
+    whole = wav[:4] == b"RIFF" and rate in (44100, 48000) and len(wav) == 104 + 4 * 4 * rate * 10 and loud
+    expect(whole, f"a recording of ten seconds, four channels, {rate} Hz: {len(wav)} bytes")
+    events = files["shake-the-box.csv"].decode().strip().splitlines()
+    expect(len(events) > 30, f"an event list of it: {len(events)} lines")
+    for ending in ("haptic", "ahap"):
+        made = sorted(name for name in files if name.endswith(ending))
+        native("export", "page-shake-the-box.csv", "--field", "6.4,3.6", "--to", f"native.{ending}")
+        # But for the title that the list's name gives it.
+        same = [name for name in made
+                if content("native" + name.removeprefix("shake-the-box")).replace(b"page-shake-the-box.csv", b"") == files[name]]
+        expect(made == [f"shake-the-box-{letter}.{ending}" for letter in "ABCD"] and same == made, f"four .{ending}, as physvib export makes them: {same}")
+    for name, *size in sizes:
+        browser.picture(f"web-recorded-{name}.png", *size)
+    browser.call("Emulation.setDeviceMetricsOverride", width=1280, height=800, deviceScaleFactor=1, mobile=False)
+
+
+def drop(browser, name):
+    text = json.dumps(content(name).decode())
+    browser.value(f"""(transfer => {{
+        transfer.items.add(new File([{text}], '{name}'));
+        document.dispatchEvent(new DragEvent('drop', {{ dataTransfer: transfer, bubbles: true, cancelable: true }}));
+    }})(new DataTransfer()); 0""")
+
+
+def dropped(other):
+    """Event lists and clips on the page are what physvib render makes of them."""
+    one = visitor()
+    visit(one, origin)
+    native("render", "shake-the-box", "--seconds", str(seconds), "--events", "hits.csv", "--out", "scene.wav")
+    native("export", "marbles", "--layout", "phone1", "--seconds", "4", "--to", "knock.haptic")
+    native("export", "marbles", "--layout", "phone1", "--seconds", "4", "--to", "knock.ahap")
+    for name, way in (("hits.csv", ["--from-events", "hits.csv", "--field", "6.4,3.6"]), ("knock.haptic", ["knock.haptic"]), ("knock.ahap", ["knock.ahap"])):
+        drop(one, name)
+        one.wait(f"document.title.startsWith('{name}')", name)
+        native("render", *way, "--seconds", str(seconds), "--layout", "phone4", "--instructions", "scalar", "--out", "whole.wav")
+        digest, wanted_digest = hash_in_page(one, wanted, seconds), hash_of(os.path.join(work.name, "whole.wav"))
+        expect(digest == wanted_digest, f"{name} on the page is physvib render's: {digest[:16]}, {wanted_digest[:16]}")
+        visit(other, share(one))
+        one.click("#shared")
+        there = hash_in_page(other, wanted, seconds)
+        expect(there == digest, f"and so it is by its link: {there[:16]}")
+    one.click("#start")
+    one.wait("document.getElementById('begin').hidden", "sound")
+    drop(one, "hits.csv")
+    one.wait("document.getElementById('sentence').textContent.includes('Hz')", "hits of a list that are told")
+    time.sleep(0.5)
+    for name, *size in sizes:
+        one.picture(f"web-list-{name}.png", *size)
+    bad = content("hits.csv").decode().splitlines()
+    with open(os.path.join(work.name, "bad.csv"), "w") as file:
+        file.write("\n".join([*bad[:3], "x" + bad[3], *bad[4:]]) + "\n")
+    told = subprocess.run([physvib, "render", "--from-events", "bad.csv", "--out", "never.wav"], cwd=work.name, capture_output=True, text=True, check=False)
+    drop(one, "bad.csv")
+    one.wait("!document.getElementById('fault').hidden", "a refusal")
+    line = one.value("document.querySelector('#fault p').textContent")
+    expect(line == told.stderr.strip().removeprefix("physvib: "), f"a bad list is refused as natively: {line}")
+    with open(os.path.join(work.name, "wave.hjif"), "w") as file:
+        file.write("{}")
+    drop(one, "wave.hjif")
+    one.wait("document.querySelector('#fault p').textContent.includes('wave')", "another refusal")
+    line = one.value("document.querySelector('#fault p').textContent")
+    expect("expected a file .haptic or .ahap" in line, f"and MPEG's formats with what to do: {line}")
+    leave(one)
+
+
+def phone_sensors(answer):
+    """A phone's sensor and its screen are asked for at Start, not before; both end."""
+    phone = visitor()
+    phone.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=2, mobile=True)
+    phone.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
+    phone.call("Page.addScriptToEvaluateOnNewDocument", source=f"""
+        globalThis.asked = [];
+        globalThis.held = [];
+        DeviceOrientationEvent.requestPermission = () => {{ asked.push(['sensor', navigator.userActivation.isActive]); return Promise.resolve('{answer}'); }};
+        navigator.wakeLock.request = kind => {{
+            asked.push([kind, true]);
+            return Promise.resolve({{ release() {{ asked.push(['released', true]); return Promise.resolve(); }} }});
+        }};
+        const post = MessagePort.prototype.postMessage;
+        MessagePort.prototype.postMessage = function (message, ...rest) {{ if (message.hold) held.push(message.hold); return post.call(this, message, ...rest); }};""")
+    visit(phone, origin)
+    expect(phone.value("asked.length") == 0, "neither sensor nor screen are asked for before Start")
+    phone.click("#start")
+    phone.wait("document.getElementById('begin').hidden && asked.length === 2", "sound, sensor and screen")
+    expect(phone.value("asked") == [["sensor", True], ["screen", True]], "both are asked for at Start, the sensor within the click")
+    lean = "window.dispatchEvent(new DeviceOrientationEvent('deviceorientation', { alpha: 0, beta: 40, gamma: 30 })); held.length"
+    is_on = answer == "granted"
+    expect(phone.value("document.getElementById('sensor').getAttribute('aria-pressed')") == str(is_on).lower(), f"a sensor that is {answer} is shown as such")
+    time.sleep(0.1)
+    held = phone.value(lean)
+    expect((held > 0) == is_on, f"leaning a phone whose sensor is {answer} holds the world {held} times")
+    if is_on:
+        phone.click("#sensor")
+        phone.wait("document.getElementById('sensor').getAttribute('aria-pressed') === 'false'", "a sensor that is off")
+        time.sleep(0.1)
+        held = phone.value("held.length")
+        expect(phone.value("held.at(-1)") == [0, 1] and phone.value(lean) == held, "turned off, the world stands upright and follows no more")
+        phone.click("#pause")
+        phone.wait("asked.at(-1)[0] === 'released'", "a screen that may sleep")
+        phone.click("#pause")
+        phone.wait("asked.at(-1)[0] === 'screen'", "a screen that stays awake again")
+        expect(True, "a paused world lets the screen sleep")
+    leave(phone)
 
 
 def fingers():
@@ -240,6 +367,9 @@ try:
     recording(pads)
     judge(pads, "while it plays")
     leave(pads)
+    dropped(one)
+    phone_sensors("granted")
+    phone_sensors("denied")
     leave(fingers())
     leave(still())
     leave(plain_http())

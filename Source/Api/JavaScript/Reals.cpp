@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What std::to_chars asks for when it writes so many decimals, by printf, which is exact as well: the library's own tables for it are a hundred
-// kilobytes. The linker puts these in their place (--wrap).
+// What std::to_chars asks for when it writes numbers, by printf, which is exact as well: the library's own
+// tables for it are a hundred kilobytes. The linker puts these in their place (--wrap).
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 static std::to_chars_result printed(char* first, char* last, const char* form, double number, std::uint32_t precision) {
     char text[1500]; // 309 digits, a point, and as many decimals as an exact double has
@@ -13,7 +15,43 @@ static std::to_chars_result printed(char* first, char* last, const char* form, d
     return {std::copy_n(text, length, first), std::errc{}};
 }
 
+namespace {
+
+constexpr int mostDigits = 17; // give any double back
+
+/// As few digits as give the number back, with a point behind the first and an exponent; of a power of two
+/// far from 1 perhaps one more.
+struct Shortest {
+    int digits, exponent;
+};
+Shortest shortestOf(double number) {
+    char text[32];
+    int digits = mostDigits;
+    for (int least = 1, most = mostDigits; least <= most;) { // if so many do, more do as well
+        const int some = (least + most) / 2;
+        std::snprintf(text, sizeof text, "%.*e", some - 1, number);
+        if (std::strtod(text, nullptr) == number) most = some - 1, digits = some;
+        else least = some + 1;
+    }
+    std::snprintf(text, sizeof text, "%.*e", digits - 1, number);
+    return {digits, std::atoi(std::strchr(text, 'e') + 1)};
+}
+
+} // namespace
+
 extern "C" {
+// Without a form: fixed where that is not longer, as the standard has it.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+std::to_chars_result __wrap__ZNSt3__216__d2s_buffered_nEPcS0_dNS_12chars_formatE(char* first, char* last,
+                                                                                 double number,
+                                                                                 std::chars_format form) {
+    const auto [digits, exponent] = shortestOf(number);
+    const int last10 = exponent - digits + 1; // power of ten of the last digit
+    const bool isFixed = digits == 1 ? last10 >= -3 && last10 <= 4 : last10 >= -digits - 3 && last10 <= 5;
+    if (form == std::chars_format::fixed || (form == std::chars_format{} && isFixed))
+        return printed(first, last, "%.*f", number, static_cast<std::uint32_t>(std::max(0, -last10)));
+    return printed(first, last, "%.*e", number, static_cast<std::uint32_t>(digits - 1));
+}
 std::to_chars_result __wrap__ZNSt3__220__d2fixed_buffered_nEPcS0_dj(char* first, char* last, double number, std::uint32_t precision) { // NOLINT(bugprone-reserved-identifier)
     return printed(first, last, "%.*f", number, precision);
 }

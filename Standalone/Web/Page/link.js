@@ -7,7 +7,7 @@ export const firstScene = 'shake-the-box';
 const mostBytes = 1 << 20; // of a scene in a link, unpacked
 const mostVariables = 64, mostMaterials = 256;
 
-export const freshWorld = () => ({ scene: firstScene, text: null, seed: 1, byHand: false, places: corners.map(place => [...place]), law: '', variables: new Map(), materials: new Map() });
+export const freshWorld = () => ({ scene: firstScene, text: null, field: [0.12, 0.06], seed: 1, byHand: false, places: corners.map(place => [...place]), law: '', variables: new Map(), materials: new Map() });
 
 /// Numbers of three digits behind the point, as they stand in links and in the world alike.
 export const rounded = value => Math.round(value * 1000) / 1000;
@@ -24,15 +24,19 @@ async function unpacked(code) {
     for (let bytes = 0; ;) {
         const { done, value } = await reader.read();
         if (done) return new TextDecoder().decode(new Uint8Array(await new Blob(parts).arrayBuffer()));
-        if ((bytes += value.length) > mostBytes) throw new Error('expected a scene of at most 1 MB');
+        if ((bytes += value.length) > mostBytes) throw new Error('expected at most 1 MB');
         parts.push(value);
     }
 }
+
+/// Event lists do not say how large their field is, m.
+export const isList = world => world.text !== null && world.scene.endsWith('.csv');
 
 /// What stands after the # for this world.
 export async function linkOf(world) {
     const words = new URLSearchParams({ scene: world.scene });
     if (world.text !== null) words.set('file', await packed(world.text));
+    if (isList(world)) words.set('field', world.field.join(','));
     if (world.seed !== 1) words.set('seed', world.seed);
     if (world.byHand) words.set('by', 'hand');
     for (const [name, value] of world.variables) words.append('set', `${name}=${value}`);
@@ -54,8 +58,9 @@ export async function worldOf(text) {
     const words = new URLSearchParams(text), world = freshWorld();
     world.scene = (words.get('scene') || firstScene).slice(0, 200);
     if (words.has('file')) {
-        try { world.text = await unpacked(words.get('file')); } catch { throw new Error('link: file: expected a scene; was the link cut off?'); }
+        try { world.text = await unpacked(words.get('file')); } catch { throw new Error('link: file: expected a whole file; was the link cut off?'); }
     }
+    if (words.has('field')) world.field = numbersOf(words.get('field'), 2, 'field', 'two lengths, m', value => value > 0 && value <= 1e6);
     if (words.has('seed')) [world.seed] = numbersOf(words.get('seed'), 1, 'seed', '0 to 4294967295', value => Number.isInteger(value) && value >= 0 && value < 2 ** 32);
     world.byHand = words.get('by') === 'hand';
     for (const pair of words.getAll('set').slice(0, mostVariables)) {
@@ -78,5 +83,5 @@ export async function worldOf(text) {
 }
 
 /// What a player opens.
-export const openedBy = (world, laws) => ({ name: world.scene, isName: world.text === null, bytes: new TextEncoder().encode(world.text ?? world.scene), byHand: world.byHand, seed: world.seed,
+export const openedBy = (world, laws) => ({ name: world.scene, isName: world.text === null, bytes: new TextEncoder().encode(world.text ?? world.scene), byHand: world.byHand, seed: world.seed, field: world.field,
     variables: [...world.variables], materials: [...world.materials], places: world.places, law: laws.indexOf(world.law) });

@@ -2,6 +2,7 @@
 // Controllers and the phone's motor, by the package's own module: all that rings is summed, so no hit is left out because another sounds.
 import { rumble } from './gamepad.js';
 import { Pad } from './pad.js';
+import { eventOf } from './record.js';
 import { firstLevel } from './sound.js';
 
 export class Pads {
@@ -27,7 +28,7 @@ export class Pads {
     /// What a report of the player has.
     play(hits, seconds) {
         if (!this.#pads) return;
-        const events = hits.map(([x, y, frequencyHz, decayPerSecond, amplitude, duration, at]) => ({ x, y, frequencyHz, decayPerSecond, amplitude, durationNs: duration * 1e9, timeNs: at * 1e9 }));
+        const events = hits.map(hit => eventOf(hit));
         for (const follower of this.#followers) follower(events, { timeNs: seconds * 1e9 });
     }
     stop() { this.#pads?.stop(); }

@@ -6,8 +6,9 @@ import { badgeButtons, materialRows, variableRows } from './mix.js';
 import { Module } from './module.js';
 import { Pads } from './pads.js';
 import { Preview } from './preview.js';
+import { fileLinks, filesOf } from './record.js';
 import { Scope } from './scope.js';
-import { save, share, wavOf } from './share.js';
+import { share } from './share.js';
 import { Sound, mostEnchanters, silentBecause } from './sound.js';
 import { World } from './world.js';
 
@@ -21,6 +22,7 @@ export const world = new World($('world'));
 const sound = new Sound(told), scope = new Scope($('scope')), tilt = new Tilt($('tilt'), message => engine?.tell(message));
 let engine = null, code, compiled, pads, laws = []; // engine: the preview, and after Start the sound
 let state = freshWorld(), key = 0, best = { at: 0 }, hasStarted = false, hasFallenBack = false; // state: all that a link holds; best: hit of the last second
+const own = new Option('', ''); // a file that is no built-in scene
 const asked = new Map(); // worlds that the player has not opened yet, by key
 
 // ---- what is wanted
@@ -38,7 +40,7 @@ function choose(next) {
     open(next);
 }
 async function openFile(file) {
-    if (file) choose({ ...freshWorld(), scene: file.name, text: await file.text(), places: state.places, law: state.law });
+    if (file) choose({ ...freshWorld(), scene: file.name, text: await file.text(), field: world.scene.field_m, places: state.places, law: state.law });
 }
 async function openLink() {
     try {
@@ -82,7 +84,12 @@ function show({ key: of, scene: text, variables, isPlayed }) {
         engine.tell({ sound: [index, ...values] });
     }));
     $('variables').replaceChildren(...variableRows(variables, (name, value) => choose({ ...state, variables: new Map(state.variables).set(name, value) })));
-    $('scene').value = state.text === null ? state.scene : '';
+    own.hidden = state.text === null;
+    own.textContent = state.scene;
+    $('scene').value = own.hidden ? state.scene : '';
+    const isStill = scene.bodies.length === 0; // a list, a clip
+    document.body.classList.toggle('still', isStill);
+    if (isStill) $('sentence').textContent = `${state.scene} plays, once; Restart plays it again.`;
     $('seed').value = state.seed;
     $('byItself').checked = !state.byHand;
     $('law').value = state.law;
@@ -151,6 +158,7 @@ function pause(isPaused) {
     $('paused').hidden = !isPaused;
     engine.pause(isPaused);
     if (isPaused) pads.stop();
+    stayAwake();
 }
 $('pause').onclick = () => pause(!isPressed('pause'));
 function silence(isSilent) {
@@ -171,7 +179,9 @@ $('record').onclick = () => {
 function recorded(recording) {
     $('record').disabled = false;
     $('record').textContent = `Record ${recordSeconds} s`;
-    if (recording) save(wavOf(compiled, recording), `${state.scene.replace(/\.json$/, '')}.wav`);
+    if (!recording) return;
+    for (const link of $('recorded').querySelectorAll('a')) URL.revokeObjectURL(link.href);
+    $('recorded').replaceChildren(...fileLinks(filesOf(compiled, state.scene.replace(/\.\w+$/, ''), recording, state, world.scene.field_m)));
 }
 document.addEventListener('keydown', event => {
     if (event.defaultPrevented || $('share').open) return;
@@ -183,7 +193,11 @@ document.addEventListener('drop', event => { event.preventDefault(); openFile(ev
 window.addEventListener('hashchange', openLink);
 
 // ---- sound begins on a click, never before
-const stayAwake = () => { if (hasStarted && !document.hidden) navigator.wakeLock?.request('screen').catch(() => {}); };
+let awake = null; // promise of a lock on the screen, while there is something to see
+function stayAwake() {
+    awake?.then(lock => lock?.release());
+    awake = hasStarted && !document.hidden && !isPressed('pause') ? navigator.wakeLock?.request('screen').catch(() => null) : null;
+}
 document.addEventListener('visibilitychange', stayAwake);
 $('start').onclick = async () => {
     $('start').disabled = true;
@@ -220,6 +234,7 @@ async function begin() {
     const preview = engine = new Preview(compiled, mostEnchanters, told), { scenes, laws: names } = preview.lists;
     laws = names;
     for (let i = 0; i < scenes.length; i += 2) $('scene').add(Object.assign(new Option(scenes[i].replaceAll('-', ' '), scenes[i]), { title: scenes[i + 1] }));
+    $('scene').add(own);
     $('law').add(Object.assign(new Option('default (linear)', ''), { title: 'Surfaces that roll or slide by energy, as physvib render has it' }));
     for (const law of laws) $('law').add(new Option(law));
     await openLink();

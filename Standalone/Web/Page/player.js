@@ -23,9 +23,10 @@ export class Player {
     /// A scene that is refused leaves its instance behind; the one that plays goes on.
     open(wanted) {
         try {
-            const next = new Module(this.compiled), { bytes, isName, byHand, seed, variables, materials } = wanted;
-            for (const [name, value] of variables) next.withText(name, n => next.withText(value, v => next.run('choose', n, v)));
-            next.withBytes(bytes, (at, count) => next.run('open', at, count, isName, byHand, seed, this.rate, this.outputs));
+            const next = new Module(this.compiled), { name, bytes, isName, byHand, seed, variables, materials, field } = wanted;
+            for (const [variable, value] of variables) next.withText(variable, n => next.withText(value, v => next.run('choose', n, v)));
+            next.withText(name, called => next.withBytes(bytes, (at, count) =>
+                next.run('open', called, at, isName ? -1 : count, byHand, seed, this.rate, this.outputs, ...field)));
             for (const [index, [frequency, decay]] of materials) {
                 next.run('sound', index, frequency, decay);
                 const fault = next.text(next.run('fault'));
@@ -40,7 +41,7 @@ export class Player {
             this.#send(); // so that a world that stands is seen
         } catch (error) {
             const why = error.message.startsWith('internal:') ? 'expected a scene that a page can hold, found more' : error.message;
-            this.post({ fault: `${wanted.name}: ${why}` });
+            this.post({ fault: why.startsWith(wanted.name) ? why : `${wanted.name}: ${why}` });
         }
     }
 
@@ -50,7 +51,7 @@ export class Player {
         try {
             for (const [name, values] of Object.entries(message)) {
                 if (name === 'placed') this.place(values);
-                else if (name === 'record') this.#recording = { channels: values, frames: 0 };
+                else if (name === 'record') this.#begin(values);
                 else this.module.run(name, ...values);
             }
             const fault = this.module.text(this.module.run('fault'));
@@ -109,21 +110,35 @@ export class Player {
         }
     }
 
+    #begin(channels) {
+        this.#takeHits(); // those before are none of it
+        this.#recording = { channels, frames: 0, hits: [], since: this.frame / this.rate };
+    }
     #record(samples, frames) {
         const { channels, frames: done } = this.#recording, count = Math.min(frames, channels[0].length - done);
         channels.forEach((channel, j) => channel.set(samples.subarray(j * frames, j * frames + count), done));
         this.#recording.frames += count;
         if (this.#recording.frames < channels[0].length) return;
-        this.#endRecording({ channels, rate: this.rate });
+        this.#takeHits();
+        this.#endRecording({ channels, rate: this.rate, hits: this.#recording.hits, since: this.#recording.since });
     }
     #endRecording(recorded) {
         this.post({ recorded }, recorded?.channels.map(channel => channel.buffer));
         this.#recording = null;
     }
 
+    #takeHits() {
+        const { module } = this, { hits } = this.#report;
+        for (let at = module.run('hit'); at; at = module.run('hit')) {
+            const hit = [...module.doubles(at, 8)];
+            if (hits.length < mostHits) hits.push(hit);
+            this.#recording?.hits.push(hit);
+        }
+    }
+
     #send() {
+        this.#takeHits();
         const { module } = this, { hits, blocks } = this.#report;
-        for (let at = module.run('hit'); at; at = module.run('hit')) if (hits.length < mostHits) hits.push([...module.doubles(at, 7)]);
         const poses = module.floats(module.run('poses'), 4 * module.run('bodyCount')).slice();
         this.post({ poses, hits, blocks: new Float32Array(blocks), count: this.count, seconds: this.frame / this.rate });
         this.reportedFrame = this.frame;

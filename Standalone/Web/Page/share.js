@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A link to the world as it is now, and a QR code of it; ten seconds as a file.
+// A link to the world as it is now, and a QR code of it.
 import { linkOf } from './link.js';
 import { Module } from './module.js';
 
@@ -32,18 +32,4 @@ export async function share(compiled, world) {
     $('codeNote').textContent = fits ? 'Or go on with a phone:' : 'This scene is too large for a QR code; the link holds all of it.';
     $('share').showModal();
     $('link').select();
-}
-
-/// 32-bit floats, a channel per actuator, as `physvib render` writes them.
-export function wavOf(compiled, { channels, rate }) {
-    const module = new Module(compiled), frames = channels[0].length, count = channels.length, head = module.run('wavHead', count, rate, frames);
-    const samples = new Float32Array(count * frames);
-    channels.forEach((channel, j) => { for (let n = 0; n < frames; ++n) samples[n * count + j] = channel[n]; });
-    return new Blob([module.bytes(head, module.run('wavHeadBytes')).slice(), samples], { type: 'audio/wav' });
-}
-
-export function save(blob, name) {
-    const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }

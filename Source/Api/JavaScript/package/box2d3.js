@@ -72,7 +72,8 @@ class Box2d3Haptics extends Haptics {
             const point = manifold.GetPoint(i), unit = this.metresPerUnit, gap = point.separation * unit, speed = -point.normalVelocity * unit;
             if (point.totalNormalImpulse <= 0 && gap > 0) continue; // near, and not yet there
             const x = point.point.x * unit, y = point.point.y * unit, { alongA, alongB } = motionAt(a, b, x, y, nx, ny);
-            this.world.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, impulse: Math.max(0, point.totalNormalImpulse * unit), isSoft: true,
+            this.world.touch(a.id, b.id, { x, y, normalX: nx, normalY: ny, alongA, alongB, 
+                impulse: Math.max(0, 0.5 * point.totalNormalImpulse * unit), isSoft: 'whole', // it counts a sub-step twice: solved, and relaxed
                 restitution: speed > this.#threshold ? Math.min(1, Math.max(0, bounce)) : 0, ...meeting(speed, gap, pull, seconds), point: isRound.includes(true) ? 0 : point.id });
         }
     }

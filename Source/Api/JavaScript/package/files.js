@@ -2,7 +2,7 @@
 // Event lists, layouts, sounds and clips, which have a module of their own (files.wasm). Each is read in an instance of its own: what is refused takes
 // nothing with it.
 import { Module, PhysVibError } from './module.js';
-import { channelsOf, layoutAt, withSettings } from './renderer.js';
+import { channelsOf, layoutAt, withSettings } from './settings.js';
 
 /** What `use(module)` returns of an instance that is thrown away; a refusal that ends it is one of `name`. */
 function apart(compiled, name, use) {

@@ -39,4 +39,5 @@ export const words = {
     kind: new Map([['hit', 0], ['roll', 1], ['slide', 2]]),
     voice: new Map([['own', 0], ['other', 1], ['both', 2]]),
     point: new Map([['none', -1], ['place', -2]]),
+    isSoft: new Map([['whole', 2]]), // PHYSVIB_SOFT_WHOLE
 };

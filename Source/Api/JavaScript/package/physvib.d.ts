@@ -133,7 +133,8 @@ export interface Contact {
     gapFraction?: number;
     alongA?: number | null;
     alongB?: number | null;
-    isSoft?: boolean;
+    /** The impulse of one step is no measure of an impact; 'whole': but it is all that the bodies were given in that step. */
+    isSoft?: boolean | 'whole';
     /** Which point of its pair it is: a number, or told apart by place. */
     point?: number | 'none' | 'place';
     isImpulseOfPair?: boolean;

@@ -3,7 +3,8 @@
 import * as files from './files.js';
 import { Module, PhysVibError } from './module.js';
 import { Pad } from './pad.js';
-import { Renderer, channelsOf, layoutAt, lawsOf, withSettings } from './renderer.js';
+import { Renderer } from './renderer.js';
+import { channelsOf, lawsOf, layoutAt, withSettings } from './settings.js';
 import { World } from './world.js';
 
 export { PhysVibError };
