@@ -19,6 +19,8 @@ physvib_release_packages="$physvib_build_packages libgtest-dev g++ git debhelper
 physvib_release_test_packages="$physvib_release_packages lintian piuparts debootstrap desktop-file-utils appstream"
 # Of Tests/CommandLine/movies.sh alone: what makes .gif and .mp4 of pictures.
 physvib_movie_packages="ffmpeg"
+# Of Tests/Studies/screens.sh alone: windows with title bars, and pictures of them.
+physvib_screens_packages="xvfb xauth xdotool openbox ffmpeg python3"
 # Of the library alone (preset "library"), for Tests/Benchmarks.
 physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libboost-dev libhwy-dev"
 # Of Tests/Osc/run.sh alone.

@@ -40,6 +40,13 @@ ObserverSettings ofParticipant(ObserverSettings settings, const Protocol& protoc
     return settings;
 }
 
+/// The level of what an adjustment is compared with.
+double comparedLevelDb(const SessionPlan& session) {
+    for (const Alternative& one : session.alternatives)
+        if (one.name != session.adjustment->alternative) return one.levelDb;
+    return 0.0;
+}
+
 } // namespace
 
 std::optional<ObserverSettings> observerNamed(std::string_view name) {
@@ -74,7 +81,9 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
         for (std::size_t s = 0; s < session.scales.size(); ++s) answer.scores.push_back(scored(trial, random));
         break;
     case AnswerKind::level:
-        answer.value = std::clamp(roundedTo(settings_.levelNoiseDb * random.normal(), 1.0 / session.adjustment->stepDb), session.adjustment->leastDb, session.adjustment->mostDb);
+        answer.value = std::clamp(roundedTo(comparedLevelDb(session) + settings_.levelNoiseDb * random.normal(),
+                                            1.0 / session.adjustment->stepDb),
+                                  session.adjustment->leastDb, session.adjustment->mostDb);
         break;
     case AnswerKind::number: answer.value = std::clamp(magnitude(condition, trial, random), leastEstimate, mostEstimate); break;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A study's report as researchers call it: pages that need nothing else, tables that repeat, simulated data that say so.
 #include "Calls.h"
+#include "Io/Text/NumberText.h"
 #include "Study/Files/ProtocolFile.h"
 
 namespace physvib {
@@ -89,6 +90,86 @@ TEST_F(Report, OtherProgramsTablesAreReadByTheirNames) {
     EXPECT_TRUE(has(analysed.out, "trials: 40 (2 stimuli)")) << analysed.out;
     refuses("analyse confusion p.csv --columns response", 2, "--columns: expected NAME=COLUMN", 2);
     refuses("analyse confusion p.csv --columns response=keys", 1, "p.csv: expected a column keys, found none", 2);
+}
+
+/// Three people who say at seven speeds whether something was faster, more surely the later they took part.
+std::string fasterTable(double unit) {
+    std::string text = "who,masker,speed,faster\n";
+    for (const char* who : {"a", "b", "c"})
+        for (int level = 1; level <= 7; ++level)
+            for (int k = 0; k < 10; ++k)
+                text += std::string{who} + ",none," + numberText(unit * level) +
+                        (k < level * (5 + who[0] % 3) / 4 ? ",1\n" : ",0\n");
+    return text;
+}
+
+TEST_F(Report, AnswersAtLevelsOfOtherProgramsGetFunctionsInTheirOwnWords) {
+    write("f.csv", fasterTable(1.0));
+    const std::string columns = " --columns participant=who,condition=masker,level_db=speed,correct=faster";
+    const auto outcome = call("report f.csv --out out --guess 0" + columns);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const std::string html = page();
+    EXPECT_TRUE(has(html, "Share of answers \u201cfaster\u201d by speed."));
+    EXPECT_TRUE(has(html, "with a guess rate of 0 %"));
+    EXPECT_TRUE(has(html, "reversals are not looked for"));
+    for (const char* bad : {"Orders of the conditions", "level (dB)", "Trainings", "own level"})
+        EXPECT_FALSE(has(html, bad)) << bad;
+    const auto analysed = call("analyse psychometric f.csv --guess 0 --lapse 0" + columns);
+    EXPECT_TRUE(has(html, "none: threshold ") && has(analysed.out, "none: threshold ")) << analysed.err;
+}
+
+TEST_F(Report, SmallLevelsKeepTheirDigitsAndFewPeopleTheirInterval) {
+    write("f.csv", fasterTable(0.001));
+    const auto outcome = call("analyse psychometric f.csv --guess 0 --lapse 0 --shape normal --export t.csv "
+                              "--columns participant=who,level_db=speed,correct=faster");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "threshold 0.00")) << outcome.out;
+    EXPECT_FALSE(has(outcome.out, "threshold 0.00 ")) << outcome.out;
+    EXPECT_LT(outcome.out.size(), 100u) << "no end at a million: " << outcome.out;
+    EXPECT_TRUE(has(read("t.csv"), ",0,0,")) << "neither guesses nor lapses";
+}
+
+TEST_F(Report, PeopleOfWhomNothingIsKnownCount) {
+    simulate("level-steps", 3);
+    write("people.csv", "participant,age,sex\nP01,20,female\n");
+    ASSERT_EQ(call("report level-steps-P*.csv --out out --people people.csv").exitCode, 0);
+    EXPECT_TRUE(has(page(), "20 to 20 (1 of 3 known).")) << "Age";
+    EXPECT_TRUE(has(page(), "Sex: 1 female, 2 not known."));
+    EXPECT_TRUE(has(page(), "Nobody and no main trial is left out.")) << "staircases end where they end";
+    EXPECT_FALSE(has(page(), "Trainings"));
+}
+
+TEST_F(Report, PeopleInTwoTablesAreNamed) {
+    const auto table = [&](const char* name, int first, int last) {
+        std::string text = "participant,stimulus,response\n";
+        for (int p = first; p <= last; ++p)
+            text += std::to_string(p) + ",hi,hi\n" + std::to_string(p) + (p % 2 ? ",lo,hi\n" : ",lo,lo\n");
+        write(name, text);
+    };
+    table("a.csv", 1, 3), table("b.csv", 3, 4), table("c.csv", 5, 6);
+    const std::string note = "count as one person each; if they are not, give them different codes: "
+                             "3 in a.csv, b.csv";
+    const std::string lines[] = {"report a.csv b.csv c.csv --out out", "analyse confusion a.csv b.csv c.csv",
+                                 "analyse anova a.csv b.csv c.csv --measure response=hi --within stimulus"};
+    for (const std::string& line : lines) EXPECT_TRUE(has(call(line).err, note)) << line << call(line).err;
+    EXPECT_TRUE(has(page(), note));
+    EXPECT_TRUE(has(page(), "6 participants in 3 files."));
+    EXPECT_FALSE(has(call("report b.csv c.csv --out out").err, "count as one person"));
+    EXPECT_FALSE(has(page(), "count as one person"));
+}
+
+TEST_F(Report, ASecondTrialFileOfAParticipantIsRefused) {
+    simulate("level-steps", 2);
+    simulate("level-quest", 1);
+    std::filesystem::create_directory(folder_ / "other");
+    write("other/level-steps-P01.csv", read("level-steps-P01.csv"));
+    const std::string files = "level-steps-P02.csv level-steps-P01.csv other/level-steps-P01.csv";
+    const std::string why = "other/level-steps-P01.csv: expected trials of somebody else than "
+                            "level-steps-P01.csv, found participant P01 in both";
+    refuses("report " + files + " --out out", 1, why, 4);
+    refuses("analyse levels " + files, 1, why, 4);
+    refuses("analyse anova " + files + " --measure response_s --within session", 1, why, 4);
+    EXPECT_EQ(call("analyse levels level-steps-P01.csv level-quest-P01.csv").exitCode, 0) << "two studies";
 }
 
 TEST_F(Report, TrialsCanBeABidsDatasetAsWell) {

@@ -102,12 +102,13 @@ const char* const rowSentences[] = {
     R"(to be filled in: (age, sex and handedness of the participants \(--people\)|approval by an ethics board \(--ethics\)|consent of the participants \(--consent\)|the noise as the participants heard it, e\.g\. its level in dB\(A\) \(--noise\)))",
     R"(one participant: intervals and tests over participants are not possible, and nothing here says anything about other people)",
     R"(participant P04 is excluded, with all trials: took off the headphones)",
-    R"(Nobody and no main trial is left out\. Trainings are left out of all analyses\.)",
+    R"(Nobody and no main trial is left out\.)",
+    R"(Trainings are left out of all analyses\.)",
     R"(A condition was at one place of the order \d+ to \d+ times; \d+ of 30 successions of two conditions occurred\.)",
     R"(Device, master level in dB, root mean square of the pink noise in dB of full scale \(off: there was none\), version of the program, and by how much the limiter lowered what was felt\.)",
     R"(\d+ trials were felt through the device JACK:system at a master level of -3 dB, with pink noise of -30 dB of full scale \(root mean square\); the limiter lowered none of them\.)",
     R"(Each of these calls of physvib renders a stimulus again; one of each condition and session, all \d+ in stimuli\.csv:)",
-    R"(Every trial was at its condition's own level; nobody measured what was felt\.)",
+    R"(Every trial had the level of its call; nobody measured what was felt\.)",
 };
 
 TEST_F(ReportFields, NoSentenceOfTheMethodsStandsThereWithoutAField) {

@@ -46,7 +46,8 @@ void analyse(const RatingData& ratings) {
 }
 
 void analyse(const StudyData<LevelAnswer>& data) {
-    for (const auto& own : psychometricByParticipant(data.conditions.front().trials, PsychometricShape::normal, 0.5))
+    const PsychometricModel model{PsychometricShape::normal};
+    for (const auto& own : psychometricByParticipant(data.conditions.front().trials, model))
         fuzz::demand(!own.fit.fault.empty() || (std::isfinite(own.fit.function.threshold) && std::isfinite(own.fit.function.width)), "a number is missing");
 }
 

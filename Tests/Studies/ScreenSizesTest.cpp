@@ -4,6 +4,8 @@
 #include "Participant.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Study/SimulatedObserver.h"
+#include <algorithm>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -14,6 +16,7 @@ constexpr std::pair<int, int> displays[] = {{1280, 720}, {1440, 900}};
 /// Visible components below `root`, with what is wrong with where they are.
 void findCut(const juce::Component& root, const std::string& page, std::vector<std::string>& faults) {
     std::vector<const juce::Component*> buttons;
+    int iconHeight = 0; // of patterns: in each row the same, or the last one cannot be read
     for (const auto* child : root.getChildren()) {
         bool takesClicks = false, childrenDo = false;
         child->getInterceptsMouseClicks(takesClicks, childrenDo);
@@ -25,6 +28,9 @@ void findCut(const juce::Component& root, const std::string& page, std::vector<s
         if (!root.getLocalBounds().contains(child->getBounds())) faults.push_back(name);
         if (child->getBounds().isEmpty()) faults.push_back(name + ": no room for it");
         if (dynamic_cast<const juce::Button*>(child) != nullptr) {
+            if (child->getTitle().endsWith(" ms") && std::exchange(iconHeight, child->getHeight()) != 0 &&
+                iconHeight != buttons.back()->getHeight())
+                faults.push_back(name + ": lower than the icon before it");
             for (const auto* other : buttons)
                 if (other->getBounds().intersects(child->getBounds()))
                     faults.push_back(name + ": covers " + other->getTitle().toStdString());
@@ -64,6 +70,8 @@ TEST_F(OnASmallDisplay, NothingOfAnyStudyIsCut) {
     std::vector<std::string> faults;
     for (Protocol protocol : builtInProtocols()) {
         protocol.conditionBreakSeconds = 0.0; // nobody waits here
+        protocol.conditionOrder = Protocol::ConditionOrder::given;
+        std::ranges::reverse(protocol.conditions); // what needs most room is first
         for (SessionPlan& session : protocol.sessions) session.breakBeforeSeconds = 0.0;
         const auto file = folder.getChildFile(utf8(protocol.name) + ".json");
         file.replaceWithText(utf8(protocolJson(protocol)));
@@ -75,8 +83,17 @@ TEST_F(OnASmallDisplay, NothingOfAnyStudyIsCut) {
             answerUntil(protocol, session, rows);
             ASSERT_EQ(p.tab().chooseProtocol(file.getFullPathName().toStdString()), "");
             ASSERT_EQ(p.tab().begin(), "");
+            if (p.experiment().trial().session < session) { // a training is ended by who does it
+                p.click("Next");
+                p.click("Next");
+            }
             for (const bool isTrial : {false, true}) {
                 if (isTrial) p.click("Next");
+                const auto& condition = p.experiment().condition();
+                if (isTrial && std::holds_alternative<PatternSet>(condition.stimuli)) {
+                    if (p.experiment().session().answer() == AnswerKind::label) p.feel();
+                    p.type("a");
+                }
                 for (const auto& [width, height] : displays) {
                     p.view.setSize(width, height - titleBar);
                     p.pump();

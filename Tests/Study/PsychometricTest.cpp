@@ -30,7 +30,7 @@ TEST(Psychometric, WithoutGuessesItIsTheModelOfRsGlm) {
     const std::vector<LevelCount> counts{{-6, 3, 30}, {-3, 8, 30}, {0, 14, 30}, {3, 25, 30}, {6, 29, 30}};
     const double thresholds[] = {-0.429167327062, -0.465371305764, 0.0806596061844}, widths[] = {13.441199548498, 12.836988906085, 14.1962160473825};
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto fit = fitPsychometric(counts, shapes[i], 0.0, 0.0);
+        const auto fit = fitPsychometric(counts, {shapes[i], 0.0, 0.0});
         ASSERT_EQ(fit.fault, "");
         EXPECT_NEAR(fit.function.threshold, thresholds[i], 1e-4);
         EXPECT_NEAR(fit.function.width, widths[i], 1e-3);
@@ -54,7 +54,7 @@ TEST(Psychometric, SimulatedObserversAreFoundWithoutBias) {
         std::vector<double> errors;
         for (int observer = 0; observer < 500 / 3; ++observer) {
             const PsychometricFunction truth{shape, 20.0 * random.uniform(), 2.0 + 6.0 * random.uniform(), 0.5, 0.04 * random.uniform()};
-            const auto fit = fitPsychometric(observed(truth, 60, random), shape, 0.5);
+            const auto fit = fitPsychometric(observed(truth, 60, random), {shape});
             ASSERT_EQ(fit.fault, "");
             errors.push_back((fit.function.threshold - truth.threshold) / truth.width);
         }
@@ -64,12 +64,12 @@ TEST(Psychometric, SimulatedObserversAreFoundWithoutBias) {
 }
 
 TEST(Psychometric, WhatCannotBeFittedIsNamed) {
-    EXPECT_EQ(fitPsychometric({}, shapes[0], 0.5).fault, "expected trials, found none");
+    EXPECT_EQ(fitPsychometric({}, {shapes[0]}).fault, "expected trials, found none");
     const std::vector<LevelCount> one{{2, 3, 5}}, flat{{1, 5, 5}, {2, 7, 7}};
-    EXPECT_EQ(fitPsychometric(one, shapes[0], 0.5).fault, "expected trials at two or more levels, found one");
-    EXPECT_EQ(fitPsychometric(flat, shapes[0], 0.5).fault, "expected answers that change with the level, found the same share at every one");
+    EXPECT_EQ(fitPsychometric(one, {shapes[0]}).fault, "expected trials at two or more levels, found one");
+    EXPECT_EQ(fitPsychometric(flat, {shapes[0]}).fault, "expected answers that change with the level, found the same share at every one");
     for (const auto& steps : {std::vector<LevelCount>{{1, 0, 5}, {2, 5, 5}}, {{1, 5, 5}, {2, 0, 5}}}) { // no finite width is likeliest
-        const auto fit = fitPsychometric(steps, shapes[2], 0.5);
+        const auto fit = fitPsychometric(steps, {shapes[2]});
         EXPECT_TRUE(std::isfinite(fit.function.threshold) && std::isfinite(fit.function.width) && std::isfinite(fit.logLikelihood));
     }
 }
@@ -83,7 +83,7 @@ TEST(Psychometric, IntervalsOfFittedParticipantsHoldAsOftenAsTheySay) {
         std::vector<double> thresholds;
         for (int p = 0; p < participants; ++p) {
             const PsychometricFunction truth{shapes[study % 3], 5.0 + random.normal(), 3.0 + 3.0 * random.uniform(), 0.5, 0.02};
-            thresholds.push_back(fitPsychometric(observed(truth, 60, random), truth.shape, 0.5).function.threshold);
+            thresholds.push_back(fitPsychometric(observed(truth, 60, random), {truth.shape}).function.threshold);
             off += thresholds.back() - truth.threshold;
             widths += truth.width;
         }

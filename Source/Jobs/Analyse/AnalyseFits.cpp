@@ -6,6 +6,8 @@
 #include "Jobs/Analyse/AnalysisFiles.h"
 #include "Study/Statistics/Bootstrap.h"
 #include "Study/Statistics/LevelFits.h"
+#include "Study/Statistics/Moments.h"
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -44,6 +46,24 @@ ChartFrame frameOf(const AnalysisJob& o, const std::string& condition, bool isSi
     return {"fit", condition.empty() ? std::filesystem::path{o.files.front()}.filename().string() : condition, isSimulated};
 }
 
+/// Of a threshold that no level was near; empty if it lies between the participant's levels.
+std::string beyondWords(const std::vector<LevelAnswer>& trials, const std::string& participant,
+                        const PsychometricFunction& f) {
+    const double threshold = f.threshold;
+    double least = threshold, most = threshold;
+    bool isFirst = true;
+    for (const LevelAnswer& trial : trials) {
+        if (trial.participant != participant) continue;
+        least = isFirst ? trial.level : std::min(least, trial.level);
+        most = isFirst ? trial.level : std::max(most, trial.level);
+        isFirst = false;
+    }
+    if (threshold >= least && threshold <= most) return {};
+    return "participant " + printable(participant) + ": the threshold, " +
+           fixedNumber(threshold, decimalsOf(f.jnd())) + ", lies outside the levels that were played, " +
+           plainNumber(least) + " to " + plainNumber(most);
+}
+
 } // namespace
 
 AnalysisReport analysePsychometric(const AnalysisJob& o) {
@@ -54,12 +74,14 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
     ExportTable table{"psychometric", report.isSimulated, "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood"};
     for (const auto& condition : data.value.conditions) {
         std::vector<double> thresholds, jnds;
-        for (const auto& own : psychometricByParticipant(condition.trials, o.shape, o.guess)) {
+        for (const auto& own : psychometricByParticipant(condition.trials, o.model)) {
             if (!own.fit.fault.empty()) {
                 leaveOut(report, condition.name, own.participant, own.fit.fault);
                 continue;
             }
             const PsychometricFunction& f = own.fit.function;
+            if (std::string words = beyondWords(condition.trials, own.participant, f); !words.empty())
+                report.warnings.push_back(prefixOf(condition.name) + words);
             thresholds.push_back(f.threshold);
             jnds.push_back(f.jnd());
             table.cell(condition.name).cell(own.participant).cell(own.trials);
@@ -67,13 +89,16 @@ AnalysisReport analysePsychometric(const AnalysisJob& o) {
             table.endRow();
         }
         if (thresholds.empty()) return nobodyFitted(o, report);
-        out << prefixOf(condition.name) << meanWords("threshold", thresholds, 2) << ", " << meanWords("JND", jnds, 2) << ", " << peopleWords(thresholds.size()) << '\n';
+        const int decimals = decimalsOf(Moments(jnds).mean);
+        out << prefixOf(condition.name) << meanWords("threshold", thresholds, decimals) << ", "
+            << meanWords("JND", jnds, decimals) << ", " << peopleWords(thresholds.size()) << '\n';
     }
     report.words = out.str();
     report.table = table.text();
     const auto first = data.value.conditions.front();
-    report.picture = [first, shape = o.shape, guess = o.guess, level = o.level.empty() ? std::string("level (dB)") : o.level, frame = frameOf(o, first.name, report.isSimulated)] {
-        return psychometricChart(frame, first.trials, shape, guess, level);
+    report.picture = [first, model = o.model, words = fitWords(o.columns, o.level, o.measure),
+                      frame = frameOf(o, first.name, report.isSimulated)] {
+        return psychometricChart(frame, first.trials, model, words);
     };
     return report;
 }

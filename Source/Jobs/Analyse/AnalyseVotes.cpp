@@ -4,13 +4,14 @@
 #include "Jobs/Analyse/Analysis.h"
 #include "Jobs/Analyse/AnalysisFiles.h"
 #include "Pictures/StudyPictures.h"
+#include <algorithm>
 #include <sstream>
 
 namespace physvib {
 namespace {
 
 void tell(std::ostream& out, const ChoiceSummary& summary) {
-    out << printable(summary.condition) << ':';
+    out << wholeLabel(summary.condition) << ':';
     for (const ChoiceShare& share : summary.shares)
         out << (&share == &summary.shares.front() ? " " : ", ") << printable(share.alternative) << ' ' << percent(share.share) << " % (" << percent(share.least) << " to "
             << percent(share.most) << ')';
@@ -27,12 +28,15 @@ const char* kindWord(LevelTrial::Kind kind) {
 
 void tell(std::ostream& out, const LevelSummary& s) {
     const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
-    out << printable(s.condition) << (s.stimulus.empty() ? "" : ", " + printable(s.stimulus)) << ": " << kindWord(s.kind) << ' ' << fixedNumber(s.estimate, isMagnitude ? 2 : 1)
+    out << wholeLabel(s.condition) << (s.stimulus.empty() ? "" : ", " + wholeLabel(s.stimulus)) << ": " << kindWord(s.kind) << ' ' << fixedNumber(s.estimate, isMagnitude ? 2 : 1)
               << (isMagnitude ? "" : " dB");
-    if (s.deviation > 0.0) out << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10)" : " dB)");
+    const bool isThreshold = s.kind == LevelTrial::Kind::staircase || s.kind == LevelTrial::Kind::quest;
+    if (s.deviation > 0.0)
+        out << " (standard deviation " << fixedNumber(s.deviation, 2) << (isMagnitude ? " of log10" : " dB")
+            << (isThreshold ? " over participants)" : " over trials)");
     if (s.halfInterval > 0.0) out << ", 95 % interval " << fixedNumber(s.estimate - s.halfInterval, 1) << " to " << fixedNumber(s.estimate + s.halfInterval, 1) << " dB";
     out << ", " << s.trials << (s.trials == 1 ? " trial of " : " trials of ") << s.participants << (s.participants == 1 ? " participant" : " participants");
-    if (s.kind == LevelTrial::Kind::staircase) out << ", " << s.reversals << " reversals";
+    if (s.kind == LevelTrial::Kind::staircase) out << ", " << s.reversals << " reversals that a trial followed";
     out << '\n';
 }
 
@@ -72,8 +76,10 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
     ExportTable table{"ratings", data.isSimulated, "condition,scale,trials,participants,mean,standard_deviation,half_interval"};
     AnalysisReport report{{}, data.isSimulated, data.warnings};
     std::ostringstream out;
+    bool hasIntervals = false;
     for (const auto& summary : summaries) {
-        out << printable(summary.condition) << ": " << summary.trials << (summary.trials == 1 ? " trial" : " trials");
+        hasIntervals |= std::ranges::any_of(summary.halfIntervals, [](double half) { return half > 0.0; });
+        out << wholeLabel(summary.condition) << ": " << summary.trials << (summary.trials == 1 ? " trial" : " trials");
         for (std::size_t s = 0; s < scales.size(); ++s) {
             out << ", " << printable(scales[s]) << ' ' << fixedNumber(summary.means[s], 1);
             if (summary.halfIntervals[s] > 0.0) out << " +- " << fixedNumber(summary.halfIntervals[s], 1);
@@ -83,6 +89,7 @@ AnalysisReport analyseRatings(const AnalysisJob& o) {
         }
         out << '\n';
     }
+    if (hasIntervals) out << "+-: half of the 95 % interval over participants\n";
     report.words = out.str();
     report.table = table.text();
     report.picture = [scales = scales, summaries, words = pictureWords(o.files, data.isSimulated)] { return ratingPicture(scales, summaries, words); };

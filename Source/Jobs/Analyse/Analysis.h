@@ -31,8 +31,7 @@ struct AnalysisJob : StudySources {
     bool usesAlignedRanks = false;
     // Fits to each participant's trials:
     std::string level;
-    PsychometricShape shape = PsychometricShape::logistic;
-    double guess = 0.5;
+    PsychometricModel model{};
 
     bool operator==(const AnalysisJob&) const = default;
 };

@@ -19,6 +19,14 @@ inline std::string percent(double share) { return fixedNumber(100.0 * share, 1);
 
 inline std::string chanceWords(double p) { return p < 0.001 ? "p < 0.001" : "p = " + fixedNumber(p, 3); }
 
+/// A label of any length as it may be shown: of stimuli that differ at the end only, too.
+inline std::string wholeLabel(std::string_view label) {
+    constexpr std::size_t piece = 40; // as printable() takes without cutting
+    std::string words;
+    for (; label.size() > piece; label.remove_prefix(piece)) words += printable(label.substr(0, piece));
+    return words + printable(label);
+}
+
 /// What an analysis reads.
 struct StudySources {
     std::vector<std::string> files;

@@ -27,17 +27,36 @@ double meanOf(const std::vector<double>& values) { return Moments(values).mean; 
 
 } // namespace
 
-std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials, PsychometricShape shape, double guess, const std::string& levelWords) {
+int decimalsOf(double jnd) noexcept {
+    int decimals = 2;
+    for (double rest = std::abs(jnd) * 10.0; rest > 0.0 && rest < 1.0 && decimals < 12; rest *= 10.0)
+        ++decimals;
+    return decimals;
+}
+
+FitWords fitWords(std::span<const ColumnName> columns, const std::string& level, const std::string& measure) {
+    FitWords words;
+    for (const ColumnName& column : columns) {
+        if (column.ours == "level_db") words.level = column.theirs;
+        if (column.ours == "correct") words.answer = column.theirs;
+    }
+    if (!level.empty()) words.level = level;
+    if (!measure.empty()) words.answer = measure;
+    return words;
+}
+
+std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
+                              const PsychometricModel& model, const FitWords& words) {
     std::map<double, std::pair<double, double>> counts; // hits, trials
     for (const LevelAnswer& trial : trials) {
         counts[trial.level].first += trial.answer;
         counts[trial.level].second += 1.0;
     }
     const double least = counts.begin()->first, most = counts.rbegin()->first;
-    LineChart chart{std::move(frame), levelWords, "correct (%)", {}};
+    LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
-    for (const auto& own : psychometricByParticipant(trials, shape, guess)) {
+    for (const auto& own : psychometricByParticipant(trials, model)) {
         if (!own.fit.fault.empty()) continue;
         thresholds.push_back(own.fit.function.threshold);
         widths.push_back(own.fit.function.width);
@@ -54,16 +73,17 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         answers.points.push_back({level, {share, share, share}, 0.5 + 1.3 * std::sqrt(count.second / largest)});
     }
     if (!thresholds.empty()) {
-        LineSeries mean = curve({shape, meanOf(thresholds), meanOf(widths), guess, meanOf(lapses)}, least, most);
+        LineSeries mean = curve(
+            {model.shape, meanOf(thresholds), meanOf(widths), model.guess, meanOf(lapses)}, least, most);
         mean.name = "mean of the participants' functions";
         mean.style = 4;
         chart.series.push_back(std::move(mean));
         const BootstrapInterval interval = bootstrapMean(thresholds);
         chart.threshold = {interval.mean, interval.least, interval.most};
-        chart.thresholdWords = "threshold " + fixedNumber(interval.mean, 2);
+        chart.thresholdWords = "threshold " + fixedNumber(interval.mean, decimalsOf(0.2 * meanOf(widths)));
     }
     chart.series.push_back(std::move(answers));
-    chart.references = {{100.0 * guess, "guessing"}};
+    if (model.guess > 0.0) chart.references = {{100.0 * model.guess, "guessing"}};
     return lineChart(chart);
 }
 

@@ -156,8 +156,12 @@ std::string conditionWords(const ConditionPlan& condition) {
 }
 
 std::string sessionWords(const SessionPlan& session) {
-    std::string words = session.name + (session.isTraining ? " (training, left out of analyses)" : "") +
-                        ": task " + std::string(describe(session.task).name);
+    const StudyTaskDescription& task = describe(session.task);
+    std::string words = session.name;
+    if (session.isTraining)
+        words += task.analysis == "levels" ? " (training, counted among levels alone)"
+                                           : " (training, left out of analyses)";
+    words += ": task " + std::string(task.name);
     if (!session.question.empty()) words += ", " + spoken(session.question);
     words += "; order " + std::string(trialOrderNames[static_cast<std::size_t>(session.order)]);
     if (session.repetitions > 1) words += ", " + std::to_string(session.repetitions) + " repetitions";

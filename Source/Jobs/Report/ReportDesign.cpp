@@ -78,6 +78,7 @@ std::string orNever(std::optional<double> effect, int decimals) { return effect 
 } // namespace
 
 void tellOrders(ReportBuilder& report) {
+    if (!report.trials.knowTasks()) return; // rows of other programs may be sorted
     const Orders orders = ordersOf(report.trials.all);
     const auto conditions = orderedConditions(orders);
     if (conditions.size() < 2) return;
@@ -101,7 +102,7 @@ void tellPower(ReportBuilder& report) {
     const std::size_t pairs = std::max<std::size_t>(1, conditions * (conditions - 1) / 2);
     const PairedPower power{people};
     report.page.paragraph("By simulation (" + std::to_string(PairedPower::studies) + " studies of " + std::to_string(people) +
-                          " participants, normal differences, seed 1): a paired t test at p < 0.05 finds a mean difference of two conditions in 80 % of the studies if it is at least d = " +
+                          " participants, normal differences, seed 1): a paired t test at p < 0.05 finds a mean difference of two conditions or stimuli in 80 % of the studies if it is at least d = " +
                           orNever(power.smallestEffect(0.8, 0.05), 2) + " of the differences' standard deviation" +
                           (pairs > 1 ? "; with Bonferroni's correction for " + std::to_string(pairs) + " pairs of conditions, d = " + orNever(power.smallestEffect(0.8, 0.05 / static_cast<double>(pairs)), 2) : std::string{}) +
                           ". A smaller difference that was not found is no evidence that there is none.");

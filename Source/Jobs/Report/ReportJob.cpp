@@ -33,6 +33,8 @@ Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protoco
     if (!texts) return Failure{texts.error};
     auto trials = readReportTrials(texts.value, job.columns, protocol, callFault);
     if (!trials) return Failure{trials.error};
+    trials.value.columns = job.columns;
+    trials.value.guess = job.guess;
     if (trials.value.all.column("target_x") &&
         !trials.value.all.column("target_column")) // compared with the answers
         if (std::string fault = unitFault(job.columns); !fault.empty()) return Failure{std::move(fault)};

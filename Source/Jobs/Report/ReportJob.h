@@ -12,6 +12,7 @@ namespace physvib {
 struct ReportJob {
     std::vector<std::string> files;   ///< of one study; or `thesis` alone (see ThesisReport.h)
     std::vector<ColumnName> columns{}; ///< of another program's tables
+    double guess = PsychometricModel{}.guess; ///< of psychometric functions, where no protocol knows it
     std::string folder;               ///< all that is written lies in it
     bool wantsBids = false;           ///< the trials as a BIDS dataset, too
     std::string peoplePath{};         ///< who the participants are (see StudyFacts.h); empty: nothing is known

@@ -5,6 +5,7 @@
 #include "Io/Charts/Charts.h"
 #include "Study/Files/StudyCsv.h"
 #include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
 #include "Study/LevelTrials.h"
 #include <algorithm>
 
@@ -15,23 +16,34 @@ namespace {
 double guessOf(const ReportTrials& trials) {
     if (trials.protocol)
         for (const SessionPlan& session : trials.protocol->sessions)
-            if (session.adaptedAlternative() && session.alternatives.size() > 1) return 1.0 / static_cast<double>(session.alternatives.size());
-    return 0.5;
+            if (session.adaptedAlternative() && session.alternatives.size() > 1)
+                return 1.0 / static_cast<double>(session.alternatives.size());
+    return trials.guess;
 }
 
 void tellThresholds(ReportBuilder& report) {
     report.page.subheading("Psychometric functions");
     AnalysisJob fit = report.optionsFor(trialsTable);
-    fit.guess = guessOf(report.trials);
+    fit.model.guess = guessOf(report.trials);
     if (const auto words = report.analysis("psychometric", fit, "psychometric.csv"); !words.error.empty()) return;
     const NamedText file{report.tableText(trialsTable), trialsTable};
     const auto data = readLevelAnswers({&file, 1}, {"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
+    const FitWords words = fitWords(report.trials.columns);
     std::vector<std::string> charts;
     for (const auto& condition : data.value.conditions)
-        charts.push_back(psychometricChart({report.chartName(), condition.name.empty() ? "Psychometric functions" : condition.name, report.isSimulated()}, condition.trials, fit.shape, fit.guess, "level (dB)"));
-    report.page.figure(charts, "Share of correct answers by level. Circles: all participants' trials, larger where there were more; thin lines: the function of each participant; thick: their mean threshold and width. Dotted: mean "
-                               "threshold, shaded its 95 % interval over participants.");
+        charts.push_back(psychometricChart(
+            {report.chartName(), condition.name.empty() ? "Psychometric functions" : condition.name,
+             report.isSimulated()},
+            condition.trials, fit.model, words));
+    report.page.figure(
+        charts, "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+                    ". Circles: all participants' trials, larger where there were more; thin lines: the "
+                    "function of each participant; thick: their mean threshold and width. Dotted: mean "
+                    "threshold, shaded its 95 % interval over participants. The functions are logistic, with "
+                    "a guess rate of " +
+                    numberText(100.0 * fit.model.guess) + " % and lapse rates of up to " +
+                    numberText(100.0 * fit.model.lapseUpTo) + " %.");
 }
 
 void tellMagnitudes(ReportBuilder& report) {
@@ -74,16 +86,47 @@ std::string matchesChart(ReportBuilder& report, const std::vector<LevelSummary>&
     return chart.groups.size() < 2 ? std::string{} : barChart(chart);
 }
 
+/// Matches at the end of their range may lie beyond it.
+void tellEndsOfRanges(ReportBuilder& report) {
+    const CsvTable& all = report.trials.all;
+    const auto session = all.column("session"), value = all.column("value");
+    if (!report.trials.protocol || !session || !value) return;
+    for (const SessionPlan& plan : report.trials.protocol->sessions) {
+        std::size_t trials = 0, atEnd = 0;
+        for (const CsvRow& row : all.rows) {
+            if (!plan.adjustment || row.cells[*session] != plan.name) continue;
+            const auto db = parseNumber<double>(row.cells[*value]);
+            ++trials;
+            atEnd += db && (*db <= plan.adjustment->leastDb || *db >= plan.adjustment->mostDb);
+        }
+        if (atEnd == 0) continue;
+        report.page.note(std::to_string(atEnd) + " of " + std::to_string(trials) + " levels of the session " +
+                         plan.name + " were set to an end of their range, " +
+                         numberText(plan.adjustment->leastDb) + " to " + numberText(plan.adjustment->mostDb) +
+                         " dB: the match may lie beyond it");
+    }
+}
+
 } // namespace
 
 void tellLevels(ReportBuilder& report) {
     report.page.heading("Levels");
+    if (!report.trials.knowTasks() && !report.trials.all.column("value")) {
+        report.page.note("the tables do not say how levels were chosen: functions are fitted to the answers, "
+                         "reversals are not looked for");
+        return tellThresholds(report);
+    }
     const NamedText file{report.tableText(trialsTable), trialsTable};
     const auto data = readLevels({&file, 1});
     if (!data) return report.page.note(data.error);
-    if (const auto words = report.analysis("levels", report.optionsFor(trialsTable), "levels.csv"); !words.error.empty()) return;
     const auto& trials = data.value.conditions.front().trials;
-    const auto has = [&](LevelTrial::Kind kind) { return std::ranges::any_of(trials, [=](const LevelTrial& trial) { return trial.kind == kind; }); };
+    const auto has = [&](LevelTrial::Kind kind) {
+        return std::ranges::any_of(trials, [=](const LevelTrial& trial) { return trial.kind == kind; });
+    };
+    if (const auto words = report.analysis("levels", report.optionsFor(trialsTable), "levels.csv");
+        !words.error.empty())
+        return;
+    tellEndsOfRanges(report);
     if (const std::string chart = matchesChart(report, summariseLevels(trials)); !chart.empty())
         report.page.figure({chart}, "Levels that were set until both were equally strong: means, 95 % intervals over participants.");
     if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest)) tellThresholds(report);

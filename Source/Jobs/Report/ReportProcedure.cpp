@@ -3,8 +3,11 @@
 #include "Jobs/Analyse/AnalysisFiles.h"
 #include "Jobs/Report/ProtocolWords.h"
 #include "Jobs/Report/ReportSections.h"
+#include "Io/Text/CsvText.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Study/Files/TrialColumns.h"
+#include "Study/StudyTasks.h"
+#include "Study/Statistics/Bootstrap.h"
 #include "Study/Statistics/Moments.h"
 #include <algorithm>
 #include <set>
@@ -40,6 +43,7 @@ double medianOf(std::vector<double> values) {
 struct Attended {
     std::string number, observer;
     std::size_t main = 0, training = 0, unanswered = 0;
+    std::size_t adaptive = 0; ///< of the main ones, in sessions that end by the answers
     std::vector<double> seconds;
 };
 
@@ -57,6 +61,8 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
                 if (number != file.head.end()) found->second.number = number->second;
             }
             Attended& own = found->second;
+            const bool isMain = cell(row, trialColumns::phase) != trialColumns::training;
+            own.adaptive += isMain && trials.knowTasks() && !cell(row, "correct").empty();
             own.observer = cell(row, trialColumns::observer);
             (cell(row, trialColumns::phase) == trialColumns::training ? own.training : own.main) += 1;
             own.unanswered += answerOf(cell(row, trialColumns::task)) == AnswerKind::label && cell(row, "response").empty();
@@ -125,19 +131,41 @@ void tellCalls(ReportBuilder& report) {
     }
 }
 
+/// "0.5|0.3", of two parts.
+std::vector<double> numbersOf(std::string_view cell) {
+    std::vector<double> numbers;
+    while (!cell.empty())
+        if (const auto number = parseNumber<double>(takeUntil('|', cell))) numbers.push_back(*number);
+    return numbers;
+}
+
+/// A sentence on a column of tellDoses' table, and a space.
+std::string meaningOf(std::string_view column) {
+    if (column == "level_db")
+        return "level_db: in dB of the condition's own level, or of a call's full scale; where participants set a "
+               "level, that at the start. ";
+    if (column == trialColumns::peakG) return "peak_g: the peak of what was felt, of each part of a trial, in g. ";
+    if (column == trialColumns::rmsG) return "rms_g: its root mean square, in g. ";
+    if (column == trialColumns::exposure)
+        return "a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1. ";
+    return {};
+}
+
 /// Columns of numbers that say how strong or how much was felt, by condition.
 void tellDoses(ReportBuilder& report) {
+    if (!report.trials.knowTasks()) return; // in units that only their program knows
     const CsvTable& all = report.trials.all;
     const Cells cell{all};
-    ExportTable table{"levels-and-exposure", report.isSimulated(), "condition,session,measure,trials,least,mean,most"};
-    bool isFilled = false, measuresExposure = false;
+    ExportTable table{"levels-and-exposure", report.isSimulated(), "condition,session,measure,values,least,mean,most"};
+    std::string meanings;
     for (const std::string& column : all.columns) {
         if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
         std::map<std::pair<std::string, std::string>, std::vector<double>> values;
         for (const CsvRow& row : all.rows)
-            if (const auto value = parseNumber<double>(cell(row, column))) values[{cell(row, "condition"), cell(row, "session")}].push_back(*value);
+            for (const double value : numbersOf(cell(row, column)))
+                values[{cell(row, "condition"), cell(row, "session")}].push_back(value);
         if (column == "level_db" && std::ranges::all_of(values, [](const auto& v) { return std::ranges::all_of(v.second, [](double db) { return db == 0.0; }); })) continue;
-        measuresExposure |= column == trialColumns::exposure && !values.empty();
+        if (!values.empty()) meanings += meaningOf(column);
         for (const auto& [key, own] : values) {
             double sum = 0.0;
             for (const double value : own) sum += value;
@@ -148,20 +176,21 @@ void tellDoses(ReportBuilder& report) {
             else table.cell("");
             table.cell(*std::ranges::max_element(own));
             table.endRow();
-            isFilled = true;
         }
     }
     report.page.subheading("Levels and exposure");
-    if (!isFilled) return report.page.paragraph("Every trial was at its condition's own level; nobody measured what was felt.");
+    if (meanings.empty()) return report.page.paragraph("Every trial had the level of its call; nobody measured what was felt.");
     report.addTable("levels-and-exposure.csv", table.text());
-    report.page.paragraph("level_db: relative to the condition's own level, in dB. peak_g and rms_g: what was felt in a trial, in g. a8_m_per_s2: the participant's exposure up to there, A(8) by ISO 5349-1.");
+    report.page.paragraph(meanings.substr(0, meanings.size() - 1));
     report.page.table(table.text(), "levels-and-exposure.csv");
-    if (!measuresExposure) report.page.note("exposure was not measured in these trials");
+    if (meanings.find(trialColumns::exposure) == std::string::npos) report.page.note("exposure was not measured in these trials");
 }
 
-/// "6 female, 5 male, 1 not known": how often each word occurs.
-std::string countsOf(const std::vector<const PersonFacts*>& people, std::string PersonFacts::*field) {
+/// "6 female, 5 male, 1 not known": how often each word occurs; of `strangers` there is no line.
+std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t strangers,
+                     std::string PersonFacts::*field) {
     std::map<std::string, std::size_t> counts;
+    if (strangers > 0) counts[""] = strangers;
     for (const PersonFacts* const person : people) ++counts[person->*field];
     std::string words;
     for (const auto& [word, number] : counts)
@@ -176,8 +205,10 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
     std::vector<const PersonFacts*> people;
     std::vector<double> ages;
     std::vector<std::string> notes;
+    std::size_t strangers = 0;
     for (const auto& [code, own] : attended) {
         const PersonFacts* const person = facts.person(code);
+        strangers += person == nullptr;
         if (person == nullptr && !facts.people.empty()) notes.push_back("nothing is known of participant " + code + ": no line in the table of people");
         if (person == nullptr || !person->excluded.empty()) continue;
         people.push_back(person);
@@ -188,15 +219,30 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
     const Moments moments{ages};
     if (!ages.empty())
         report.page.paragraph("Age: mean " + fixedNumber(moments.mean, 1) + " years, standard deviation " + fixedNumber(moments.deviation, 1) + ", " + numberText(*std::ranges::min_element(ages)) + " to " +
-                              numberText(*std::ranges::max_element(ages)) + " (" + std::to_string(ages.size()) + " of " + std::to_string(people.size()) + " known).");
-    if (const std::string words = countsOf(people, &PersonFacts::sex); !words.empty()) report.page.paragraph("Sex: " + words + ".");
-    if (const std::string words = countsOf(people, &PersonFacts::handedness); !words.empty()) report.page.paragraph("Handedness: " + words + ".");
+                              numberText(*std::ranges::max_element(ages)) + " (" + std::to_string(ages.size()) + " of " + std::to_string(people.size() + strangers) + " known).");
+    if (const std::string words = countsOf(people, strangers, &PersonFacts::sex); !words.empty()) report.page.paragraph("Sex: " + words + ".");
+    if (const std::string words = countsOf(people, strangers, &PersonFacts::handedness); !words.empty()) report.page.paragraph("Handedness: " + words + ".");
     if (!facts.ethics.empty()) report.page.paragraph("Ethics: " + facts.ethics);
     if (!facts.consent.empty()) report.page.paragraph("Consent: " + facts.consent);
     if (facts.people.empty()) notes.emplace_back("to be filled in: age, sex and handedness of the participants (--people)");
     if (facts.ethics.empty()) notes.emplace_back("to be filled in: approval by an ethics board (--ethics)");
     if (facts.consent.empty()) notes.emplace_back("to be filled in: consent of the participants (--consent)");
     if (!report.isSimulated() || !facts.people.empty()) report.page.notes(notes);
+}
+
+/// Which trainings count: adjustments and staircases are levels, wherever they were set.
+std::string trainingWords(const CsvTable& all) {
+    const Cells cell{all};
+    bool isAny = false, isLevel = false;
+    for (const CsvRow& row : all.rows) {
+        if (cell(row, trialColumns::phase) != trialColumns::training) continue;
+        isAny = true;
+        const StudyTaskDescription* const did = studyTaskNamed(cell(row, trialColumns::task));
+        isLevel |= did != nullptr && (did->analysis == "levels" || !cell(row, "correct").empty());
+    }
+    if (!isAny) return {};
+    return isLevel ? "Trainings are left out of all analyses but that of levels."
+                   : "Trainings are left out of all analyses.";
 }
 
 } // namespace
@@ -218,10 +264,11 @@ void tellParticipants(ReportBuilder& report) {
             table.cell(one.ageYears ? numberText(*one.ageYears) : std::string{}).cell(one.sex).cell(one.handedness).cell(one.excluded);
         }
         table.endRow();
-        if (!facts.isExcluded(code)) most = std::max(most, own.main);
+        if (!facts.isExcluded(code)) most = std::max(most, own.main - own.adaptive);
     }
     report.addTable("participants.csv", table.text());
     report.page.paragraph(count(people.size(), "participant") + " in " + count(report.trials.files.size(), "file") + ".");
+    if (!report.trials.sharedNote.empty()) report.page.note(report.trials.sharedNote);
     tellFacts(report, people);
     if (people.size() == 1) report.page.note("one participant: intervals and tests over participants are not possible, and nothing here says anything about other people");
     report.page.table(table.text(), "participants.csv");
@@ -231,13 +278,14 @@ void tellParticipants(ReportBuilder& report) {
             exclusions.push_back("participant " + code + " is excluded, with all trials: " + facts.person(code)->excluded);
             continue;
         }
-        if (own.main < most) exclusions.push_back("participant " + code + " has " + std::to_string(own.main) + " trials, others have up to " + std::to_string(most) + ": tests leave out who lacks a combination of levels");
+        if (own.main - own.adaptive < most) exclusions.push_back("participant " + code + " has " + std::to_string(own.main) + " trials, others have up to " + std::to_string(most) + ": tests leave out who lacks a combination of levels");
         if (own.unanswered > 0) exclusions.push_back("participant " + code + ": " + count(own.unanswered, "trial") + " without an answer left out");
     }
     if (report.trials.rowsLeftOut > 0) exclusions.push_back(count(report.trials.rowsLeftOut, "row") + " with nothing in one of the named columns left out");
     report.page.subheading("Exclusions");
-    if (exclusions.empty()) report.page.paragraph("Nobody and no main trial is left out. Trainings are left out of all analyses.");
+    if (exclusions.empty()) report.page.paragraph("Nobody and no main trial is left out.");
     else report.page.list(exclusions);
+    if (const std::string words = trainingWords(report.trials.all); !words.empty()) report.page.paragraph(words);
 }
 
 void tellProcedure(ReportBuilder& report) {
@@ -255,9 +303,18 @@ void tellProvenance(ReportBuilder& report) {
     std::vector<std::string> facts{std::string("report: physvib ") + PHYSVIB_VERSION};
     for (const auto& [key, words] : std::initializer_list<std::pair<const char*, const char*>>{{"version", "trials: physvib "}, {"protocol", "protocol: "}, {"hash", "hash of the protocol: "}, {"seed", "seed of all orders: "}})
         if (const std::string value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
-    facts.emplace_back("intervals of thresholds and exponents: 4000 draws of participants, seed 1; all others Student's t over participants");
+    const auto has = [&](const char* table) { return report.tables().contains(table); };
+    if (has("psychometric.csv") || has("power-law.csv"))
+        facts.push_back("intervals of thresholds and exponents over " + std::to_string(fewestDrawn) +
+                        " participants or more: " + std::to_string(bootstrapDraws) +
+                        " draws of participants, seed 1; all other intervals over participants: Student's t");
+    else
+        facts.emplace_back("intervals over participants: Student's t");
     report.page.list(facts);
-    report.page.paragraph("Every table below is CSV with names in its first line; report.R (R with afex) repeats every test from them and compares each p.");
+    report.page.paragraph(std::string{"Every table below is CSV with names in its first line"} +
+                          (report.tests().empty() ? "."
+                                                  : "; report.R (R with afex) repeats every test from them "
+                                                    "and compares each p."));
     std::vector<std::string> files;
     for (const auto& [name, text] : report.tables()) files.push_back(name);
     report.page.list(files);

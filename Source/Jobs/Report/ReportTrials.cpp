@@ -3,27 +3,14 @@
 #include "Jobs/Report/ReportTrials.h"
 #include "Study/Files/ProtocolFile.h"
 #include "Io/Text/NumberText.h"
+#include "Study/Files/SharedParticipants.h"
 #include "Study/Files/TrialColumns.h"
 #include "Study/StudyTasks.h"
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 
 namespace physvib {
 namespace {
-
-TrialHead headOf(const CsvTable& table) {
-    TrialHead head;
-    for (const std::string& line : table.comments) {
-        std::istringstream words{line};
-        std::string word;
-        if (!(words >> word) || word != "physvib" || !(words >> head["version"])) continue;
-        while (words >> word)
-            if (const auto equals = word.find('='); equals != std::string::npos) head[word.substr(0, equals)] = word.substr(equals + 1);
-        break;
-    }
-    return head;
-}
 
 bool saysSimulated(const TrialFile& file) {
     const auto holds = [](const std::string& text) { return text.find(trialColumns::simulated) != std::string::npos; };
@@ -95,6 +82,10 @@ std::string callsFault(const CsvTable& table, const CallCheck& callFault) {
 
 } // namespace
 
+bool ReportTrials::knowTasks() const {
+    return all.column(trialColumns::task).has_value();
+}
+
 std::string ReportTrials::common(const std::string& key) const {
     const std::string value = valueOf(files.front(), key);
     return std::ranges::all_of(files, [&](const TrialFile& file) { return valueOf(file, key) == value; }) ? value : std::string{};
@@ -102,12 +93,15 @@ std::string ReportTrials::common(const std::string& key) const {
 
 Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, std::string>>& texts, const std::vector<ColumnName>& columns, const std::optional<Protocol>& protocol, const CallCheck& callFault) {
     ReportTrials trials;
+    SharedParticipants shared;
     for (const auto& [path, text] : texts) {
         auto table = readCsvTable(text, path, columns.empty() ? CsvHeader::named : CsvHeader::loose);
         if (!table) return Failure{table.error};
         if (std::string fault = takeColumns(table.value, columns, trials.rowsLeftOut); !fault.empty()) return Failure{std::move(fault)};
         if (std::string fault = callsFault(table.value, callFault); !fault.empty()) return Failure{std::move(fault)};
-        TrialFile file{std::filesystem::path{path}.filename().string(), headOf(table.value), std::move(table.value)};
+        if (std::string fault = shared.add(table.value); !fault.empty()) return Failure{std::move(fault)};
+        TrialFile file{std::filesystem::path{path}.filename().string(),
+                       trialHeadOf(table.value.comments), std::move(table.value)};
         if (!trials.files.empty()) {
             const TrialFile& first = trials.files.front();
             if (valueOf(first, "protocol") != valueOf(file, "protocol"))
@@ -118,6 +112,7 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
         trials.files.push_back(std::move(file));
     }
     trials.all = joined(trials.files);
+    trials.sharedNote = shared.note();
     findProtocolOf(trials, protocol);
     return trials;
 }

@@ -3,9 +3,11 @@
 #pragma once
 #include "Jobs/Report/StudyFacts.h"
 #include "Study/Files/ColumnNames.h"
+#include "Study/Files/TrialHead.h"
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
 #include "Study/Protocol.h"
+#include "Study/Statistics/Psychometric.h"
 #include <functional>
 #include <map>
 #include <optional>
@@ -15,9 +17,6 @@
 #include <vector>
 
 namespace physvib {
-
-/// A trial file's first line, key by key: version, protocol, hash, seed, participant ...
-using TrialHead = std::map<std::string, std::string>;
 
 struct TrialFile {
     std::string name; ///< without its folder
@@ -30,10 +29,15 @@ struct ReportTrials {
     CsvTable all;              ///< every row of every file; file by file
     bool isSimulated = false;
     std::size_t rowsLeftOut = 0; ///< with nothing in one of the columns that were asked for
+    std::string sharedNote{};    ///< who is in several files (see SharedParticipants.h); empty: nobody
+    std::vector<ColumnName> columns{}; ///< of another program's tables
+    double guess = PsychometricModel{}.guess; ///< of psychometric functions, where no protocol knows it
     std::optional<Protocol> protocol{}; ///< that of the files, if it is known
     std::string protocolNote{};         ///< why it is not
     StudyFacts facts{};                 ///< what the user has given beside the trials
 
+    /// Whether rows say what was asked, as ours do; of other programs' tables less is known.
+    bool knowTasks() const;
     /// A value of the files' first lines if all say the same; else empty.
     std::string common(const std::string& key) const;
 };

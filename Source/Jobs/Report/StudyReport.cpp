@@ -40,6 +40,7 @@ std::string titleOf(const ReportTrials& trials) {
 
 StudyReport studyReport(const ReportTrials& trials) {
     StudyReport made;
+    if (!trials.sharedNote.empty()) made.notes.push_back(trials.sharedNote);
     ReportBuilder report{trials, titleOf(trials)};
     report.addTable(trialsTable, trialsCsv(trials, firstLine(trials)));
     tellParticipants(report);

@@ -3,10 +3,12 @@
 #include "Study/Files/LongTableCsv.h"
 #include "Io/Text/CsvTable.h"
 #include "Study/Files/FactorSource.h"
+#include "Study/Files/SharedParticipants.h"
 #include "Io/Text/NumberText.h"
 #include "Study/Files/TrialColumns.h"
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace physvib {
@@ -24,14 +26,17 @@ public:
 
     std::string read(const NamedText& file) {
         taken_ = 0;
+        people_.clear();
         std::string fault = eachCsvRow(file.text, file.name, [this](const CsvTable& head) { return begin(head); }, [this](const CsvRow& row) { return take(row); });
         if (fault.empty() && taken_ == 0) fault = std::string(file.name) + ": column " + printable(wanted_.measure) + ": expected numbers, found none";
-        return fault;
+        return fault.empty() ? shared_.add(known_, people_) : fault;
     }
+    std::string sharedNote() const { return shared_.note(); }
 
 private:
     std::string begin(const CsvTable& head) {
         head_ = &head;
+        known_ = {head.name, head.comments, {}, {}};
         for (const std::string& line : head.comments) data_.isSimulated |= line.find(" observer=simulated") != std::string::npos;
         observer_ = head.column(trialColumns::observer);
         phase_ = head.column(trialColumns::phase);
@@ -68,6 +73,7 @@ private:
         if (participant_ && row.cells[*participant_].empty()) return head_->fault(row, *participant_, "a participant");
         if (observer_) data_.isSimulated |= row.cells[*observer_].find(trialColumns::simulated) != std::string::npos;
         ++taken_;
+        if (participant_) people_.insert(row.cells[*participant_]);
         if (participant_) data_.table.add(row.cells[*participant_], levels_, group, *value);
         else data_.table.add("row " + std::to_string(data_.table.rows() + 1), levels_, group, *value);
         return {};
@@ -100,6 +106,9 @@ private:
     LongTableData& data_;
     const LongTableColumns& wanted_;
     const CsvTable* head_ = nullptr;
+    CsvTable known_; // the head, beyond the reading
+    std::set<std::string> people_;
+    SharedParticipants shared_;
     std::size_t measure_ = 0, taken_ = 0;
     std::string chosen_;
     std::optional<std::size_t> observer_, phase_, participant_;
@@ -116,6 +125,7 @@ Result<LongTableData> readLongTable(std::span<const NamedText> files, const Long
     LongTableReader reader{data, columns};
     for (const NamedText& file : files)
         if (std::string fault = reader.read(file); !fault.empty()) return Failure{std::move(fault)};
+    if (std::string note = reader.sharedNote(); !note.empty()) data.warnings.push_back(std::move(note));
     return data;
 }
 

@@ -2,6 +2,7 @@
 // One function per kind of study file; the rows come from StudyRows.
 #include "Study/Files/StudyCsv.h"
 #include "Study/Files/FactorSource.h"
+#include "Study/Files/SharedParticipants.h"
 #include "Study/Files/StudyFileLimits.h"
 #include "Study/Files/StudyRows.h"
 #include "Study/QuestMethod.h"
@@ -40,9 +41,12 @@ std::vector<std::string>& warningsOf(RatingData& ratings) { return ratings.data.
 template <class Data, class Take>
 Result<Data> readAll(std::span<const NamedText> files, Take take) {
     Data data;
+    SharedParticipants shared;
     try {
         for (const NamedText& file : files) {
             const StudyRows rows{file.text, file.name, file.columns};
+            if (std::string fault = shared.add(rows.table()); !fault.empty())
+                throw StudyFault{std::move(fault)};
             const std::size_t taken = take(rows, data);
             if (rows.leftOut() > 0) warningsOf(data).push_back(rows.table().name + ": rows left out, with nothing in one of the named columns: " + std::to_string(rows.leftOut()));
             if (taken == 0) throw StudyFault{std::string(file.name) + ": expected trials of this kind, found none"};
@@ -50,6 +54,7 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
     } catch (const StudyFault& fault) {
         return Failure{fault.message};
     }
+    if (std::string note = shared.note(); !note.empty()) warningsOf(data).push_back(std::move(note));
     return data;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Intervals of a mean over participants, by drawing participants again.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -11,9 +12,11 @@ struct BootstrapInterval {
 };
 
 constexpr int bootstrapDraws = 4000;
+/// Of fewer, one in some hundred draws is one participant again and again, with a standard error of nothing.
+constexpr std::size_t fewestDrawn = 6;
 
 /// 95 %, by studentised resampling (Efron 1981): each draw's mean counts in units of its own standard error, so that few participants
-/// are not taken for too sure. The same seed gives the same bits. Any thread (allocates).
+/// are not taken for too sure. Of fewer than `fewestDrawn` by Student's t. The same seed gives the same bits. Any thread (allocates).
 BootstrapInterval bootstrapMean(std::span<const double> values, std::uint64_t seed = 1);
 
 } // namespace physvib

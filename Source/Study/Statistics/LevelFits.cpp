@@ -25,7 +25,8 @@ std::vector<OwnAnswers> answersByParticipant(const std::vector<LevelAnswer>& tri
 
 } // namespace
 
-std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector<LevelAnswer>& trials, PsychometricShape shape, double guess) {
+std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
+                                                               const PsychometricModel& model) {
     std::vector<ParticipantPsychometric> fits;
     for (const OwnAnswers& own : answersByParticipant(trials)) {
         std::map<double, LevelCount> byLevel;
@@ -37,7 +38,7 @@ std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector
         }
         std::vector<LevelCount> counts;
         for (const auto& [level, count] : byLevel) counts.push_back(count);
-        fits.push_back({own.participant, own.trials.size(), fitPsychometric(counts, shape, guess)});
+        fits.push_back({own.participant, own.trials.size(), fitPsychometric(counts, model)});
     }
     return fits;
 }

@@ -27,7 +27,8 @@ struct ParticipantPowerLaw {
 };
 
 // In the order of their first trial. Any thread (allocates).
-std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector<LevelAnswer>& trials, PsychometricShape shape, double guess);
+std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
+                                                               const PsychometricModel& model);
 std::vector<ParticipantPowerLaw> powerLawByParticipant(const std::vector<LevelAnswer>& trials);
 
 } // namespace physvib

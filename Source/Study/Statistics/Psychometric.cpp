@@ -33,15 +33,16 @@ using Point = std::array<double, 3>; // threshold, log of the width, lapse: all 
 /// What is searched: the function that a point stands for, and how likely the trials are under it.
 class Likelihood {
 public:
-    Likelihood(std::span<const LevelCount> counts, PsychometricShape shape, double guess, double lapseUpTo)
-        : counts_{counts}, shape_{shape}, guess_{guess}, lapseUpTo_{lapseUpTo} {
+    Likelihood(std::span<const LevelCount> counts, const PsychometricModel& model)
+        : counts_{counts}, model_{model} {
         const auto [least, most] = std::ranges::minmax(counts, {}, &LevelCount::level);
         least_ = least.level;
         range_ = most.level - least.level;
     }
     PsychometricFunction function(const Point& at) const {
-        const double lapse = lapseUpTo_ * 0.5 * (1.0 - std::cos(at[2])); // any number is a lapse rate within its bounds
-        return {shape_, least_ + range_ * at[0], range_ * std::exp(at[1]), guess_, lapse};
+        // Any number is a lapse rate within its bounds.
+        const double lapse = model_.lapseUpTo * 0.5 * (1.0 - std::cos(at[2]));
+        return {model_.shape, least_ + range_ * at[0], range_ * std::exp(at[1]), model_.guess, lapse};
     }
     /// Minus the logarithm.
     double operator()(const Point& at) const {
@@ -57,8 +58,8 @@ public:
 
 private:
     std::span<const LevelCount> counts_;
-    PsychometricShape shape_;
-    double guess_, lapseUpTo_, least_ = 0.0, range_ = 1.0;
+    PsychometricModel model_;
+    double least_ = 0.0, range_ = 1.0;
 };
 
 Point bestOfGrid(const Likelihood& likelihood) {
@@ -139,9 +140,9 @@ double PsychometricFunction::levelOf(double probability) const { return threshol
 
 double PsychometricFunction::jnd() const noexcept { return 0.5 * width * (whereRisen(shape, 0.75) - whereRisen(shape, 0.25)); }
 
-PsychometricFit fitPsychometric(std::span<const LevelCount> counts, PsychometricShape shape, double guess, double lapseUpTo) {
+PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model) {
     if (auto fault = faultOfCounts(counts); !fault.empty()) return {fault};
-    const Likelihood likelihood{counts, shape, guess, lapseUpTo};
+    const Likelihood likelihood{counts, model};
     Point best = climb(likelihood, bestOfGrid(likelihood));
     best = climb(likelihood, best); // a simplex of its own: the first may have collapsed on a slope
     return {{}, likelihood.function(best), -likelihood(best)};

@@ -19,6 +19,16 @@ enum class PsychometricShape {
 
 inline constexpr std::array<std::string_view, 3> psychometricShapeNames{"logistic", "normal", "weibull"};
 
+constexpr double mostLapse = 0.1; // more than that is another task than the one that was asked for
+
+/// What is fitted, before any trial is known.
+struct PsychometricModel {
+    PsychometricShape shape = PsychometricShape::logistic;
+    double guess = 0.5;           ///< 1 / alternatives of a forced choice; 0: answers yes and no
+    double lapseUpTo = mostLapse; ///< the lapse rate is fitted from 0 to here
+    bool operator==(const PsychometricModel&) const = default;
+};
+
 /// guess + (1 - guess - lapse) F(level), where F is 0.5 at the threshold and goes from 0.05 to 0.95 within the width.
 struct PsychometricFunction {
     PsychometricShape shape = PsychometricShape::logistic;
@@ -44,10 +54,8 @@ struct PsychometricFit {
     double logLikelihood = 0.0;
 };
 
-constexpr double mostLapse = 0.1; // more than that is another task than the one that was asked for
-
-/// The likeliest function; `guess` is known, the lapse rate is fitted from 0 to `lapseUpTo` (0: it is 0). Faults: fewer than two levels, answers that do
-/// not change with the level. Any thread (allocates).
-PsychometricFit fitPsychometric(std::span<const LevelCount> counts, PsychometricShape shape, double guess, double lapseUpTo = mostLapse);
+/// The likeliest function. Faults: fewer than two levels, answers that do not change with the level. Any
+/// thread (allocates).
+PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model);
 
 } // namespace physvib

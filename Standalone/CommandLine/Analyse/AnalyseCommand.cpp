@@ -63,8 +63,12 @@ void declareFit(OptionTable& command, AnalysisJob& o) {
     if (!isPsychometric) return;
     std::vector<std::pair<std::string, int>> shapes;
     for (std::size_t i = 0; i < psychometricShapeNames.size(); ++i) shapes.emplace_back(psychometricShapeNames[i], static_cast<int>(i));
-    command.addRow("--shape", [&o](int shape) { o.shape = static_cast<PsychometricShape>(shape); }, "of the function (logistic)").numbered(shapes).as("logistic|normal|weibull");
-    command.add("--guess", o.guess, "share of right answers without a percept: 1 / alternatives").in(0.0, 0.9);
+    command.addRow("--shape", [&o](int shape) { o.model.shape = static_cast<PsychometricShape>(shape); }, "of the function (logistic)").numbered(shapes).as("logistic|normal|weibull");
+    command
+        .add("--guess", o.model.guess,
+             "share of right answers without a percept: 1 / alternatives; 0 of stronger or weaker")
+        .in(0.0, 0.9);
+    command.add("--lapse", o.model.lapseUpTo, "highest lapse rate that is fitted; 0: none").in(0.0, mostLapse);
 }
 
 OptionTable& declare(OptionTable& command, const Analysis& analysis, AnalysisJob& o) {

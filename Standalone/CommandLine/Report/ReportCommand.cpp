@@ -83,6 +83,8 @@ void declareReport(OptionTable& command, ReportOptions& o) {
              "sentence on the noise as the participants heard it, e.g. its level in dB(A)")
         .as("WORDS");
     declareColumns(command, o.columnWords);
+    command.add("--guess", o.job.guess, "of psychometric functions in other programs' tables: as in analyse")
+        .in(0.0, 0.9);
 }
 
 int runReport(ReportOptions& o) {

@@ -313,7 +313,12 @@ void StudiesTab::takeMix() {
 void StudiesTab::paint(juce::Graphics& g) {
     g.setFont(juce::Font{text::medium});
     g.setColour(shade(*this, Shade::muted));
-    g.drawFittedText(about_, aboutArea_, juce::Justification::topLeft, 6, 1.0f);
+    {
+        const juce::Graphics::ScopedSaveState whole{g};
+        const int line = juce::roundToInt(std::ceil(g.getCurrentFont().getHeight()));
+        g.reduceClipRegion(aboutArea_.withHeight(aboutArea_.getHeight() / line * line)); // whole lines only
+        g.drawFittedText(about_, aboutArea_, juce::Justification::topLeft, 6, 1.0f);
+    }
     g.setColour(shade(*this, Shade::now));
     g.drawFittedText(level_, levelArea_, juce::Justification::topLeft, 2, 1.0f);
     g.setColour(shade(*this, wordsShade_));

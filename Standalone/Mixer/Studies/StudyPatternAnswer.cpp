@@ -37,7 +37,9 @@ public:
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override {
         drawTarget(g, *this, isOver, isDown, 6.0f);
         const float light = isEnabled() ? 1.0f : 0.4f, radius = 8.5f;
-        const auto inner = getLocalBounds().toFloat().reduced(18.0f, 14.0f);
+        // Of low icons the discs of two rows just touch.
+        const float above = std::clamp(0.5f * static_cast<float>(getHeight()) - radius - 1.0f, radius, 14.0f);
+        const auto inner = getLocalBounds().toFloat().reduced(18.0f, above);
         for (int j = 0; j < layout_.geometry.count; ++j) {
             const auto at = pointOn(inner, placeOf(layout_.geometry, j));
             int here = 0;
@@ -162,7 +164,8 @@ private:
         int lines = 0;
         for (const auto& [ms, some] : shown) lines += (static_cast<int>(some.size()) + across - 1) / across;
         auto area = iconsArea_;
-        const int height = std::clamp((area.getHeight() - captionHeight * static_cast<int>(shown.size())) / lines - space, 40, 110);
+        const int free = area.getHeight() - captionHeight * static_cast<int>(shown.size());
+        const int height = std::clamp(free / lines - space, 28, 110); // the same in every row
         const int width = std::clamp(area.getWidth() / across - space, 60, 150);
         for (const auto& [ms, some] : shown) {
             rows_.emplace_back(ms, area.removeFromTop(captionHeight));

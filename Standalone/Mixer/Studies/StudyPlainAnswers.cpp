@@ -250,6 +250,7 @@ public:
     void beginAnew() override { number_.grabKeyboardFocus(); }
     void resized() override { number_.setBounds(column(getLocalBounds(), 260, 64)); }
     void enablementChanged() override {
+        number_.setVisible(isEnabled()); // there is nothing to see before it may be answered
         if (isEnabled()) number_.applyColourToAllText(shade(*this, Shade::text));
     }
 

@@ -21,6 +21,8 @@ OscUse oscUseNamed(const juce::String& name) {
 
 constexpr const char* chosenSetting = "device-chosen"; // a person has said where, or that nowhere
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system says
+/// Of borders and a title bar: the window manager says how wide they are when the window is there.
+constexpr juce::Point<int> frameRoom{8, 40};
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
 
 } // namespace
@@ -44,7 +46,7 @@ MixerWindow::MixerWindow(AudioDeviceTypes types, const juce::String& device, con
     setResizeLimits(MixerView::leastWidth, MixerView::leastHeight, 7680, 4320);
     if (const auto* display = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()) {
         const auto room = display->userArea;
-        centreWithSize(std::min(1440, room.getWidth()), std::min(900, room.getHeight()));
+        centreWithSize(std::min(1440, room.getWidth() - frameRoom.x), std::min(900, room.getHeight() - frameRoom.y));
     }
     addToDesktop();
     setVisible(true);
